@@ -1,0 +1,17 @@
+/* When a sensor measures, from the frame alone (DESIGN: things that seem to need memory have none).
+ *
+ * A sensor with a cycle delivers a scan at every whole multiple of cycle_s since time 0; a scan
+ * belongs to the frame whose interval (time_s - interval_s, time_s] holds its instant. What it
+ * shows was measured latency_s earlier. An instant within 1e-9 of a cycle counts as on it, so that
+ * times written as i/rate and cycles written as decimals meet. */
+#ifndef CYCLE_H
+#define CYCLE_H
+
+enum cycle_answer { CYCLE_NONE, CYCLE_ONE, CYCLE_SEVERAL };
+
+/* Whether the frame holds an instant of the cycle, and which. cycle_s = 0 means once a frame, at
+ * time_s. CYCLE_SEVERAL (the frame rate is too low for the sensor) leaves the instant unset. */
+enum cycle_answer cycle_instant_s(double cycle_s, double time_s, double interval_s,
+                                  double *instant_s);
+
+#endif

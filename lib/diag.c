@@ -1,0 +1,31 @@
+#include "diag.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+int diag_fail(struct diag *diag, enum diag_code code, const char *format, ...)
+{
+    if (diag->code != DIAG_OK)
+        return -1;
+    diag->code = code;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(diag->text, sizeof diag->text, format, arguments);
+    va_end(arguments);
+    return -1;
+}
+
+int diag_prefix(struct diag *diag, const char *format, ...)
+{
+    char whole[sizeof diag->text];
+    va_list arguments;
+    va_start(arguments, format);
+    int used = vsnprintf(whole, sizeof whole, format, arguments);
+    va_end(arguments);
+    if (used < 0 || (size_t)used >= sizeof whole)
+        return -1;
+    snprintf(whole + used, sizeof whole - (size_t)used, "%s", diag->text);
+    memcpy(diag->text, whole, sizeof whole);
+    return -1;
+}

@@ -1,0 +1,35 @@
+/* One message and one exit code: how anything in glint says what went wrong.
+ *
+ * Functions that can fail return 0, or -1 after filling a struct diag; only the mains print and
+ * exit. A message names the place, the value and what was expected; the runner puts program, file
+ * and line in front of it. Codes are those of sysexits, so that scripts can tell bad data (do not
+ * retry) from a full disk (do). */
+#ifndef DIAG_H
+#define DIAG_H
+
+enum diag_code {
+    DIAG_OK = 0,
+    DIAG_USAGE = 64,
+    DIAG_DATA = 65,
+    DIAG_NO_INPUT = 66,
+    DIAG_INTERNAL = 70,
+    DIAG_MEMORY = 71,
+    DIAG_CANNOT_CREATE = 73,
+    DIAG_IO = 74,
+    DIAG_CONFIG = 78,
+};
+
+struct diag {
+    enum diag_code code;
+    char text[1024];
+};
+
+/* Records the first failure and returns -1. A failure already recorded stays: the first message is
+ * nearest the cause. */
+int diag_fail(struct diag *diag, enum diag_code code, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Puts "PREFIX" in front of the recorded message: callers add the place they know. */
+int diag_prefix(struct diag *diag, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+#endif

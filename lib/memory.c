@@ -1,0 +1,98 @@
+#include "memory.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "diag.h"
+
+enum { BLOCK_SIZE = 64 * 1024, ALIGNMENT = 16 };
+
+struct arena_block {
+    struct arena_block *older;
+    size_t size; /* of the bytes behind this header */
+};
+
+_Static_assert(sizeof(struct arena_block) % ALIGNMENT == 0, "blocks keep their bytes aligned");
+
+static void *grant(void *memory, size_t size)
+{
+    if (memory == NULL && size > 0) {
+        fprintf(stderr, "glint: out of memory: %zu bytes were refused\n", size);
+        exit(DIAG_MEMORY);
+    }
+    return memory;
+}
+
+void *memory_get(size_t size)
+{
+    return grant(malloc(size), size);
+}
+
+void *memory_resize(void *memory, size_t size)
+{
+    return grant(realloc(memory, size), size);
+}
+
+static void add_block(struct arena *arena, size_t size)
+{
+    struct arena_block *block = memory_get(sizeof *block + size);
+    block->older = arena->blocks;
+    block->size = size;
+    arena->blocks = block;
+    arena->used = 0;
+}
+
+void *arena_get(struct arena *arena, size_t size)
+{
+    if (size > SIZE_MAX / 4)
+        grant(NULL, size);
+    size = (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    if (arena->blocks == NULL || arena->blocks->size - arena->used < size)
+        add_block(arena, size > BLOCK_SIZE ? size : BLOCK_SIZE);
+    char *memory = (char *)(arena->blocks + 1) + arena->used;
+    arena->used += size;
+    return memset(memory, 0, size);
+}
+
+char *arena_text(struct arena *arena, const char *text, size_t length)
+{
+    char *copy = arena_get(arena, length + 1);
+    if (length > 0)
+        memcpy(copy, text, length);
+    return copy;
+}
+
+void arena_clear(struct arena *arena)
+{
+    arena->used = 0;
+    if (arena->blocks == NULL || arena->blocks->older == NULL)
+        return;
+    size_t whole = 0;
+    for (struct arena_block *block = arena->blocks; block != NULL; block = block->older)
+        whole += block->size;
+    arena_free(arena);
+    add_block(arena, whole);
+}
+
+void arena_free(struct arena *arena)
+{
+    while (arena->blocks != NULL) {
+        struct arena_block *older = arena->blocks->older;
+        free(arena->blocks);
+        arena->blocks = older;
+    }
+    arena->used = 0;
+}
+
+void *list_room(struct arena *arena, void *items, size_t count, size_t *room, size_t size)
+{
+    if (count < *room)
+        return items;
+    *room = *room > 0 ? 2 * *room : 8;
+    void *larger = arena_get(arena, *room * size);
+    if (count > 0)
+        memcpy(larger, items, count * size);
+    return larger;
+}

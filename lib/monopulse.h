@@ -1,0 +1,32 @@
+/* The angle that a monopulse radar reads off its two channels (MODEL 7.2, 7.4, 8). */
+#ifndef MONOPULSE_H
+#define MONOPULSE_H
+
+#include <stdbool.h>
+
+#include "antenna.h"
+
+enum monopulse_estimator {
+    /* The paper's: magnitude from |delta| and |sum| (the additive sensing ratio, equation 7), sign
+     * from the phase between them. Discontinuous where the sign is undecided. */
+    MONOPULSE_MAGNITUDE,
+    /* The real ratio -Im(delta conj(sum)) / |sum|^2: the same for one target, continuous for
+     * several. */
+    MONOPULSE_RATIO,
+};
+
+struct monopulse_angle {
+    bool valid;          /* false if both pointers are zero: there is no angle to report */
+    bool sign_undecided; /* magnitude only: the phase does not tell left from right */
+    double azimuth_rad;  /* [-pi/2, pi/2]; positive where the sign is undecided; 0 if invalid */
+};
+
+struct monopulse_angle monopulse_angle(const struct antenna *antenna,
+                                       enum monopulse_estimator estimator,
+                                       struct antenna_pointers pointers);
+
+/* The additive sensing ratio (|delta| - |sum|) / (|delta| + |sum|) in [-1, 1], equation (7).
+ * For figures and tests: the pair itself carries more digits. Not both may be zero. */
+double monopulse_asr(struct antenna_pointers pointers);
+
+#endif

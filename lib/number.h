@@ -1,0 +1,27 @@
+/* Doubles as text: the shortest decimal that reads back to the same double, and the nearest double
+ * to a decimal. The one corner of C++ in glint (std::to_chars, std::from_chars), because C's own
+ * printf and strtod are ten times slower and depend on the locale. */
+#ifndef NUMBER_H
+#define NUMBER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { NUMBER_SIZE = 32 };
+
+/* Writes a finite double at text (at least NUMBER_SIZE bytes) without a NUL; returns its length. */
+size_t number_write(double value, char *text);
+
+/* Reads the whole of [begin, end), which must have the form of a JSON number, as the nearest
+ * double. Too small becomes 0 or a subnormal; false if too large. */
+bool number_read(const char *begin, const char *end, double *value);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

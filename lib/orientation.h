@@ -1,0 +1,17 @@
+/* On which side of a line a point lies, decided exactly.
+ *
+ * Every yes-or-no of glint's geometry (is the sight line blocked, does it touch a corner) rests on
+ * this sign, so that no compiler, no CPU and no rotation of the scene can change an answer. A
+ * floating-point filter settles nearly all calls; the rest is summed exactly (Shewchuk's
+ * expansions). Exact as long as no product of coordinates under- or overflows: any coordinate of
+ * size 0 or between 1e-140 and 1e140 m. */
+#ifndef ORIENTATION_H
+#define ORIENTATION_H
+
+#include "vec2.h"
+
+/* The sign of (b - a) × (c - a): +1 if c lies to the left of the line from a to b, -1 to the
+ * right, 0 exactly on it (or a == b). */
+int orientation_sign(struct vec2 a, struct vec2 b, struct vec2 c);
+
+#endif

@@ -1,0 +1,30 @@
+#include "random.h"
+
+#include <math.h>
+
+#include <Random123/philox.h>
+
+#include "units.h"
+
+void random_uniform(const struct random_address *address, enum random_purpose purpose,
+                    uint32_t index, double uniform[4])
+{
+    philox4x64_ctr_t counter = {
+        {address->frame, address->sensor, address->subject, (uint64_t)purpose << 32 | index}};
+    philox4x64_key_t key = {{address->seed, address->scene}};
+    philox4x64_ctr_t bits = philox4x64(counter, key);
+    for (int i = 0; i < 4; i++)
+        uniform[i] = ((double)(bits.v[i] >> 12) + 0.5) * 0x1p-52;
+}
+
+void random_gaussian(const struct random_address *address, enum random_purpose purpose,
+                     uint32_t index, double gaussian[4])
+{
+    double uniform[4];
+    random_uniform(address, purpose, index, uniform);
+    for (int i = 0; i < 4; i += 2) {
+        double radius = sqrt(-2 * log(uniform[i]));
+        gaussian[i] = radius * cos(2 * PI * uniform[i + 1]);
+        gaussian[i + 1] = radius * sin(2 * PI * uniform[i + 1]);
+    }
+}

@@ -1,0 +1,20 @@
+/* Angles and decibels. Amplitude and power decibels never share a helper; glint's wire and its
+ * decisions are linear, decibels appear only in documents (thresholds) and in targets. */
+#ifndef UNITS_H
+#define UNITS_H
+
+#define PI 3.14159265358979323846
+
+/* 20 log10: amplitude must be positive. */
+double units_amplitude_db(double amplitude);
+
+/* 10^(db/20). */
+double units_amplitude_from_db(double db);
+
+/* The same direction in (-pi, pi]; ends for every finite angle, exact for |angle| < 1e3 rad. */
+double units_wrap_rad(double angle_rad);
+
+/* sin(x)/x, 1 at 0. Within 2 ulp for |x| <= 3 without a series: sin is accurate near 0. */
+double units_si(double x);
+
+#endif

@@ -1,0 +1,30 @@
+/* cmocka, and what it lacks: its assert_float_equal compares in single precision. */
+#ifndef CHECK_H
+#define CHECK_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+/* |actual - expected| <= tolerance; NaN fails. Prints 17 digits. */
+#define assert_close(actual, expected, tolerance)                                                  \
+    check_close((actual), (expected), (tolerance), #actual, __FILE__, __LINE__)
+
+/* |actual - expected| <= tolerance |expected|. */
+#define assert_near(actual, expected, relative)                                                    \
+    check_close((actual), (expected), (relative)*fabs(expected), #actual, __FILE__, __LINE__)
+
+static inline void check_close(double actual, double expected, double tolerance, const char *what,
+                               const char *file, int line)
+{
+    if (!(fabs(actual - expected) <= tolerance)) {
+        print_error("%s is %.17g, expected %.17g within %.3g\n", what, actual, expected, tolerance);
+        _fail(file, line);
+    }
+}
+
+#endif
