@@ -40,8 +40,9 @@ struct antenna_pointers {
 };
 
 /* Both pointers for one echo of unit amplitude at azimuth in [-pi/2, pi/2]. Exactly symmetric:
- * the mirrored azimuth gives the same sum and the negated delta under PHASE_CENTRE. Within 8 ulp of
- * the formula up to 1e-12 rad from the side (NUMERICS 1 to 5). Zero outside a table. */
+ * the mirrored azimuth gives the same sum and the negated delta under PHASE_CENTRE. Magnitudes
+ * within 8 ulp of the formula, components within 12, up to 1e-12 rad from the side (NUMERICS 1 to
+ * 5). Zero outside a table. */
 struct antenna_pointers antenna_pointers(const struct antenna *antenna, double azimuth_rad);
 
 /* |H_sum|: the antenna pattern A_phi of equation (2). */
@@ -52,8 +53,9 @@ double antenna_gain(const struct antenna *antenna, double azimuth_rad);
  * dipole pair up to the side (NUMERICS 7). */
 double antenna_azimuth_rad(const struct antenna *antenna, double delta, double sum);
 
-/* Why the rows cannot be inverted, as a sentence with the row's number, or NULL: azimuth must
- * ascend, sum be >= 0, not both zero, delta/sum ascend strictly. */
+/* Why the rows cannot be inverted, as a sentence, or NULL: there must be two rows or more, azimuth
+ * ascend, sum be >= 0, not both zero, delta/sum ascend strictly. *row becomes the row at fault,
+ * counted from 0 (count where rows are missing). */
 const char *antenna_table_fault(const struct antenna_row *rows, size_t count, size_t *row);
 
 #endif

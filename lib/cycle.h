@@ -3,7 +3,8 @@
  * A sensor with a cycle delivers a scan at every whole multiple of cycle_s since time 0; a scan
  * belongs to the frame whose interval (time_s - interval_s, time_s] holds its instant. What it
  * shows was measured latency_s earlier. An instant within 1e-9 of a cycle counts as on it, so that
- * times written as i/rate and cycles written as decimals meet. */
+ * times written as i/rate and cycles written as decimals meet; rounding stays below that for some
+ * 3e6 cycles (33 hours at 25 Hz). */
 #ifndef CYCLE_H
 #define CYCLE_H
 

@@ -90,7 +90,7 @@ void *list_room(struct arena *arena, void *items, size_t count, size_t *room, si
 {
     if (count < *room)
         return items;
-    *room = *room > 0 ? 2 * *room : 8;
+    *room = count < 4 ? 8 : 2 * count;
     void *larger = arena_get(arena, *room * size);
     if (count > 0)
         memcpy(larger, items, count * size);

@@ -43,8 +43,8 @@ void arena_free(struct arena *arena);
 
 /* Appends one zeroed item to a LIST_OF and yields its address, valid until the next append. */
 #define list_add(list, arena)                                                                      \
-    ((list)->items = list_room((arena), (list)->items, (list)->count, &(list)->room,               \
-                               sizeof *(list)->items),                                             \
+    ((list)->items =                                                                               \
+         list_room((arena), (list)->items, (list)->count, &(list)->room, sizeof *(list)->items),   \
      &(list)->items[(list)->count++])
 
 /* Makes room for one more item: the array itself, or a copy of twice the size. */

@@ -16,9 +16,11 @@ enum monopulse_estimator {
 };
 
 struct monopulse_angle {
-    bool valid;          /* false if both pointers are zero: there is no angle to report */
-    bool sign_undecided; /* magnitude only: the phase does not tell left from right */
-    double azimuth_rad;  /* [-pi/2, pi/2]; positive where the sign is undecided; 0 if invalid */
+    bool valid; /* false if both pointers are zero: there is no angle to report */
+    /* The phase does not tell left from right. The ratio needs no sign, unless the sum is exactly
+     * 0. A delta of exactly 0 has none to decide. */
+    bool sign_undecided;
+    double azimuth_rad; /* [-pi/2, pi/2]; positive where the sign is undecided; 0 if invalid */
 };
 
 struct monopulse_angle monopulse_angle(const struct antenna *antenna,

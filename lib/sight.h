@@ -7,7 +7,7 @@
 
 struct sight {
     double range_m;
-    double azimuth_rad; /* (-pi, pi]; 0 if range_m is 0 */
+    double azimuth_rad;    /* (-pi, pi]; 0 if range_m is 0 */
     double range_rate_mps; /* 0 if range_m is 0 */
 };
 

@@ -7,6 +7,12 @@ double units_amplitude_db(double amplitude)
     return 20 * log10(amplitude);
 }
 
+double units_shortfall_db(double threshold, double amplitude)
+{
+    double db = units_amplitude_db(threshold) - units_amplitude_db(amplitude);
+    return fmin(fmax(db, 0), 1e4);
+}
+
 double units_amplitude_from_db(double db)
 {
     return pow(10, db / 20);

@@ -8,6 +8,10 @@
 /* 20 log10: amplitude must be positive. */
 double units_amplitude_db(double amplitude);
 
+/* How far amplitude >= 0 stays below a positive threshold, in dB >= 0; at most 1e4, which also
+ * stands for an amplitude of 0. */
+double units_shortfall_db(double threshold, double amplitude);
+
 /* 10^(db/20). */
 double units_amplitude_from_db(double db);
 

@@ -29,6 +29,15 @@ static inline double vec2_dot(struct vec2 a, struct vec2 b)
     return a.x * b.x + a.y * b.y;
 }
 
+/* a · b within 2 ulp even where the products cancel (NUMERICS 35): for signs and for speeds that
+ * are nearly tangential. */
+static inline double vec2_dot_accurate(struct vec2 a, struct vec2 b)
+{
+    double product = a.y * b.y;
+    double error = fma(a.y, b.y, -product);
+    return fma(a.x, b.x, product) + error;
+}
+
 /* The z component of a × b: positive if b lies counter-clockwise of a. */
 static inline double vec2_cross(struct vec2 a, struct vec2 b)
 {
@@ -46,7 +55,8 @@ static inline struct vec2 vec2_heading(double angle_rad)
     return (struct vec2){cos(angle_rad), sin(angle_rad)};
 }
 
-/* Turns a by a heading: from the heading's own frame into the frame that the heading is given in. */
+/* Turns a by a heading: from the heading's own frame into the frame that the heading is given in.
+ */
 static inline struct vec2 vec2_turn(struct vec2 a, struct vec2 heading)
 {
     return (struct vec2){a.x * heading.x - a.y * heading.y, a.x * heading.y + a.y * heading.x};

@@ -11,17 +11,17 @@
 
 enum visibility_shape {
     VISIBILITY_RAISED_COSINE, /* half a cosine between full_rad and zero_rad; 0 at zero_rad */
-    VISIBILITY_HARD,          /* 1 up to and at zero_rad; with zero_rad = pi it is omnidirectional */
-    VISIBILITY_LINEAR,        /* a straight line between full_rad and zero_rad; 0 at zero_rad */
-    VISIBILITY_COSINE,        /* cos(pi delta / (2 zero_rad)); 0 at zero_rad */
+    VISIBILITY_HARD,   /* 1 up to and at zero_rad; with zero_rad = pi it is omnidirectional */
+    VISIBILITY_LINEAR, /* a straight line between full_rad and zero_rad; 0 at zero_rad */
+    VISIBILITY_COSINE, /* cos(pi delta / (2 zero_rad)); 0 at zero_rad */
 };
 
 /* The angle between two directions, in [0, pi]; neither needs unit length, and the order does not
  * matter. Accurate near 0 and pi, where acos of a dot product is not (NUMERICS 12). */
 double visibility_angle_rad(struct vec2 a, struct vec2 b);
 
-/* V in [0, 1]. Needs 0 <= full_rad <= zero_rad; where both are equal, all tapered shapes are hard
- * but open: 0 at zero_rad. */
+/* V in [0, 1]. Needs 0 <= full_rad <= zero_rad; where both are equal, the raised cosine and the
+ * straight line are hard but open: 0 at zero_rad. */
 double visibility(enum visibility_shape shape, double full_rad, double zero_rad, double delta_rad);
 
 #endif

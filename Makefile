@@ -1,0 +1,107 @@
+# glint: one executable per file in stages/, and `glint`, which runs them all fused.
+#
+#   make            everything, into build/bin
+#   make check      unit tests and house checks     make test   all of scripts/test
+#   make SAN=1 ...  the same under address and undefined-behaviour sanitizers, in build-san/
+#   make CC=clang CXX=clang++ BUILD=build-clang
+#   make install    PREFIX=/usr/local DESTDIR=
+
+PREFIX ?= /usr/local
+BUILD ?= build
+CFLAGS ?= -O2 -g
+CXXFLAGS ?= -O2 -g
+
+ifdef SAN
+BUILD = build-san
+comma = ,
+SANITIZE = -fsanitize=address$(comma)undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+endif
+
+WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes \
+    -Wmissing-prototypes -Wvla -Wundef -Wwrite-strings -Wcast-align -Wdouble-promotion -Wformat=2
+# Contraction would let a compiler round a*b+c once instead of twice, and so change results.
+EXACT = -ffp-contract=off -fno-fast-math
+HOUSE_C = -std=c11 -D_POSIX_C_SOURCE=200809L $(EXACT) $(WARNINGS) -Ilib -MMD -MP $(SANITIZE)
+HOUSE_CXX = -std=c++17 -fno-rtti $(EXACT) -Wall -Wextra -Ilib -MMD -MP $(SANITIZE)
+# number.cc is the only C++; its library is linked in, so that nobody needs it at run time.
+LINK = $(CXX) -static-libstdc++ -static-libgcc $(SANITIZE) $(LDFLAGS)
+LIBS = -ljansson -lcsv -lz -lm
+
+# A stage that needs another library says so in one line: /* needs: fftw3 */
+needs = $(shell sed -n 's:^/\* needs\: \(.*\) \*/$$:\1:p' $(1))
+have = $(if $(call needs,$(1)),$(shell pkg-config --exists $(call needs,$(1)) && echo yes),yes)
+all_stages := $(filter-out main,$(patsubst stages/%.c,%,$(sort $(wildcard stages/*.c))))
+stages := $(foreach s,$(all_stages),$(if $(call have,stages/$(s).c),$(s)))
+left_out := $(filter-out $(stages),$(all_stages))
+
+lib_objects := $(patsubst lib/%,$(BUILD)/lib/%.o,$(wildcard lib/*.c lib/*.cc))
+stage_objects := $(patsubst %,$(BUILD)/stages/%.o,$(stages))
+tools := $(foreach s,$(stages),$(BUILD)/bin/glint-$(subst _,-,$(s))) $(BUILD)/bin/glint
+tests := $(patsubst tests/test_%.c,$(BUILD)/tests/test_%,$(wildcard tests/test_*.c))
+
+all: $(tools)
+	$(foreach s,$(left_out),@echo "glint-$(subst _,-,$(s)) is left out: it needs $(call needs,stages/$(s).c)")
+
+$(BUILD)/lib/%.c.o: lib/%.c
+	@mkdir -p $(@D)
+	$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
+
+$(BUILD)/lib/%.cc.o: lib/%.cc
+	@mkdir -p $(@D)
+	$(CXX) $(HOUSE_CXX) $(CXXFLAGS) -c -o $@ $<
+
+$(BUILD)/libglint.a: $(lib_objects)
+	rm -f $@
+	$(AR) rcs $@ $^
+
+$(BUILD)/stages/%.o: stages/%.c
+	@mkdir -p $(@D)
+	$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
+
+# One main for every stage: glint-sensor-perfect is stages/sensor_perfect.c and this.
+.SECONDEXPANSION:
+$(BUILD)/main/%.o: stages/main.c
+	@mkdir -p $(@D)
+	$(CC) $(HOUSE_C) $(CFLAGS) -DSTAGE=stage_$* -c -o $@ $<
+
+under = $(subst -,_,$(patsubst $(BUILD)/bin/glint-%,%,$(1)))
+$(BUILD)/bin/glint-%: $(BUILD)/stages/$$(subst -,_,$$*).o $(BUILD)/main/$$(subst -,_,$$*).o $(BUILD)/libglint.a
+	@mkdir -p $(@D)
+	$(LINK) -o $@ $^ $(LIBS)
+
+# The folder is the registry; the file is rewritten only when the list has changed.
+registry = { for s in $(stages); do echo "extern const struct stage stage_$$s;"; done; \
+    echo "const struct stage *const stages[] = {"; \
+    for s in $(stages); do echo "    &stage_$$s,"; done; echo "    NULL,"; echo "};"; }
+$(BUILD)/registry.c: FORCE
+	@mkdir -p $(@D)
+	@{ echo '#include "fused.h"'; $(registry); } > $@.new
+	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+
+$(BUILD)/registry.o: $(BUILD)/registry.c
+	$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
+
+$(BUILD)/main/glint.o: stages/main.c
+	@mkdir -p $(@D)
+	$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
+
+$(BUILD)/bin/glint: $(BUILD)/main/glint.o $(BUILD)/registry.o $(stage_objects) $(BUILD)/libglint.a
+	@mkdir -p $(@D)
+	$(LINK) -o $@ $^ $(LIBS)
+
+$(BUILD)/tests/%.o: tests/%.c
+	@mkdir -p $(@D)
+	$(CC) $(HOUSE_C) -Itests $(CFLAGS) -c -o $@ $<
+
+$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(BUILD)/libglint.a
+	$(LINK) -o $@ $^ $(LIBS) -lcmocka
+
+unit: $(tests)
+	@for t in $(tests); do $$t >$$t.log 2>&1 || { cat $$t.log; echo "$$t failed"; exit 1; }; done
+	@echo "unit tests: $(words $(tests)) programs passed"
+
+FORCE:
+.PHONY: all unit FORCE
+.PRECIOUS: $(BUILD)/main/%.o $(BUILD)/tests/%.o
+
+-include $(wildcard $(BUILD)/*/*.d $(BUILD)/*.d)

@@ -1,0 +1,169 @@
+#include "antenna.h"
+
+#include <math.h>
+
+#include "units.h"
+
+/* The two pointers before they turn by e: sum and -j delta. */
+struct antenna_pair {
+    double sum, delta;
+};
+
+/* u = (pi/2) sin|azimuth|, its cosine, and its sine with the azimuth's sign. */
+struct antenna_turn {
+    double u, cos_u, sin_u;
+};
+
+/* Near the side cos u comes from its cofunction (NUMERICS 4). The sign is put on last: mirrored
+ * azimuths share every rounding. */
+static struct antenna_turn turn_at(double azimuth_rad)
+{
+    double sine = sin(fabs(azimuth_rad));
+    double cosine = cos(fabs(azimuth_rad));
+    double u = PI / 2 * sine;
+    double cos_u = sine < 0.5 ? cos(u) : sin(PI / 2 * (cosine * cosine / (1 + sine)));
+    return (struct antenna_turn){u, cos_u, copysign(sin(u), azimuth_rad)};
+}
+
+/* MODEL 7.1. */
+static struct antenna_pair dipole_pair(double azimuth_rad)
+{
+    struct antenna_turn turn = turn_at(azimuth_rad);
+    double element = units_si(turn.u) * cos(fabs(azimuth_rad));
+    return (struct antenna_pair){element * turn.cos_u, element * turn.sin_u};
+}
+
+/* Both weights are formed, so that a mirrored table answers with mirrored doubles. */
+static double mix(double from, double from_weight, double to, double to_weight)
+{
+    return from * from_weight + to * to_weight;
+}
+
+static struct antenna_pair table_pair(const struct antenna *antenna, double azimuth_rad)
+{
+    size_t low = 0;
+    size_t high = antenna->row_count - 1;
+    const struct antenna_row *rows = antenna->rows;
+    if (azimuth_rad < rows[low].azimuth_rad || azimuth_rad > rows[high].azimuth_rad)
+        return (struct antenna_pair){0, 0};
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (azimuth_rad >= rows[middle].azimuth_rad)
+            low = middle;
+        else
+            high = middle;
+    }
+    double width = rows[high].azimuth_rad - rows[low].azimuth_rad;
+    double to = (azimuth_rad - rows[low].azimuth_rad) / width;
+    double from = (rows[high].azimuth_rad - azimuth_rad) / width;
+    return (struct antenna_pair){mix(rows[low].sum, from, rows[high].sum, to),
+                                 mix(rows[low].delta, from, rows[high].delta, to)};
+}
+
+static struct antenna_pair pair_at(const struct antenna *antenna, double azimuth_rad)
+{
+    return antenna->pattern == ANTENNA_TABLE ? table_pair(antenna, azimuth_rad)
+                                             : dipole_pair(azimuth_rad);
+}
+
+/* Positive where the pair's ratio lies above the row's. */
+static double row_cross(struct antenna_pair pair, const struct antenna_row *row)
+{
+    return pair.delta * row->sum - pair.sum * row->delta;
+}
+
+/* Whether the pair's ratio lies above the row's. A tie goes to the pair's own side: where both sums
+ * are zero, the cross product alone cannot tell minus from plus infinity. */
+static bool pair_passes(struct antenna_pair pair, const struct antenna_row *row)
+{
+    double cross = row_cross(pair, row);
+    return cross > 0 || (cross == 0 && pair.delta > 0);
+}
+
+static double table_azimuth(const struct antenna *antenna, struct antenna_pair pair)
+{
+    const struct antenna_row *rows = antenna->rows;
+    size_t low = 0;
+    size_t high = antenna->row_count - 1;
+    if (!pair_passes(pair, &rows[low]))
+        return rows[low].azimuth_rad;
+    if (pair_passes(pair, &rows[high]))
+        return rows[high].azimuth_rad;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (pair_passes(pair, &rows[middle]))
+            low = middle;
+        else
+            high = middle;
+    }
+    double above = row_cross(pair, &rows[low]);
+    double below = -row_cross(pair, &rows[high]);
+    double azimuth_rad = mix(rows[low].azimuth_rad, below / (above + below), rows[high].azimuth_rad,
+                             above / (above + below));
+    return fmin(fmax(azimuth_rad, rows[low].azimuth_rad), rows[high].azimuth_rad);
+}
+
+/* NUMERICS 7: arcsin only where it is well conditioned. */
+static double dipole_azimuth(struct antenna_pair pair)
+{
+    double size = fabs(pair.delta);
+    double azimuth_rad;
+    if (size <= pair.sum) {
+        azimuth_rad = asin(atan2(size, pair.sum) / (PI / 2));
+    } else {
+        double from_side = atan2(pair.sum, size) / (PI / 2);
+        azimuth_rad = atan2(1 - from_side, sqrt(from_side * (2 - from_side)));
+    }
+    return pair.delta < 0 ? -azimuth_rad : azimuth_rad;
+}
+
+static double _Complex pointer(double real, double imag)
+{
+    return real + imag * (double _Complex)I;
+}
+
+struct antenna_pointers antenna_pointers(const struct antenna *antenna, double azimuth_rad)
+{
+    struct antenna_pair pair = pair_at(antenna, azimuth_rad);
+    if (antenna->phase == PHASE_CENTRE)
+        return (struct antenna_pointers){pointer(pair.sum, 0), pointer(0, -pair.delta)};
+    struct antenna_turn turn = turn_at(azimuth_rad);
+    return (struct antenna_pointers){pointer(pair.sum * turn.cos_u, pair.sum * turn.sin_u),
+                                     pointer(pair.delta * turn.sin_u, -pair.delta * turn.cos_u)};
+}
+
+double antenna_gain(const struct antenna *antenna, double azimuth_rad)
+{
+    return pair_at(antenna, azimuth_rad).sum;
+}
+
+double antenna_azimuth_rad(const struct antenna *antenna, double delta, double sum)
+{
+    /* By a power of two, which changes neither ratio nor rounding. */
+    int exponent;
+    frexp(fmax(fabs(delta), sum), &exponent);
+    struct antenna_pair pair = {scalbn(sum, -exponent), scalbn(delta, -exponent)};
+    return antenna->pattern == ANTENNA_TABLE ? table_azimuth(antenna, pair) : dipole_azimuth(pair);
+}
+
+const char *antenna_table_fault(const struct antenna_row *rows, size_t count, size_t *row)
+{
+    *row = count;
+    if (count < 2)
+        return "a pattern needs two rows or more";
+    for (size_t i = 0; i < count; i++) {
+        *row = i;
+        if (!(rows[i].sum >= 0))
+            return "the sum must not be negative";
+        if (rows[i].sum == 0 && rows[i].delta == 0)
+            return "sum and delta must not both be zero";
+        if (i == 0)
+            continue;
+        if (!(rows[i].azimuth_rad > rows[i - 1].azimuth_rad))
+            return "azimuth must ascend from row to row";
+        struct antenna_pair pair = {rows[i].sum, rows[i].delta};
+        if (!(row_cross(pair, &rows[i - 1]) > 0))
+            return "the ratio of delta to sum must ascend from row to row";
+    }
+    return NULL;
+}

@@ -1,0 +1,15 @@
+/* The two laws of the account: nothing is lost without a word.
+ *
+ * Every pair of a sensor that measured and a reflector has exactly one direct entry, in a target's
+ * label or in lost; every other echo that was made has one too. Frames keep account if glint-ideal
+ * was told --account; the stage that writes targets then has its frame audited. */
+#ifndef AUDIT_H
+#define AUDIT_H
+
+#include "frame.h"
+
+/* Refuses with DIAG_INTERNAL and the first entry that is doubled or the first sensor whose entries
+ * are not what is due. For frames with targets and account. */
+int audit_frame(const struct frame *frame, struct diag *diag);
+
+#endif

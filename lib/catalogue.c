@@ -1,0 +1,188 @@
+#include "catalogue.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "document.h"
+#include "hash.h"
+#include "table.h"
+
+static const struct field vehicle_fields[] = {
+    {FIELD_NAME_OF(struct vehicle, origin, "who made this, and from what")},
+    {FIELD_REAL_IN(struct vehicle, length_m, 0.01, 1e4, "where an object of the class gives none")},
+    {FIELD_REAL_IN(struct vehicle, width_m, 0.01, 1e4, "where an object of the class gives none")},
+    {FIELD_REAL_IN(struct vehicle, height_m, 0.01, 1e3, "where an object of the class gives none")},
+    {FIELD_RECORD_OF(struct vehicle, reflectors, &reflector_model_record,
+                     "reflection centres of the class")},
+    {0},
+};
+
+const struct record vehicle_record = {
+    .name = "vehicle",
+    .help = "A class of road users or things: default size and reflection centres.",
+    .size = sizeof(struct vehicle),
+    .fields = vehicle_fields,
+};
+
+const struct vehicle *catalogue_vehicle(const char *class, struct arena *arena, struct diag *diag)
+{
+    const char *path = document_find("vehicles", class, arena, diag);
+    struct vehicle *vehicle = arena_get(arena, sizeof *vehicle);
+    if (path == NULL || document_read(path, &vehicle_record, vehicle, arena, diag) != 0)
+        return NULL;
+    vehicle->reflectors.model = arena_text(arena, class, strlen(class));
+    for (size_t i = 0; i < vehicle->reflectors.points.count; i++)
+        if (vehicle->reflectors.points.items[i].zero_rad <
+            vehicle->reflectors.points.items[i].full_rad) {
+            diag_fail(diag, DIAG_CONFIG, "%s: reflectors.points[%zu].zero_rad: less than full_rad",
+                      path, i);
+            return NULL;
+        }
+    return vehicle;
+}
+
+struct scenario *catalogue_scenario(const char *name, struct arena *arena, struct diag *diag)
+{
+    const char *path = document_find("scenarios", name, arena, diag);
+    struct scenario *scenario = arena_get(arena, sizeof *scenario);
+    if (path == NULL || document_read(path, &scenario_record, scenario, arena, diag) != 0)
+        return NULL;
+    if (scenario_check(scenario, diag) != 0) {
+        diag->code = DIAG_CONFIG;
+        diag_prefix(diag, "%s: ", path);
+        return NULL;
+    }
+    return scenario;
+}
+
+/* The path of a table that a document names: relative to the document. */
+static const char *beside(const char *document, const char *table, struct arena *arena)
+{
+    const char *slash = strrchr(document, '/');
+    if (table[0] == '/' || slash == NULL)
+        return table;
+    size_t folder = (size_t)(slash + 1 - document), size = folder + strlen(table) + 1;
+    char *path = arena_get(arena, size);
+    snprintf(path, size, "%.*s%s", (int)folder, document, table);
+    return path;
+}
+
+static int columns_of(const struct table *table, const char *const *names, size_t count,
+                      size_t *columns, struct diag *diag)
+{
+    for (size_t i = 0; i < count; i++)
+        if (table_column(table, names[i], &columns[i], diag) != 0)
+            return -1;
+    return 0;
+}
+
+static int read_amplitudes(const char *path, struct sensor *sensor, struct arena *arena,
+                           struct diag *diag)
+{
+    static const char *const names[] = {"range_m", "amplitude"};
+    struct table table;
+    size_t column[2];
+    if (table_read(path, &table, arena, diag) != 0 ||
+        columns_of(&table, names, 2, column, diag) != 0)
+        return -1;
+    struct radar_row *rows = arena_get(arena, table.rows * sizeof *rows);
+    for (size_t i = 0; i < table.rows; i++) {
+        if (table_number(&table, i, column[0], 1e-6, 1e6, &rows[i].range_m, diag) != 0 ||
+            table_number(&table, i, column[1], 1e-300, 1e300, &rows[i].amplitude, diag) != 0)
+            return -1;
+        if (i > 0 && rows[i].range_m <= rows[i - 1].range_m)
+            return diag_fail(diag, DIAG_CONFIG, "row %zu: range_m must ascend", i + 2);
+    }
+    if (table.rows < 2)
+        return diag_fail(diag, DIAG_CONFIG, "%zu rows; expected at least 2", table.rows);
+    sensor->amplitude_law.rows = rows;
+    sensor->amplitude_law.row_count = table.rows;
+    return 0;
+}
+
+static int read_pattern(const char *path, struct sensor *sensor, struct arena *arena,
+                        struct diag *diag)
+{
+    static const char *const names[] = {"azimuth_rad", "sum", "delta"};
+    struct table table;
+    size_t column[3];
+    if (table_read(path, &table, arena, diag) != 0 ||
+        columns_of(&table, names, 3, column, diag) != 0)
+        return -1;
+    struct antenna_row *rows = arena_get(arena, table.rows * sizeof *rows);
+    for (size_t i = 0; i < table.rows; i++)
+        if (table_number(&table, i, column[0], -2, 2, &rows[i].azimuth_rad, diag) != 0 ||
+            table_number(&table, i, column[1], 0, 1e300, &rows[i].sum, diag) != 0 ||
+            table_number(&table, i, column[2], -1e300, 1e300, &rows[i].delta, diag) != 0)
+            return -1;
+    size_t row = 0;
+    const char *fault = antenna_table_fault(rows, table.rows, &row);
+    if (fault != NULL)
+        return diag_fail(diag, DIAG_CONFIG, "row %zu: %s", row + 2, fault);
+    sensor->antenna.rows = rows;
+    sensor->antenna.row_count = table.rows;
+    return 0;
+}
+
+/* Reads one table that the suite names and counts its bytes into the digest. */
+static int add_table(const char *suite_path, const char *name, struct sensor *sensor,
+                     int (*read_table)(const char *, struct sensor *, struct arena *,
+                                       struct diag *),
+                     uint64_t *digest, struct arena *arena, struct diag *diag)
+{
+    if (name == NULL)
+        return 0;
+    const char *path = beside(suite_path, name, arena);
+    struct text bytes = {0};
+    int result = document_bytes(path, &bytes, diag);
+    if (result == 0) {
+        *digest = hash_bytes(*digest, bytes.bytes, bytes.length);
+        result = read_table(path, sensor, arena, diag);
+        if (result != 0)
+            diag_prefix(diag, "%s: ", path);
+    }
+    text_free(&bytes);
+    return result;
+}
+
+static int complete_suite(struct suite *suite, const char *path, const struct text *document,
+                          struct arena *arena, struct diag *diag)
+{
+    uint64_t digest = hash_bytes(HASH_START, document->bytes, document->length);
+    if (suite->sensors.count == 0)
+        return diag_fail(diag, DIAG_CONFIG, "%s: sensors: none; expected at least one", path);
+    for (size_t i = 0; i < suite->sensors.count; i++) {
+        struct sensor *sensor = &suite->sensors.items[i];
+        if (suite_sensor(suite, sensor->name) != sensor)
+            return diag_fail(diag, DIAG_CONFIG, "%s: sensors[%zu].name: \"%s\" stands twice", path,
+                             i, sensor->name);
+        if (suite_check(sensor, diag) != 0)
+            return diag_prefix(diag, "%s: sensors[%zu].", path, i);
+        if (add_table(path, sensor->amplitude_table, sensor, read_amplitudes, &digest, arena,
+                      diag) != 0 ||
+            add_table(path, sensor->antenna_table, sensor, read_pattern, &digest, arena, diag) != 0)
+            return -1;
+        suite_derive(sensor);
+    }
+    snprintf(suite->digest, sizeof suite->digest, "%016llx", (unsigned long long)digest);
+    return 0;
+}
+
+const struct suite *catalogue_suite(const char *name, struct arena *arena, struct diag *diag)
+{
+    const char *path = document_find("sensors", name, arena, diag);
+    if (path == NULL)
+        return NULL;
+    struct suite *suite = arena_get(arena, sizeof *suite);
+    struct text bytes = {0};
+    int result = document_bytes(path, &bytes, diag);
+    if (result == 0)
+        result = document_parse(path, &bytes, &suite_record, suite, arena, diag);
+    if (result == 0)
+        result = complete_suite(suite, path, &bytes, arena, diag);
+    text_free(&bytes);
+    suite->name = arena_text(arena, name, strlen(name));
+    if (result != 0 && diag->code == DIAG_DATA)
+        diag->code = DIAG_CONFIG;
+    return result == 0 ? suite : NULL;
+}

@@ -1,0 +1,192 @@
+#include "chain.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "document.h"
+#include "frame_text.h"
+#include "input.h"
+
+struct chain {
+    struct runner *runners;
+    size_t count;
+    struct frame frame;
+    struct arena arena; /* the frame's */
+    struct text line;
+    struct input *input;
+    size_t file, line_number;
+};
+
+void chain_complain(const struct runner *runner)
+{
+    fprintf(stderr, "glint-%s: %s\n", runner->stage->name, runner->diag.text);
+}
+
+static struct runner *last(struct chain *chain)
+{
+    return &chain->runners[chain->count - 1];
+}
+
+static bool failed(const struct runner *runner)
+{
+    return runner->diag.code != DIAG_OK;
+}
+
+static int open_next(struct chain *chain)
+{
+    struct runner *first = &chain->runners[0];
+    size_t files = first->common.files.count;
+    if (chain->file >= (files > 0 ? files : 1))
+        return 0;
+    const char *path = files > 0 ? first->common.files.items[chain->file] : "-";
+    chain->file++;
+    chain->line_number = 0;
+    chain->input = input_open(path, &first->diag);
+    return chain->input != NULL ? 1 : -1;
+}
+
+/* The next frame from the inputs, one after the other: 1, 0 at the end of the last, -1. */
+static int read_frame(struct chain *chain)
+{
+    struct diag *diag = &chain->runners[0].diag;
+    for (;;) {
+        if (chain->input == NULL) {
+            int opened = open_next(chain);
+            if (opened <= 0)
+                return opened;
+        }
+        const char *line;
+        size_t length;
+        chain->line_number++;
+        int more = input_line(chain->input, FRAME_TEXT_SIZE, &line, &length, diag);
+        if (more > 0)
+            more = frame_text_read(line, length, &chain->frame, diag) == 0 ? 1 : -1;
+        if (more != 0)
+            return more;
+        input_close(chain->input);
+        chain->input = NULL;
+    }
+}
+
+/* Puts the place in front of a stage's message: the line it read, or the frame it was given. */
+static void place_message(const struct chain *chain, struct runner *runner)
+{
+    bool first = runner == &chain->runners[0];
+    if (first && chain->input != NULL)
+        diag_prefix(&runner->diag, "%s:%zu: ", input_name(chain->input), chain->line_number);
+    else if (!first)
+        diag_prefix(&runner->diag, "scene \"%s\", frame %lld: ", chain->frame.scene,
+                    (long long)chain->frame.frame);
+}
+
+static int write_frame(struct chain *chain)
+{
+    struct runner *runner = last(chain);
+    if (runner->stage->sink)
+        return 0;
+    chain->line.length = 0;
+    if (frame_text_write(&chain->frame, &chain->line, &runner->diag) != 0)
+        return -1;
+    return output_write(runner->output, chain->line.bytes, chain->line.length, &runner->diag);
+}
+
+/* One frame through all runners: 1, 0 if there was none, -1 if one of them failed. */
+static int run_frame(struct chain *chain)
+{
+    struct runner *first = &chain->runners[0];
+    bool source = first->stage->next != NULL;
+    int more = source ? runner_next(first, &chain->frame) : read_frame(chain);
+    if (more < 0)
+        place_message(chain, first);
+    if (more <= 0)
+        return more;
+    for (struct runner *runner = source ? first + 1 : first; runner <= last(chain); runner++)
+        if (runner_step(runner, &chain->frame) != 0) {
+            place_message(chain, runner);
+            return -1;
+        }
+    return write_frame(chain) == 0 ? 1 : -1;
+}
+
+/* The stages after the rightmost failure see the end of the stream, as they would in a pipe. */
+static void finish(struct chain *chain)
+{
+    for (struct runner *runner = last(chain); runner >= chain->runners && !failed(runner); runner--)
+        runner_finish(runner);
+}
+
+static void start(struct chain *chain)
+{
+    for (size_t i = 0; i < chain->count; i++)
+        runner_start(&chain->runners[i]);
+    struct runner *end = last(chain);
+    if (!failed(end))
+        end->output =
+            output_open(end->common.output != NULL ? end->common.output : "-", &end->diag);
+}
+
+static bool any_failed(const struct chain *chain)
+{
+    for (size_t i = 0; i < chain->count; i++)
+        if (failed(&chain->runners[i]))
+            return true;
+    return false;
+}
+
+int chain_run(struct runner *runners, size_t count)
+{
+    struct chain chain = {.runners = runners, .count = count};
+    chain.frame.arena = &chain.arena;
+    start(&chain);
+    while (!any_failed(&chain) && run_frame(&chain) > 0)
+        continue;
+    finish(&chain);
+    struct runner *end = last(&chain);
+    if (end->output != NULL)
+        output_close(end->output, !failed(end), &end->diag);
+    int code = DIAG_OK;
+    for (size_t i = 0; i < count; i++)
+        if (failed(&runners[i])) {
+            chain_complain(&runners[i]);
+            code = (int)runners[i].diag.code;
+        }
+    input_close(chain.input);
+    text_free(&chain.line);
+    arena_free(&chain.arena);
+    return code;
+}
+
+/* --help and --version, through an output that checks its close. */
+static int print_about(struct runner *runner)
+{
+    struct text text = {0};
+    if (runner->common.help)
+        options_help(runner->stage, &text);
+    else
+        text_format(&text, "glint-%s (glint) %s\n", runner->stage->name, GLINT_VERSION);
+    struct output *output = output_open("-", &runner->diag);
+    output_write(output, text.bytes, text.length, &runner->diag);
+    output_close(output, 1, &runner->diag);
+    text_free(&text);
+    if (failed(runner))
+        chain_complain(runner);
+    return (int)runner->diag.code;
+}
+
+int chain_main(const struct stage *stage, int count, char **words)
+{
+    document_guard_memory();
+    struct runner runner;
+    int code = DIAG_OK;
+    size_t given = count > 0 ? (size_t)count - 1 : 0;
+    if (runner_prepare(&runner, stage, given, (const char *const *)words + 1) != 0) {
+        chain_complain(&runner);
+        code = (int)runner.diag.code;
+    } else if (runner.common.help || runner.common.version) {
+        code = print_about(&runner);
+    } else {
+        code = chain_run(&runner, 1);
+    }
+    runner_free(&runner);
+    return code;
+}

@@ -1,0 +1,31 @@
+/* Documents: JSON files for people, read by jansson and checked against the same kind of field
+ * tables as frames.
+ *
+ * A bare name (no slash, no dot) is <kind>/<name>.json in $GLINT_DATA, then in ../share/glint and
+ * in ../../data beside the executable, then in ./data; anything else is a path. All that is wrong
+ * with a document is DIAG_CONFIG. */
+#ifndef DOCUMENT_H
+#define DOCUMENT_H
+
+#include "field.h"
+#include "text.h"
+
+/* Gives jansson an allocator that ends the program rather than returning NULL. Once, in main. */
+void document_guard_memory(void);
+
+/* The path that a name stands for, in the arena; NULL after a message that lists the places that
+ * were searched. */
+const char *document_find(const char *kind, const char *name, struct arena *arena,
+                          struct diag *diag);
+
+/* Reads a document (standard input for "-") into the struct that the record describes; all it
+ * holds lies in the arena. Messages are "PATH: objects[2].x_m: ...". */
+int document_read(const char *path, const struct record *record, void *base, struct arena *arena,
+                  struct diag *diag);
+
+/* The two halves of document_read, for documents whose bytes are needed as well. */
+int document_bytes(const char *path, struct text *bytes, struct diag *diag);
+int document_parse(const char *path, const struct text *bytes, const struct record *record,
+                   void *base, struct arena *arena, struct diag *diag);
+
+#endif

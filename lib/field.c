@@ -1,0 +1,355 @@
+#include "field.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "number.h"
+
+const char *field_unit(const char *name)
+{
+    /* Longer endings first: "_mps2" also ends in "s2" of nothing, "_mps" in "_s" of nothing. */
+    static const char *const units[][2] = {
+        {"_mps2",  "m/s²"},
+        {"_radps", "rad/s"},
+        {"_mps",   "m/s"  },
+        {"_rad",   "rad"  },
+        {"_hz",    "Hz"   },
+        {"_db",    "dB"   },
+        {"_m",     "m"    },
+        {"_s",     "s"    },
+    };
+    size_t length = strlen(name);
+    for (size_t i = 0; i < sizeof units / sizeof units[0]; i++) {
+        size_t ending = strlen(units[i][0]);
+        if (length > ending && strcmp(name + length - ending, units[i][0]) == 0)
+            return units[i][1];
+    }
+    return "";
+}
+
+const struct field *field_find(const struct record *record, const char *name, size_t length,
+                               size_t hint)
+{
+    const struct field *fields = record->fields;
+    if (fields[hint].name != NULL && strncmp(fields[hint].name, name, length) == 0 &&
+        fields[hint].name[length] == '\0')
+        return &fields[hint];
+    for (const struct field *field = fields; field->name != NULL; field++)
+        if (strncmp(field->name, name, length) == 0 && field->name[length] == '\0')
+            return field;
+    return NULL;
+}
+
+static void *member(const struct field *field, void *base)
+{
+    return (char *)base + field->offset;
+}
+
+static const void *member_of(const struct field *field, const void *base)
+{
+    return (const char *)base + field->offset;
+}
+
+/* memcpy, because the table does not know the C type that the compiler gave the member. */
+#define LOAD(type, field, base)                                                                    \
+    (*(type *)memcpy(&(type){0}, member_of((field), (base)), sizeof(type)))
+
+#define STORE(type, field, base, value)                                                            \
+    memcpy(member((field), (base)), &(type){(value)}, sizeof(type))
+
+void field_clear(const struct record *record, void *base)
+{
+    memset(base, 0, record->size);
+    for (const struct field *field = record->fields; field->name != NULL; field++) {
+        if (field->kind == FIELD_REAL)
+            STORE(double, field, base, field->absent);
+        else if (field->kind == FIELD_INTEGER)
+            STORE(int64_t, field, base, (int64_t)field->absent);
+        else if (field->kind == FIELD_SEED)
+            STORE(uint64_t, field, base, (uint64_t)field->absent);
+        else if (field->kind == FIELD_CHOICE)
+            STORE(int, field, base, (int)field->absent);
+        else if (field->kind == FIELD_RECORD)
+            field_clear(field->record, member(field, base));
+    }
+}
+
+static int out_of_bounds(const struct field *field, double value, struct diag *diag)
+{
+    char digits[NUMBER_SIZE + 1];
+    digits[isfinite(value) ? number_write(value, digits) : 0] = '\0';
+    if (!isfinite(value))
+        snprintf(digits, sizeof digits, "%g", value);
+    const char *unit = field_unit(field->name);
+    return diag_fail(diag, DIAG_DATA, "%s: %s is outside [%g, %g]%s%s", field->name, digits,
+                     field->low, field->high, *unit ? " " : "", unit);
+}
+
+int field_set_number(const struct field *field, void *base, double value, struct diag *diag)
+{
+    if (field->kind != FIELD_REAL && field->kind != FIELD_INTEGER)
+        return field_wrong_kind(field, "a number", diag);
+    if (!(value >= field->low && value <= field->high))
+        return out_of_bounds(field, value, diag);
+    if (field->kind == FIELD_REAL) {
+        STORE(double, field, base, value);
+        return 0;
+    }
+    if (value != floor(value))
+        return diag_fail(diag, DIAG_DATA, "%s: %.17g is not a whole number", field->name, value);
+    STORE(int64_t, field, base, (int64_t)value);
+    return 0;
+}
+
+static int set_choice(const struct field *field, void *base, const char *text, size_t length,
+                      struct diag *diag)
+{
+    for (int i = 0; field->choices[i] != NULL; i++)
+        if (strlen(field->choices[i]) == length && memcmp(field->choices[i], text, length) == 0) {
+            STORE(int, field, base, i);
+            return 0;
+        }
+    char expected[512];
+    field_expectation(field, expected, sizeof expected);
+    return diag_fail(diag, DIAG_DATA, "%s: \"%.*s\" is unknown; expected %s", field->name,
+                     (int)(length < 80 ? length : 80), text, expected);
+}
+
+static int set_seed(const struct field *field, void *base, const char *text, size_t length,
+                    struct diag *diag)
+{
+    uint64_t seed = 0;
+    bool good = length > 0 && length <= 20;
+    for (size_t i = 0; i < length && good; i++) {
+        uint64_t digit = (uint64_t)(text[i] - '0');
+        good = text[i] >= '0' && text[i] <= '9' && seed <= (UINT64_MAX - digit) / 10;
+        seed = 10 * seed + digit;
+    }
+    if (!good)
+        return diag_fail(diag, DIAG_DATA,
+                         "%s: \"%.*s\" is no seed; expected decimal digits up to %llu", field->name,
+                         (int)(length < 80 ? length : 80), text, (unsigned long long)UINT64_MAX);
+    STORE(uint64_t, field, base, seed);
+    return 0;
+}
+
+static int set_name(const struct field *field, void *base, const char *text, size_t length,
+                    struct arena *arena, struct diag *diag)
+{
+    if (length == 0 || length > FIELD_NAME_SIZE)
+        return diag_fail(diag, DIAG_DATA, "%s: a name of %zu bytes; expected 1 to %d", field->name,
+                         length, FIELD_NAME_SIZE);
+    for (size_t i = 0; i < length; i++)
+        if ((unsigned char)text[i] < 0x20 || text[i] == 0x7f)
+            return diag_fail(diag, DIAG_DATA, "%s: control character 0x%02x in a name", field->name,
+                             (unsigned)text[i]);
+    const char *copy = arena_text(arena, text, length);
+    STORE(const char *, field, base, copy);
+    return 0;
+}
+
+int field_set_text(const struct field *field, void *base, const char *text, size_t length,
+                   struct arena *arena, struct diag *diag)
+{
+    switch (field->kind) {
+    case FIELD_NAME:
+        return set_name(field, base, text, length, arena, diag);
+    case FIELD_CHOICE:
+        return set_choice(field, base, text, length, diag);
+    case FIELD_SEED:
+        return set_seed(field, base, text, length, diag);
+    default:
+        return field_wrong_kind(field, "a string", diag);
+    }
+}
+
+int field_read_number(const char *text, size_t length, double *value)
+{
+    /* number_read takes whatever from_chars takes, so words like "inf" must not get that far. */
+    bool plausible = length > 0 && strspn(text, "+-.0123456789eE") >= length;
+    return plausible && number_read(text, text + length, value) ? 0 : -1;
+}
+
+static unsigned sections_of(const struct record *record, const void *base)
+{
+    unsigned present;
+    memcpy(&present, (const char *)base + record->present_offset, sizeof present);
+    return present;
+}
+
+bool field_present(const struct record *record, const struct field *field, const void *base)
+{
+    if (field->section != 0)
+        return (sections_of(record, base) & field->section) != 0;
+    if (!field->optional)
+        return true;
+    switch (field->kind) {
+    case FIELD_REAL: {
+        double value = LOAD(double, field, base);
+        return value != field->absent || signbit(value) != signbit(field->absent);
+    }
+    case FIELD_INTEGER:
+        return LOAD(int64_t, field, base) != (int64_t)field->absent;
+    case FIELD_SEED:
+        return LOAD(uint64_t, field, base) != (uint64_t)field->absent;
+    case FIELD_CHOICE:
+        return LOAD(int, field, base) != (int)field->absent;
+    case FIELD_FLAG:
+        return LOAD(bool, field, base);
+    case FIELD_NAME:
+    case FIELD_RAW:
+        return LOAD(const char *, field, base) != NULL;
+    case FIELD_NAMES:
+    case FIELD_LIST:
+        return field_list(field, base).count > 0;
+    case FIELD_RECORD:
+        return true;
+    case FIELD_NOTES:
+        return false;
+    }
+    return true;
+}
+
+void field_mark_present(const struct record *record, const struct field *field, void *base)
+{
+    if (field->section == 0)
+        return;
+    unsigned present = sections_of(record, base) | field->section;
+    memcpy((char *)base + record->present_offset, &present, sizeof present);
+}
+
+int field_require(const struct record *record, uint64_t seen, struct diag *diag)
+{
+    for (size_t i = 0; record->fields[i].name != NULL; i++) {
+        const struct field *field = &record->fields[i];
+        if (field->optional || field->section != 0 || (seen >> i & 1) != 0)
+            continue;
+        char expected[512];
+        field_expectation(field, expected, sizeof expected);
+        return diag_fail(diag, DIAG_DATA, "%s: missing; expected %s", field->name, expected);
+    }
+    return 0;
+}
+
+void field_expectation(const struct field *field, char *text, size_t size)
+{
+    const char *unit = field_unit(field->name);
+    switch (field->kind) {
+    case FIELD_REAL:
+    case FIELD_INTEGER:
+        snprintf(text, size, "%s in [%g, %g]%s%s",
+                 field->kind == FIELD_REAL ? "a number" : "a whole number", field->low, field->high,
+                 *unit ? " " : "", unit);
+        return;
+    case FIELD_CHOICE: {
+        size_t used = (size_t)snprintf(text, size, "one of");
+        for (int i = 0; field->choices[i] != NULL && used < size; i++)
+            used += (size_t)snprintf(text + used, size - used, "%s%s", i > 0 ? ", " : " ",
+                                     field->choices[i]);
+        return;
+    }
+    default: {
+        static const char *const kinds[] = {
+            [FIELD_FLAG] = "true or false",      [FIELD_NAME] = "a name",
+            [FIELD_SEED] = "a string of digits", [FIELD_NAMES] = "an array of names",
+            [FIELD_RECORD] = "an object",        [FIELD_LIST] = "an array of objects",
+            [FIELD_RAW] = "any JSON value",      [FIELD_NOTES] = "an object of strings",
+        };
+        snprintf(text, size, "%s", kinds[field->kind]);
+    }
+    }
+}
+
+int field_wrong_kind(const struct field *field, const char *kind, struct diag *diag)
+{
+    char expected[512];
+    field_expectation(field, expected, sizeof expected);
+    return diag_fail(diag, DIAG_DATA, "%s: %s; expected %s", field->name, kind, expected);
+}
+
+int field_unknown(const struct record *record, const char *name, size_t length, struct diag *diag)
+{
+    char known[640] = "";
+    size_t used = 0;
+    for (const struct field *field = record->fields; field->name != NULL; field++)
+        if (used < sizeof known)
+            used += (size_t)snprintf(known + used, sizeof known - used, "%s%s",
+                                     field == record->fields ? "" : ", ", field->name);
+    return diag_fail(diag, DIAG_DATA, "%.*s: unknown key; a %s has %s",
+                     (int)(length < 80 ? length : 80), name, record->name, known);
+}
+
+int field_twice(const struct field *field, struct diag *diag)
+{
+    return diag_fail(diag, DIAG_DATA, "%s: the key stands twice", field->name);
+}
+
+static int check_list(const struct field *field, const void *base, struct diag *diag)
+{
+    struct field_list list = field_list(field, base);
+    for (size_t i = 0; i < list.count; i++) {
+        const void *item = (const char *)list.items + i * field->record->size;
+        if (field_check(field->record, item, diag) != 0)
+            return diag_prefix(diag, "%s[%zu].", field->name, i);
+    }
+    return 0;
+}
+
+static int check_member(const struct field *field, const void *base, struct diag *diag)
+{
+    double value;
+    switch (field->kind) {
+    case FIELD_REAL:
+        value = LOAD(double, field, base);
+        return value >= field->low && value <= field->high ? 0 : out_of_bounds(field, value, diag);
+    case FIELD_INTEGER:
+        value = (double)LOAD(int64_t, field, base);
+        return value >= field->low && value <= field->high ? 0 : out_of_bounds(field, value, diag);
+    case FIELD_NAME:
+        return LOAD(const char *, field, base) != NULL
+                   ? 0
+                   : diag_fail(diag, DIAG_DATA, "%s: missing", field->name);
+    case FIELD_RECORD:
+        if (field_check(field->record, member_of(field, base), diag) != 0)
+            return diag_prefix(diag, "%s.", field->name);
+        return 0;
+    case FIELD_LIST:
+        return check_list(field, base, diag);
+    default:
+        return 0;
+    }
+}
+
+int field_check(const struct record *record, const void *base, struct diag *diag)
+{
+    for (const struct field *field = record->fields; field->name != NULL; field++)
+        if (field_present(record, field, base) && check_member(field, base, diag) != 0)
+            return -1;
+    return 0;
+}
+
+/* The layout of every LIST_OF, whatever its items. */
+struct untyped_list {
+    void *items;
+    size_t count, room;
+};
+
+struct field_list field_list(const struct field *field, const void *base)
+{
+    struct untyped_list list = LOAD(struct untyped_list, field, base);
+    return (struct field_list){list.items, list.count};
+}
+
+void *field_list_add(const struct field *field, void *base, struct arena *arena)
+{
+    size_t size = field->kind == FIELD_NAMES ? sizeof(const char *) : field->record->size;
+    struct untyped_list list = LOAD(struct untyped_list, field, base);
+    list.items = list_room(arena, list.items, list.count, &list.room, size);
+    char *item = (char *)list.items + list.count * size;
+    list.count++;
+    memcpy(member(field, base), &list, sizeof list);
+    if (field->kind == FIELD_LIST)
+        field_clear(field->record, item);
+    return item;
+}

@@ -1,0 +1,145 @@
+/* Field tables: one description of a struct that drives everything that is said about it.
+ *
+ * A struct record lists the members of a C struct: the name (one spelling for C member, JSON key,
+ * option and schema property, with the unit as its ending), kind, bounds and help. From it come the
+ * frame's text in both directions, documents, command-line options, --help, the schemas, and the
+ * check that nothing out of bounds leaves a stage. Functions that fail leave a message that starts
+ * with the member's name, so that callers can put the path in front of it. */
+#ifndef FIELD_H
+#define FIELD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "diag.h"
+#include "memory.h"
+
+enum field_kind {
+    FIELD_REAL,    /* double: finite, in [low, high] */
+    FIELD_INTEGER, /* int64_t: in [low, high], at most 2^53 in size */
+    FIELD_FLAG,    /* bool; where optional, absent means false */
+    FIELD_NAME,    /* const char *: 1 to FIELD_NAME_SIZE bytes of UTF-8, NULL where absent */
+    FIELD_CHOICE,  /* an enum: the index of one of choices */
+    FIELD_SEED, /* uint64_t, in text a string of decimal digits: JSON readers lose 64-bit numbers */
+    FIELD_NAMES,  /* LIST_OF(const char *) */
+    FIELD_RECORD, /* an embedded struct */
+    FIELD_LIST,   /* LIST_OF(a struct) */
+    FIELD_RAW,    /* const char *: any JSON value, byte for byte, at most FIELD_RAW_SIZE */
+    FIELD_NOTES,  /* no member: an object of strings, for people; documents only */
+};
+
+enum { FIELD_NAME_SIZE = 1024, FIELD_RAW_SIZE = 64 * 1024 };
+
+struct record;
+
+struct field {
+    const char *name;
+    enum field_kind kind;
+    bool optional; /* may be absent; then, and only then, it is not written either */
+    size_t offset;
+    double low, high;
+    double absent; /* the number, or the choice, that absence stands for */
+    const struct record *record;
+    const char *const *choices; /* NULL-terminated */
+    unsigned section;           /* the bit of `present` that this member has, or 0 */
+    const char *help;
+};
+
+/* Tables end with a field without a name. A record with sections keeps their bits in an unsigned
+ * member at present_offset; a section counts as absent unless its bit is set. */
+struct record {
+    const char *name;
+    const char *help;
+    size_t size;
+    const struct field *fields;
+    size_t present_offset;
+};
+
+/* The offset of a member, refused by the compiler if the member is not of that type. */
+#define FIELD_AT(type, owner, member)                                                              \
+    (offsetof(owner, member) + 0 * sizeof((type *[]){&((owner *)0)->member}))
+
+#define FIELD_REAL_IN(owner, member, low_, high_, help_)                                           \
+    .name = #member, .kind = FIELD_REAL, .offset = FIELD_AT(double, owner, member), .low = (low_), \
+    .high = (high_), .help = (help_)
+#define FIELD_INTEGER_IN(owner, member, low_, high_, help_)                                        \
+    .name = #member, .kind = FIELD_INTEGER, .offset = FIELD_AT(int64_t, owner, member),            \
+    .low = (low_), .high = (high_), .help = (help_)
+#define FIELD_FLAG_OF(owner, member, help_)                                                        \
+    .name = #member, .kind = FIELD_FLAG, .offset = FIELD_AT(bool, owner, member), .help = (help_)
+#define FIELD_NAME_OF(owner, member, help_)                                                        \
+    .name = #member, .kind = FIELD_NAME, .offset = FIELD_AT(const char *, owner, member),          \
+    .help = (help_)
+#define FIELD_CHOICE_OF(owner, member, choices_, help_)                                            \
+    .name = #member, .kind = FIELD_CHOICE, .offset = offsetof(owner, member),                      \
+    .choices = (choices_), .help = (help_)
+#define FIELD_SEED_OF(owner, member, help_)                                                        \
+    .name = #member, .kind = FIELD_SEED, .offset = FIELD_AT(uint64_t, owner, member),              \
+    .help = (help_)
+#define FIELD_NAMES_OF(owner, member, help_)                                                       \
+    .name = #member, .kind = FIELD_NAMES, .offset = offsetof(owner, member), .help = (help_)
+#define FIELD_RECORD_OF(owner, member, record_, help_)                                             \
+    .name = #member, .kind = FIELD_RECORD, .offset = offsetof(owner, member), .record = (record_), \
+    .help = (help_)
+#define FIELD_LIST_OF(owner, member, record_, help_)                                               \
+    .name = #member, .kind = FIELD_LIST, .offset = offsetof(owner, member), .record = (record_),   \
+    .help = (help_)
+#define FIELD_RAW_OF(owner, member, help_)                                                         \
+    .name = #member, .kind = FIELD_RAW, .offset = FIELD_AT(const char *, owner, member),           \
+    .optional = true, .help = (help_)
+#define FIELD_OPTIONAL .optional = true
+
+/* What the name's ending says about the unit, for messages and help: "m" for range_m, "" if the
+ * number has none. */
+const char *field_unit(const char *name);
+
+/* The record's member of that name, or NULL. Looks at members[hint] first: keys usually come in
+ * table order. */
+const struct field *field_find(const struct record *record, const char *name, size_t length,
+                               size_t hint);
+
+/* Sets every member to what its absence stands for. */
+void field_clear(const struct record *record, void *base);
+
+/* Each sets the member of the struct at base, or refuses with "name: value is outside [..] unit",
+ * "name: unknown choice ..." and the like. Text is copied into the arena. */
+int field_set_number(const struct field *field, void *base, double value, struct diag *diag);
+int field_set_text(const struct field *field, void *base, const char *text, size_t length,
+                   struct arena *arena, struct diag *diag);
+
+/* The whole of text as a finite number in JSON's spelling; -1 if it is none. */
+int field_read_number(const char *text, size_t length, double *value);
+
+/* Is this member there: required, or different from what its absence stands for? */
+bool field_present(const struct record *record, const struct field *field, const void *base);
+void field_mark_present(const struct record *record, const struct field *field, void *base);
+
+/* Refuses "name: missing; expected ..." if a required field is not among those seen (bit i stands
+ * for fields[i]). */
+int field_require(const struct record *record, uint64_t seen, struct diag *diag);
+
+/* "a number in [0, 1e+06] m", "one of a, b, c", ...: what the field takes, for messages. */
+void field_expectation(const struct field *field, char *text, size_t size);
+
+/* Refuses "name: a number in ..., not KIND" for a value of the wrong JSON kind. */
+int field_wrong_kind(const struct field *field, const char *kind, struct diag *diag);
+int field_unknown(const struct record *record, const char *name, size_t length, struct diag *diag);
+int field_twice(const struct field *field, struct diag *diag);
+
+/* Everything in bounds, all the way down: what the reader would say to this struct. */
+int field_check(const struct record *record, const void *base, struct diag *diag);
+
+/* A LIST_OF anything, seen without its type. */
+struct field_list {
+    void *items;
+    size_t count;
+};
+
+struct field_list field_list(const struct field *field, const void *base);
+
+/* Appends one cleared item to the list member and returns its address. For FIELD_NAMES the item is
+ * a const char *. */
+void *field_list_add(const struct field *field, void *base, struct arena *arena);
+
+#endif

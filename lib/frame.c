@@ -1,0 +1,595 @@
+#include "frame.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "units.h"
+
+static const char *const paths[] = {[PATH_DIRECT] = "direct", NULL};
+
+static const char *const losses[] = {
+    [LOSS_FACING_AWAY] = "facing_away",
+    [LOSS_NO_SPECULAR] = "no_specular_point",
+    [LOSS_OUT_OF_RANGE] = "out_of_range",
+    [LOSS_OUT_OF_VIEW] = "out_of_view",
+    [LOSS_BLOCKED] = "blocked",
+    [LOSS_NO_AMPLITUDE] = "no_amplitude",
+    [LOSS_BELOW_THRESHOLD] = "below_threshold",
+    [LOSS_BELOW_FINAL] = "below_final_threshold",
+    [LOSS_NO_ANGLE] = "no_angle",
+    [LOSS_LIST_LIMIT] = "list_limit",
+    NULL,
+};
+
+/* 1e7 m is farther than any local frame reaches; 1e6 m is farther than any radar. */
+#define PLACE(owner, member, help)                                                                 \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, member, -1e7, 1e7, help)                                              \
+    }
+#define ANGLE(owner, member, help)                                                                 \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, member, -1e6, 1e6, help)                                              \
+    }
+#define SPEED(owner, member, help)                                                                 \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, member, -1e4, 1e4, help)                                              \
+    }
+#define SIZE(owner, member, help)                                                                  \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, member, 0, 1e6, help)                                                 \
+    }
+#define AMPLITUDE(owner, member, help)                                                             \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, member, 0, 1e308, help)                                               \
+    }
+#define POINTER(owner, member, help)                                                               \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, member, -1e308, 1e308, help)                                          \
+    }
+#define INSTANT(owner, member, help)                                                               \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, member, -1e10, 1e10, help)                                            \
+    }
+#define RANGE(owner, member, help)                                                                 \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, member, 0, 1e6, help)                                                 \
+    }
+#define AZIMUTH(owner, member, help)                                                               \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, member, -PI, PI, help)                                                \
+    }
+#define RATE(owner, member, help)                                                                  \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, member, -1e5, 1e5, help)                                              \
+    }
+#define NAME(owner, member, help)                                                                  \
+    {                                                                                              \
+        FIELD_NAME_OF(owner, member, help)                                                         \
+    }
+#define UNDECIDED(owner)                                                                           \
+    {                                                                                              \
+        FIELD_FLAG_OF(owner, sign_undecided, "the phase did not tell left from right"),            \
+            FIELD_OPTIONAL                                                                         \
+    }
+#define EXTRA(owner)                                                                               \
+    {                                                                                              \
+        FIELD_RAW_OF(owner, extra, "yours: passed on byte for byte")                               \
+    }
+#define ECHO_NAMES(owner)                                                                          \
+    NAME(owner, object, "id of the object"), NAME(owner, reflector, "name in the object's set"),   \
+    {                                                                                              \
+        FIELD_CHOICE_OF(owner, path, paths, "the way the echo took")                               \
+    }
+#define IDEAL_VALUES(owner)                                                                        \
+    RANGE(owner, range_m, "sensor to reflector, exact"),                                           \
+        AZIMUTH(owner, azimuth_rad, "from boresight, left positive, exact"),                       \
+        RATE(owner, range_rate_mps, "receding positive, exact"),                                   \
+        AMPLITUDE(owner, ercs, "equivalent radar cross section at the impinging angle"),           \
+        INSTANT(owner, time_s, "of the measurement")
+
+static const struct field object_fields[] = {
+    NAME(struct object, id, "unique in the frame"),
+    NAME(struct object, class, "names the vehicle document"),
+    PLACE(struct object, x_m, "centre of the box"),
+    PLACE(struct object, y_m, "centre of the box"),
+    ANGLE(struct object, yaw_rad, "heading of the box"),
+    SPEED(struct object, vx_mps, "velocity of the centre"),
+    SPEED(struct object, vy_mps, "velocity of the centre"),
+    {FIELD_REAL_IN(struct object, yaw_rate_radps, -1e3, 1e3, "turn rate")},
+    SIZE(struct object, length_m, "0: the default of the class"),
+    SIZE(struct object, width_m, "0: the default of the class"),
+    SIZE(struct object, height_m, "0: the default of the class"),
+    {FIELD_REAL_IN(struct object, travelled_m, 0, 1e9, "way since the scene began")},
+    EXTRA(struct object),
+    {0},
+};
+
+static const struct record object_record = {
+    .name = "object",
+    .help = "A road user or thing: truth.",
+    .size = sizeof(struct object),
+    .fields = object_fields,
+};
+
+static const struct field sensor_view_fields[] = {
+    NAME(struct sensor_view, name, "unique in the suite"),
+    PLACE(struct sensor_view, mount_x_m, "from the centre of the ego's box"),
+    PLACE(struct sensor_view, mount_y_m, "from the centre of the ego's box"),
+    ANGLE(struct sensor_view, mount_yaw_rad, "boresight, from the ego's heading"),
+    {FIELD_REAL_IN(struct sensor_view, field_of_view_rad, 0, 2 * PI, "full width")},
+    RANGE(struct sensor_view, range_max_m, "greatest range"),
+    RANGE(struct sensor_view, cell_range_m, "resolution cell, full width"),
+    RATE(struct sensor_view, cell_range_rate_mps, "resolution cell, full width"),
+    {FIELD_REAL_IN(struct sensor_view,                               cycle_s, 0, 1e6, "from scan to scan; absent: every frame"),
+                                                                              FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct sensor_view,                   measured, "is there a scan in this frame?")},
+    {0},
+};
+
+static const struct record sensor_view_record = {
+    .name = "sensor",
+    .help = "A sensor of the suite.",
+    .size = sizeof(struct sensor_view),
+    .fields = sensor_view_fields,
+};
+
+static const struct field sensors_fields[] = {
+    NAME(struct sensors, suite, "name of the suite document"),
+    NAME(struct sensors, digest, "of the suite and every table it names"),
+    {FIELD_LIST_OF(struct sensors, list, &sensor_view_record, "by name")},
+    {0},
+};
+
+static const struct record sensors_record = {
+    .name = "suite",
+    .help = "The sensors that look at this frame.",
+    .size = sizeof(struct sensors),
+    .fields = sensors_fields,
+};
+
+static const struct field echo_fields[] = {
+    NAME(struct echo, sensor, "name in the suite"),
+    ECHO_NAMES(struct echo),
+    IDEAL_VALUES(struct echo),
+    EXTRA(struct echo),
+    {0},
+};
+
+static const struct record echo_record = {
+    .name = "echo",
+    .help = "One sensor's view of one reflector along one path.",
+    .size = sizeof(struct echo),
+    .fields = echo_fields,
+};
+
+static const struct field contributor_fields[] = {
+    ECHO_NAMES(struct contributor),
+    IDEAL_VALUES(struct contributor),
+    {FIELD_REAL_IN(struct contributor, weight, 0, 1, "share of the cell's amplitude")},
+    {0},
+};
+
+static const struct record contributor_record = {
+    .name = "contributor",
+    .help = "An echo and its weight.",
+    .size = sizeof(struct contributor),
+    .fields = contributor_fields,
+};
+
+static const struct field cell_fields[] = {
+    NAME(struct cell, sensor, "name in the suite"),
+    RANGE(struct cell, range_m, "weighted mean of the members"),
+    AZIMUTH(struct cell, azimuth_rad, "of the superposed pointers, without noise"),
+    RATE(struct cell, range_rate_mps, "weighted mean of the members"),
+    AMPLITUDE(struct cell, amplitude, "sum of the members' amplitudes"),
+    POINTER(struct cell, sum_re, "sum channel without noise"),
+    POINTER(struct cell, sum_im, "sum channel without noise"),
+    POINTER(struct cell, delta_re, "delta channel without noise"),
+    POINTER(struct cell, delta_im, "delta channel without noise"),
+    UNDECIDED(struct cell),
+    {FIELD_LIST_OF(struct cell, members, &contributor_record, "the leader first")},
+    EXTRA(struct cell),
+    {0},
+};
+
+static const struct record cell_record = {
+    .name = "cell",
+    .help = "A resolution cell before noise.",
+    .size = sizeof(struct cell),
+    .fields = cell_fields,
+};
+
+static const struct field target_fields[] = {
+    NAME(struct target, sensor, "name in the suite"),
+    RANGE(struct target, range_m, "as reported"),
+    AZIMUTH(struct target, azimuth_rad, "as reported"),
+    RATE(struct target, range_rate_mps, "as reported"),
+    {FIELD_REAL_IN(struct target, amplitude_db, -1e4, 1e4, "as reported, 20 log10")},
+    UNDECIDED(struct target),
+    RANGE(struct target, cell_range_m, "without noise"),
+    AZIMUTH(struct target, cell_azimuth_rad, "without noise"),
+    RATE(struct target, cell_range_rate_mps, "without noise"),
+    AMPLITUDE(struct target, cell_amplitude, "sum of the contributors' amplitudes, linear"),
+    {FIELD_LIST_OF(struct target, contributors, &contributor_record, "the leader first")},
+    EXTRA(struct target),
+    {0},
+};
+
+static const struct record target_record = {
+    .name = "target",
+    .help = "A detection with its exact label.",
+    .size = sizeof(struct target),
+    .fields = target_fields,
+};
+
+static const struct field lost_echo_fields[] = {
+    ECHO_NAMES(struct lost_echo),
+    {FIELD_NAME_OF(struct lost_echo, by, "the object in the way"), FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct lost_echo,      shortfall_db, 0, 1e5, "below the threshold by this much"),
+                        FIELD_OPTIONAL},
+    {0                             },
+};
+
+static const struct record lost_echo_record = {
+    .name = "lost echo",
+    .help = "An echo that ended in no target.",
+    .size = sizeof(struct lost_echo),
+    .fields = lost_echo_fields,
+};
+
+static const struct field lost_group_fields[] = {
+    NAME(struct lost_group, sensor, "name in the suite"),
+    NAME(struct lost_group, stage, "that lost them"),
+    {FIELD_CHOICE_OF(struct lost_group, reason, losses, "why")},
+    {FIELD_LIST_OF(struct lost_group, echoes, &lost_echo_record, "by object, reflector, path")},
+    {0},
+};
+
+static const struct record lost_group_record = {
+    .name = "group of lost echoes",
+    .help = "Echoes that one stage lost for one reason.",
+    .size = sizeof(struct lost_group),
+    .fields = lost_group_fields,
+};
+
+static const struct field path_count_fields[] = {
+    {FIELD_CHOICE_OF(struct path_count, path, paths, "the way the echoes took")},
+    {FIELD_INTEGER_IN(struct path_count, echoes, 0, 1e12, "that were made")},
+    {0},
+};
+
+static const struct record path_count_record = {
+    .name = "count by path",
+    .help = "How many echoes took a path.",
+    .size = sizeof(struct path_count),
+    .fields = path_count_fields,
+};
+
+static const struct field count_fields[] = {
+    NAME(struct count, sensor, "name in the suite"),
+    {FIELD_INTEGER_IN(struct count, pairs, 0, 1e12, "of this sensor and a reflector")},
+    {FIELD_LIST_OF(struct count, paths, &path_count_record, "echoes made, by path")},
+    {0},
+};
+
+static const struct record count_record = {
+    .name = "count",
+    .help = "What one sensor has to account for.",
+    .size = sizeof(struct count),
+    .fields = count_fields,
+};
+
+#define SECTION(bit) FIELD_OPTIONAL, .section = (bit)
+
+static const struct field frame_fields[] = {
+    {FIELD_INTEGER_IN(struct frame,                 version, FRAME_VERSION, FRAME_VERSION, "of this schema")},
+    NAME(struct frame, scene, "unique in a set: source, ego, variant"),
+    {FIELD_INTEGER_IN(struct frame,                                frame, 0, 9007199254740991, "number in the scene, from 0")},
+    INSTANT(struct frame, time_s, "end of the interval that the frame stands for"),
+    {FIELD_REAL_IN(struct frame,                            interval_s, 1e-9, 1e6,
+     "the frame is (time_s - interval_s, time_s]")},
+    {FIELD_FLAG_OF(struct frame,                 last, "the scene's last frame"), FIELD_OPTIONAL},
+    {FIELD_SEED_OF(struct frame,                                            seed, "of every draw, 64 bits, decimal")},
+    NAME(struct frame, ego, "id of the object that carries the sensors"),
+    {FIELD_REAL_IN(struct frame,               origin_x_m, -1e9, 1e9,
+     "of the frame's coordinates in the source's"),
+     FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct frame,                    origin_y_m, -1e9, 1e9,
+     "of the frame's coordinates in the source's"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct frame,                                         account, "every echo is accounted for"), FIELD_OPTIONAL},
+    {FIELD_LIST_OF(struct frame, objects, &object_record, "truth, the ego among them"),
+     SECTION(SECTION_OBJECTS)},
+    {FIELD_LIST_OF(struct frame,                    reflectors, &reflector_set_record, "by model"),
+     SECTION(SECTION_REFLECTORS)},
+    {FIELD_RECORD_OF(struct frame,                    sensors, &sensors_record, "the suite"),
+     SECTION(SECTION_SENSORS)},
+    {FIELD_LIST_OF(struct frame,                                             echoes, &echo_record, "by sensor, object, reflector, path"),
+     SECTION(SECTION_ECHOES)},
+    {FIELD_LIST_OF(struct frame,cells, &cell_record, "by sensor and leader"),
+     SECTION(SECTION_CELLS)},
+    {FIELD_LIST_OF(struct frame,                                             targets, &target_record, "by sensor, in the sensor's order"),
+     SECTION(SECTION_TARGETS)},
+    {FIELD_LIST_OF(struct frame,                     lost, &lost_group_record, "by sensor, stage, reason"),
+     SECTION(SECTION_LOST)},
+    {FIELD_LIST_OF(struct frame,                                          counts, &count_record, "by sensor"), SECTION(SECTION_COUNTS)},
+    EXTRA(struct frame),
+    {0                               },
+};
+
+const struct record frame_record = {
+    .name = "frame",
+    .help = "All that is known about one scene in one interval of time.",
+    .size = sizeof(struct frame),
+    .fields = frame_fields,
+    .present_offset = offsetof(struct frame, present),
+};
+
+void frame_clear(struct frame *frame)
+{
+    struct arena *arena = frame->arena;
+    arena_clear(arena);
+    field_clear(&frame_record, frame);
+    frame->arena = arena;
+}
+
+static int compare_echo_names(const char *object_a, const char *reflector_a, enum path path_a,
+                              const char *object_b, const char *reflector_b, enum path path_b)
+{
+    int order = strcmp(object_a, object_b);
+    if (order == 0)
+        order = strcmp(reflector_a, reflector_b);
+    return order != 0 ? order : (path_a > path_b) - (path_a < path_b);
+}
+
+static int compare_contributors(const void *left, const void *right)
+{
+    const struct contributor *a = left, *b = right;
+    return compare_echo_names(a->object, a->reflector, a->path, b->object, b->reflector, b->path);
+}
+
+static int compare_names(const void *left, const void *right)
+{
+    return strcmp(*(const char *const *)left, *(const char *const *)right);
+}
+
+static int compare_sets(const void *left, const void *right)
+{
+    return strcmp(((const struct reflector_set *)left)->model,
+                  ((const struct reflector_set *)right)->model);
+}
+
+static int compare_views(const void *left, const void *right)
+{
+    return strcmp(((const struct sensor_view *)left)->name,
+                  ((const struct sensor_view *)right)->name);
+}
+
+static int compare_echoes(const void *left, const void *right)
+{
+    const struct echo *a = left, *b = right;
+    int order = strcmp(a->sensor, b->sensor);
+    return order != 0 ? order
+                      : compare_echo_names(a->object, a->reflector, a->path, b->object,
+                                           b->reflector, b->path);
+}
+
+static int compare_cells(const void *left, const void *right)
+{
+    const struct cell *a = left, *b = right;
+    int order = strcmp(a->sensor, b->sensor);
+    return order != 0 || a->members.count == 0 || b->members.count == 0
+               ? order
+               : compare_contributors(a->members.items, b->members.items);
+}
+
+static int compare_lost_echoes(const void *left, const void *right)
+{
+    const struct lost_echo *a = left, *b = right;
+    return compare_echo_names(a->object, a->reflector, a->path, b->object, b->reflector, b->path);
+}
+
+static int compare_lost_groups(const void *left, const void *right)
+{
+    const struct lost_group *a = left, *b = right;
+    int order = strcmp(a->sensor, b->sensor);
+    if (order == 0)
+        order = strcmp(a->stage, b->stage);
+    return order != 0 ? order : (a->reason > b->reason) - (a->reason < b->reason);
+}
+
+static int compare_counts(const void *left, const void *right)
+{
+    return strcmp(((const struct count *)left)->sensor, ((const struct count *)right)->sensor);
+}
+
+#define SORT(list, compare)                                                                        \
+    do {                                                                                           \
+        if ((list).count > 1)                                                                      \
+            qsort((list).items, (list).count, sizeof *(list).items, (compare));                    \
+    } while (0)
+
+/* Targets keep the order of their list, so this must be stable; few sensors, nearly sorted. */
+static void group_targets(struct frame *frame)
+{
+    struct target *target = frame->targets.items;
+    for (size_t i = 1; i < frame->targets.count; i++) {
+        struct target moving = target[i];
+        size_t place = i;
+        for (; place > 0 && strcmp(target[place - 1].sensor, moving.sensor) > 0; place--)
+            target[place] = target[place - 1];
+        target[place] = moving;
+    }
+}
+
+void frame_order(struct frame *frame)
+{
+    SORT(frame->reflectors, compare_sets);
+    for (size_t i = 0; i < frame->reflectors.count; i++)
+        SORT(frame->reflectors.items[i].worn_by, compare_names);
+    SORT(frame->sensors.list, compare_views);
+    SORT(frame->echoes, compare_echoes);
+    for (size_t i = 0; i < frame->cells.count; i++) {
+        struct cell *cell = &frame->cells.items[i];
+        if (cell->members.count > 2)
+            qsort(cell->members.items + 1, cell->members.count - 1, sizeof *cell->members.items,
+                  compare_contributors);
+    }
+    SORT(frame->cells, compare_cells);
+    group_targets(frame);
+    SORT(frame->lost, compare_lost_groups);
+    for (size_t i = 0; i < frame->lost.count; i++)
+        SORT(frame->lost.items[i].echoes, compare_lost_echoes);
+    SORT(frame->counts, compare_counts);
+}
+
+const char *frame_section_name(enum section section)
+{
+    for (const struct field *field = frame_fields; field->name != NULL; field++)
+        if (field->section == section)
+            return field->name;
+    return "?";
+}
+
+void frame_drop(struct frame *frame, unsigned sections)
+{
+    for (const struct field *field = frame_fields; field->name != NULL; field++) {
+        if ((field->section & sections) == 0)
+            continue;
+        size_t size =
+            field->kind == FIELD_RECORD ? field->record->size : sizeof(LIST_OF(struct object));
+        memset((char *)frame + field->offset, 0, size);
+    }
+    frame->present &= ~sections;
+}
+
+int frame_check_objects(const struct frame *frame, struct diag *diag)
+{
+    size_t count = frame->objects.count;
+    const char **ids = arena_get(frame->arena, (count + 1) * sizeof *ids);
+    for (size_t i = 0; i < count; i++)
+        ids[i] = frame->objects.items[i].id;
+    qsort(ids, count, sizeof *ids, compare_names);
+    for (size_t i = 1; i < count; i++)
+        if (strcmp(ids[i - 1], ids[i]) == 0)
+            return diag_fail(diag, DIAG_DATA, "objects: the id \"%s\" stands twice", ids[i]);
+    if (frame_object(frame, frame->ego) == NULL)
+        return diag_fail(diag, DIAG_DATA, "ego: \"%s\" is not among the objects", frame->ego);
+    return 0;
+}
+
+struct object *frame_object(const struct frame *frame, const char *id)
+{
+    for (size_t i = 0; i < frame->objects.count; i++)
+        if (strcmp(frame->objects.items[i].id, id) == 0)
+            return &frame->objects.items[i];
+    return NULL;
+}
+
+struct echo_span frame_echoes_of(const struct frame *frame, const char *sensor)
+{
+    size_t first = 0, end;
+    while (first < frame->echoes.count && strcmp(frame->echoes.items[first].sensor, sensor) != 0)
+        first++;
+    for (end = first; end < frame->echoes.count; end++)
+        if (strcmp(frame->echoes.items[end].sensor, sensor) != 0)
+            break;
+    return (struct echo_span){frame->echoes.items + first, end - first};
+}
+
+struct cell_span frame_cells_of(const struct frame *frame, const char *sensor)
+{
+    size_t first = 0, end;
+    while (first < frame->cells.count && strcmp(frame->cells.items[first].sensor, sensor) != 0)
+        first++;
+    for (end = first; end < frame->cells.count; end++)
+        if (strcmp(frame->cells.items[end].sensor, sensor) != 0)
+            break;
+    return (struct cell_span){frame->cells.items + first, end - first};
+}
+
+int frame_compare_tied(const struct contributor *a, const struct contributor *b)
+{
+    if (a->range_m != b->range_m)
+        return a->range_m < b->range_m ? -1 : 1;
+    if (a->range_rate_mps != b->range_rate_mps)
+        return a->range_rate_mps < b->range_rate_mps ? -1 : 1;
+    if (a->azimuth_rad != b->azimuth_rad)
+        return a->azimuth_rad < b->azimuth_rad ? -1 : 1;
+    return compare_contributors(a, b);
+}
+
+struct contributor frame_contributor(const struct echo *echo)
+{
+    return (struct contributor){
+        .object = echo->object,
+        .reflector = echo->reflector,
+        .path = echo->path,
+        .range_m = echo->range_m,
+        .azimuth_rad = echo->azimuth_rad,
+        .range_rate_mps = echo->range_rate_mps,
+        .ercs = echo->ercs,
+        .time_s = echo->time_s,
+    };
+}
+
+void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum loss reason,
+                const struct lost_echo *echo)
+{
+    if (!frame->account)
+        return;
+    struct lost_group *group = NULL;
+    for (size_t i = 0; i < frame->lost.count && group == NULL; i++) {
+        struct lost_group *candidate = &frame->lost.items[i];
+        if (candidate->reason == reason && strcmp(candidate->stage, stage) == 0 &&
+            strcmp(candidate->sensor, sensor) == 0)
+            group = candidate;
+    }
+    if (group == NULL) {
+        group = list_add(&frame->lost, frame->arena);
+        *group = (struct lost_group){.sensor = sensor, .stage = stage, .reason = reason};
+        frame->present |= SECTION_LOST;
+    }
+    *list_add(&group->echoes, frame->arena) = *echo;
+}
+
+void frame_lose_echo(struct frame *frame, const char *stage, const struct echo *echo,
+                     enum loss reason)
+{
+    frame_lose(frame, stage, echo->sensor, reason,
+               &(struct lost_echo){
+                   .object = echo->object, .reflector = echo->reflector, .path = echo->path});
+}
+
+void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *cell,
+                     enum loss reason, double shortfall_db)
+{
+    for (size_t i = 0; i < cell->members.count; i++) {
+        const struct contributor *member = &cell->members.items[i];
+        frame_lose(frame, stage, cell->sensor, reason,
+                   &(struct lost_echo){.object = member->object,
+                                       .reflector = member->reflector,
+                                       .path = member->path,
+                                       .shortfall_db = shortfall_db});
+    }
+}
+
+struct target *frame_add_target(struct frame *frame, const struct cell *cell, double amplitude_db)
+{
+    struct target *target = list_add(&frame->targets, frame->arena);
+    *target = (struct target){
+        .sensor = cell->sensor,
+        .range_m = cell->range_m,
+        .azimuth_rad = cell->azimuth_rad,
+        .range_rate_mps = cell->range_rate_mps,
+        .amplitude_db = amplitude_db,
+        .sign_undecided = cell->sign_undecided,
+        .cell_range_m = cell->range_m,
+        .cell_azimuth_rad = cell->azimuth_rad,
+        .cell_range_rate_mps = cell->range_rate_mps,
+        .cell_amplitude = cell->amplitude,
+    };
+    target->contributors.items = cell->members.items;
+    target->contributors.count = cell->members.count;
+    return target;
+}

@@ -1,0 +1,257 @@
+#include "frame_text.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+#include "json_scan.h"
+#include "number.h"
+
+static int read_record(struct json_scan *scan, const struct record *record, void *base);
+
+static int read_list(struct json_scan *scan, const struct field *field, void *base)
+{
+    if (!json_scan_take(scan, '['))
+        return field_wrong_kind(field, json_scan_kind(scan), scan->diag);
+    if (json_scan_take(scan, ']'))
+        return 0;
+    for (size_t i = 0;; i++) {
+        if (json_scan_peek(scan) != '{')
+            return diag_fail(scan->diag, DIAG_DATA, "%s[%zu]: %s; expected an object", field->name,
+                             i, json_scan_kind(scan));
+        void *item = field_list_add(field, base, scan->arena);
+        if (read_record(scan, field->record, item) != 0)
+            return diag_prefix(scan->diag, "%s[%zu].", field->name, i);
+        if (json_scan_take(scan, ']'))
+            return 0;
+        if (!json_scan_take(scan, ','))
+            return json_scan_unexpected(scan, "',' or ']'");
+    }
+}
+
+static int read_names(struct json_scan *scan, const struct field *field, void *base)
+{
+    if (!json_scan_take(scan, '['))
+        return field_wrong_kind(field, json_scan_kind(scan), scan->diag);
+    if (json_scan_take(scan, ']'))
+        return 0;
+    const struct field item = {.name = field->name, .kind = FIELD_NAME};
+    for (;;) {
+        struct json_string name;
+        if (json_scan_string(scan, &name) != 0 ||
+            field_set_text(&item, field_list_add(field, base, scan->arena), name.text, name.length,
+                           scan->arena, scan->diag) != 0)
+            return -1;
+        if (json_scan_take(scan, ']'))
+            return 0;
+        if (!json_scan_take(scan, ','))
+            return json_scan_unexpected(scan, "',' or ']'");
+    }
+}
+
+static int read_raw(struct json_scan *scan, const struct field *field, void *base)
+{
+    struct json_string bytes;
+    if (json_scan_value(scan, &bytes) != 0)
+        return diag_prefix(scan->diag, "%s: ", field->name);
+    if (bytes.length > FIELD_RAW_SIZE)
+        return diag_fail(scan->diag, DIAG_DATA, "%s: %zu bytes; at most %d may be carried",
+                         field->name, bytes.length, FIELD_RAW_SIZE);
+    const char *copy = arena_text(scan->arena, bytes.text, bytes.length);
+    memcpy((char *)base + field->offset, &copy, sizeof copy);
+    return 0;
+}
+
+static int read_member(struct json_scan *scan, const struct field *field, void *base)
+{
+    char first = json_scan_peek(scan);
+    struct json_string string;
+    double number;
+    bool flag;
+    if (field->kind == FIELD_RAW)
+        return read_raw(scan, field, base);
+    if (field->kind == FIELD_NAMES)
+        return read_names(scan, field, base);
+    if (field->kind == FIELD_LIST)
+        return read_list(scan, field, base);
+    if (field->kind == FIELD_RECORD) {
+        if (first != '{')
+            return field_wrong_kind(field, json_scan_kind(scan), scan->diag);
+        if (read_record(scan, field->record, (char *)base + field->offset) != 0)
+            return diag_prefix(scan->diag, "%s.", field->name);
+        return 0;
+    }
+    if (first == '"')
+        return json_scan_string(scan, &string) != 0
+                   ? diag_prefix(scan->diag, "%s: ", field->name)
+                   : field_set_text(field, base, string.text, string.length, scan->arena,
+                                    scan->diag);
+    if (first == '-' || (first >= '0' && first <= '9'))
+        return json_scan_number(scan, &number) != 0
+                   ? diag_prefix(scan->diag, "%s: ", field->name)
+                   : field_set_number(field, base, number, scan->diag);
+    if (field->kind == FIELD_FLAG && (first == 't' || first == 'f')) {
+        if (json_scan_flag(scan, &flag) != 0)
+            return diag_prefix(scan->diag, "%s: ", field->name);
+        memcpy((char *)base + field->offset, &flag, sizeof flag);
+        return 0;
+    }
+    if (first != '\0' && strchr("{[tfn", first) != NULL)
+        return field_wrong_kind(field, json_scan_kind(scan), scan->diag);
+    json_scan_unexpected(scan, "a value");
+    return diag_prefix(scan->diag, "%s: ", field->name);
+}
+
+static int read_record(struct json_scan *scan, const struct record *record, void *base)
+{
+    json_scan_take(scan, '{');
+    uint64_t seen = 0;
+    size_t hint = 0;
+    bool empty = json_scan_take(scan, '}');
+    while (!empty) {
+        struct json_string key;
+        if (json_scan_string(scan, &key) != 0)
+            return -1;
+        const struct field *field = field_find(record, key.text, key.length, hint);
+        if (field == NULL || field->kind == FIELD_NOTES)
+            return field_unknown(record, key.text, key.length, scan->diag);
+        size_t index = (size_t)(field - record->fields);
+        if ((seen >> index & 1) != 0)
+            return field_twice(field, scan->diag);
+        seen |= UINT64_C(1) << index;
+        hint = index + 1;
+        if (!json_scan_take(scan, ':'))
+            return json_scan_unexpected(scan, "':'");
+        if (read_member(scan, field, base) != 0)
+            return -1;
+        field_mark_present(record, field, base);
+        if (json_scan_take(scan, '}'))
+            break;
+        if (!json_scan_take(scan, ','))
+            return json_scan_unexpected(scan, "',' or '}'");
+    }
+    return field_require(record, seen, scan->diag);
+}
+
+int frame_text_read(const char *line, size_t length, struct frame *frame, struct diag *diag)
+{
+    frame_clear(frame);
+    struct json_scan scan = {line, line + length, frame->arena, diag};
+    char first = json_scan_peek(&scan);
+    if (first != '{')
+        return scan.at == scan.end ? diag_fail(diag, DIAG_DATA, "an empty line; expected a frame")
+                                   : json_scan_unexpected(&scan, "a frame");
+    if (read_record(&scan, &frame_record, frame) != 0)
+        return -1;
+    json_scan_peek(&scan);
+    return scan.at == scan.end ? 0 : json_scan_unexpected(&scan, "the end of the line");
+}
+
+static void write_record(const struct record *record, const void *base, struct text *text);
+
+static void write_real(double value, struct text *text)
+{
+    text->length += number_write(value, text_room(text, NUMBER_SIZE));
+}
+
+static void write_list(const struct field *field, const void *base, struct text *text)
+{
+    struct field_list list = field_list(field, base);
+    text_add(text, "[", 1);
+    for (size_t i = 0; i < list.count; i++) {
+        if (i > 0)
+            text_add(text, ",", 1);
+        if (field->kind == FIELD_LIST) {
+            write_record(field->record, (const char *)list.items + i * field->record->size, text);
+        } else {
+            const char *name = ((const char *const *)list.items)[i];
+            text_add_json(text, name, strlen(name));
+        }
+    }
+    text_add(text, "]", 1);
+}
+
+static void write_member(const struct field *field, const void *base, struct text *text)
+{
+    const void *member = (const char *)base + field->offset;
+    union {
+        double real;
+        int64_t integer;
+        uint64_t seed;
+        const char *words;
+        int choice;
+        bool flag;
+    } value;
+    switch (field->kind) {
+    case FIELD_REAL:
+        memcpy(&value.real, member, sizeof value.real);
+        write_real(value.real, text);
+        break;
+    case FIELD_INTEGER:
+        memcpy(&value.integer, member, sizeof value.integer);
+        text_format(text, "%" PRId64, value.integer);
+        break;
+    case FIELD_SEED:
+        memcpy(&value.seed, member, sizeof value.seed);
+        text_format(text, "\"%" PRIu64 "\"", value.seed);
+        break;
+    case FIELD_FLAG:
+        memcpy(&value.flag, member, sizeof value.flag);
+        text_add_word(text, value.flag ? "true" : "false");
+        break;
+    case FIELD_NAME:
+        memcpy(&value.words, member, sizeof value.words);
+        text_add_json(text, value.words, strlen(value.words));
+        break;
+    case FIELD_RAW:
+        memcpy(&value.words, member, sizeof value.words);
+        text_add_word(text, value.words);
+        break;
+    case FIELD_CHOICE:
+        memcpy(&value.choice, member, sizeof value.choice);
+        text_add_json(text, field->choices[value.choice], strlen(field->choices[value.choice]));
+        break;
+    case FIELD_RECORD:
+        write_record(field->record, member, text);
+        break;
+    case FIELD_LIST:
+    case FIELD_NAMES:
+        write_list(field, base, text);
+        break;
+    case FIELD_NOTES:
+        break;
+    }
+}
+
+static void write_record(const struct record *record, const void *base, struct text *text)
+{
+    char separator = '{';
+    for (const struct field *field = record->fields; field->name != NULL; field++) {
+        if (!field_present(record, field, base))
+            continue;
+        size_t length = strlen(field->name);
+        char *key = text_room(text, length + 4);
+        key[0] = separator;
+        key[1] = '"';
+        memcpy(key + 2, field->name, length);
+        key[length + 2] = '"';
+        key[length + 3] = ':';
+        text->length += length + 4;
+        write_member(field, base, text);
+        separator = ',';
+    }
+    text_add_word(text, separator == '{' ? "{}" : "}");
+}
+
+int frame_text_write(const struct frame *frame, struct text *text, struct diag *diag)
+{
+    size_t begin = text->length;
+    write_record(&frame_record, frame, text);
+    text_add(text, "\n", 1);
+    size_t length = text->length - begin;
+    if (length > FRAME_TEXT_SIZE) {
+        text->length = begin;
+        return diag_fail(diag, DIAG_DATA, "a line of %zu bytes; at most %d are allowed", length,
+                         FRAME_TEXT_SIZE);
+    }
+    return 0;
+}

@@ -1,0 +1,191 @@
+#include "fused.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "chain.h"
+#include "document.h"
+#include "input.h"
+#include "pipeline.h"
+#include "schema.h"
+
+static const char usage[] =
+    "Usage: glint FILE\n"
+    "  or:  glint -c TEXT\n"
+    "  or:  glint --list stages | schemas\n"
+    "  or:  glint --schema NAME\n"
+    "Run a pipeline of glint stages in one process: the same text that bash would run,\n"
+    "the same bytes, the same exit code, without the pipes.\n"
+    "\n"
+    "Understood are words, quotes, comments, continued lines, | and the line\n"
+    "`set -o pipefail`; anything else is refused with its line.\n"
+    "\n"
+    "Options:\n"
+    "  -c TEXT              the pipeline itself\n"
+    "      --list WHAT      list the stages, or the schemas\n"
+    "      --schema NAME    print a JSON Schema\n"
+    "      --help           print this help\n"
+    "      --version        print the version\n"
+    "\n"
+    "Exit status: that of the rightmost failing stage, as under bash's pipefail; 64 if the\n"
+    "text is refused.\n";
+
+static int complain(const struct diag *diag)
+{
+    fprintf(stderr, "glint: %s\n", diag->text);
+    return (int)diag->code;
+}
+
+static const struct stage *find_stage(const char *program)
+{
+    const char *slash = strrchr(program, '/');
+    const char *name = slash != NULL ? slash + 1 : program;
+    if (strncmp(name, "glint-", 6) != 0)
+        return NULL;
+    for (size_t i = 0; stages[i] != NULL; i++)
+        if (strcmp(stages[i]->name, name + 6) == 0)
+            return stages[i];
+    return NULL;
+}
+
+/* What a pipe would do differently in one process is refused, not approximated. */
+static int check_place(const struct runner *runner, const struct command *command, size_t index,
+                       size_t count, struct diag *diag)
+{
+    const struct stage *stage = runner->stage;
+    const char *fault = NULL;
+    if (index > 0 && stage->next != NULL)
+        fault = "is a source and can only stand first";
+    else if (index > 0 && runner->common.files.count > 0)
+        fault = "reads files, so it can only stand first";
+    else if (index + 1 < count && stage->sink)
+        fault = "writes no frames, so it can only stand last";
+    else if (index + 1 < count && runner->common.output != NULL)
+        fault = "writes to a file, so it can only stand last";
+    else if (runner->common.help || runner->common.version)
+        fault = "was asked for --help or --version";
+    if (fault == NULL)
+        return 0;
+    return diag_fail(diag, DIAG_USAGE, "%zu: glint-%s %s; run it with bash", command->line,
+                     stage->name, fault);
+}
+
+/* Runs the commands; a stage that refuses its command line counts as failed, as it would in a
+ * pipe, and the rightmost one gives the code. */
+static int run_commands(const struct pipeline *pipeline, struct runner *runners, struct diag *diag)
+{
+    size_t count = pipeline->commands.count;
+    int code = DIAG_OK;
+    for (size_t i = 0; i < count; i++) {
+        const struct command *command = &pipeline->commands.items[i];
+        const struct stage *stage = find_stage(command->words.items[0]);
+        if (stage == NULL)
+            return diag_fail(diag, DIAG_USAGE,
+                             "%zu: %s is no stage of this build; run it with bash", command->line,
+                             command->words.items[0]);
+        if (runner_prepare(&runners[i], stage, command->words.count - 1,
+                           command->words.items + 1) != 0) {
+            chain_complain(&runners[i]);
+            code = (int)runners[i].diag.code;
+        } else if (check_place(&runners[i], command, i, count, diag) != 0) {
+            return -1;
+        }
+    }
+    return code != DIAG_OK ? code : chain_run(runners, count);
+}
+
+static int run_text(const char *name, const char *text, size_t length, struct arena *arena)
+{
+    struct diag diag = {0};
+    struct pipeline pipeline;
+    if (pipeline_parse(text, length, &pipeline, arena, &diag) != 0) {
+        diag_prefix(&diag, "%s:", name);
+        return complain(&diag);
+    }
+    size_t count = pipeline.commands.count;
+    struct runner *runners = arena_get(arena, count * sizeof *runners);
+    int code = run_commands(&pipeline, runners, &diag);
+    for (size_t i = 0; i < count; i++)
+        runner_free(&runners[i]);
+    if (diag.code == DIAG_OK)
+        return code;
+    diag_prefix(&diag, "%s:", name);
+    return complain(&diag);
+}
+
+static int run_file(const char *path, struct arena *arena)
+{
+    struct diag diag = {0};
+    struct text text = {0};
+    int code;
+    if (document_bytes(path, &text, &diag) != 0)
+        code = complain(&diag);
+    else
+        code = run_text(path, text.bytes, text.length, arena);
+    text_free(&text);
+    return code;
+}
+
+static int print(const char *bytes, size_t length)
+{
+    struct diag diag = {0};
+    struct output *output = output_open("-", &diag);
+    output_write(output, bytes, length, &diag);
+    output_close(output, 1, &diag);
+    return diag.code == DIAG_OK ? 0 : complain(&diag);
+}
+
+static int list(const char *what)
+{
+    struct text text = {0};
+    bool known = true;
+    if (strcmp(what, "stages") == 0)
+        for (size_t i = 0; stages[i] != NULL; i++)
+            text_format(&text, "glint-%-16s %s\n", stages[i]->name, stages[i]->summary);
+    else if (strcmp(what, "schemas") == 0)
+        schema_list(&text);
+    else
+        known = false;
+    int code = known ? print(text.bytes, text.length)
+                     : complain(&(struct diag){DIAG_USAGE, "--list takes stages or schemas"});
+    text_free(&text);
+    return code;
+}
+
+static int print_schema(const char *name)
+{
+    struct text text = {0};
+    int code = schema_write(name, &text)
+                   ? print(text.bytes, text.length)
+                   : complain(&(struct diag){DIAG_USAGE, "no such schema; see --list schemas"});
+    text_free(&text);
+    return code;
+}
+
+static int run(int count, char **words, struct arena *arena)
+{
+    const char *first = count > 1 ? words[1] : "", *second = count > 2 ? words[2] : NULL;
+    if (strcmp(first, "--help") == 0)
+        return print(usage, sizeof usage - 1);
+    if (strcmp(first, "--version") == 0)
+        return print("glint (glint) " GLINT_VERSION "\n", sizeof "glint (glint) " GLINT_VERSION);
+    if (count == 3 && strcmp(first, "-c") == 0)
+        return run_text("-c", second, strlen(second), arena);
+    if (count == 3 && strcmp(first, "--list") == 0)
+        return list(second);
+    if (count == 3 && strcmp(first, "--schema") == 0)
+        return print_schema(second);
+    if (count == 2 && (first[0] != '-' || first[1] == '\0'))
+        return run_file(first, arena);
+    return complain(
+        &(struct diag){DIAG_USAGE, "expected a FILE, -c TEXT or an option; see --help"});
+}
+
+int fused_main(int count, char **words)
+{
+    document_guard_memory();
+    struct arena arena = {0};
+    int code = run(count, words, &arena);
+    arena_free(&arena);
+    return code;
+}

@@ -1,0 +1,13 @@
+/* `glint`: a whole pipeline in one process. */
+#ifndef FUSED_H
+#define FUSED_H
+
+#include "stage.h"
+
+/* Every stage of the build, NULL at the end: made from the listing of stages/ by the Makefile. */
+extern const struct stage *const stages[];
+
+/* The whole of glint's main. */
+int fused_main(int count, char **words);
+
+#endif

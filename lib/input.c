@@ -1,0 +1,195 @@
+#include "input.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <zlib.h>
+
+#include "memory.h"
+
+enum { RAW_SIZE = 64 * 1024, LINE_STEP = 64 * 1024 };
+
+struct input {
+    int fd;
+    const char *name;
+    unsigned char raw[RAW_SIZE];
+    size_t raw_at, raw_end;
+    bool sniffed, gzip, inside_member;
+    z_stream stream;
+    struct text line; /* unpacked bytes that no line has used yet lie behind line_at */
+    size_t line_at;
+};
+
+struct input *input_open(const char *path, struct diag *diag)
+{
+    bool standard = strcmp(path, "-") == 0;
+    int fd = standard ? STDIN_FILENO : open(path, O_RDONLY);
+    if (fd < 0) {
+        diag_fail(diag, DIAG_NO_INPUT, "%s: %s", path, strerror(errno));
+        return NULL;
+    }
+    struct input *input = memory_get(sizeof *input);
+    memset(input, 0, sizeof *input);
+    input->fd = fd;
+    input->name = standard ? "stdin" : path;
+    return input;
+}
+
+void input_close(struct input *input)
+{
+    if (input == NULL)
+        return;
+    if (input->gzip)
+        inflateEnd(&input->stream);
+    if (input->fd != STDIN_FILENO)
+        close(input->fd);
+    text_free(&input->line);
+    free(input);
+}
+
+const char *input_name(const struct input *input)
+{
+    return input->name;
+}
+
+/* Makes sure that there are raw bytes: 1, 0 at the end of the file, -1 after a message. */
+static int fill(struct input *input, struct diag *diag)
+{
+    if (input->raw_at < input->raw_end)
+        return 1;
+    ssize_t got;
+    do
+        got = read(input->fd, input->raw, RAW_SIZE);
+    while (got < 0 && errno == EINTR);
+    if (got < 0)
+        return diag_fail(diag, errno == EISDIR ? DIAG_NO_INPUT : DIAG_IO, "%s", strerror(errno));
+    input->raw_at = 0;
+    input->raw_end = (size_t)got;
+    return got > 0;
+}
+
+static int start_member(struct input *input, struct diag *diag)
+{
+    int done = input->inside_member ? Z_OK
+               : input->gzip        ? inflateReset(&input->stream)
+                                    : inflateInit2(&input->stream, 16 + MAX_WBITS);
+    if (done == Z_MEM_ERROR)
+        memory_get((size_t)-1);
+    if (done != Z_OK)
+        return diag_fail(diag, DIAG_INTERNAL, "zlib refuses to start");
+    input->gzip = input->inside_member = true;
+    return 0;
+}
+
+static int sniff(struct input *input, struct diag *diag)
+{
+    input->sniffed = true;
+    int more = fill(input, diag);
+    if (more <= 0)
+        return more;
+    if (input->raw_end == 1) {
+        ssize_t got = read(input->fd, input->raw + 1, RAW_SIZE - 1);
+        input->raw_end += got > 0 ? (size_t)got : 0;
+    }
+    bool gzip = input->raw_end >= 2 && input->raw[0] == 0x1f && input->raw[1] == 0x8b;
+    return gzip ? start_member(input, diag) : 0;
+}
+
+static long read_plain(struct input *input, char *bytes, size_t size, struct diag *diag)
+{
+    int more = fill(input, diag);
+    if (more <= 0)
+        return more;
+    size_t ready = input->raw_end - input->raw_at;
+    size_t taken = ready < size ? ready : size;
+    memcpy(bytes, input->raw + input->raw_at, taken);
+    input->raw_at += taken;
+    return (long)taken;
+}
+
+static long read_gzip(struct input *input, char *bytes, size_t size, struct diag *diag)
+{
+    z_stream *stream = &input->stream;
+    stream->next_out = (unsigned char *)bytes;
+    stream->avail_out = (unsigned)(size < (1u << 30) ? size : 1u << 30);
+    unsigned room = stream->avail_out;
+    while (stream->avail_out == room) {
+        int more = fill(input, diag);
+        if (more < 0)
+            return -1;
+        if (more == 0 && !input->inside_member)
+            return 0;
+        if (more == 0)
+            return diag_fail(diag, DIAG_DATA, "the gzip data ends early");
+        if (start_member(input, diag) != 0)
+            return -1;
+        stream->next_in = input->raw + input->raw_at;
+        stream->avail_in = (unsigned)(input->raw_end - input->raw_at);
+        int done = inflate(stream, Z_NO_FLUSH);
+        input->raw_at = input->raw_end - stream->avail_in;
+        if (done == Z_MEM_ERROR)
+            memory_get((size_t)-1);
+        if (done == Z_STREAM_END)
+            input->inside_member = false;
+        else if (done != Z_OK)
+            return diag_fail(diag, DIAG_DATA, "damaged gzip data: %s",
+                             stream->msg != NULL ? stream->msg : "no message");
+    }
+    return (long)(room - stream->avail_out);
+}
+
+long input_read(struct input *input, char *bytes, size_t size, struct diag *diag)
+{
+    if (!input->sniffed && sniff(input, diag) != 0)
+        return -1;
+    return input->gzip ? read_gzip(input, bytes, size, diag) : read_plain(input, bytes, size, diag);
+}
+
+int input_line(struct input *input, size_t limit, const char **line, size_t *length,
+               struct diag *diag)
+{
+    struct text *held = &input->line;
+    size_t searched = input->line_at;
+    for (;;) {
+        const char *newline = held->length > searched
+                                  ? memchr(held->bytes + searched, '\n', held->length - searched)
+                                  : NULL;
+        size_t begin = input->line_at;
+        size_t end = newline != NULL ? (size_t)(newline - held->bytes) : held->length;
+        if (end - begin > limit)
+            return diag_fail(diag, DIAG_DATA, "a line of more than %zu bytes", limit);
+        if (newline == NULL) {
+            memmove(held->bytes, held->bytes + begin, held->length - begin);
+            held->length -= begin;
+            input->line_at = 0;
+            searched = held->length;
+            long got = input_read(input, text_room(held, LINE_STEP), LINE_STEP, diag);
+            if (got < 0)
+                return -1;
+            held->length += (size_t)got;
+            if (got > 0)
+                continue;
+            if (held->length == 0)
+                return 0;
+            begin = 0;
+            end = held->length;
+        }
+        *line = held->bytes + begin;
+        *length = end - begin;
+        input->line_at = newline != NULL ? end + 1 : end;
+        return 1;
+    }
+}
+
+int input_all(struct input *input, struct text *text, struct diag *diag)
+{
+    for (;;) {
+        long got = input_read(input, text_room(text, LINE_STEP), LINE_STEP, diag);
+        if (got <= 0)
+            return (int)got;
+        text->length += (size_t)got;
+    }
+}

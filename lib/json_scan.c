@@ -1,0 +1,312 @@
+#include "json_scan.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "number.h"
+
+char json_scan_peek(struct json_scan *scan)
+{
+    while (scan->at < scan->end && (*scan->at == ' ' || *scan->at == '\t' || *scan->at == '\r'))
+        scan->at++;
+    return scan->at < scan->end ? *scan->at : '\0';
+}
+
+bool json_scan_take(struct json_scan *scan, char character)
+{
+    if (json_scan_peek(scan) != character || scan->at == scan->end)
+        return false;
+    scan->at++;
+    return true;
+}
+
+int json_scan_unexpected(struct json_scan *scan, const char *what)
+{
+    if (json_scan_peek(scan) == '\0' && scan->at == scan->end)
+        return diag_fail(scan->diag, DIAG_DATA, "the line ends where %s is expected", what);
+    unsigned char byte = (unsigned char)*scan->at;
+    if (byte < 0x20 || byte >= 0x7f)
+        return diag_fail(scan->diag, DIAG_DATA, "byte 0x%02x where %s is expected", byte, what);
+    return diag_fail(scan->diag, DIAG_DATA, "'%c' where %s is expected", byte, what);
+}
+
+/* The length of the UTF-8 sequence at text, or 0 if it is none (overlong, surrogate, too large). */
+static size_t utf8_length(const unsigned char *text, size_t room)
+{
+    size_t length = text[0] < 0x80   ? 1
+                    : text[0] < 0xc2 ? 0
+                    : text[0] < 0xe0 ? 2
+                    : text[0] < 0xf0 ? 3
+                    : text[0] < 0xf5 ? 4
+                                     : 0;
+    if (length == 0 || length > room)
+        return 0;
+    for (size_t i = 1; i < length; i++)
+        if ((text[i] & 0xc0) != 0x80)
+            return 0;
+    bool overlong = (text[0] == 0xe0 && text[1] < 0xa0) || (text[0] == 0xf0 && text[1] < 0x90);
+    bool surrogate = text[0] == 0xed && text[1] >= 0xa0;
+    bool beyond = text[0] == 0xf4 && text[1] >= 0x90;
+    return overlong || surrogate || beyond ? 0 : length;
+}
+
+static size_t utf8_write(uint32_t code, char *out)
+{
+    if (code < 0x80) {
+        out[0] = (char)code;
+        return 1;
+    }
+    size_t length = code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
+    static const unsigned char lead[] = {0, 0, 0xc0, 0xe0, 0xf0};
+    for (size_t i = length - 1; i > 0; i--, code >>= 6)
+        out[i] = (char)(0x80 | (code & 0x3f));
+    out[0] = (char)(lead[length] | code);
+    return length;
+}
+
+static int hex_digit(char character)
+{
+    return character >= '0' && character <= '9'   ? character - '0'
+           : character >= 'a' && character <= 'f' ? character - 'a' + 10
+           : character >= 'A' && character <= 'F' ? character - 'A' + 10
+                                                  : -1;
+}
+
+/* Four hexadecimal digits; -1 if they are not there. */
+static int32_t hex4(const char *at, const char *end)
+{
+    if (end - at < 4)
+        return -1;
+    int32_t code = 0;
+    for (int i = 0; i < 4; i++) {
+        int digit = hex_digit(at[i]);
+        if (digit < 0)
+            return -1;
+        code = code << 4 | digit;
+    }
+    return code;
+}
+
+/* Decodes the escape after the backslash at *at and moves *at past it; 0 bytes if it is none. */
+static size_t unescape(const char **at, const char *end, char *out)
+{
+    static const char names[] = "\"\\/bfnrt", meanings[] = "\"\\/\b\f\n\r\t";
+    if (*at == end)
+        return 0;
+    char escape = *(*at)++;
+    const char *simple = escape != '\0' ? strchr(names, escape) : NULL;
+    if (simple != NULL) {
+        *out = meanings[simple - names];
+        return 1;
+    }
+    int32_t code = escape == 'u' ? hex4(*at, end) : -1;
+    if (code <= 0 || (code >= 0xdc00 && code < 0xe000))
+        return 0;
+    *at += 4;
+    if (code < 0xd800 || code >= 0xe000)
+        return utf8_write((uint32_t)code, out);
+    int32_t low = end - *at >= 6 && (*at)[0] == '\\' && (*at)[1] == 'u' ? hex4(*at + 2, end) : -1;
+    if (low < 0xdc00 || low >= 0xe000)
+        return 0;
+    *at += 6;
+    return utf8_write(0x10000 + ((uint32_t)(code - 0xd800) << 10) + (uint32_t)(low - 0xdc00), out);
+}
+
+/* Past the closing quote; counts escapes so that the caller knows whether to decode. */
+static int skip_string(struct json_scan *scan, size_t *escapes)
+{
+    *escapes = 0;
+    while (scan->at < scan->end && *scan->at != '"') {
+        unsigned char byte = (unsigned char)*scan->at;
+        if (byte < 0x20)
+            return diag_fail(scan->diag, DIAG_DATA, "control character 0x%02x in a string", byte);
+        if (byte == '\\') {
+            char decoded[4];
+            scan->at++;
+            ++*escapes;
+            if (unescape(&scan->at, scan->end, decoded) == 0)
+                return diag_fail(scan->diag, DIAG_DATA, "a bad escape in a string");
+            continue;
+        }
+        size_t length =
+            utf8_length((const unsigned char *)scan->at, (size_t)(scan->end - scan->at));
+        if (length == 0)
+            return diag_fail(scan->diag, DIAG_DATA, "byte 0x%02x in a string is not UTF-8", byte);
+        scan->at += length;
+    }
+    if (scan->at == scan->end)
+        return diag_fail(scan->diag, DIAG_DATA, "the line ends inside a string");
+    scan->at++;
+    return 0;
+}
+
+int json_scan_string(struct json_scan *scan, struct json_string *string)
+{
+    if (!json_scan_take(scan, '"'))
+        return json_scan_unexpected(scan, "a string");
+    const char *begin = scan->at;
+    size_t escapes;
+    if (skip_string(scan, &escapes) != 0)
+        return -1;
+    *string = (struct json_string){begin, (size_t)(scan->at - 1 - begin)};
+    if (escapes == 0)
+        return 0;
+    /* No escape is shorter than what it stands for. */
+    char *decoded = arena_get(scan->arena, string->length);
+    size_t length = 0;
+    for (const char *at = begin, *end = begin + string->length; at < end;) {
+        if (*at == '\\') {
+            at++;
+            length += unescape(&at, end, decoded + length);
+        } else {
+            decoded[length++] = *at++;
+        }
+    }
+    *string = (struct json_string){decoded, length};
+    return 0;
+}
+
+static const char *skip_digits(const char *at, const char *end)
+{
+    while (at < end && *at >= '0' && *at <= '9')
+        at++;
+    return at;
+}
+
+/* The end of the JSON number that begins at the cursor, or NULL. */
+static const char *number_end(const struct json_scan *scan)
+{
+    const char *at = scan->at, *end = scan->end;
+    if (at < end && *at == '-')
+        at++;
+    const char *whole = at;
+    at = skip_digits(at, end);
+    if (at == whole || (*whole == '0' && at > whole + 1))
+        return NULL;
+    if (at < end && *at == '.') {
+        const char *fraction = ++at;
+        at = skip_digits(at, end);
+        if (at == fraction)
+            return NULL;
+    }
+    if (at < end && (*at == 'e' || *at == 'E')) {
+        at++;
+        if (at < end && (*at == '+' || *at == '-'))
+            at++;
+        const char *exponent = at;
+        at = skip_digits(at, end);
+        if (at == exponent)
+            return NULL;
+    }
+    return at;
+}
+
+int json_scan_number(struct json_scan *scan, double *value)
+{
+    json_scan_peek(scan);
+    const char *end = number_end(scan);
+    if (end == NULL)
+        return json_scan_unexpected(scan, "a number");
+    if (!number_read(scan->at, end, value)) {
+        int length = (int)(end - scan->at < 40 ? end - scan->at : 40);
+        return diag_fail(scan->diag, DIAG_DATA, "%.*s is too large for a double", length, scan->at);
+    }
+    scan->at = end;
+    return 0;
+}
+
+static bool take_word(struct json_scan *scan, const char *word)
+{
+    size_t length = strlen(word);
+    json_scan_peek(scan);
+    if ((size_t)(scan->end - scan->at) < length || memcmp(scan->at, word, length) != 0)
+        return false;
+    scan->at += length;
+    return true;
+}
+
+int json_scan_flag(struct json_scan *scan, bool *value)
+{
+    *value = take_word(scan, "true");
+    return *value || take_word(scan, "false") ? 0 : json_scan_unexpected(scan, "true or false");
+}
+
+const char *json_scan_kind(struct json_scan *scan)
+{
+    switch (json_scan_peek(scan)) {
+    case '"':
+        return "a string";
+    case '{':
+        return "an object";
+    case '[':
+        return "an array";
+    case 't':
+    case 'f':
+        return "true or false";
+    case 'n':
+        return "null";
+    default:
+        return "a number";
+    }
+}
+
+static int scan_scalar(struct json_scan *scan)
+{
+    double number;
+    size_t escapes;
+    char first = json_scan_peek(scan);
+    if (first == '"') {
+        scan->at++;
+        return skip_string(scan, &escapes);
+    }
+    if (first == '-' || (first >= '0' && first <= '9'))
+        return json_scan_number(scan, &number);
+    if (take_word(scan, "true") || take_word(scan, "false") || take_word(scan, "null"))
+        return 0;
+    return json_scan_unexpected(scan, "a value");
+}
+
+static int scan_key(struct json_scan *scan)
+{
+    struct json_string key;
+    if (json_scan_string(scan, &key) != 0)
+        return -1;
+    return json_scan_take(scan, ':') ? 0 : json_scan_unexpected(scan, "':'");
+}
+
+int json_scan_value(struct json_scan *scan, struct json_string *bytes)
+{
+    char closing[JSON_SCAN_DEPTH];
+    size_t depth = 0;
+    json_scan_peek(scan);
+    const char *begin = scan->at;
+    for (;;) {
+        char first = json_scan_peek(scan);
+        if (first == '{' || first == '[') {
+            if (depth == JSON_SCAN_DEPTH)
+                return diag_fail(scan->diag, DIAG_DATA, "nested deeper than %d", JSON_SCAN_DEPTH);
+            closing[depth++] = first == '{' ? '}' : ']';
+            scan->at++;
+            if (!json_scan_take(scan, closing[depth - 1])) {
+                if (first == '{' && scan_key(scan) != 0)
+                    return -1;
+                continue;
+            }
+            depth--;
+        } else if (scan_scalar(scan) != 0) {
+            return -1;
+        }
+        while (depth > 0 && json_scan_take(scan, closing[depth - 1]))
+            depth--;
+        if (depth == 0)
+            break;
+        if (!json_scan_take(scan, ','))
+            return json_scan_unexpected(scan,
+                                        closing[depth - 1] == '}' ? "',' or '}'" : "',' or ']'");
+        if (closing[depth - 1] == '}' && scan_key(scan) != 0)
+            return -1;
+    }
+    *bytes = (struct json_string){begin, (size_t)(scan->at - begin)};
+    return 0;
+}

@@ -1,0 +1,48 @@
+/* JSON tokens, strictly as RFC 8259 has them, in one line of memory.
+ *
+ * Strict also where libraries are lenient: UTF-8 must be valid, surrogates paired, and \u0000 is
+ * refused, since names are C strings. Every function moves the cursor past what it read, or leaves
+ * a message without a path. */
+#ifndef JSON_SCAN_H
+#define JSON_SCAN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "diag.h"
+#include "memory.h"
+
+struct json_scan {
+    const char *at, *end;
+    struct arena *arena;
+    struct diag *diag;
+};
+
+enum { JSON_SCAN_DEPTH = 1000 };
+
+/* A decoded string: in the line itself, or in the arena if it had escapes. Not NUL-terminated. */
+struct json_string {
+    const char *text;
+    size_t length;
+};
+
+/* The next character that is not white space, or '\0' at the end of the line. */
+char json_scan_peek(struct json_scan *scan);
+
+/* True, and past it, if the next character is this one. */
+bool json_scan_take(struct json_scan *scan, char character);
+
+/* Refuses "expected WHAT, not ..." at the cursor. */
+int json_scan_unexpected(struct json_scan *scan, const char *what);
+
+int json_scan_string(struct json_scan *scan, struct json_string *string);
+int json_scan_number(struct json_scan *scan, double *value);
+int json_scan_flag(struct json_scan *scan, bool *value);
+
+/* Any value, checked but not decoded: the bytes from its first to its last character. */
+int json_scan_value(struct json_scan *scan, struct json_string *bytes);
+
+/* What kind of value comes next, for messages: "a string", "null", ... */
+const char *json_scan_kind(struct json_scan *scan);
+
+#endif

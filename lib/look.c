@@ -1,0 +1,244 @@
+#include "look.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "occlusion.h"
+#include "reflection.h"
+#include "sight.h"
+#include "units.h"
+
+/* Losses name the stage whose work this is. */
+static const char stage_name[] = "ideal";
+
+static struct box box_at(const struct object *object, double age_s)
+{
+    struct motion now = {
+        .position_m = {object->x_m,    object->y_m   },
+        .velocity_mps = {object->vx_mps, object->vy_mps},
+        .yaw_rad = object->yaw_rad,
+        .yaw_rate_radps = object->yaw_rate_radps,
+    };
+    struct motion then = age_s == 0 ? now : motion_after(now, -age_s);
+    return (struct box){then, vec2_heading(then.yaw_rad), object->length_m, object->width_m};
+}
+
+static int compare_bodies(const void *left, const void *right)
+{
+    return strcmp(((const struct look_body *)left)->object->id,
+                  ((const struct look_body *)right)->object->id);
+}
+
+static struct look_body *body_of(const struct look *look, const char *id)
+{
+    const struct object wanted = {.id = id};
+    const struct look_body key = {.object = &wanted};
+    return bsearch(&key, look->bodies, look->body_count, sizeof key, compare_bodies);
+}
+
+static void place_bodies(struct look *look, double age_s)
+{
+    const struct frame *frame = look->frame;
+    look->bodies = arena_get(frame->arena, frame->objects.count * sizeof *look->bodies);
+    for (size_t i = 0; i < frame->objects.count; i++) {
+        const struct object *object = &frame->objects.items[i];
+        if (strcmp(object->id, frame->ego) == 0)
+            continue;
+        struct look_body *body = &look->bodies[look->body_count++];
+        body->object = object;
+        body->box = box_at(object, age_s);
+        body->radius_m = 0.5 * vec2_length((struct vec2){object->length_m, object->width_m});
+        reflectors_outline(&body->box, body->corner);
+    }
+    qsort(look->bodies, look->body_count, sizeof *look->bodies, compare_bodies);
+}
+
+static int mark_blockers(struct look *look, struct diag *diag)
+{
+    const struct frame *frame = look->frame;
+    for (size_t i = 0; i < frame->reflectors.count; i++) {
+        const struct reflector_set *set = &frame->reflectors.items[i];
+        for (size_t j = 0; j < set->worn_by.count; j++) {
+            struct look_body *body = body_of(look, set->worn_by.items[j]);
+            if (body == NULL)
+                return diag_fail(
+                    diag, DIAG_DATA,
+                    "reflectors[%zu].worn_by[%zu]: \"%s\" is not among the objects, or "
+                    "is the ego",
+                    i, j, set->worn_by.items[j]);
+            body->blocks = set->blocks;
+            body->raised = set->raised;
+        }
+    }
+    return 0;
+}
+
+int look_begin(struct look *look, struct frame *frame, const struct sensor *sensor, double time_s,
+               struct diag *diag)
+{
+    double age_s = frame->time_s - time_s;
+    struct box ego = box_at(frame_object(frame, frame->ego), age_s);
+    struct vec2 mount = {sensor->mount_x_m, sensor->mount_y_m};
+    *look = (struct look){.frame = frame, .sensor = sensor, .time_s = time_s};
+    look->position_m = vec2_add(ego.motion.position_m, vec2_turn(mount, ego.heading));
+    look->velocity_mps = motion_velocity_at(&ego.motion, look->position_m);
+    look->boresight = vec2_turn(vec2_heading(sensor->mount_yaw_rad), ego.heading);
+    place_bodies(look, age_s);
+    return mark_blockers(look, diag);
+}
+
+/* A sight line that stays clear of the circle around a body cannot touch its outline. The slack
+ * covers the rounding of this test, so the exact one is only spared where it would say no. */
+static bool passes_clear(const struct look *look, const struct look_body *body, struct vec2 place)
+{
+    struct vec2 line = vec2_sub(place, look->position_m);
+    struct vec2 centre = vec2_sub(body->box.motion.position_m, look->position_m);
+    double reach = (body->radius_m + 1e-6) * (1 + 1e-9) * vec2_length(line);
+    double along = vec2_dot(line, centre);
+    return fabs(vec2_cross(line, centre)) > reach || along < -reach ||
+           along > vec2_dot(line, line) + reach;
+}
+
+/* The first object by id in the way to a place on own; only those that no radar can look under if
+ * solid. */
+static const struct look_body *blocker(const struct look *look, const struct look_body *own,
+                                       struct vec2 place, bool solid)
+{
+    for (size_t i = 0; i < look->body_count; i++) {
+        const struct look_body *body = &look->bodies[i];
+        if (body == own || !body->blocks || (solid && body->raised) ||
+            passes_clear(look, body, place))
+            continue;
+        if (occlusion_outline_blocks(body->corner, 4, look->position_m, place))
+            return body;
+    }
+    return NULL;
+}
+
+static void lose(struct look *look, const struct look_body *body, const char *reflector,
+                 enum loss reason, const struct look_body *by)
+{
+    frame_lose(look->frame, stage_name, look->sensor->name, reason,
+               &(struct lost_echo){.object = body->object->id,
+                                   .reflector = reflector,
+                                   .by = by != NULL ? by->object->id : NULL});
+}
+
+/* One reflector that faces the sensor: an echo if it is in range, in view and not blocked. */
+static void look_at(struct look *look, const struct look_body *body, const char *reflector,
+                    struct vec2 place, double ercs, double under_vehicles)
+{
+    const struct sensor *sensor = look->sensor;
+    struct vec2 velocity = motion_velocity_at(&body->box.motion, place);
+    struct sight sight =
+        sight_of(look->position_m, look->velocity_mps, look->boresight, place, velocity);
+    double azimuth = fabs(sight.azimuth_rad);
+    if (!(sight.range_m > 0 && sight.range_m >= sensor->range_min_m &&
+          sight.range_m <= sensor->range_max_m)) {
+        lose(look, body, reflector, LOSS_OUT_OF_RANGE, NULL);
+        return;
+    }
+    if (!(azimuth < sensor->field_of_view_rad / 2 && azimuth < PI / 2)) {
+        lose(look, body, reflector, LOSS_OUT_OF_VIEW, NULL);
+        return;
+    }
+    const struct look_body *by = blocker(look, body, place, false);
+    if (by != NULL && under_vehicles > 0 && blocker(look, body, place, true) == NULL) {
+        ercs *= under_vehicles;
+        by = NULL;
+    }
+    if (by != NULL) {
+        lose(look, body, reflector, LOSS_BLOCKED, by);
+        return;
+    }
+    look->echoes++;
+    *list_add(&look->frame->echoes, look->frame->arena) = (struct echo){
+        .sensor = sensor->name,
+        .object = body->object->id,
+        .reflector = reflector,
+        .path = PATH_DIRECT,
+        .range_m = sight.range_m,
+        .azimuth_rad = sight.azimuth_rad,
+        .range_rate_mps = sight.range_rate_mps,
+        .ercs = ercs,
+        .time_s = look->time_s,
+    };
+}
+
+static void look_at_point(struct look *look, const struct look_body *body,
+                          const struct point_reflector *point)
+{
+    look->pairs++;
+    struct vec2 place = reflectors_point_place(&body->box, point);
+    double visible =
+        reflectors_visibility(&body->box, point->shape, point->facing_rad, point->full_rad,
+                              point->zero_rad, place, look->position_m);
+    if (visible > 0)
+        look_at(look, body, point->name, place, visible * point->ercs, point->under_vehicles);
+    else
+        lose(look, body, point->name, LOSS_FACING_AWAY, NULL);
+}
+
+static void look_at_plane(struct look *look, const struct look_body *body,
+                          const struct plane_reflector *plane)
+{
+    look->pairs++;
+    struct vec2 foot;
+    if (reflection_foot(reflectors_place(&body->box, plane->from_x, plane->from_y),
+                        reflectors_place(&body->box, plane->to_x, plane->to_y), plane->margin_m,
+                        look->position_m, &foot))
+        look_at(look, body, plane->name, foot, plane->ercs, 0);
+    else
+        lose(look, body, plane->name, LOSS_NO_SPECULAR, NULL);
+}
+
+static const char *post_name(struct arena *arena, const struct post_row *row, int64_t post)
+{
+    size_t size = strlen(row->name) + 24;
+    char *name = arena_get(arena, size);
+    snprintf(name, size, "%s_%lld", row->name, (long long)post);
+    return name;
+}
+
+static void look_along_row(struct look *look, const struct look_body *body,
+                           const struct post_row *row)
+{
+    int64_t first, end;
+    reflectors_posts_within(&body->box, row, look->position_m, look->sensor->range_max_m, &first,
+                            &end);
+    for (int64_t post = first; post < end; post++) {
+        struct vec2 place = reflectors_post_place(&body->box, row, post);
+        const char *name = post_name(look->frame->arena, row, post);
+        double visible =
+            reflectors_visibility(&body->box, row->shape, row->facing_rad, row->full_rad,
+                                  row->zero_rad, place, look->position_m);
+        look->pairs++;
+        if (visible > 0)
+            look_at(look, body, name, place, visible * row->ercs, 0);
+        else
+            lose(look, body, name, LOSS_FACING_AWAY, NULL);
+    }
+}
+
+void look_around(struct look *look)
+{
+    struct frame *frame = look->frame;
+    for (size_t i = 0; i < frame->reflectors.count; i++) {
+        const struct reflector_set *set = &frame->reflectors.items[i];
+        for (size_t j = 0; j < set->worn_by.count; j++) {
+            const struct look_body *body = body_of(look, set->worn_by.items[j]);
+            for (size_t k = 0; k < set->points.count; k++)
+                look_at_point(look, body, &set->points.items[k]);
+            for (size_t k = 0; k < set->planes.count; k++)
+                look_at_plane(look, body, &set->planes.items[k]);
+            for (size_t k = 0; k < set->rows.count; k++)
+                look_along_row(look, body, &set->rows.items[k]);
+        }
+    }
+    struct count *count = list_add(&frame->counts, frame->arena);
+    count->sensor = look->sensor->name;
+    count->pairs = look->pairs;
+    *list_add(&count->paths, frame->arena) =
+        (struct path_count){.path = PATH_DIRECT, .echoes = look->echoes};
+}

@@ -1,0 +1,41 @@
+/* One sensor's look at a scene: which reflectors it sees, and as what (MODEL 2.3 to 2.5, 5).
+ *
+ * A look stands at the instant of the measurement: the ego and all objects are moved there in
+ * closed form, the sensor's place and speed follow from its mount on the moving, turning ego. Every
+ * reflector of an object then either becomes an echo in the frame or is written down as lost, with
+ * the first reason that applies: it faces away or mirrors past the sensor, it is out of range, out
+ * of view, or blocked. */
+#ifndef LOOK_H
+#define LOOK_H
+
+#include "frame.h"
+#include "suite.h"
+
+struct look_body {
+    const struct object *object;
+    struct box box;
+    struct vec2 corner[4];
+    double radius_m; /* around the box */
+    bool blocks;
+    bool raised;
+};
+
+struct look {
+    struct frame *frame;
+    const struct sensor *sensor;
+    double time_s;
+    struct vec2 position_m, velocity_mps, boresight;
+    struct look_body *bodies; /* all objects but the ego, by id */
+    size_t body_count;
+    int64_t pairs, echoes;
+};
+
+/* The frame must have objects (the ego among them) and reflectors. Refuses a set that is worn by an
+ * object that is not there. */
+int look_begin(struct look *look, struct frame *frame, const struct sensor *sensor, double time_s,
+               struct diag *diag);
+
+/* Every reflector of every object: adds echoes, losses and the sensor's count to the frame. */
+void look_around(struct look *look);
+
+#endif

@@ -1,0 +1,62 @@
+#include "monopulse.h"
+
+#include <math.h>
+
+/* Im(delta conj(sum)) to this part of |delta| |sum| is rounding, not phase. */
+#define UNDECIDED 0x1p-47
+
+/* A pointer as value · 2^exponent, its larger component in [1/2, 1) unless it is zero: exact, and
+ * products of two values neither overflow nor underflow (amplitudes span 1e-300 to 1e300). */
+struct scaled_pointer {
+    double real, imag, size;
+    int exponent;
+};
+
+static struct scaled_pointer scale_pointer(double _Complex pointer)
+{
+    struct scaled_pointer scaled;
+    frexp(fmax(fabs(creal(pointer)), fabs(cimag(pointer))), &scaled.exponent);
+    scaled.real = scalbn(creal(pointer), -scaled.exponent);
+    scaled.imag = scalbn(cimag(pointer), -scaled.exponent);
+    scaled.size = hypot(scaled.real, scaled.imag);
+    return scaled;
+}
+
+/* The angle of delta · 2^delta_exponent : |sum|. */
+static double azimuth_of(const struct antenna *antenna, double delta, int delta_exponent,
+                         const struct scaled_pointer *sum)
+{
+    int exponent = delta_exponent > sum->exponent ? delta_exponent : sum->exponent;
+    return antenna_azimuth_rad(antenna, scalbn(delta, delta_exponent - exponent),
+                               scalbn(sum->size, sum->exponent - exponent));
+}
+
+struct monopulse_angle monopulse_angle(const struct antenna *antenna,
+                                       enum monopulse_estimator estimator,
+                                       struct antenna_pointers pointers)
+{
+    struct monopulse_angle angle = {.valid = false};
+    struct scaled_pointer sum = scale_pointer(pointers.sum);
+    struct scaled_pointer delta = scale_pointer(pointers.delta);
+    if (sum.size == 0 && delta.size == 0)
+        return angle;
+    angle.valid = true;
+    double cross = delta.imag * sum.real - delta.real * sum.imag;
+    double signed_delta;
+    if (estimator == MONOPULSE_RATIO && sum.size > 0) {
+        signed_delta = -cross / sum.size;
+    } else {
+        /* A delta of zero has no sign to decide: its angle is that of the ratio 0. */
+        angle.sign_undecided = delta.size > 0 && fabs(cross) <= UNDECIDED * delta.size * sum.size;
+        signed_delta = cross > 0 && !angle.sign_undecided ? -delta.size : delta.size;
+    }
+    angle.azimuth_rad = azimuth_of(antenna, signed_delta, delta.exponent, &sum);
+    return angle;
+}
+
+double monopulse_asr(struct antenna_pointers pointers)
+{
+    double sum = cabs(pointers.sum);
+    double delta = cabs(pointers.delta);
+    return (delta - sum) / (delta + sum);
+}

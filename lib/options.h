@@ -1,0 +1,33 @@
+/* The command line of a stage, from its table of options and the table of those that all share. */
+#ifndef OPTIONS_H
+#define OPTIONS_H
+
+#include "stage.h"
+#include "text.h"
+
+#define GLINT_VERSION "0.1.0"
+
+/* What every stage understands. */
+struct common_options {
+    const char *output; /* NULL is standard output */
+    bool keep;
+    bool complete;
+    const char *seed_text;
+    uint64_t seed;
+    bool help, version;
+    LIST_OF(const char *) files; /* of filters and sinks; empty is standard input */
+};
+
+enum { OPTIONS_DEFAULT_SEED = 1 };
+
+/* Reads the words after the program's name into state (which is cleared first) and common. GNU
+ * style: --radius-m 50, --radius-m=50, -o FILE, -- ends the options. Refuses unknown options,
+ * missing values and values out of bounds with DIAG_USAGE; required options may be missing only
+ * next to --help and --version. */
+int options_read(const struct stage *stage, size_t count, const char *const *words, void *state,
+                 struct common_options *common, struct arena *arena, struct diag *diag);
+
+/* What --help prints, in the form that help2man reads. */
+void options_help(const struct stage *stage, struct text *text);
+
+#endif

@@ -1,0 +1,180 @@
+#include "pipeline.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+#include "text.h"
+
+struct parser {
+    const char *at, *end;
+    size_t line;
+    struct arena *arena;
+    struct diag *diag;
+};
+
+static int refuse(const struct parser *parser, const char *what)
+{
+    return diag_fail(parser->diag, DIAG_USAGE, "%zu: %s; run it with bash", parser->line, what);
+}
+
+static char peek(const struct parser *parser)
+{
+    return parser->at < parser->end ? *parser->at : '\0';
+}
+
+static char take(struct parser *parser)
+{
+    char character = *parser->at++;
+    if (character == '\n')
+        parser->line++;
+    return character;
+}
+
+/* Blanks, comments and continued lines; newlines too, where a pipeline may go on after them. */
+static void skip(struct parser *parser, bool newlines)
+{
+    while (parser->at < parser->end) {
+        char character = *parser->at;
+        bool continued = character == '\\' && parser->at + 1 < parser->end && parser->at[1] == '\n';
+        if (continued) {
+            take(parser);
+            take(parser);
+        } else if (character == ' ' || character == '\t' || (newlines && character == '\n')) {
+            take(parser);
+        } else if (character == '#') {
+            while (parser->at < parser->end && *parser->at != '\n')
+                parser->at++;
+        } else {
+            return;
+        }
+    }
+}
+
+static int read_single_quotes(struct parser *parser, struct text *word)
+{
+    while (parser->at < parser->end) {
+        char character = take(parser);
+        if (character == '\'')
+            return 0;
+        text_add(word, &character, 1);
+    }
+    return refuse(parser, "a quote is not closed");
+}
+
+static int read_double_quotes(struct parser *parser, struct text *word)
+{
+    while (parser->at < parser->end) {
+        char character = take(parser);
+        if (character == '"')
+            return 0;
+        if (character == '$' || character == '`')
+            return refuse(parser, "variables and substitutions are not understood here");
+        if (character == '\\' && parser->at < parser->end && strchr("\\\"$`\n", peek(parser))) {
+            character = take(parser);
+            if (character == '\n')
+                continue;
+        }
+        text_add(word, &character, 1);
+    }
+    return refuse(parser, "a quote is not closed");
+}
+
+static int read_piece(struct parser *parser, struct text *word)
+{
+    char character = take(parser);
+    if (character == '\'')
+        return read_single_quotes(parser, word);
+    if (character == '"')
+        return read_double_quotes(parser, word);
+    if (character == '\\' && parser->at < parser->end) {
+        character = take(parser);
+        if (character != '\n')
+            text_add(word, &character, 1);
+        return 0;
+    }
+    if (strchr("$`", character) != NULL)
+        return refuse(parser, "variables and substitutions are not understood here");
+    if (strchr("*?[", character) != NULL || (character == '~' && word->length == 0))
+        return refuse(parser, "file name patterns are not understood here");
+    if (strchr("<>", character) != NULL)
+        return refuse(parser, "redirections are not understood here (use -o FILE)");
+    if (strchr(";&(){}!", character) != NULL)
+        return refuse(parser, "only one pipeline of words and | is understood here");
+    text_add(word, &character, 1);
+    return 0;
+}
+
+static bool ends_word(char character)
+{
+    return character == '\0' || strchr(" \t\n|", character) != NULL;
+}
+
+static int read_word(struct parser *parser, const char **word)
+{
+    struct text text = {0};
+    int result = 0;
+    while (result == 0 && !ends_word(peek(parser)))
+        result = peek(parser) == '\0' ? refuse(parser, "a NUL byte") : read_piece(parser, &text);
+    *word = arena_text(parser->arena, text.bytes, text.length);
+    text_free(&text);
+    return result;
+}
+
+/* Words up to a newline, a bar or the end. */
+static int read_command(struct parser *parser, struct command *command)
+{
+    command->line = parser->line;
+    for (;;) {
+        skip(parser, false);
+        if (ends_word(peek(parser)))
+            return 0;
+        const char *word;
+        if (read_word(parser, &word) != 0)
+            return -1;
+        if (command->words.count == 0 && strchr(word, '=') != NULL)
+            return refuse(parser, "variables are not understood here");
+        *list_add(&command->words, parser->arena) = word;
+    }
+}
+
+static bool is_pipefail(const struct command *command)
+{
+    static const char *const line[] = {"set", "-o", "pipefail"};
+    if (command->words.count != 3)
+        return false;
+    for (size_t i = 0; i < 3; i++)
+        if (strcmp(command->words.items[i], line[i]) != 0)
+            return false;
+    return true;
+}
+
+int pipeline_parse(const char *text, size_t length, struct pipeline *pipeline, struct arena *arena,
+                   struct diag *diag)
+{
+    struct parser parser = {text, text + length, 1, arena, diag};
+    bool open = true; /* may another command follow? */
+    *pipeline = (struct pipeline){0};
+    for (;;) {
+        skip(&parser, true);
+        if (parser.at == parser.end && open)
+            return refuse(&parser, "there is no command where one must stand");
+        if (parser.at == parser.end)
+            return 0;
+        if (!open)
+            return refuse(&parser, "a second pipeline");
+        struct command command = {0};
+        if (read_command(&parser, &command) != 0)
+            return -1;
+        bool piped = peek(&parser) == '|';
+        if (pipeline->commands.count == 0 && !piped && is_pipefail(&command))
+            continue;
+        if (command.words.count == 0)
+            return refuse(&parser, "there is no command before |");
+        *list_add(&pipeline->commands, arena) = command;
+        open = piped;
+        if (piped)
+            take(&parser);
+        if (peek(&parser) == '|')
+            return refuse(&parser, "only one pipeline of words and | is understood here");
+    }
+}

@@ -1,0 +1,48 @@
+#include "radar_equation.h"
+
+#include <math.h>
+
+/* The cross section of a reflector with an ERCS of 1 (MODEL 3). */
+#define ERCS_UNIT_M2 10.0
+
+static double table_amplitude(const struct radar_equation *law, double range_m)
+{
+    const struct radar_row *rows = law->rows;
+    if (law->row_count < 2 || range_m <= rows[0].range_m)
+        return rows[0].amplitude;
+    size_t low = 0;
+    size_t high = law->row_count - 1;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (range_m >= rows[middle].range_m)
+            low = middle;
+        else
+            high = middle;
+    }
+    double part = log(range_m / rows[low].range_m) / log(rows[high].range_m / rows[low].range_m);
+    return rows[low].amplitude * pow(rows[high].amplitude / rows[low].amplitude, part);
+}
+
+double radar_reference_amplitude(const struct radar_equation *law, double range_m)
+{
+    double counted_m = fmax(range_m, law->range_floor_m);
+    if (law->law == RADAR_TABLE)
+        return table_amplitude(law, counted_m);
+    return law->threshold / law->calibration_ercs *
+           pow(law->calibration_range_m / counted_m, law->exponent);
+}
+
+double radar_detection_range_m(const struct radar_equation *law, double gain, double ercs)
+{
+    return law->calibration_range_m * pow(ercs * gain / law->calibration_ercs, 1 / law->exponent);
+}
+
+double radar_ercs(double cross_section_m2)
+{
+    return sqrt(cross_section_m2 / ERCS_UNIT_M2);
+}
+
+double radar_cross_section_m2(double ercs)
+{
+    return ERCS_UNIT_M2 * ercs * ercs;
+}

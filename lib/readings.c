@@ -1,0 +1,68 @@
+#include "readings.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "units.h"
+
+struct reading reading_of(const struct cell *cell)
+{
+    return (struct reading){
+        .cell = cell,
+        .range_m = cell->range_m,
+        .azimuth_rad = cell->azimuth_rad,
+        .range_rate_mps = cell->range_rate_mps,
+        .amplitude = hypot(cell->sum_re, cell->sum_im),
+        .sign_undecided = cell->sign_undecided,
+    };
+}
+
+double reading_step(double value, double step)
+{
+    return step > 0 ? step * round(value / step) : value;
+}
+
+static int compare_leaders(const struct reading *a, const struct reading *b)
+{
+    return frame_compare_tied(a->cell->members.items, b->cell->members.items);
+}
+
+static int compare_strength(const void *left, const void *right)
+{
+    const struct reading *a = left, *b = right;
+    if (a->amplitude != b->amplitude)
+        return a->amplitude > b->amplitude ? -1 : 1;
+    return compare_leaders(a, b);
+}
+
+static int compare_range(const void *left, const void *right)
+{
+    const struct reading *a = left, *b = right;
+    if (a->range_m != b->range_m)
+        return a->range_m < b->range_m ? -1 : 1;
+    return compare_strength(left, right);
+}
+
+void readings_list(struct frame *frame, const char *stage, const struct sensor *sensor,
+                   struct reading *readings, size_t count, int64_t limit)
+{
+    qsort(readings, count, sizeof *readings,
+          sensor->list_order == LIST_STRONGEST ? compare_strength : compare_range);
+    int64_t listed = 0;
+    for (size_t i = 0; i < count; i++) {
+        const struct reading *reading = &readings[i];
+        if (!(reading->amplitude > 0)) {
+            frame_lose_cell(frame, stage, reading->cell, LOSS_NO_AMPLITUDE, 0);
+        } else if (limit > 0 && listed == limit) {
+            frame_lose_cell(frame, stage, reading->cell, LOSS_LIST_LIMIT, 0);
+        } else {
+            struct target *target =
+                frame_add_target(frame, reading->cell, units_amplitude_db(reading->amplitude));
+            target->range_m = reading->range_m;
+            target->azimuth_rad = reading->azimuth_rad;
+            target->range_rate_mps = reading->range_rate_mps;
+            target->sign_undecided = reading->sign_undecided;
+            listed++;
+        }
+    }
+}

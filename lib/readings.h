@@ -1,0 +1,28 @@
+/* What a sensor reads off its cells, and the list it makes of that (MODEL 9 to 11). */
+#ifndef READINGS_H
+#define READINGS_H
+
+#include "frame.h"
+#include "suite.h"
+
+/* One entry of the list before it is one. */
+struct reading {
+    const struct cell *cell;
+    double range_m, azimuth_rad, range_rate_mps;
+    double amplitude; /* linear */
+    bool sign_undecided;
+};
+
+/* The cell's own noise-free values; the amplitude is that of its sum pointer. */
+struct reading reading_of(const struct cell *cell);
+
+/* Rounds value to the nearest multiple of step; 0 leaves it as it is. */
+double reading_step(double value, double step);
+
+/* Writes count readings of one sensor as targets: strongest or nearest first, ties by the frame's
+ * total order, at most limit of them (0: all). The rest is lost for the stage. A reading without
+ * amplitude is lost too: it has no decibels. */
+void readings_list(struct frame *frame, const char *stage, const struct sensor *sensor,
+                   struct reading *readings, size_t count, int64_t limit);
+
+#endif

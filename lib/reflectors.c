@@ -1,0 +1,185 @@
+#include "reflectors.h"
+
+#include "units.h"
+
+static const char *const shapes[] = {
+    [VISIBILITY_RAISED_COSINE] = "raised_cosine",
+    [VISIBILITY_HARD] = "hard",
+    [VISIBILITY_LINEAR] = "linear",
+    [VISIBILITY_COSINE] = "cosine",
+    NULL,
+};
+
+/* Fractions reach a little beyond the box: mirrors, bumpers, loads. */
+#define FRACTION(owner, member, help)                                                              \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, member, -1, 1, help)                                                  \
+    }
+
+#define SEEN_FROM(owner)                                                                           \
+    {FIELD_REAL_IN(owner, facing_rad, -PI, PI, "middle of the visibility range, object frame")},   \
+        {FIELD_REAL_IN(owner, full_rad, 0, PI, "fully visible up to this angle off the facing")},  \
+        {FIELD_REAL_IN(owner, zero_rad, 0, PI, "invisible from this angle off the facing")},       \
+        {FIELD_CHOICE_OF(owner, shape, shapes, "how visibility falls from full to zero"),          \
+         FIELD_OPTIONAL},                                                                          \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, ercs, 0, 1e3, "equivalent radar cross section, a linear amplitude")   \
+    }
+
+static const struct field point_fields[] = {
+    {FIELD_NAME_OF(struct point_reflector, name, "unique in its set")},
+    FRACTION(struct point_reflector, x, "place, as a fraction of the length from the centre"),
+    FRACTION(struct point_reflector, y, "place, as a fraction of the width from the centre"),
+    {FIELD_REAL_IN(struct point_reflector,                inset_m, 0, 10, "depth behind the place"),
+     FIELD_OPTIONAL},
+    SEEN_FROM(struct point_reflector),
+    {FIELD_REAL_IN(
+         struct point_reflector, under_vehicles, 0, 1,
+     "part of the cross section that is left when only raised vehicles are in the way"),
+     FIELD_OPTIONAL},
+    {0                                  },
+};
+
+static const struct field plane_fields[] = {
+    {FIELD_NAME_OF(struct plane_reflector, name, "unique in its set")},
+    FRACTION(struct plane_reflector, from_x, "start; the outer face is to the right of from -> to"),
+    FRACTION(struct plane_reflector, from_y, "start"),
+    FRACTION(struct plane_reflector, to_x, "end"),
+    FRACTION(struct plane_reflector, to_y, "end"),
+    {FIELD_REAL_IN(struct plane_reflector,                margin_m, 0, 10, "not flat this far from both ends"),
+     FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct plane_reflector, ercs, 0, 1e3, "equivalent radar cross section")},
+    {0                                  },
+};
+
+static const struct field row_fields[] = {
+    {FIELD_NAME_OF(struct post_row, name, "post n of the row is called name_n")},
+    FRACTION(struct post_row, from_x, "the first post"),
+    FRACTION(struct post_row, from_y, "the first post"),
+    FRACTION(struct post_row, to_x, "where the row ends"),
+    FRACTION(struct post_row, to_y, "where the row ends"),
+    {FIELD_REAL_IN(struct post_row, spacing_m, 0.01, 1e4, "from post to post")},
+    SEEN_FROM(struct post_row),
+    {0},
+};
+
+static const struct field reflector_set_fields[] = {
+    {FIELD_NAME_OF(struct reflector_set,                model, "the class that the vehicle document describes")},
+    {FIELD_NAMES_OF(struct reflector_set, worn_by, "ids of the objects that reflect like this")},
+    {FIELD_FLAG_OF(struct reflector_set,               blocks, "does the outline stop sight lines?"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct reflector_set,     raised, "can a radar look under it?"), FIELD_OPTIONAL},
+    {FIELD_LIST_OF(struct reflector_set,                points, &point_record, "corners, wheel houses, poles"),
+     FIELD_OPTIONAL},
+    {FIELD_LIST_OF(struct reflector_set,            planes, &plane_record, "flat sides"), FIELD_OPTIONAL},
+    {FIELD_LIST_OF(struct reflector_set,                                                 rows, &row_record, "rows of posts"), FIELD_OPTIONAL},
+    {0                                      },
+};
+
+const struct record point_record = {
+    .name = "point reflector",
+    .help = "A reflection centre, seen from a range of angles.",
+    .size = sizeof(struct point_reflector),
+    .fields = point_fields,
+};
+
+const struct record plane_record = {
+    .name = "plane reflector",
+    .help = "A flat side that mirrors the radar from the foot of the perpendicular.",
+    .size = sizeof(struct plane_reflector),
+    .fields = plane_fields,
+};
+
+const struct record row_record = {
+    .name = "row of posts",
+    .help = "Equal points along a line.",
+    .size = sizeof(struct post_row),
+    .fields = row_fields,
+};
+
+const struct record reflector_set_record = {
+    .name = "reflector set",
+    .help = "The reflection centres of one class and the objects that wear them.",
+    .size = sizeof(struct reflector_set),
+    .fields = reflector_set_fields,
+};
+
+/* The same struct and table without its first two members: a document does not know who wears it.
+ */
+const struct record reflector_model_record = {
+    .name = "reflector model",
+    .help = "The reflection centres of a class.",
+    .size = sizeof(struct reflector_set),
+    .fields = reflector_set_fields + 2,
+};
+
+struct vec2 reflectors_place(const struct box *box, double x, double y)
+{
+    struct vec2 own = {x * box->length_m, y * box->width_m};
+    return vec2_add(box->motion.position_m, vec2_turn(own, box->heading));
+}
+
+void reflectors_outline(const struct box *box, struct vec2 corner[4])
+{
+    static const double x[] = {0.5, -0.5, -0.5, 0.5}, y[] = {0.5, 0.5, -0.5, -0.5};
+    for (int i = 0; i < 4; i++)
+        corner[i] = reflectors_place(box, x[i], y[i]);
+}
+
+struct vec2 reflectors_point_place(const struct box *box, const struct point_reflector *point)
+{
+    struct vec2 surface = reflectors_place(box, point->x, point->y);
+    if (point->inset_m == 0)
+        return surface;
+    struct vec2 facing = vec2_turn(vec2_heading(point->facing_rad), box->heading);
+    return vec2_sub(surface, vec2_scale(point->inset_m, facing));
+}
+
+double reflectors_visibility(const struct box *box, enum visibility_shape shape, double facing_rad,
+                             double full_rad, double zero_rad, struct vec2 place,
+                             struct vec2 sensor)
+{
+    struct vec2 facing = vec2_turn(vec2_heading(facing_rad), box->heading);
+    double delta = visibility_angle_rad(facing, vec2_sub(sensor, place));
+    return visibility(shape, full_rad, zero_rad, delta);
+}
+
+static struct vec2 row_vector(const struct box *box, const struct post_row *row)
+{
+    return vec2_sub(reflectors_place(box, row->to_x, row->to_y),
+                    reflectors_place(box, row->from_x, row->from_y));
+}
+
+void reflectors_posts_within(const struct box *box, const struct post_row *row, struct vec2 sensor,
+                             double range_m, int64_t *first, int64_t *end)
+{
+    struct vec2 along = row_vector(box, row);
+    double length = vec2_length(along);
+    int64_t posts = 1 + (int64_t)floor(length / row->spacing_m + 1e-9);
+    *first = 0;
+    *end = posts;
+    if (length == 0)
+        return;
+    struct vec2 unit = vec2_scale(1 / length, along);
+    struct vec2 to_sensor = vec2_sub(sensor, reflectors_place(box, row->from_x, row->from_y));
+    double foot = vec2_dot(to_sensor, unit), aside = vec2_cross(unit, to_sensor);
+    if (fabs(aside) > range_m) {
+        *end = 0;
+        return;
+    }
+    double half_chord = sqrt((range_m - aside) * (range_m + aside));
+    double low = floor((foot - half_chord) / row->spacing_m);
+    double high = ceil((foot + half_chord) / row->spacing_m) + 1;
+    *first = low > 0 ? (low < (double)posts ? (int64_t)low : posts) : 0;
+    *end = high > 0 ? (high < (double)posts ? (int64_t)high : posts) : 0;
+}
+
+struct vec2 reflectors_post_place(const struct box *box, const struct post_row *row, int64_t post)
+{
+    struct vec2 along = row_vector(box, row);
+    double length = vec2_length(along);
+    struct vec2 start = reflectors_place(box, row->from_x, row->from_y);
+    if (length == 0)
+        return start;
+    return vec2_add(start, vec2_scale((double)post * row->spacing_m / length, along));
+}

@@ -1,0 +1,89 @@
+/* What a road user is to a radar: reflection centres on its outline (MODEL 2).
+ *
+ * A vehicle document in data/vehicles/ describes one class; glint-extract writes it as a set, worn
+ * by every object of that class. Positions are fractions of the object's length and width from the
+ * centre of its box (x forward, y left; 0.5 is the front and the left side), so one set serves cars
+ * of any size. */
+#ifndef REFLECTORS_H
+#define REFLECTORS_H
+
+#include "field.h"
+#include "motion.h"
+#include "visibility.h"
+
+/* A corner, a wheel house, a pole: seen from a range of angles around its facing. */
+struct point_reflector {
+    const char *name;
+    double x, y;
+    double inset_m; /* the point lies this far inside, against its facing */
+    double facing_rad;
+    double full_rad, zero_rad;
+    enum visibility_shape shape;
+    double ercs;
+    double under_vehicles; /* the part of its ERCS that passes under a raised vehicle in the way */
+};
+
+/* A flat side: mirrors the radar from the foot of the perpendicular, with constant ERCS. Its outer
+ * face is to the right of from -> to, that is, sides run counter-clockwise around the outline. */
+struct plane_reflector {
+    const char *name;
+    double from_x, from_y, to_x, to_y;
+    double margin_m;
+    double ercs;
+};
+
+/* Equal points along a line: the posts of a guardrail, the first at from. Post n is called name_n.
+ * Only the posts within a sensor's range are ever made. */
+struct post_row {
+    const char *name;
+    double from_x, from_y, to_x, to_y;
+    double spacing_m;
+    double facing_rad;
+    double full_rad, zero_rad;
+    enum visibility_shape shape;
+    double ercs;
+};
+
+struct reflector_set {
+    const char *model;             /* the class that the document describes */
+    LIST_OF(const char *) worn_by; /* object ids */
+    bool blocks;                   /* does its outline stop sight lines? */
+    bool raised;                   /* can a radar look under it? (MODEL 2.5, the option) */
+    LIST_OF(struct point_reflector) points;
+    LIST_OF(struct plane_reflector) planes;
+    LIST_OF(struct post_row) rows;
+};
+
+extern const struct record point_record, plane_record, row_record;
+extern const struct record reflector_set_record;   /* with who wears it: the frame's */
+extern const struct record reflector_model_record; /* without: the vehicle document's */
+
+/* An object's box in the world. */
+struct box {
+    struct motion motion;
+    struct vec2 heading;
+    double length_m, width_m;
+};
+
+/* The place in the world of a point given in fractions of the box. */
+struct vec2 reflectors_place(const struct box *box, double x, double y);
+
+/* The four corners, counter-clockwise from the front left. */
+void reflectors_outline(const struct box *box, struct vec2 corner[4]);
+
+/* A point with its inset. */
+struct vec2 reflectors_point_place(const struct box *box, const struct point_reflector *point);
+
+/* V(alpha) of MODEL 2.2: how much of a reflector at place, facing facing_rad in the object's
+ * frame, a sensor sees. */
+double reflectors_visibility(const struct box *box, enum visibility_shape shape, double facing_rad,
+                             double full_rad, double zero_rad, struct vec2 place,
+                             struct vec2 sensor);
+
+/* The numbers [first, end) of a row's posts that may lie within range_m of the sensor: none is
+ * missed, and at most two too many are named. Place of post n by reflectors_post_place. */
+void reflectors_posts_within(const struct box *box, const struct post_row *row, struct vec2 sensor,
+                             double range_m, int64_t *first, int64_t *end);
+struct vec2 reflectors_post_place(const struct box *box, const struct post_row *row, int64_t post);
+
+#endif

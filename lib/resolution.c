@@ -1,0 +1,49 @@
+#include "resolution.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#define NO_CELL SIZE_MAX
+
+static bool shares_cell(const struct resolution_echo *leader, const struct resolution_echo *echo,
+                        double half_range_m, double half_range_rate_mps)
+{
+    return fabs(echo->range_m - leader->range_m) <= half_range_m &&
+           fabs(echo->range_rate_mps - leader->range_rate_mps) <= half_range_rate_mps;
+}
+
+size_t resolution_cluster(const struct resolution_echo *echoes, size_t count, double half_range_m,
+                          double half_range_rate_mps, size_t *cell)
+{
+    size_t cells = 0;
+    for (size_t i = 0; i < count; i++)
+        cell[i] = NO_CELL;
+    for (size_t leader = 0; leader < count; leader++) {
+        if (cell[leader] != NO_CELL)
+            continue;
+        for (size_t i = leader; i < count; i++)
+            if (cell[i] == NO_CELL &&
+                shares_cell(&echoes[leader], &echoes[i], half_range_m, half_range_rate_mps))
+                cell[i] = cells;
+        cells++;
+    }
+    return cells;
+}
+
+double resolution_mean(const double *values, const double *weights, size_t count)
+{
+    double least = values[0];
+    double most = values[0];
+    double shift = 0;
+    double total = 0;
+    for (size_t i = 0; i < count; i++) {
+        double weight = weights[i] / weights[0];
+        shift += weight * (values[i] - values[0]);
+        total += weight;
+        least = fmin(least, values[i]);
+        most = fmax(most, values[i]);
+    }
+    /* Rounding may carry the anchored mean one step past the farthest value. */
+    return fmin(fmax(values[0] + shift / total, least), most);
+}

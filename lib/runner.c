@@ -1,0 +1,183 @@
+#include "runner.h"
+
+#include <string.h>
+
+#include "audit.h"
+#include "hash.h"
+#include "random.h"
+
+struct arena *runner_arena(struct runner *runner)
+{
+    return &runner->arena;
+}
+
+struct diag *runner_diag(struct runner *runner)
+{
+    return &runner->diag;
+}
+
+void runner_expect(struct runner *runner, int64_t frames)
+{
+    runner->expected_frames = frames;
+}
+
+int runner_write(struct runner *runner, const char *bytes, size_t length)
+{
+    return output_write(runner->output, bytes, length, &runner->diag);
+}
+
+const struct suite *runner_suite(struct runner *runner, const struct frame *frame, const char *name)
+{
+    bool seen = (frame->present & SECTION_SENSORS) != 0;
+    if (name == NULL)
+        name = frame->sensors.suite;
+    const struct suite *suite = NULL;
+    for (size_t i = 0; i < runner->suites.count && suite == NULL; i++)
+        if (strcmp(runner->suites.items[i]->name, name) == 0)
+            suite = runner->suites.items[i];
+    if (suite == NULL) {
+        suite = catalogue_suite(name, &runner->arena, &runner->diag);
+        if (suite == NULL)
+            return NULL;
+        *list_add(&runner->suites, &runner->arena) = suite;
+    }
+    if (seen && strcmp(suite->digest, frame->sensors.digest) != 0) {
+        diag_fail(
+            &runner->diag, DIAG_CONFIG,
+            "sensors.digest: the frame was seen with %s, \"%s\" is now %s; run the whole chain "
+            "with one suite",
+            frame->sensors.digest, name, suite->digest);
+        return NULL;
+    }
+    return suite;
+}
+
+const struct vehicle *runner_vehicle(struct runner *runner, const char *class)
+{
+    for (size_t i = 0; i < runner->vehicles.count; i++)
+        if (strcmp(runner->vehicles.items[i]->reflectors.model, class) == 0)
+            return runner->vehicles.items[i];
+    const struct vehicle *vehicle = catalogue_vehicle(class, &runner->arena, &runner->diag);
+    if (vehicle != NULL)
+        *list_add(&runner->vehicles, &runner->arena) = vehicle;
+    return vehicle;
+}
+
+struct random_address runner_address(const struct frame *frame, const char *sensor,
+                                     const struct contributor *echo)
+{
+    uint64_t subject = hash_text(hash_text(HASH_START, echo->object), echo->reflector);
+    return (struct random_address){
+        .seed = frame->seed,
+        .scene = hash_text(HASH_START, frame->scene),
+        .frame = (uint64_t)frame->frame,
+        .sensor = hash_text(HASH_START, sensor),
+        .subject = hash_bytes(subject, &(char){(char)echo->path}, 1),
+    };
+}
+
+int runner_prepare(struct runner *runner, const struct stage *stage, size_t count,
+                   const char *const *words)
+{
+    *runner = (struct runner){.stage = stage};
+    runner->state = arena_get(&runner->arena, stage->options->size);
+    return options_read(stage, count, words, runner->state, &runner->common, &runner->arena,
+                        &runner->diag);
+}
+
+void runner_free(struct runner *runner)
+{
+    arena_free(&runner->arena);
+}
+
+static int check_sections(struct runner *runner, const struct frame *frame)
+{
+    unsigned missing = runner->stage->reads & ~frame->present;
+    if (missing != 0)
+        return diag_fail(&runner->diag, DIAG_DATA,
+                         "%s: missing; the stage that writes it must stand before this one",
+                         frame_section_name(missing & -missing));
+    unsigned added = SECTION_LOST | SECTION_COUNTS;
+    unsigned doubled = runner->stage->writes & frame->present & ~added;
+    if (doubled != 0)
+        return diag_fail(&runner->diag, DIAG_DATA, "%s: already there; this stage would write it",
+                         frame_section_name(doubled & -doubled));
+    if ((runner->stage->reads & SECTION_OBJECTS) != 0)
+        return frame_check_objects(frame, &runner->diag);
+    return 0;
+}
+
+/* --complete: scenes ascend without gaps and end with their last frame. */
+static int follow_scene(struct runner *runner, const struct frame *frame)
+{
+    struct scene_progress *scene = NULL;
+    for (size_t i = 0; i < runner->scenes.count && scene == NULL; i++)
+        if (strcmp(runner->scenes.items[i].name, frame->scene) == 0)
+            scene = &runner->scenes.items[i];
+    if (scene == NULL) {
+        scene = list_add(&runner->scenes, &runner->arena);
+        scene->name = arena_text(&runner->arena, frame->scene, strlen(frame->scene));
+        scene->frame = -1;
+    }
+    if (scene->closed || frame->frame != scene->frame + 1)
+        return diag_fail(&runner->diag, DIAG_DATA, "frame: %lld of scene \"%s\" %s",
+                         (long long)frame->frame, frame->scene,
+                         scene->closed ? "comes after its last one" : "is out of order");
+    scene->frame = frame->frame;
+    scene->closed = frame->last;
+    return 0;
+}
+
+/* What follows every step: sections that were used up go, the rest is ordered and checked, so that
+ * the stage that makes nonsense fails, not its neighbour. */
+static int conclude(struct runner *runner, struct frame *frame)
+{
+    const struct stage *stage = runner->stage;
+    if (!runner->common.keep)
+        frame_drop(frame, stage->reads & SECTIONS_CONSUMED);
+    frame->present |= stage->writes & ~(unsigned)SECTION_LOST;
+    if (frame->account && (stage->writes & SECTION_LOST) != 0)
+        frame->present |= SECTION_LOST;
+    frame_order(frame);
+    if (field_check(&frame_record, frame, &runner->diag) != 0) {
+        runner->diag.code = DIAG_INTERNAL;
+        return diag_prefix(&runner->diag, "made nonsense: ");
+    }
+    if (frame->account && (stage->writes & SECTION_TARGETS) != 0)
+        return audit_frame(frame, &runner->diag);
+    return 0;
+}
+
+int runner_start(struct runner *runner)
+{
+    return runner->stage->start == NULL ? 0 : runner->stage->start(runner->state, runner);
+}
+
+int runner_next(struct runner *runner, struct frame *frame)
+{
+    frame_clear(frame);
+    frame->version = FRAME_VERSION;
+    frame->seed = runner->common.seed;
+    int more = runner->stage->next(runner->state, frame, runner);
+    return more == 1 && conclude(runner, frame) != 0 ? -1 : more;
+}
+
+int runner_step(struct runner *runner, struct frame *frame)
+{
+    if (runner->common.seed_text != NULL)
+        frame->seed = runner->common.seed;
+    if (check_sections(runner, frame) != 0 ||
+        (runner->common.complete && follow_scene(runner, frame) != 0) ||
+        runner->stage->step(runner->state, frame, runner) != 0)
+        return -1;
+    return runner->stage->sink ? 0 : conclude(runner, frame);
+}
+
+int runner_finish(struct runner *runner)
+{
+    for (size_t i = 0; i < runner->scenes.count; i++)
+        if (!runner->scenes.items[i].closed)
+            return diag_fail(&runner->diag, DIAG_DATA, "scene \"%s\" ends before its last frame",
+                             runner->scenes.items[i].name);
+    return 0;
+}

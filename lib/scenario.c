@@ -1,0 +1,315 @@
+#include "scenario.h"
+
+#include <string.h>
+
+#include "units.h"
+
+#define REAL(owner, member, low, high, help)                                                       \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, member, low, high, help)                                              \
+    }
+#define OPTIONAL_REAL(owner, member, low, high, help)                                              \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, member, low, high, help), FIELD_OPTIONAL                              \
+    }
+#define NAME(owner, member, help)                                                                  \
+    {                                                                                              \
+        FIELD_NAME_OF(owner, member, help)                                                         \
+    }
+#define OPTIONAL_LIST(owner, member, record, help)                                                 \
+    {                                                                                              \
+        FIELD_LIST_OF(owner, member, record, help), FIELD_OPTIONAL                                 \
+    }
+
+static const struct field segment_fields[] = {
+    REAL(struct segment, duration_s, 0, 1e6, "the next segment begins after this time"),
+    OPTIONAL_REAL(struct segment, acceleration_mps2, -1e3, 1e3, "along the heading"),
+    OPTIONAL_REAL(struct segment, yaw_rate_radps, -1e3, 1e3, "turn rate, left positive"),
+    {0},
+};
+
+static const struct record segment_record = {
+    .name = "segment",
+    .help = "A time of constant acceleration and turn rate.",
+    .size = sizeof(struct segment),
+    .fields = segment_fields,
+};
+
+static const struct field waypoint_fields[] = {
+    REAL(struct waypoint, time_s, 0, 1e6, "later than that of the waypoint before"),
+    REAL(struct waypoint, x_m, -1e9, 1e9, "centre of the box"),
+    REAL(struct waypoint, y_m, -1e9, 1e9, "centre of the box"),
+    {0},
+};
+
+static const struct record waypoint_record = {
+    .name = "waypoint",
+    .help = "A place and when to be there.",
+    .size = sizeof(struct waypoint),
+    .fields = waypoint_fields,
+};
+
+static const struct field actor_fields[] = {
+    NAME(struct actor, id, "unique in the scenario"),
+    NAME(struct actor, class, "names the vehicle document"),
+    OPTIONAL_REAL(struct actor, length_m, 0, 1e6, "0: the default of the class"),
+    OPTIONAL_REAL(struct actor, width_m, 0, 1e6, "0: the default of the class"),
+    OPTIONAL_REAL(struct actor, height_m, 0, 1e6, "0: the default of the class"),
+    OPTIONAL_REAL(struct actor, x_m, -1e9, 1e9, "centre of the box at time 0"),
+    OPTIONAL_REAL(struct actor, y_m, -1e9, 1e9, "centre of the box at time 0"),
+    OPTIONAL_REAL(struct actor, yaw_rad, -2 * PI, 2 * PI, "heading at time 0"),
+    OPTIONAL_REAL(struct actor, speed_mps, -1e3, 1e3, "at time 0; below 0: backwards"),
+    OPTIONAL_LIST(struct actor, segments, &segment_record, "driven one after another"),
+    OPTIONAL_LIST(struct actor, waypoints, &waypoint_record, "followed instead of segments"),
+    {0},
+};
+
+static const struct record actor_record = {
+    .name = "object",
+    .help = "A road user or thing, and how it moves.",
+    .size = sizeof(struct actor),
+    .fields = actor_fields,
+};
+
+static const struct field scenario_fields[] = {
+    NAME(struct scenario, origin, "who made this, and from what"),
+    NAME(struct scenario, ego, "id of the object that carries the sensors"),
+    REAL(struct scenario, rate_hz, 0.1, 1e4, "frames in a second"),
+    REAL(struct scenario, duration_s, 0, 1e6, "the last frame is not later"),
+    {FIELD_LIST_OF(struct scenario, objects, &actor_record, "everything there is")},
+    {0},
+};
+
+const struct record scenario_record = {
+    .name = "scenario",
+    .help = "Who is there and how each one moves.",
+    .size = sizeof(struct scenario),
+    .fields = scenario_fields,
+};
+
+static int check_waypoints(const struct actor *actor, struct diag *diag)
+{
+    const struct waypoint *waypoints = actor->waypoints.items;
+    if (actor->waypoints.count < 2)
+        return diag_fail(diag, DIAG_CONFIG, "waypoints: only one; expected two or more, or none");
+    for (size_t i = 1; i < actor->waypoints.count; i++)
+        if (!(waypoints[i].time_s > waypoints[i - 1].time_s))
+            return diag_fail(diag, DIAG_CONFIG,
+                             "waypoints[%zu].time_s: %g is not after %g, that of the one before", i,
+                             waypoints[i].time_s, waypoints[i - 1].time_s);
+    if (actor->segments.count > 0)
+        return diag_fail(diag, DIAG_CONFIG, "segments: expected either segments or waypoints");
+    if (actor->x_m != 0 || actor->y_m != 0 || actor->speed_mps != 0)
+        return diag_fail(diag, DIAG_CONFIG,
+                         "waypoints: they give place and speed; expected no x_m, y_m, speed_mps");
+    return 0;
+}
+
+static int check_actor(const struct scenario *scenario, size_t index, struct diag *diag)
+{
+    const struct actor *actors = scenario->objects.items;
+    for (size_t i = 0; i < index; i++)
+        if (strcmp(actors[i].id, actors[index].id) == 0)
+            return diag_fail(diag, DIAG_CONFIG, "id: \"%s\" is that of objects[%zu] already",
+                             actors[i].id, i);
+    return actors[index].waypoints.count > 0 ? check_waypoints(&actors[index], diag) : 0;
+}
+
+int scenario_check(const struct scenario *scenario, struct diag *diag)
+{
+    bool ego_found = false;
+    for (size_t i = 0; i < scenario->objects.count; i++) {
+        if (check_actor(scenario, i, diag) != 0)
+            return diag_prefix(diag, "objects[%zu].", i);
+        ego_found = ego_found || strcmp(scenario->objects.items[i].id, scenario->ego) == 0;
+    }
+    return ego_found ? 0
+                     : diag_fail(diag, DIAG_CONFIG, "ego: \"%s\" is not the id of an object",
+                                 scenario->ego);
+}
+
+static void shift_actor(struct actor *actor, struct vec2 origin_m)
+{
+    for (size_t i = 0; i < actor->waypoints.count; i++) {
+        actor->waypoints.items[i].x_m -= origin_m.x;
+        actor->waypoints.items[i].y_m -= origin_m.y;
+    }
+    if (actor->waypoints.count > 0)
+        return;
+    actor->x_m -= origin_m.x;
+    actor->y_m -= origin_m.y;
+}
+
+void scenario_shift(struct scenario *scenario, struct vec2 origin_m)
+{
+    for (size_t i = 0; i < scenario->objects.count; i++)
+        shift_actor(&scenario->objects.items[i], origin_m);
+}
+
+static struct motion drive(const struct actor *actor, double time_s, double *travelled_m)
+{
+    struct motion body = {
+        .position_m = {actor->x_m, actor->y_m},
+          .yaw_rad = actor->yaw_rad
+    };
+    double speed_mps = actor->speed_mps;
+    const struct segment *segments = actor->segments.items;
+    size_t next = 0;
+    *travelled_m = 0;
+    for (; next < actor->segments.count && time_s >= segments[next].duration_s; next++) {
+        struct segment done = segments[next];
+        *travelled_m += motion_drive_length_m(speed_mps, done.acceleration_mps2, done.duration_s);
+        body = motion_drive(body.position_m, body.yaw_rad, speed_mps, done.acceleration_mps2,
+                            done.yaw_rate_radps, done.duration_s);
+        speed_mps += done.acceleration_mps2 * done.duration_s;
+        time_s -= done.duration_s;
+    }
+    struct segment current =
+        next < actor->segments.count ? segments[next] : (struct segment){.duration_s = 0};
+    *travelled_m += motion_drive_length_m(speed_mps, current.acceleration_mps2, time_s);
+    return motion_drive(body.position_m, body.yaw_rad, speed_mps, current.acceleration_mps2,
+                        current.yaw_rate_radps, time_s);
+}
+
+static double span_duration_s(const struct actor *actor, size_t span)
+{
+    const struct waypoint *from = &actor->waypoints.items[span];
+    return from[1].time_s - from[0].time_s;
+}
+
+/* The mean velocity from one waypoint to the next. */
+static struct vec2 span_mean_mps(const struct actor *actor, size_t span)
+{
+    const struct waypoint *from = &actor->waypoints.items[span];
+    struct vec2 way_m = {from[1].x_m - from[0].x_m, from[1].y_m - from[0].y_m};
+    return vec2_scale(1 / span_duration_s(actor, span), way_m);
+}
+
+/* Two points at the ends: the three-point formula there can start a body backwards. Next to two
+ * equal places the body must rest, or it would swing around the place where it stands. */
+static struct vec2 waypoint_velocity_mps(const struct actor *actor, size_t waypoint)
+{
+    size_t spans = actor->waypoints.count - 1;
+    if (waypoint == 0 || waypoint == spans)
+        return span_mean_mps(actor, waypoint == 0 ? 0 : spans - 1);
+    struct vec2 before_mps = span_mean_mps(actor, waypoint - 1);
+    struct vec2 after_mps = span_mean_mps(actor, waypoint);
+    if (vec2_dot(before_mps, before_mps) == 0 || vec2_dot(after_mps, after_mps) == 0)
+        return (struct vec2){0, 0};
+    double before_s = span_duration_s(actor, waypoint - 1);
+    double after_s = span_duration_s(actor, waypoint);
+    double share = after_s / (before_s + after_s);
+    return vec2_add(vec2_scale(share, before_mps), vec2_scale(1 - share, after_mps));
+}
+
+struct glide {
+    struct vec2 position_m, velocity_mps, acceleration_mps2;
+};
+
+/* The curve at fraction s of a span. */
+static struct glide glide_at(const struct actor *actor, size_t span, double s)
+{
+    const struct waypoint *from = &actor->waypoints.items[span];
+    struct glide glide;
+    motion_hermite((struct vec2){from[0].x_m, from[0].y_m}, waypoint_velocity_mps(actor, span),
+                   (struct vec2){from[1].x_m, from[1].y_m}, waypoint_velocity_mps(actor, span + 1),
+                   span_duration_s(actor, span), s, &glide.position_m, &glide.velocity_mps,
+                   &glide.acceleration_mps2);
+    return glide;
+}
+
+static bool moves(struct vec2 velocity_mps)
+{
+    return vec2_dot(velocity_mps, velocity_mps) >= 1e-6 * 1e-6;
+}
+
+/* The direction of motion at the first place from one fraction of a span towards another where it
+ * has one, sought in doubling steps, so that it is that of the departure. */
+static bool find_yaw(const struct actor *actor, size_t span, double from, double to,
+                     double *yaw_rad)
+{
+    for (int halvings = 20; halvings >= 0; halvings--) {
+        double s = from + ldexp(to - from, -halvings);
+        struct vec2 velocity_mps = glide_at(actor, span, s).velocity_mps;
+        if (moves(velocity_mps)) {
+            *yaw_rad = atan2(velocity_mps.y, velocity_mps.x);
+            return true;
+        }
+    }
+    return false;
+}
+
+static double standing_yaw_rad(const struct actor *actor, size_t span, double s)
+{
+    double yaw_rad = actor->yaw_rad;
+    for (size_t later = span; later + 1 < actor->waypoints.count; later++)
+        if (find_yaw(actor, later, later == span ? s : 0, 1, &yaw_rad))
+            return yaw_rad;
+    for (size_t earlier = span + 1; earlier-- > 0;)
+        if (find_yaw(actor, earlier, earlier == span ? s : 1, 0, &yaw_rad))
+            return yaw_rad;
+    return yaw_rad;
+}
+
+/* The curve's length from the beginning of a span to a fraction of it, by five-point
+ * Gauss-Legendre: exact where the body goes straight without reversing. */
+static double span_length_m(const struct actor *actor, size_t span, double s)
+{
+    static const double rule[][2] = {
+        {-0.90617984593866399, 0.23692688505618909},
+        {-0.53846931010568309, 0.47862867049936647},
+        {0,                    0.56888888888888889},
+        {0.53846931010568309,  0.47862867049936647},
+        {0.90617984593866399,  0.23692688505618909},
+    };
+    double sum_mps = 0;
+    for (size_t i = 0; i < sizeof rule / sizeof rule[0]; i++) {
+        struct glide glide = glide_at(actor, span, s / 2 * (1 + rule[i][0]));
+        sum_mps += rule[i][1] * vec2_length(glide.velocity_mps);
+    }
+    return s / 2 * span_duration_s(actor, span) * sum_mps;
+}
+
+static size_t span_of(const struct actor *actor, double time_s)
+{
+    size_t span = 0;
+    while (span + 2 < actor->waypoints.count && actor->waypoints.items[span + 1].time_s <= time_s)
+        span++;
+    return span;
+}
+
+static struct motion follow(const struct actor *actor, double time_s, double *travelled_m)
+{
+    size_t span = span_of(actor, time_s);
+    double fraction = (time_s - actor->waypoints.items[span].time_s) / span_duration_s(actor, span);
+    double s = fraction < 0 ? 0 : fraction > 1 ? 1 : fraction;
+    *travelled_m = span_length_m(actor, span, s);
+    for (size_t i = 0; i < span; i++)
+        *travelled_m += span_length_m(actor, i, 1);
+    struct glide glide = glide_at(actor, span, s);
+    bool moving = moves(glide.velocity_mps);
+    struct motion body = {.position_m = glide.position_m};
+    body.yaw_rad = moving ? atan2(glide.velocity_mps.y, glide.velocity_mps.x)
+                          : standing_yaw_rad(actor, span, s);
+    if (fraction < 0 || fraction > 1)
+        return body;
+    body.velocity_mps = glide.velocity_mps;
+    if (moving)
+        body.yaw_rate_radps = vec2_cross(glide.velocity_mps, glide.acceleration_mps2) /
+                              vec2_dot(glide.velocity_mps, glide.velocity_mps);
+    return body;
+}
+
+struct motion scenario_motion(const struct actor *actor, double time_s, double *travelled_m)
+{
+    struct motion body = actor->waypoints.count > 0 ? follow(actor, time_s, travelled_m)
+                                                    : drive(actor, time_s, travelled_m);
+    body.yaw_rad = units_wrap_rad(body.yaw_rad);
+    return body;
+}
+
+/* A duration meant to be n / rate_hz differs from it by a few ulp. */
+int64_t scenario_frames(const struct scenario *scenario)
+{
+    return (int64_t)floor(scenario->duration_s * scenario->rate_hz * (1 + 1e-15)) + 1;
+}

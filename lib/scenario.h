@@ -1,0 +1,64 @@
+/* Scenes written by hand: who is there and how each one moves (document in data/scenarios/).
+ *
+ * An object with segments drives them one after another from its start pose, each with constant
+ * acceleration and turn rate; after the last it keeps its speed and heading. One without any keeps
+ * those it starts with: it stands still unless it is given a speed. An object with waypoints
+ * follows a smooth curve through them (cubic Hermite, velocities at the waypoints by finite
+ * differences, zero next to two equal places) and points along its velocity; before the first and
+ * after the last it stands there. Poses are exact functions of time: nothing is stepped, so no
+ * error accumulates. */
+#ifndef SCENARIO_H
+#define SCENARIO_H
+
+#include "field.h"
+#include "motion.h"
+
+struct segment {
+    double duration_s;
+    double acceleration_mps2;
+    double yaw_rate_radps;
+};
+
+struct waypoint {
+    double time_s;
+    double x_m, y_m;
+};
+
+struct actor {
+    const char *id;
+    const char *class;
+    double length_m, width_m, height_m;
+    double x_m, y_m, yaw_rad;
+    double speed_mps;
+    LIST_OF(struct segment) segments;
+    LIST_OF(struct waypoint) waypoints;
+};
+
+struct scenario {
+    const char *origin;
+    const char *ego;
+    double rate_hz;
+    double duration_s;
+    LIST_OF(struct actor) objects;
+};
+
+extern const struct record scenario_record;
+
+/* Refuses scenarios that no table of fields can: an unknown ego, an id that stands twice, segments
+ * or a start together with waypoints, waypoints whose times do not ascend. */
+int scenario_check(const struct scenario *scenario, struct diag *diag);
+
+/* Moves every place by -origin: done once, before anything is computed, so that large coordinates
+ * cost no precision later (NUMERICS 23). */
+void scenario_shift(struct scenario *scenario, struct vec2 origin_m);
+
+/* The actor at time_s >= 0, its yaw in (-pi, pi], and the way it has travelled since time 0. While
+ * something that follows waypoints stands, it points where it will go next, else where it last
+ * went, else along yaw_rad. */
+struct motion scenario_motion(const struct actor *actor, double time_s, double *travelled_m);
+
+/* Frames are numbered 0 to this - 1; frame i is at i / rate_hz, the last not after duration_s but
+ * for rounding. */
+int64_t scenario_frames(const struct scenario *scenario);
+
+#endif

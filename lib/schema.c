@@ -1,0 +1,144 @@
+#include "schema.h"
+
+#include <string.h>
+
+#include "catalogue.h"
+#include "frame.h"
+
+static const struct {
+    const char *name;
+    const struct record *record;
+} schemas[] = {
+    {"frame",    &frame_record   },
+    {"scenario", &scenario_record},
+    {"sensors",  &suite_record   },
+    {"vehicle",  &vehicle_record },
+};
+
+enum { SCHEMAS = sizeof schemas / sizeof schemas[0] };
+
+static void write_record(const struct record *record, int depth, struct text *text);
+
+static void indent(int depth, struct text *text)
+{
+    text_format(text, "\n%*s", 2 * depth, "");
+}
+
+static void write_text_member(const char *key, const char *value, struct text *text)
+{
+    text_format(text, "\"%s\": ", key);
+    text_add_json(text, value, strlen(value));
+}
+
+static void write_choices(const struct field *field, struct text *text)
+{
+    text_add_word(text, ", \"enum\": [");
+    for (int i = 0; field->choices[i] != NULL; i++)
+        text_format(text, "%s\"%s\"", i > 0 ? ", " : "", field->choices[i]);
+    text_add_word(text, "]");
+}
+
+static void write_type(const struct field *field, int depth, struct text *text)
+{
+    switch (field->kind) {
+    case FIELD_REAL:
+    case FIELD_INTEGER:
+        text_format(text, ", \"type\": \"%s\", \"minimum\": %.17g, \"maximum\": %.17g",
+                    field->kind == FIELD_REAL ? "number" : "integer", field->low, field->high);
+        break;
+    case FIELD_FLAG:
+        text_add_word(text, ", \"type\": \"boolean\"");
+        break;
+    case FIELD_NAME:
+        text_format(text, ", \"type\": \"string\", \"minLength\": 1, \"maxLength\": %d",
+                    FIELD_NAME_SIZE);
+        break;
+    case FIELD_CHOICE:
+        write_choices(field, text);
+        break;
+    case FIELD_SEED:
+        text_add_word(text, ", \"type\": \"string\", \"pattern\": \"^[0-9]{1,20}$\"");
+        break;
+    case FIELD_NAMES:
+        text_add_word(text, ", \"type\": \"array\", \"items\": {\"type\": \"string\"}");
+        break;
+    case FIELD_RECORD:
+        text_add_word(text, ",");
+        write_record(field->record, depth, text);
+        break;
+    case FIELD_LIST:
+        text_add_word(text, ", \"type\": \"array\", \"items\": {");
+        write_record(field->record, depth + 1, text);
+        indent(depth, text);
+        text_add_word(text, "}");
+        break;
+    case FIELD_NOTES:
+        text_add_word(text,
+                      ", \"type\": \"object\", \"additionalProperties\": {\"type\": \"string\"}");
+        break;
+    case FIELD_RAW:
+        break;
+    }
+}
+
+static void write_required(const struct record *record, struct text *text)
+{
+    const char *separator = "\"required\": [";
+    for (const struct field *field = record->fields; field->name != NULL; field++)
+        if (!field->optional) {
+            text_format(text, "%s\"%s\"", separator, field->name);
+            separator = ", ";
+        }
+    text_add_word(text, *separator == ',' ? "]," : "\"required\": [],");
+}
+
+/* The members of a schema object, after its opening brace. */
+static void write_record(const struct record *record, int depth, struct text *text)
+{
+    indent(depth, text);
+    write_text_member("title", record->name, text);
+    text_add_word(text, ",");
+    indent(depth, text);
+    write_text_member("description", record->help, text);
+    text_add_word(text, ", \"type\": \"object\", \"additionalProperties\": false,");
+    indent(depth, text);
+    write_required(record, text);
+    indent(depth, text);
+    text_add_word(text, "\"properties\": {");
+    for (const struct field *field = record->fields; field->name != NULL; field++) {
+        if (field != record->fields)
+            text_add_word(text, ",");
+        indent(depth + 1, text);
+        text_format(text, "\"%s\": {", field->name);
+        /* A record's own description stands in it. */
+        if (field->kind != FIELD_RECORD)
+            write_text_member("description", field->help, text);
+        else
+            write_text_member("$comment", field->help, text);
+        write_type(field, depth + 2, text);
+        text_add_word(text, "}");
+    }
+    indent(depth, text);
+    text_add_word(text, "}");
+}
+
+void schema_list(struct text *text)
+{
+    for (int i = 0; i < SCHEMAS; i++)
+        text_format(text, "%s\n", schemas[i].name);
+}
+
+bool schema_write(const char *name, struct text *text)
+{
+    for (int i = 0; i < SCHEMAS; i++)
+        if (strcmp(schemas[i].name, name) == 0) {
+            text_add_word(text, "{");
+            indent(1, text);
+            write_text_member("$schema", "https://json-schema.org/draft/2020-12/schema", text);
+            text_add_word(text, ",");
+            write_record(schemas[i].record, 1, text);
+            text_add_word(text, "\n}\n");
+            return true;
+        }
+    return false;
+}

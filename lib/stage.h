@@ -1,0 +1,62 @@
+/* A stage: one model of one step of the chain. Read this first.
+ *
+ *     traffic ─► extract ─► ideal ─► sensor ─► noise ─► target list
+ *
+ * A stage is data: one const struct stage in one file of stages/, and the folder is the registry.
+ * The executable glint-NAME and the fused program glint run the same struct. Sources make frames
+ * (next), filters change them in place (step), sinks write what they like (step, with no writes and
+ * sink set). The runner owns the state and the frame; a stage keeps no pointer into a frame, prints
+ * nothing and frees nothing it did not make. Formulas live in lib/ as pure functions; stages loop,
+ * pick members and call.
+ *
+ * Every function returns 0, or -1 after a message in the runner's diag. next also returns 1 after
+ * making a frame; 0 is the end of the scenes. */
+#ifndef STAGE_H
+#define STAGE_H
+
+#include "catalogue.h"
+#include "frame.h"
+
+struct runner;
+
+struct stage {
+    const char *name;    /* "sensor-perfect": the executable is glint-sensor-perfect */
+    const char *summary; /* one sentence */
+    const char *details; /* more paragraphs for --help, or NULL */
+    /* The state, of which members are the stage's options: --radius-m sets radius_m. */
+    const struct record *options;
+    /* A source's argument, as --help calls it; it sets the first option. NULL for all others. */
+    const char *operand;
+    bool sink;
+    unsigned reads, writes; /* enum section; the runner checks that they are there, or not yet */
+    int (*start)(void *state, struct runner *runner);
+    int (*next)(void *state, struct frame *frame, struct runner *runner);
+    int (*step)(void *state, struct frame *frame, struct runner *runner);
+};
+
+/* What the runner does for stages. */
+
+/* Memory that lasts as long as the stage, for what it loads. */
+struct arena *runner_arena(struct runner *runner);
+
+struct diag *runner_diag(struct runner *runner);
+
+/* The suite that the frame was seen with, or the one called name if it is not NULL. NULL after a
+ * message; another digest than the frame's is refused (DIAG_CONFIG). Loaded once. */
+const struct suite *runner_suite(struct runner *runner, const struct frame *frame,
+                                 const char *name);
+
+/* The vehicle document of a class. NULL after a message. Loaded once. */
+const struct vehicle *runner_vehicle(struct runner *runner, const char *class);
+
+/* A sink's way out. */
+int runner_write(struct runner *runner, const char *bytes, size_t length);
+
+/* The address of draws that concern one echo; a cell draws by its leader. */
+struct random_address runner_address(const struct frame *frame, const char *sensor,
+                                     const struct contributor *echo);
+
+/* For the progress bar of a source: how many frames there will be. */
+void runner_expect(struct runner *runner, int64_t frames);
+
+#endif

@@ -1,0 +1,137 @@
+#include "suite.h"
+
+#include <string.h>
+
+#include "units.h"
+
+static const char *const extents[] = {
+    [CELL_WIDTH] = "width", [CELL_HALF_WIDTH] = "half_width", NULL};
+static const char *const phases[] = {
+    [CELL_IN_PHASE] = "in_phase", [CELL_RANDOM_PHASE] = "random", NULL};
+static const char *const laws[] = {
+    [SIGMA_FIXED] = "fixed", [SIGMA_BY_AMPLITUDE] = "by_amplitude", NULL};
+static const char *const orders[] = {
+    [LIST_STRONGEST] = "strongest", [LIST_NEAREST] = "nearest", NULL};
+static const char *const patterns[] = {
+    [ANTENNA_DIPOLE_PAIR] = "dipole_pair", [ANTENNA_TABLE] = "table", NULL};
+static const char *const references[] = {
+    [PHASE_CENTRE] = "centre", [PHASE_ELEMENT] = "element", NULL};
+static const char *const estimators[] = {
+    [MONOPULSE_MAGNITUDE] = "magnitude", [MONOPULSE_RATIO] = "ratio", NULL};
+
+#define REAL(member, low, high, help) FIELD_REAL_IN(struct sensor, member, low, high, help)
+#define CHOICE(member, choices, help) FIELD_CHOICE_OF(struct sensor, member, choices, help)
+
+static const struct field sensor_fields[] = {
+    {FIELD_NAME_OF(struct sensor,                          name, "unique in the suite")},
+    {REAL(mount_x_m,                              -100, 100, "from the centre of the ego's box")},
+    {REAL(mount_y_m,                                       -100, 100, "from the centre of the ego's box")},
+    {REAL(mount_yaw_rad,                                                 -PI, PI, "boresight, from the ego's heading")},
+    {REAL(carrier_hz,                                                    1e9, 1e12, "carrier frequency")},
+    {REAL(range_min_m,          0, 1e6, "nothing nearer is measured")},
+    {REAL(range_max_m,                 0, 1e6, "nothing farther is measured")},
+    {REAL(field_of_view_rad,                                   0, PI, "full width; the border itself is outside")},
+    {REAL(cycle_s,                                                  1e-4, 1e3, "from scan to scan; absent: a scan in every frame"), FIELD_OPTIONAL},
+    {REAL(latency_s,                                                    0, 10, "the scan shows the world this much earlier"), FIELD_OPTIONAL},
+    {REAL(threshold_db,-300, 300, "detection threshold, 20 log10 of the amplitude")},
+    {REAL(calibration_ercs,                                1e-6, 1e6, "this cross section meets the threshold on boresight"),
+     FIELD_OPTIONAL},
+    {REAL(calibration_range_m,                                     1e-3, 1e6, "at this range"), FIELD_OPTIONAL},
+    {REAL(exponent,                                                 0.1, 10, "amplitude falls with range to this power"), FIELD_OPTIONAL,
+     .absent = 2},
+    {REAL(range_floor_m,                                                    1e-3, 1e3, "for the amplitude, nothing is nearer than this"),
+     FIELD_OPTIONAL, .absent = 0.5},
+    {FIELD_NAME_OF(struct sensor,                                   amplitude_table,
+     "CSV file with range_m, amplitude: instead of the calibration"),
+     FIELD_OPTIONAL},
+    {REAL(cell_range_m,                      1e-6, 1e6, "resolution cell")},
+    {REAL(cell_range_rate_mps,                               1e-6, 1e5, "resolution cell")},
+    {CHOICE(cell_extent,                                                  extents, "does the cell's size mean its width or half of it?"),
+     FIELD_OPTIONAL},
+    {CHOICE(cell_phase,                                                    phases, "do the echoes of a cell add in phase or with random phases?"),
+     FIELD_OPTIONAL},
+    {CHOICE(antenna_pattern,patterns, "the paper's two dipoles, or a table")},
+    {FIELD_NAME_OF(struct sensor, antenna_table, "CSV file with azimuth_rad, sum, delta"),
+     FIELD_OPTIONAL},
+    {CHOICE(phase_reference,                                                    references, "equation (6) counts phases from the element")},
+    {CHOICE(angle_estimator,estimators, "the paper's magnitude and sign, or the real ratio")},
+    {REAL(pointer_sigma,       0, 1e300, "RMS of the complex noise on each channel")},
+    {REAL(range_sigma_m,                                                    0, 1e3, "noise on range")},
+    {REAL(range_rate_sigma_mps,                                                   0, 1e3, "noise on range rate")},
+    {REAL(azimuth_sigma_rad,   0, PI, "noise on azimuth, for glint-noise-gauss")},
+    {CHOICE(sigma_law,                                laws,
+     "range and rate noise as it stands, or falling as threshold/amplitude"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct sensor,                                                 final_threshold, "test the noisy amplitude once more")},
+    {REAL(range_step_m,                                       0, 1e3, "reported in multiples of this; 0: exactly"), FIELD_OPTIONAL},
+    {REAL(range_rate_step_mps,                             0, 1e3, "reported in multiples of this; 0: exactly"),
+     FIELD_OPTIONAL},
+    {REAL(azimuth_step_rad,                                                 0, PI, "reported in multiples of this; 0: exactly"), FIELD_OPTIONAL},
+    {CHOICE(list_order,                                      orders, "which targets come first, and stay if there are too many")},
+    {FIELD_INTEGER_IN(struct sensor,                                        list_limit, 0, 1e6, "most targets in a list; 0: all")},
+    {.name = "sources",
+     .kind = FIELD_NOTES,
+     .optional = true,
+     .help = "where each figure comes from"},
+    {0                                     },
+};
+
+const struct record sensor_record = {
+    .name = "sensor",
+    .help = "A radar: mount, beam, amplitude, resolution, angle, noise and list.",
+    .size = sizeof(struct sensor),
+    .fields = sensor_fields,
+};
+
+static const struct field suite_fields[] = {
+    {FIELD_NAME_OF(struct suite, origin, "who made this, and from what")},
+    {FIELD_LIST_OF(struct suite, sensors, &sensor_record, "the radars of one ego")},
+    {0},
+};
+
+const struct record suite_record = {
+    .name = "sensor suite",
+    .help = "The radars that one ego carries.",
+    .size = sizeof(struct suite),
+    .fields = suite_fields,
+};
+
+const struct sensor *suite_sensor(const struct suite *suite, const char *name)
+{
+    for (size_t i = 0; i < suite->sensors.count; i++)
+        if (strcmp(suite->sensors.items[i].name, name) == 0)
+            return &suite->sensors.items[i];
+    return NULL;
+}
+
+void suite_derive(struct sensor *sensor)
+{
+    double part = sensor->cell_extent == CELL_WIDTH ? 0.5 : 1;
+    sensor->half_range_m = part * sensor->cell_range_m;
+    sensor->half_range_rate_mps = part * sensor->cell_range_rate_mps;
+    sensor->threshold = units_amplitude_from_db(sensor->threshold_db);
+    sensor->antenna.pattern = sensor->antenna_pattern;
+    sensor->antenna.phase = sensor->phase_reference;
+    sensor->amplitude_law.law = sensor->amplitude_table != NULL ? RADAR_TABLE : RADAR_POWER_LAW;
+    sensor->amplitude_law.exponent = sensor->exponent;
+    sensor->amplitude_law.calibration_ercs = sensor->calibration_ercs;
+    sensor->amplitude_law.calibration_range_m = sensor->calibration_range_m;
+    sensor->amplitude_law.range_floor_m = sensor->range_floor_m;
+    sensor->amplitude_law.threshold = sensor->threshold;
+}
+
+int suite_check(const struct sensor *sensor, struct diag *diag)
+{
+    if (sensor->range_max_m <= sensor->range_min_m)
+        return diag_fail(diag, DIAG_CONFIG, "range_max_m: %g is not above range_min_m, %g m",
+                         sensor->range_max_m, sensor->range_min_m);
+    bool calibrated = sensor->calibration_ercs > 0 && sensor->calibration_range_m > 0;
+    if (calibrated == (sensor->amplitude_table != NULL))
+        return diag_fail(diag, DIAG_CONFIG,
+                         "amplitude_table: expected either a table or calibration_ercs and "
+                         "calibration_range_m");
+    if ((sensor->antenna_pattern == ANTENNA_TABLE) != (sensor->antenna_table != NULL))
+        return diag_fail(diag, DIAG_CONFIG,
+                         "antenna_table: goes with antenna_pattern \"table\", and only with it");
+    return 0;
+}

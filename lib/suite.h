@@ -1,0 +1,74 @@
+/* Sensor suites: what the document in data/sensors/ says about each radar (MODEL 4, 6 to 10).
+ *
+ * Plain members are the document's; what lies below `amplitude_law` is worked out when it is
+ * loaded (document.h). */
+#ifndef SUITE_H
+#define SUITE_H
+
+#include "antenna.h"
+#include "field.h"
+#include "monopulse.h"
+#include "radar_equation.h"
+
+enum cell_extent { CELL_WIDTH, CELL_HALF_WIDTH };
+enum cell_phase { CELL_IN_PHASE, CELL_RANDOM_PHASE };
+enum sigma_law { SIGMA_FIXED, SIGMA_BY_AMPLITUDE };
+enum list_order { LIST_STRONGEST, LIST_NEAREST };
+
+struct sensor {
+    const char *name;
+    double mount_x_m, mount_y_m, mount_yaw_rad;
+    double carrier_hz;
+    double range_min_m, range_max_m;
+    double field_of_view_rad;
+    double cycle_s, latency_s;
+
+    double threshold_db;
+    double calibration_ercs, calibration_range_m;
+    double exponent;
+    double range_floor_m;
+    const char *amplitude_table;
+
+    double cell_range_m, cell_range_rate_mps;
+    enum cell_extent cell_extent;
+    enum cell_phase cell_phase;
+
+    enum antenna_pattern antenna_pattern;
+    const char *antenna_table;
+    enum antenna_phase phase_reference;
+    enum monopulse_estimator angle_estimator;
+
+    double pointer_sigma;
+    double range_sigma_m, range_rate_sigma_mps, azimuth_sigma_rad;
+    enum sigma_law sigma_law;
+    bool final_threshold;
+    double range_step_m, range_rate_step_mps, azimuth_step_rad;
+    enum list_order list_order;
+    int64_t list_limit;
+
+    struct radar_equation amplitude_law;
+    struct antenna antenna;
+    double threshold;                         /* linear */
+    double half_range_m, half_range_rate_mps; /* of a cell */
+};
+
+struct suite {
+    const char *origin;
+    LIST_OF(struct sensor) sensors; /* by name */
+    const char *name;               /* as it was asked for */
+    char digest[17];
+};
+
+extern const struct record sensor_record, suite_record;
+
+/* The sensor of that name, or NULL. */
+const struct sensor *suite_sensor(const struct suite *suite, const char *name);
+
+/* Works out a sensor's derived members from the document's; its tables, if it names any, must be
+ * in place already. */
+void suite_derive(struct sensor *sensor);
+
+/* Refuses members that are fine alone and wrong together. */
+int suite_check(const struct sensor *sensor, struct diag *diag);
+
+#endif

@@ -1,0 +1,67 @@
+#include "superposition.h"
+
+#include <complex.h>
+#include <math.h>
+
+#include "resolution.h"
+
+struct ray superposition_ray(const struct sensor *sensor, const struct echo *echo, double phase_rad)
+{
+    struct ray ray = {.echo = frame_contributor(echo), .phase_rad = phase_rad};
+    ray.strength = radar_reference_amplitude(&sensor->amplitude_law, echo->range_m) * echo->ercs;
+    ray.amplitude = ray.strength * antenna_gain(&sensor->antenna, echo->azimuth_rad);
+    return ray;
+}
+
+int superposition_compare(const void *left, const void *right)
+{
+    const struct ray *a = left, *b = right;
+    if (a->amplitude != b->amplitude)
+        return a->amplitude > b->amplitude ? -1 : 1;
+    return frame_compare_tied(&a->echo, &b->echo);
+}
+
+static struct antenna_pointers add_pointers(const struct sensor *sensor, const struct ray *rays,
+                                            size_t count)
+{
+    struct antenna_pointers total = {0, 0};
+    for (size_t i = 0; i < count; i++) {
+        struct antenna_pointers one = antenna_pointers(&sensor->antenna, rays[i].echo.azimuth_rad);
+        double _Complex turn = cos(rays[i].phase_rad) + sin(rays[i].phase_rad) * (double _Complex)I;
+        bool turned = rays[i].phase_rad != 0;
+        total.sum += rays[i].strength * (turned ? turn * one.sum : one.sum);
+        total.delta += rays[i].strength * (turned ? turn * one.delta : one.delta);
+    }
+    return total;
+}
+
+bool superposition_cell(const struct sensor *sensor, const struct ray *rays, size_t count,
+                        struct arena *arena, struct cell *cell)
+{
+    double *range = arena_get(arena, 3 * count * sizeof *range);
+    double *rate = range + count, *weight = rate + count;
+    *cell = (struct cell){.sensor = sensor->name};
+    for (size_t i = 0; i < count; i++) {
+        range[i] = rays[i].echo.range_m;
+        rate[i] = rays[i].echo.range_rate_mps;
+        weight[i] = rays[i].amplitude;
+        cell->amplitude += rays[i].amplitude;
+    }
+    for (size_t i = 0; i < count; i++) {
+        struct contributor *member = list_add(&cell->members, arena);
+        *member = rays[i].echo;
+        member->weight = rays[i].amplitude / cell->amplitude;
+    }
+    cell->range_m = resolution_mean(range, weight, count);
+    cell->range_rate_mps = resolution_mean(rate, weight, count);
+    struct antenna_pointers pointers = add_pointers(sensor, rays, count);
+    struct monopulse_angle angle =
+        monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
+    cell->sum_re = creal(pointers.sum);
+    cell->sum_im = cimag(pointers.sum);
+    cell->delta_re = creal(pointers.delta);
+    cell->delta_im = cimag(pointers.delta);
+    cell->azimuth_rad = angle.azimuth_rad;
+    cell->sign_undecided = angle.sign_undecided;
+    return angle.valid;
+}

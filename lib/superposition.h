@@ -1,0 +1,31 @@
+/* What becomes of the echoes that share a resolution cell (MODEL 6, 8): weighted means of range and
+ * rate, and the noise-free sum and delta pointers. */
+#ifndef SUPERPOSITION_H
+#define SUPERPOSITION_H
+
+#include "frame.h"
+#include "suite.h"
+
+/* An echo with what the antenna and the radar equation make of it. */
+struct ray {
+    struct contributor echo;
+    double strength;  /* G = A_ref(R) ERCS: the amplitude before the antenna */
+    double amplitude; /* A = G A_phi, equation (2) */
+    double phase_rad; /* relative to the other echoes of a cell; 0 in the paper's model */
+};
+
+struct ray superposition_ray(const struct sensor *sensor, const struct echo *echo,
+                             double phase_rad);
+
+/* Strongest first; ties by the frame's total order. For qsort. */
+int superposition_compare(const void *left, const void *right);
+
+/* Adds up count rays, strongest first, which are the cell's members in this order; memory for them
+ * comes from the arena. The amplitude is the sum of theirs (equation 5's denominator, the upper
+ * bound of what the cell can return), range and rate are the means of equation (4), the pointers
+ * are equation (8) without noise, the azimuth is read off them by the sensor's estimator. False if
+ * both pointers are zero, so that there is no azimuth. */
+bool superposition_cell(const struct sensor *sensor, const struct ray *rays, size_t count,
+                        struct arena *arena, struct cell *cell);
+
+#endif

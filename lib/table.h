@@ -1,0 +1,37 @@
+/* Tables in CSV files: columns found by their names, cells read as numbers or text.
+ *
+ * Read by libcsv in strict mode, plain or gzip. The first row names the columns; a byte order mark
+ * before it and CRLF are fine. Every row must have as many cells as the header. Rows without any
+ * cell are passed over, and blanks around a cell without quotes do not belong to it. Messages name
+ * the row as a spreadsheet shows it (the header is usually row 1, empty rows count, line breaks
+ * inside quotes do not) and, for a cell, its column. */
+#ifndef TABLE_H
+#define TABLE_H
+
+#include <stddef.h>
+
+#include "diag.h"
+#include "memory.h"
+
+struct table {
+    size_t columns;
+    const char *const *header;
+    size_t rows;              /* without the header */
+    const char *const *cells; /* row by row */
+    const size_t *numbers;    /* of the rows, for messages */
+};
+
+/* The whole table, in the arena. Messages do not name the file. */
+int table_read(const char *path, struct table *table, struct arena *arena, struct diag *diag);
+
+/* The column of that name; -1 and a message with what was found instead. */
+int table_column(const struct table *table, const char *name, size_t *column, struct diag *diag);
+
+const char *table_cell(const struct table *table, size_t row, size_t column);
+
+/* A cell as a finite number in [low, high], in the form that JSON gives numbers; white space, nan,
+ * inf, hexadecimal and a leading + are refused. */
+int table_number(const struct table *table, size_t row, size_t column, double low, double high,
+                 double *value, struct diag *diag);
+
+#endif

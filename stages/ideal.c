@@ -1,0 +1,88 @@
+/* The ideal target list: exact range, azimuth, range rate and cross section of every reflector that
+ * a sensor sees (MODEL 2.2 to 2.5, 5). */
+#include "cycle.h"
+#include "look.h"
+#include "stage.h"
+
+struct ideal {
+    const char *sensors;
+    bool account;
+    const struct suite *suite;
+};
+
+static int ideal_start(void *state, struct runner *runner)
+{
+    struct ideal *ideal = state;
+    ideal->suite = catalogue_suite(ideal->sensors, runner_arena(runner), runner_diag(runner));
+    return ideal->suite != NULL ? 0 : -1;
+}
+
+static struct sensor_view view_of(const struct sensor *sensor, bool measured)
+{
+    return (struct sensor_view){
+        .name = sensor->name,
+        .mount_x_m = sensor->mount_x_m,
+        .mount_y_m = sensor->mount_y_m,
+        .mount_yaw_rad = sensor->mount_yaw_rad,
+        .field_of_view_rad = sensor->field_of_view_rad,
+        .range_max_m = sensor->range_max_m,
+        .cell_range_m = 2 * sensor->half_range_m,
+        .cell_range_rate_mps = 2 * sensor->half_range_rate_mps,
+        .cycle_s = sensor->cycle_s,
+        .measured = measured,
+    };
+}
+
+static int ideal_step(void *state, struct frame *frame, struct runner *runner)
+{
+    struct ideal *ideal = state;
+    const struct suite *suite = ideal->suite;
+    frame->account = ideal->account;
+    frame->sensors.suite = suite->name;
+    frame->sensors.digest = suite->digest;
+    for (size_t i = 0; i < suite->sensors.count; i++) {
+        const struct sensor *sensor = &suite->sensors.items[i];
+        double instant_s = 0;
+        enum cycle_answer answer =
+            cycle_instant_s(sensor->cycle_s, frame->time_s, frame->interval_s, &instant_s);
+        if (answer == CYCLE_SEVERAL)
+            return diag_fail(
+                runner_diag(runner), DIAG_DATA,
+                "sensor \"%s\" measures every %g s, more than once in a frame of %g s; "
+                "raise the frame rate",
+                sensor->name, sensor->cycle_s, frame->interval_s);
+        *list_add(&frame->sensors.list, frame->arena) = view_of(sensor, answer == CYCLE_ONE);
+        if (answer == CYCLE_NONE)
+            continue;
+        struct look look;
+        if (look_begin(&look, frame, sensor, instant_s - sensor->latency_s, runner_diag(runner)) !=
+            0)
+            return -1;
+        look_around(&look);
+    }
+    return 0;
+}
+
+static const struct field ideal_options[] = {
+    {FIELD_NAME_OF(struct ideal,                               sensors, "the sensor suite: a name in data/sensors/, or a path")},
+    {FIELD_FLAG_OF(struct ideal, account, "account for every reflector from here on, in lost"),
+     FIELD_OPTIONAL},
+    {0                              },
+};
+
+static const struct record ideal_record = {
+    .name = "ideal", .size = sizeof(struct ideal), .fields = ideal_options};
+
+const struct stage stage_ideal = {
+    .name = "ideal",
+    .summary = "Write what a perfect radar would see of every reflector.",
+    .details =
+        "Computes, for each sensor of the suite that measures in the frame, the exact range,\n"
+        "azimuth, range rate and cross section of all reflectors it can see: in range and\n"
+        "field of view, facing it, and with no other object in the way.",
+    .options = &ideal_record,
+    .reads = SECTION_OBJECTS | SECTION_REFLECTORS,
+    .writes = SECTION_SENSORS | SECTION_ECHOES | SECTION_LOST | SECTION_COUNTS,
+    .start = ideal_start,
+    .step = ideal_step,
+};

@@ -1,0 +1,117 @@
+/* The sensor before noise: amplitude of every echo (MODEL 4), resolution cells (6), threshold on
+ * the summed amplitude, superposed sum and delta pointers of each cell (7, 8). */
+#include <stdlib.h>
+
+#include "random.h"
+#include "resolution.h"
+#include "stage.h"
+#include "superposition.h"
+#include "units.h"
+
+struct sensor_options {
+    const char *sensors;
+};
+
+/* The relative phase of an echo: 0 in the paper's model, or drawn. */
+static double phase_of(const struct frame *frame, const struct sensor *sensor,
+                       const struct echo *echo)
+{
+    if (sensor->cell_phase == CELL_IN_PHASE)
+        return 0;
+    struct contributor subject = frame_contributor(echo);
+    struct random_address address = runner_address(frame, sensor->name, &subject);
+    double uniform[4];
+    random_uniform(&address, RANDOM_PHASE, 0, uniform);
+    return 2 * PI * uniform[0];
+}
+
+/* The echoes that have an amplitude, strongest first. */
+static size_t receive(struct frame *frame, const struct sensor *sensor, struct echo_span echoes,
+                      struct ray *rays)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < echoes.count; i++) {
+        const struct echo *echo = &echoes.items[i];
+        rays[count] = superposition_ray(sensor, echo, phase_of(frame, sensor, echo));
+        if (rays[count].amplitude > 0)
+            count++;
+        else
+            frame_lose_echo(frame, "sensor", echo, LOSS_NO_AMPLITUDE);
+    }
+    qsort(rays, count, sizeof *rays, superposition_compare);
+    return count;
+}
+
+/* The number of every ray's cell, and how many cells there are. */
+static size_t resolve(struct frame *frame, const struct sensor *sensor, const struct ray *rays,
+                      size_t count, size_t *cell)
+{
+    struct resolution_echo *echoes = arena_get(frame->arena, count * sizeof *echoes);
+    for (size_t i = 0; i < count; i++)
+        echoes[i] = (struct resolution_echo){rays[i].echo.range_m, rays[i].echo.range_rate_mps,
+                                             rays[i].amplitude};
+    return resolution_cluster(echoes, count, sensor->half_range_m, sensor->half_range_rate_mps,
+                              cell);
+}
+
+static void report(struct frame *frame, const struct sensor *sensor, const struct ray *members,
+                   size_t count)
+{
+    struct cell cell;
+    bool has_angle = superposition_cell(sensor, members, count, frame->arena, &cell);
+    if (cell.amplitude < sensor->threshold)
+        frame_lose_cell(frame, "sensor", &cell, LOSS_BELOW_THRESHOLD,
+                        units_shortfall_db(sensor->threshold, cell.amplitude));
+    else if (!has_angle)
+        frame_lose_cell(frame, "sensor", &cell, LOSS_NO_ANGLE, 0);
+    else
+        *list_add(&frame->cells, frame->arena) = cell;
+}
+
+static void sense(struct frame *frame, const struct sensor *sensor, struct echo_span echoes)
+{
+    struct ray *rays = arena_get(frame->arena, 2 * (echoes.count + 1) * sizeof *rays);
+    size_t count = receive(frame, sensor, echoes, rays);
+    struct ray *members = rays + count;
+    size_t *cell = arena_get(frame->arena, (count + 1) * sizeof *cell);
+    size_t cells = resolve(frame, sensor, rays, count, cell);
+    for (size_t number = 0; number < cells; number++) {
+        size_t member_count = 0;
+        for (size_t i = 0; i < count; i++)
+            if (cell[i] == number)
+                members[member_count++] = rays[i];
+        report(frame, sensor, members, member_count);
+    }
+}
+
+static int sensor_step(void *state, struct frame *frame, struct runner *runner)
+{
+    const struct sensor_options *options = state;
+    const struct suite *suite = runner_suite(runner, frame, options->sensors);
+    for (size_t i = 0; suite != NULL && i < suite->sensors.count; i++) {
+        const struct sensor *sensor = &suite->sensors.items[i];
+        sense(frame, sensor, frame_echoes_of(frame, sensor->name));
+    }
+    return suite != NULL ? 0 : -1;
+}
+
+static const struct field sensor_options[] = {
+    {FIELD_NAME_OF(struct sensor_options,              sensors, "take the suite from here, not from the frame"),
+     FIELD_OPTIONAL},
+    {0},
+};
+
+static const struct record sensor_options_record = {
+    .name = "sensor", .size = sizeof(struct sensor_options), .fields = sensor_options};
+
+const struct stage stage_sensor = {
+    .name = "sensor",
+    .summary = "Merge echoes into resolution cells and superpose their antenna pointers.",
+    .details = "Gives every echo its amplitude, lets echoes that the radar cannot resolve share a\n"
+               "cell, drops cells whose summed amplitude is below the detection threshold, and\n"
+               "writes what the sum and delta channels would show of the rest without noise.",
+    .options = &sensor_options_record,
+    .reads = SECTION_SENSORS | SECTION_ECHOES,
+    .writes = SECTION_CELLS | SECTION_LOST,
+    .step = sensor_step,
+};

@@ -1,0 +1,115 @@
+#include "cycle.h"
+
+#include "check.h"
+
+static void known_frames_have_known_instants(void **state)
+{
+    (void)state;
+    static const struct {
+        double cycle_s, time_s, interval_s;
+        enum cycle_answer answer;
+        double instant_s;
+    } cases[] = {
+  /* once a frame */
+        {0,     12.34,      0.05,          CYCLE_ONE,     12.34},
+        {0,     0,          0.05,          CYCLE_ONE,     0    },
+ /* the frame at time 0 holds the first instant and none before it */
+        {0.05,  0,          0.05,          CYCLE_ONE,     0    },
+        {0.04,  0,          0.1,           CYCLE_ONE,     0    },
+        {0.04,  -0.02,      0.05,          CYCLE_NONE,    0    },
+        {0.04,  -0.2,       0.1,           CYCLE_NONE,    0    },
+        {0.04,  0.02,       0.1,           CYCLE_ONE,     0    },
+ /* open at the start, closed at the end */
+        {0.5,   1.0,        0.25,          CYCLE_ONE,     1.0  },
+        {0.5,   1.25,       0.25,          CYCLE_NONE,    0    },
+        {0.5,   1.125,      0.25,          CYCLE_ONE,     1.0  },
+        {0.5,   1.0,        0.5,           CYCLE_ONE,     1.0  },
+        {0.5,   1.0,        0.75,          CYCLE_SEVERAL, 0    },
+        {0.5,   1.0,        0,             CYCLE_NONE,    0    },
+ /* 1e-9 of a cycle counts as on it */
+        {0.5,   1 - 0.4e-9, 0.25,          CYCLE_ONE,     1.0  },
+        {0.5,   1 - 0.6e-9, 0.25,          CYCLE_NONE,    0    },
+        {0.5,   1.25,       0.25 + 0.4e-9, CYCLE_NONE,    0    },
+        {0.5,   1.25,       0.25 + 0.6e-9, CYCLE_ONE,     1.0  },
+ /* too slow a frame rate */
+        {0.04,  0.1,        0.1,           CYCLE_SEVERAL, 0    },
+        {0.04,  0.2,        0.1,           CYCLE_SEVERAL, 0    },
+        {0.001, 100,        0.1,           CYCLE_SEVERAL, 0    },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        double instant_s = 0;
+        assert_int_equal(
+            cycle_instant_s(cases[i].cycle_s, cases[i].time_s, cases[i].interval_s, &instant_s),
+            cases[i].answer);
+        assert_true(instant_s == cases[i].instant_s);
+    }
+}
+
+/* Frames at i / rate, a cycle of ticks thousandths of a second: instant k belongs to the frame
+ * i = ceil(k ticks rate / 1000), counted in whole numbers. */
+static void every_instant_is_delivered_exactly_once(void **state)
+{
+    (void)state;
+    static const struct {
+        int64_t rate_hz, ticks;
+    } cases[] = {
+        {20, 66 },
+        {25, 40 },
+        {20, 50 },
+        {10, 100},
+        {30, 35 },
+        {17, 60 },
+        {20, 100},
+        {10, 700},
+        {50, 66 },
+        {60, 50 }
+    };
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        double rate_hz = (double)cases[c].rate_hz;
+        double cycle_s = (double)cases[c].ticks / 1000;
+        int64_t next = 0;
+        for (int64_t i = 0; i < 1000000; i++) {
+            int64_t due = (next * cases[c].ticks * cases[c].rate_hz + 999) / 1000;
+            double instant_s = -1;
+            enum cycle_answer answer =
+                cycle_instant_s(cycle_s, (double)i / rate_hz, 1 / rate_hz, &instant_s);
+            assert_int_equal(answer, i == due ? CYCLE_ONE : CYCLE_NONE);
+            if (answer != CYCLE_ONE)
+                continue;
+            assert_true(instant_s == (double)next * cycle_s);
+            next++;
+        }
+        assert_int_equal(next, INT64_C(999999000) / (cases[c].ticks * cases[c].rate_hz) + 1);
+    }
+}
+
+static void frames_slower_than_the_cycle_say_so(void **state)
+{
+    (void)state;
+    for (int64_t i = 1; i < 1000000; i++) {
+        double instant_s;
+        assert_int_equal(cycle_instant_s(0.04, (double)i / 10, 0.1, &instant_s), CYCLE_SEVERAL);
+    }
+}
+
+/* 20 Hz and 0.04 s: five instants in four frames, so one frame in four holds two. */
+static void a_slightly_slow_frame_rate_is_caught_within_a_beat(void **state)
+{
+    (void)state;
+    for (int64_t i = 1; i < 1000000; i++) {
+        double instant_s;
+        enum cycle_answer expected = i % 4 == 0 ? CYCLE_SEVERAL : CYCLE_ONE;
+        assert_int_equal(cycle_instant_s(0.04, (double)i / 20, 0.05, &instant_s), expected);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(known_frames_have_known_instants),
+        cmocka_unit_test(every_instant_is_delivered_exactly_once),
+        cmocka_unit_test(frames_slower_than_the_cycle_say_so),
+        cmocka_unit_test(a_slightly_slow_frame_rate_is_caught_within_a_beat),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,489 @@
+#include "check.h"
+
+#include <stdlib.h>
+
+#include "antenna.h"
+#include "monopulse.h"
+#include "random.h"
+#include "units.h"
+
+#define DEGREE (PI / 180)
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+#define DRAWS 40000
+
+static const struct antenna CENTRE = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = PHASE_CENTRE};
+static const struct antenna ELEMENT = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = PHASE_ELEMENT};
+
+static const struct antenna_row ROWS[] = {
+    {-1.2, 0,    -0.3},
+    {-0.5, 0.4,  -0.5},
+    {0.1,  1,    0.1 },
+    {0.6,  0.7,  0.6 },
+    {1.3,  0.05, 0.4 }
+};
+static const struct antenna TABLE = {ANTENNA_TABLE, PHASE_CENTRE, ROWS, COUNT(ROWS)};
+static const struct antenna TURNED_TABLE = {ANTENNA_TABLE, PHASE_ELEMENT, ROWS, COUNT(ROWS)};
+
+static const enum monopulse_estimator ESTIMATORS[] = {MONOPULSE_MAGNITUDE, MONOPULSE_RATIO};
+
+static struct antenna_pointers weigh(struct antenna_pointers pointers, double _Complex weight)
+{
+    return (struct antenna_pointers){weight * pointers.sum, weight * pointers.delta};
+}
+
+/* Equation (8) without noise. */
+static struct antenna_pointers superpose(const struct antenna *antenna, double first_rad,
+                                         double _Complex first, double second_rad,
+                                         double _Complex second)
+{
+    struct antenna_pointers a = weigh(antenna_pointers(antenna, first_rad), first);
+    struct antenna_pointers b = weigh(antenna_pointers(antenna, second_rad), second);
+    return (struct antenna_pointers){a.sum + b.sum, a.delta + b.delta};
+}
+
+static double _Complex phasor(double phase_rad)
+{
+    return cos(phase_rad) + sin(phase_rad) * (double _Complex)I;
+}
+
+static double dense_azimuth(int i)
+{
+    if (i < 40000)
+        return 1.5 * (i + 1) / 40001;
+    if (i < 70000)
+        return pow(10, -150.0 * (i - 40000) / 30000);
+    return PI / 2 - pow(10, -12.0 * (i - 70000) / 30000);
+}
+
+/* MODEL 13 and the six-digit values of 7.2. */
+static void the_sensing_ratio_has_the_published_values(void **state)
+{
+    (void)state;
+    static const double rows[][3] = {
+        {0,  -1,        0      },
+        {5,  -0.75783,  5.01e-6},
+        {10, -0.562820, 5.01e-7},
+        {20, -0.253377, 5.01e-7},
+        {30, 0,         1e-15  },
+        {40, 0.22813,   5.01e-6},
+        {45, 0.337307,  5.01e-7},
+        {60, 0.647976,  5.01e-7},
+        {80, 0.95338,   5.01e-6}
+    };
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        assert_close(monopulse_asr(antenna_pointers(&ELEMENT, rows[i][0] * DEGREE)), rows[i][1],
+                     rows[i][2]);
+        assert_close(monopulse_asr(antenna_pointers(&CENTRE, -rows[i][0] * DEGREE)), rows[i][1],
+                     rows[i][2]);
+    }
+}
+
+/* MODEL 7.2: ASR = tan((pi/2) |sin| - pi/4), and its inverse. */
+static void the_sensing_ratio_and_its_inverse_are_closed_forms(void **state)
+{
+    (void)state;
+    for (int i = -890; i <= 890; i++) {
+        double azimuth_rad = 0.1 * i * DEGREE;
+        struct antenna_pointers pointers = antenna_pointers(&ELEMENT, azimuth_rad);
+        double asr = monopulse_asr(pointers);
+        assert_close(asr, tan(PI / 2 * fabs(sin(azimuth_rad)) - PI / 4), 1e-15);
+        assert_close(monopulse_angle(&ELEMENT, MONOPULSE_MAGNITUDE, pointers).azimuth_rad,
+                     copysign(asin(0.5 + 2 / PI * atan(asr)), azimuth_rad), 2e-14);
+    }
+}
+
+/* MODEL 7.3: degrees per unit of the sensing ratio, as a difference quotient. */
+static void the_sensing_ratio_is_as_well_conditioned_as_published(void **state)
+{
+    (void)state;
+    static const double rows[][3] = {
+        {0,  18.2, 0.0501},
+        {5,  23.3, 0.0501},
+        {10, 28.1, 0.0501},
+        {20, 36.5, 0.0501},
+        {30, 42.1, 0.0501},
+        {40, 45.3, 0.0501},
+        {50, 47.4, 0.0501},
+        {60, 51.4, 0.0501},
+        {70, 63.4, 0.0501},
+        {80, 110,  0.501 },
+        {85, 212,  0.501 },
+        {89, 1046, 0.501 }
+    };
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        double below = fmax(rows[i][0] - 1e-4, 0);
+        double above = rows[i][0] + 1e-4;
+        double change = monopulse_asr(antenna_pointers(&CENTRE, above * DEGREE)) -
+                        monopulse_asr(antenna_pointers(&CENTRE, below * DEGREE));
+        assert_close((above - below) / change, rows[i][1], rows[i][2]);
+    }
+}
+
+static void a_single_echo_is_seen_where_it_is(void **state)
+{
+    (void)state;
+    const struct antenna *antennas[] = {&CENTRE, &ELEMENT};
+    for (int i = 0; i < 100000; i++)
+        for (size_t k = 0; k < 8; k++) {
+            double azimuth_rad = k < 4 ? dense_azimuth(i) : -dense_azimuth(i);
+            const struct antenna *antenna = antennas[k % 2];
+            struct monopulse_angle angle = monopulse_angle(antenna, ESTIMATORS[k / 2 % 2],
+                                                           antenna_pointers(antenna, azimuth_rad));
+            assert_true(angle.valid && !angle.sign_undecided);
+            assert_close(angle.azimuth_rad, azimuth_rad, fmin(2e-15, 1e-14 * fabs(azimuth_rad)));
+        }
+}
+
+static void the_common_phase_and_size_of_the_pointers_do_not_matter(void **state)
+{
+    (void)state;
+    static const double sizes[] = {1e-300, 1e-150, 1, 3e7, 1e300};
+    for (size_t i = 0; i < COUNT(sizes); i++)
+        for (int phase = 0; phase < 24; phase++)
+            for (int azimuth_deg = -80; azimuth_deg <= 80; azimuth_deg += 8) {
+                struct antenna_pointers pointers =
+                    weigh(antenna_pointers(&ELEMENT, azimuth_deg * DEGREE),
+                          sizes[i] * phasor(0.26 * phase));
+                for (size_t k = 0; k < 2; k++) {
+                    struct monopulse_angle angle =
+                        monopulse_angle(&ELEMENT, ESTIMATORS[k], pointers);
+                    assert_true(angle.valid && !angle.sign_undecided);
+                    assert_close(angle.azimuth_rad, azimuth_deg * DEGREE, 2e-15);
+                }
+                if (sizes[i] < 1e100)
+                    assert_close(monopulse_asr(pointers),
+                                 tan(PI / 2 * sin(abs(azimuth_deg) * DEGREE) - PI / 4), 2e-15);
+            }
+}
+
+static void a_single_echo_is_seen_where_it_is_through_a_table(void **state)
+{
+    (void)state;
+    const struct antenna *antennas[] = {&TABLE, &TURNED_TABLE};
+    for (int i = 1; i < 10000; i++)
+        for (size_t k = 0; k < 4; k++) {
+            double azimuth_rad = -1.2 + 2.5 * i / 10000;
+            struct monopulse_angle angle = monopulse_angle(
+                antennas[k / 2], ESTIMATORS[k % 2], antenna_pointers(antennas[k / 2], azimuth_rad));
+            assert_true(angle.valid);
+            assert_close(angle.azimuth_rad, azimuth_rad, 3e-15);
+        }
+}
+
+static void pointers_of_zero_have_no_angle(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < 2; k++) {
+        struct monopulse_angle angle =
+            monopulse_angle(&CENTRE, ESTIMATORS[k], (struct antenna_pointers){0, 0});
+        assert_false(angle.valid);
+        assert_false(angle.sign_undecided);
+        assert_close(angle.azimuth_rad, 0, 0);
+    }
+}
+
+static void a_delta_of_zero_is_straight_ahead(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < 2; k++) {
+        struct monopulse_angle angle =
+            monopulse_angle(&CENTRE, ESTIMATORS[k], (struct antenna_pointers){-3, 0});
+        assert_true(angle.valid);
+        assert_false(angle.sign_undecided);
+        assert_close(angle.azimuth_rad, 0, 0);
+    }
+}
+
+static void a_sum_of_zero_is_at_one_side_or_the_other(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < 2; k++) {
+        struct monopulse_angle angle =
+            monopulse_angle(&CENTRE, ESTIMATORS[k], (struct antenna_pointers){0, -1e-200});
+        assert_true(angle.valid);
+        assert_true(angle.sign_undecided);
+        assert_close(angle.azimuth_rad, PI / 2, 0);
+    }
+}
+
+static void the_phase_decides_the_sign_whatever_the_sizes(void **state)
+{
+    (void)state;
+    static const struct {
+        double sum, delta, azimuth_rad;
+    } cases[] = {
+        {1e-300, 1e300,  PI / 2},
+        {1e300,  1e-300, 0     },
+        {1e-300, 1e-300, PI / 6},
+        {1e300,  1e300,  PI / 6}
+    };
+    for (size_t i = 0; i < COUNT(cases); i++)
+        for (size_t k = 0; k < 2; k++)
+            for (int signs = 0; signs < 4; signs++) {
+                int side = signs % 2 ? 1 : -1;
+                int turn = signs / 2 ? 1 : -1;
+                struct antenna_pointers pointers = {
+                    turn * cases[i].sum, -turn * side * cases[i].delta * (double _Complex)I};
+                struct monopulse_angle angle = monopulse_angle(&CENTRE, ESTIMATORS[k], pointers);
+                assert_true(angle.valid && !angle.sign_undecided);
+                assert_close(angle.azimuth_rad, side * cases[i].azimuth_rad, 2e-16);
+            }
+}
+
+/* The ratio Im(delta conj(sum)) : |delta| |sum| on either side of 2^-47. */
+static void a_sign_below_the_rounding_is_undecided(void **state)
+{
+    (void)state;
+    static const struct {
+        double imag;
+        int undecided;
+        double azimuth_rad;
+    } cases[] = {
+        {0x1p-46,  0, -PI / 6},
+        {-0x1p-46, 0, PI / 6 },
+        {0x1p-47,  1, PI / 6 },
+        {-0x1p-47, 1, PI / 6 },
+        {0x1p-48,  1, PI / 6 },
+        {0,        1, PI / 6 }
+    };
+    static const double sizes[] = {1e-280, 1, 1e300};
+    for (size_t i = 0; i < COUNT(cases); i++)
+        for (size_t k = 0; k < COUNT(sizes); k++) {
+            struct antenna_pointers pointers = {
+                sizes[k], sizes[k] * (1 + cases[i].imag * (double _Complex)I)};
+            struct monopulse_angle angle = monopulse_angle(&CENTRE, MONOPULSE_MAGNITUDE, pointers);
+            assert_true(angle.valid);
+            assert_int_equal(angle.sign_undecided, cases[i].undecided);
+            assert_close(angle.azimuth_rad, cases[i].azimuth_rad, 1e-15);
+            angle = monopulse_angle(&CENTRE, MONOPULSE_RATIO, pointers);
+            assert_false(angle.sign_undecided);
+            assert_close(angle.azimuth_rad, asin(2 / PI * -cases[i].imag), 1e-28);
+        }
+}
+
+/* MODEL 8.1: two equal echoes at either side. */
+static void two_equal_echoes_meet_in_the_middle(void **state)
+{
+    (void)state;
+    static const double rows[][3] = {
+        {4,  0.44, 0.00501},
+        {6,  1.00, 0.00501},
+        {8,  1.80, 0.00501},
+        {10, 2.85, 0.00501},
+        {12, 4.17, 0.00501},
+        {15, 6.70, 0.00501},
+        {20, 12.5, 0.0501 },
+        {25, 20.5, 0.0501 },
+        {30, 30.0, 1e-12  }
+    };
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        double azimuth_rad = rows[i][0] * DEGREE;
+        struct antenna_pointers literal = superpose(&ELEMENT, azimuth_rad, 1, -azimuth_rad, 1);
+        struct monopulse_angle angle = monopulse_angle(&ELEMENT, MONOPULSE_MAGNITUDE, literal);
+        assert_true(angle.valid && angle.sign_undecided);
+        assert_close(angle.azimuth_rad / DEGREE, rows[i][1], rows[i][2]);
+        angle = monopulse_angle(&ELEMENT, MONOPULSE_RATIO, literal);
+        assert_true(angle.valid && !angle.sign_undecided);
+        assert_close(angle.azimuth_rad, 0, 0);
+        struct antenna_pointers centred = superpose(&CENTRE, azimuth_rad, 1, -azimuth_rad, 1);
+        for (size_t k = 0; k < 2; k++) {
+            angle = monopulse_angle(&CENTRE, ESTIMATORS[k], centred);
+            assert_true(angle.valid && !angle.sign_undecided);
+            assert_close(angle.azimuth_rad, 0, 0);
+        }
+    }
+}
+
+/* MODEL 8.1: the worked examples. */
+static void unequal_echoes_are_seen_between(void **state)
+{
+    (void)state;
+    static const struct {
+        double first_deg, second_deg, ratio, literal_deg, centred_deg;
+    } rows[] = {
+        {-8, 8,  1, 1.80, 0   },
+        {-8, 8,  2, 3.23, 2.70},
+        {-8, 8,  5, 5.60, 5.37},
+        {-5, 15, 1, 5.40, 4.64}
+    };
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        double first_rad = rows[i].first_deg * DEGREE;
+        double second_rad = rows[i].second_deg * DEGREE;
+        struct antenna_pointers literal =
+            superpose(&ELEMENT, first_rad, 1, second_rad, rows[i].ratio);
+        assert_close(monopulse_angle(&ELEMENT, MONOPULSE_MAGNITUDE, literal).azimuth_rad / DEGREE,
+                     rows[i].literal_deg, 0.00501);
+        struct antenna_pointers centred =
+            superpose(&CENTRE, first_rad, 1, second_rad, rows[i].ratio);
+        for (size_t k = 0; k < 2; k++)
+            assert_close(monopulse_angle(&CENTRE, ESTIMATORS[k], centred).azimuth_rad / DEGREE,
+                         rows[i].centred_deg, 0.00501);
+    }
+}
+
+/* MODEL 8.1: equal g (amplitude times element factor) gives the mean of the sines. */
+static void centred_echoes_of_equal_weight_average_their_sines(void **state)
+{
+    (void)state;
+    for (int first = -70; first <= 70; first += 10)
+        for (int second = -65; second <= 75; second += 10) {
+            double angles[] = {first * DEGREE, second * DEGREE};
+            double weights[2];
+            for (int k = 0; k < 2; k++) {
+                double u = PI / 2 * sin(angles[k]);
+                weights[k] = first || k ? u / (sin(u) * cos(angles[k])) : 1;
+            }
+            struct antenna_pointers sum =
+                superpose(&CENTRE, angles[0], weights[0], angles[1], weights[1]);
+            for (size_t k = 0; k < 2; k++)
+                assert_close(sin(monopulse_angle(&CENTRE, ESTIMATORS[k], sum).azimuth_rad),
+                             (sin(angles[0]) + sin(angles[1])) / 2, 2e-15);
+        }
+}
+
+/* MODEL 8.2: delta / sum = -tan(u) tan(theta / 2). */
+static void the_relative_phase_of_two_echoes_drives_them_apart(void **state)
+{
+    (void)state;
+    double azimuth_rad = 8 * DEGREE;
+    double u = PI / 2 * sin(azimuth_rad);
+    for (int i = 1; i < 31; i++) {
+        struct antenna_pointers sum =
+            superpose(&CENTRE, azimuth_rad, phasor(0.1 * i), -azimuth_rad, 1);
+        struct monopulse_angle angle = monopulse_angle(&CENTRE, MONOPULSE_MAGNITUDE, sum);
+        assert_close(angle.azimuth_rad, asin(2 / PI * atan(tan(u) * tan(0.05 * i))), 1e-14);
+        assert_true(angle.sign_undecided);
+        angle = monopulse_angle(&CENTRE, MONOPULSE_RATIO, sum);
+        assert_close(angle.azimuth_rad, 0, 1e-14);
+    }
+}
+
+/* NUMERICS 11: neither estimator may jump for one rounding of an amplitude. The magnitude is held
+ * to it from 1 deg up: nearer the middle delta is what the two echoes leave of each other. */
+static void one_ulp_of_an_amplitude_does_not_flip_the_sign(void **state)
+{
+    (void)state;
+    for (int i = 1; i < 700; i++)
+        for (size_t k = i < 10; k < 2; k++) {
+            double azimuth_rad = 0.1 * i * DEGREE;
+            double even = monopulse_angle(&ELEMENT, ESTIMATORS[k],
+                                          superpose(&ELEMENT, azimuth_rad, 1, -azimuth_rad, 1))
+                              .azimuth_rad;
+            for (int side = -1; side <= 1; side += 2) {
+                double amplitude = 1 + side * 0x1p-52;
+                double odd =
+                    monopulse_angle(&ELEMENT, ESTIMATORS[k],
+                                    superpose(&ELEMENT, azimuth_rad, amplitude, -azimuth_rad, 1))
+                        .azimuth_rad;
+                assert_close(odd, even, 1e-12);
+            }
+        }
+}
+
+struct spread {
+    double mean_deg, deviation_deg, size_mean_deg, size_deviation_deg, wrong_sign;
+};
+
+/* Many draws of one echo with noise of total rms noise on either pointer. */
+static struct spread spread_of(enum monopulse_estimator estimator, double azimuth_rad,
+                               double amplitude, double noise)
+{
+    double sum = 0;
+    double size_sum = 0;
+    double squares = 0;
+    double wrong = 0;
+    struct random_address address = {.seed = 4, .scene = (uint64_t)(1e6 * (azimuth_rad + 2))};
+    for (address.frame = 0; address.frame < DRAWS; address.frame++) {
+        double draw[4];
+        random_gaussian(&address, RANDOM_POINTERS, 0, draw);
+        struct antenna_pointers pointers =
+            weigh(antenna_pointers(&ELEMENT, azimuth_rad), amplitude);
+        pointers.sum += noise * sqrt(0.5) * (draw[0] + draw[1] * (double _Complex)I);
+        pointers.delta += noise * sqrt(0.5) * (draw[2] + draw[3] * (double _Complex)I);
+        double azimuth_deg = monopulse_angle(&ELEMENT, estimator, pointers).azimuth_rad / DEGREE;
+        sum += azimuth_deg / DRAWS;
+        size_sum += fabs(azimuth_deg) / DRAWS;
+        squares += azimuth_deg * azimuth_deg / DRAWS;
+        wrong += (azimuth_deg < 0) / (double)DRAWS;
+    }
+    return (struct spread){sum, sqrt(squares - sum * sum), size_sum,
+                           sqrt(squares - size_sum * size_sum), wrong};
+}
+
+/* MODEL 7.3: the standard deviations of the magnitude estimator by Monte Carlo there. */
+static void noise_spreads_the_magnitude_angle_as_published(void **state)
+{
+    (void)state;
+    static const double rows[][3] = {
+        {16, 0,  2.28},
+        {16, 10, 1.68},
+        {16, 30, 2.38},
+        {16, 50, 5.00},
+        {8,  0,  4.57},
+        {8,  5,  3.60},
+        {8,  10, 3.29},
+        {8,  30, 4.75},
+        {8,  40, 6.58}
+    };
+    for (size_t i = 0; i < COUNT(rows); i++)
+        assert_near(
+            spread_of(MONOPULSE_MAGNITUDE, rows[i][1] * DEGREE, rows[i][0], 1).deviation_deg,
+            rows[i][2], 0.02);
+    struct spread weak = spread_of(MONOPULSE_MAGNITUDE, 5 * DEGREE, 8, 1);
+    assert_close(weak.wrong_sign, 0.064, 0.005);
+    assert_close(spread_of(MONOPULSE_MAGNITUDE, 10 * DEGREE, 8, 1).wrong_sign, 0.002, 0.001);
+    assert_close(spread_of(MONOPULSE_MAGNITUDE, 5 * DEGREE, 4, 1).wrong_sign, 0.23, 0.01);
+}
+
+/* (2/pi) |cos u| / (cos sqrt(2 chi)), chi the signal-to-noise ratio of the sum channel. */
+static void noise_spreads_the_ratio_angle_as_published(void **state)
+{
+    (void)state;
+    static const double rows[][2] = {
+        {0,  0.8156},
+        {20, 0.7457},
+        {40, 0.5666}
+    };
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        double azimuth_rad = rows[i][0] * DEGREE;
+        double noise = antenna_gain(&ELEMENT, azimuth_rad) / sqrt(1000);
+        struct spread spread = spread_of(MONOPULSE_RATIO, azimuth_rad, 1, noise);
+        assert_near(spread.deviation_deg, rows[i][1], 0.015);
+        assert_close(spread.mean_deg, rows[i][0], 0.03);
+    }
+}
+
+static void the_magnitude_angle_folds_at_boresight(void **state)
+{
+    (void)state;
+    struct spread spread = spread_of(MONOPULSE_MAGNITUDE, 0, 1, 0.1);
+    assert_close(spread.size_mean_deg, 3.23, 0.05);
+    assert_close(spread.size_deviation_deg, 1.69, 0.03);
+    assert_close(spread.wrong_sign, 0.5, 0.013);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_sensing_ratio_has_the_published_values),
+        cmocka_unit_test(the_sensing_ratio_and_its_inverse_are_closed_forms),
+        cmocka_unit_test(the_sensing_ratio_is_as_well_conditioned_as_published),
+        cmocka_unit_test(a_single_echo_is_seen_where_it_is),
+        cmocka_unit_test(the_common_phase_and_size_of_the_pointers_do_not_matter),
+        cmocka_unit_test(a_single_echo_is_seen_where_it_is_through_a_table),
+        cmocka_unit_test(pointers_of_zero_have_no_angle),
+        cmocka_unit_test(a_delta_of_zero_is_straight_ahead),
+        cmocka_unit_test(a_sum_of_zero_is_at_one_side_or_the_other),
+        cmocka_unit_test(the_phase_decides_the_sign_whatever_the_sizes),
+        cmocka_unit_test(a_sign_below_the_rounding_is_undecided),
+        cmocka_unit_test(two_equal_echoes_meet_in_the_middle),
+        cmocka_unit_test(unequal_echoes_are_seen_between),
+        cmocka_unit_test(centred_echoes_of_equal_weight_average_their_sines),
+        cmocka_unit_test(the_relative_phase_of_two_echoes_drives_them_apart),
+        cmocka_unit_test(one_ulp_of_an_amplitude_does_not_flip_the_sign),
+        cmocka_unit_test(noise_spreads_the_magnitude_angle_as_published),
+        cmocka_unit_test(noise_spreads_the_ratio_angle_as_published),
+        cmocka_unit_test(the_magnitude_angle_folds_at_boresight),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

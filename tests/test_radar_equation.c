@@ -1,0 +1,251 @@
+#include "check.h"
+
+#include "antenna.h"
+#include "radar_equation.h"
+#include "units.h"
+
+#define DEGREE (PI / 180)
+
+static const struct antenna DIPOLE_PAIR = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = PHASE_ELEMENT};
+
+static const struct radar_row ROWS[] = {
+    {1,  1000},
+    {2,  300 },
+    {5,  100 },
+    {20, 5   }
+};
+
+static struct radar_equation paper_law(void)
+{
+    return (struct radar_equation){.law = RADAR_POWER_LAW,
+                                   .exponent = 2,
+                                   .calibration_ercs = 0.8,
+                                   .calibration_range_m = 30,
+                                   .range_floor_m = 0.5,
+                                   .threshold = units_amplitude_from_db(6)};
+}
+
+static struct radar_equation table_law(void)
+{
+    return (struct radar_equation){.law = RADAR_TABLE,
+                                   .range_floor_m = 0.5,
+                                   .threshold = units_amplitude_from_db(6),
+                                   .rows = ROWS,
+                                   .row_count = sizeof ROWS / sizeof ROWS[0]};
+}
+
+static double range_at(const struct radar_equation *law, double ercs, double azimuth_rad)
+{
+    return radar_detection_range_m(law, antenna_gain(&DIPOLE_PAIR, azimuth_rad), ercs);
+}
+
+/* MODEL 4.1: the printed table; lateral reach and area are found by search and quadrature. */
+static void detection_areas_are_those_of_the_paper(void **state)
+{
+    (void)state;
+    static const struct {
+        double ercs, range_m[5], lateral_m, area_m2;
+    } rows[] = {
+        {0.2, {15.00, 13.15, 9.98, 6.35, 4.11},   5.73,  133},
+        {0.3, {18.37, 16.11, 12.22, 7.77, 5.03},  7.01,  199},
+        {0.4, {21.21, 18.60, 14.11, 8.98, 5.81},  8.10,  265},
+        {0.5, {23.72, 20.80, 15.78, 10.04, 6.50}, 9.05,  332},
+        {0.6, {25.98, 22.78, 17.28, 11.00, 7.12}, 9.92,  398},
+        {0.7, {28.06, 24.61, 18.67, 11.88, 7.69}, 10.71, 464},
+        {0.8, {30.00, 26.31, 19.96, 12.70, 8.22}, 11.45, 531},
+    };
+    static const double azimuth_deg[5] = {0, 20, 35, 50, 60};
+    struct radar_equation law = paper_law();
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        for (size_t k = 0; k < 5; k++)
+            assert_close(range_at(&law, rows[i].ercs, azimuth_deg[k] * DEGREE), rows[i].range_m[k],
+                         0.00501);
+        double lateral_m = 0;
+        double lateral_deg = 0;
+        double area_m2 = 0;
+        for (int k = 0; k < 18000; k++) {
+            double middle = (k - 8999.5) * 0.01 * DEGREE;
+            double range_m = range_at(&law, rows[i].ercs, middle);
+            area_m2 += 0.5 * range_m * range_m * 0.01 * DEGREE;
+            if (range_m * sin(middle) > lateral_m) {
+                lateral_m = range_m * sin(middle);
+                lateral_deg = middle / DEGREE;
+            }
+        }
+        assert_close(lateral_m, rows[i].lateral_m, 0.00501);
+        assert_close(lateral_deg, 35.6, 0.0501);
+        assert_close(area_m2, rows[i].area_m2, 0.501);
+    }
+}
+
+static void the_amplitude_at_the_detection_range_is_the_threshold(void **state)
+{
+    (void)state;
+    struct radar_equation law = paper_law();
+    for (int q = 2; q <= 5; q++)
+        for (int i = 1; i <= 100; i++) {
+            law.exponent = 0.5 * q;
+            double ercs = 0.03 * i;
+            double gain = 0.37;
+            double range_m = radar_detection_range_m(&law, gain, ercs);
+            assert_near(radar_reference_amplitude(&law, fmax(range_m, 0.5)) * gain * ercs,
+                        range_m < 0.5 ? law.threshold * pow(range_m / 0.5, law.exponent)
+                                      : law.threshold,
+                        1e-14);
+        }
+}
+
+/* MODEL 4.1, 4.2 and 13. */
+static void reference_amplitudes_are_those_of_the_paper(void **state)
+{
+    (void)state;
+    struct radar_equation law = paper_law();
+    assert_close(radar_reference_amplitude(&law, 1), 2244.7, 0.05);
+    assert_close(units_amplitude_db(radar_reference_amplitude(&law, 1)), 67.02, 0.005);
+    assert_close(units_amplitude_db(radar_reference_amplitude(&law, 10)), 27.02, 0.005);
+    assert_close(radar_reference_amplitude(&law, 30), 2.494, 5e-4);
+    double amplitude =
+        radar_reference_amplitude(&law, 10) * antenna_gain(&DIPOLE_PAIR, 20 * DEGREE) * 0.5;
+    assert_close(amplitude, 8.63, 0.005);
+    assert_close(units_amplitude_db(amplitude), 18.7, 0.05);
+    assert_near(radar_reference_amplitude(&law, 30) * 0.8, law.threshold, 1e-15);
+}
+
+static void twice_the_range_costs_twelve_decibels(void **state)
+{
+    (void)state;
+    struct radar_equation law = paper_law();
+    for (int i = 1; i < 200; i++)
+        assert_near(radar_reference_amplitude(&law, i), 4 * radar_reference_amplitude(&law, 2 * i),
+                    1e-15);
+}
+
+static void other_exponents_move_the_detection_ranges(void **state)
+{
+    (void)state;
+    static const struct {
+        double exponent, range_m, expected_m[6];
+    } cases[] = {
+        {1.5, 30,   {11.9, 15.6, 18.9, 21.9, 24.8, 27.4}},
+        {1,   30,   {7.5, 11.25, 15, 18.75, 22.5, 26.25}},
+        {2,   39.3, {19.7, 24.1, 27.8, 31.1, 34.0, 36.8}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        for (int k = 0; k < 6; k++) {
+            struct radar_equation law = paper_law();
+            law.exponent = cases[i].exponent;
+            law.calibration_range_m = cases[i].range_m;
+            assert_close(radar_detection_range_m(&law, 1, 0.1 * (k + 2)), cases[i].expected_m[k],
+                         0.0501);
+        }
+}
+
+static void below_the_floor_the_range_counts_as_the_floor(void **state)
+{
+    (void)state;
+    struct radar_equation law = paper_law();
+    double at_floor = radar_reference_amplitude(&law, 0.5);
+    assert_near(at_floor, law.threshold / 0.8 * 3600, 1e-15);
+    assert_close(radar_reference_amplitude(&law, 0), at_floor, 0);
+    assert_close(radar_reference_amplitude(&law, 0.499), at_floor, 0);
+    assert_true(radar_reference_amplitude(&law, 0.501) < at_floor);
+
+    struct radar_equation table = table_law();
+    table.range_floor_m = 2;
+    assert_close(radar_reference_amplitude(&table, 1), 300, 1e-12);
+}
+
+static void a_table_passes_through_its_rows(void **state)
+{
+    (void)state;
+    struct radar_equation law = table_law();
+    for (size_t i = 0; i < law.row_count; i++)
+        assert_near(radar_reference_amplitude(&law, ROWS[i].range_m), ROWS[i].amplitude, 1e-15);
+}
+
+static void a_table_is_straight_in_both_logarithms(void **state)
+{
+    (void)state;
+    struct radar_equation law = table_law();
+    for (size_t i = 0; i + 1 < law.row_count; i++)
+        assert_near(radar_reference_amplitude(&law, sqrt(ROWS[i].range_m * ROWS[i + 1].range_m)),
+                    sqrt(ROWS[i].amplitude * ROWS[i + 1].amplitude), 1e-14);
+}
+
+static void a_table_is_constant_before_and_goes_on_beyond(void **state)
+{
+    (void)state;
+    struct radar_equation law = table_law();
+    assert_close(radar_reference_amplitude(&law, 0.7), 1000, 0);
+    /* From 5 to 20 m the amplitude falls by 20: so it does again from 20 to 80 m. */
+    assert_near(radar_reference_amplitude(&law, 80), 0.25, 1e-14);
+}
+
+static void two_rows_of_the_power_law_are_the_power_law(void **state)
+{
+    (void)state;
+    struct radar_equation law = paper_law();
+    struct radar_row rows[] = {
+        {1,  radar_reference_amplitude(&law, 1) },
+        {30, radar_reference_amplitude(&law, 30)}
+    };
+    struct radar_equation table = table_law();
+    table.rows = rows;
+    table.row_count = 2;
+    for (int i = 10; i < 1000; i++)
+        assert_near(radar_reference_amplitude(&table, 0.1 * i),
+                    radar_reference_amplitude(&law, 0.1 * i), 1e-13);
+}
+
+static void one_row_holds_everywhere(void **state)
+{
+    (void)state;
+    struct radar_equation table = table_law();
+    table.row_count = 1;
+    assert_close(radar_reference_amplitude(&table, 0.6), 1000, 0);
+    assert_close(radar_reference_amplitude(&table, 60), 1000, 0);
+}
+
+/* MODEL 3. */
+static void an_ercs_is_the_root_of_a_cross_section_over_ten(void **state)
+{
+    (void)state;
+    static const struct {
+        double ercs, cross_section_m2, dbsm;
+    } rows[] = {
+        {0.2, 0.40, -4.0},
+        {0.3, 0.90, -0.5},
+        {0.4, 1.6,  2.0 },
+        {0.5, 2.5,  4.0 },
+        {0.6, 3.6,  5.6 },
+        {0.7, 4.9,  6.9 },
+        {0.8, 6.4,  8.1 },
+        {1.0, 10,   10  }
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        assert_near(radar_cross_section_m2(rows[i].ercs), rows[i].cross_section_m2, 1e-15);
+        assert_near(radar_ercs(rows[i].cross_section_m2), rows[i].ercs, 1e-15);
+        assert_close(10 * log10(radar_cross_section_m2(rows[i].ercs)), rows[i].dbsm, 0.0501);
+    }
+    assert_close(radar_ercs(pow(10, -0.137)), 0.27, 0.005);
+    assert_close(radar_ercs(pow(10, 1.125)), 1.15, 0.005);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(detection_areas_are_those_of_the_paper),
+        cmocka_unit_test(the_amplitude_at_the_detection_range_is_the_threshold),
+        cmocka_unit_test(reference_amplitudes_are_those_of_the_paper),
+        cmocka_unit_test(twice_the_range_costs_twelve_decibels),
+        cmocka_unit_test(other_exponents_move_the_detection_ranges),
+        cmocka_unit_test(below_the_floor_the_range_counts_as_the_floor),
+        cmocka_unit_test(a_table_passes_through_its_rows),
+        cmocka_unit_test(a_table_is_straight_in_both_logarithms),
+        cmocka_unit_test(a_table_is_constant_before_and_goes_on_beyond),
+        cmocka_unit_test(two_rows_of_the_power_law_are_the_power_law),
+        cmocka_unit_test(one_row_holds_everywhere),
+        cmocka_unit_test(an_ercs_is_the_root_of_a_cross_section_over_ten),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

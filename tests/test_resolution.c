@@ -1,0 +1,261 @@
+#include "check.h"
+
+#include <stdlib.h>
+
+#include "random.h"
+#include "resolution.h"
+
+#define ECHO_MAX 16
+
+/* The frame's total order, as far as an echo here has members. */
+static int compare_echoes(const void *first, const void *second)
+{
+    const struct resolution_echo *a = first;
+    const struct resolution_echo *b = second;
+    if (a->amplitude < b->amplitude || a->amplitude > b->amplitude)
+        return a->amplitude < b->amplitude ? 1 : -1;
+    if (a->range_m < b->range_m || a->range_m > b->range_m)
+        return a->range_m > b->range_m ? 1 : -1;
+    return (a->range_rate_mps > b->range_rate_mps) - (a->range_rate_mps < b->range_rate_mps);
+}
+
+static double draw(uint64_t scene, uint32_t index)
+{
+    struct random_address address = {.seed = 11, .scene = scene};
+    double uniform[4];
+    random_uniform(&address, RANDOM_PHASE, index, uniform);
+    return uniform[0];
+}
+
+/* Coarse steps, so that many amplitudes tie and many distances lie on a border. */
+static size_t draw_echoes(uint64_t scene, struct resolution_echo *echoes)
+{
+    size_t count = (size_t)(draw(scene, 0) * ECHO_MAX) + 1;
+    for (uint32_t i = 0; i < count; i++)
+        echoes[i] =
+            (struct resolution_echo){.range_m = 10 + 0.05 * floor(20 * draw(scene, 3 * i + 1)),
+                                     .range_rate_mps = 0.125 * floor(8 * draw(scene, 3 * i + 2)),
+                                     .amplitude = 1 + floor(4 * draw(scene, 3 * i + 3))};
+    qsort(echoes, count, sizeof *echoes, compare_echoes);
+    return count;
+}
+
+/* MODEL 13. */
+static void the_four_echoes_of_the_model_make_three_cells(void **state)
+{
+    (void)state;
+    static const struct resolution_echo echoes[] = {
+        {10.00, -2.0, 10},
+        {10.10, -2.1, 5 },
+        {10.40, -2.0, 4 },
+        {10.12, -1.5, 3 }
+    };
+    static const size_t expected[] = {0, 0, 1, 2};
+    size_t cell[4];
+    assert_int_equal(resolution_cluster(echoes, 4, 0.15, 0.25, cell), 3);
+    assert_memory_equal(cell, expected, sizeof cell);
+    double range_m = resolution_mean((double[]){10.00, 10.10}, (double[]){10, 5}, 2);
+    double range_rate_mps = resolution_mean((double[]){-2.0, -2.1}, (double[]){10, 5}, 2);
+    assert_near(range_m, 10 + 0.1 / 3, 1e-15);
+    assert_near(range_rate_mps, -2 - 0.1 / 3, 1e-15);
+}
+
+static void no_echo_makes_no_cell(void **state)
+{
+    (void)state;
+    assert_int_equal(resolution_cluster(NULL, 0, 0.15, 0.25, NULL), 0);
+}
+
+/* NUMERICS 44: three distances of 0.15 m as written. */
+static void the_border_is_decided_by_the_doubles(void **state)
+{
+    (void)state;
+    static const struct {
+        double leader_m, echo_m;
+        size_t cells;
+    } cases[] = {
+        {12.55, 12.40, 2},
+        {12.70, 12.55, 1},
+        {0.45,  0.30,  2}
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct resolution_echo echoes[] = {
+            {cases[i].leader_m, 0, 2},
+            {cases[i].echo_m,   0, 1}
+        };
+        size_t cell[2];
+        assert_int_equal(resolution_cluster(echoes, 2, 0.15, 0.25, cell), cases[i].cells);
+    }
+    static const struct resolution_echo exact[] = {
+        {8,     1,    5},
+        {8,     1.25, 4},
+        {8,     0.75, 3},
+        {8.125, 1,    2},
+        {7.875, 1,    1}
+    };
+    size_t cell[5];
+    assert_int_equal(resolution_cluster(exact, 5, 0.125, 0.25, cell), 1);
+}
+
+static void a_cell_does_not_grow_along_a_chain(void **state)
+{
+    (void)state;
+    static const struct resolution_echo echoes[] = {
+        {10.0, 0, 5},
+        {10.1, 0, 4},
+        {10.2, 0, 3},
+        {10.3, 0, 2}
+    };
+    static const size_t expected[] = {0, 0, 1, 1};
+    size_t cell[4];
+    assert_int_equal(resolution_cluster(echoes, 4, 0.15, 0.25, cell), 2);
+    assert_memory_equal(cell, expected, sizeof cell);
+}
+
+/* The definition, read from the answer: no earlier leader reaches an echo, its own does. */
+static void every_echo_lies_in_the_first_cell_that_reaches_it(void **state)
+{
+    (void)state;
+    for (uint64_t scene = 0; scene < 5000; scene++) {
+        struct resolution_echo echoes[ECHO_MAX];
+        size_t cell[ECHO_MAX];
+        size_t leader[ECHO_MAX];
+        size_t count = draw_echoes(scene, echoes);
+        size_t cells = resolution_cluster(echoes, count, 0.15, 0.25, cell);
+        size_t opened = 0;
+        for (size_t i = 0; i < count; i++) {
+            size_t first = 0;
+            while (first < opened &&
+                   !(fabs(echoes[i].range_m - echoes[leader[first]].range_m) <= 0.15 &&
+                     fabs(echoes[i].range_rate_mps - echoes[leader[first]].range_rate_mps) <= 0.25))
+                first++;
+            if (first == opened)
+                leader[opened++] = i;
+            assert_int_equal(cell[i], first);
+        }
+        assert_int_equal(cells, opened);
+    }
+}
+
+/* NUMERICS 45. */
+static void sorted_echoes_cluster_alike_in_every_input_order(void **state)
+{
+    (void)state;
+    for (uint64_t scene = 0; scene < 5000; scene++) {
+        struct resolution_echo echoes[ECHO_MAX];
+        struct resolution_echo shuffled[ECHO_MAX];
+        size_t cell[ECHO_MAX];
+        size_t again[ECHO_MAX];
+        size_t count = draw_echoes(scene, echoes);
+        size_t cells = resolution_cluster(echoes, count, 0.15, 0.25, cell);
+        for (uint32_t i = 0; i < count; i++) {
+            size_t place = (size_t)(draw(scene, 100 + i) * (i + 1));
+            shuffled[i] = shuffled[place];
+            shuffled[place] = echoes[i];
+        }
+        qsort(shuffled, count, sizeof *shuffled, compare_echoes);
+        assert_int_equal(resolution_cluster(shuffled, count, 0.15, 0.25, again), cells);
+        assert_memory_equal(again, cell, count * sizeof *cell);
+    }
+}
+
+static void three_equal_echoes_make_two_cells(void **state)
+{
+    (void)state;
+    static const double ranges_m[6][3] = {
+        {10.00, 10.14, 10.28},
+        {10.00, 10.28, 10.14},
+        {10.14, 10.00, 10.28},
+        {10.14, 10.28, 10.00},
+        {10.28, 10.00, 10.14},
+        {10.28, 10.14, 10.00}
+    };
+    for (size_t i = 0; i < 6; i++) {
+        struct resolution_echo echoes[3];
+        size_t cell[3];
+        for (size_t k = 0; k < 3; k++)
+            echoes[k] = (struct resolution_echo){ranges_m[i][k], 0, 1};
+        qsort(echoes, 3, sizeof *echoes, compare_echoes);
+        assert_int_equal(resolution_cluster(echoes, 3, 0.15, 0.25, cell), 2);
+        assert_int_equal(cell[0], 0);
+        assert_int_equal(cell[1], 0);
+        assert_int_equal(cell[2], 1);
+    }
+}
+
+/* NUMERICS 15. */
+static void the_mean_of_equal_values_is_that_value(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < 20000; i++) {
+        double value = 100 * draw(i, 0);
+        double weights[] = {draw(i, 1), draw(i, 2), draw(i, 3)};
+        double values[] = {value, value, value};
+        assert_close(resolution_mean(values, weights, 3), value, 0);
+    }
+}
+
+/* NUMERICS 16. */
+static void the_mean_stays_in_the_span_and_near_the_exact_mean(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < 50000; i++) {
+        double values[] = {20 * draw(i, 0) - 10, 0, 0};
+        double spread = pow(10, -16 * draw(i, 1));
+        double weights[] = {1, pow(10, 20 * (draw(i, 2) - 0.5)), draw(i, 3)};
+        values[1] = values[0] + spread * (draw(i, 4) - 0.5);
+        values[2] = values[0] + spread * (draw(i, 5) - 0.5);
+        double mean = resolution_mean(values, weights, 3);
+        assert_true(mean >= fmin(values[0], fmin(values[1], values[2])));
+        assert_true(mean <= fmax(values[0], fmax(values[1], values[2])));
+        long double sum = 0;
+        long double total = 0;
+        for (int k = 0; k < 3; k++) {
+            sum += (long double)weights[k] * (long double)values[k];
+            total += (long double)weights[k];
+        }
+        assert_close((double)((long double)mean - sum / total), 0, 2e-15);
+    }
+}
+
+/* NUMERICS 17. */
+static void weights_may_be_huge_or_tiny(void **state)
+{
+    (void)state;
+    static const struct {
+        double weights[3], mean;
+    } cases[] = {
+        {{1e300, 1e300, 1e300},     11                                  },
+        {{1e-300, 1e-300, 1e-300},  11                                  },
+        {{1e300, 1e-300, 1e300},    11                                  },
+        {{1e300, 1e-300, 1e-300},   10                                  },
+        {{1.7e308, 1.7e308, 1e308}, (17 * 10 + 17 * 11 + 10 * 12) / 44.0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        assert_near(resolution_mean((double[]){10, 11, 12}, cases[i].weights, 3), cases[i].mean,
+                    1e-15);
+}
+
+static void the_mean_of_one_is_itself(void **state)
+{
+    (void)state;
+    assert_close(resolution_mean((double[]){-0.1}, (double[]){3e-300}, 1), -0.1, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_four_echoes_of_the_model_make_three_cells),
+        cmocka_unit_test(no_echo_makes_no_cell),
+        cmocka_unit_test(the_border_is_decided_by_the_doubles),
+        cmocka_unit_test(a_cell_does_not_grow_along_a_chain),
+        cmocka_unit_test(every_echo_lies_in_the_first_cell_that_reaches_it),
+        cmocka_unit_test(sorted_echoes_cluster_alike_in_every_input_order),
+        cmocka_unit_test(three_equal_echoes_make_two_cells),
+        cmocka_unit_test(the_mean_of_equal_values_is_that_value),
+        cmocka_unit_test(the_mean_stays_in_the_span_and_near_the_exact_mean),
+        cmocka_unit_test(weights_may_be_huge_or_tiny),
+        cmocka_unit_test(the_mean_of_one_is_itself),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

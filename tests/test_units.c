@@ -1,0 +1,118 @@
+#include "check.h"
+
+#include "units.h"
+
+static const long double PI_LONG = 3.14159265358979323846264338327950288L;
+
+static void amplitude_decibels_are_twenty_to_the_decade(void **state)
+{
+    (void)state;
+    assert_close(units_amplitude_db(1), 0, 0);
+    assert_near(units_amplitude_db(10), 20.0, 1e-15);
+    assert_near(units_amplitude_db(0.001), -60.0, 1e-15);
+    assert_near(units_amplitude_db(2), 6.0205999132796239, 1e-15);
+}
+
+static void six_decibels_are_the_paper_threshold(void **state)
+{
+    (void)state;
+    assert_near(units_amplitude_from_db(6), 1.9952623149688797, 1e-15);
+    assert_near(units_amplitude_from_db(-6), 1 / 1.9952623149688797, 1e-15);
+    assert_close(units_amplitude_from_db(0), 1, 0);
+}
+
+static void a_shortfall_is_a_bounded_count_of_decibels(void **state)
+{
+    (void)state;
+    assert_close(units_shortfall_db(2, 2), 0, 0);
+    assert_close(units_shortfall_db(2, 3), 0, 0);
+    assert_near(units_shortfall_db(2, 1), 6.0205999132796239, 1e-15);
+    assert_near(units_shortfall_db(0.5, 0.005), 40.0, 1e-15);
+    assert_close(units_shortfall_db(2, 0), 1e4, 0);
+}
+
+static void decibels_come_back(void **state)
+{
+    (void)state;
+    for (int i = -600; i <= 600; i++) {
+        double db = 0.37 * i;
+        assert_close(units_amplitude_db(units_amplitude_from_db(db)), db, 1e-13);
+    }
+}
+
+static void an_angle_wraps_into_one_turn(void **state)
+{
+    (void)state;
+    static const struct {
+        double angle, wrapped, tolerance;
+    } cases[] = {
+        {0,            0,             0    },
+        {1,            1,             0    },
+        {-3,           -3,            0    },
+        {PI,           PI,            0    },
+        {-PI,          PI,            0    },
+        {3 * PI,       PI,            1e-15},
+        {-3 * PI,      PI,            1e-15},
+        {2 * PI,       0,             0    },
+        {-2 * PI,      0,             0    },
+        {-1e-17,       -1e-17,        0    },
+        {2 * PI - 0.5, -0.5,          1e-15},
+        {5,            5 - 2 * PI,    1e-15},
+        {-5,           2 * PI - 5,    1e-15},
+        {100,          100 - 32 * PI, 1e-13},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        assert_close(units_wrap_rad(cases[i].angle), cases[i].wrapped, cases[i].tolerance);
+}
+
+static void a_wrapped_angle_keeps_its_direction(void **state)
+{
+    (void)state;
+    for (int i = -100000; i <= 100000; i++) {
+        double angle = 0.00999 * i;
+        double wrapped = units_wrap_rad(angle);
+        assert_true(wrapped > -PI && wrapped <= PI);
+        /* 160 turns of a 2 pi that is rounded to a double. */
+        long double turns = ((long double)angle - (long double)wrapped) / (2 * PI_LONG);
+        assert_close((double)((turns - roundl(turns)) * 2 * PI_LONG), 0, 4e-14);
+    }
+}
+
+static void every_finite_angle_wraps(void **state)
+{
+    (void)state;
+    static const double angles[] = {1e8, -1e8, 1e17, -1e17, 1e300, -1.7976931348623157e308, 5e-324};
+    for (size_t i = 0; i < sizeof angles / sizeof angles[0]; i++) {
+        double wrapped = units_wrap_rad(angles[i]);
+        assert_true(wrapped > -PI && wrapped <= PI);
+    }
+}
+
+static void si_is_sine_over_argument_to_two_ulp(void **state)
+{
+    (void)state;
+    assert_close(units_si(0), 1, 0);
+    assert_near(units_si(PI / 2), 2 / PI, 3e-16);
+    for (int i = 0; i <= 200000; i++) {
+        double x = i < 100000 ? 3.0 * (i + 1) / 100000 : 3 * pow(10, -0.003 * (i - 100000));
+        long double exact = sinl((long double)x) / (long double)x;
+        double ulp = ldexp(1, ilogb((double)exact) - 52);
+        assert_close((double)((long double)units_si(x) - exact), 0, 2 * ulp);
+        assert_close(units_si(-x), units_si(x), 0);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(amplitude_decibels_are_twenty_to_the_decade),
+        cmocka_unit_test(six_decibels_are_the_paper_threshold),
+        cmocka_unit_test(a_shortfall_is_a_bounded_count_of_decibels),
+        cmocka_unit_test(decibels_come_back),
+        cmocka_unit_test(an_angle_wraps_into_one_turn),
+        cmocka_unit_test(a_wrapped_angle_keeps_its_direction),
+        cmocka_unit_test(every_finite_angle_wraps),
+        cmocka_unit_test(si_is_sine_over_argument_to_two_ulp),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
