@@ -11,6 +11,9 @@ BUILD ?= build
 CFLAGS ?= -O2 -g
 CXXFLAGS ?= -O2 -g
 
+# make V=1 shows the commands.
+Q = $(if $(V),,@)
+
 ifdef SAN
 BUILD = build-san
 comma = ,
@@ -44,30 +47,30 @@ all: $(tools)
 
 $(BUILD)/lib/%.c.o: lib/%.c
 	@mkdir -p $(@D)
-	$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
+	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
 
 $(BUILD)/lib/%.cc.o: lib/%.cc
 	@mkdir -p $(@D)
-	$(CXX) $(HOUSE_CXX) $(CXXFLAGS) -c -o $@ $<
+	$(Q)$(CXX) $(HOUSE_CXX) $(CXXFLAGS) -c -o $@ $<
 
 $(BUILD)/libglint.a: $(lib_objects)
-	rm -f $@
-	$(AR) rcs $@ $^
+	$(Q)rm -f $@
+	$(Q)$(AR) rcs $@ $^
 
 $(BUILD)/stages/%.o: stages/%.c
 	@mkdir -p $(@D)
-	$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
+	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
 
 # One main for every stage: glint-sensor-perfect is stages/sensor_perfect.c and this.
 .SECONDEXPANSION:
 $(BUILD)/main/%.o: stages/main.c
 	@mkdir -p $(@D)
-	$(CC) $(HOUSE_C) $(CFLAGS) -DSTAGE=stage_$* -c -o $@ $<
+	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -DSTAGE=stage_$* -c -o $@ $<
 
 under = $(subst -,_,$(patsubst $(BUILD)/bin/glint-%,%,$(1)))
 $(BUILD)/bin/glint-%: $(BUILD)/stages/$$(subst -,_,$$*).o $(BUILD)/main/$$(subst -,_,$$*).o $(BUILD)/libglint.a
 	@mkdir -p $(@D)
-	$(LINK) -o $@ $^ $(LIBS)
+	$(Q)$(LINK) -o $@ $^ $(LIBS)
 
 # The folder is the registry; the file is rewritten only when the list has changed.
 registry = { for s in $(stages); do echo "extern const struct stage stage_$$s;"; done; \
@@ -79,22 +82,22 @@ $(BUILD)/registry.c: FORCE
 	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
 $(BUILD)/registry.o: $(BUILD)/registry.c
-	$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
+	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
 
 $(BUILD)/main/glint.o: stages/main.c
 	@mkdir -p $(@D)
-	$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
+	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
 
 $(BUILD)/bin/glint: $(BUILD)/main/glint.o $(BUILD)/registry.o $(stage_objects) $(BUILD)/libglint.a
 	@mkdir -p $(@D)
-	$(LINK) -o $@ $^ $(LIBS)
+	$(Q)$(LINK) -o $@ $^ $(LIBS)
 
 $(BUILD)/tests/%.o: tests/%.c
 	@mkdir -p $(@D)
-	$(CC) $(HOUSE_C) -Itests $(CFLAGS) -c -o $@ $<
+	$(Q)$(CC) $(HOUSE_C) -Itests $(CFLAGS) -c -o $@ $<
 
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(BUILD)/libglint.a
-	$(LINK) -o $@ $^ $(LIBS) -lcmocka
+	$(Q)$(LINK) -o $@ $^ $(LIBS) -lcmocka
 
 unit: $(tests)
 	@for t in $(tests); do $$t >$$t.log 2>&1 || { cat $$t.log; echo "$$t failed"; exit 1; }; done

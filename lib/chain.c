@@ -45,6 +45,15 @@ static int open_next(struct chain *chain)
     return chain->input != NULL ? 1 : -1;
 }
 
+/* Foreign stages may write sections in any order; ours rely on the canonical one. */
+static int take_line(struct chain *chain, const char *line, size_t length, struct diag *diag)
+{
+    if (frame_text_read(line, length, &chain->frame, diag) != 0)
+        return -1;
+    frame_order(&chain->frame);
+    return frame_check(&chain->frame, diag) == 0 ? 1 : -1;
+}
+
 /* The next frame from the inputs, one after the other: 1, 0 at the end of the last, -1. */
 static int read_frame(struct chain *chain)
 {
@@ -60,7 +69,7 @@ static int read_frame(struct chain *chain)
         chain->line_number++;
         int more = input_line(chain->input, FRAME_TEXT_SIZE, &line, &length, diag);
         if (more > 0)
-            more = frame_text_read(line, length, &chain->frame, diag) == 0 ? 1 : -1;
+            more = take_line(chain, line, length, diag);
         if (more != 0)
             return more;
         input_close(chain->input);

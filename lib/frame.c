@@ -451,6 +451,11 @@ const char *frame_section_name(enum section section)
     return "?";
 }
 
+const char *frame_path_name(enum path path)
+{
+    return paths[path];
+}
+
 void frame_drop(struct frame *frame, unsigned sections)
 {
     for (const struct field *field = frame_fields; field->name != NULL; field++) {
@@ -463,7 +468,7 @@ void frame_drop(struct frame *frame, unsigned sections)
     frame->present &= ~sections;
 }
 
-int frame_check_objects(const struct frame *frame, struct diag *diag)
+static int check_objects(const struct frame *frame, struct diag *diag)
 {
     size_t count = frame->objects.count;
     const char **ids = arena_get(frame->arena, (count + 1) * sizeof *ids);
@@ -476,6 +481,79 @@ int frame_check_objects(const struct frame *frame, struct diag *diag)
     if (frame_object(frame, frame->ego) == NULL)
         return diag_fail(diag, DIAG_DATA, "ego: \"%s\" is not among the objects", frame->ego);
     return 0;
+}
+
+static int check_views(const struct frame *frame, struct diag *diag)
+{
+    const struct sensor_view *view = frame->sensors.list.items;
+    for (size_t i = 1; i < frame->sensors.list.count; i++)
+        if (strcmp(view[i - 1].name, view[i].name) == 0)
+            return diag_fail(diag, DIAG_DATA, "sensors.list: \"%s\" stands twice", view[i].name);
+    return 0;
+}
+
+static int check_listed(const struct frame *frame, const char *section, size_t index,
+                        const char *sensor, struct diag *diag)
+{
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        if (strcmp(frame->sensors.list.items[i].name, sensor) == 0)
+            return 0;
+    return diag_fail(diag, DIAG_DATA, "%s[%zu].sensor: \"%s\" is not in sensors.list", section,
+                     index, sensor);
+}
+
+static int check_echoes(const struct frame *frame, struct diag *diag)
+{
+    const struct echo *echo = frame->echoes.items;
+    for (size_t i = 0; i < frame->echoes.count; i++) {
+        if (i > 0 && compare_echoes(&echo[i - 1], &echo[i]) == 0)
+            return diag_fail(diag, DIAG_DATA,
+                             "echoes: sensor \"%s\", object \"%s\", reflector \"%s\" stands twice",
+                             echo[i].sensor, echo[i].object, echo[i].reflector);
+        if (check_listed(frame, "echoes", i, echo[i].sensor, diag) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+static int check_cells(const struct frame *frame, struct diag *diag)
+{
+    const struct cell *cell = frame->cells.items;
+    for (size_t i = 0; i < frame->cells.count; i++) {
+        if (cell[i].members.count == 0)
+            return diag_fail(diag, DIAG_DATA, "cells[%zu].members: empty; expected the leader", i);
+        if (i > 0 && compare_cells(&cell[i - 1], &cell[i]) == 0)
+            return diag_fail(diag, DIAG_DATA,
+                             "cells: sensor \"%s\" has two led by object \"%s\", reflector \"%s\"",
+                             cell[i].sensor, cell[i].members.items[0].object,
+                             cell[i].members.items[0].reflector);
+        if (check_listed(frame, "cells", i, cell[i].sensor, diag) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+static int check_targets(const struct frame *frame, struct diag *diag)
+{
+    const struct target *target = frame->targets.items;
+    for (size_t i = 0; i < frame->targets.count; i++) {
+        if (target[i].contributors.count == 0)
+            return diag_fail(diag, DIAG_DATA, "targets[%zu].contributors: empty; expected a label",
+                             i);
+        if (check_listed(frame, "targets", i, target[i].sensor, diag) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+int frame_check(const struct frame *frame, struct diag *diag)
+{
+    if ((frame->present & SECTION_OBJECTS) != 0 && check_objects(frame, diag) != 0)
+        return -1;
+    if (check_views(frame, diag) != 0 || check_echoes(frame, diag) != 0 ||
+        check_cells(frame, diag) != 0)
+        return -1;
+    return check_targets(frame, diag);
 }
 
 struct object *frame_object(const struct frame *frame, const char *id)

@@ -184,11 +184,15 @@ void frame_order(struct frame *frame);
 /* The name of a section, for messages. */
 const char *frame_section_name(enum section section);
 
+const char *frame_path_name(enum path path);
+
 /* Empties sections: they are then absent, as if they had never been there. */
 void frame_drop(struct frame *frame, unsigned sections);
 
-/* What no table of fields can say about objects: ids are unique and the ego is one of them. */
-int frame_check_objects(const struct frame *frame, struct diag *diag);
+/* What no table of fields can say, for a frame in canonical order: ids, sensors, echoes and cells'
+ * leaders stand once, the ego is among the objects, echoes, cells and targets are of listed
+ * sensors, and every cell and target has contributors. */
+int frame_check(const struct frame *frame, struct diag *diag);
 
 /* The object of that id, or NULL. */
 struct object *frame_object(const struct frame *frame, const char *id);

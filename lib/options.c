@@ -3,6 +3,20 @@
 #include <stdio.h>
 #include <string.h>
 
+static const struct field no_choice_fields[] = {{0}};
+
+const struct record no_choice_record = {
+    .name = "stage", .size = sizeof(struct no_choice), .fields = no_choice_fields};
+
+static const struct field suite_choice_fields[] = {
+    {FIELD_NAME_OF(struct suite_choice,                sensors, "take the suite from here, not from the frame"),
+     FIELD_OPTIONAL},
+    {0},
+};
+
+const struct record suite_choice_record = {
+    .name = "stage", .size = sizeof(struct suite_choice), .fields = suite_choice_fields};
+
 static const struct field common_fields[] = {
     {FIELD_NAME_OF(struct common_options,                               output,
      "write to this file instead of standard output (.gz compresses)"),

@@ -102,8 +102,6 @@ static int check_sections(struct runner *runner, const struct frame *frame)
     if (doubled != 0)
         return diag_fail(&runner->diag, DIAG_DATA, "%s: already there; this stage would write it",
                          frame_section_name(doubled & -doubled));
-    if ((runner->stage->reads & SECTION_OBJECTS) != 0)
-        return frame_check_objects(frame, &runner->diag);
     return 0;
 }
 
@@ -139,7 +137,8 @@ static int conclude(struct runner *runner, struct frame *frame)
     if (frame->account && (stage->writes & SECTION_LOST) != 0)
         frame->present |= SECTION_LOST;
     frame_order(frame);
-    if (field_check(&frame_record, frame, &runner->diag) != 0) {
+    if (field_check(&frame_record, frame, &runner->diag) != 0 ||
+        frame_check(frame, &runner->diag) != 0) {
         runner->diag.code = DIAG_INTERNAL;
         return diag_prefix(&runner->diag, "made nonsense: ");
     }

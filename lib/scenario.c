@@ -246,7 +246,7 @@ static double standing_yaw_rad(const struct actor *actor, size_t span, double s)
         if (find_yaw(actor, later, later == span ? s : 0, 1, &yaw_rad))
             return yaw_rad;
     for (size_t earlier = span + 1; earlier-- > 0;)
-        if (find_yaw(actor, earlier, earlier == span ? s : 1, 0, &yaw_rad))
+        if (find_yaw(actor, earlier, 1, 0, &yaw_rad))
             return yaw_rad;
     return yaw_rad;
 }

@@ -34,6 +34,18 @@ struct stage {
     int (*step)(void *state, struct frame *frame, struct runner *runner);
 };
 
+/* The state of stages without options. */
+struct no_choice {
+    char nothing;
+};
+extern const struct record no_choice_record;
+
+/* The state of stages after ideal, which need the suite that ideal looked with. */
+struct suite_choice {
+    const char *sensors; /* NULL: the suite that the frame names */
+};
+extern const struct record suite_choice_record;
+
 /* What the runner does for stages. */
 
 /* Memory that lasts as long as the stage, for what it loads. */

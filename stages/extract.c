@@ -3,10 +3,6 @@
 
 #include "stage.h"
 
-struct extract {
-    char none;
-};
-
 static struct reflector_set *set_of(struct frame *frame, const struct vehicle *vehicle)
 {
     for (size_t i = 0; i < frame->reflectors.count; i++)
@@ -43,17 +39,12 @@ static int extract_step(void *state, struct frame *frame, struct runner *runner)
     return 0;
 }
 
-static const struct field no_options[] = {{0}};
-
-static const struct record extract_record = {
-    .name = "extract", .size = sizeof(struct extract), .fields = no_options};
-
 const struct stage stage_extract = {
     .name = "extract",
     .summary = "Write the reflection centres of every object's class.",
     .details = "The class of an object names a document in data/vehicles/. An object of size zero\n"
                "takes the default size of its class. The ego does not reflect.",
-    .options = &extract_record,
+    .options = &no_choice_record,
     .reads = SECTION_OBJECTS,
     .writes = SECTION_REFLECTORS,
     .step = extract_step,

@@ -8,10 +8,6 @@
 #include "stage.h"
 #include "units.h"
 
-struct noise {
-    const char *sensors;
-};
-
 /* Equation (8): both channels get independent complex noise of the same RMS. */
 static struct antenna_pointers noisy_pointers(const struct cell *cell, const struct sensor *sensor,
                                               const struct random_address *address)
@@ -72,21 +68,12 @@ static void list_targets(struct frame *frame, const struct sensor *sensor)
 
 static int noise_step(void *state, struct frame *frame, struct runner *runner)
 {
-    const struct noise *options = state;
-    const struct suite *suite = runner_suite(runner, frame, options->sensors);
+    const struct suite_choice *choice = state;
+    const struct suite *suite = runner_suite(runner, frame, choice->sensors);
     for (size_t i = 0; suite != NULL && i < suite->sensors.count; i++)
         list_targets(frame, &suite->sensors.items[i]);
     return suite != NULL ? 0 : -1;
 }
-
-static const struct field noise_fields[] = {
-    {FIELD_NAME_OF(struct noise,                       sensors, "take the suite from here, not from the frame"),
-     FIELD_OPTIONAL},
-    {0},
-};
-
-static const struct record noise_record = {
-    .name = "noise", .size = sizeof(struct noise), .fields = noise_fields};
 
 const struct stage stage_noise = {
     .name = "noise",
@@ -95,7 +82,7 @@ const struct stage stage_noise = {
         "Adds complex noise to the sum and delta pointers and reads the angle off them, adds\n"
         "noise to range and range rate, applies the final threshold, and lists what is left\n"
         "in the sensor's order up to its limit, each with its exact label.",
-    .options = &noise_record,
+    .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_CELLS,
     .writes = SECTION_TARGETS | SECTION_LOST,
     .step = noise_step,

@@ -8,10 +8,6 @@
 #include "superposition.h"
 #include "units.h"
 
-struct sensor_options {
-    const char *sensors;
-};
-
 /* The relative phase of an echo: 0 in the paper's model, or drawn. */
 static double phase_of(const struct frame *frame, const struct sensor *sensor,
                        const struct echo *echo)
@@ -86,8 +82,8 @@ static void sense(struct frame *frame, const struct sensor *sensor, struct echo_
 
 static int sensor_step(void *state, struct frame *frame, struct runner *runner)
 {
-    const struct sensor_options *options = state;
-    const struct suite *suite = runner_suite(runner, frame, options->sensors);
+    const struct suite_choice *choice = state;
+    const struct suite *suite = runner_suite(runner, frame, choice->sensors);
     for (size_t i = 0; suite != NULL && i < suite->sensors.count; i++) {
         const struct sensor *sensor = &suite->sensors.items[i];
         sense(frame, sensor, frame_echoes_of(frame, sensor->name));
@@ -95,22 +91,13 @@ static int sensor_step(void *state, struct frame *frame, struct runner *runner)
     return suite != NULL ? 0 : -1;
 }
 
-static const struct field sensor_options[] = {
-    {FIELD_NAME_OF(struct sensor_options,              sensors, "take the suite from here, not from the frame"),
-     FIELD_OPTIONAL},
-    {0},
-};
-
-static const struct record sensor_options_record = {
-    .name = "sensor", .size = sizeof(struct sensor_options), .fields = sensor_options};
-
 const struct stage stage_sensor = {
     .name = "sensor",
     .summary = "Merge echoes into resolution cells and superpose their antenna pointers.",
     .details = "Gives every echo its amplitude, lets echoes that the radar cannot resolve share a\n"
                "cell, drops cells whose summed amplitude is below the detection threshold, and\n"
                "writes what the sum and delta channels would show of the rest without noise.",
-    .options = &sensor_options_record,
+    .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_CELLS | SECTION_LOST,
     .step = sensor_step,

@@ -333,6 +333,25 @@ static void between_equal_waypoints_something_stands(void **state)
     }
 }
 
+/* There and back on a line: the waypoint in the middle is passed at speed 0. */
+static void a_turning_point_points_where_it_goes_next(void **state)
+{
+    (void)state;
+    struct waypoint waypoints[] = {
+        {0, 0,  0},
+        {2, 10, 0},
+        {4, 0,  0},
+        {5, 0,  0}
+    };
+    struct actor actor = follower(waypoints, COUNT(waypoints));
+    assert_close(motion_at(&actor, 1.9).yaw_rad, 0, 1e-15);
+    assert_close(motion_at(&actor, 2 - 1e-8).yaw_rad, PI, 1e-15);
+    assert_close(motion_at(&actor, 2).yaw_rad, PI, 1e-15);
+    assert_close(motion_at(&actor, 2 + 1e-8).yaw_rad, PI, 1e-15);
+    assert_close(motion_at(&actor, 4.5).yaw_rad, PI, 1e-15);
+    assert_close(travelled_at(&actor, 4.5), 20, 1e-12);
+}
+
 static void what_never_moves_keeps_its_yaw(void **state)
 {
     (void)state;
@@ -534,6 +553,7 @@ int main(void)
         cmocka_unit_test(the_way_along_a_curve_is_that_of_its_chords),
         cmocka_unit_test(outside_its_waypoints_something_stands),
         cmocka_unit_test(between_equal_waypoints_something_stands),
+        cmocka_unit_test(a_turning_point_points_where_it_goes_next),
         cmocka_unit_test(what_never_moves_keeps_its_yaw),
         cmocka_unit_test(a_shifted_scenario_moves_like_a_local_one),
         cmocka_unit_test(a_million_frames_drift_nowhere),

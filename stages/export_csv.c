@@ -1,0 +1,132 @@
+/* Export as CSV: one row per target with its strongest contributor. */
+#include <csv.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "number.h"
+#include "stage.h"
+
+struct export_csv {
+    bool begun; /* is the header out? */
+};
+
+enum { CELL_ROOM = 2 * FIELD_NAME_SIZE + 2 };
+
+static const char header[] = "scene,frame,time_s,sensor,range_m,azimuth_rad,range_rate_mps,"
+                             "amplitude_db,contributors,object,reflector,path,weight\n";
+
+/* A row as it grows: the target's part is 9 cells, all empty in a scan without targets. */
+struct row {
+    struct runner *runner;
+    int cells;
+    int result;
+};
+
+static void add(struct row *row, const char *bytes, size_t length)
+{
+    if (row->result == 0 && row->cells++ > 0)
+        row->result = runner_write(row->runner, ",", 1);
+    if (row->result == 0)
+        row->result = runner_write(row->runner, bytes, length);
+}
+
+static void add_word(struct row *row, const char *word)
+{
+    char quoted[CELL_ROOM];
+    size_t length = strlen(word);
+    if (strpbrk(word, ",\"\r\n") == NULL)
+        add(row, word, length);
+    else
+        add(row, quoted, csv_write(quoted, sizeof quoted, word, length));
+}
+
+static void add_real(struct row *row, double value)
+{
+    char digits[NUMBER_SIZE];
+    add(row, digits, number_write(value, digits));
+}
+
+static void add_integer(struct row *row, int64_t value)
+{
+    char digits[NUMBER_SIZE];
+    add(row, digits, (size_t)snprintf(digits, sizeof digits, "%" PRId64, value));
+}
+
+static const struct contributor *strongest(const struct target *target)
+{
+    const struct contributor *best = target->contributors.items;
+    for (size_t i = 1; i < target->contributors.count; i++)
+        if (target->contributors.items[i].weight > best->weight)
+            best = &target->contributors.items[i];
+    return best;
+}
+
+static void add_target(struct row *row, const struct target *target)
+{
+    const struct contributor *from = strongest(target);
+    add_real(row, target->range_m);
+    add_real(row, target->azimuth_rad);
+    add_real(row, target->range_rate_mps);
+    add_real(row, target->amplitude_db);
+    add_integer(row, (int64_t)target->contributors.count);
+    add_word(row, from->object);
+    add_word(row, from->reflector);
+    add_word(row, frame_path_name(from->path));
+    add_real(row, from->weight);
+}
+
+static int write_row(struct runner *runner, const struct frame *frame, const char *sensor,
+                     const struct target *target)
+{
+    struct row row = {.runner = runner};
+    add_word(&row, frame->scene);
+    add_integer(&row, frame->frame);
+    add_real(&row, frame->time_s);
+    add_word(&row, sensor);
+    if (target != NULL)
+        add_target(&row, target);
+    for (int i = 0; target == NULL && i < 9; i++)
+        add(&row, "", 0);
+    return row.result == 0 ? runner_write(runner, "\n", 1) : -1;
+}
+
+static int export_csv_step(void *state, struct frame *frame, struct runner *runner)
+{
+    struct export_csv *export = state;
+    if (!export->begun && runner_write(runner, header, sizeof header - 1) != 0)
+        return -1;
+    export->begun = true;
+    for (size_t i = 0; i < frame->sensors.list.count; i++) {
+        const struct sensor_view *sensor = &frame->sensors.list.items[i];
+        bool empty = true;
+        for (size_t j = 0; j < frame->targets.count; j++) {
+            const struct target *target = &frame->targets.items[j];
+            if (strcmp(target->sensor, sensor->name) != 0)
+                continue;
+            empty = false;
+            if (write_row(runner, frame, sensor->name, target) != 0)
+                return -1;
+        }
+        if (empty && sensor->measured && write_row(runner, frame, sensor->name, NULL) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+static const struct field no_fields[] = {{0}};
+
+static const struct record export_csv_record = {
+    .name = "stage", .size = sizeof(struct export_csv), .fields = no_fields};
+
+const struct stage stage_export_csv = {
+    .name = "export-csv",
+    .summary = "Write targets as CSV, one row each, with the strongest contributor.",
+    .details =
+        "A scan without targets is one row with empty cells after the sensor's name, so that\n"
+        "missed detections can be counted.",
+    .options = &export_csv_record,
+    .sink = true,
+    .reads = SECTION_SENSORS | SECTION_TARGETS,
+    .step = export_csv_step,
+};

@@ -1,0 +1,51 @@
+/* The textbook sensor: independent Gaussian noise on range, azimuth and range rate. */
+#include <math.h>
+
+#include "random.h"
+#include "readings.h"
+#include "stage.h"
+#include "units.h"
+
+static struct reading measure(const struct frame *frame, const struct sensor *sensor,
+                              const struct cell *cell)
+{
+    struct random_address address = runner_address(frame, sensor->name, &cell->members.items[0]);
+    double straight[4], across[4];
+    random_gaussian(&address, RANDOM_RANGE_RATE, 0, straight);
+    random_gaussian(&address, RANDOM_AZIMUTH, 0, across);
+    struct reading reading = reading_of(cell);
+    reading.range_m = fmax(reading.range_m + sensor->range_sigma_m * straight[0], 0);
+    reading.range_rate_mps += sensor->range_rate_sigma_mps * straight[1];
+    reading.azimuth_rad =
+        units_wrap_rad(reading.azimuth_rad + sensor->azimuth_sigma_rad * across[0]);
+    return reading;
+}
+
+static int noise_gauss_step(void *state, struct frame *frame, struct runner *runner)
+{
+    const struct suite_choice *choice = state;
+    const struct suite *suite = runner_suite(runner, frame, choice->sensors);
+    for (size_t i = 0; suite != NULL && i < suite->sensors.count; i++) {
+        const struct sensor *sensor = &suite->sensors.items[i];
+        struct cell_span cells = frame_cells_of(frame, sensor->name);
+        struct reading *readings = arena_get(frame->arena, cells.count * sizeof *readings);
+        for (size_t j = 0; j < cells.count; j++)
+            readings[j] = measure(frame, sensor, &cells.items[j]);
+        readings_list(frame, "noise-gauss", sensor, readings, cells.count, 0);
+    }
+    return suite != NULL ? 0 : -1;
+}
+
+const struct stage stage_noise_gauss = {
+    .name = "noise-gauss",
+    .summary = "Add independent Gaussian noise to range, azimuth and range rate.",
+    .details =
+        "Stands in for glint-noise: every cell becomes a target, its values blurred by the\n"
+        "sensor's range_sigma_m, azimuth_sigma_rad and range_rate_sigma_mps. No threshold\n"
+        "and no list limit is applied; a cell of zero amplitude is lost. A range below zero\n"
+        "is reported as zero.",
+    .options = &suite_choice_record,
+    .reads = SECTION_SENSORS | SECTION_CELLS,
+    .writes = SECTION_TARGETS | SECTION_LOST,
+    .step = noise_gauss_step,
+};
