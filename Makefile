@@ -96,15 +96,46 @@ $(BUILD)/tests/%.o: tests/%.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(HOUSE_C) -Itests $(CFLAGS) -c -o $@ $<
 
-$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(BUILD)/libglint.a
+$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ $(LIBS) -lcmocka
 
 unit: $(tests)
 	@for t in $(tests); do $$t >$$t.log 2>&1 || { cat $$t.log; echo "$$t failed"; exit 1; }; done
 	@echo "unit tests: $(words $(tests)) programs passed"
 
+check: all unit
+	$(Q)BUILD=$(BUILD) scripts/check-house
+
+schemas: all
+	$(Q)for s in $$($(BUILD)/bin/glint --list schemas); do \
+	    $(BUILD)/bin/glint --schema $$s >schemas/$$s.json || exit 1; done
+
+format:
+	clang-format -i $(wildcard lib/*.[ch] stages/*.c tests/*.[ch])
+
+lint:
+	clang-format --dry-run --Werror $(wildcard lib/*.[ch] stages/*.c tests/*.[ch])
+	clang-tidy --quiet $(wildcard lib/*.c stages/*.c) -- -std=c11 -D_POSIX_C_SOURCE=200809L -Ilib
+
+# Man pages are made from --help; SOURCE_DATE_EPOCH makes them reproducible.
+man: all
+	@mkdir -p $(BUILD)/man
+	$(Q)for t in $(notdir $(tools)); do \
+	    help2man --no-info --no-discard-stderr -n "$$($(BUILD)/bin/$$t --help | sed -n '/^Usage/,/^$$/{/^Usage/d;/^  or/d;p;q}')" \
+	        -o $(BUILD)/man/$$t.1 $(BUILD)/bin/$$t || exit 1; done
+
+install: all man
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1 $(DESTDIR)$(PREFIX)/share/glint
+	install -m 755 $(tools) $(DESTDIR)$(PREFIX)/bin
+	install -m 644 $(patsubst %,$(BUILD)/man/%.1,$(notdir $(tools))) $(DESTDIR)$(PREFIX)/share/man/man1
+	cp -R data/* $(DESTDIR)$(PREFIX)/share/glint
+	cp -R pipelines schemas $(DESTDIR)$(PREFIX)/share/glint
+
+clean:
+	rm -rf build build-*
+
 FORCE:
-.PHONY: all unit FORCE
+.PHONY: all unit check schemas format lint man install clean FORCE
 .PRECIOUS: $(BUILD)/main/%.o $(BUILD)/tests/%.o
 
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*.d)

@@ -26,7 +26,7 @@ const struct record vehicle_record = {
 
 const struct vehicle *catalogue_vehicle(const char *class, struct arena *arena, struct diag *diag)
 {
-    const char *path = document_find("vehicles", class, arena, diag);
+    const char *path = document_find("vehicles", class, ".json", arena, diag);
     struct vehicle *vehicle = arena_get(arena, sizeof *vehicle);
     if (path == NULL || document_read(path, &vehicle_record, vehicle, arena, diag) != 0)
         return NULL;
@@ -43,7 +43,7 @@ const struct vehicle *catalogue_vehicle(const char *class, struct arena *arena, 
 
 struct scenario *catalogue_scenario(const char *name, struct arena *arena, struct diag *diag)
 {
-    const char *path = document_find("scenarios", name, arena, diag);
+    const char *path = document_find("scenarios", name, ".json", arena, diag);
     struct scenario *scenario = arena_get(arena, sizeof *scenario);
     if (path == NULL || document_read(path, &scenario_record, scenario, arena, diag) != 0)
         return NULL;
@@ -170,7 +170,7 @@ static int complete_suite(struct suite *suite, const char *path, const struct te
 
 const struct suite *catalogue_suite(const char *name, struct arena *arena, struct diag *diag)
 {
-    const char *path = document_find("sensors", name, arena, diag);
+    const char *path = document_find("sensors", name, ".json", arena, diag);
     if (path == NULL)
         return NULL;
     struct suite *suite = arena_get(arena, sizeof *suite);

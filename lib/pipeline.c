@@ -19,7 +19,9 @@ static int refuse(const struct parser *parser, const char *what)
 
 static char peek(const struct parser *parser)
 {
-    return parser->at < parser->end ? *parser->at : '\0';
+    if (parser->at == parser->end)
+        return '\0';
+    return *parser->at;
 }
 
 static char take(struct parser *parser)

@@ -1,7 +1,9 @@
 /* Traffic: plays a scenario document or a recorded trajectory table, frame by frame. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "document.h"
 #include "stage.h"
 #include "trajectory.h"
 #include "units.h"
@@ -34,10 +36,9 @@ static const char *scene_name(const struct traffic *traffic, struct arena *arena
         base = "scene";
         length = strlen(base);
     }
-    char *name = arena_get(arena, length + strlen(traffic->ego) + 2);
-    memcpy(name, base, length);
-    name[length] = '/';
-    strcpy(name + length + 1, traffic->ego);
+    size_t size = length + strlen(traffic->ego) + 2;
+    char *name = arena_get(arena, size);
+    snprintf(name, size, "%.*s/%s", (int)length, base, traffic->ego);
     return name;
 }
 
@@ -107,10 +108,25 @@ static int start_table(struct traffic *traffic, struct runner *runner)
     return 0;
 }
 
+/* A table by its ending, or a bare name that is no scenario's but a table's. */
+static bool find_table(struct traffic *traffic, struct arena *arena)
+{
+    const char *name = traffic->source;
+    if (ends_with(name, ".csv") || ends_with(name, ".csv.gz"))
+        return true;
+    struct diag ignored[2] = {{0}};
+    const char *table = document_find("trajectories", name, ".csv", arena, &ignored[0]);
+    if (table == NULL || !ends_with(table, ".csv") ||
+        document_find("scenarios", name, ".json", arena, &ignored[1]) != NULL)
+        return false;
+    traffic->source = table;
+    return true;
+}
+
 static int traffic_start(void *state, struct runner *runner)
 {
     struct traffic *traffic = state;
-    bool table = ends_with(traffic->source, ".csv") || ends_with(traffic->source, ".csv.gz");
+    bool table = find_table(traffic, runner_arena(runner));
     if ((table ? start_table : start_scenario)(traffic, runner) != 0)
         return -1;
     if (traffic->scene == NULL)

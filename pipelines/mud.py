@@ -1,0 +1,31 @@
+"""Mud on the bumper: echoes between two azimuths (radians) never reach the sensor.
+
+Stands between glint-ideal and glint-sensor. Frames come as JSON lines on standard input and go
+to standard output; every echo taken away is accounted for in `lost`, so that nothing vanishes
+without a word.
+"""
+import json
+import sys
+
+low, high = float(sys.argv[1]), float(sys.argv[2])
+
+
+def lose(frame, echoes):
+    """Group the echoes by sensor, as the frame's account wants them."""
+    groups = {}
+    for echo in echoes:
+        entry = {key: echo[key] for key in ("object", "reflector", "path")}
+        groups.setdefault(echo["sensor"], []).append(entry)
+    frame["lost"] += [
+        {"sensor": sensor, "stage": "mud", "reason": "out_of_view", "echoes": entries}
+        for sensor, entries in groups.items()
+    ]
+
+
+for line in sys.stdin:
+    frame = json.loads(line)
+    hidden = [echo for echo in frame["echoes"] if low <= echo["azimuth_rad"] <= high]
+    frame["echoes"] = [echo for echo in frame["echoes"] if echo not in hidden]
+    if frame.get("account"):
+        lose(frame, hidden)
+    print(json.dumps(frame))
