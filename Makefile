@@ -106,6 +106,9 @@ unit: $(tests)
 check: all unit
 	$(Q)BUILD=$(BUILD) scripts/check-house
 
+bench: all
+	$(Q)scripts/bench
+
 schemas: all
 	$(Q)for s in $$($(BUILD)/bin/glint --list schemas); do \
 	    $(BUILD)/bin/glint --schema $$s >schemas/$$s.json || exit 1; done
@@ -135,7 +138,7 @@ clean:
 	rm -rf build build-*
 
 FORCE:
-.PHONY: all unit check schemas format lint man install clean FORCE
+.PHONY: all unit check bench schemas format lint man install clean FORCE
 .PRECIOUS: $(BUILD)/main/%.o $(BUILD)/tests/%.o
 
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*.d)

@@ -1,11 +1,12 @@
 #include "chain.h"
 
 #include <stdio.h>
-#include <string.h>
+#include <time.h>
 
 #include "document.h"
 #include "frame_text.h"
 #include "input.h"
+#include "progress.h"
 
 struct chain {
     struct runner *runners;
@@ -15,11 +16,28 @@ struct chain {
     struct text line;
     struct input *input;
     size_t file, line_number;
+    struct chain_times *times;
+    struct progress progress;
 };
 
 void chain_complain(const struct runner *runner)
 {
     fprintf(stderr, "glint-%s: %s\n", runner->stage->name, runner->diag.text);
+}
+
+static int64_t clock_ns(const struct chain *chain)
+{
+    if (chain->times == NULL)
+        return 0;
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
+
+static void add_time(const struct chain *chain, int64_t *total, int64_t begin)
+{
+    if (chain->times != NULL)
+        *total += clock_ns(chain) - begin;
 }
 
 static struct runner *last(struct chain *chain)
@@ -68,6 +86,8 @@ static int read_frame(struct chain *chain)
         size_t length;
         chain->line_number++;
         int more = input_line(chain->input, FRAME_TEXT_SIZE, &line, &length, diag);
+        if (more > 0 && chain->times != NULL)
+            chain->times->bytes_read += (int64_t)length + 1;
         if (more > 0)
             more = take_line(chain, line, length, diag);
         if (more != 0)
@@ -99,22 +119,45 @@ static int write_frame(struct chain *chain)
     return output_write(runner->output, chain->line.bytes, chain->line.length, &runner->diag);
 }
 
-/* One frame through all runners: 1, 0 if there was none, -1 if one of them failed. */
-static int run_frame(struct chain *chain)
+static int first_frame(struct chain *chain)
 {
     struct runner *first = &chain->runners[0];
     bool source = first->stage->next != NULL;
+    int64_t begin = clock_ns(chain);
     int more = source ? runner_next(first, &chain->frame) : read_frame(chain);
+    if (chain->times != NULL)
+        add_time(chain, source ? &chain->times->step_ns[0] : &chain->times->read_ns, begin);
     if (more < 0)
         place_message(chain, first);
+    return more;
+}
+
+/* One frame through all runners: 1, 0 if there was none, -1 if one of them failed. */
+static int run_frame(struct chain *chain)
+{
+    int more = first_frame(chain);
     if (more <= 0)
         return more;
-    for (struct runner *runner = source ? first + 1 : first; runner <= last(chain); runner++)
+    size_t index = chain->runners[0].stage->next != NULL ? 1 : 0;
+    for (; index < chain->count; index++) {
+        struct runner *runner = &chain->runners[index];
+        int64_t begin = clock_ns(chain);
         if (runner_step(runner, &chain->frame) != 0) {
             place_message(chain, runner);
             return -1;
         }
-    return write_frame(chain) == 0 ? 1 : -1;
+        if (chain->times != NULL)
+            add_time(chain, &chain->times->step_ns[index], begin);
+    }
+    int64_t begin = clock_ns(chain);
+    int result = write_frame(chain);
+    if (chain->times != NULL) {
+        add_time(chain, &chain->times->write_ns, begin);
+        chain->times->frames++;
+        chain->times->bytes_written += (int64_t)chain->line.length;
+    }
+    progress_step(&chain->progress);
+    return result == 0 ? 1 : -1;
 }
 
 /* The stages after the rightmost failure see the end of the stream, as they would in a pipe. */
@@ -142,13 +185,15 @@ static bool any_failed(const struct chain *chain)
     return false;
 }
 
-int chain_run(struct runner *runners, size_t count)
+int chain_run(struct runner *runners, size_t count, struct chain_times *times)
 {
-    struct chain chain = {.runners = runners, .count = count};
+    struct chain chain = {.runners = runners, .count = count, .times = times};
     chain.frame.arena = &chain.arena;
     start(&chain);
+    progress_begin(&chain.progress, runners[0].expected_frames);
     while (!any_failed(&chain) && run_frame(&chain) > 0)
         continue;
+    progress_end(&chain.progress);
     finish(&chain);
     struct runner *end = last(&chain);
     if (end->output != NULL)
@@ -194,7 +239,7 @@ int chain_main(const struct stage *stage, int count, char **words)
     } else if (runner.common.help || runner.common.version) {
         code = print_about(&runner);
     } else {
-        code = chain_run(&runner, 1);
+        code = chain_run(&runner, 1, NULL);
     }
     runner_free(&runner);
     return code;

@@ -8,9 +8,16 @@
 
 #include "runner.h"
 
+/* Where the time of a chain went, in nanoseconds of wall clock. */
+struct chain_times {
+    int64_t frames, bytes_read, bytes_written;
+    int64_t read_ns, write_ns;
+    int64_t *step_ns; /* one for each runner */
+};
+
 /* Runs prepared runners from the first frame to the last and prints the messages of those that
- * fail to stderr. Returns the exit code. */
-int chain_run(struct runner *runners, size_t count);
+ * fail to stderr. Returns the exit code. Clocks are read only if times is not NULL. */
+int chain_run(struct runner *runners, size_t count, struct chain_times *times);
 
 /* The whole of main for one stage. */
 int chain_main(const struct stage *stage, int count, char **words);

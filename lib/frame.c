@@ -456,6 +456,11 @@ const char *frame_path_name(enum path path)
     return paths[path];
 }
 
+const char *frame_loss_name(enum loss loss)
+{
+    return losses[loss];
+}
+
 void frame_drop(struct frame *frame, unsigned sections)
 {
     for (const struct field *field = frame_fields; field->name != NULL; field++) {

@@ -185,6 +185,7 @@ void frame_order(struct frame *frame);
 const char *frame_section_name(enum section section);
 
 const char *frame_path_name(enum path path);
+const char *frame_loss_name(enum loss loss);
 
 /* Empties sections: they are then absent, as if they had never been there. */
 void frame_drop(struct frame *frame, unsigned sections);

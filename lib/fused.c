@@ -1,5 +1,6 @@
 #include "fused.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -12,6 +13,7 @@
 static const char usage[] =
     "Usage: glint FILE\n"
     "  or:  glint -c TEXT\n"
+    "  or:  glint --times FILE\n"
     "  or:  glint --list stages | schemas\n"
     "  or:  glint --schema NAME\n"
     "Run a pipeline of glint stages in one process: the same text that bash would run,\n"
@@ -22,6 +24,7 @@ static const char usage[] =
     "\n"
     "Options:\n"
     "  -c TEXT              the pipeline itself\n"
+    "      --times FILE     run it, then say on stderr where the time went (JSON lines)\n"
     "      --list WHAT      list the stages, or the schemas\n"
     "      --schema NAME    print a JSON Schema\n"
     "      --help           print this help\n"
@@ -72,7 +75,8 @@ static int check_place(const struct runner *runner, const struct command *comman
 
 /* Runs the commands; a stage that refuses its command line counts as failed, as it would in a
  * pipe, and the rightmost one gives the code. */
-static int run_commands(const struct pipeline *pipeline, struct runner *runners, struct diag *diag)
+static int run_commands(const struct pipeline *pipeline, struct runner *runners,
+                        struct chain_times *times, struct diag *diag)
 {
     size_t count = pipeline->commands.count;
     int code = DIAG_OK;
@@ -91,10 +95,29 @@ static int run_commands(const struct pipeline *pipeline, struct runner *runners,
             return -1;
         }
     }
-    return code != DIAG_OK ? code : chain_run(runners, count);
+    return code != DIAG_OK ? code : chain_run(runners, count, times);
 }
 
-static int run_text(const char *name, const char *text, size_t length, struct arena *arena)
+static void print_time(const char *part, int64_t total_ns, int64_t frames)
+{
+    fprintf(stderr, "{\"part\":\"%s\",\"frames\":%" PRId64 ",\"ns_per_frame\":%.0f}\n", part,
+            frames, frames > 0 ? (double)total_ns / (double)frames : 0);
+}
+
+static void print_times(const struct chain_times *times, const struct runner *runners, size_t count)
+{
+    if (times->bytes_read > 0)
+        print_time("read", times->read_ns, times->frames);
+    for (size_t i = 0; i < count; i++)
+        print_time(runners[i].stage->name, times->step_ns[i], times->frames);
+    if (times->bytes_written > 0)
+        print_time("write", times->write_ns, times->frames);
+    fprintf(stderr, "{\"part\":\"bytes\",\"read\":%" PRId64 ",\"written\":%" PRId64 "}\n",
+            times->bytes_read, times->bytes_written);
+}
+
+static int run_text(const char *name, const char *text, size_t length, bool timed,
+                    struct arena *arena)
 {
     struct diag diag = {0};
     struct pipeline pipeline;
@@ -104,7 +127,10 @@ static int run_text(const char *name, const char *text, size_t length, struct ar
     }
     size_t count = pipeline.commands.count;
     struct runner *runners = arena_get(arena, count * sizeof *runners);
-    int code = run_commands(&pipeline, runners, &diag);
+    struct chain_times times = {.step_ns = arena_get(arena, count * sizeof(int64_t))};
+    int code = run_commands(&pipeline, runners, timed ? &times : NULL, &diag);
+    if (timed && diag.code == DIAG_OK)
+        print_times(&times, runners, count);
     for (size_t i = 0; i < count; i++)
         runner_free(&runners[i]);
     if (diag.code == DIAG_OK)
@@ -113,7 +139,7 @@ static int run_text(const char *name, const char *text, size_t length, struct ar
     return complain(&diag);
 }
 
-static int run_file(const char *path, struct arena *arena)
+static int run_file(const char *path, bool timed, struct arena *arena)
 {
     struct diag diag = {0};
     struct text text = {0};
@@ -121,7 +147,7 @@ static int run_file(const char *path, struct arena *arena)
     if (document_bytes(path, &text, &diag) != 0)
         code = complain(&diag);
     else
-        code = run_text(path, text.bytes, text.length, arena);
+        code = run_text(path, text.bytes, text.length, timed, arena);
     text_free(&text);
     return code;
 }
@@ -170,13 +196,15 @@ static int run(int count, char **words, struct arena *arena)
     if (strcmp(first, "--version") == 0)
         return print("glint (glint) " GLINT_VERSION "\n", sizeof "glint (glint) " GLINT_VERSION);
     if (count == 3 && strcmp(first, "-c") == 0)
-        return run_text("-c", second, strlen(second), arena);
+        return run_text("-c", second, strlen(second), false, arena);
+    if (count == 3 && strcmp(first, "--times") == 0)
+        return run_file(second, true, arena);
     if (count == 3 && strcmp(first, "--list") == 0)
         return list(second);
     if (count == 3 && strcmp(first, "--schema") == 0)
         return print_schema(second);
     if (count == 2 && (first[0] != '-' || first[1] == '\0'))
-        return run_file(first, arena);
+        return run_file(first, false, arena);
     return complain(
         &(struct diag){DIAG_USAGE, "expected a FILE, -c TEXT or an option; see --help"});
 }

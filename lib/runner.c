@@ -178,5 +178,5 @@ int runner_finish(struct runner *runner)
         if (!runner->scenes.items[i].closed)
             return diag_fail(&runner->diag, DIAG_DATA, "scene \"%s\" ends before its last frame",
                              runner->scenes.items[i].name);
-    return 0;
+    return runner->stage->stop == NULL ? 0 : runner->stage->stop(runner->state, runner);
 }

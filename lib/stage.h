@@ -4,10 +4,10 @@
  *
  * A stage is data: one const struct stage in one file of stages/, and the folder is the registry.
  * The executable glint-NAME and the fused program glint run the same struct. Sources make frames
- * (next), filters change them in place (step), sinks write what they like (step, with no writes and
- * sink set). The runner owns the state and the frame; a stage keeps no pointer into a frame, prints
- * nothing and frees nothing it did not make. Formulas live in lib/ as pure functions; stages loop,
- * pick members and call.
+ * (next), filters change them in place (step), sinks write what they like (step and stop). The
+ * runner owns the state and the frame; a stage keeps no pointer into a frame, prints nothing and
+ * frees nothing it did not make. Formulas live in lib/ as pure functions; stages loop, pick members
+ * and call.
  *
  * Every function returns 0, or -1 after a message in the runner's diag. next also returns 1 after
  * making a frame; 0 is the end of the scenes. */
@@ -32,6 +32,7 @@ struct stage {
     int (*start)(void *state, struct runner *runner);
     int (*next)(void *state, struct frame *frame, struct runner *runner);
     int (*step)(void *state, struct frame *frame, struct runner *runner);
+    int (*stop)(void *state, struct runner *runner); /* after the last frame; NULL: nothing */
 };
 
 /* The state of stages without options. */

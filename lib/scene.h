@@ -1,0 +1,30 @@
+/* Where frames come from: a scenario document played in time, or a recorded trajectory table. Both
+ * are a number of frames, each with the objects that are there. */
+#ifndef SCENE_H
+#define SCENE_H
+
+#include "frame.h"
+#include "scenario.h"
+#include "trajectory.h"
+
+struct scene {
+    const char *ego;
+    struct vec2 origin_m; /* of the frames' coordinates in the source's */
+    int64_t frames;
+    struct scenario *scenario;          /* either this */
+    const struct recorded_step **steps; /* or these, in which the ego was recorded */
+};
+
+/* Opens a source by its name: a table by its ending (.csv, .csv.gz), else the scenario of that name
+ * (or path), else the table of that name. ego may be NULL if a scenario names its own. What the
+ * scene holds lies in the arena. */
+int scene_open(struct scene *scene, const char *source, const char *ego, struct arena *arena,
+               struct diag *diag);
+
+/* "highway/7" for data/trajectories/highway.csv.gz and ego 7. */
+const char *scene_name(const char *source, const char *ego, struct arena *arena);
+
+/* Fills time, interval, origin and objects of frame number 0 <= number < frames. */
+void scene_frame(const struct scene *scene, int64_t number, struct frame *frame);
+
+#endif
