@@ -24,6 +24,51 @@ const struct record vehicle_record = {
     .fields = vehicle_fields,
 };
 
+static bool is_named(const struct reflector_set *set, const char *name, const char *except)
+{
+    for (size_t i = 0; i < set->points.count; i++)
+        if (set->points.items[i].name != except && strcmp(set->points.items[i].name, name) == 0)
+            return true;
+    for (size_t i = 0; i < set->planes.count; i++)
+        if (set->planes.items[i].name != except && strcmp(set->planes.items[i].name, name) == 0)
+            return true;
+    for (size_t i = 0; i < set->rows.count; i++)
+        if (set->rows.items[i].name != except && strcmp(set->rows.items[i].name, name) == 0)
+            return true;
+    return false;
+}
+
+/* What the tables cannot say: names are unique, and visibility ends where it must. */
+static int check_reflector(const struct reflector_set *set, const char *list, size_t index,
+                           const char *name, double full_rad, double zero_rad, struct diag *diag)
+{
+    if (is_named(set, name, name))
+        return diag_fail(diag, DIAG_CONFIG, "%s[%zu].name: \"%s\" stands twice", list, index, name);
+    if (zero_rad < full_rad)
+        return diag_fail(diag, DIAG_CONFIG, "%s[%zu].zero_rad: %g is less than full_rad, %g rad",
+                         list, index, zero_rad, full_rad);
+    return 0;
+}
+
+static int check_reflectors(const struct reflector_set *set, struct diag *diag)
+{
+    for (size_t i = 0; i < set->points.count; i++) {
+        const struct point_reflector *point = &set->points.items[i];
+        if (check_reflector(set, "points", i, point->name, point->full_rad, point->zero_rad,
+                            diag) != 0)
+            return -1;
+    }
+    for (size_t i = 0; i < set->planes.count; i++)
+        if (check_reflector(set, "planes", i, set->planes.items[i].name, 0, 0, diag) != 0)
+            return -1;
+    for (size_t i = 0; i < set->rows.count; i++) {
+        const struct post_row *row = &set->rows.items[i];
+        if (check_reflector(set, "rows", i, row->name, row->full_rad, row->zero_rad, diag) != 0)
+            return -1;
+    }
+    return 0;
+}
+
 const struct vehicle *catalogue_vehicle(const char *class, struct arena *arena, struct diag *diag)
 {
     const char *path = document_find("vehicles", class, ".json", arena, diag);
@@ -31,13 +76,10 @@ const struct vehicle *catalogue_vehicle(const char *class, struct arena *arena, 
     if (path == NULL || document_read(path, &vehicle_record, vehicle, arena, diag) != 0)
         return NULL;
     vehicle->reflectors.model = arena_text(arena, class, strlen(class));
-    for (size_t i = 0; i < vehicle->reflectors.points.count; i++)
-        if (vehicle->reflectors.points.items[i].zero_rad <
-            vehicle->reflectors.points.items[i].full_rad) {
-            diag_fail(diag, DIAG_CONFIG, "%s: reflectors.points[%zu].zero_rad: less than full_rad",
-                      path, i);
-            return NULL;
-        }
+    if (check_reflectors(&vehicle->reflectors, diag) != 0) {
+        diag_prefix(diag, "%s: reflectors.", path);
+        return NULL;
+    }
     return vehicle;
 }
 
