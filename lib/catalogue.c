@@ -7,6 +7,15 @@
 #include "hash.h"
 #include "table.h"
 
+/* Suites and vehicles are asked for by frames, whose standard input is the stream itself. */
+static const char *find(const char *kind, const char *name, struct arena *arena, struct diag *diag)
+{
+    if (strcmp(name, "-") != 0)
+        return document_find(kind, name, ".json", arena, diag);
+    diag_fail(diag, DIAG_CONFIG, "- is standard input; expected a name in %s/, or a path", kind);
+    return NULL;
+}
+
 static const struct field vehicle_fields[] = {
     {FIELD_NAME_OF(struct vehicle, origin, "who made this, and from what")},
     {FIELD_REAL_IN(struct vehicle, length_m, 0.01, 1e4, "where an object of the class gives none")},
@@ -24,60 +33,41 @@ const struct record vehicle_record = {
     .fields = vehicle_fields,
 };
 
-static bool is_named(const struct reflector_set *set, const char *name, const char *except)
+static int check_visibility(const char *list, size_t index, double full_rad, double zero_rad,
+                            struct diag *diag)
 {
-    for (size_t i = 0; i < set->points.count; i++)
-        if (set->points.items[i].name != except && strcmp(set->points.items[i].name, name) == 0)
-            return true;
-    for (size_t i = 0; i < set->planes.count; i++)
-        if (set->planes.items[i].name != except && strcmp(set->planes.items[i].name, name) == 0)
-            return true;
-    for (size_t i = 0; i < set->rows.count; i++)
-        if (set->rows.items[i].name != except && strcmp(set->rows.items[i].name, name) == 0)
-            return true;
-    return false;
-}
-
-/* What the tables cannot say: names are unique, and visibility ends where it must. */
-static int check_reflector(const struct reflector_set *set, const char *list, size_t index,
-                           const char *name, double full_rad, double zero_rad, struct diag *diag)
-{
-    if (is_named(set, name, name))
-        return diag_fail(diag, DIAG_CONFIG, "%s[%zu].name: \"%s\" stands twice", list, index, name);
     if (zero_rad < full_rad)
         return diag_fail(diag, DIAG_CONFIG, "%s[%zu].zero_rad: %g is less than full_rad, %g rad",
                          list, index, zero_rad, full_rad);
     return 0;
 }
 
+/* What the tables cannot say: names are unique, and visibility ends where it must. */
 static int check_reflectors(const struct reflector_set *set, struct diag *diag)
 {
-    for (size_t i = 0; i < set->points.count; i++) {
-        const struct point_reflector *point = &set->points.items[i];
-        if (check_reflector(set, "points", i, point->name, point->full_rad, point->zero_rad,
-                            diag) != 0)
+    const char *twice = reflectors_name_twice(set);
+    if (twice != NULL)
+        return diag_fail(diag, DIAG_CONFIG, "the name \"%s\" stands twice", twice);
+    for (size_t i = 0; i < set->points.count; i++)
+        if (check_visibility("points", i, set->points.items[i].full_rad,
+                             set->points.items[i].zero_rad, diag) != 0)
             return -1;
-    }
-    for (size_t i = 0; i < set->planes.count; i++)
-        if (check_reflector(set, "planes", i, set->planes.items[i].name, 0, 0, diag) != 0)
+    for (size_t i = 0; i < set->rows.count; i++)
+        if (check_visibility("rows", i, set->rows.items[i].full_rad, set->rows.items[i].zero_rad,
+                             diag) != 0)
             return -1;
-    for (size_t i = 0; i < set->rows.count; i++) {
-        const struct post_row *row = &set->rows.items[i];
-        if (check_reflector(set, "rows", i, row->name, row->full_rad, row->zero_rad, diag) != 0)
-            return -1;
-    }
     return 0;
 }
 
 const struct vehicle *catalogue_vehicle(const char *class, struct arena *arena, struct diag *diag)
 {
-    const char *path = document_find("vehicles", class, ".json", arena, diag);
+    const char *path = find("vehicles", class, arena, diag);
     struct vehicle *vehicle = arena_get(arena, sizeof *vehicle);
     if (path == NULL || document_read(path, &vehicle_record, vehicle, arena, diag) != 0)
         return NULL;
     vehicle->reflectors.model = arena_text(arena, class, strlen(class));
     if (check_reflectors(&vehicle->reflectors, diag) != 0) {
-        diag_prefix(diag, "%s: reflectors.", path);
+        diag_prefix(diag, "%s: reflectors: ", path);
         return NULL;
     }
     return vehicle;
@@ -133,10 +123,10 @@ static int read_amplitudes(const char *path, struct sensor *sensor, struct arena
             table_number(&table, i, column[1], 1e-300, 1e300, &rows[i].amplitude, diag) != 0)
             return -1;
         if (i > 0 && rows[i].range_m <= rows[i - 1].range_m)
-            return diag_fail(diag, DIAG_CONFIG, "row %zu: range_m must ascend", i + 2);
+            return diag_fail(diag, DIAG_CONFIG, "row %zu: range_m must ascend", table.numbers[i]);
     }
     if (table.rows < 2)
-        return diag_fail(diag, DIAG_CONFIG, "%zu rows; expected at least 2", table.rows);
+        return diag_fail(diag, DIAG_CONFIG, "rows: %zu; expected at least 2", table.rows);
     sensor->amplitude_law.rows = rows;
     sensor->amplitude_law.row_count = table.rows;
     return 0;
@@ -160,7 +150,8 @@ static int read_pattern(const char *path, struct sensor *sensor, struct arena *a
     size_t row = 0;
     const char *fault = antenna_table_fault(rows, table.rows, &row);
     if (fault != NULL)
-        return diag_fail(diag, DIAG_CONFIG, "row %zu: %s", row + 2, fault);
+        return diag_fail(diag, DIAG_CONFIG, "row %zu: %s",
+                         row < table.rows ? table.numbers[row] : table.rows + 1, fault);
     sensor->antenna.rows = rows;
     sensor->antenna.row_count = table.rows;
     return 0;
@@ -187,6 +178,18 @@ static int add_table(const char *suite_path, const char *name, struct sensor *se
     return result;
 }
 
+static int add_tables(const char *suite_path, struct sensor *sensor, uint64_t *digest,
+                      struct arena *arena, struct diag *diag)
+{
+    if (add_table(suite_path, sensor->amplitude_table, sensor, read_amplitudes, digest, arena,
+                  diag) != 0)
+        return diag_prefix(diag, "amplitude_table: ");
+    if (add_table(suite_path, sensor->antenna_table, sensor, read_pattern, digest, arena, diag) !=
+        0)
+        return diag_prefix(diag, "antenna_table: ");
+    return 0;
+}
+
 static int complete_suite(struct suite *suite, const char *path, const struct text *document,
                           struct arena *arena, struct diag *diag)
 {
@@ -200,10 +203,8 @@ static int complete_suite(struct suite *suite, const char *path, const struct te
                              i, sensor->name);
         if (suite_check(sensor, diag) != 0)
             return diag_prefix(diag, "%s: sensors[%zu].", path, i);
-        if (add_table(path, sensor->amplitude_table, sensor, read_amplitudes, &digest, arena,
-                      diag) != 0 ||
-            add_table(path, sensor->antenna_table, sensor, read_pattern, &digest, arena, diag) != 0)
-            return -1;
+        if (add_tables(path, sensor, &digest, arena, diag) != 0)
+            return diag_prefix(diag, "%s: sensors[%zu].", path, i);
         suite_derive(sensor);
     }
     snprintf(suite->digest, sizeof suite->digest, "%016llx", (unsigned long long)digest);
@@ -212,7 +213,7 @@ static int complete_suite(struct suite *suite, const char *path, const struct te
 
 const struct suite *catalogue_suite(const char *name, struct arena *arena, struct diag *diag)
 {
-    const char *path = document_find("sensors", name, ".json", arena, diag);
+    const char *path = find("sensors", name, arena, diag);
     if (path == NULL)
         return NULL;
     struct suite *suite = arena_get(arena, sizeof *suite);
@@ -224,7 +225,7 @@ const struct suite *catalogue_suite(const char *name, struct arena *arena, struc
         result = complete_suite(suite, path, &bytes, arena, diag);
     text_free(&bytes);
     suite->name = arena_text(arena, name, strlen(name));
-    if (result != 0 && diag->code == DIAG_DATA)
+    if (result != 0)
         diag->code = DIAG_CONFIG;
     return result == 0 ? suite : NULL;
 }

@@ -22,7 +22,9 @@ struct chain {
 
 void chain_complain(const struct runner *runner)
 {
-    fprintf(stderr, "glint-%s: %s\n", runner->stage->name, runner->diag.text);
+    char program[128];
+    snprintf(program, sizeof program, "glint-%s", runner->stage->name);
+    diag_print(program, &runner->diag);
 }
 
 static int64_t clock_ns(const struct chain *chain)
@@ -60,7 +62,7 @@ static int open_next(struct chain *chain)
     chain->file++;
     chain->line_number = 0;
     chain->input = input_open(path, &first->diag);
-    return chain->input != NULL ? 1 : -1;
+    return chain->input != NULL ? 1 : diag_prefix(&first->diag, "%s: ", path);
 }
 
 /* Foreign stages may write sections in any order; ours rely on the canonical one. */
@@ -101,7 +103,10 @@ static int read_frame(struct chain *chain)
 static void place_message(const struct chain *chain, struct runner *runner)
 {
     bool first = runner == &chain->runners[0];
-    if (first && chain->input != NULL)
+    bool line = first && chain->input != NULL;
+    if (line && runner->diag.code == DIAG_NO_INPUT)
+        diag_prefix(&runner->diag, "%s: ", input_name(chain->input));
+    else if (line)
         diag_prefix(&runner->diag, "%s:%zu: ", input_name(chain->input), chain->line_number);
     else if (!first)
         diag_prefix(&runner->diag, "scene \"%s\", frame %lld: ", chain->frame.scene,
@@ -167,10 +172,12 @@ static void finish(struct chain *chain)
         runner_finish(runner);
 }
 
+/* A stage that has failed already, by its command line, is in the chain like one that fails now. */
 static void start(struct chain *chain)
 {
     for (size_t i = 0; i < chain->count; i++)
-        runner_start(&chain->runners[i]);
+        if (!failed(&chain->runners[i]))
+            runner_start(&chain->runners[i]);
     struct runner *end = last(chain);
     if (!failed(end))
         end->output =
@@ -230,6 +237,7 @@ static int print_about(struct runner *runner)
 int chain_main(const struct stage *stage, int count, char **words)
 {
     document_guard_memory();
+    input_guard_descriptors();
     struct runner runner;
     int code = DIAG_OK;
     size_t given = count > 0 ? (size_t)count - 1 : 0;

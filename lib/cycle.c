@@ -1,11 +1,19 @@
 #include "cycle.h"
 
+#include <float.h>
 #include <math.h>
 
 /* The number of the latest instant at or before time_s; -1 before the first. */
 static double latest_instant(double cycle_s, double time_s)
 {
-    return fmax(floor(time_s / cycle_s + 1e-9), -1);
+    double cycles = time_s / cycle_s;
+    return fmax(floor(cycles + 1e-9 + 4 * DBL_EPSILON * fabs(cycles)), -1);
+}
+
+/* Cycles are decimals, so their multiples are too: 4.392, not 4.3919999999999995. */
+static double decimal(double time_s)
+{
+    return fabs(time_s) < 1e6 ? round(time_s * 1e9) / 1e9 : time_s;
 }
 
 enum cycle_answer cycle_instant_s(double cycle_s, double time_s, double interval_s,
@@ -21,6 +29,8 @@ enum cycle_answer cycle_instant_s(double cycle_s, double time_s, double interval
         return CYCLE_SEVERAL;
     if (fresh < 1)
         return CYCLE_NONE;
-    *instant_s = latest * cycle_s;
+    *instant_s = decimal(latest * cycle_s);
+    if (fabs(*instant_s - time_s) <= 1e-9 * cycle_s)
+        *instant_s = time_s;
     return CYCLE_ONE;
 }

@@ -1,4 +1,4 @@
-/* When a sensor measures, from the frame alone (DESIGN: things that seem to need memory have none).
+/* When a sensor measures, from the frame alone: what seems to need memory has none.
  *
  * A sensor with a cycle delivers a scan at every whole multiple of cycle_s since time 0; a scan
  * belongs to the frame whose interval (time_s - interval_s, time_s] holds its instant. What it

@@ -16,6 +16,17 @@ int diag_fail(struct diag *diag, enum diag_code code, const char *format, ...)
     return -1;
 }
 
+void diag_print(const char *program, const struct diag *diag)
+{
+    fprintf(stderr, "%s: ", program);
+    for (const char *at = diag->text; *at != '\0'; at++)
+        if ((unsigned char)*at < 0x20 || *at == 0x7f)
+            fprintf(stderr, "\\x%02x", (unsigned)*at);
+        else
+            fputc(*at, stderr);
+    fputc('\n', stderr);
+}
+
 int diag_prefix(struct diag *diag, const char *format, ...)
 {
     char whole[sizeof diag->text];

@@ -32,4 +32,8 @@ int diag_fail(struct diag *diag, enum diag_code code, const char *format, ...)
 /* Puts "PREFIX" in front of the recorded message: callers add the place they know. */
 int diag_prefix(struct diag *diag, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* Prints "PROGRAM: MESSAGE" to stderr, control characters as \xNN: a message may quote its input.
+ */
+void diag_print(const char *program, const struct diag *diag);
+
 #endif

@@ -194,13 +194,9 @@ int document_parse(const char *path, const struct text *text, const struct recor
 int document_bytes(const char *path, struct text *text, struct diag *diag)
 {
     struct input *input = input_open(path, diag);
-    if (input == NULL)
-        return -1;
-    int result = input_all(input, text, diag);
-    if (result != 0)
-        diag_prefix(diag, "%s: ", path);
+    int result = input != NULL ? input_all(input, DOCUMENT_SIZE, text, diag) : -1;
     input_close(input);
-    return result;
+    return result == 0 ? 0 : diag_prefix(diag, "%s: ", path);
 }
 
 int document_read(const char *path, const struct record *record, void *base, struct arena *arena,

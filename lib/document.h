@@ -10,6 +10,8 @@
 #include "field.h"
 #include "text.h"
 
+enum { DOCUMENT_SIZE = 64 * 1024 * 1024 };
+
 /* Gives jansson an allocator that ends the program rather than returning NULL. Once, in main. */
 void document_guard_memory(void);
 

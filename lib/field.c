@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "number.h"
+#include "text.h"
 
 const char *field_unit(const char *name)
 {
@@ -75,6 +76,20 @@ void field_clear(const struct record *record, void *base)
     }
 }
 
+/* "1e6" for 1e+06; whole numbers in full. */
+static const char *show(double bound, char *text, size_t size)
+{
+    bool whole = fabs(bound) >= 1e6 && fabs(bound) <= 0x1p53 && fmod(bound, 1e6) != 0;
+    snprintf(text, size, whole ? "%.16g" : "%g", bound);
+    char *plus = strstr(text, "e+");
+    if (plus != NULL) {
+        char *digits = plus + 2;
+        digits += strspn(digits, "0");
+        memmove(plus + 1, digits, strlen(digits) + 1);
+    }
+    return text;
+}
+
 static int out_of_bounds(const struct field *field, double value, struct diag *diag)
 {
     char digits[NUMBER_SIZE + 1];
@@ -82,8 +97,10 @@ static int out_of_bounds(const struct field *field, double value, struct diag *d
     if (!isfinite(value))
         snprintf(digits, sizeof digits, "%g", value);
     const char *unit = field_unit(field->name);
-    return diag_fail(diag, DIAG_DATA, "%s: %s is outside [%g, %g]%s%s", field->name, digits,
-                     field->low, field->high, *unit ? " " : "", unit);
+    char low[NUMBER_SIZE], high[NUMBER_SIZE];
+    return diag_fail(diag, DIAG_DATA, "%s: %s is outside [%s, %s]%s%s", field->name, digits,
+                     show(field->low, low, sizeof low), show(field->high, high, sizeof high),
+                     *unit ? " " : "", unit);
 }
 
 int field_set_number(const struct field *field, void *base, double value, struct diag *diag)
@@ -134,16 +151,30 @@ static int set_seed(const struct field *field, void *base, const char *text, siz
     return 0;
 }
 
-static int set_name(const struct field *field, void *base, const char *text, size_t length,
-                    struct arena *arena, struct diag *diag)
+static int check_name(const struct field *field, const char *text, size_t length, struct diag *diag)
 {
     if (length == 0 || length > FIELD_NAME_SIZE)
         return diag_fail(diag, DIAG_DATA, "%s: a name of %zu bytes; expected 1 to %d", field->name,
                          length, FIELD_NAME_SIZE);
-    for (size_t i = 0; i < length; i++)
-        if ((unsigned char)text[i] < 0x20 || text[i] == 0x7f)
+    for (size_t i = 0; i < length;) {
+        unsigned char byte = (unsigned char)text[i];
+        if (byte < 0x20 || byte == 0x7f)
             return diag_fail(diag, DIAG_DATA, "%s: control character 0x%02x in a name", field->name,
-                             (unsigned)text[i]);
+                             byte);
+        size_t step = byte < 0x80 ? 1 : text_utf8(text + i, length - i);
+        if (step == 0)
+            return diag_fail(diag, DIAG_DATA, "%s: byte 0x%02x in a name is not UTF-8", field->name,
+                             byte);
+        i += step;
+    }
+    return 0;
+}
+
+static int set_name(const struct field *field, void *base, const char *text, size_t length,
+                    struct arena *arena, struct diag *diag)
+{
+    if (check_name(field, text, length, diag) != 0)
+        return -1;
     const char *copy = arena_text(arena, text, length);
     STORE(const char *, field, base, copy);
     return 0;
@@ -235,11 +266,13 @@ int field_require(const struct record *record, uint64_t seen, struct diag *diag)
 void field_expectation(const struct field *field, char *text, size_t size)
 {
     const char *unit = field_unit(field->name);
+    char low[NUMBER_SIZE], high[NUMBER_SIZE];
     switch (field->kind) {
     case FIELD_REAL:
     case FIELD_INTEGER:
-        snprintf(text, size, "%s in [%g, %g]%s%s",
-                 field->kind == FIELD_REAL ? "a number" : "a whole number", field->low, field->high,
+        snprintf(text, size, "%s in [%s, %s]%s%s",
+                 field->kind == FIELD_REAL ? "a number" : "a whole number",
+                 show(field->low, low, sizeof low), show(field->high, high, sizeof high),
                  *unit ? " " : "", unit);
         return;
     case FIELD_CHOICE: {
@@ -276,8 +309,8 @@ int field_unknown(const struct record *record, const char *name, size_t length, 
         if (used < sizeof known)
             used += (size_t)snprintf(known + used, sizeof known - used, "%s%s",
                                      field == record->fields ? "" : ", ", field->name);
-    return diag_fail(diag, DIAG_DATA, "%.*s: unknown key; a %s has %s",
-                     (int)(length < 80 ? length : 80), name, record->name, known);
+    return diag_fail(diag, DIAG_DATA, "%.*s: unknown key; expected one of %s",
+                     (int)(length < 80 ? length : 80), name, known);
 }
 
 int field_twice(const struct field *field, struct diag *diag)
@@ -296,9 +329,24 @@ static int check_list(const struct field *field, const void *base, struct diag *
     return 0;
 }
 
+static int check_names(const struct field *field, const void *base, struct diag *diag)
+{
+    struct field_list list = field_list(field, base);
+    const char *const *names = list.items;
+    for (size_t i = 0; i < list.count; i++) {
+        char path[FIELD_PATH_SIZE];
+        snprintf(path, sizeof path, "%s[%zu]", field->name, i);
+        const struct field item = {.name = path};
+        if (check_name(&item, names[i], strlen(names[i]), diag) != 0)
+            return -1;
+    }
+    return 0;
+}
+
 static int check_member(const struct field *field, const void *base, struct diag *diag)
 {
     double value;
+    const char *name;
     switch (field->kind) {
     case FIELD_REAL:
         value = LOAD(double, field, base);
@@ -307,9 +355,11 @@ static int check_member(const struct field *field, const void *base, struct diag
         value = (double)LOAD(int64_t, field, base);
         return value >= field->low && value <= field->high ? 0 : out_of_bounds(field, value, diag);
     case FIELD_NAME:
-        return LOAD(const char *, field, base) != NULL
-                   ? 0
-                   : diag_fail(diag, DIAG_DATA, "%s: missing", field->name);
+        name = LOAD(const char *, field, base);
+        return name != NULL ? check_name(field, name, strlen(name), diag)
+                            : diag_fail(diag, DIAG_DATA, "%s: missing", field->name);
+    case FIELD_NAMES:
+        return check_names(field, base, diag);
     case FIELD_RECORD:
         if (field_check(field->record, member_of(field, base), diag) != 0)
             return diag_prefix(diag, "%s.", field->name);

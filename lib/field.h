@@ -29,7 +29,7 @@ enum field_kind {
     FIELD_NOTES,  /* no member: an object of strings, for people; documents only */
 };
 
-enum { FIELD_NAME_SIZE = 1024, FIELD_RAW_SIZE = 64 * 1024 };
+enum { FIELD_NAME_SIZE = 1024, FIELD_RAW_SIZE = 64 * 1024, FIELD_PATH_SIZE = 128 };
 
 struct record;
 

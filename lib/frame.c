@@ -409,17 +409,36 @@ static int compare_counts(const void *left, const void *right)
             qsort((list).items, (list).count, sizeof *(list).items, (compare));                    \
     } while (0)
 
-/* Targets keep the order of their list, so this must be stable; few sensors, nearly sorted. */
+/* Targets keep the order of their list: sorted by sensor through their places. */
+static int compare_targets(const void *left, const void *right)
+{
+    const struct target *const *a = left, *const *b = right;
+    int order = strcmp((*a)->sensor, (*b)->sensor);
+    return order != 0 ? order : (*a > *b) - (*a < *b);
+}
+
+static bool targets_are_grouped(const struct frame *frame)
+{
+    for (size_t i = 1; i < frame->targets.count; i++)
+        if (strcmp(frame->targets.items[i - 1].sensor, frame->targets.items[i].sensor) > 0)
+            return false;
+    return true;
+}
+
 static void group_targets(struct frame *frame)
 {
-    struct target *target = frame->targets.items;
-    for (size_t i = 1; i < frame->targets.count; i++) {
-        struct target moving = target[i];
-        size_t place = i;
-        for (; place > 0 && strcmp(target[place - 1].sensor, moving.sensor) > 0; place--)
-            target[place] = target[place - 1];
-        target[place] = moving;
-    }
+    if (targets_are_grouped(frame))
+        return;
+    size_t count = frame->targets.count;
+    const struct target **places = arena_get(frame->arena, count * sizeof(*places));
+    struct target *grouped = arena_get(frame->arena, count * sizeof *grouped);
+    for (size_t i = 0; i < count; i++)
+        places[i] = &frame->targets.items[i];
+    qsort(places, count, sizeof(*places), compare_targets);
+    for (size_t i = 0; i < count; i++)
+        grouped[i] = *places[i];
+    frame->targets.items = grouped;
+    frame->targets.room = count;
 }
 
 void frame_order(struct frame *frame)
@@ -485,6 +504,20 @@ static int check_objects(const struct frame *frame, struct diag *diag)
             return diag_fail(diag, DIAG_DATA, "objects: the id \"%s\" stands twice", ids[i]);
     if (frame_object(frame, frame->ego) == NULL)
         return diag_fail(diag, DIAG_DATA, "ego: \"%s\" is not among the objects", frame->ego);
+    return 0;
+}
+
+static int check_sets(const struct frame *frame, struct diag *diag)
+{
+    for (size_t i = 0; i < frame->reflectors.count; i++) {
+        const struct reflector_set *set = &frame->reflectors.items[i];
+        const char *twice = reflectors_name_twice(set);
+        for (size_t j = 1; j < set->worn_by.count && twice == NULL; j++)
+            if (strcmp(set->worn_by.items[j - 1], set->worn_by.items[j]) == 0)
+                twice = set->worn_by.items[j];
+        if (twice != NULL)
+            return diag_fail(diag, DIAG_DATA, "reflectors[%zu]: \"%s\" stands twice", i, twice);
+    }
     return 0;
 }
 
@@ -555,8 +588,8 @@ int frame_check(const struct frame *frame, struct diag *diag)
 {
     if ((frame->present & SECTION_OBJECTS) != 0 && check_objects(frame, diag) != 0)
         return -1;
-    if (check_views(frame, diag) != 0 || check_echoes(frame, diag) != 0 ||
-        check_cells(frame, diag) != 0)
+    if (check_sets(frame, diag) != 0 || check_views(frame, diag) != 0 ||
+        check_echoes(frame, diag) != 0 || check_cells(frame, diag) != 0)
         return -1;
     return check_targets(frame, diag);
 }

@@ -35,7 +35,7 @@ static const char usage[] =
 
 static int complain(const struct diag *diag)
 {
-    fprintf(stderr, "glint: %s\n", diag->text);
+    diag_print("glint", diag);
     return (int)diag->code;
 }
 
@@ -73,13 +73,10 @@ static int check_place(const struct runner *runner, const struct command *comman
                      stage->name, fault);
 }
 
-/* Runs the commands; a stage that refuses its command line counts as failed, as it would in a
- * pipe, and the rightmost one gives the code. */
 static int run_commands(const struct pipeline *pipeline, struct runner *runners,
                         struct chain_times *times, struct diag *diag)
 {
     size_t count = pipeline->commands.count;
-    int code = DIAG_OK;
     for (size_t i = 0; i < count; i++) {
         const struct command *command = &pipeline->commands.items[i];
         const struct stage *stage = find_stage(command->words.items[0]);
@@ -87,15 +84,12 @@ static int run_commands(const struct pipeline *pipeline, struct runner *runners,
             return diag_fail(diag, DIAG_USAGE,
                              "%zu: %s is no stage of this build; run it with bash", command->line,
                              command->words.items[0]);
-        if (runner_prepare(&runners[i], stage, command->words.count - 1,
-                           command->words.items + 1) != 0) {
-            chain_complain(&runners[i]);
-            code = (int)runners[i].diag.code;
-        } else if (check_place(&runners[i], command, i, count, diag) != 0) {
+        /* One that refuses its command line stays in the chain as failed, as it would in a pipe. */
+        runner_prepare(&runners[i], stage, command->words.count - 1, command->words.items + 1);
+        if (check_place(&runners[i], command, i, count, diag) != 0)
             return -1;
-        }
     }
-    return code != DIAG_OK ? code : chain_run(runners, count, times);
+    return chain_run(runners, count, times);
 }
 
 static void print_time(const char *part, int64_t total_ns, int64_t frames)
@@ -212,6 +206,7 @@ static int run(int count, char **words, struct arena *arena)
 int fused_main(int count, char **words)
 {
     document_guard_memory();
+    input_guard_descriptors();
     struct arena arena = {0};
     int code = run(count, words, &arena);
     arena_free(&arena);

@@ -17,18 +17,25 @@ struct input {
     const char *name;
     unsigned char raw[RAW_SIZE];
     size_t raw_at, raw_end;
-    bool sniffed, gzip, inside_member;
+    bool sniffed, gzip, inside_member, damaged;
     z_stream stream;
     struct text line; /* unpacked bytes that no line has used yet lie behind line_at */
     size_t line_at;
 };
+
+void input_guard_descriptors(void)
+{
+    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
+        if (fcntl(fd, F_GETFD) < 0)
+            (void)open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
 
 struct input *input_open(const char *path, struct diag *diag)
 {
     bool standard = strcmp(path, "-") == 0;
     int fd = standard ? STDIN_FILENO : open(path, O_RDONLY);
     if (fd < 0) {
-        diag_fail(diag, DIAG_NO_INPUT, "%s: %s", path, strerror(errno));
+        diag_fail(diag, DIAG_NO_INPUT, "%s", strerror(errno));
         return NULL;
     }
     struct input *input = memory_get(sizeof *input);
@@ -122,8 +129,9 @@ static long read_gzip(struct input *input, char *bytes, size_t size, struct diag
             return -1;
         if (more == 0 && !input->inside_member)
             return 0;
-        if (more == 0)
-            return diag_fail(diag, DIAG_DATA, "the gzip data ends early");
+        if (input->damaged || more == 0)
+            return diag_fail(diag, DIAG_DATA,
+                             input->damaged ? "damaged gzip data" : "the gzip data ends early");
         if (start_member(input, diag) != 0)
             return -1;
         stream->next_in = input->raw + input->raw_at;
@@ -135,8 +143,7 @@ static long read_gzip(struct input *input, char *bytes, size_t size, struct diag
         if (done == Z_STREAM_END)
             input->inside_member = false;
         else if (done != Z_OK)
-            return diag_fail(diag, DIAG_DATA, "damaged gzip data: %s",
-                             stream->msg != NULL ? stream->msg : "no message");
+            input->damaged = true; /* told by the next round, or call: first what came out whole */
     }
     return (long)(room - stream->avail_out);
 }
@@ -162,7 +169,8 @@ int input_line(struct input *input, size_t limit, const char **line, size_t *len
         if (end - begin > limit)
             return diag_fail(diag, DIAG_DATA, "a line of more than %zu bytes", limit);
         if (newline == NULL) {
-            memmove(held->bytes, held->bytes + begin, held->length - begin);
+            if (begin > 0)
+                memmove(held->bytes, held->bytes + begin, held->length - begin);
             held->length -= begin;
             input->line_at = 0;
             searched = held->length;
@@ -184,9 +192,11 @@ int input_line(struct input *input, size_t limit, const char **line, size_t *len
     }
 }
 
-int input_all(struct input *input, struct text *text, struct diag *diag)
+int input_all(struct input *input, size_t limit, struct text *text, struct diag *diag)
 {
     for (;;) {
+        if (text->length > limit)
+            return diag_fail(diag, DIAG_DATA, "more than %zu bytes", limit);
         long got = input_read(input, text_room(text, LINE_STEP), LINE_STEP, diag);
         if (got <= 0)
             return (int)got;

@@ -15,7 +15,11 @@
 
 struct input;
 
-/* Opens a path, or standard input for "-". NULL after a message. */
+/* Takes the places of closed standard streams, so that no file that is opened later is mistaken for
+ * one of them: reading or writing there then fails. Once, in main. */
+void input_guard_descriptors(void);
+
+/* Opens a path, or standard input for "-". NULL after a message. Messages do not name the file. */
 struct input *input_open(const char *path, struct diag *diag);
 void input_close(struct input *input);
 
@@ -30,7 +34,7 @@ long input_read(struct input *input, char *bytes, size_t size, struct diag *diag
 int input_line(struct input *input, size_t limit, const char **line, size_t *length,
                struct diag *diag);
 
-/* Everything that is left, appended to text. */
-int input_all(struct input *input, struct text *text, struct diag *diag);
+/* Everything that is left, appended to text; refuses more than limit bytes. */
+int input_all(struct input *input, size_t limit, struct text *text, struct diag *diag);
 
 #endif

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "number.h"
+#include "text.h"
 
 char json_scan_peek(struct json_scan *scan)
 {
@@ -31,26 +32,6 @@ int json_scan_unexpected(struct json_scan *scan, const char *what)
     if (byte < 0x20 || byte >= 0x7f)
         return diag_fail(scan->diag, DIAG_DATA, "byte 0x%02x where %s is expected", byte, what);
     return diag_fail(scan->diag, DIAG_DATA, "'%c' where %s is expected", byte, what);
-}
-
-/* The length of the UTF-8 sequence at text, or 0 if it is none (overlong, surrogate, too large). */
-static size_t utf8_length(const unsigned char *text, size_t room)
-{
-    size_t length = text[0] < 0x80   ? 1
-                    : text[0] < 0xc2 ? 0
-                    : text[0] < 0xe0 ? 2
-                    : text[0] < 0xf0 ? 3
-                    : text[0] < 0xf5 ? 4
-                                     : 0;
-    if (length == 0 || length > room)
-        return 0;
-    for (size_t i = 1; i < length; i++)
-        if ((text[i] & 0xc0) != 0x80)
-            return 0;
-    bool overlong = (text[0] == 0xe0 && text[1] < 0xa0) || (text[0] == 0xf0 && text[1] < 0x90);
-    bool surrogate = text[0] == 0xed && text[1] >= 0xa0;
-    bool beyond = text[0] == 0xf4 && text[1] >= 0x90;
-    return overlong || surrogate || beyond ? 0 : length;
 }
 
 static size_t utf8_write(uint32_t code, char *out)
@@ -131,8 +112,7 @@ static int skip_string(struct json_scan *scan, size_t *escapes)
                 return diag_fail(scan->diag, DIAG_DATA, "a bad escape in a string");
             continue;
         }
-        size_t length =
-            utf8_length((const unsigned char *)scan->at, (size_t)(scan->end - scan->at));
+        size_t length = text_utf8(scan->at, (size_t)(scan->end - scan->at));
         if (length == 0)
             return diag_fail(scan->diag, DIAG_DATA, "byte 0x%02x in a string is not UTF-8", byte);
         scan->at += length;
@@ -248,6 +228,8 @@ const char *json_scan_kind(struct json_scan *scan)
         return "true or false";
     case 'n':
         return "null";
+    case '\0':
+        return scan->at == scan->end ? "nothing" : "a NUL byte";
     default:
         return "a number";
     }

@@ -9,6 +9,10 @@
 #include "sight.h"
 #include "units.h"
 
+/* The foot on a wall parallel to boresight lies at 90 degrees exactly: this much is its rounding.
+ */
+#define BORDER_RAD 1e-9
+
 /* Losses name the stage whose work this is. */
 static const char stage_name[] = "ideal";
 
@@ -139,7 +143,8 @@ static void look_at(struct look *look, const struct look_body *body, const char 
         lose(look, body, reflector, LOSS_OUT_OF_RANGE, NULL);
         return;
     }
-    if (!(azimuth < sensor->field_of_view_rad / 2 && azimuth < PI / 2)) {
+    double border = fmin(sensor->field_of_view_rad, PI) / 2 - BORDER_RAD;
+    if (!(azimuth < border)) {
         lose(look, body, reflector, LOSS_OUT_OF_VIEW, NULL);
         return;
     }

@@ -46,8 +46,7 @@ struct monopulse_angle monopulse_angle(const struct antenna *antenna,
     if (estimator == MONOPULSE_RATIO && sum.size > 0) {
         signed_delta = -cross / sum.size;
     } else {
-        /* A delta of zero has no sign to decide: its angle is that of the ratio 0. */
-        angle.sign_undecided = delta.size > 0 && fabs(cross) <= UNDECIDED * delta.size * sum.size;
+        angle.sign_undecided = fabs(cross) <= UNDECIDED * delta.size * sum.size;
         signed_delta = cross > 0 && !angle.sign_undecided ? -delta.size : delta.size;
     }
     angle.azimuth_rad = azimuth_of(antenna, signed_delta, delta.exponent, &sum);

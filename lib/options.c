@@ -47,6 +47,14 @@ static void spell(const struct field *field, char *text, size_t size)
             *at = '-';
 }
 
+/* A message about a member becomes one about the option. */
+static void spell_message(struct diag *diag)
+{
+    for (char *letter = diag->text; *letter != '\0' && *letter != ':'; letter++)
+        if (*letter == '_')
+            *letter = '-';
+}
+
 static bool is_source(const struct stage *stage)
 {
     return stage->next != NULL;
@@ -121,6 +129,7 @@ static int read_option(const struct stage *stage, size_t count, const char *cons
         return diag_fail(diag, DIAG_USAGE, "%s needs a value", word);
     if (set(field, base, value, arena, diag) != 0) {
         diag->code = DIAG_USAGE;
+        spell_message(diag);
         return diag_prefix(diag, "--");
     }
     return 0;

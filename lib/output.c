@@ -37,6 +37,13 @@ static char *copy(const char *text)
     return memcpy(memory_get(size), text, size);
 }
 
+/* What a symbolic link stands for is written, not the link replaced. */
+static char *target(const char *path)
+{
+    char *resolved = realpath(path, NULL);
+    return resolved != NULL && strcmp(path, "-") != 0 ? resolved : copy(path);
+}
+
 static bool is_special(const char *path)
 {
     struct stat status;
@@ -58,9 +65,10 @@ static int cannot_create(const char *path, struct diag *diag)
 struct output *output_open(const char *path, struct diag *diag)
 {
     struct output *output = memory_get(sizeof *output);
-    *output = (struct output){.fd = STDOUT_FILENO, .path = copy(path)};
+    *output = (struct output){.fd = STDOUT_FILENO, .path = target(path)};
     if (strcmp(path, "-") == 0)
         return output;
+    path = output->path;
     if (!is_special(path))
         output->temporary = temporary_name(path);
     const char *name = output->temporary != NULL ? output->temporary : path;

@@ -9,7 +9,8 @@ bool reflection_foot(struct vec2 a, struct vec2 b, double margin_m, struct vec2 
         return false;
     struct vec2 edge = vec2_sub(b, a);
     double length_m = vec2_length(edge);
-    /* Accurate, so that a joint of two collinear sides never loses its foot (NUMERICS 33). */
+    /* Accurate, so that a joint of two exactly collinear sides never loses its foot (NUMERICS 33).
+     */
     double from_a = vec2_dot_accurate(vec2_sub(sensor, a), edge);
     double from_b = vec2_dot_accurate(vec2_sub(b, sensor), edge);
     if (from_a < margin_m * length_m || from_b < margin_m * length_m)

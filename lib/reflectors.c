@@ -1,5 +1,7 @@
 #include "reflectors.h"
 
+#include <string.h>
+
 #include "units.h"
 
 static const char *const shapes[] = {
@@ -112,6 +114,25 @@ const struct record reflector_model_record = {
     .size = sizeof(struct reflector_set),
     .fields = reflector_set_fields + 2,
 };
+
+static const char *name_at(const struct reflector_set *set, size_t index)
+{
+    size_t planes = set->points.count, rows = planes + set->planes.count;
+    if (index < planes)
+        return set->points.items[index].name;
+    return index < rows ? set->planes.items[index - planes].name
+                        : set->rows.items[index - rows].name;
+}
+
+const char *reflectors_name_twice(const struct reflector_set *set)
+{
+    size_t count = set->points.count + set->planes.count + set->rows.count;
+    for (size_t i = 1; i < count; i++)
+        for (size_t j = 0; j < i; j++)
+            if (strcmp(name_at(set, i), name_at(set, j)) == 0)
+                return name_at(set, i);
+    return NULL;
+}
 
 struct vec2 reflectors_place(const struct box *box, double x, double y)
 {

@@ -58,6 +58,9 @@ extern const struct record point_record, plane_record, row_record;
 extern const struct record reflector_set_record;   /* with who wears it: the frame's */
 extern const struct record reflector_model_record; /* without: the vehicle document's */
 
+/* The first name that two reflectors of the set share, or NULL. */
+const char *reflectors_name_twice(const struct reflector_set *set);
+
 /* An object's box in the world. */
 struct box {
     struct motion motion;

@@ -26,6 +26,21 @@ int runner_write(struct runner *runner, const char *bytes, size_t length)
     return output_write(runner->output, bytes, length, &runner->diag);
 }
 
+/* A sensor that only the frame knows would lose its echoes without a word. */
+static int check_views(struct runner *runner, const struct frame *frame, const struct suite *suite)
+{
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        if (suite_sensor(suite, frame->sensors.list.items[i].name) == NULL)
+            return diag_fail(&runner->diag, DIAG_DATA,
+                             "sensors.list[%zu].name: \"%s\" is not in the suite \"%s\"", i,
+                             frame->sensors.list.items[i].name, suite->name);
+    if (frame->sensors.list.count != suite->sensors.count)
+        return diag_fail(&runner->diag, DIAG_DATA,
+                         "sensors.list: %zu sensors; the suite \"%s\" has %zu",
+                         frame->sensors.list.count, suite->name, suite->sensors.count);
+    return 0;
+}
+
 const struct suite *runner_suite(struct runner *runner, const struct frame *frame, const char *name)
 {
     bool seen = (frame->present & SECTION_SENSORS) != 0;
@@ -49,7 +64,7 @@ const struct suite *runner_suite(struct runner *runner, const struct frame *fram
             frame->sensors.digest, name, suite->digest);
         return NULL;
     }
-    return suite;
+    return !seen || check_views(runner, frame, suite) == 0 ? suite : NULL;
 }
 
 const struct vehicle *runner_vehicle(struct runner *runner, const char *class)

@@ -125,8 +125,9 @@ int suite_check(const struct sensor *sensor, struct diag *diag)
     if (sensor->range_max_m <= sensor->range_min_m)
         return diag_fail(diag, DIAG_CONFIG, "range_max_m: %g is not above range_min_m, %g m",
                          sensor->range_max_m, sensor->range_min_m);
-    bool calibrated = sensor->calibration_ercs > 0 && sensor->calibration_range_m > 0;
-    if (calibrated == (sensor->amplitude_table != NULL))
+    bool ercs = sensor->calibration_ercs > 0, range = sensor->calibration_range_m > 0;
+    bool table = sensor->amplitude_table != NULL;
+    if (ercs != range || ercs == table)
         return diag_fail(diag, DIAG_CONFIG,
                          "amplitude_table: expected either a table or calibration_ercs and "
                          "calibration_range_m");

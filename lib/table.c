@@ -106,7 +106,7 @@ static int read_bytes(const char *path, struct text *text, struct diag *diag)
     struct input *input = input_open(path, diag);
     if (input == NULL)
         return -1;
-    int done = input_all(input, text, diag);
+    int done = input_all(input, TABLE_SIZE, text, diag);
     input_close(input);
     return done;
 }

@@ -13,6 +13,9 @@
 #include "diag.h"
 #include "memory.h"
 
+/* A table may be this large; recordings are tens of megabytes. */
+#define TABLE_SIZE ((size_t)4 << 30)
+
 struct table {
     size_t columns;
     const char *const *header;

@@ -42,6 +42,28 @@ void text_format(struct text *text, const char *format, ...)
     text->length += (size_t)length;
 }
 
+size_t text_utf8(const char *bytes, size_t room)
+{
+    const unsigned char *text = (const unsigned char *)bytes;
+    if (room == 0)
+        return 0;
+    size_t length = text[0] < 0x80   ? 1
+                    : text[0] < 0xc2 ? 0
+                    : text[0] < 0xe0 ? 2
+                    : text[0] < 0xf0 ? 3
+                    : text[0] < 0xf5 ? 4
+                                     : 0;
+    if (length == 0 || length > room)
+        return 0;
+    for (size_t i = 1; i < length; i++)
+        if ((text[i] & 0xc0) != 0x80)
+            return 0;
+    bool overlong = (text[0] == 0xe0 && text[1] < 0xa0) || (text[0] == 0xf0 && text[1] < 0x90);
+    bool surrogate = text[0] == 0xed && text[1] >= 0xa0;
+    bool beyond = text[0] == 0xf4 && text[1] >= 0x90;
+    return overlong || surrogate || beyond ? 0 : length;
+}
+
 void text_add_json(struct text *text, const char *bytes, size_t length)
 {
     text_add(text, "\"", 1);

@@ -14,11 +14,11 @@ double visibility(enum visibility_shape shape, double full_rad, double zero_rad,
 {
     if (shape == VISIBILITY_HARD)
         return delta_rad <= zero_rad;
-    if (delta_rad >= zero_rad)
-        return 0;
     double start_rad = shape == VISIBILITY_COSINE ? 0 : full_rad;
     if (delta_rad <= start_rad)
         return 1;
+    if (delta_rad >= zero_rad)
+        return 0;
     /* Counted from the dark end, so that no shape can round to a negative value there. */
     double rise = (zero_rad - delta_rad) / (zero_rad - start_rad);
     if (shape == VISIBILITY_LINEAR)

@@ -21,7 +21,7 @@ enum visibility_shape {
 double visibility_angle_rad(struct vec2 a, struct vec2 b);
 
 /* V in [0, 1]. Needs 0 <= full_rad <= zero_rad; where both are equal, the raised cosine and the
- * straight line are hard but open: 0 at zero_rad. */
+ * straight line are hard too: 1 at that angle, which full visibility reaches. */
 double visibility(enum visibility_shape shape, double full_rad, double zero_rad, double delta_rad);
 
 #endif

@@ -29,7 +29,7 @@ static bool measure(const struct cell *cell, const struct sensor *sensor,
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
     bool fixed = sensor->sigma_law == SIGMA_FIXED;
-    double part = fixed ? 1 : sensor->threshold / cell->amplitude, draw[4];
+    double part = fixed ? 1 : fmin(sensor->threshold / cell->amplitude, 1), draw[4];
     random_gaussian(address, RANDOM_RANGE_RATE, 0, draw);
     double range_m = cell->range_m + part * sensor->range_sigma_m * draw[0];
     double rate_mps = cell->range_rate_mps + part * sensor->range_rate_sigma_mps * draw[1];

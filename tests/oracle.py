@@ -88,10 +88,10 @@ def visibility(point, delta):
         return math.cos(0.5 * math.pi * delta / zero) if delta < zero else 0.0
     if delta <= full:
         return 1.0
+    if shape == "hard":  # Reading: 1 up to delta_2, which belongs to it
+        return 1.0 if delta <= zero else 0.0
     if delta >= zero:
         return 0.0
-    if shape == "hard":
-        return 1.0
     fall = (delta - full) / (zero - full)
     if shape == "linear":
         return 1.0 - fall
@@ -164,13 +164,18 @@ class Radar:
         self.velocity = ego.velocity_at(self.place)
         self.boresight = ego.yaw + document["mount_yaw_rad"]
 
-    def observe(self, place, velocity):
+    def to(self, place):
+        """(distance, unit vector towards the place)."""
         dx, dy = place[0] - self.place[0], place[1] - self.place[1]
         distance = math.hypot(dx, dy)
+        return distance, (dx / distance, dy / distance) if distance > 0 else (1.0, 0.0)
+
+    def observe(self, towards, velocity):
+        """(azimuth, range rate)."""
         c, s = math.cos(self.boresight), math.sin(self.boresight)
-        azimuth = math.atan2(c * dy - s * dx, c * dx + s * dy)
+        azimuth = math.atan2(c * towards[1] - s * towards[0], c * towards[0] + s * towards[1])
         wx, wy = velocity[0] - self.velocity[0], velocity[1] - self.velocity[1]
-        return distance, azimuth, (wx * dx + wy * dy) / distance if distance > 0 else 0.0
+        return azimuth, wx * towards[0] + wy * towards[1]
 
     def limits(self, distance, azimuth):
         """(within range and field of view, is that doubtful)."""
@@ -181,8 +186,9 @@ class Radar:
         return inside, close(distance, low, scale) or close(distance, high, scale) or close(abs(azimuth), half)
 
 
-def add_echo(view, radar, body, blockers, name, place, ercs, under, doubtful):
-    distance, azimuth, rate = radar.observe(place, body.velocity_at(place))
+def add_echo(view, radar, body, blockers, name, place, line, ercs, under, doubtful):
+    distance, towards = line
+    azimuth, rate = radar.observe(towards, body.velocity_at(place))
     inside, limit_doubt = radar.limits(distance, azimuth)
     if not inside and not limit_doubt:
         return
@@ -203,7 +209,7 @@ def look_at_point(view, radar, body, blockers, point, local, doubtful=False):
     doubtful = doubtful or visibility_doubtful(point, delta)
     seen = visibility(point, delta)
     if seen > 0 or doubtful:
-        add_echo(view, radar, body, blockers, point["name"], place, point["ercs"] * seen,
+        add_echo(view, radar, body, blockers, point["name"], place, radar.to(place), point["ercs"] * seen,
                  point.get("under_vehicles", 0.0), doubtful)
 
 
@@ -213,16 +219,16 @@ def look_at_plane(view, radar, body, blockers, plane):
     b = body.world(body.scaled(plane["to_x"], plane["to_y"]))
     e, s = (b[0] - a[0], b[1] - a[1]), radar.place
     length = math.hypot(*e)
-    if length == 0:
-        return
+    normal = (e[1] / length, -e[0] / length)
     t = ((s[0] - a[0]) * e[0] + (s[1] - a[1]) * e[1]) / (length * length)
-    height = (e[1] * (s[0] - a[0]) - e[0] * (s[1] - a[1])) / length
+    height = normal[0] * (s[0] - a[0]) + normal[1] * (s[1] - a[1])
     margin = plane.get("margin_m", 0.0) / length
     doubtful = close(t, margin, max(1.0, abs(t))) or close(t, 1 - margin, max(1.0, abs(t))) or close(height, 0)
     exists = margin <= t <= 1 - margin and height > 0
     if exists or doubtful:
         foot = (a[0] + t * e[0], a[1] + t * e[1])
-        add_echo(view, radar, body, blockers, plane["name"], foot, plane["ercs"] if exists else 0.0, 0.0, doubtful)
+        line = (max(height, 0.0), (-normal[0], -normal[1]))
+        add_echo(view, radar, body, blockers, plane["name"], foot, line, plane["ercs"] if exists else 0.0, 0.0, doubtful)
 
 
 def see(view, radar, bodies, blockers):

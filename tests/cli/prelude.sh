@@ -1,0 +1,111 @@
+# Read by bash before every case (BASH_ENV): what the transcripts use besides the executables.
+
+# The files that cases start from. One frame stands in each of objects.jsonl, reflectors.jsonl,
+# echoes.jsonl, cells.jsonl and targets.jsonl; scene.jsonl is a whole scene of six.
+prepare() {
+    cat >scene.json <<'END'
+{
+  "origin": "A car ahead of a standing observer, for tests.",
+  "ego": "ego",
+  "rate_hz": 25,
+  "duration_s": 0.2,
+  "objects": [
+    {"id": "ego", "class": "car"},
+    {"id": "car", "class": "box.json", "x_m": 15, "y_m": 1, "speed_mps": 3}
+  ]
+}
+END
+    cat >box.json <<'END'
+{
+  "origin": "For tests.",
+  "length_m": 4,
+  "width_m": 2,
+  "height_m": 1.5,
+  "reflectors": {
+    "blocks": true,
+    "points": [
+      {"name": "left", "x": -0.5, "y": 0.5, "facing_rad": 3, "full_rad": 1, "zero_rad": 2, "ercs": 0.5},
+      {"name": "right", "x": -0.5, "y": -0.5, "facing_rad": -3, "full_rad": 1, "zero_rad": 2, "ercs": 0.4}
+    ],
+    "planes": [
+      {"name": "rear", "from_x": -0.5, "from_y": 0.5, "to_x": -0.5, "to_y": -0.5, "ercs": 0.7}
+    ]
+  }
+}
+END
+    cat >suite.json <<'END'
+{
+  "origin": "One radar, for tests.",
+  "sensors": [
+    {
+      "name": "front",
+      "mount_x_m": 2, "mount_y_m": 0, "mount_yaw_rad": 0,
+      "carrier_hz": 24e9,
+      "range_min_m": 0.2, "range_max_m": 50,
+      "field_of_view_rad": 3,
+      "threshold_db": 6,
+      "calibration_ercs": 0.8, "calibration_range_m": 50,
+      "cell_range_m": 0.3, "cell_range_rate_mps": 0.5,
+      "antenna_pattern": "dipole_pair",
+      "phase_reference": "centre", "angle_estimator": "magnitude",
+      "pointer_sigma": 0.5,
+      "range_sigma_m": 0.02, "range_rate_sigma_mps": 0.05, "azimuth_sigma_rad": 0.04,
+      "final_threshold": true,
+      "list_order": "strongest", "list_limit": 10
+    }
+  ]
+}
+END
+    printf '%s\n' azimuth_rad,sum,delta -1,0.2,-0.5 0,1,0 1,0.2,0.5 >pattern.csv
+    printf '%s\n' range_m,amplitude 1,100 10,10 100,1 >amplitude.csv
+    printf '%s\n' track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy,psi_rad,length,width \
+        1,1,0,car,0,0,10,0,0,4,2 1,2,100,car,1,0,10,0,0,4,2 \
+        2,1,0,car,20,0,10,0,0,4,2 2,2,100,car,21,0,10,0,0,4,2 >tracks.csv
+    glint-traffic scene.json >scene.jsonl
+    head -1 scene.jsonl >objects.jsonl
+    glint-extract objects.jsonl >reflectors.jsonl
+    glint-ideal --sensors suite.json --account reflectors.jsonl >echoes.jsonl
+    glint-sensor echoes.jsonl >cells.jsonl
+    glint-noise cells.jsonl >targets.jsonl
+    glint-traffic tracks.csv --ego 1 >tracks.jsonl
+    mkdir folder
+}
+
+# Each reads a changed copy of a good file with the stage that the file is for; $1 is the change.
+frame() { sed -E "$1" objects.jsonl | glint-extract; }
+reflectors() { sed -E "$1" reflectors.jsonl | glint-ideal --sensors suite.json; }
+echoes() { sed -E "$1" echoes.jsonl | glint-sensor; }
+cells() { sed -E "$1" cells.jsonl | glint-noise; }
+targets() { sed -E "$1" targets.jsonl | glint-export-csv; }
+scenario() { sed -E "$1" scene.json >bad.json; glint-traffic bad.json; }
+suite() { sed -E "$1" suite.json >bad.json; glint-ideal --sensors bad.json reflectors.jsonl; }
+vehicle() {
+    sed -E "$1" box.json >bad.json
+    sed 's/box.json/bad.json/' objects.jsonl | glint-extract
+}
+tracks() { sed -E "$1" tracks.csv >bad.csv; glint-traffic bad.csv --ego 1 --scene tracks/1; }
+
+# Its arguments as one line of a file that glint-extract reads.
+line() { printf '%s\n' "$*" | glint-extract; }
+
+# Runs a pipeline in bash and fused; both must end alike. Prints differences, returns the code.
+both() {
+    bash -o pipefail -c "$1" >piped.out 2>piped.err
+    local piped=$?
+    glint -c "$1" >fused.out 2>fused.err
+    local fused=$?
+    [ $piped = $fused ] || echo "piped ends with $piped, fused with $fused"
+    cmp piped.out fused.out
+    return $fused
+}
+
+# Keeps standard output out of the way of messages.
+quietly() { "$@" >quiet.out; }
+
+# How many lines a command writes, after its messages.
+count() {
+    quietly "$@"
+    local code=$?
+    wc -l <quiet.out
+    return $code
+}
