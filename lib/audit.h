@@ -2,7 +2,8 @@
  *
  * Every pair of a sensor that measured and a reflector has exactly one direct entry, in a target's
  * label or in lost; every other echo that was made has one too. Frames keep account if glint-ideal
- * was told --account; the stage that writes targets then has its frame audited. */
+ * was told --account; the stage that writes targets then has its frame audited. The audit knows how
+ * many entries are due, not which: a missing one together with an invented one would pass. */
 #ifndef AUDIT_H
 #define AUDIT_H
 

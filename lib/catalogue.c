@@ -12,7 +12,8 @@ static const char *find(const char *kind, const char *name, struct arena *arena,
 {
     if (strcmp(name, "-") != 0)
         return document_find(kind, name, ".json", arena, diag);
-    diag_fail(diag, DIAG_CONFIG, "- is standard input; expected a name in %s/, or a path", kind);
+    diag_fail(diag, DIAG_CONFIG, "\"-\" is standard input; expected a name in %s/, or a path",
+              kind);
     return NULL;
 }
 
@@ -151,7 +152,7 @@ static int read_pattern(const char *path, struct sensor *sensor, struct arena *a
     const char *fault = antenna_table_fault(rows, table.rows, &row);
     if (fault != NULL)
         return diag_fail(diag, DIAG_CONFIG, "row %zu: %s",
-                         row < table.rows ? table.numbers[row] : table.rows + 1, fault);
+                         row < table.rows ? table.numbers[row] : table.rows + 2, fault);
     sensor->antenna.rows = rows;
     sensor->antenna.row_count = table.rows;
     return 0;

@@ -90,6 +90,8 @@ static int read_frame(struct chain *chain)
         int more = input_line(chain->input, FRAME_TEXT_SIZE, &line, &length, diag);
         if (more > 0 && chain->times != NULL)
             chain->times->bytes_read += (int64_t)length + 1;
+        if (more < 0 && diag->code == DIAG_NO_INPUT)
+            chain->line_number = 0; /* a folder has no lines */
         if (more > 0)
             more = take_line(chain, line, length, diag);
         if (more != 0)
@@ -104,7 +106,7 @@ static void place_message(const struct chain *chain, struct runner *runner)
 {
     bool first = runner == &chain->runners[0];
     bool line = first && chain->input != NULL;
-    if (line && runner->diag.code == DIAG_NO_INPUT)
+    if (line && chain->line_number == 0)
         diag_prefix(&runner->diag, "%s: ", input_name(chain->input));
     else if (line)
         diag_prefix(&runner->diag, "%s:%zu: ", input_name(chain->input), chain->line_number);

@@ -108,7 +108,7 @@ int field_set_number(const struct field *field, void *base, double value, struct
 int field_set_text(const struct field *field, void *base, const char *text, size_t length,
                    struct arena *arena, struct diag *diag);
 
-/* The whole of text as a finite number in JSON's spelling; -1 if it is none. */
+/* The whole of text as a finite decimal number ("1e3", ".5"), no words; -1 if it is none. */
 int field_read_number(const char *text, size_t length, double *value);
 
 /* Is this member there: required, or different from what its absence stands for? */

@@ -1,12 +1,53 @@
 #include "frame_text.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "json_scan.h"
 #include "number.h"
 
 static int read_record(struct json_scan *scan, const struct record *record, void *base);
+
+/* A message begins with a member's name, or with ": " if it is about the text between members. */
+static int put_before(struct diag *diag, const char *name, size_t index)
+{
+    return diag_prefix(diag, "%s[%zu]%s", name, index, diag->text[0] == ':' ? "" : ".");
+}
+
+static int unexpected(struct json_scan *scan, const char *what)
+{
+    json_scan_unexpected(scan, what);
+    return diag_prefix(scan->diag, ": ");
+}
+
+static int read_item(struct json_scan *scan, const struct field *field, void *base, size_t index)
+{
+    char first = json_scan_peek(scan);
+    void *item = field_list_add(field, base, scan->arena);
+    int result;
+    if (first == '{')
+        result = read_record(scan, field->record, item);
+    else if (first != '\0' && strchr("\"[tfn-0123456789", first) != NULL)
+        result = diag_fail(scan->diag, DIAG_DATA, ": %s; expected an object", json_scan_kind(scan));
+    else
+        result = unexpected(scan, "an object");
+    return result == 0 ? 0 : put_before(scan->diag, field->name, index);
+}
+
+static int read_name(struct json_scan *scan, const struct field *field, void *base, size_t index)
+{
+    char path[FIELD_PATH_SIZE];
+    snprintf(path, sizeof path, "%s[%zu]", field->name, index);
+    const struct field item = {.name = path, .kind = FIELD_NAME};
+    struct json_string name;
+    if (json_scan_peek(scan) != '"')
+        return field_wrong_kind(&item, json_scan_kind(scan), scan->diag);
+    if (json_scan_string(scan, &name) != 0)
+        return diag_prefix(scan->diag, "%s: ", path);
+    return field_set_text(&item, field_list_add(field, base, scan->arena), name.text, name.length,
+                          scan->arena, scan->diag);
+}
 
 static int read_list(struct json_scan *scan, const struct field *field, void *base)
 {
@@ -15,36 +56,16 @@ static int read_list(struct json_scan *scan, const struct field *field, void *ba
     if (json_scan_take(scan, ']'))
         return 0;
     for (size_t i = 0;; i++) {
-        if (json_scan_peek(scan) != '{')
-            return diag_fail(scan->diag, DIAG_DATA, "%s[%zu]: %s; expected an object", field->name,
-                             i, json_scan_kind(scan));
-        void *item = field_list_add(field, base, scan->arena);
-        if (read_record(scan, field->record, item) != 0)
-            return diag_prefix(scan->diag, "%s[%zu].", field->name, i);
-        if (json_scan_take(scan, ']'))
-            return 0;
-        if (!json_scan_take(scan, ','))
-            return json_scan_unexpected(scan, "',' or ']'");
-    }
-}
-
-static int read_names(struct json_scan *scan, const struct field *field, void *base)
-{
-    if (!json_scan_take(scan, '['))
-        return field_wrong_kind(field, json_scan_kind(scan), scan->diag);
-    if (json_scan_take(scan, ']'))
-        return 0;
-    const struct field item = {.name = field->name, .kind = FIELD_NAME};
-    for (;;) {
-        struct json_string name;
-        if (json_scan_string(scan, &name) != 0 ||
-            field_set_text(&item, field_list_add(field, base, scan->arena), name.text, name.length,
-                           scan->arena, scan->diag) != 0)
+        int result = field->kind == FIELD_LIST ? read_item(scan, field, base, i)
+                                               : read_name(scan, field, base, i);
+        if (result != 0)
             return -1;
         if (json_scan_take(scan, ']'))
             return 0;
-        if (!json_scan_take(scan, ','))
-            return json_scan_unexpected(scan, "',' or ']'");
+        if (!json_scan_take(scan, ',')) {
+            json_scan_unexpected(scan, "',' or ']'");
+            return diag_prefix(scan->diag, "%s: ", field->name);
+        }
     }
 }
 
@@ -67,18 +88,20 @@ static int read_member(struct json_scan *scan, const struct field *field, void *
     struct json_string string;
     double number;
     bool flag;
+    if (first == '\0') {
+        json_scan_unexpected(scan, "a value");
+        return diag_prefix(scan->diag, "%s: ", field->name);
+    }
     if (field->kind == FIELD_RAW)
         return read_raw(scan, field, base);
-    if (field->kind == FIELD_NAMES)
-        return read_names(scan, field, base);
-    if (field->kind == FIELD_LIST)
+    if (field->kind == FIELD_NAMES || field->kind == FIELD_LIST)
         return read_list(scan, field, base);
     if (field->kind == FIELD_RECORD) {
         if (first != '{')
             return field_wrong_kind(field, json_scan_kind(scan), scan->diag);
-        if (read_record(scan, field->record, (char *)base + field->offset) != 0)
-            return diag_prefix(scan->diag, "%s.", field->name);
-        return 0;
+        if (read_record(scan, field->record, (char *)base + field->offset) == 0)
+            return 0;
+        return diag_prefix(scan->diag, "%s%s", field->name, scan->diag->text[0] == ':' ? "" : ".");
     }
     if (first == '"')
         return json_scan_string(scan, &string) != 0
@@ -110,7 +133,7 @@ static int read_record(struct json_scan *scan, const struct record *record, void
     while (!empty) {
         struct json_string key;
         if (json_scan_string(scan, &key) != 0)
-            return -1;
+            return diag_prefix(scan->diag, ": ");
         const struct field *field = field_find(record, key.text, key.length, hint);
         if (field == NULL || field->kind == FIELD_NOTES)
             return field_unknown(record, key.text, key.length, scan->diag);
@@ -120,14 +143,14 @@ static int read_record(struct json_scan *scan, const struct record *record, void
         seen |= UINT64_C(1) << index;
         hint = index + 1;
         if (!json_scan_take(scan, ':'))
-            return json_scan_unexpected(scan, "':'");
+            return unexpected(scan, "':'");
         if (read_member(scan, field, base) != 0)
             return -1;
         field_mark_present(record, field, base);
         if (json_scan_take(scan, '}'))
             break;
         if (!json_scan_take(scan, ','))
-            return json_scan_unexpected(scan, "',' or '}'");
+            return unexpected(scan, "',' or '}'");
     }
     return field_require(record, seen, scan->diag);
 }
@@ -140,8 +163,11 @@ int frame_text_read(const char *line, size_t length, struct frame *frame, struct
     if (first != '{')
         return scan.at == scan.end ? diag_fail(diag, DIAG_DATA, "an empty line; expected a frame")
                                    : json_scan_unexpected(&scan, "a frame");
-    if (read_record(&scan, &frame_record, frame) != 0)
+    if (read_record(&scan, &frame_record, frame) != 0) {
+        if (diag->text[0] == ':')
+            memmove(diag->text, diag->text + 2, sizeof diag->text - 2);
         return -1;
+    }
     json_scan_peek(&scan);
     return scan.at == scan.end ? 0 : json_scan_unexpected(&scan, "the end of the line");
 }

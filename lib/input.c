@@ -129,9 +129,11 @@ static long read_gzip(struct input *input, char *bytes, size_t size, struct diag
             return -1;
         if (more == 0 && !input->inside_member)
             return 0;
-        if (input->damaged || more == 0)
-            return diag_fail(diag, DIAG_DATA,
-                             input->damaged ? "damaged gzip data" : "the gzip data ends early");
+        if (input->damaged)
+            return diag_fail(diag, DIAG_DATA, "damaged gzip data: %s",
+                             stream->msg != NULL ? stream->msg : "no message");
+        if (more == 0)
+            return diag_fail(diag, DIAG_DATA, "the gzip data ends early");
         if (start_member(input, diag) != 0)
             return -1;
         stream->next_in = input->raw + input->raw_at;

@@ -7,7 +7,14 @@
 
 size_t number_write(double value, char *text)
 {
-    return static_cast<size_t>(std::to_chars(text, text + NUMBER_SIZE, value).ptr - text);
+    size_t length = static_cast<size_t>(std::to_chars(text, text + NUMBER_SIZE, value).ptr - text);
+    // "-0" would lose its sign in every reader that takes it for an integer.
+    if (length == 2 && text[0] == '-' && text[1] == '0') {
+        text[2] = '.';
+        text[3] = '0';
+        return 4;
+    }
+    return length;
 }
 
 bool number_read(const char *begin, const char *end, double *value)

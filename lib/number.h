@@ -13,7 +13,8 @@ extern "C" {
 
 enum { NUMBER_SIZE = 32 };
 
-/* Writes a finite double at text (at least NUMBER_SIZE bytes) without a NUL; returns its length. */
+/* Writes a finite double at text (at least NUMBER_SIZE bytes) without a NUL; returns its length.
+ * Minus zero is "-0.0". */
 size_t number_write(double value, char *text);
 
 /* Reads the whole of [begin, end), which must have the form of a JSON number, as the nearest

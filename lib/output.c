@@ -18,8 +18,10 @@ enum { BUFFER_SIZE = 64 * 1024 };
 struct output {
     int fd;
     gzFile gzip;            /* NULL for plain output */
+    char *name;             /* as it was given, for messages */
     char *path, *temporary; /* temporary is NULL if the path is written directly */
     size_t used;
+    bool failed; /* something that was written is lost: the file must not take its name */
     char buffer[BUFFER_SIZE];
 };
 
@@ -52,20 +54,21 @@ static bool is_special(const char *path)
 
 static void discard(struct output *output)
 {
+    free(output->name);
     free(output->path);
     free(output->temporary);
     free(output);
 }
 
-static int cannot_create(const char *path, struct diag *diag)
+static int cannot_create(const char *name, struct diag *diag)
 {
-    return diag_fail(diag, DIAG_CANNOT_CREATE, "%s: %s", path, strerror(errno));
+    return diag_fail(diag, DIAG_CANNOT_CREATE, "%s: %s", name, strerror(errno));
 }
 
 struct output *output_open(const char *path, struct diag *diag)
 {
     struct output *output = memory_get(sizeof *output);
-    *output = (struct output){.fd = STDOUT_FILENO, .path = target(path)};
+    *output = (struct output){.fd = STDOUT_FILENO, .name = copy(path), .path = target(path)};
     if (strcmp(path, "-") == 0)
         return output;
     path = output->path;
@@ -81,7 +84,7 @@ struct output *output_open(const char *path, struct diag *diag)
         output->fd = -1;
     }
     if (output->fd < 0) {
-        cannot_create(path, diag);
+        cannot_create(output->name, diag);
         discard(output);
         return NULL;
     }
@@ -112,7 +115,7 @@ static int write_all(int fd, const char *bytes, size_t length)
 
 static const char *shown_name(const struct output *output)
 {
-    return strcmp(output->path, "-") == 0 ? "stdout" : output->path;
+    return strcmp(output->name, "-") == 0 ? "stdout" : output->name;
 }
 
 static int flush(struct output *output, struct diag *diag)
@@ -123,7 +126,10 @@ static int flush(struct output *output, struct diag *diag)
     bool good = length == 0 ||
                 (output->gzip != NULL ? gzwrite(output->gzip, output->buffer, (unsigned)length) > 0
                                       : write_all(output->fd, output->buffer, length) == 0);
-    return good ? 0 : diag_fail(diag, DIAG_IO, "%s: %s", shown_name(output), strerror(errno));
+    if (good)
+        return 0;
+    output->failed = true;
+    return diag_fail(diag, DIAG_IO, "%s: %s", shown_name(output), strerror(errno));
 }
 
 int output_write(struct output *output, const char *bytes, size_t length, struct diag *diag)
@@ -143,7 +149,7 @@ int output_write(struct output *output, const char *bytes, size_t length, struct
 
 int output_close(struct output *output, int whole, struct diag *diag)
 {
-    int result = flush(output, diag);
+    int result = flush(output, diag) == 0 && !output->failed ? 0 : -1;
     if (output->gzip != NULL && gzclose(output->gzip) != Z_OK)
         result = diag_fail(diag, DIAG_IO, "%s: %s", shown_name(output), strerror(errno));
     if (output->temporary != NULL && result == 0 && whole && fsync(output->fd) != 0)
@@ -153,7 +159,7 @@ int output_close(struct output *output, int whole, struct diag *diag)
     if (output->temporary != NULL && (result != 0 || !whole))
         unlink(output->temporary);
     else if (output->temporary != NULL && rename(output->temporary, output->path) != 0)
-        result = cannot_create(output->path, diag);
+        result = cannot_create(output->name, diag);
     discard(output);
     return result;
 }

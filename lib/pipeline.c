@@ -96,7 +96,9 @@ static int read_piece(struct parser *parser, struct text *word)
     }
     if (strchr("$`", character) != NULL)
         return refuse(parser, "variables and substitutions are not understood here");
-    if (strchr("*?[", character) != NULL || (character == '~' && word->length == 0))
+    bool home = character == '~' &&
+                (word->length == 0 || strchr("=:", word->bytes[word->length - 1]) != NULL);
+    if (strchr("*?[", character) != NULL || home)
         return refuse(parser, "file name patterns are not understood here");
     if (strchr("<>", character) != NULL)
         return refuse(parser, "redirections are not understood here (use -o FILE)");
@@ -116,7 +118,7 @@ static int read_word(struct parser *parser, const char **word)
     struct text text = {0};
     int result = 0;
     while (result == 0 && !ends_word(peek(parser)))
-        result = peek(parser) == '\0' ? refuse(parser, "a NUL byte") : read_piece(parser, &text);
+        result = read_piece(parser, &text);
     *word = arena_text(parser->arena, text.bytes, text.length);
     text_free(&text);
     return result;
@@ -156,6 +158,12 @@ int pipeline_parse(const char *text, size_t length, struct pipeline *pipeline, s
     struct parser parser = {text, text + length, 1, arena, diag};
     bool open = true; /* may another command follow? */
     *pipeline = (struct pipeline){0};
+    const char *nul = memchr(text, '\0', length);
+    if (nul != NULL) {
+        for (const char *at = text; at < nul; at++)
+            parser.line += *at == '\n';
+        return refuse(&parser, "a NUL byte");
+    }
     for (;;) {
         skip(&parser, true);
         if (parser.at == parser.end && open)

@@ -41,8 +41,31 @@ static void known_frames_have_known_instants(void **state)
         assert_int_equal(
             cycle_instant_s(cases[i].cycle_s, cases[i].time_s, cases[i].interval_s, &instant_s),
             cases[i].answer);
-        assert_true(instant_s == cases[i].instant_s);
+        assert_close(instant_s, cases[i].instant_s, 1e-9 * cases[i].cycle_s);
     }
+}
+
+static void instants_are_the_decimals_they_should_be(void **state)
+{
+    (void)state;
+    double instant_s = 0;
+    /* 61 * 0.072 is 4.3919999999999995 in doubles. */
+    assert_int_equal(cycle_instant_s(0.072, 4.4, 0.04, &instant_s), CYCLE_ONE);
+    assert_true(instant_s == 4.392);
+    /* On the frame's own time, the instant is that time: nothing then has to be moved. */
+    assert_int_equal(cycle_instant_s(0.04, 7.0 / 25, 0.04, &instant_s), CYCLE_ONE);
+    assert_true(instant_s == 7.0 / 25);
+}
+
+static void seconds_since_1970_lose_no_scan(void **state)
+{
+    (void)state;
+    int scans = 0;
+    for (int i = 0; i < 2000; i++) {
+        double instant_s;
+        scans += cycle_instant_s(0.05, 1.7e9 + i / 20.0, 0.05, &instant_s) == CYCLE_ONE;
+    }
+    assert_int_equal(scans, 2000);
 }
 
 /* Frames at i / rate, a cycle of ticks thousandths of a second: instant k belongs to the frame
@@ -76,7 +99,7 @@ static void every_instant_is_delivered_exactly_once(void **state)
             assert_int_equal(answer, i == due ? CYCLE_ONE : CYCLE_NONE);
             if (answer != CYCLE_ONE)
                 continue;
-            assert_true(instant_s == (double)next * cycle_s);
+            assert_close(instant_s, (double)next * cycle_s, 1e-9 * cycle_s);
             next++;
         }
         assert_int_equal(next, INT64_C(999999000) / (cases[c].ticks * cases[c].rate_hz) + 1);
@@ -108,6 +131,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(known_frames_have_known_instants),
         cmocka_unit_test(every_instant_is_delivered_exactly_once),
+        cmocka_unit_test(instants_are_the_decimals_they_should_be),
+        cmocka_unit_test(seconds_since_1970_lose_no_scan),
         cmocka_unit_test(frames_slower_than_the_cycle_say_so),
         cmocka_unit_test(a_slightly_slow_frame_rate_is_caught_within_a_beat),
     };

@@ -528,7 +528,7 @@ static void values_outside_their_bounds_are_refused(void **state)
     struct diag diag = {0};
     assert_int_equal(field_check(&scenario_record, &scenario, &diag), -1);
     assert_string_equal(diag.text,
-                        "objects[1].waypoints[1].y_m: 1.5e+09 is outside [-1e+09, 1e+09] m");
+                        "objects[1].waypoints[1].y_m: 1.5e+09 is outside [-1e9, 1e9] m");
     waypoints[1].y_m = 0;
     diag = (struct diag){0};
     assert_int_equal(field_check(&scenario_record, &scenario, &diag), 0);

@@ -95,12 +95,12 @@ static void shapes_have_their_closed_form_values(void **state)
         {VISIBILITY_HARD,          0,  0,   0,     1                  },
         {VISIBILITY_HARD,          0,  180, 180,   1                  },
         {VISIBILITY_RAISED_COSINE, 40, 40,  39.9,  1                  },
-        {VISIBILITY_RAISED_COSINE, 40, 40,  40,    0                  },
+        {VISIBILITY_RAISED_COSINE, 40, 40,  40,    1                  },
         {VISIBILITY_LINEAR,        40, 40,  39.9,  1                  },
-        {VISIBILITY_LINEAR,        40, 40,  40,    0                  },
-        {VISIBILITY_RAISED_COSINE, 0,  0,   0,     0                  },
-        {VISIBILITY_LINEAR,        0,  0,   0,     0                  },
-        {VISIBILITY_COSINE,        0,  0,   0,     0                  },
+        {VISIBILITY_LINEAR,        40, 40,  40,    1                  },
+        {VISIBILITY_RAISED_COSINE, 0,  0,   0,     1                  },
+        {VISIBILITY_LINEAR,        0,  0,   0,     1                  },
+        {VISIBILITY_COSINE,        0,  0,   0,     1                  },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_close(visibility(cases[i].shape, degrees(cases[i].full_deg),

@@ -1,0 +1,309 @@
+#include "check.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "catalogue.h"
+#include "text.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+struct scratch {
+    char directory[64];
+    char suite[96], table[96], pattern[96];
+    struct arena arena;
+};
+
+static int make_scratch(void **state)
+{
+    struct scratch *scratch = calloc(1, sizeof *scratch);
+    assert_non_null(scratch);
+    strcpy(scratch->directory, "/tmp/glint-catalogue-XXXXXX");
+    assert_non_null(mkdtemp(scratch->directory));
+    snprintf(scratch->suite, sizeof scratch->suite, "%s/suite.json", scratch->directory);
+    snprintf(scratch->table, sizeof scratch->table, "%s/amplitude.csv", scratch->directory);
+    snprintf(scratch->pattern, sizeof scratch->pattern, "%s/pattern.csv", scratch->directory);
+    *state = scratch;
+    return 0;
+}
+
+static int remove_scratch(void **state)
+{
+    struct scratch *scratch = *state;
+    unlink(scratch->suite);
+    unlink(scratch->table);
+    unlink(scratch->pattern);
+    rmdir(scratch->directory);
+    arena_free(&scratch->arena);
+    free(scratch);
+    return 0;
+}
+
+static void write_file(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Calls load with the name of every JSON file in data/KIND. */
+static size_t load_all(const char *kind, void (*load)(const char *name, struct arena *arena))
+{
+    char folder[64];
+    snprintf(folder, sizeof folder, "data/%s", kind);
+    DIR *directory = opendir(folder);
+    assert_non_null(directory);
+    size_t count = 0;
+    struct arena arena = {0};
+    for (struct dirent *entry = readdir(directory); entry != NULL; entry = readdir(directory)) {
+        char name[300];
+        snprintf(name, sizeof name, "%s", entry->d_name);
+        char *ending = strstr(name, ".json");
+        if (ending == NULL)
+            continue;
+        *ending = '\0';
+        load(name, &arena);
+        count++;
+    }
+    closedir(directory);
+    arena_free(&arena);
+    return count;
+}
+
+static void load_vehicle(const char *name, struct arena *arena)
+{
+    struct diag diag = {0};
+    const struct vehicle *vehicle = catalogue_vehicle(name, arena, &diag);
+    if (vehicle == NULL)
+        fail_msg("%s", diag.text);
+    assert_string_equal(vehicle->reflectors.model, name);
+    assert_int_equal(vehicle->reflectors.worn_by.count, 0);
+    assert_true(vehicle->reflectors.points.count + vehicle->reflectors.planes.count +
+                    vehicle->reflectors.rows.count >
+                0);
+}
+
+static void load_scenario(const char *name, struct arena *arena)
+{
+    struct diag diag = {0};
+    const struct scenario *scenario = catalogue_scenario(name, arena, &diag);
+    if (scenario == NULL)
+        fail_msg("%s", diag.text);
+    for (size_t i = 0; i < scenario->objects.count; i++)
+        load_vehicle(scenario->objects.items[i].class, arena);
+}
+
+static void load_suite(const char *name, struct arena *arena)
+{
+    struct diag diag = {0};
+    const struct suite *suite = catalogue_suite(name, arena, &diag);
+    if (suite == NULL)
+        fail_msg("%s", diag.text);
+    assert_string_equal(suite->name, name);
+    assert_int_equal(strspn(suite->digest, "0123456789abcdef"), 16);
+    for (size_t i = 0; i < suite->sensors.count; i++) {
+        const struct sensor *sensor = &suite->sensors.items[i];
+        assert_int_equal(sensor->antenna.row_count >= 2, sensor->antenna_table != NULL);
+        /* Calibration: that cross section at that range is at the threshold on boresight. */
+        double amplitude =
+            radar_reference_amplitude(&sensor->amplitude_law, sensor->calibration_range_m);
+        assert_near(amplitude * sensor->calibration_ercs, sensor->threshold, 1e-12);
+    }
+}
+
+static void every_document_that_is_shipped_loads(void **state)
+{
+    (void)state;
+    assert_true(load_all("vehicles", load_vehicle) >= 10);
+    assert_true(load_all("scenarios", load_scenario) >= 6);
+    assert_true(load_all("sensors", load_suite) >= 3);
+}
+
+#define PLACE "\"mount_x_m\":2,\"mount_y_m\":0,\"mount_yaw_rad\":0,\"carrier_hz\":24e9,"
+#define REST                                                                                       \
+    "\"field_of_view_rad\":3,\"threshold_db\":6,\"cell_range_m\":0.3,\"cell_range_rate_mps\":0.5," \
+    "\"phase_reference\":\"centre\",\"angle_estimator\":\"ratio\",\"pointer_sigma\":0.5,"          \
+    "\"range_sigma_m\":0,\"range_rate_sigma_mps\":0,\"azimuth_sigma_rad\":0,"                      \
+    "\"final_threshold\":true,\"list_order\":\"nearest\",\"list_limit\":0"
+#define TABLES                                                                                     \
+    "\"amplitude_table\":\"amplitude.csv\",\"antenna_pattern\":\"table\","                         \
+    "\"antenna_table\":\"pattern.csv\","
+#define SENSOR(name, range, more) "{\"name\":\"" name "\"," PLACE range more REST "}"
+#define RANGES "\"range_min_m\":1,\"range_max_m\":30,"
+#define SUITE(sensors) "{\"origin\":\"a test\",\"sensors\":[" sensors "]}"
+
+static const char amplitudes[] = "range_m,amplitude\n10,8\n20,2\n";
+static const char pattern[] = "azimuth_rad,sum,delta\n-1,0.5,-1\n0,1,0\n1,0.5,1\n";
+
+static const struct suite *suite_of(struct scratch *scratch, const char *document,
+                                    const char *table, const char *rows, struct diag *diag)
+{
+    *diag = (struct diag){0};
+    write_file(scratch->suite, document);
+    write_file(scratch->table, table);
+    write_file(scratch->pattern, rows);
+    return catalogue_suite(scratch->suite, &scratch->arena, diag);
+}
+
+static void tables_are_found_beside_the_document_and_read(void **state)
+{
+    struct scratch *scratch = *state;
+    struct diag diag;
+    const struct suite *suite =
+        suite_of(scratch, SUITE(SENSOR("a", RANGES, TABLES)), amplitudes, pattern, &diag);
+    if (suite == NULL)
+        fail_msg("%s", diag.text);
+    const struct sensor *sensor = suite_sensor(suite, "a");
+    assert_null(suite_sensor(suite, "b"));
+    assert_int_equal(sensor->amplitude_law.law, RADAR_TABLE);
+    /* Straight in the logarithms: a quarter for twice the range. */
+    assert_near(radar_reference_amplitude(&sensor->amplitude_law, sqrt(200)), 4.0, 1e-12);
+    assert_close(antenna_gain(&sensor->antenna, 0.5), 0.75, 1e-12);
+    assert_near(sensor->threshold, 1.9952623149688795, 1e-14);
+    assert_close(sensor->half_range_m, 0.15, 0);
+    assert_close(sensor->half_range_rate_mps, 0.25, 0);
+    suite = suite_of(scratch, SUITE(SENSOR("a", RANGES, TABLES "\"cell_extent\":\"half_width\",")),
+                     amplitudes, pattern, &diag);
+    assert_close(suite->sensors.items[0].half_range_m, 0.3, 0);
+}
+
+static void the_digest_is_of_everything_that_was_read(void **state)
+{
+    struct scratch *scratch = *state;
+    static const struct {
+        const char *document, *table, *rows;
+    } variants[] = {
+        {SUITE(SENSOR("a", RANGES, TABLES)),      amplitudes,                          pattern},
+        {SUITE(SENSOR("b", RANGES, TABLES)),      amplitudes,                          pattern},
+        {SUITE(SENSOR("a", RANGES, TABLES)) "\n", amplitudes,                          pattern},
+        {SUITE(SENSOR("a", RANGES, TABLES)),      "range_m,amplitude\n10,8\n20,2.5\n", pattern},
+        {SUITE(SENSOR("a", RANGES, TABLES)),      amplitudes,
+         "azimuth_rad,sum,delta\n-1,0.5,-1\n0,1,0\n1,0.5,2\n"                                 },
+    };
+    char digests[COUNT(variants)][17];
+    for (size_t i = 0; i < COUNT(variants); i++) {
+        struct diag diag;
+        for (int again = 0; again < 2; again++) {
+            const struct suite *suite =
+                suite_of(scratch, variants[i].document, variants[i].table, variants[i].rows, &diag);
+            assert_non_null(suite);
+            if (again)
+                assert_string_equal(suite->digest, digests[i]);
+            memcpy(digests[i], suite->digest, sizeof digests[i]);
+        }
+        for (size_t j = 0; j < i; j++)
+            assert_string_not_equal(digests[i], digests[j]);
+    }
+}
+
+static void suites_that_contradict_themselves_are_refused(void **state)
+{
+    struct scratch *scratch = *state;
+#define POWER "\"calibration_ercs\":0.8,\"calibration_range_m\":30,"
+#define PAIR "\"antenna_pattern\":\"dipole_pair\","
+    static const struct {
+        const char *document, *table, *rows, *message;
+    } cases[] = {
+        {SUITE(""),               amplitudes,                             pattern,                                           "/suite.json: sensors: none; expected at least one"},
+        {        SUITE(SENSOR("a", RANGES,                                 TABLES) "," SENSOR("a",                                          RANGES,                                          TABLES)), amplitudes, pattern,
+         "/suite.json: sensors[1].name: \"a\" stands twice"},
+        { SUITE(SENSOR("a",                                                                                                                                                 "\"range_min_m\":5,\"range_max_m\":5,", TABLES)),                                          amplitudes,                                          pattern,
+         "/suite.json: sensors[0].range_max_m: 5 is not above range_min_m, 5 m"},
+        {SUITE(SENSOR("a",                                                                                                                             RANGES,                                 TABLES POWER)),                                    amplitudes,                                          pattern,
+         "/suite.json: sensors[0].amplitude_table: expected either a table or calibration_ercs "
+         "and calibration_range_m"},
+        { SUITE(SENSOR("a",                                                                                                                                                                          RANGES,                                 PAIR)),                                            amplitudes,                                          pattern,
+         "/suite.json: sensors[0].amplitude_table: expected either a table or calibration_ercs "
+         "and calibration_range_m"},
+        {SUITE(SENSOR("a",                                                                                                                                                                          RANGES,                                 POWER "\"antenna_pattern\":\"table\",")),          amplitudes,                                          pattern,
+         "/suite.json: sensors[0].antenna_table: goes with antenna_pattern \"table\", and only "
+         "with it"},
+        { SUITE(SENSOR("a",                                                                                                                                                                                          RANGES,                                 POWER PAIR "\"antenna_table\":\"pattern.csv\",")), amplitudes,
+         pattern, "/suite.json: sensors[0].antenna_table: goes with antenna_pattern \"table\", and only "
+         "with it"},
+        {                                                                                                                                                                          SUITE(SENSOR("a",                                                                                                                                                                         RANGES,                                 TABLES)),                                          "range_m,amplitude\n10,8\n",                         pattern,
+         "/amplitude.csv: rows: 1; expected at least 2"},
+        {SUITE(SENSOR("a",                                                                                                                                                     RANGES,                                 TABLES)),                                          "range_m,amplitude\n10,8\n10,2\n",                   pattern,
+         "/amplitude.csv: row 3: range_m must ascend"},
+        {                                                                                                                                                                          SUITE(SENSOR("a",                                                                                                                                                       RANGES,                                 TABLES)),                                          "range_m,amplitude\n10,8\n20,0\n",                   pattern,
+         "/amplitude.csv: row 3, column \"amplitude\": 0 is outside [1e-300, 1e+300]"},
+        {SUITE(SENSOR("a",                                                                                                                       RANGES,                                 TABLES)),                                          "range_m,gain\n10,8\n",                              pattern,
+         "/amplitude.csv: column \"amplitude\" is missing; the header is: range_m, gain"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct diag diag;
+        assert_null(suite_of(scratch, cases[i].document, cases[i].table, cases[i].rows, &diag));
+        /* The message of a table stands behind the place that names it. */
+        assert_memory_equal(diag.text, scratch->suite, strlen(scratch->suite));
+        assert_string_equal(diag.text + strlen(diag.text) - strlen(cases[i].message),
+                            cases[i].message);
+        assert_int_equal(diag.code, DIAG_CONFIG);
+    }
+    static const char *const patterns[] = {
+        "azimuth_rad,sum,delta\n0,1,0\n",         "azimuth_rad,sum,delta\n0,1,0\n0,1,1\n",
+        "azimuth_rad,sum,delta\n0,1,1\n1,1,0\n",  "azimuth_rad,sum,delta\n0,1,0\n1,0,0\n",
+        "azimuth_rad,sum,delta\n0,-1,0\n1,1,1\n", "azimuth_rad,sum\n0,1\n1,1\n"};
+    for (size_t i = 0; i < COUNT(patterns); i++) {
+        struct diag diag;
+        assert_null(
+            suite_of(scratch, SUITE(SENSOR("a", RANGES, TABLES)), amplitudes, patterns[i], &diag));
+        assert_non_null(strstr(diag.text, "/pattern.csv: "));
+        assert_int_equal(diag.code, DIAG_CONFIG);
+    }
+}
+
+static void vehicles_that_no_table_can_refuse_are_refused(void **state)
+{
+    struct scratch *scratch = *state;
+    static const char *const faults[] = {
+        "\"points\":[{\"name\":\"p\",\"x\":0,\"y\":0,\"facing_rad\":0,\"full_rad\":1,"
+        "\"zero_rad\":0.5,\"ercs\":1}]",
+        "\"rows\":[{\"name\":\"r\",\"from_x\":0,\"from_y\":0,\"to_x\":0,\"to_y\":0,\"spacing_m\":1,"
+        "\"facing_rad\":0,\"full_rad\":1,\"zero_rad\":0.5,\"ercs\":1}]"};
+    for (size_t i = 0; i < COUNT(faults); i++) {
+        struct text text = {0};
+        struct diag diag = {0};
+        text_format(&text,
+                    "{\"origin\":\"a test\",\"length_m\":4,\"width_m\":2,\"height_m\":1,"
+                    "\"reflectors\":{%s}}",
+                    faults[i]);
+        text_add(&text, "", 1);
+        write_file(scratch->suite, text.bytes);
+        assert_null(catalogue_vehicle(scratch->suite, &scratch->arena, &diag));
+        assert_non_null(strstr(diag.text, "[0].zero_rad: "));
+        assert_int_equal(diag.code, DIAG_CONFIG);
+        text_free(&text);
+    }
+}
+
+static void scenarios_are_checked_and_named(void **state)
+{
+    struct scratch *scratch = *state;
+    struct diag diag = {0};
+    write_file(scratch->suite, "{\"origin\":\"a test\",\"ego\":\"e\",\"rate_hz\":10,"
+                               "\"duration_s\":1,\"objects\":[]}");
+    assert_null(catalogue_scenario(scratch->suite, &scratch->arena, &diag));
+    assert_memory_equal(diag.text, scratch->suite, strlen(scratch->suite));
+    assert_int_equal(diag.code, DIAG_CONFIG);
+    diag = (struct diag){0};
+    assert_null(catalogue_vehicle("no_such_class", &scratch->arena, &diag));
+    assert_non_null(strstr(diag.text, "there is no vehicles/no_such_class.json"));
+    assert_int_equal(diag.code, DIAG_CONFIG);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_document_that_is_shipped_loads),
+        cmocka_unit_test(tables_are_found_beside_the_document_and_read),
+        cmocka_unit_test(the_digest_is_of_everything_that_was_read),
+        cmocka_unit_test(suites_that_contradict_themselves_are_refused),
+        cmocka_unit_test(vehicles_that_no_table_can_refuse_are_refused),
+        cmocka_unit_test(scenarios_are_checked_and_named),
+    };
+    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}

@@ -1,0 +1,245 @@
+#include "check.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "catalogue.h"
+#include "document.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+struct scratch {
+    char directory[64];
+    char path[128];
+    struct arena arena;
+};
+
+static int make_scratch(void **state)
+{
+    struct scratch *scratch = calloc(1, sizeof *scratch);
+    assert_non_null(scratch);
+    strcpy(scratch->directory, "/tmp/glint-document-XXXXXX");
+    assert_non_null(mkdtemp(scratch->directory));
+    snprintf(scratch->path, sizeof scratch->path, "%s/vehicles", scratch->directory);
+    assert_int_equal(mkdir(scratch->path, 0777), 0);
+    snprintf(scratch->path, sizeof scratch->path, "%s/vehicles/mine.json", scratch->directory);
+    *state = scratch;
+    return 0;
+}
+
+static int remove_scratch(void **state)
+{
+    struct scratch *scratch = *state;
+    unlink(scratch->path);
+    *strrchr(scratch->path, '/') = '\0';
+    rmdir(scratch->path);
+    rmdir(scratch->directory);
+    arena_free(&scratch->arena);
+    unsetenv("GLINT_DATA");
+    free(scratch);
+    return 0;
+}
+
+static void write_document(const struct scratch *scratch, const char *text)
+{
+    FILE *file = fopen(scratch->path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static const char vehicle_text[] =
+    "{\"origin\": \"a test\", \"length_m\": 4, \"width_m\": 2, \"height_m\": 1.5,\n"
+    " \"reflectors\": {\"blocks\": true, \"points\": [{\"name\": \"p\", \"x\": 0.5, \"y\": -0.5,\n"
+    "  \"facing_rad\": 0, \"full_rad\": 1, \"zero_rad\": 2, \"ercs\": 1}]}}\n";
+
+static void names_are_looked_up_in_the_data_folder_first(void **state)
+{
+    struct scratch *scratch = *state;
+    struct diag diag = {0};
+    write_document(scratch, vehicle_text);
+    assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
+    assert_string_equal(document_find("vehicles", "mine", ".json", &scratch->arena, &diag),
+                        scratch->path);
+    /* What is not there comes from the places after it. */
+    assert_non_null(document_find("vehicles", "car", ".json", &scratch->arena, &diag));
+    /* And what is in both comes from there. */
+    char car[128];
+    snprintf(car, sizeof car, "%s/vehicles/car.json", scratch->directory);
+    assert_int_equal(link(scratch->path, car), 0);
+    assert_string_equal(document_find("vehicles", "car", ".json", &scratch->arena, &diag), car);
+    assert_int_equal(setenv("GLINT_DATA", "", 1), 0);
+    assert_string_not_equal(document_find("vehicles", "car", ".json", &scratch->arena, &diag), car);
+    assert_int_equal(unlink(car), 0);
+}
+
+static void what_has_a_slash_or_a_dot_is_a_path(void **state)
+{
+    struct scratch *scratch = *state;
+    static const char *const paths[] = {"./mine", "mine.json", "/a/b", "..", "a/b", "-", "x.y"};
+    struct diag diag = {0};
+    for (size_t i = 0; i < COUNT(paths); i++)
+        assert_string_equal(document_find("vehicles", paths[i], ".json", &scratch->arena, &diag),
+                            paths[i]);
+}
+
+static void a_name_that_is_nowhere_lists_the_places(void **state)
+{
+    struct scratch *scratch = *state;
+    struct diag diag = {0};
+    assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
+    assert_null(document_find("sensors", "nowhere", ".csv", &scratch->arena, &diag));
+    char begin[160];
+    int length = snprintf(begin, sizeof begin, "there is no sensors/nowhere.csv; looked in %s/, /",
+                          scratch->directory);
+    assert_memory_equal(diag.text, begin, (size_t)length);
+    assert_non_null(strstr(diag.text, "../share/glint/, /"));
+    assert_string_equal(diag.text + strlen(diag.text) - 18, "../../data/, data/");
+    assert_int_equal(diag.code, DIAG_CONFIG);
+}
+
+static void a_document_fills_its_struct(void **state)
+{
+    struct scratch *scratch = *state;
+    struct diag diag = {0};
+    struct vehicle vehicle;
+    write_document(scratch, vehicle_text);
+    assert_int_equal(
+        document_read(scratch->path, &vehicle_record, &vehicle, &scratch->arena, &diag), 0);
+    assert_string_equal(vehicle.origin, "a test");
+    assert_close(vehicle.length_m, 4, 0);
+    assert_true(vehicle.reflectors.blocks && !vehicle.reflectors.raised);
+    assert_int_equal(vehicle.reflectors.points.count, 1);
+    assert_string_equal(vehicle.reflectors.points.items[0].name, "p");
+    assert_close(vehicle.reflectors.points.items[0].inset_m, 0, 0);
+    assert_int_equal(vehicle.reflectors.points.items[0].shape, VISIBILITY_RAISED_COSINE);
+}
+
+/* The document with one place changed. */
+static void write_changed(const struct scratch *scratch, const char *from, const char *to)
+{
+    const char *at = strstr(vehicle_text, from);
+    assert_non_null(at);
+    char text[2048];
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(at - vehicle_text), vehicle_text, to,
+             at + strlen(from));
+    write_document(scratch, text);
+}
+
+static void faults_are_named_with_path_member_and_expectation(void **state)
+{
+    struct scratch *scratch = *state;
+    static const struct {
+        const char *from, *to, *message;
+    } cases[] = {
+        {"4,",                "0,",                               "length_m: 0 is outside [0.01, 10000] m"                  },
+        {"\"length_m\": 4, ", "",                                 "length_m: missing; expected a number in [0.01, 10000] m" },
+        {"4,",                "\"4\",",                           "length_m: a string; expected a number in [0.01, 10000] m"},
+        {"4,",                "null,",                            "length_m: null; expected a number in [0.01, 10000] m"    },
+        {"\"a test\"",        "[]",                               "origin: an array; expected a name"                       },
+        {"\"x\": 0.5",        "\"x\": 1.5",                       "reflectors.points[0].x: 1.5 is outside [-1, 1]"          },
+        {"\"x\"",             "\"z\"",
+         "reflectors.points[0].z: unknown key; expected one of name, x, y, inset_m, "
+         "facing_rad, full_rad, zero_rad, shape, ercs, under_vehicles"                                                      },
+        {"true",              "1",                                "reflectors.blocks: a number; expected true or false"     },
+        {"\"blocks\": true",  "\"worn_by\": []",
+         "reflectors.worn_by: unknown key; expected one of blocks, raised, points, planes, "
+         "rows"                                                                                                             },
+        {"[{",                "[3, {",                            "reflectors.points[0]: a number; expected an object"      },
+        {"\"ercs\": 1",       "\"ercs\": 1, \"shape\": \"flat\"",
+         "reflectors.points[0].shape: \"flat\" is unknown; expected one of raised_cosine, hard, "
+         "linear, cosine"                                                                                                   }
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct vehicle vehicle;
+        struct diag diag = {0};
+        char message[512];
+        write_changed(scratch, cases[i].from, cases[i].to);
+        snprintf(message, sizeof message, "%s: %s", scratch->path, cases[i].message);
+        assert_int_equal(
+            document_read(scratch->path, &vehicle_record, &vehicle, &scratch->arena, &diag), -1);
+        assert_string_equal(diag.text, message);
+        assert_int_equal(diag.code, DIAG_CONFIG);
+    }
+}
+
+static void text_that_is_no_document_is_refused_with_its_line(void **state)
+{
+    struct scratch *scratch = *state;
+    static const struct {
+        const char *text, *message;
+    } cases[] = {
+        {"",                                        ":1: "                          },
+        {"\n\n{\"origin\": }",                      ":3: "                          },
+        {"{\"origin\": \"a\",\n\"origin\": \"b\"}", ":2: duplicate object key"      },
+        {"{} {}",                                   ":1: end of file expected"      },
+        {"\xef\xbb\xbf{}",                          ":1: "                          },
+        {"{\"origin\": \"\\u0000\"}",               ":1: "                          },
+        {"{\"origin\": \"\xff\"}",                  ":1: "                          },
+        {"{\"length_m\": 1e999}",                   ":1: "                          },
+        {"[]",                                      ": an array; expected an object"}
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct vehicle vehicle;
+        struct diag diag = {0};
+        char begin[256];
+        write_document(scratch, cases[i].text);
+        int length = snprintf(begin, sizeof begin, "%s%s", scratch->path, cases[i].message);
+        assert_int_equal(
+            document_read(scratch->path, &vehicle_record, &vehicle, &scratch->arena, &diag), -1);
+        if (strncmp(diag.text, begin, (size_t)length) != 0)
+            fail_msg("\"%s\" does not begin with \"%s\"", diag.text, begin);
+        assert_int_equal(diag.code, DIAG_CONFIG);
+    }
+}
+
+static void notes_are_strings(void **state)
+{
+    struct scratch *scratch = *state;
+    static const struct field fields[] = {
+        {.name = "sources", .kind = FIELD_NOTES, .optional = true, .help = ""},
+        {0}
+    };
+    static const struct record record = {.name = "thing", .size = 1, .fields = fields};
+    char nothing;
+    struct diag diag = {0};
+    write_document(scratch, "{\"sources\": {\"a\": \"b\", \"c\": \"d\"}}");
+    assert_int_equal(document_read(scratch->path, &record, &nothing, &scratch->arena, &diag), 0);
+    write_document(scratch, "{\"sources\": {\"a\": \"b\", \"c\": 1}}");
+    assert_int_equal(document_read(scratch->path, &record, &nothing, &scratch->arena, &diag), -1);
+    assert_non_null(strstr(diag.text, "mine.json: sources.c: a number; expected a string"));
+}
+
+static void a_document_that_is_not_there_is_named(void **state)
+{
+    struct scratch *scratch = *state;
+    struct vehicle vehicle;
+    struct diag diag = {0};
+    assert_int_equal(
+        document_read("/nonexistent/a.json", &vehicle_record, &vehicle, &scratch->arena, &diag),
+        -1);
+    assert_string_equal(diag.text, "/nonexistent/a.json: No such file or directory");
+    diag = (struct diag){0};
+    assert_int_equal(
+        document_read(scratch->directory, &vehicle_record, &vehicle, &scratch->arena, &diag), -1);
+    assert_non_null(strstr(diag.text, ": Is a directory"));
+}
+
+int main(void)
+{
+    document_guard_memory();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(names_are_looked_up_in_the_data_folder_first),
+        cmocka_unit_test(what_has_a_slash_or_a_dot_is_a_path),
+        cmocka_unit_test(a_name_that_is_nowhere_lists_the_places),
+        cmocka_unit_test(a_document_fills_its_struct),
+        cmocka_unit_test(faults_are_named_with_path_member_and_expectation),
+        cmocka_unit_test(text_that_is_no_document_is_refused_with_its_line),
+        cmocka_unit_test(notes_are_strings),
+        cmocka_unit_test(a_document_that_is_not_there_is_named),
+    };
+    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}

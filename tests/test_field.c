@@ -1,0 +1,377 @@
+#include "check.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "field.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+enum colour { RED, GREEN, BLUE };
+static const char *const colours[] = {"red", "green", "blue", NULL};
+
+struct part {
+    double width_m;
+};
+
+struct thing {
+    double range_m;
+    double gain;
+    int64_t number;
+    bool flag;
+    const char *name;
+    enum colour colour;
+    uint64_t seed;
+    LIST_OF(const char *) names;
+    struct part part;
+    LIST_OF(struct part) parts;
+    const char *extra;
+    double maybe_s;
+    enum colour tint;
+    LIST_OF(struct part) section;
+    unsigned present;
+};
+
+static const struct field part_fields[] = {
+    {FIELD_REAL_IN(struct part, width_m, 0, 10, "width"), .absent = 2},
+    {0                       }
+};
+static const struct record part_record = {
+    .name = "part", .size = sizeof(struct part), .fields = part_fields};
+
+enum {
+    RANGE,
+    GAIN,
+    NUMBER,
+    FLAG,
+    NAME,
+    COLOUR,
+    SEED,
+    NAMES,
+    PART,
+    PARTS,
+    EXTRA,
+    MAYBE,
+    TINT,
+    IN_SECTION
+};
+
+static const struct field fields[] = {
+    [RANGE] = {FIELD_REAL_IN(struct thing,    range_m, -1.5, 1e6, "range")},
+    [GAIN] = {FIELD_REAL_IN(struct thing,                         gain, 0, 0.1, "gain")},
+    [NUMBER] = {FIELD_INTEGER_IN(struct thing,                     number, -5, 9007199254740991, "number")},
+    [FLAG] = {FIELD_FLAG_OF(struct thing,    flag, "flag"), FIELD_OPTIONAL},
+    [NAME] = {FIELD_NAME_OF(struct thing,                            name, "name")},
+    [COLOUR] = {FIELD_CHOICE_OF(struct thing,                      colour, colours, "colour")},
+    [SEED] = {FIELD_SEED_OF(struct thing, seed, "seed")},
+    [NAMES] = {FIELD_NAMES_OF(struct thing,                           names, "names")},
+    [PART] = {FIELD_RECORD_OF(struct thing,                    part, &part_record, "part")},
+    [PARTS] = {FIELD_LIST_OF(struct thing,    parts, &part_record, "parts"), FIELD_OPTIONAL},
+    [EXTRA] = {FIELD_RAW_OF(struct thing,                      extra, "extra")},
+    [MAYBE] = {FIELD_REAL_IN(struct thing,                             maybe_s, -10, 10, "maybe"), FIELD_OPTIONAL,
+               .absent = 0.5},
+    [TINT] = {FIELD_CHOICE_OF(struct thing,tint, colours, "tint"), FIELD_OPTIONAL,
+               .absent = GREEN},
+    [IN_SECTION] = {FIELD_LIST_OF(struct thing,                             section, &part_record, "section"), FIELD_OPTIONAL,
+               .section = 4},
+    {0 }
+};
+static const struct record record = {.name = "thing",
+                                     .size = sizeof(struct thing),
+                                     .fields = fields,
+                                     .present_offset = offsetof(struct thing, present)};
+
+static void the_ending_of_a_name_is_its_unit(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {
+        {"range_m",           "m"    },
+        {"time_s",            "s"    },
+        {"range_rate_mps",    "m/s"  },
+        {"acceleration_mps2", "m/s²"},
+        {"azimuth_rad",       "rad"  },
+        {"yaw_rate_radps",    "rad/s"},
+        {"carrier_hz",        "Hz"   },
+        {"threshold_db",      "dB"   },
+        {"ercs",              ""     },
+        {"m",                 ""     },
+        {"_m",                ""     },
+        {"stream",            ""     },
+        {"class",             ""     },
+        {"m_x",               ""     }
+    };
+    for (size_t i = 0; i < COUNT(cases); i++)
+        assert_string_equal(field_unit(cases[i][0]), cases[i][1]);
+}
+
+static void members_are_found_by_their_whole_name(void **state)
+{
+    (void)state;
+    for (size_t hint = 0; hint < COUNT(fields); hint++) {
+        for (size_t i = 0; fields[i].name != NULL; i++)
+            assert_ptr_equal(field_find(&record, fields[i].name, strlen(fields[i].name), hint),
+                             &fields[i]);
+        assert_ptr_equal(field_find(&record, "names", 4, hint), &fields[NAME]);
+        assert_null(field_find(&record, "namesx", 6, hint));
+        assert_null(field_find(&record, "nam", 3, hint));
+        assert_null(field_find(&record, "", 0, hint));
+        assert_null(field_find(&record, "Name", 4, hint));
+    }
+}
+
+static void absence_has_its_value_and_is_noticed(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct thing thing;
+    memset(&thing, 0xff, sizeof thing);
+    field_clear(&record, &thing);
+    assert_close(thing.maybe_s, 0.5, 0);
+    assert_int_equal(thing.tint, GREEN);
+    assert_close(thing.part.width_m, 2, 0);
+    assert_null(thing.name);
+    static const int optional[] = {FLAG, PARTS, EXTRA, MAYBE, TINT, IN_SECTION};
+    for (size_t i = 0; i < COUNT(optional); i++)
+        assert_false(field_present(&record, &fields[optional[i]], &thing));
+    static const int needed[] = {RANGE, NUMBER, NAME, COLOUR, SEED, NAMES, PART};
+    for (size_t i = 0; i < COUNT(needed); i++)
+        assert_true(field_present(&record, &fields[needed[i]], &thing));
+    thing.flag = true;
+    thing.extra = "1";
+    thing.maybe_s = 0;
+    thing.tint = RED;
+    struct part *part = field_list_add(&fields[PARTS], &thing, &arena);
+    assert_close(part->width_m, 2, 0);
+    field_mark_present(&record, &fields[IN_SECTION], &thing);
+    field_mark_present(&record, &fields[RANGE], &thing);
+    assert_int_equal(thing.present, 4);
+    for (size_t i = 0; i < COUNT(optional); i++)
+        assert_true(field_present(&record, &fields[optional[i]], &thing));
+    arena_free(&arena);
+}
+
+static void numbers_are_taken_between_their_bounds(void **state)
+{
+    (void)state;
+    static const struct {
+        int field;
+        double value;
+        const char *message;
+    } cases[] = {
+        {RANGE,  -1.5,                NULL                                                        },
+        {RANGE,  1e6,                 NULL                                                        },
+        {GAIN,   0.1,                 NULL                                                        },
+        {GAIN,   0,                   NULL                                                        },
+        {GAIN,   -0.0,                NULL                                                        },
+        {NUMBER, -5,                  NULL                                                        },
+        {NUMBER, 9007199254740991,    NULL                                                        },
+        {RANGE,  -1.5000000000000002, "range_m: -1.5000000000000002 is outside [-1.5, 1e6] m"     },
+        {RANGE,  1000000.0000000001,  "range_m: 1000000.0000000001 is outside [-1.5, 1e6] m"      },
+        {GAIN,   0.10000000000000002, "gain: 0.10000000000000002 is outside [0, 0.1]"             },
+        {GAIN,   -5e-324,             "gain: -5e-324 is outside [0, 0.1]"                         },
+        {RANGE,  (double)NAN,         "range_m: nan is outside [-1.5, 1e6] m"                     },
+        {RANGE,  (double)INFINITY,    "range_m: inf is outside [-1.5, 1e6] m"                     },
+        {NUMBER, 0.5,                 "number: 0.5 is not a whole number"                         },
+        {NUMBER, -6,                  "number: -6 is outside [-5, 9007199254740991]"              },
+        {NUMBER, 9007199254740992,    "number: 9007199254740992 is outside [-5, 9007199254740991]"},
+        {NAME,   1,                   "name: a number; expected a name"                           },
+        {FLAG,   1,                   "flag: a number; expected true or false"                    },
+        {SEED,   1,                   "seed: a number; expected a string of digits"               },
+        {COLOUR, 1,                   "colour: a number; expected one of red, green, blue"        }
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct thing thing = {0};
+        struct diag diag = {0};
+        int result = field_set_number(&fields[cases[i].field], &thing, cases[i].value, &diag);
+        assert_int_equal(result, cases[i].message == NULL ? 0 : -1);
+        assert_string_equal(diag.text, cases[i].message != NULL ? cases[i].message : "");
+        if (result == 0)
+            assert_close(cases[i].field == NUMBER  ? (double)thing.number
+                         : cases[i].field == RANGE ? thing.range_m
+                                                   : thing.gain,
+                         cases[i].value, 0);
+    }
+}
+
+static int set_text(int field, struct thing *thing, const char *text, struct arena *arena,
+                    struct diag *diag)
+{
+    *diag = (struct diag){0};
+    return field_set_text(&fields[field], thing, text, strlen(text), arena, diag);
+}
+
+static void seeds_have_64_bits(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        uint64_t seed;
+    } good[] = {
+        {"0",                    0               },
+        {"1",                    1               },
+        {"007",                  7               },
+        {"9007199254740993",     9007199254740993},
+        {"18446744073709551615", UINT64_MAX      },
+        {"18446744073709551609", UINT64_MAX - 6  }
+    };
+    struct arena arena = {0};
+    struct thing thing = {0};
+    struct diag diag;
+    for (size_t i = 0; i < COUNT(good); i++) {
+        assert_int_equal(set_text(SEED, &thing, good[i].text, &arena, &diag), 0);
+        assert_true(thing.seed == good[i].seed);
+    }
+    static const char *const bad[] = {"",
+                                      "-1",
+                                      "+1",
+                                      " 1",
+                                      "1 ",
+                                      "1.0",
+                                      "0x1",
+                                      "1e3",
+                                      "a",
+                                      "18446744073709551616",
+                                      "18446744073709551620",
+                                      "99999999999999999999",
+                                      "100000000000000000000",
+                                      "000000000000000000001"};
+    for (size_t i = 0; i < COUNT(bad); i++) {
+        char message[160];
+        snprintf(message, sizeof message,
+                 "seed: \"%s\" is no seed; expected decimal digits up to 18446744073709551615",
+                 bad[i]);
+        assert_int_equal(set_text(SEED, &thing, bad[i], &arena, &diag), -1);
+        assert_string_equal(diag.text, message);
+    }
+    arena_free(&arena);
+}
+
+static void names_and_choices_are_checked(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct thing thing = {0};
+    struct diag diag;
+    char name[FIELD_NAME_SIZE + 2];
+    memset(name, 'n', sizeof name);
+    name[FIELD_NAME_SIZE + 1] = '\0';
+    assert_int_equal(set_text(NAME, &thing, name, &arena, &diag), -1);
+    assert_string_equal(diag.text, "name: a name of 1025 bytes; expected 1 to 1024");
+    name[FIELD_NAME_SIZE] = '\0';
+    assert_int_equal(set_text(NAME, &thing, name, &arena, &diag), 0);
+    assert_string_equal(thing.name, name);
+    assert_true(thing.name != name);
+    assert_int_equal(set_text(NAME, &thing, "", &arena, &diag), -1);
+    assert_int_equal(set_text(NAME, &thing, "a\x7f", &arena, &diag), -1);
+    assert_string_equal(diag.text, "name: control character 0x7f in a name");
+    assert_int_equal(set_text(NAME, &thing, "\t", &arena, &diag), -1);
+    for (int i = 0; colours[i] != NULL; i++) {
+        assert_int_equal(set_text(COLOUR, &thing, colours[i], &arena, &diag), 0);
+        assert_int_equal(thing.colour, i);
+    }
+    static const char *const wrong[] = {"", "Red", "re", "redd", "red "};
+    for (size_t i = 0; i < COUNT(wrong); i++)
+        assert_int_equal(set_text(COLOUR, &thing, wrong[i], &arena, &diag), -1);
+    assert_string_equal(diag.text, "colour: \"red \" is unknown; expected one of red, green, blue");
+    assert_int_equal(set_text(RANGE, &thing, "1", &arena, &diag), -1);
+    assert_string_equal(diag.text, "range_m: a string; expected a number in [-1.5, 1e6] m");
+    arena_free(&arena);
+}
+
+static void words_are_numbers_only_as_a_whole(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {"",      " ",        "1 ",    " 1", "nan", "inf",
+                                      "-inf",  "infinity", "0x10",  "1e", "-",   "e5",
+                                      "1e999", "1,5",      "12abc", "+1", "--1"};
+    double value;
+    for (size_t i = 0; i < COUNT(bad); i++)
+        if (field_read_number(bad[i], strlen(bad[i]), &value) == 0)
+            fail_msg("\"%s\" was taken", bad[i]);
+    assert_int_equal(field_read_number("-1.5e-3", 7, &value), 0);
+    assert_close(value, -1.5e-3, 0);
+}
+
+static void the_first_missing_member_is_named(void **state)
+{
+    (void)state;
+    struct diag diag = {0};
+    uint64_t all = (UINT64_C(1) << COUNT(fields)) - 1;
+    assert_int_equal(field_require(&record, all, &diag), 0);
+    uint64_t optional =
+        1 << FLAG | 1 << PARTS | 1 << EXTRA | 1 << MAYBE | 1 << TINT | 1 << IN_SECTION;
+    assert_int_equal(field_require(&record, all & ~optional, &diag), 0);
+    static const struct {
+        int field;
+        const char *message;
+    } cases[] = {
+        {RANGE,  "range_m: missing; expected a number in [-1.5, 1e6] m"              },
+        {NUMBER, "number: missing; expected a whole number in [-5, 9007199254740991]"},
+        {NAME,   "name: missing; expected a name"                                    },
+        {COLOUR, "colour: missing; expected one of red, green, blue"                 },
+        {SEED,   "seed: missing; expected a string of digits"                        },
+        {NAMES,  "names: missing; expected an array of names"                        },
+        {PART,   "part: missing; expected an object"                                 }
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        diag = (struct diag){0};
+        assert_int_equal(field_require(&record, all & ~(UINT64_C(1) << cases[i].field), &diag), -1);
+        assert_string_equal(diag.text, cases[i].message);
+    }
+    diag = (struct diag){0};
+    assert_int_equal(field_unknown(&part_record, "with_m", 6, &diag), -1);
+    assert_string_equal(diag.text, "with_m: unknown key; expected one of width_m");
+    diag = (struct diag){0};
+    assert_int_equal(field_twice(&fields[NAME], &diag), -1);
+    assert_string_equal(diag.text, "name: the key stands twice");
+}
+
+static void the_check_goes_all_the_way_down(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct thing thing;
+    field_clear(&record, &thing);
+    struct diag diag = {0};
+    assert_int_equal(field_check(&record, &thing, &diag), -1);
+    assert_string_equal(diag.text, "name: missing");
+    thing.name = "a";
+    diag = (struct diag){0};
+    assert_int_equal(field_check(&record, &thing, &diag), 0);
+    for (int i = 0; i < 20; i++)
+        field_list_add(&fields[PARTS], &thing, &arena);
+    thing.parts.items[17].width_m = 11;
+    assert_int_equal(field_check(&record, &thing, &diag), -1);
+    assert_string_equal(diag.text, "parts[17].width_m: 11 is outside [0, 10] m");
+    thing.parts.items[17].width_m = 1;
+    thing.part.width_m = (double)NAN;
+    diag = (struct diag){0};
+    assert_int_equal(field_check(&record, &thing, &diag), -1);
+    assert_string_equal(diag.text, "part.width_m: nan is outside [0, 10] m");
+    thing.part.width_m = 1;
+    /* A section that is not there is not looked at. */
+    struct part *part = field_list_add(&fields[IN_SECTION], &thing, &arena);
+    part->width_m = -1;
+    diag = (struct diag){0};
+    assert_int_equal(field_check(&record, &thing, &diag), 0);
+    thing.present = 4;
+    assert_int_equal(field_check(&record, &thing, &diag), -1);
+    assert_string_equal(diag.text, "section[0].width_m: -1 is outside [0, 10] m");
+    arena_free(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_ending_of_a_name_is_its_unit),
+        cmocka_unit_test(members_are_found_by_their_whole_name),
+        cmocka_unit_test(absence_has_its_value_and_is_noticed),
+        cmocka_unit_test(numbers_are_taken_between_their_bounds),
+        cmocka_unit_test(seeds_have_64_bits),
+        cmocka_unit_test(names_and_choices_are_checked),
+        cmocka_unit_test(words_are_numbers_only_as_a_whole),
+        cmocka_unit_test(the_first_missing_member_is_named),
+        cmocka_unit_test(the_check_goes_all_the_way_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

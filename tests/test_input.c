@@ -1,0 +1,358 @@
+#include "check.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <zlib.h>
+
+#include "input.h"
+#include "sample.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+struct scratch {
+    char directory[64];
+    char path[96];
+};
+
+static int make_scratch(void **state)
+{
+    struct scratch *scratch = calloc(1, sizeof *scratch);
+    assert_non_null(scratch);
+    strcpy(scratch->directory, "/tmp/glint-input-XXXXXX");
+    assert_non_null(mkdtemp(scratch->directory));
+    snprintf(scratch->path, sizeof scratch->path, "%s/file", scratch->directory);
+    *state = scratch;
+    return 0;
+}
+
+static int remove_scratch(void **state)
+{
+    struct scratch *scratch = *state;
+    unlink(scratch->path);
+    rmdir(scratch->directory);
+    free(scratch);
+    return 0;
+}
+
+static struct input *open_bytes(const struct scratch *scratch, const char *bytes, size_t length)
+{
+    FILE *file = fopen(scratch->path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, length, file), length);
+    assert_int_equal(fclose(file), 0);
+    struct diag diag = {0};
+    struct input *input = input_open(scratch->path, &diag);
+    assert_non_null(input);
+    return input;
+}
+
+/* Everything in a file of these bytes: 0 with the text, or -1. */
+static int read_bytes(const struct scratch *scratch, const char *bytes, size_t length,
+                      struct text *text, struct diag *diag)
+{
+    struct input *input = open_bytes(scratch, bytes, length);
+    *diag = (struct diag){0};
+    int result = input_all(input, SIZE_MAX, text, diag);
+    input_close(input);
+    return result;
+}
+
+/* One gzip member, appended. Its header is the 10 bytes without a name. */
+static void add_member(const char *bytes, size_t length, struct text *text)
+{
+    z_stream stream = {0};
+    assert_int_equal(deflateInit2(&stream, 9, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY),
+                     Z_OK);
+    size_t bound = deflateBound(&stream, length);
+    stream.next_in = (unsigned char *)(uintptr_t)bytes;
+    stream.avail_in = (unsigned)length;
+    stream.next_out = (unsigned char *)text_room(text, bound);
+    stream.avail_out = (unsigned)bound;
+    assert_int_equal(deflate(&stream, Z_FINISH), Z_STREAM_END);
+    text->length += stream.total_out;
+    deflateEnd(&stream);
+}
+
+static struct text repeatable_bytes(size_t length, uint64_t seed)
+{
+    struct text text = {0};
+    for (size_t i = 0; i < length; i++)
+        text_add(&text, &"0123456789,\n{}ab"[sample_bits(&seed) % 16], 1);
+    return text;
+}
+
+static void plain_and_gzip_and_several_members_read_the_same(void **state)
+{
+    static const size_t lengths[] = {0, 1, 2, 3, 65535, 65536, 65537, 131072, 300000};
+    for (size_t i = 0; i < COUNT(lengths); i++) {
+        struct text bytes = repeatable_bytes(lengths[i], i), packed = {0}, members = {0};
+        const char *start = bytes.bytes != NULL ? bytes.bytes : "";
+        add_member(start, bytes.length, &packed);
+        for (size_t part = 0; part < 5; part++)
+            add_member(start + bytes.length * part / 5,
+                       bytes.length * (part + 1) / 5 - bytes.length * part / 5, &members);
+        const struct text forms[] = {
+            {(char *)(uintptr_t)start, bytes.length, 0},
+            packed, members
+        };
+        for (size_t form = 0; form < COUNT(forms); form++) {
+            struct text text = {0};
+            struct diag diag;
+            if (read_bytes(*state, forms[form].bytes, forms[form].length, &text, &diag) != 0)
+                fail_msg("%zu bytes, form %zu: %s", lengths[i], form, diag.text);
+            assert_int_equal(text.length, bytes.length);
+            if (text.length > 0)
+                assert_memory_equal(text.bytes, bytes.bytes, text.length);
+            text_free(&text);
+        }
+        text_free(&bytes);
+        text_free(&packed);
+        text_free(&members);
+    }
+}
+
+static void gzip_that_expands_a_thousandfold_is_read_whole(void **state)
+{
+    enum { LENGTH = 5000000 };
+    char *zeros = calloc(1, LENGTH);
+    struct text packed = {0}, text = {0};
+    struct diag diag;
+    add_member(zeros, LENGTH, &packed);
+    assert_true(packed.length < LENGTH / 900);
+    assert_int_equal(read_bytes(*state, packed.bytes, packed.length, &text, &diag), 0);
+    assert_int_equal(text.length, LENGTH);
+    assert_memory_equal(text.bytes, zeros, LENGTH);
+    text_free(&packed);
+    text_free(&text);
+    free(zeros);
+}
+
+static void gzip_cut_anywhere_is_refused(void **state)
+{
+    struct text bytes = repeatable_bytes(1500, 1), packed = {0};
+    add_member(bytes.bytes, bytes.length, &packed);
+    size_t first = packed.length;
+    add_member(bytes.bytes, bytes.length, &packed);
+    for (size_t length = 2; length < packed.length; length++) {
+        struct text text = {0};
+        struct diag diag;
+        int result = read_bytes(*state, packed.bytes, length, &text, &diag);
+        /* Between the members it is a whole file. */
+        assert_int_equal(result, length == first ? 0 : -1);
+        if (length != first) {
+            assert_string_equal(diag.text, "the gzip data ends early");
+            assert_int_equal(diag.code, DIAG_DATA);
+        }
+        text_free(&text);
+    }
+    text_free(&bytes);
+    text_free(&packed);
+}
+
+static void a_flipped_bit_in_gzip_is_refused_or_changes_nothing(void **state)
+{
+    struct text bytes = repeatable_bytes(400, 2), packed = {0};
+    add_member(bytes.bytes, bytes.length, &packed);
+    for (size_t i = 0; i < 8 * packed.length; i++) {
+        /* gzip does not protect the time, the extra flags and the system in its header, nor the
+         * flag that says the content is text. */
+        bool unprotected = (i / 8 >= 4 && i / 8 < 10) || i == 8 * 3;
+        struct text text = {0};
+        struct diag diag;
+        packed.bytes[i / 8] = (char)(packed.bytes[i / 8] ^ 1 << i % 8);
+        int result = read_bytes(*state, packed.bytes, packed.length, &text, &diag);
+        packed.bytes[i / 8] = (char)(packed.bytes[i / 8] ^ 1 << i % 8);
+        if (i / 8 < 2) {
+            /* No longer gzip by its first bytes: plain, and no JSON. */
+            assert_int_equal(result, 0);
+            assert_int_equal(text.length, packed.length);
+        } else {
+            if (result != (unprotected ? 0 : -1))
+                fail_msg("bit %zu of byte %zu: %d", i % 8, i / 8, result);
+            if (unprotected)
+                assert_memory_equal(text.bytes, bytes.bytes, bytes.length);
+            else
+                assert_int_equal(diag.code, DIAG_DATA);
+        }
+        text_free(&text);
+    }
+    text_free(&bytes);
+    text_free(&packed);
+}
+
+static void anything_after_the_last_member_is_refused(void **state)
+{
+    static const char *const tails[] = {"x", "\n", "{}\n", "\x1f", "\x1f\x8b", "\x1f\x8b\x08"};
+    for (size_t i = 0; i < COUNT(tails); i++) {
+        struct text packed = {0}, text = {0};
+        struct diag diag;
+        add_member("abc\n", 4, &packed);
+        text_add_word(&packed, tails[i]);
+        assert_int_equal(read_bytes(*state, packed.bytes, packed.length, &text, &diag), -1);
+        assert_int_equal(diag.code, DIAG_DATA);
+        text_free(&packed);
+        text_free(&text);
+    }
+    struct text packed = {0}, text = {0};
+    struct diag diag;
+    add_member("abc\n", 4, &packed);
+    text_add(&packed, "\0", 1);
+    assert_int_equal(read_bytes(*state, packed.bytes, packed.length, &text, &diag), -1);
+    text_free(&packed);
+    text_free(&text);
+}
+
+static void assert_lines(struct input *input, const char *const *lines, size_t count)
+{
+    struct diag diag = {0};
+    const char *line;
+    size_t length;
+    for (size_t i = 0; i < count; i++) {
+        assert_int_equal(input_line(input, 100, &line, &length, &diag), 1);
+        assert_int_equal(length, strlen(lines[i]));
+        assert_memory_equal(line, lines[i], length);
+    }
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(input_line(input, 100, &line, &length, &diag), 0);
+    input_close(input);
+}
+
+static void lines_end_at_newlines_and_at_the_end(void **state)
+{
+    static const char *const lines[] = {"a", "", "bc\r", "", "d"};
+    assert_lines(open_bytes(*state, "a\n\nbc\r\n\nd\n", 10), lines, 5);
+    assert_lines(open_bytes(*state, "a\n\nbc\r\n\nd", 9), lines, 5);
+    assert_lines(open_bytes(*state, "a\n\nbc\r\n\n", 8), lines, 4);
+    assert_lines(open_bytes(*state, "\n", 1), lines + 1, 1);
+    assert_lines(open_bytes(*state, "", 0), lines, 0);
+}
+
+static void lines_across_buffer_borders_are_whole(void **state)
+{
+    struct text bytes = {0}, packed = {0};
+    uint64_t random = 4;
+    static const size_t long_lines[] = {65534, 65535, 65536, 65537, 131071, 131072, 200000, 0, 1};
+    size_t count = 0;
+    for (; bytes.length < 1500000; count++) {
+        size_t length = count < COUNT(long_lines) ? long_lines[count] : sample_bits(&random) % 300;
+        for (size_t i = 0; i < length; i++)
+            text_add(&bytes, &"abcdefghij"[(count + i) % 10], 1);
+        text_add(&bytes, "\n", 1);
+    }
+    add_member(bytes.bytes, bytes.length, &packed);
+    const struct text forms[] = {bytes, packed};
+    for (size_t form = 0; form < 2; form++) {
+        struct input *input = open_bytes(*state, forms[form].bytes, forms[form].length);
+        const char *at = bytes.bytes, *line;
+        size_t length, lines = 0;
+        struct diag diag = {0};
+        for (; input_line(input, 200000, &line, &length, &diag) == 1; lines++, at += length + 1) {
+            assert_int_equal(length, strcspn(at, "\n"));
+            assert_memory_equal(line, at, length);
+        }
+        assert_int_equal(diag.code, DIAG_OK);
+        assert_int_equal(lines, count);
+        input_close(input);
+    }
+    text_free(&bytes);
+    text_free(&packed);
+}
+
+static void a_line_may_be_as_long_as_the_limit(void **state)
+{
+    static const size_t limits[] = {1, 10, 65535, 65536, 65537, 200000};
+    for (size_t i = 0; i < COUNT(limits); i++)
+        for (size_t extra = 0; extra < 2; extra++)
+            for (size_t newline = 0; newline < 2; newline++) {
+                size_t full = limits[i] + extra;
+                char *bytes = malloc(full + 1);
+                memset(bytes, 'x', full);
+                bytes[full] = '\n';
+                struct input *input = open_bytes(*state, bytes, full + newline);
+                const char *line;
+                size_t length;
+                struct diag diag = {0};
+                assert_int_equal(input_line(input, limits[i], &line, &length, &diag),
+                                 extra == 0 ? 1 : -1);
+                assert_int_equal(diag.code, extra == 0 ? DIAG_OK : DIAG_DATA);
+                if (extra == 0)
+                    assert_int_equal(length, full);
+                input_close(input);
+                free(bytes);
+            }
+}
+
+static void what_cannot_be_read_says_why(void **state)
+{
+    struct scratch *scratch = *state;
+    struct diag diag = {0};
+    assert_null(input_open("/nonexistent/file", &diag));
+    assert_string_equal(diag.text, "No such file or directory");
+    assert_int_equal(diag.code, DIAG_NO_INPUT);
+    diag = (struct diag){0};
+    struct input *input = input_open(scratch->directory, &diag);
+    assert_non_null(input);
+    assert_string_equal(input_name(input), scratch->directory);
+    struct text text = {0};
+    assert_int_equal(input_all(input, SIZE_MAX, &text, &diag), -1);
+    assert_string_equal(diag.text, "Is a directory");
+    assert_int_equal(diag.code, DIAG_NO_INPUT);
+    text_free(&text);
+    input_close(input);
+}
+
+/* A pipe hands over what it has: one byte at a time is the worst it can do. */
+static void a_pipe_that_drips_is_read_whole(void **state)
+{
+    (void)state;
+    struct text packed = {0}, text = {0};
+    struct diag diag = {0};
+    add_member("one\ntwo\n", 8, &packed);
+    int ends[2], standard = dup(STDIN_FILENO);
+    assert_int_equal(pipe(ends), 0);
+    pid_t child = fork();
+    if (child == 0) {
+        for (size_t i = 0; i < packed.length; i++) {
+            if (write(ends[1], packed.bytes + i, 1) != 1)
+                _exit(1);
+            for (volatile int wait = 0; wait < 20000; wait++)
+                continue;
+        }
+        _exit(0);
+    }
+    close(ends[1]);
+    dup2(ends[0], STDIN_FILENO);
+    close(ends[0]);
+    struct input *input = input_open("-", &diag);
+    assert_string_equal(input_name(input), "stdin");
+    assert_int_equal(input_all(input, SIZE_MAX, &text, &diag), 0);
+    assert_int_equal(text.length, 8);
+    assert_memory_equal(text.bytes, "one\ntwo\n", 8);
+    input_close(input);
+    assert_int_equal(waitpid(child, NULL, 0), child);
+    dup2(standard, STDIN_FILENO);
+    close(standard);
+    text_free(&packed);
+    text_free(&text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(plain_and_gzip_and_several_members_read_the_same),
+        cmocka_unit_test(gzip_that_expands_a_thousandfold_is_read_whole),
+        cmocka_unit_test(gzip_cut_anywhere_is_refused),
+        cmocka_unit_test(a_flipped_bit_in_gzip_is_refused_or_changes_nothing),
+        cmocka_unit_test(anything_after_the_last_member_is_refused),
+        cmocka_unit_test(lines_end_at_newlines_and_at_the_end),
+        cmocka_unit_test(lines_across_buffer_borders_are_whole),
+        cmocka_unit_test(a_line_may_be_as_long_as_the_limit),
+        cmocka_unit_test(what_cannot_be_read_says_why),
+        cmocka_unit_test(a_pipe_that_drips_is_read_whole),
+    };
+    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}

@@ -1,0 +1,356 @@
+#include "check.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "look.h"
+#include "sample.h"
+#include "units.h"
+
+/* A frame in which object "e" carries a sensor with a view all around ahead. */
+struct scene {
+    struct arena arena;
+    struct frame frame;
+    struct sensor sensor;
+};
+
+static int make_scene(void **state)
+{
+    struct scene *scene = calloc(1, sizeof *scene);
+    assert_non_null(scene);
+    scene->frame =
+        (struct frame){.scene = "s", .ego = "e", .time_s = 10, .interval_s = 1, .account = true};
+    scene->frame.arena = &scene->arena;
+    scene->sensor = (struct sensor){
+        .name = "front", .range_max_m = 100, .field_of_view_rad = PI, .range_min_m = 0.1};
+    *list_add(&scene->frame.objects, &scene->arena) =
+        (struct object){.id = "e", .class = "car", .length_m = 4, .width_m = 2};
+    *state = scene;
+    return 0;
+}
+
+static int remove_scene(void **state)
+{
+    struct scene *scene = *state;
+    arena_free(&scene->arena);
+    free(scene);
+    return 0;
+}
+
+static struct object *add_object(struct scene *scene, const char *id, double x_m, double y_m)
+{
+    struct object *object = list_add(&scene->frame.objects, &scene->arena);
+    *object = (struct object){
+        .id = id, .class = "car", .x_m = x_m, .y_m = y_m, .length_m = 4, .width_m = 2};
+    return object;
+}
+
+static struct reflector_set *add_set(struct scene *scene, const char *worn_by)
+{
+    struct reflector_set *set = list_add(&scene->frame.reflectors, &scene->arena);
+    *set = (struct reflector_set){.model = worn_by, .blocks = true};
+    *list_add(&set->worn_by, &scene->arena) = worn_by;
+    return set;
+}
+
+static struct point_reflector *add_point(struct scene *scene, struct reflector_set *set)
+{
+    struct point_reflector *point = list_add(&set->points, &scene->arena);
+    *point = (struct point_reflector){
+        .name = "pole", .full_rad = PI, .zero_rad = PI, .shape = VISIBILITY_HARD, .ercs = 0.5};
+    return point;
+}
+
+static struct look look_around_at(struct scene *scene, double time_s)
+{
+    struct look look;
+    struct diag diag = {0};
+    if (look_begin(&look, &scene->frame, &scene->sensor, time_s, &diag) != 0)
+        fail_msg("%s", diag.text);
+    look_around(&look);
+    return look;
+}
+
+/* The one loss of a frame with no echo. */
+static const struct lost_group *only_loss(const struct scene *scene)
+{
+    assert_int_equal(scene->frame.echoes.count, 0);
+    assert_int_equal(scene->frame.lost.count, 1);
+    assert_int_equal(scene->frame.lost.items[0].echoes.count, 1);
+    return &scene->frame.lost.items[0];
+}
+
+static void the_sensor_moves_with_the_lever_arm_of_a_turning_ego(void **state)
+{
+    struct scene *scene = *state;
+    struct object *ego = scene->frame.objects.items;
+    ego->x_m = 100;
+    ego->y_m = 50;
+    ego->yaw_rad = PI / 2;
+    ego->vy_mps = 10;
+    ego->yaw_rate_radps = 0.5;
+    scene->sensor.mount_x_m = 2;
+    scene->sensor.mount_y_m = -1;
+    scene->sensor.mount_yaw_rad = -PI / 2;
+    add_point(scene, add_set(scene, "a"));
+    add_object(scene, "a", 111, 52);
+    struct look look = look_around_at(scene, 10);
+    /* Facing north: 2 m ahead is +y, 1 m to the right is +x; ω × (1, 2) = 0.5 (-2, 1). */
+    assert_close(look.position_m.x, 101, 1e-12);
+    assert_close(look.position_m.y, 52, 1e-12);
+    assert_close(look.velocity_mps.x, -1, 1e-12);
+    assert_close(look.velocity_mps.y, 10.5, 1e-12);
+    assert_close(look.boresight.x, 1, 1e-12);
+    assert_close(look.boresight.y, 0, 1e-12);
+    const struct echo *echo = scene->frame.echoes.items;
+    assert_int_equal(scene->frame.echoes.count, 1);
+    assert_close(echo->range_m, 10, 1e-12);
+    assert_close(echo->azimuth_rad, 0, 1e-12);
+    assert_close(echo->range_rate_mps, 1, 1e-12);
+    assert_close(echo->ercs, 0.5, 0);
+}
+
+static void a_late_look_shows_where_everything_was(void **state)
+{
+    struct scene *scene = *state;
+    struct object *ego = scene->frame.objects.items;
+    ego->vx_mps = 20;
+    add_point(scene, add_set(scene, "a"));
+    add_point(scene, add_set(scene, "b"))->x = 0.5;
+    struct object *straight = add_object(scene, "a", 30, 0);
+    straight->vx_mps = -5;
+    /* On a circle about (40, 0) with radius 10: a quarter turn earlier it was at its bottom. */
+    struct object *turning = add_object(scene, "b", 50, 0);
+    turning->vy_mps = 10;
+    turning->yaw_rad = PI / 2;
+    turning->yaw_rate_radps = 1;
+    double age_s = PI / 2;
+    look_around_at(scene, 10 - age_s);
+    const struct echo *echo = scene->frame.echoes.items;
+    assert_int_equal(scene->frame.echoes.count, 2);
+    assert_string_equal(echo[0].object, "a");
+    assert_close(echo[0].range_m, 30 + 5 * age_s + 20 * age_s, 1e-9);
+    assert_close(echo[0].range_rate_mps, -25, 1e-9);
+    assert_close(echo[0].time_s, 10 - age_s, 0);
+    /* Its front, 2 m ahead of (40, -10), where it headed along +x. */
+    double x = 40 + 2 + 20 * age_s, y = -10;
+    assert_close(echo[1].range_m, hypot(x, y), 1e-9);
+    assert_close(echo[1].azimuth_rad, atan2(y, x), 1e-12);
+    /* Velocity of the front then: (10, 0) + 1 × (2, 0) = (10, 2); the sensor's is (20, 0). */
+    assert_close(echo[1].range_rate_mps, (-10 * x + 2 * y) / hypot(x, y), 1e-9);
+}
+
+static void the_first_blocker_by_id_is_named(void **state)
+{
+    struct scene *scene = *state;
+    add_point(scene, add_set(scene, "far"))->ercs = 1;
+    add_set(scene, "y");
+    add_set(scene, "x");
+    add_set(scene, "w")->blocks = false;
+    add_object(scene, "far", 40, 0);
+    add_object(scene, "y", 10, 0);
+    add_object(scene, "x", 20, 0);
+    add_object(scene, "w", 30, 0);
+    struct look look = look_around_at(scene, 10);
+    const struct lost_group *lost = only_loss(scene);
+    assert_int_equal(lost->reason, LOSS_BLOCKED);
+    assert_string_equal(lost->stage, "ideal");
+    assert_string_equal(lost->sensor, "front");
+    assert_string_equal(lost->echoes.items[0].object, "far");
+    assert_string_equal(lost->echoes.items[0].by, "x");
+    assert_int_equal(look.pairs, 1);
+    assert_int_equal(scene->frame.counts.items[0].pairs, 1);
+    assert_int_equal(scene->frame.counts.items[0].paths.items[0].echoes, 0);
+}
+
+static void an_object_does_not_block_itself_and_the_ego_blocks_nothing(void **state)
+{
+    struct scene *scene = *state;
+    struct reflector_set *set = add_set(scene, "a");
+    add_point(scene, set)->x = 0.5; /* the far end */
+    add_object(scene, "a", 20, 0);
+    scene->sensor.mount_x_m = -2; /* looks through its own car */
+    look_around_at(scene, 10);
+    assert_int_equal(scene->frame.echoes.count, 1);
+    assert_close(scene->frame.echoes.items[0].range_m, 24, 1e-12);
+}
+
+static void wheel_houses_are_seen_under_raised_vehicles_only(void **state)
+{
+    struct scene *scene = *state;
+    struct reflector_set *set = add_set(scene, "far");
+    add_point(scene, set)->name = "corner";
+    struct point_reflector *wheel = add_point(scene, set);
+    wheel->name = "wheel";
+    wheel->under_vehicles = 0.5;
+    add_set(scene, "truck")->raised = true;
+    add_object(scene, "far", 40, 0);
+    struct object *truck = add_object(scene, "truck", 20, 0);
+    look_around_at(scene, 10);
+    assert_int_equal(scene->frame.echoes.count, 1);
+    assert_string_equal(scene->frame.echoes.items[0].reflector, "wheel");
+    assert_close(scene->frame.echoes.items[0].ercs, 0.25, 0);
+    assert_string_equal(scene->frame.lost.items[0].echoes.items[0].reflector, "corner");
+    assert_string_equal(scene->frame.lost.items[0].echoes.items[0].by, "truck");
+    /* With a solid one behind it both are gone; without anything both are whole. */
+    add_set(scene, "wall");
+    struct object *wall = add_object(scene, "wall", 30, 0);
+    scene->frame.echoes.count = 0;
+    look_around_at(scene, 10);
+    assert_int_equal(scene->frame.echoes.count, 0);
+    wall->y_m = 20;
+    truck = &scene->frame.objects.items[2];
+    truck->y_m = 20;
+    look_around_at(scene, 10);
+    assert_int_equal(scene->frame.echoes.count, 2);
+    assert_close(scene->frame.echoes.items[1].ercs, 0.5, 0);
+}
+
+static void every_loss_has_its_reason(void **state)
+{
+    (void)state;
+    static const struct {
+        double x_m, y_m, facing_rad;
+        enum loss reason;
+    } cases[] = {
+        {50,    0,      0,           LOSS_FACING_AWAY },
+        {100.1, 0,      PI,          LOSS_OUT_OF_RANGE},
+        {0.05,  0,      PI,          LOSS_OUT_OF_RANGE},
+        {10,    10.001, -3 * PI / 4, LOSS_OUT_OF_VIEW },
+        {-10,   0,      0,           LOSS_OUT_OF_VIEW },
+        {0,     0,      0,           LOSS_OUT_OF_RANGE},
+        {500,   0,      0,           LOSS_FACING_AWAY }
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        void *place;
+        make_scene(&place);
+        struct scene *scene = place;
+        scene->sensor.field_of_view_rad = PI / 2;
+        struct point_reflector *point = add_point(scene, add_set(scene, "a"));
+        point->facing_rad = cases[i].facing_rad;
+        point->zero_rad = 1;
+        add_object(scene, "a", cases[i].x_m, cases[i].y_m);
+        look_around_at(scene, 10);
+        assert_int_equal(only_loss(scene)->reason, cases[i].reason);
+        remove_scene(&place);
+    }
+}
+
+static void planes_mirror_from_the_foot_of_the_perpendicular(void **state)
+{
+    struct scene *scene = *state;
+    struct reflector_set *set = add_set(scene, "a");
+    *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
+        .name = "rear", .from_x = -0.5, .from_y = 0.5, .to_x = -0.5, .to_y = -0.5, .ercs = 0.7};
+    struct object *car = add_object(scene, "a", 20, 0.9);
+    look_around_at(scene, 10);
+    assert_int_equal(scene->frame.echoes.count, 1);
+    assert_close(scene->frame.echoes.items[0].range_m, 18, 1e-12);
+    assert_close(scene->frame.echoes.items[0].azimuth_rad, 0, 1e-12);
+    scene->frame.echoes.count = 0;
+    car = &scene->frame.objects.items[1];
+    car->y_m = 1.1;
+    look_around_at(scene, 10);
+    assert_int_equal(only_loss(scene)->reason, LOSS_NO_SPECULAR);
+}
+
+static void rows_are_expanded_in_range_and_no_post_is_missed(void **state)
+{
+    (void)state;
+    uint64_t random = 6;
+    for (int i = 0; i < 20000; i++) {
+        struct box box = {
+            .motion.position_m = {sample_between(&random, -50, 50),
+                                  sample_between(&random, -50, 50)},
+            .heading = vec2_heading(sample_between(&random, -4, 4)),
+            .length_m = sample_between(&random, 0, i % 7 ? 300 : 0.1),
+            .width_m = sample_between(&random, 0, 5)
+        };
+        struct post_row row = {.from_x = sample_between(&random, -1, 1),
+                               .from_y = sample_between(&random, -1, 1),
+                               .to_x = sample_between(&random, -1, 1),
+                               .to_y = sample_between(&random, -1, 1),
+                               .spacing_m = i % 5 ? sample_between(&random, 0.5, 20) : 4};
+        if (i % 11 == 0)
+            row.to_x = row.from_x, row.to_y = row.from_y;
+        struct vec2 sensor = {sample_between(&random, -200, 200), sample_between(&random, -9, 9)};
+        double range_m = sample_between(&random, 0, 120);
+        double length_m = vec2_length(vec2_sub(reflectors_place(&box, row.to_x, row.to_y),
+                                               reflectors_place(&box, row.from_x, row.from_y)));
+        int64_t posts = 1 + (int64_t)floor(length_m / row.spacing_m), first, end, within = 0;
+        reflectors_posts_within(&box, &row, sensor, range_m, &first, &end);
+        assert_true(0 <= first && first <= posts && end <= posts + 1);
+        for (int64_t post = 0; post < posts; post++) {
+            struct vec2 place = reflectors_post_place(&box, &row, post);
+            bool in_range = vec2_length(vec2_sub(place, sensor)) <= range_m;
+            within += in_range;
+            if (in_range)
+                assert_true(first <= post && post < end);
+        }
+        assert_true(end - first <= within + 2 || length_m == 0);
+    }
+}
+
+static void posts_become_echoes_with_their_numbers(void **state)
+{
+    struct scene *scene = *state;
+    struct reflector_set *set = add_set(scene, "rail");
+    set->blocks = false;
+    *list_add(&set->rows, &scene->arena) = (struct post_row){.name = "post",
+                                                             .from_x = -0.5,
+                                                             .to_x = 0.5,
+                                                             .spacing_m = 4,
+                                                             .full_rad = PI,
+                                                             .zero_rad = PI,
+                                                             .shape = VISIBILITY_HARD,
+                                                             .ercs = 0.2};
+    struct object *rail = add_object(scene, "rail", 0, 5);
+    rail->length_m = 400;
+    struct look look = look_around_at(scene, 10);
+    /* Posts at x = -200 + 4 n; those ahead within 100 m: x = 4 to 96, n = 51 to 74. */
+    assert_int_equal(scene->frame.echoes.count, 24);
+    for (int i = 0; i < 24; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "post_%d", 51 + i);
+        assert_string_equal(scene->frame.echoes.items[i].reflector, name);
+        assert_close(scene->frame.echoes.items[i].range_m, hypot(4 + 4 * i, 5), 1e-9);
+    }
+    /* Behind: x = -96 to 0 are out of view; the two at 100 m aside are out of range. */
+    assert_in_range(look.pairs, 49, 51);
+    size_t lost = 0;
+    for (size_t i = 0; i < scene->frame.lost.count; i++)
+        lost += scene->frame.lost.items[i].echoes.count;
+    assert_int_equal(lost + 24, look.pairs);
+    assert_int_equal(look.echoes, 24);
+}
+
+static void a_set_on_nobody_is_refused(void **state)
+{
+    struct scene *scene = *state;
+    struct look look;
+    struct diag diag = {0};
+    add_set(scene, "ghost");
+    assert_int_equal(look_begin(&look, &scene->frame, &scene->sensor, 10, &diag), -1);
+    assert_string_equal(diag.text, "reflectors[0].worn_by[0]: \"ghost\" is not among the objects, "
+                                   "or is the ego");
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, make_scene, remove_scene)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(the_sensor_moves_with_the_lever_arm_of_a_turning_ego),
+        TEST(a_late_look_shows_where_everything_was),
+        TEST(the_first_blocker_by_id_is_named),
+        TEST(an_object_does_not_block_itself_and_the_ego_blocks_nothing),
+        TEST(wheel_houses_are_seen_under_raised_vehicles_only),
+        TEST(every_loss_has_its_reason),
+        TEST(planes_mirror_from_the_foot_of_the_perpendicular),
+        TEST(rows_are_expanded_in_range_and_no_post_is_missed),
+        TEST(posts_become_echoes_with_their_numbers),
+        TEST(a_set_on_nobody_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,208 @@
+#include "check.h"
+
+#include <float.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "number.h"
+#include "sample.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+static const char *text_of(double value, char text[NUMBER_SIZE + 1])
+{
+    size_t length = number_write(value, text);
+    assert_in_range(length, 1, NUMBER_SIZE);
+    text[length] = '\0';
+    return text;
+}
+
+static bool reads(const char *text, double *value)
+{
+    return number_read(text, text + strlen(text), value);
+}
+
+static double from_bits(uint64_t bits)
+{
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* Digits without leading zeros, point, sign, exponent, and zeros that only hold the place. */
+static size_t digits_in(const char *text)
+{
+    char digits[NUMBER_SIZE + 8];
+    size_t count = 0;
+    for (; *text != '\0' && *text != 'e'; text++)
+        if (*text >= '0' && *text <= '9' && (*text != '0' || count > 0))
+            digits[count++] = *text;
+    while (count > 0 && digits[count - 1] == '0')
+        count--;
+    return count;
+}
+
+static void a_million_bit_patterns_come_back(void **state)
+{
+    (void)state;
+    uint64_t random = 1;
+    for (int i = 0; i < 1000000; i++) {
+        double value = from_bits(sample_bits(&random) << 16 ^ sample_bits(&random)), back;
+        if (!isfinite(value))
+            continue;
+        char text[NUMBER_SIZE + 1];
+        if (!reads(text_of(value, text), &back) || memcmp(&back, &value, sizeof back) != 0)
+            fail_msg("%.17g became %s", value, text);
+    }
+}
+
+/* By trial: %.*e with one digit less than were written must not restore the double. */
+static void no_shorter_decimal_would_do(void **state)
+{
+    (void)state;
+    uint64_t random = 2;
+    for (int i = 0; i < 100000; i++) {
+        double value = i % 2 ? from_bits(sample_bits(&random) << 16 ^ sample_bits(&random))
+                             : (double)sample_integer(&random, 1000000) / 1000;
+        if (!isfinite(value) || value == 0)
+            continue;
+        char text[NUMBER_SIZE + 1], plain[64];
+        size_t digits = digits_in(text_of(value, text));
+        snprintf(plain, sizeof plain, "%.17g", value);
+        assert_true(strlen(text) <= strlen(plain));
+        /* Large whole numbers are written out to the last digit, where that is no longer. */
+        if (strpbrk(text, ".e") == NULL && fabs(value) > 0x1p53)
+            continue;
+        assert_in_range(digits, 1, 17);
+        if (digits > 1) {
+            snprintf(plain, sizeof plain, "%.*e", (int)digits - 2, value);
+            assert_true(strtod(plain, NULL) != value);
+        }
+    }
+}
+
+static void numbers_look_as_people_write_them(void **state)
+{
+    (void)state;
+    static const struct {
+        double value;
+        const char *text;
+    } cases[] = {
+        {0,                      "0"                      },
+        {-0.0,                   "-0.0"                   },
+        {1,                      "1"                      },
+        {-1.5,                   "-1.5"                   },
+        {0.1,                    "0.1"                    },
+        {0.3,                    "0.3"                    },
+        {0.1 + 0.2,              "0.30000000000000004"    },
+        {1e22,                   "1e+22"                  },
+        {123456,                 "123456"                 },
+        {1e-7,                   "1e-07"                  },
+        {5e-324,                 "5e-324"                 },
+        {DBL_MIN,                "2.2250738585072014e-308"},
+        {DBL_MAX,                "1.7976931348623157e+308"},
+        {9007199254740993.0,     "9007199254740992"       },
+        {3.14159265358979323846, "3.141592653589793"      }
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        char text[NUMBER_SIZE + 1];
+        assert_string_equal(text_of(cases[i].value, text), cases[i].text);
+    }
+}
+
+static void subnormals_and_the_ends_of_the_range_come_back(void **state)
+{
+    (void)state;
+    for (uint64_t near = 0; near < 2000; near++) {
+        const uint64_t places[] = {
+            near, UINT64_C(0x0010000000000000) - 1000 + near, UINT64_C(0x7fefffffffffffff) - near,
+            UINT64_C(0x8000000000000000) + near, UINT64_C(0x3ff0000000000000) - 1000 + near};
+        for (size_t i = 0; i < COUNT(places); i++) {
+            char text[NUMBER_SIZE + 1];
+            double value = from_bits(places[i]), back;
+            assert_true(reads(text_of(value, text), &back));
+            assert_memory_equal(&back, &value, sizeof value);
+        }
+    }
+}
+
+static void too_large_is_refused_and_too_small_is_zero(void **state)
+{
+    (void)state;
+    static const char *const large[] = {
+        "1e309",        "-1e309", "1.7976931348623159e308", "1e400", "1e99999999999999999999",
+        "123456789e301"};
+    static const char *const small[] = {
+        "1e-400", "0.0000e-5", "2e-324", "1e-99999999999999999999", "0e99999999999999999999",
+        "0e400"};
+    double value;
+    for (size_t i = 0; i < COUNT(large); i++)
+        if (reads(large[i], &value))
+            fail_msg("%s was taken as %g", large[i], value);
+    for (size_t i = 0; i < COUNT(small); i++) {
+        char negative[64];
+        snprintf(negative, sizeof negative, "-%s", small[i]);
+        assert_true(reads(small[i], &value));
+        assert_true(value == 0 && !signbit(value));
+        assert_true(reads(negative, &value));
+        assert_true(value == 0 && signbit(value));
+    }
+    assert_true(reads("1.7976931348623158e308", &value) && value == DBL_MAX);
+    assert_true(reads("3e-324", &value) && value == from_bits(1));
+    assert_true(reads("2.2250738585072011e-308", &value) &&
+                value == from_bits(UINT64_C(0x000fffffffffffff)));
+}
+
+static void decimals_round_to_the_nearest_double(void **state)
+{
+    (void)state;
+    uint64_t random = 3;
+    for (int i = 0; i < 200000; i++) {
+        char text[80];
+        int length = snprintf(text, sizeof text, "%s%llu", i % 2 ? "-" : "",
+                              (unsigned long long)sample_bits(&random));
+        if (i % 3 > 0)
+            length += snprintf(text + length, sizeof text - (size_t)length, ".%0*llu",
+                               1 + (int)(sample_bits(&random) % 25),
+                               (unsigned long long)sample_bits(&random));
+        if (i % 5 > 0)
+            snprintf(text + length, sizeof text - (size_t)length, "%c%lld", i % 2 ? 'e' : 'E',
+                     (long long)sample_integer(&random, 330));
+        double value, expected = strtod(text, NULL);
+        assert_int_equal(reads(text, &value), isfinite(expected));
+        if (isfinite(expected) && memcmp(&value, &expected, sizeof value) != 0)
+            fail_msg("%s became %.17g", text, value);
+    }
+    /* Exactly between two doubles: to the even one; a digit far behind decides. */
+    double value;
+    assert_true(reads("9007199254740993", &value) && value == 9007199254740992.0);
+    assert_true(reads("9007199254740995", &value) && value == 9007199254740996.0);
+    assert_true(reads("9007199254740993.00000000000000000000000000000000001", &value) &&
+                value == 9007199254740994.0);
+}
+
+static void nothing_may_follow_the_number(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"1x",    "1 ", " 1",  "1e", "1e+", "-",
+                                        "1.2.3", "+1", "--1", "x",  "1,5"};
+    double value;
+    for (size_t i = 0; i < COUNT(texts); i++)
+        if (reads(texts[i], &value))
+            fail_msg("\"%s\" was taken", texts[i]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_million_bit_patterns_come_back),
+        cmocka_unit_test(no_shorter_decimal_would_do),
+        cmocka_unit_test(numbers_look_as_people_write_them),
+        cmocka_unit_test(subnormals_and_the_ends_of_the_range_come_back),
+        cmocka_unit_test(too_large_is_refused_and_too_small_is_zero),
+        cmocka_unit_test(decimals_round_to_the_nearest_double),
+        cmocka_unit_test(nothing_may_follow_the_number),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

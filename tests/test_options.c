@@ -1,0 +1,237 @@
+#include "check.h"
+
+#include <string.h>
+
+#include "options.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+struct choice {
+    const char *where;
+    double radius_m;
+    int64_t number;
+    bool quick;
+    int mode;
+};
+
+static const char *const modes[] = {"slow", "fast", NULL};
+
+static const struct field fields[] = {
+    {FIELD_NAME_OF(struct choice, where, "the place")},
+    {FIELD_REAL_IN(struct choice,               radius_m, -5, 100, "how far"), FIELD_OPTIONAL, .absent = 7},
+    {FIELD_INTEGER_IN(struct choice, number, 0, 9, "how many"), FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct choice,                         quick, "hurry"), FIELD_OPTIONAL},
+    {FIELD_CHOICE_OF(struct choice,                 mode, modes, "which way"), FIELD_OPTIONAL},
+    {0               }
+};
+static const struct record choices = {
+    .name = "stage", .size = sizeof(struct choice), .fields = fields};
+
+static int no_frame(void *state, struct frame *frame, struct runner *runner)
+{
+    (void)state, (void)frame, (void)runner;
+    return 0;
+}
+
+static const struct stage filter = {.name = "filter",
+                                    .summary = "Filter.",
+                                    .options = &choices,
+                                    .reads = SECTION_ECHOES,
+                                    .writes = SECTION_CELLS,
+                                    .step = no_frame};
+static const struct stage source = {.name = "source",
+                                    .summary = "Make.",
+                                    .options = &choices,
+                                    .operand = "PLACE",
+                                    .writes = SECTION_OBJECTS,
+                                    .next = no_frame};
+
+struct result {
+    struct choice choice;
+    struct common_options common;
+    struct diag diag;
+    struct arena arena;
+};
+
+/* The words are parted by single blanks. */
+static int read_line(const struct stage *stage, const char *line, struct result *result)
+{
+    const char *words[32];
+    size_t count = 0;
+    *result = (struct result){0};
+    for (const char *at = line; *at != '\0'; at += strspn(at, " ")) {
+        size_t length = strcspn(at, " ");
+        assert_true(count < COUNT(words));
+        words[count++] = arena_text(&result->arena, at, length);
+        at += length;
+    }
+    return options_read(stage, count, words, &result->choice, &result->common, &result->arena,
+                        &result->diag);
+}
+
+static void options_come_in_any_order_and_both_spellings(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {
+        "--where here --radius-m 50 --number 3 --quick --mode fast -o out --seed 5 --keep a b",
+        "a --mode=fast --quick --number=3 --radius-m=5e1 --where=here --output=out --seed=5 b "
+        "--keep",
+        "--keep --radius-m 1 --radius-m 50 --quick --where x --where here --number 3 --mode fast "
+        "--output out --seed 5 -- a b"};
+    for (size_t i = 0; i < COUNT(lines); i++) {
+        struct result result;
+        if (read_line(&filter, lines[i], &result) != 0)
+            fail_msg("%s: %s", lines[i], result.diag.text);
+        assert_string_equal(result.choice.where, "here");
+        assert_close(result.choice.radius_m, 50, 0);
+        assert_int_equal(result.choice.number, 3);
+        assert_true(result.choice.quick && result.common.keep && !result.common.complete);
+        assert_int_equal(result.choice.mode, 1);
+        assert_string_equal(result.common.output, "out");
+        assert_int_equal(result.common.seed, 5);
+        assert_int_equal(result.common.files.count, 2);
+        assert_string_equal(result.common.files.items[1], "b");
+        arena_free(&result.arena);
+    }
+}
+
+static void what_is_not_given_is_absent(void **state)
+{
+    (void)state;
+    struct result result;
+    assert_int_equal(read_line(&filter, "--where x", &result), 0);
+    assert_close(result.choice.radius_m, 7, 0);
+    assert_false(result.choice.quick || result.common.keep || result.common.help);
+    assert_null(result.common.output);
+    assert_null(result.common.seed_text);
+    assert_int_equal(result.common.seed, OPTIONS_DEFAULT_SEED);
+    assert_int_equal(result.common.files.count, 0);
+    arena_free(&result.arena);
+}
+
+static void values_and_files_may_begin_with_a_dash(void **state)
+{
+    (void)state;
+    struct result result;
+    assert_int_equal(read_line(&filter, "--radius-m -5 --where -x - -- --where -", &result), 0);
+    assert_close(result.choice.radius_m, -5, 0);
+    assert_string_equal(result.choice.where, "-x");
+    assert_int_equal(result.common.files.count, 3);
+    assert_string_equal(result.common.files.items[0], "-");
+    assert_string_equal(result.common.files.items[1], "--where");
+    arena_free(&result.arena);
+    assert_int_equal(read_line(&source, "--seed 18446744073709551615 here", &result), 0);
+    assert_string_equal(result.choice.where, "here");
+    assert_true(result.common.seed == UINT64_MAX);
+    arena_free(&result.arena);
+}
+
+static void help_and_version_need_nothing_else(void **state)
+{
+    (void)state;
+    struct result result;
+    assert_int_equal(read_line(&filter, "--help", &result), 0);
+    assert_true(result.common.help);
+    arena_free(&result.arena);
+    assert_int_equal(read_line(&source, "--version", &result), 0);
+    assert_true(result.common.version);
+    arena_free(&result.arena);
+}
+
+static void wrong_command_lines_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const struct stage *stage;
+        const char *line, *message;
+    } cases[] = {
+        {&filter, "",               "missing --where: the place; see --help"               },
+        {&source, "",               "missing PLACE: the place; see --help"                 },
+        {&source, "a b",            "one argument too many: b"                             },
+        {&source, "a -x",           "unknown option -x; see --help"                        },
+        {&source, "a --where b",    "unknown option --where; see --help"                   },
+        {&source, "a --keep",       "unknown option --keep; see --help"                    },
+        {&source, "a --complete",   "unknown option --complete; see --help"                },
+        {&filter, "--wher x",       "unknown option --wher; see --help"                    },
+        {&filter, "--where_ x",     "unknown option --where_; see --help"                  },
+        {&filter, "--seed-text 1",  "unknown option --seed-text; see --help"               },
+        {&filter, "--files 1",      "unknown option --files; see --help"                   },
+        {&filter, "--=1",           "unknown option --=1; see --help"                      },
+        {&filter, "--where",        "--where needs a value"                                },
+        {&filter, "--where x -o",   "-o needs a value"                                     },
+        {&filter, "--quick=yes",    "--quick takes no value"                               },
+        {&filter, "--where=",       "--where: a name of 0 bytes; expected 1 to 1024"       },
+        {&filter, "--number 1.5",   "--number: 1.5 is not a whole number"                  },
+        {&filter, "--number 10",    "--number: 10 is outside [0, 9]"                       },
+        {&filter, "--number ten",   "--number: ten; expected a whole number in [0, 9]"     },
+        {&filter, "--number nan",   "--number: nan; expected a whole number in [0, 9]"     },
+        {&filter, "--number 0x1",   "--number: 0x1; expected a whole number in [0, 9]"     },
+        {&filter, "--number=",      "--number: ; expected a whole number in [0, 9]"        },
+        {&filter, "--radius-m 101", "--radius-m: 101 is outside [-5, 100] m"               },
+        {&filter, "--mode up",      "--mode: \"up\" is unknown; expected one of slow, fast"},
+        {&filter, "--seed -1",
+         "--seed: \"-1\" is no seed; expected decimal digits up to 18446744073709551615"   }
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct result result;
+        assert_int_equal(read_line(cases[i].stage, cases[i].line, &result), -1);
+        assert_string_equal(result.diag.text, cases[i].message);
+        assert_int_equal(result.diag.code, DIAG_USAGE);
+        arena_free(&result.arena);
+    }
+}
+
+static void assert_helps(const struct stage *stage, const char *const *parts, size_t count)
+{
+    struct text text = {0};
+    options_help(stage, &text);
+    text_add(&text, "", 1);
+    for (size_t i = 0; i < count; i++)
+        if (strstr(text.bytes, parts[i]) == NULL)
+            fail_msg("\"%s\" is not in:\n%s", parts[i], text.bytes);
+    text_free(&text);
+}
+
+static void help_names_every_option_with_unit_bounds_and_choices(void **state)
+{
+    (void)state;
+    static const char *const of_filter[] = {"Usage: glint-filter [OPTION]... [FILE]...\nFilter.\n",
+                                            "reads echoes.\n",
+                                            "writes cells.\n",
+                                            "      --where=NAME ",
+                                            "      --radius-m=NUMBER ",
+                                            "how far (-5 to 100 m)\n",
+                                            "how many (0 to 9)\n",
+                                            "      --quick ",
+                                            "which way (slow, fast)\n",
+                                            "  -o, --output=FILE ",
+                                            "      --keep ",
+                                            "      --complete ",
+                                            "      --seed=SEED ",
+                                            "      --help ",
+                                            "      --version ",
+                                            "\nExit status: 0"};
+    static const char *const of_source[] = {"Usage: glint-source [OPTION]... PLACE\nMake.\n",
+                                            "\nPLACE: the place.\n", "writes objects.\n"};
+    assert_helps(&filter, of_filter, COUNT(of_filter));
+    assert_helps(&source, of_source, COUNT(of_source));
+    struct text text = {0};
+    options_help(&source, &text);
+    text_add(&text, "", 1);
+    assert_null(strstr(text.bytes, "--keep"));
+    assert_null(strstr(text.bytes, "--where"));
+    text_free(&text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(options_come_in_any_order_and_both_spellings),
+        cmocka_unit_test(what_is_not_given_is_absent),
+        cmocka_unit_test(values_and_files_may_begin_with_a_dash),
+        cmocka_unit_test(help_and_version_need_nothing_else),
+        cmocka_unit_test(wrong_command_lines_are_refused),
+        cmocka_unit_test(help_names_every_option_with_unit_bounds_and_choices),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

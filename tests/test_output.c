@@ -1,0 +1,228 @@
+#include "check.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "input.h"
+#include "output.h"
+
+struct scratch {
+    char directory[64];
+    char path[96], packed[96], fifo[96];
+};
+
+static int make_scratch(void **state)
+{
+    struct scratch *scratch = calloc(1, sizeof *scratch);
+    assert_non_null(scratch);
+    strcpy(scratch->directory, "/tmp/glint-output-XXXXXX");
+    assert_non_null(mkdtemp(scratch->directory));
+    snprintf(scratch->path, sizeof scratch->path, "%s/a", scratch->directory);
+    snprintf(scratch->packed, sizeof scratch->packed, "%s/a.gz", scratch->directory);
+    snprintf(scratch->fifo, sizeof scratch->fifo, "%s/fifo", scratch->directory);
+    *state = scratch;
+    return 0;
+}
+
+static int remove_scratch(void **state)
+{
+    struct scratch *scratch = *state;
+    unlink(scratch->path);
+    unlink(scratch->packed);
+    unlink(scratch->fifo);
+    rmdir(scratch->directory);
+    free(scratch);
+    return 0;
+}
+
+static int files_in(const char *directory)
+{
+    DIR *list = opendir(directory);
+    int count = -2; /* . and .. */
+    while (readdir(list) != NULL)
+        count++;
+    closedir(list);
+    return count;
+}
+
+static struct text read_all(const char *path)
+{
+    struct text text = {0};
+    struct diag diag = {0};
+    struct input *input = input_open(path, &diag);
+    if (input == NULL || input_all(input, SIZE_MAX, &text, &diag) != 0)
+        fail_msg("%s", diag.text);
+    input_close(input);
+    return text;
+}
+
+static struct text sample_text(size_t length)
+{
+    struct text text = {0};
+    for (size_t i = 0; i < length; i++)
+        text_add(&text, &"0123456789abcde\n"[(i * i / 7 + i / 1000) % 16], 1);
+    return text;
+}
+
+/* In pieces of the given size. */
+static void write_file(const char *path, const struct text *text, size_t piece)
+{
+    struct diag diag = {0};
+    struct output *output = output_open(path, &diag);
+    assert_non_null(output);
+    for (size_t at = 0; at < text->length; at += piece)
+        assert_int_equal(output_write(output, text->bytes + at,
+                                      piece < text->length - at ? piece : text->length - at, &diag),
+                         0);
+    assert_int_equal(output_close(output, 1, &diag), 0);
+}
+
+static void what_is_written_can_be_read(void **state)
+{
+    struct scratch *scratch = *state;
+    static const size_t lengths[] = {0, 1, 65535, 65536, 65537, 500000},
+                        pieces[] = {1, 100, 65536, 65537, 500000};
+    for (size_t i = 0; i < 6; i++)
+        for (size_t j = i > 4 ? 1 : 0; j < 5; j++)
+            for (int packed = 0; packed < 2; packed++) {
+                const char *path = packed ? scratch->packed : scratch->path;
+                struct text text = sample_text(lengths[i]);
+                write_file(path, &text, pieces[j]);
+                struct text back = read_all(path);
+                assert_int_equal(back.length, text.length);
+                if (text.length > 0)
+                    assert_memory_equal(back.bytes, text.bytes, text.length);
+                text_free(&back);
+                text_free(&text);
+            }
+    assert_int_equal(files_in(scratch->directory), 2);
+}
+
+static void gz_is_gzip_and_depends_on_nothing_but_its_content(void **state)
+{
+    struct scratch *scratch = *state;
+    struct text text = sample_text(200000);
+    unsigned char first[70000], second[70000];
+    size_t lengths[2];
+    for (int i = 0; i < 2; i++) {
+        char other[128];
+        snprintf(other, sizeof other, "%s/other%d.gz", scratch->directory, i);
+        write_file(other, &text, i ? 1000 : 70001);
+        FILE *file = fopen(other, "rb");
+        lengths[i] = fread(i ? second : first, 1, sizeof first, file);
+        fclose(file);
+        unlink(other);
+        sleep(i == 0);
+    }
+    assert_int_equal(lengths[0], lengths[1]);
+    assert_in_range(lengths[0], 100, sizeof first - 1);
+    assert_memory_equal(first, second, lengths[0]);
+    /* The magic, deflate, no flags (so no name), no time. */
+    assert_memory_equal(first, "\x1f\x8b\x08\0\0\0\0\0", 8);
+    text_free(&text);
+}
+
+static void the_name_is_taken_only_when_the_file_is_whole(void **state)
+{
+    struct scratch *scratch = *state;
+    for (int packed = 0; packed < 2; packed++)
+        for (int whole = 0; whole < 2; whole++) {
+            const char *path = packed ? scratch->packed : scratch->path;
+            struct text old = {0}, new = sample_text(100000), back;
+            text_add_word(&old, "old");
+            write_file(path, &old, 3);
+            int before = files_in(scratch->directory);
+            struct diag diag = {0};
+            struct output *output = output_open(path, &diag);
+            assert_int_equal(output_write(output, new.bytes, new.length, &diag), 0);
+            back = read_all(path);
+            assert_int_equal(back.length, 3);
+            text_free(&back);
+            assert_int_equal(files_in(scratch->directory), before + 1);
+            assert_int_equal(output_close(output, whole, &diag), 0);
+            assert_int_equal(files_in(scratch->directory), before);
+            back = read_all(path);
+            assert_int_equal(back.length, whole ? new.length : old.length);
+            text_free(&back);
+            text_free(&old);
+            text_free(&new);
+        }
+}
+
+static void what_cannot_be_made_says_why_and_leaves_nothing(void **state)
+{
+    struct scratch *scratch = *state;
+    int before = files_in(scratch->directory);
+    struct diag diag = {0};
+    assert_null(output_open("/nonexistent/a", &diag));
+    assert_string_equal(diag.text, "/nonexistent/a: No such file or directory");
+    assert_int_equal(diag.code, DIAG_CANNOT_CREATE);
+    diag = (struct diag){0};
+    assert_null(output_open(scratch->directory, &diag));
+    assert_non_null(strstr(diag.text, ": Is a directory"));
+    assert_int_equal(diag.code, DIAG_CANNOT_CREATE);
+    assert_int_equal(files_in(scratch->directory), before);
+}
+
+static void a_full_device_is_noticed_at_the_latest_when_it_is_closed(void **state)
+{
+    (void)state;
+    static const size_t lengths[] = {1, 65536, 65537, 1000000};
+    for (size_t i = 0; i < 4; i++) {
+        struct text text = sample_text(lengths[i]);
+        struct diag diag = {0};
+        struct output *output = output_open("/dev/full", &diag);
+        assert_non_null(output);
+        int written = output_write(output, text.bytes, text.length, &diag);
+        assert_int_equal(written, lengths[i] > 65536 ? -1 : 0);
+        int closed = output_close(output, written == 0, &diag);
+        assert_true(written != 0 || closed != 0);
+        assert_string_equal(diag.text, "/dev/full: No space left on device");
+        assert_int_equal(diag.code, DIAG_IO);
+        text_free(&text);
+    }
+}
+
+static void pipes_and_devices_are_written_directly(void **state)
+{
+    struct scratch *scratch = *state;
+    struct diag diag = {0};
+    struct output *output = output_open("/dev/null", &diag);
+    assert_int_equal(output_write(output, "abc", 3, &diag), 0);
+    assert_int_equal(output_close(output, 0, &diag), 0);
+    struct stat status;
+    assert_int_equal(stat("/dev/null", &status), 0);
+    assert_true(S_ISCHR(status.st_mode));
+    assert_int_equal(mkfifo(scratch->fifo, 0600), 0);
+    pid_t child = fork();
+    if (child == 0) {
+        output = output_open(scratch->fifo, &diag);
+        output_write(output, "through", 7, &diag);
+        _exit(output_close(output, 1, &diag) != 0);
+    }
+    struct text back = read_all(scratch->fifo);
+    assert_int_equal(back.length, 7);
+    assert_memory_equal(back.bytes, "through", 7);
+    int code = -1;
+    assert_int_equal(waitpid(child, &code, 0), child);
+    assert_int_equal(code, 0);
+    text_free(&back);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_written_can_be_read),
+        cmocka_unit_test(gz_is_gzip_and_depends_on_nothing_but_its_content),
+        cmocka_unit_test(the_name_is_taken_only_when_the_file_is_whole),
+        cmocka_unit_test(what_cannot_be_made_says_why_and_leaves_nothing),
+        cmocka_unit_test(a_full_device_is_noticed_at_the_latest_when_it_is_closed),
+        cmocka_unit_test(pipes_and_devices_are_written_directly),
+    };
+    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}

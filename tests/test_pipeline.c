@@ -1,0 +1,329 @@
+#include "check.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "pipeline.h"
+#include "sample.h"
+#include "text.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+static int parse(const char *text, struct pipeline *pipeline, struct arena *arena,
+                 struct diag *diag)
+{
+    *diag = (struct diag){0};
+    return pipeline_parse(text, strlen(text), pipeline, arena, diag);
+}
+
+/* The commands as one text: words in <>, commands parted by |. */
+static struct text shown(const struct pipeline *pipeline)
+{
+    struct text text = {0};
+    for (size_t i = 0; i < pipeline->commands.count; i++) {
+        const struct command *command = &pipeline->commands.items[i];
+        text_add_word(&text, i > 0 ? "|" : "");
+        for (size_t j = 0; j < command->words.count; j++)
+            text_format(&text, "<%s>", command->words.items[j]);
+    }
+    text_add(&text, "", 1);
+    return text;
+}
+
+static void words_and_bars_are_what_they_look_like(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *commands;
+    } cases[] = {
+        {"a",                                                                                       "<a>"                                 },
+        {"a b  c\td",                                                                               "<a><b><c><d>"                        },
+        {"a|b",                                                                                     "<a>|<b>"                             },
+        {"  a | b\n",                                                                               "<a>|<b>"                             },
+        {"a |\n\n  b -x 1 |\n c",                                                                   "<a>|<b><-x><1>|<c>"                  },
+        {"a \\\n  | b \\\n  -x",                                                                    "<a>|<b><-x>"                         },
+        {"#!/usr/bin/env bash\n# one\n\nset -o pipefail\n\na | # two | c\n  # three\nb # four\n\n",
+         "<a>|<b>"                                                                                                                        },
+        {"set -o pipefail\na",                                                                      "<a>"                                 },
+        {"set \\\n -o 'pipefail' # why\na",                                                         "<a>"                                 },
+        {"set -o pipefail -x",                                                                      "<set><-o><pipefail><-x>"             },
+        {"a --origin='one two' \"three  'four'\"",                                                  "<a><--origin=one two><three  'four'>"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct arena arena = {0};
+        struct pipeline pipeline;
+        struct diag diag;
+        if (parse(cases[i].text, &pipeline, &arena, &diag) != 0)
+            fail_msg("%s: %s", cases[i].text, diag.text);
+        struct text text = shown(&pipeline);
+        assert_string_equal(text.bytes, cases[i].commands);
+        text_free(&text);
+        arena_free(&arena);
+    }
+}
+
+/* What bash makes of each text as one command's words: each followed by a newline, each text by a
+ * line of its own. printf repeats its format for every word. */
+static struct text asked_of_bash(const struct text *script)
+{
+    char path[] = "/tmp/glint-pipeline-XXXXXX", command[64];
+    int fd = mkstemp(path);
+    assert_true(fd >= 0);
+    assert_int_equal(write(fd, script->bytes, script->length), script->length);
+    close(fd);
+    snprintf(command, sizeof command, "bash %s 2>&1", path);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    struct text answer = {0};
+    for (size_t got = 1; got > 0; answer.length += got)
+        got = fread(text_room(&answer, 4096), 1, 4096, pipe);
+    pclose(pipe);
+    unlink(path);
+    return answer;
+}
+
+static void add_question(const char *words, struct text *script, struct text *expected)
+{
+    struct arena arena = {0};
+    struct pipeline pipeline;
+    struct diag diag;
+    struct text text = {0};
+    text_format(&text, "p %s\n\n", words);
+    if (pipeline_parse(text.bytes, text.length, &pipeline, &arena, &diag) == 0 &&
+        pipeline.commands.count == 1) {
+        text_format(script, "printf '%%s\\n' - %.*secho = end\n", (int)text.length - 2,
+                    text.bytes + 2);
+        const struct command *command = pipeline.commands.items;
+        text_add_word(expected, "-\n");
+        for (size_t i = 1; i < command->words.count; i++)
+            text_format(expected, "%s\n", command->words.items[i]);
+        text_add_word(expected, "= end\n");
+    }
+    text_free(&text);
+    arena_free(&arena);
+}
+
+static void bash_sees_the_same_words(void **state)
+{
+    (void)state;
+    static const char *const words[] = {"a b c",
+                                        "'a b' \"c d\"",
+                                        "a'b'\"c\"d",
+                                        "''",
+                                        "\"\"",
+                                        "'' \"\" ''\"\"",
+                                        "a\\ b",
+                                        "\\a\\b\\\\",
+                                        "\\'\\\"",
+                                        "'\\a\\\\'",
+                                        "\"\\a \\\\ \\\" \\` \\$ \\' \\n\"",
+                                        "'\"' \"'\"",
+                                        "a#b",
+                                        "a #b",
+                                        "''#b",
+                                        "a\\#b",
+                                        "\\#b",
+                                        "'#'b",
+                                        "a \\\n b",
+                                        "a\\\nb",
+                                        "\\\n#b",
+                                        "a\\\n#b",
+                                        "'a\nb'",
+                                        "\"a\nb\"",
+                                        "\"a\\\nb\"",
+                                        "'a\\\nb'",
+                                        "a=b",
+                                        "--x=y z",
+                                        "-- -x",
+                                        "%s %d",
+                                        "a\\|b",
+                                        "'|' \"|\"",
+                                        "\\~",
+                                        "a~b",
+                                        "~\\\n",
+                                        "'~'",
+                                        "\\*",
+                                        "'*?['",
+                                        "a]b",
+                                        "a,b",
+                                        "a^b",
+                                        "a%b @c +d",
+                                        "a:b",
+                                        "\xc3\xa9 \xe2\x82\xac",
+                                        "'\xc3\xa9'",
+                                        "a\\\tb",
+                                        "a\tb",
+                                        "a\vb a\fb",
+                                        "a\rb",
+                                        "\\\\",
+                                        "a\\",
+                                        "\"a\"\\\n\"b\"",
+                                        "\\\n",
+                                        "\\\n\\\na",
+                                        "a\\\n\n",
+                                        "\\ ",
+                                        "' '",
+                                        "-x1 -y=-2.5e3",
+                                        "\"\\\\\"\\\\'\\\\'",
+                                        "a\xc2\xa0-",
+                                        "\"!\"",
+                                        "'!'",
+                                        "\\!",
+                                        "\"\\!\"",
+                                        "\"*\"",
+                                        "\"~\"",
+                                        "a\\=b",
+                                        "\\{a,b\\}",
+                                        "'{a,b}'",
+                                        "\"{a,b}\"",
+                                        "/a/~ ./~",
+                                        "--file=~/x",
+                                        "a'#'b#c"};
+    struct text script = {0}, expected = {0};
+    for (size_t i = 0; i < COUNT(words); i++)
+        add_question(words[i], &script, &expected);
+    struct text answer = asked_of_bash(&script);
+    text_add(&answer, "", 1);
+    text_add(&expected, "", 1);
+    assert_string_equal(answer.bytes, expected.bytes);
+    text_free(&script);
+    text_free(&expected);
+    text_free(&answer);
+}
+
+/* Random texts of the characters that mean something: whatever is not refused, bash reads alike. */
+static void bash_sees_the_same_words_in_random_texts(void **state)
+{
+    (void)state;
+    static const char *const pieces[] = {"a",  "b",  "'", "'", "\"", "\"",  "\\",
+                                         "\\", "\n", " ", " ", "#",  "\t",  "\\\n",
+                                         "$",  "x=", "%", "]", "-",  "\\\""};
+    uint64_t random = 8;
+    struct text script = {0}, expected = {0};
+    for (int i = 0; i < 20000; i++) {
+        struct text text = {0};
+        for (uint64_t count = 1 + sample_bits(&random) % 8; count > 0; count--)
+            text_add_word(&text, pieces[sample_bits(&random) % COUNT(pieces)]);
+        text_add(&text, "", 1);
+        add_question(text.bytes, &script, &expected);
+        text_free(&text);
+    }
+    assert_true(expected.length > 50000);
+    struct text answer = asked_of_bash(&script);
+    const char *a = answer.bytes, *b = expected.bytes;
+    size_t same = 0;
+    while (same < answer.length && same < expected.length && a[same] == b[same])
+        same++;
+    if (same < answer.length || same < expected.length)
+        fail_msg("bash: ...%.40s\nglint: ...%.40s", a + (same < 20 ? 0 : same - 20),
+                 b + (same < 20 ? 0 : same - 20));
+    text_free(&script);
+    text_free(&expected);
+    text_free(&answer);
+}
+
+static void everything_else_is_refused_with_its_line(void **state)
+{
+    (void)state;
+#define VARIABLE "variables and substitutions are not understood here"
+#define PATTERN "file name patterns are not understood here"
+#define REDIRECTION "redirections are not understood here (use -o FILE)"
+#define MORE "only one pipeline of words and | is understood here"
+    static const struct {
+        const char *text, *message;
+    } cases[] = {
+        {"",                           "1: there is no command where one must stand"},
+        {"# nothing\n",                "2: there is no command where one must stand"},
+        {"set -o pipefail\n",          "2: there is no command where one must stand"},
+        {"a |",                        "1: there is no command where one must stand"},
+        {"a |\n\n",                    "3: there is no command where one must stand"},
+        {"| a",                        "1: there is no command before |"            },
+        {"a | | b",                    "1: there is no command before |"            },
+        {"a || b",                     "1: " MORE                                   },
+        {"a |& b",                     "1: " MORE                                   },
+        {"a && b",                     "1: " MORE                                   },
+        {"a; b",                       "1: " MORE                                   },
+        {"a &",                        "1: " MORE                                   },
+        {"a\nb",                       "2: a second pipeline"                       },
+        {"a\n| b",                     "2: a second pipeline"                       },
+        {"a | b\n\n\nset -o pipefail", "4: a second pipeline"                       },
+        {"(a)",                        "1: " MORE                                   },
+        {"{ a; }",                     "1: " MORE                                   },
+        {"a {b,c}",                    "1: " MORE                                   },
+        {"! a",                        "1: " MORE                                   },
+        {"\n\na $x",                   "3: " VARIABLE                               },
+        {"a \"$x\"",                   "1: " VARIABLE                               },
+        {"a `b`",                      "1: " VARIABLE                               },
+        {"a \"`b`\"",                  "1: " VARIABLE                               },
+        {"a $'b'",                     "1: " VARIABLE                               },
+        {"X=1 a",                      "1: variables are not understood here"       },
+        {"x=1",                        "1: variables are not understood here"       },
+        {"a *.json",                   "1: " PATTERN                                },
+        {"a b?",                       "1: " PATTERN                                },
+        {"a [b]",                      "1: " PATTERN                                },
+        {"a ~/b",                      "1: " PATTERN                                },
+        {"a >b",                       "1: " REDIRECTION                            },
+        {"a 2>b",                      "1: " REDIRECTION                            },
+        {"a <b",                       "1: " REDIRECTION                            },
+        {"a <<b\nb\n",                 "1: " REDIRECTION                            },
+        {"a 'b\nc",                    "2: a quote is not closed"                   },
+        {"a \"b\nc\n",                 "3: a quote is not closed"                   },
+        {"a \"b\\",                    "1: a quote is not closed"                   }
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct arena arena = {0};
+        struct pipeline pipeline;
+        struct diag diag;
+        char message[128];
+        snprintf(message, sizeof message, "%s; run it with bash", cases[i].message);
+        assert_int_equal(parse(cases[i].text, &pipeline, &arena, &diag), -1);
+        assert_string_equal(diag.text, message);
+        assert_int_equal(diag.code, DIAG_USAGE);
+        arena_free(&arena);
+    }
+}
+
+static void commands_know_their_lines(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct pipeline pipeline;
+    struct diag diag;
+    assert_int_equal(parse("# x\n\na 'b\nc' \\\n d |\n\n e | f", &pipeline, &arena, &diag), 0);
+    assert_int_equal(pipeline.commands.count, 3);
+    assert_int_equal(pipeline.commands.items[0].line, 3);
+    assert_int_equal(pipeline.commands.items[1].line, 7);
+    assert_int_equal(pipeline.commands.items[2].line, 7);
+    arena_free(&arena);
+}
+
+static void a_nul_byte_is_refused(void **state)
+{
+    (void)state;
+    static const char text[] = "a b | c d";
+    for (size_t i = 0; i < sizeof text - 1; i++) {
+        struct arena arena = {0};
+        struct pipeline pipeline;
+        struct diag diag = {0};
+        char with[sizeof text];
+        memcpy(with, text, sizeof text);
+        with[i] = '\0';
+        assert_int_equal(pipeline_parse(with, sizeof text - 1, &pipeline, &arena, &diag), -1);
+        arena_free(&arena);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(words_and_bars_are_what_they_look_like),
+        cmocka_unit_test(bash_sees_the_same_words),
+        cmocka_unit_test(bash_sees_the_same_words_in_random_texts),
+        cmocka_unit_test(everything_else_is_refused_with_its_line),
+        cmocka_unit_test(commands_know_their_lines),
+        cmocka_unit_test(a_nul_byte_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

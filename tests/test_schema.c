@@ -1,0 +1,183 @@
+#include "check.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include <jansson.h>
+
+#include "catalogue.h"
+#include "frame.h"
+#include "schema.h"
+
+static json_t *schema_of(const char *name)
+{
+    struct text text = {0};
+    json_error_t error;
+    assert_true(schema_write(name, &text));
+    json_t *tree = json_loadb(text.bytes, text.length, JSON_REJECT_DUPLICATES, &error);
+    if (tree == NULL)
+        fail_msg("%s:%d: %s", name, error.line, error.text);
+    text_free(&text);
+    return tree;
+}
+
+static const char *word(const json_t *tree, const char *key)
+{
+    const char *value = json_string_value(json_object_get(tree, key));
+    return value != NULL ? value : "";
+}
+
+static double bound(const json_t *tree, const char *key)
+{
+    const json_t *value = json_object_get(tree, key);
+    assert_true(json_is_number(value));
+    return json_number_value(value);
+}
+
+static void assert_describes(const json_t *schema, const struct record *record);
+
+static void assert_describes_member(const json_t *property, const struct field *field)
+{
+    static const char *const types[] = {
+        [FIELD_REAL] = "number", [FIELD_INTEGER] = "integer", [FIELD_FLAG] = "boolean",
+        [FIELD_NAME] = "string", [FIELD_CHOICE] = "",         [FIELD_SEED] = "string",
+        [FIELD_NAMES] = "array", [FIELD_RECORD] = "object",   [FIELD_LIST] = "array",
+        [FIELD_RAW] = "",        [FIELD_NOTES] = "object",
+    };
+    assert_string_equal(word(property, "type"), types[field->kind]);
+    assert_string_equal(word(property, field->kind == FIELD_RECORD ? "$comment" : "description"),
+                        field->help);
+    json_t *choices = json_object_get(property, "enum");
+    switch (field->kind) {
+    case FIELD_REAL:
+    case FIELD_INTEGER:
+        assert_close(bound(property, "minimum"), field->low, 0);
+        assert_close(bound(property, "maximum"), field->high, 0);
+        break;
+    case FIELD_NAME:
+        assert_close(bound(property, "minLength"), 1, 0);
+        assert_close(bound(property, "maxLength"), FIELD_NAME_SIZE, 0);
+        break;
+    case FIELD_CHOICE:
+        for (size_t i = 0; i <= json_array_size(choices); i++) {
+            const char *choice = json_string_value(json_array_get(choices, i));
+            assert_true((choice == NULL) == (field->choices[i] == NULL));
+            if (choice != NULL)
+                assert_string_equal(choice, field->choices[i]);
+        }
+        break;
+    case FIELD_RECORD:
+        assert_describes(property, field->record);
+        break;
+    case FIELD_LIST:
+        assert_describes(json_object_get(property, "items"), field->record);
+        break;
+    case FIELD_NAMES:
+        assert_string_equal(word(json_object_get(property, "items"), "type"), "string");
+        break;
+    case FIELD_NOTES:
+        assert_string_equal(word(json_object_get(property, "additionalProperties"), "type"),
+                            "string");
+        break;
+    default:
+        break;
+    }
+}
+
+static bool is_required(const json_t *schema, const char *name)
+{
+    const json_t *required = json_object_get(schema, "required");
+    assert_true(json_is_array(required));
+    for (size_t i = 0; i < json_array_size(required); i++)
+        if (strcmp(json_string_value(json_array_get(required, i)), name) == 0)
+            return true;
+    return false;
+}
+
+static void assert_describes(const json_t *schema, const struct record *record)
+{
+    assert_string_equal(word(schema, "title"), record->name);
+    assert_string_equal(word(schema, "description"), record->help);
+    assert_true(json_is_false(json_object_get(schema, "additionalProperties")));
+    const json_t *properties = json_object_get(schema, "properties");
+    size_t count = 0, required = 0;
+    for (const struct field *field = record->fields; field->name != NULL; field++, count++) {
+        const json_t *property = json_object_get(properties, field->name);
+        if (property == NULL)
+            fail_msg("%s.%s is missing", record->name, field->name);
+        assert_int_equal(is_required(schema, field->name), !field->optional);
+        required += !field->optional;
+        assert_describes_member(property, field);
+    }
+    assert_int_equal(json_object_size(properties), count);
+    assert_int_equal(json_array_size(json_object_get(schema, "required")), required);
+}
+
+static void every_schema_says_what_its_field_table_says(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        const struct record *record;
+    } schemas[] = {
+        {"frame",    &frame_record   },
+        {"scenario", &scenario_record},
+        {"sensors",  &suite_record   },
+        {"vehicle",  &vehicle_record }
+    };
+    for (size_t i = 0; i < sizeof schemas / sizeof schemas[0]; i++) {
+        json_t *schema = schema_of(schemas[i].name);
+        assert_string_equal(word(schema, "$schema"),
+                            "https://json-schema.org/draft/2020-12/schema");
+        assert_describes(schema, schemas[i].record);
+        json_decref(schema);
+    }
+}
+
+static void the_list_names_every_schema(void **state)
+{
+    (void)state;
+    struct text text = {0};
+    schema_list(&text);
+    text_add(&text, "", 1);
+    int count = 0;
+    for (char *name = text.bytes; *name != '\0'; count++) {
+        char *end = strchr(name, '\n');
+        assert_non_null(end);
+        *end = '\0';
+        json_decref(schema_of(name));
+        name = end + 1;
+    }
+    assert_true(count >= 4);
+    text_free(&text);
+    assert_false(schema_write("nothing", &text));
+    assert_false(schema_write("", &text));
+    assert_int_equal(text.length, 0);
+}
+
+/* `make schemas` writes them; they are kept so that a change shows. */
+static void the_files_in_schemas_are_up_to_date(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"frame", "scenario", "sensors", "vehicle"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        char path[64];
+        snprintf(path, sizeof path, "schemas/%s.json", names[i]);
+        json_t *file = json_load_file(path, 0, NULL), *printed = schema_of(names[i]);
+        assert_non_null(file);
+        if (!json_equal(file, printed))
+            fail_msg("%s is out of date; run make schemas", path);
+        json_decref(file);
+        json_decref(printed);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_schema_says_what_its_field_table_says),
+        cmocka_unit_test(the_list_names_every_schema),
+        cmocka_unit_test(the_files_in_schemas_are_up_to_date),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

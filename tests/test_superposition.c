@@ -1,0 +1,236 @@
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "sample.h"
+#include "superposition.h"
+#include "units.h"
+
+/* The paper's sensor: 0.8 meets a threshold of 2 at 30 m, so A_ref = 2.5 (30 / R)^2. */
+static struct sensor paper_sensor(enum antenna_phase phase)
+{
+    struct sensor sensor = {.name = "s",
+                            .threshold_db = 20 * 0.30102999566398120,
+                            .calibration_ercs = 0.8,
+                            .calibration_range_m = 30,
+                            .exponent = 2,
+                            .range_floor_m = 0.5,
+                            .cell_range_m = 0.3,
+                            .cell_range_rate_mps = 0.5,
+                            .phase_reference = phase};
+    suite_derive(&sensor);
+    return sensor;
+}
+
+static struct echo echo_at(double range_m, double azimuth_rad, double range_rate_mps, double ercs)
+{
+    return (struct echo){.sensor = "s",
+                         .object = "o",
+                         .reflector = "r",
+                         .range_m = range_m,
+                         .azimuth_rad = azimuth_rad,
+                         .range_rate_mps = range_rate_mps,
+                         .ercs = ercs};
+}
+
+/* |H_sum| of equation (6): si(u) cos(azimuth) cos(u), u = pi/2 sin(azimuth). */
+static double pattern(double azimuth_rad)
+{
+    double u = PI / 2 * sin(azimuth_rad);
+    return (u == 0 ? 1 : sin(u) / u) * cos(azimuth_rad) * cos(u);
+}
+
+static void a_ray_is_reference_amplitude_times_cross_section_times_pattern(void **state)
+{
+    (void)state;
+    struct sensor sensor = paper_sensor(PHASE_CENTRE);
+    struct echo echo = echo_at(15, 0.4, -2, 0.5);
+    struct ray ray = superposition_ray(&sensor, &echo, 0.25);
+    assert_near(ray.strength, 2.5 * 4 * 0.5, 1e-12);
+    assert_near(ray.amplitude, 5 * pattern(0.4), 1e-12);
+    assert_close(ray.phase_rad, 0.25, 0);
+    assert_close(ray.echo.range_rate_mps, -2, 0);
+    assert_close(ray.echo.weight, 0, 0);
+    /* Nearer than the floor counts as the floor. */
+    echo = echo_at(0.1, 0, 0, 1);
+    assert_near(superposition_ray(&sensor, &echo, 0).strength, 2.5 * 3600, 1e-12);
+}
+
+static void one_echo_is_its_cell(void **state)
+{
+    (void)state;
+    struct sensor sensor = paper_sensor(PHASE_CENTRE);
+    struct arena arena = {0};
+    for (double azimuth_rad = -1.5; azimuth_rad <= 1.5; azimuth_rad += 0.01) {
+        struct echo echo = echo_at(12.3, azimuth_rad, 3.4, 0.7);
+        struct ray ray = superposition_ray(&sensor, &echo, 0);
+        struct cell cell;
+        assert_true(superposition_cell(&sensor, &ray, 1, &arena, &cell));
+        assert_close(cell.range_m, 12.3, 0);
+        assert_close(cell.range_rate_mps, 3.4, 0);
+        assert_close(cell.azimuth_rad, azimuth_rad, 1e-14);
+        assert_close(cell.members.items[0].weight, 1, 0);
+        assert_near(hypot(cell.sum_re, cell.sum_im), ray.amplitude, 1e-14);
+    }
+    arena_free(&arena);
+}
+
+/* Equations (4) and (5): amplitudes 6 and 2, so weights 3/4 and 1/4. */
+static void two_echoes_are_weighted_by_amplitude(void **state)
+{
+    (void)state;
+    struct sensor sensor = paper_sensor(PHASE_CENTRE);
+    struct ray rays[] = {
+        {.echo = {.object = "a", .reflector = "r", .range_m = 10, .range_rate_mps = -1},
+         .strength = 6,
+         .amplitude = 6},
+        {.echo = {.object = "b", .reflector = "r", .range_m = 10.2, .range_rate_mps = 1},
+         .strength = 2,
+         .amplitude = 2}
+    };
+    struct arena arena = {0};
+    struct cell cell;
+    assert_true(superposition_cell(&sensor, rays, 2, &arena, &cell));
+    assert_string_equal(cell.sensor, "s");
+    assert_close(cell.amplitude, 8, 0);
+    assert_near(cell.range_m, 10.05, 1e-15);
+    assert_close(cell.range_rate_mps, -0.5, 1e-15);
+    assert_int_equal(cell.members.count, 2);
+    assert_close(cell.members.items[0].weight, 0.75, 0);
+    assert_close(cell.members.items[1].weight, 0.25, 0);
+    assert_string_equal(cell.members.items[1].object, "b");
+    /* Both on boresight: the sum channel takes all, delta nothing. */
+    assert_close(cell.sum_re, 8, 1e-15);
+    assert_close(cell.sum_im, 0, 0);
+    assert_close(cell.delta_re, 0, 0);
+    assert_close(cell.delta_im, 0, 0);
+    assert_close(cell.azimuth_rad, 0, 0);
+    arena_free(&arena);
+}
+
+/* Equation (8) for two on either side at 30 degrees, u = pi/4: with
+ * f = si(pi/4) cos(pi/6) and cos u = sin u = sqrt(1/2), H_sum = f sqrt(1/2),
+ * H_delta = -+ j f sqrt(1/2), counted from the centre. */
+static void pointers_add_up_as_in_equation_8(void **state)
+{
+    (void)state;
+    double part = sin(PI / 4) / (PI / 4) * cos(PI / 6) * sqrt(0.5);
+    struct arena arena = {0};
+    for (int element = 0; element < 2; element++) {
+        struct sensor sensor = paper_sensor(element ? PHASE_ELEMENT : PHASE_CENTRE);
+        struct ray rays[] = {
+            {.echo = {.object = "a", .reflector = "r", .azimuth_rad = PI / 6},
+             .strength = 3,
+             .amplitude = 3 * part},
+            {.echo = {.object = "b", .reflector = "r", .azimuth_rad = -PI / 6},
+             .strength = 1,
+             .amplitude = part    }
+        };
+        struct cell cell;
+        assert_true(superposition_cell(&sensor, rays, 2, &arena, &cell));
+        /* From the element each turns by e^{ju}: (1 +- j) sqrt(1/2). */
+        double turn = sqrt(0.5);
+        assert_close(cell.sum_re, element ? 4 * part * turn : 4 * part, 1e-14);
+        assert_close(cell.sum_im, element ? 2 * part * turn : 0, 1e-14);
+        assert_close(cell.delta_re, element ? 4 * part * turn : 0, 1e-14);
+        assert_close(cell.delta_im, element ? -2 * part * turn : -2 * part, 1e-14);
+        assert_near(cell.amplitude, 4 * part, 1e-14);
+        if (!element) /* |delta| : |sum| = 1 : 2 = tan u, to the left */
+            assert_close(cell.azimuth_rad, asin(2 / PI * atan(0.5)), 1e-14);
+    }
+    arena_free(&arena);
+}
+
+static void phases_turn_the_pointers(void **state)
+{
+    (void)state;
+    struct sensor sensor = paper_sensor(PHASE_CENTRE);
+    struct arena arena = {0};
+    struct ray rays[] = {
+        {.echo = {.object = "a", .reflector = "r"}, .strength = 4, .amplitude = 4},
+        { .echo = {.object = "b", .reflector = "r"},
+         .strength = 3,
+         .amplitude = 3,
+         .phase_rad = PI / 2}
+    };
+    struct cell cell;
+    assert_true(superposition_cell(&sensor, rays, 2, &arena, &cell));
+    assert_close(cell.sum_re, 4, 1e-15);
+    assert_close(cell.sum_im, 3, 1e-15);
+    assert_close(cell.amplitude, 7, 0);
+    /* Opposite and equal: nothing is left but rounding, and with no phase at all it is exact. */
+    rays[1].strength = 4;
+    rays[1].phase_rad = PI;
+    superposition_cell(&sensor, rays, 2, &arena, &cell);
+    assert_close(hypot(cell.sum_re, cell.sum_im), 0, 1e-14);
+    arena_free(&arena);
+}
+
+static void weights_sum_to_one_and_means_stay_inside(void **state)
+{
+    (void)state;
+    struct sensor sensor = paper_sensor(PHASE_CENTRE);
+    uint64_t random = 4;
+    struct arena arena = {0};
+    for (int round = 0; round < 3000; round++) {
+        struct ray rays[40];
+        size_t count = 1 + sample_bits(&random) % 40;
+        double least = 1e9, most = -1e9;
+        for (size_t i = 0; i < count; i++) {
+            struct echo echo =
+                echo_at(sample_between(&random, 20, 20.3), sample_between(&random, -1.5, 1.5),
+                        sample_between(&random, -1, 1), exp(sample_between(&random, -20, 2)));
+            rays[i] = superposition_ray(&sensor, &echo, 0);
+            least = fmin(least, echo.range_m);
+            most = fmax(most, echo.range_m);
+        }
+        qsort(rays, count, sizeof *rays, superposition_compare);
+        struct cell cell;
+        assert_true(superposition_cell(&sensor, rays, count, &arena, &cell));
+        double total = 0, amplitude = 0;
+        for (size_t i = 0; i < count; i++) {
+            total += cell.members.items[i].weight;
+            amplitude += rays[i].amplitude;
+            assert_true(i == 0 || rays[i - 1].amplitude >= rays[i].amplitude);
+        }
+        assert_close(total, 1, 1e-14);
+        assert_close(cell.amplitude, amplitude, 0);
+        assert_true(cell.range_m >= least && cell.range_m <= most);
+        /* The bound that equation (5)'s denominator is. */
+        assert_true(hypot(cell.sum_re, cell.sum_im) <= cell.amplitude * (1 + 1e-14));
+        arena_clear(&arena);
+    }
+    arena_free(&arena);
+}
+
+static void ties_of_amplitude_go_by_the_frames_order(void **state)
+{
+    (void)state;
+    struct ray near = {
+        .echo = {.object = "b", .reflector = "r", .range_m = 1},
+          .amplitude = 2
+    };
+    struct ray far = {
+        .echo = {.object = "a", .reflector = "r", .range_m = 2},
+          .amplitude = 2
+    };
+    assert_true(superposition_compare(&near, &far) < 0);
+    assert_true(superposition_compare(&far, &near) > 0);
+    far.amplitude = 2.0000000000000004;
+    assert_true(superposition_compare(&near, &far) > 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_ray_is_reference_amplitude_times_cross_section_times_pattern),
+        cmocka_unit_test(one_echo_is_its_cell),
+        cmocka_unit_test(two_echoes_are_weighted_by_amplitude),
+        cmocka_unit_test(pointers_add_up_as_in_equation_8),
+        cmocka_unit_test(phases_turn_the_pointers),
+        cmocka_unit_test(weights_sum_to_one_and_means_stay_inside),
+        cmocka_unit_test(ties_of_amplitude_go_by_the_frames_order),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
