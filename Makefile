@@ -37,7 +37,7 @@ all_stages := $(filter-out main,$(patsubst stages/%.c,%,$(sort $(wildcard stages
 stages := $(foreach s,$(all_stages),$(if $(call have,stages/$(s).c),$(s)))
 left_out := $(filter-out $(stages),$(all_stages))
 
-lib_objects := $(patsubst lib/%,$(BUILD)/lib/%.o,$(wildcard lib/*.c lib/*.cc))
+lib_objects := $(patsubst lib/%,$(BUILD)/lib/%.o,$(wildcard lib/*.c lib/*.cc)) $(BUILD)/lib/view_page.o
 stage_objects := $(patsubst %,$(BUILD)/stages/%.o,$(stages))
 tools := $(foreach s,$(stages),$(BUILD)/bin/glint-$(subst _,-,$(s))) $(BUILD)/bin/glint
 tests := $(patsubst tests/test_%.c,$(BUILD)/tests/test_%,$(wildcard tests/test_*.c))
@@ -52,6 +52,22 @@ $(BUILD)/lib/%.c.o: lib/%.c
 $(BUILD)/lib/%.cc.o: lib/%.cc
 	@mkdir -p $(@D)
 	$(Q)$(CXX) $(HOUSE_CXX) $(CXXFLAGS) -c -o $@ $<
+
+# The page of glint-view: its parts joined, where page.html names them, and embedded as bytes.
+view_parts = $(addprefix stages/view/,$(shell sed -n 's/^@\(.*\.[a-z]*\)@$$/\1/p' stages/view/page.html))
+$(BUILD)/view_page.html: stages/view/page.html $(view_parts)
+	@mkdir -p $(@D)
+	$(Q)awk '/^@.*\.(css|js)@$$/ { part = "stages/view/" substr($$0, 2, length($$0) - 2); \
+	    while ((getline line < part) > 0) print line; close(part); next } { print }' $< >$@
+
+$(BUILD)/view_page.c: $(BUILD)/view_page.html
+	$(Q){ echo '#include "view_page.h"'; echo 'const char view_page[] = {'; \
+	    od -An -v -tu1 $< | sed 's/[0-9]\{1,\}/(char)&,/g'; echo '0};'; \
+	    echo 'const size_t view_page_size = sizeof view_page - 1;'; } >$@
+
+$(BUILD)/lib/view_page.o: $(BUILD)/view_page.c
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
 
 $(BUILD)/libglint.a: $(lib_objects)
 	$(Q)rm -f $@

@@ -1,0 +1,74 @@
+#include "view_frame.h"
+
+#include <string.h>
+
+#include "cycle.h"
+
+static struct motion motion_of(const struct object *object)
+{
+    return (struct motion){
+        .position_m = {object->x_m,    object->y_m   },
+        .velocity_mps = {object->vx_mps, object->vy_mps},
+        .yaw_rad = object->yaw_rad,
+        .yaw_rate_radps = object->yaw_rate_radps,
+    };
+}
+
+/* The label knows the instant exactly; a scan without targets goes by the cycle. */
+static double age_s(const struct frame *frame, const struct sensor_view *sensor)
+{
+    for (size_t i = 0; i < frame->targets.count; i++)
+        if (strcmp(frame->targets.items[i].sensor, sensor->name) == 0)
+            return frame->time_s - frame->targets.items[i].contributors.items[0].time_s;
+    double instant_s;
+    if (!sensor->measured ||
+        cycle_instant_s(sensor->cycle_s, frame->time_s, frame->interval_s, &instant_s) != CYCLE_ONE)
+        return 0;
+    return frame->time_s - instant_s;
+}
+
+struct view_scan view_frame_scan(const struct frame *frame, const struct sensor_view *sensor)
+{
+    struct view_scan scan = {.age_s = age_s(frame, sensor)};
+    struct motion ego = motion_after(motion_of(frame_object(frame, frame->ego)), -scan.age_s);
+    struct vec2 mount = {sensor->mount_x_m, sensor->mount_y_m};
+    scan.position_m = vec2_add(ego.position_m, vec2_turn(mount, vec2_heading(ego.yaw_rad)));
+    scan.velocity_mps = motion_velocity_at(&ego, scan.position_m);
+    scan.yaw_rad = ego.yaw_rad + sensor->mount_yaw_rad;
+    return scan;
+}
+
+struct vec2 view_frame_place(const struct view_scan *scan, double range_m, double azimuth_rad)
+{
+    struct vec2 heading = vec2_heading(scan->yaw_rad + azimuth_rad);
+    return vec2_add(scan->position_m, vec2_scale(range_m, heading));
+}
+
+struct box view_frame_box(const struct object *object, const struct vehicle *vehicle)
+{
+    struct box box = {motion_of(object), vec2_heading(object->yaw_rad), object->length_m,
+                      object->width_m};
+    if (box.length_m == 0 && vehicle != NULL)
+        box.length_m = vehicle->length_m;
+    if (box.width_m == 0 && vehicle != NULL)
+        box.width_m = vehicle->width_m;
+    return box;
+}
+
+bool view_frame_loss_is_near(enum loss reason)
+{
+    return reason != LOSS_FACING_AWAY && reason != LOSS_NO_SPECULAR &&
+           reason != LOSS_OUT_OF_RANGE && reason != LOSS_OUT_OF_VIEW;
+}
+
+const struct vehicle *view_frame_vehicle(struct view_models *models, const char *class)
+{
+    for (size_t i = 0; i < models->list.count; i++)
+        if (strcmp(models->list.items[i].class, class) == 0)
+            return models->list.items[i].vehicle;
+    struct diag unused = {0};
+    struct view_model *model = list_add(&models->list, models->arena);
+    model->class = arena_text(models->arena, class, strlen(class));
+    model->vehicle = catalogue_vehicle(class, models->arena, &unused);
+    return model->vehicle;
+}

@@ -1,0 +1,41 @@
+/* What every view of a frame needs besides the frame: where the sensors were when they measured,
+ * and the vehicle documents of the objects' classes. */
+#ifndef VIEW_FRAME_H
+#define VIEW_FRAME_H
+
+#include "catalogue.h"
+#include "frame.h"
+
+/* A sensor at the instant of its measurement, in the frame's coordinates. */
+struct view_scan {
+    struct vec2 position_m, velocity_mps;
+    double yaw_rad; /* of the boresight */
+    double age_s;   /* the frame's time less the measurement's */
+};
+
+struct view_scan view_frame_scan(const struct frame *frame, const struct sensor_view *sensor);
+
+/* The place in the frame's coordinates that a range and an azimuth of a scan stand for. */
+struct vec2 view_frame_place(const struct view_scan *scan, double range_m, double azimuth_rad);
+
+/* The object's box at the frame's time; a size of 0 is replaced by the class's, if it has a
+ * document. */
+struct box view_frame_box(const struct object *object, const struct vehicle *vehicle);
+
+/* How near a lost echo came to a target: geometry is why most are lost, and no news. */
+bool view_frame_loss_is_near(enum loss reason);
+
+/* Vehicle documents by class, each looked up once; all memory is the arena's. */
+struct view_model {
+    const char *class;
+    const struct vehicle *vehicle; /* NULL: the class has no document here */
+};
+
+struct view_models {
+    struct arena *arena;
+    LIST_OF(struct view_model) list;
+};
+
+const struct vehicle *view_frame_vehicle(struct view_models *models, const char *class);
+
+#endif

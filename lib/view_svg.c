@@ -1,0 +1,380 @@
+#include "view_svg.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "units.h"
+
+enum { WIDTH = 1200, HEIGHT = 800, MARGIN = 60 };
+
+/* Colours and symbols are those of the page, by the sensor's place in the list. */
+static const char *const colours[] = {"#0072b2", "#c74e00", "#00805e",
+                                      "#a8478a", "#8a6d00", "#3a6fd8"};
+enum { STYLES = sizeof colours / sizeof *colours };
+
+/* What is drawn: metres to pixels in the ego's axes, x right. */
+struct still {
+    const struct frame *frame;
+    struct view_models *models;
+    struct text *text;
+    struct vec2 origin, heading; /* of the ego */
+    struct vec2 low, high;       /* of what must be seen, in the ego's axes */
+    double scale;                /* pixels a metre */
+};
+
+static void add_escaped(struct text *text, const char *word)
+{
+    for (; *word != '\0'; word++) {
+        if (*word == '&')
+            text_add_word(text, "&amp;");
+        else if (*word == '<')
+            text_add_word(text, "&lt;");
+        else if (*word == '>')
+            text_add_word(text, "&gt;");
+        else if (*word == '"')
+            text_add_word(text, "&quot;");
+        else
+            text_add(text, word, 1);
+    }
+}
+
+static struct vec2 to_local(const struct still *still, struct vec2 place)
+{
+    return vec2_turn_back(vec2_sub(place, still->origin), still->heading);
+}
+
+static struct vec2 to_pixels(const struct still *still, struct vec2 place)
+{
+    struct vec2 local = to_local(still, place);
+    struct vec2 middle = vec2_scale(0.5, vec2_add(still->low, still->high));
+    return (struct vec2){WIDTH / 2.0 + still->scale * (local.x - middle.x),
+                         HEIGHT / 2.0 - still->scale * (local.y - middle.y)};
+}
+
+static void include(struct still *still, struct vec2 place)
+{
+    struct vec2 local = to_local(still, place);
+    still->low = (struct vec2){fmin(still->low.x, local.x), fmin(still->low.y, local.y)};
+    still->high = (struct vec2){fmax(still->high.x, local.x), fmax(still->high.y, local.y)};
+}
+
+static const struct sensor_view *sensor_named(const struct frame *frame, const char *name,
+                                              size_t *number)
+{
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        if (strcmp(frame->sensors.list.items[i].name, name) == 0) {
+            *number = i;
+            return &frame->sensors.list.items[i];
+        }
+    return NULL;
+}
+
+static struct box box_of(const struct still *still, const struct object *object)
+{
+    return view_frame_box(object, view_frame_vehicle(still->models, object->class));
+}
+
+static bool made_target(const struct frame *frame, const struct object *object)
+{
+    for (size_t i = 0; i < frame->targets.count; i++)
+        for (size_t j = 0; j < frame->targets.items[i].contributors.count; j++)
+            if (strcmp(frame->targets.items[i].contributors.items[j].object, object->id) == 0)
+                return true;
+    return false;
+}
+
+/* The ego and the targets; objects that made one if they are not much larger than the picture would
+ * be without them; everything where there are no targets. */
+static void frame_picture(struct still *still)
+{
+    const struct frame *frame = still->frame;
+    for (size_t i = 0; i < frame->targets.count; i++) {
+        const struct target *target = &frame->targets.items[i];
+        size_t number;
+        struct view_scan scan =
+            view_frame_scan(frame, sensor_named(frame, target->sensor, &number));
+        include(still, view_frame_place(&scan, target->range_m, target->azimuth_rad));
+    }
+    for (size_t i = 0; i < frame->objects.count; i++) {
+        const struct object *object = &frame->objects.items[i];
+        struct box box = box_of(still, object);
+        struct vec2 corner[4];
+        reflectors_outline(&box, corner);
+        bool ego = strcmp(object->id, frame->ego) == 0;
+        bool part = made_target(frame, object) && box.length_m < 20;
+        for (int j = 0; j < 4 && (ego || part || frame->targets.count == 0); j++)
+            include(still, corner[j]);
+    }
+    struct vec2 size = vec2_sub(still->high, still->low);
+    still->scale =
+        fmin((WIDTH - 2 * MARGIN) / fmax(size.x, 5), (HEIGHT - 2 * MARGIN) / fmax(size.y, 5));
+}
+
+static void add_line(struct still *still, const char *class, struct vec2 from, struct vec2 to)
+{
+    struct vec2 a = to_pixels(still, from), b = to_pixels(still, to);
+    text_format(still->text, "<path class=\"%s\" d=\"M%.1f %.1fL%.1f %.1f\"/>\n", class, a.x, a.y,
+                b.x, b.y);
+}
+
+static void add_label(struct still *still, const char *class, struct vec2 at, const char *word)
+{
+    text_format(still->text, "<text class=\"%s\" x=\"%.1f\" y=\"%.1f\">", class, at.x, at.y);
+    add_escaped(still->text, word);
+    text_add_word(still->text, "</text>\n");
+}
+
+static bool in_picture(struct vec2 at, double margin)
+{
+    return at.x > -margin && at.y > -margin && at.x < WIDTH + margin && at.y < HEIGHT + margin;
+}
+
+static void draw_object(struct still *still, const struct object *object)
+{
+    struct box box = box_of(still, object);
+    struct vec2 corner[4], middle = to_pixels(still, box.motion.position_m);
+    if (!in_picture(middle, still->scale * hypot(box.length_m, box.width_m)))
+        return;
+    bool ego = strcmp(object->id, still->frame->ego) == 0;
+    reflectors_outline(&box, corner);
+    text_format(still->text, "<path class=\"%s\" d=\"", ego ? "ego" : "body");
+    for (int i = 0; i < 4; i++) {
+        struct vec2 at = to_pixels(still, corner[i]);
+        text_format(still->text, "%s%.1f %.1f", i == 0 ? "M" : "L", at.x, at.y);
+    }
+    text_add_word(still->text, "Z\"/>\n");
+    if (still->scale * box.length_m > 40 && in_picture(middle, 0))
+        add_label(still, ego ? "inside" : "name", (struct vec2){middle.x, middle.y + 4},
+                  ego ? "ego" : object->id);
+}
+
+static void add_dot(struct still *still, const char *class, struct vec2 place, double radius)
+{
+    struct vec2 at = to_pixels(still, place);
+    if (in_picture(at, 0))
+        text_format(still->text, "<circle class=\"%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n",
+                    class, at.x, at.y, radius);
+}
+
+static void draw_reflectors(struct still *still, const struct object *object)
+{
+    const struct vehicle *vehicle = view_frame_vehicle(still->models, object->class);
+    if (vehicle == NULL || strcmp(object->id, still->frame->ego) == 0)
+        return;
+    struct box box = box_of(still, object);
+    for (size_t i = 0; i < vehicle->reflectors.points.count; i++)
+        add_dot(still, "centre", reflectors_point_place(&box, &vehicle->reflectors.points.items[i]),
+                2);
+    for (size_t i = 0; i < vehicle->reflectors.rows.count; i++) {
+        const struct post_row *row = &vehicle->reflectors.rows.items[i];
+        int64_t first, end;
+        double reach_m = WIDTH / still->scale;
+        reflectors_posts_within(&box, row, still->origin, reach_m, &first, &end);
+        for (int64_t post = first; post < end; post++)
+            add_dot(still, "centre", reflectors_post_place(&box, row, post), 1.5);
+    }
+}
+
+/* A sector as a path; a full circle is two halves, since an arc to its own start is none. */
+static void draw_beam(struct still *still, const struct sensor_view *sensor, size_t style)
+{
+    struct view_scan scan = view_frame_scan(still->frame, sensor);
+    struct vec2 at = to_pixels(still, scan.position_m);
+    double radius = still->scale * sensor->range_max_m, half = sensor->field_of_view_rad / 2;
+    text_format(still->text, "<path class=\"beam s%zu\" d=\"M%.1f %.1f", style % STYLES, at.x,
+                at.y);
+    for (int i = 0; i <= 2; i++) {
+        struct vec2 to = to_pixels(
+            still, view_frame_place(&scan, sensor->range_max_m, half * (1 - i) * 0.999999));
+        if (i == 0)
+            text_format(still->text, "L%.1f %.1f", to.x, to.y);
+        else
+            text_format(still->text, "A%.1f %.1f 0 0 1 %.1f %.1f", radius, radius, to.x, to.y);
+    }
+    text_add_word(still->text, "Z\"/>\n");
+}
+
+static void add_symbol(struct text *text, size_t style, struct vec2 at)
+{
+    static const struct {
+        int corners;
+        double inner, turn, size;
+    } shapes[STYLES] = {
+        {5, 0.42, 0,      9.5},
+        {0, 0,    0,      6.5},
+        {4, 1,    0,      8.5},
+        {3, 1,    0,      8.5},
+        {4, 1,    PI / 4, 8.5},
+        {4, 0.3,  PI / 4, 9.5},
+    };
+    size_t shape = style % STYLES;
+    if (shapes[shape].corners == 0) {
+        text_format(text, "<circle class=\"ring s%zu\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n",
+                    shape, at.x, at.y, shapes[shape].size);
+        return;
+    }
+    bool star = shapes[shape].inner < 1;
+    int steps = shapes[shape].corners * (star ? 2 : 1);
+    text_format(text, "<path class=\"target f%zu\" d=\"", shape);
+    for (int i = 0; i < steps; i++) {
+        double reach = shapes[shape].size * (star && i % 2 == 1 ? shapes[shape].inner : 1);
+        double angle = shapes[shape].turn - PI / 2 + 2 * PI * i / steps;
+        text_format(text, "%s%.1f %.1f", i == 0 ? "M" : "L", at.x + reach * cos(angle),
+                    at.y + reach * sin(angle));
+    }
+    text_add_word(text, "Z\"/>\n");
+}
+
+static void draw_target(struct still *still, const struct target *target)
+{
+    size_t style = 0;
+    const struct sensor_view *sensor = sensor_named(still->frame, target->sensor, &style);
+    struct view_scan scan = view_frame_scan(still->frame, sensor);
+    struct vec2 at = view_frame_place(&scan, target->range_m, target->azimuth_rad);
+    char class[16] = "speed s0";
+    class[7] = (char)('0' + style % STYLES);
+    for (size_t i = 0; i < target->contributors.count; i++) {
+        const struct contributor *from = &target->contributors.items[i];
+        struct vec2 place = view_frame_place(&scan, from->range_m, from->azimuth_rad);
+        text_format(still->text, "<g class=\"part s%zu\" stroke-width=\"%.2f\">", style % STYLES,
+                    1 + 3 * from->weight);
+        add_line(still, "tie", place, at);
+        text_add_word(still->text, "</g>\n");
+        add_dot(still, "lit", place, 3);
+    }
+    if (fabs(target->range_rate_mps) >= 0.02)
+        add_line(still, class, at,
+                 view_frame_place(&scan, target->range_m + target->range_rate_mps / 2,
+                                  target->azimuth_rad));
+    add_symbol(still->text, style, to_pixels(still, at));
+}
+
+static bool find_point(const struct still *still, const struct lost_echo *echo, struct vec2 *place)
+{
+    const struct object *object = frame_object(still->frame, echo->object);
+    const struct vehicle *vehicle =
+        object != NULL ? view_frame_vehicle(still->models, object->class) : NULL;
+    for (size_t i = 0; vehicle != NULL && i < vehicle->reflectors.points.count; i++) {
+        const struct point_reflector *point = &vehicle->reflectors.points.items[i];
+        if (strcmp(point->name, echo->reflector) != 0)
+            continue;
+        struct box box = box_of(still, object);
+        *place = reflectors_point_place(&box, point);
+        return true;
+    }
+    return false;
+}
+
+static void draw_lost(struct still *still, const struct lost_group *group)
+{
+    for (size_t i = 0; i < group->echoes.count && view_frame_loss_is_near(group->reason); i++) {
+        struct vec2 place;
+        if (!find_point(still, &group->echoes.items[i], &place))
+            continue;
+        struct vec2 at = to_pixels(still, place);
+        if (in_picture(at, 0))
+            text_format(still->text, "<path class=\"lost\" d=\"M%.1f %.1fl9 9m0 -9l-9 9\"/>\n",
+                        at.x - 4.5, at.y - 4.5);
+    }
+}
+
+static void draw_scale(struct still *still)
+{
+    double wanted = 80 / still->scale, step = pow(10, floor(log10(wanted)));
+    step *= wanted <= step ? 1 : wanted <= 2 * step ? 2 : wanted <= 5 * step ? 5 : 10;
+    text_format(still->text, "<path class=\"scale\" d=\"M20 %dv6h%.1fv-6\"/>\n", HEIGHT - 26,
+                step * still->scale);
+    text_format(still->text, "<text class=\"note\" x=\"24\" y=\"%d\">%g m</text>\n", HEIGHT - 30,
+                step);
+}
+
+static void draw_legend(struct still *still)
+{
+    const struct frame *frame = still->frame;
+    struct text *text = still->text;
+    double y = 26;
+    text_format(text, "<rect width=\"380\" height=\"%zu\" fill=\"#fff\" opacity=\"0.85\"/>\n",
+                frame->sensors.list.count * 20 + 80);
+    text_format(text, "<text class=\"title\" x=\"20\" y=\"%.0f\">", y);
+    add_escaped(text, frame->scene);
+    text_format(text, ", frame %lld, %g s</text>\n", (long long)frame->frame, frame->time_s);
+    for (size_t i = 0; i < frame->sensors.list.count; i++) {
+        y += 20;
+        add_symbol(text, i, (struct vec2){29, y - 4});
+        text_format(text, "<text class=\"note\" x=\"46\" y=\"%.0f\">target of ", y);
+        add_escaped(text, frame->sensors.list.items[i].name);
+        text_add_word(text, "; its line: radial speed, 0.5 s long</text>\n");
+    }
+    text_format(text, "<circle class=\"centre\" cx=\"29\" cy=\"%.0f\" r=\"2\"/>\n", y + 16);
+    text_format(text, "<text class=\"note\" x=\"46\" y=\"%.0f\">reflection centre</text>\n",
+                y + 20);
+    if (!frame->account)
+        return;
+    text_format(text, "<path class=\"lost\" d=\"M24.5 %.0fl9 9m0 -9l-9 9\"/>\n", y + 31);
+    text_format(text, "<text class=\"note\" x=\"46\" y=\"%.0f\">echo that is in no target</text>\n",
+                y + 40);
+}
+
+static void begin_drawing(struct text *text)
+{
+    text_format(text,
+                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" "
+                "height=\"%d\" font-family=\"sans-serif\" font-size=\"13\">\n<style>\n",
+                WIDTH, HEIGHT, WIDTH, HEIGHT);
+    text_add_word(
+        text,
+        ".body{fill:#eceef1;stroke:#7b8490}.ego{fill:#3d4550}.centre{fill:#7b8490}\n"
+        ".lit{fill:#16191d}.inside{fill:#fff;text-anchor:middle}\n"
+        ".name{fill:#5b636e;text-anchor:middle;paint-order:stroke;stroke:#fff;stroke-width:3}\n"
+        ".note{fill:#5b636e}\n"
+        ".title{fill:#16191d;font-weight:bold}.scale{stroke:#16191d;stroke-width:1.5}\n"
+        ".scale,.speed,.lost,.beam,.ring{fill:none}.lost{stroke:#b3261e;stroke-width:2}\n"
+        ".beam{stroke-dasharray:6 4;opacity:.5}.speed{stroke-width:1.6}\n"
+        ".ring{stroke-width:2.6}.target{stroke:#fff}.part{opacity:.6}\n");
+    for (int i = 0; i < STYLES; i++)
+        text_format(text, ".s%d{stroke:%s}.f%d{fill:%s}\n", i, colours[i], i, colours[i]);
+    text_format(text, "</style>\n<rect width=\"%d\" height=\"%d\" fill=\"#fff\"/>\n", WIDTH,
+                HEIGHT);
+}
+
+static void draw_frame(struct still *still)
+{
+    const struct frame *frame = still->frame;
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        draw_beam(still, &frame->sensors.list.items[i], i);
+    for (size_t i = 0; i < frame->objects.count; i++)
+        draw_object(still, &frame->objects.items[i]);
+    for (size_t i = 0; i < frame->objects.count; i++)
+        draw_reflectors(still, &frame->objects.items[i]);
+    for (size_t i = 0; i < frame->targets.count; i++)
+        draw_target(still, &frame->targets.items[i]);
+    for (size_t i = 0; i < frame->lost.count; i++)
+        draw_lost(still, &frame->lost.items[i]);
+}
+
+void view_svg_write(const struct frame *frame, struct view_models *models, struct text *text)
+{
+    const struct object *ego = frame_object(frame, frame->ego);
+    struct still still = {
+        .frame = frame,
+        .models = models,
+        .text = text,
+        .origin = {ego->x_m, ego->y_m},
+        .heading = vec2_heading(ego->yaw_rad),
+    };
+    frame_picture(&still);
+    begin_drawing(text);
+    draw_frame(&still);
+    draw_scale(&still);
+    draw_legend(&still);
+    text_add_word(text, "</svg>\n");
+}
+
+void view_svg_write_empty(struct text *text)
+{
+    begin_drawing(text);
+    text_format(text,
+                "<text class=\"note\" x=\"%d\" y=\"%d\" text-anchor=\"middle\">"
+                "The stream is empty: it has no frames.</text>\n</svg>\n",
+                WIDTH / 2, HEIGHT / 2);
+}

@@ -1,0 +1,125 @@
+/* A view for people: an HTML page that plays the stream and tells where every target came from, or
+ * one frame as an SVG still. */
+#include <string.h>
+
+#include "stage.h"
+#include "view_data.h"
+#include "view_page.h"
+#include "view_svg.h"
+
+struct view {
+    bool svg;
+    int64_t frame;
+    const char *scene;
+    bool any; /* has a frame of the stream been taken? */
+    struct view_data data;
+    const char *still; /* the best so far, of this many targets */
+    size_t targets;
+};
+
+static int view_start(void *state, struct runner *runner)
+{
+    struct view *view = state;
+    view_data_begin(&view->data, runner_arena(runner));
+    return 0;
+}
+
+static void take_still(struct view *view, const struct frame *frame, struct arena *arena)
+{
+    if (view->still != NULL && frame->targets.count <= view->targets)
+        return;
+    struct text text = {0};
+    view_svg_write(frame, &view->data.models, &text);
+    view->still = arena_text(arena, text.bytes, text.length);
+    view->targets = frame->targets.count;
+    text_free(&text);
+}
+
+static int view_step(void *state, struct frame *frame, struct runner *runner)
+{
+    struct view *view = state;
+    if (view->scene != NULL && strcmp(view->scene, frame->scene) != 0)
+        return 0;
+    view->any = view->any || view->frame < 0 || view->frame == frame->frame;
+    if (!view->svg)
+        view_data_add(&view->data, frame);
+    else if (view->frame < 0 || view->frame == frame->frame)
+        take_still(view, frame, runner_arena(runner));
+    return 0;
+}
+
+/* An empty stream has its own page; asking for something that is not there is an error. */
+static int check_found(const struct view *view, struct runner *runner)
+{
+    if (view->any || (view->frame < 0 && view->scene == NULL))
+        return 0;
+    if (view->frame < 0)
+        return diag_fail(runner_diag(runner), DIAG_DATA, "no scene \"%s\" in the stream",
+                         view->scene);
+    return diag_fail(runner_diag(runner), DIAG_DATA, "no frame %lld in the stream%s%s",
+                     (long long)view->frame, view->scene != NULL ? " of scene " : "",
+                     view->scene != NULL ? view->scene : "");
+}
+
+/* The page up to a mark; *from moves behind the mark. */
+static void add_page(struct text *text, const char **from, const char *mark)
+{
+    const char *at = strstr(*from, mark);
+    text_add(text, *from, (size_t)(at - *from));
+    *from = at + strlen(mark);
+}
+
+static void write_page(const struct view *view, struct text *text)
+{
+    const char *from = view_page;
+    add_page(text, &from, VIEW_PAGE_HEAD_MARK);
+    view_data_write_head(&view->data, view->frame, text);
+    add_page(text, &from, VIEW_PAGE_COLUMNS_MARK);
+    view_data_write_columns(&view->data, text);
+    text_add_word(text, from);
+}
+
+static int view_stop(void *state, struct runner *runner)
+{
+    struct view *view = state;
+    struct text text = {0};
+    if (check_found(view, runner) != 0)
+        return -1;
+    if (!view->svg)
+        write_page(view, &text);
+    else if (view->still != NULL)
+        text_add_word(&text, view->still);
+    else
+        view_svg_write_empty(&text);
+    int result = runner_write(runner, text.bytes, text.length);
+    text_free(&text);
+    return result;
+}
+
+static const struct field view_fields[] = {
+    {FIELD_FLAG_OF(struct view,           svg, "write one frame as an SVG still"), FIELD_OPTIONAL},
+    {FIELD_INTEGER_IN(struct view, frame, 0, 0x1p53,
+     "the page opens at this frame, the still shows it"),
+     FIELD_OPTIONAL, .absent = -1},
+    {FIELD_NAME_OF(struct view,                                   scene, "only this scene"), FIELD_OPTIONAL},
+    {0                             },
+};
+
+static const struct record view_record = {
+    .name = "stage", .size = sizeof(struct view), .fields = view_fields};
+
+const struct stage stage_view = {
+    .name = "view",
+    .summary = "Write an HTML page that plays the stream, or one frame as an SVG still.",
+    .details =
+        "The page is one file without any connection: open it in a browser. With --account\n"
+        "given to glint-ideal it also tells why a reflector is in no target. Without --frame\n"
+        "the page opens where most is to be seen, and the still shows the frame with most\n"
+        "targets.",
+    .options = &view_record,
+    .sink = true,
+    .reads = SECTION_OBJECTS,
+    .start = view_start,
+    .step = view_step,
+    .stop = view_stop,
+};

@@ -1,0 +1,252 @@
+// The frames: columns of typed arrays, decoded from base64 when first asked for. A row of one table
+// owns rows of the next by count: starts(name) turns counts into places.
+
+const head = JSON.parse(document.getElementById('head').textContent);
+const base64 = document.getElementById('columns').firstChild.data;
+const base64Begin = base64.search(/[^\s]/);
+const names = head.names;
+const decoded = new Map();
+const summed = new Map();
+
+const arrays = {f4: Float32Array, u1: Uint8Array, u2: Uint16Array, u4: Uint32Array};
+
+function bytesOf(text) {
+    if (Uint8Array.fromBase64) {
+        return Uint8Array.fromBase64(text);
+    }
+    const binary = atob(text);
+    const bytes = new Uint8Array(binary.length);
+    for (let i = 0; i < bytes.length; i++) {
+        bytes[i] = binary.charCodeAt(i);
+    }
+    return bytes;
+}
+
+function decode(place) {
+    const array = arrays[place.type];
+    const size = Math.ceil(place.count * array.BYTES_PER_ELEMENT / 12) * 16;
+    const begin = base64Begin + place.begin;
+    const bytes = bytesOf(base64.slice(begin, begin + size));
+    return new array(bytes.buffer, 0, place.count);
+}
+
+function column(name) {
+    let values = decoded.get(name);
+    if (values === undefined) {
+        values = decode(head.columns[name]);
+        decoded.set(name, values);
+    }
+    return values;
+}
+
+// Where the rows that each row owns begin; one more at the end.
+function starts(name) {
+    let sums = summed.get(name);
+    if (sums === undefined) {
+        const counts = column(name);
+        sums = new Uint32Array(counts.length + 1);
+        for (let i = 0; i < counts.length; i++) {
+            sums[i + 1] = sums[i] + counts[i];
+        }
+        summed.set(name, sums);
+    }
+    return sums;
+}
+
+// The rows of the stream that belong to each scene, in order of time: streams may be interleaved or
+// shuffled.
+function framesByScene() {
+    const scenes = head.scenes.map(() => []);
+    const owner = column('frame_scene');
+    for (let i = 0; i < owner.length; i++) {
+        scenes[owner[i]].push(i);
+    }
+    const times = column('frame_time_s');
+    scenes.forEach(frames => frames.sort((a, b) => times[a] - times[b]));
+    return scenes;
+}
+
+// Stored from the scene's first line on, so that a shuffled stream has negative ones, as 32 bits.
+function frameNumber(frame) {
+    const scene = head.scenes[column('frame_scene')[frame]];
+    return scene.first_frame + (column('frame_number')[frame] | 0);
+}
+
+const sceneFrames = framesByScene();
+
+// The last row of a scene no later than a time, by halving.
+function rowAt(frames, time) {
+    const times = column('frame_time_s');
+    let low = 0;
+    let high = frames.length - 1;
+    while (low < high) {
+        const middle = (low + high + 1) >> 1;
+        if (times[frames[middle]] <= time) {
+            low = middle;
+        } else {
+            high = middle - 1;
+        }
+    }
+    return low;
+}
+
+function objectsOf(frame) {
+    const begin = starts('frame_objects');
+    return {begin: begin[frame], end: begin[frame + 1]};
+}
+
+function scansOf(frame) {
+    const begin = starts('frame_scans');
+    return {begin: begin[frame], end: begin[frame + 1]};
+}
+
+function targetsOf(scan) {
+    const begin = starts('scan_targets');
+    return {begin: begin[scan], end: begin[scan + 1]};
+}
+
+function contributorsOf(target) {
+    const begin = starts('target_contributors');
+    return {begin: begin[target], end: begin[target + 1]};
+}
+
+// The row of the object with this id in a frame, or -1.
+function objectRow(frame, id) {
+    const ids = column('object_id');
+    const {begin, end} = objectsOf(frame);
+    for (let i = begin; i < end; i++) {
+        if (ids[i] === id) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+function sensorOf(scan) {
+    return head.sensors[column('scan_sensor')[scan]];
+}
+
+// Sensors of the same name look alike in all scenes.
+const sensorNames = [...new Set(head.sensors.map(sensor => sensor.name))].sort();
+
+function sensorStyle(scan) {
+    return sensorNames.indexOf(sensorOf(scan).name);
+}
+
+function scanOfSensor(frame, name) {
+    const {begin, end} = scansOf(frame);
+    for (let scan = begin; scan < end; scan++) {
+        if (sensorOf(scan).name === name) {
+            return scan;
+        }
+    }
+    return -1;
+}
+
+// A target belongs to the object of its leader, which opened the cell.
+function leaderOf(target) {
+    return contributorsOf(target).begin;
+}
+
+function objectOfTarget(target) {
+    return column('contributor_object')[leaderOf(target)];
+}
+
+function detailsOf(scan) {
+    const begin = starts('scan_details');
+    return {begin: begin[scan], end: begin[scan + 1]};
+}
+
+// Who blocked an echo, and how much it lacked.
+function detailFor(scan, object, item) {
+    const objects = column('detail_object');
+    const reflectors = column('detail_reflector');
+    const paths = column('detail_path');
+    const {begin, end} = detailsOf(scan);
+    for (let i = begin; i < end; i++) {
+        if (objects[i] === object && reflectors[i] === item.reflector && paths[i] === item.path) {
+            const by = column('detail_by')[i];
+            const shortfall = column('detail_shortfall_db')[i];
+            return {by: by > 0 ? names[by - 1] : null, shortfall};
+        }
+    }
+    return {by: null, shortfall: 0};
+}
+
+function patternItems(pattern) {
+    const begin = starts('pattern_items');
+    const items = [];
+    for (let i = begin[pattern]; i < begin[pattern + 1]; i++) {
+        items.push({
+            reflector: column('item_reflector')[i],
+            path: column('item_path')[i],
+            stage: names[column('item_stage')[i]],
+            reason: head.reasons[column('item_reason')[i]],
+        });
+    }
+    return items;
+}
+
+// Every echo of an object that a scan lost, with why.
+function lossesOf(scan, object) {
+    const begin = starts('scan_fates');
+    const objects = column('fate_object');
+    for (let i = begin[scan]; i < begin[scan + 1]; i++) {
+        if (objects[i] === object) {
+            const items = patternItems(column('fate_pattern')[i]);
+            return items.map(item => ({...item, ...detailFor(scan, object, item)}));
+        }
+    }
+    return [];
+}
+
+// The targets of a scan that an object has a part in: row, number in the list, its contributors.
+function targetsFrom(scan, object) {
+    const objects = column('contributor_object');
+    const found = [];
+    const {begin, end} = targetsOf(scan);
+    for (let target = begin; target < end; target++) {
+        const parts = contributorsOf(target);
+        for (let i = parts.begin; i < parts.end; i++) {
+            if (objects[i] === object) {
+                found.push({target, number: target - begin + 1});
+                break;
+            }
+        }
+    }
+    return found;
+}
+
+// The scan that a target belongs to, in its frame.
+function scanOfTarget(frame, target) {
+    const {begin, end} = scansOf(frame);
+    for (let scan = begin; scan < end; scan++) {
+        const targets = targetsOf(scan);
+        if (target >= targets.begin && target < targets.end) {
+            return scan;
+        }
+    }
+    return -1;
+}
+
+// The range rate as reported, or without the sensor's own motion.
+function rateOf(scan, target, compensated) {
+    const rate = column('target_range_rate_mps')[target];
+    if (!compensated) {
+        return rate;
+    }
+    const angle = column('scan_yaw_rad')[scan] + column('target_azimuth_rad')[target];
+    return rate + column('scan_vx_mps')[scan] * Math.cos(angle) +
+        column('scan_vy_mps')[scan] * Math.sin(angle);
+}
+
+function extremes(name, absolute) {
+    let low = Infinity;
+    let high = -Infinity;
+    for (const value of column(name)) {
+        const size = absolute ? Math.abs(value) : value;
+        low = Math.min(low, size);
+        high = Math.max(high, size);
+    }
+    return high < low ? {low: 0, high: 1} : {low, high};
+}

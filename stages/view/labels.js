@@ -1,0 +1,100 @@
+// Labels keep out of each other's way: the first free place around what they name.
+let taken = [];
+
+function isFree(box) {
+    return !taken.some(other => box.x < other.x + other.width && other.x < box.x + box.width &&
+        box.y < other.y + other.height && other.y < box.y + box.height);
+}
+
+function takeAround(at, radius) {
+    taken.push({x: at.x - radius, y: at.y - radius, width: 2 * radius, height: 2 * radius});
+}
+
+function freeBox(at, width, height) {
+    for (let reach = 14; reach < 130; reach += 12) {
+        for (const angle of [-0.7, 0.7, -2.4, 2.4, -1.5, 1.5, 0, 3.1]) {
+            const x = at.x + reach * Math.cos(angle) - (Math.cos(angle) < -0.1 ? width : 0);
+            const y = at.y + reach * Math.sin(angle) - height / 2;
+            const box = {x, y, width, height};
+            const inView = x > 2 && y > 2 && x + width < canvas.clientWidth - 46 &&
+                y + height < canvas.clientHeight - 2;
+            if (inView && isFree(box)) {
+                return box;
+            }
+        }
+    }
+    return null;
+}
+
+function shorten(text) {
+    return text.length > 72 ? text.slice(0, 70) + '…' : text;
+}
+
+function putLabel(text, at, colour, bold) {
+    const shown = shorten(text);
+    context.font = (bold ? '700 14px' : '12.5px') + ' system-ui, "DejaVu Sans", sans-serif';
+    const box = onScreen(at, 0) ? freeBox(at, context.measureText(shown).width + 8, 18) : null;
+    if (!box) {
+        return;
+    }
+    taken.push(box);
+    const x = Math.max(box.x, Math.min(at.x, box.x + box.width));
+    const y = Math.max(box.y, Math.min(at.y, box.y + box.height));
+    if (Math.hypot(at.x - x, at.y - y) > 16) {
+        context.strokeStyle = colour;
+        context.lineWidth = 0.8;
+        line(at, {x, y});
+    }
+    context.fillStyle = ink.halo;
+    context.fillRect(box.x, box.y, box.width, box.height);
+    context.fillStyle = colour;
+    context.textBaseline = 'middle';
+    context.fillText(shown, box.x + 4, box.y + 9.5);
+}
+
+// A name that does not tell the class has it added.
+function objectLabel(row) {
+    const id = names[column('object_id')[row]];
+    const kind = names[column('object_class')[row]];
+    return id.includes(kind) ? id : `${id} (${kind})`;
+}
+
+function isWorthLabel(row, box) {
+    const size = Math.max(box.length, box.width) * camera.scale;
+    const slim = Math.min(box.length, box.width) * camera.scale < 7;
+    return column('object_id')[row] === state.object ||
+        (size > 26 && !slim && onScreen(toScreen(box), 0));
+}
+
+function labelObjects() {
+    const {begin, end} = objectsOf(state.frame);
+    const ego = head.scenes[state.scene].ego;
+    let room = 24;
+    for (let row = begin; row < end; row++) {
+        const box = boxOf(row);
+        if (isWorthLabel(row, box) && room-- > 0) {
+            const isEgo = column('object_id')[row] === ego;
+            labelObject(box, isEgo ? 'ego' : objectLabel(row), isEgo ? ink.paper : ink.soft);
+        }
+    }
+}
+
+// Inside the box if it fits there, else beside it.
+function labelObject(box, text, colour) {
+    const at = toScreen(box);
+    const size = {
+        x: (box.length * Math.abs(box.cos) + box.width * Math.abs(box.sin)) * camera.scale,
+        y: (box.length * Math.abs(box.sin) + box.width * Math.abs(box.cos)) * camera.scale,
+    };
+    context.font = '12px system-ui, "DejaVu Sans", sans-serif';
+    const width = context.measureText(text).width;
+    const place = {x: at.x - width / 2, y: at.y - 8, width, height: 16};
+    if (width < 0.7 * Math.max(size.x, size.y) && size.y > 22 && width < size.x && isFree(place)) {
+        taken.push(place);
+        context.fillStyle = colour;
+        context.textBaseline = 'middle';
+        context.fillText(text, place.x, at.y);
+    } else {
+        putLabel(text, at, ink.soft);
+    }
+}

@@ -1,0 +1,80 @@
+// The legend: what symbols, lines and colours mean.
+
+function legendLine(mark, text) {
+    const line = make('div');
+    if (mark) {
+        line.append(mark);
+    }
+    line.append(make('span', text));
+    return line;
+}
+
+function markCanvas(paint) {
+    const small = make('canvas');
+    const ratio = window.devicePixelRatio || 1;
+    small.width = 18 * ratio;
+    small.height = 16 * ratio;
+    small.style.width = '18px';
+    small.style.height = '16px';
+    const drawing = small.getContext('2d');
+    drawing.scale(ratio, ratio);
+    paint(drawing);
+    return small;
+}
+
+function strokeMark(colour, width, lines) {
+    return markCanvas(drawing => {
+        drawing.strokeStyle = colour;
+        drawing.lineWidth = width;
+        drawing.beginPath();
+        for (const [x, y, toX, toY] of lines) {
+            drawing.moveTo(x, y);
+            drawing.lineTo(toX, toY);
+        }
+        drawing.stroke();
+    });
+}
+
+function dotMark(colour) {
+    return markCanvas(drawing => {
+        drawing.fillStyle = colour;
+        drawing.beginPath();
+        drawing.arc(9, 8, 2.5, 0, 7);
+        drawing.fill();
+    });
+}
+
+function colourLines() {
+    const gradient = (colours) => markCanvas(drawing => {
+        colours.forEach((colour, i) => {
+            drawing.fillStyle = colour;
+            drawing.fillRect(18 * i / colours.length, 3, 18 / colours.length + 1, 10);
+        });
+    });
+    if (state.colour === 'rate') {
+        const top = state.rateScale;
+        return [legendLine(gradient([-top, -top / 4, 0, top / 4, top].map(rateColour)),
+            `approaching ${round(top, 1)} … receding ${round(top, 1)} m/s`)];
+    }
+    if (state.colour === 'amplitude') {
+        const {low, high} = state.amplitudes;
+        const levels = [0, 0.25, 0.5, 0.75, 1].map(part => amplitudeColour(low + part * (high - low)));
+        return [legendLine(gradient(levels), `${round(low, 1)} … ${round(high, 1)} dB`)];
+    }
+    if (state.colour === 'path') {
+        return head.paths.map((path, i) =>
+            legendLine(dotMark(ink.palette[i % ink.palette.length]), `path: ${path}`));
+    }
+    return [];
+}
+
+function showLegend() {
+    const lines = sensorNames.map((name, i) => legendLine(
+        symbolCanvas(i, state.colour === 'sensor' ? ink.palette[i % ink.palette.length] : ink.soft, 18),
+        `target of ${name}`));
+    control('legend').replaceChildren(...lines, ...colourLines(),
+        legendLine(strokeMark(ink.soft, 1.6, [[1, 8, 17, 8]]),
+            state.rates === 'raw' ? 'its radial speed, 0.5 s long' : 'its radial speed over ground, 0.5 s long'),
+        legendLine(dotMark(ink.edge), 'reflection centre'),
+        legendLine(strokeMark(ink.lost, 2, [[4, 3, 14, 13], [4, 13, 14, 3]]), 'echo that is in no target'));
+}

@@ -1,0 +1,437 @@
+// The bird's-eye view. "Local" coordinates are the ego's (x ahead, y left) while the view follows
+// it, else the scene's; the camera looks at a local place.
+
+const canvas = document.getElementById('map');
+const context = canvas.getContext('2d');
+
+const camera = {x: 12, y: 0, scale: 20};
+
+function egoBox() {
+    const row = objectRow(state.frame, head.scenes[state.scene].ego);
+    return row < 0 ? null : boxOf(row);
+}
+
+function toLocal(place) {
+    const ego = state.follow ? state.ego : null;
+    if (!ego) {
+        return place;
+    }
+    const dx = place.x - ego.x;
+    const dy = place.y - ego.y;
+    return {x: dx * ego.cos + dy * ego.sin, y: dy * ego.cos - dx * ego.sin};
+}
+
+function fromLocal(local) {
+    const ego = state.follow ? state.ego : null;
+    if (!ego) {
+        return {x: local.x, y: local.y};
+    }
+    return {
+        x: ego.x + local.x * ego.cos - local.y * ego.sin,
+        y: ego.y + local.x * ego.sin + local.y * ego.cos,
+    };
+}
+
+function localToScreen(local) {
+    const ahead = (local.x - camera.x) * camera.scale;
+    const left = (local.y - camera.y) * camera.scale;
+    const middle = {x: canvas.clientWidth / 2, y: canvas.clientHeight / 2};
+    return state.up === 'right' ? {x: middle.x + ahead, y: middle.y - left}
+        : {x: middle.x - left, y: middle.y - ahead};
+}
+
+function screenToLocal(x, y) {
+    const right = (x - canvas.clientWidth / 2) / camera.scale;
+    const above = (canvas.clientHeight / 2 - y) / camera.scale;
+    return state.up === 'right' ? {x: camera.x + right, y: camera.y + above}
+        : {x: camera.x + above, y: camera.y - right};
+}
+
+function toScreen(place) {
+    return localToScreen(toLocal(place));
+}
+
+// The angle on the screen of a direction in the scene.
+function screenAngle(yaw) {
+    const turned = yaw - (state.follow && state.ego ? state.ego.yaw : 0);
+    return -(turned + (state.up === 'right' ? 0 : Math.PI / 2));
+}
+
+function line(from, to) {
+    context.beginPath();
+    context.moveTo(from.x, from.y);
+    context.lineTo(to.x, to.y);
+    context.stroke();
+}
+
+// Lines a round number of metres apart, in local coordinates.
+function gridStep(pixels) {
+    const wanted = pixels / camera.scale;
+    const power = Math.pow(10, Math.floor(Math.log10(wanted)));
+    return [1, 2, 5, 10].map(factor => factor * power).find(step => step >= wanted);
+}
+
+function drawGrid() {
+    const step = gridStep(70);
+    const corner = screenToLocal(0, 0);
+    const other = screenToLocal(canvas.clientWidth, canvas.clientHeight);
+    context.strokeStyle = ink.grid;
+    context.lineWidth = 1;
+    const low = {x: Math.min(corner.x, other.x), y: Math.min(corner.y, other.y)};
+    const high = {x: Math.max(corner.x, other.x), y: Math.max(corner.y, other.y)};
+    for (let x = Math.ceil(low.x / step) * step; x <= high.x; x += step) {
+        line(localToScreen({x, y: low.y}), localToScreen({x, y: high.y}));
+    }
+    for (let y = Math.ceil(low.y / step) * step; y <= high.y; y += step) {
+        line(localToScreen({x: low.x, y}), localToScreen({x: high.x, y}));
+    }
+}
+
+function drawBeam(scan) {
+    const sensor = sensorOf(scan);
+    const at = toScreen(scanPlace(scan, 0, 0));
+    const middle = screenAngle(column('scan_yaw_rad')[scan]);
+    const half = sensor.field_of_view_rad / 2;
+    const colour = ink.palette[sensorStyle(scan) % ink.palette.length];
+    context.beginPath();
+    context.moveTo(at.x, at.y);
+    context.arc(at.x, at.y, sensor.range_max_m * camera.scale, middle - half, middle + half);
+    context.closePath();
+    context.globalAlpha = 0.035;
+    context.fillStyle = colour;
+    context.fill();
+    context.globalAlpha = 0.55;
+    context.strokeStyle = colour;
+    context.lineWidth = 1;
+    context.setLineDash(column('scan_measured')[scan] ? [6, 4] : [1, 5]);
+    context.stroke();
+    context.setLineDash([]);
+    context.globalAlpha = 1;
+}
+
+function traceOutline(box) {
+    context.beginPath();
+    for (const corner of outlineOf(box)) {
+        const at = toScreen(corner);
+        context.lineTo(at.x, at.y);
+    }
+    context.closePath();
+}
+
+function onScreen(at, margin) {
+    return at.x > -margin && at.y > -margin && at.x < canvas.clientWidth + margin &&
+        at.y < canvas.clientHeight + margin;
+}
+
+function drawObject(row) {
+    const box = boxOf(row);
+    const id = column('object_id')[row];
+    const isEgo = id === head.scenes[state.scene].ego;
+    if (!onScreen(toScreen(box), Math.max(box.length, box.width) * camera.scale)) {
+        return;
+    }
+    traceOutline(box);
+    context.fillStyle = isEgo ? ink.ego : ink.body;
+    context.fill();
+    context.lineWidth = id === state.object ? 2.2 : 1.2;
+    context.strokeStyle = id === state.object ? ink.chosen : ink.edge;
+    context.stroke();
+    if (box.length * camera.scale > 14 && box.width > 0.25 * box.length) {
+        const colour = isEgo ? ink.paper : ink.edge;
+        drawHeading(box, colour);
+    }
+}
+
+// A chevron at the front: which way it faces.
+function drawHeading(box, colour) {
+    context.strokeStyle = colour;
+    context.lineWidth = 1.2;
+    context.beginPath();
+    for (const [x, y] of [[0.4, 0.22], [0.46, 0], [0.4, -0.22]]) {
+        const at = toScreen(placeIn(box, x, y));
+        context.lineTo(at.x, at.y);
+    }
+    context.stroke();
+}
+
+function drawDot(at, radius, colour) {
+    context.beginPath();
+    context.arc(at.x, at.y, radius, 0, 2 * Math.PI);
+    context.fillStyle = colour;
+    context.fill();
+}
+
+function drawReflectors(row) {
+    const kind = classOf(row);
+    if (camera.scale < 6 || column('object_id')[row] === head.scenes[state.scene].ego) {
+        return;
+    }
+    const box = boxOf(row);
+    for (const point of kind.points) {
+        drawDot(toScreen(pointPlace(box, point)), 2, ink.edge);
+    }
+    for (const posts of kind.rows) {
+        const count = Math.min(postCount(box, posts), 5000);
+        for (let post = 0; post < count; post++) {
+            const at = toScreen(postPlace(box, posts, post));
+            if (onScreen(at, 2)) {
+                drawDot(at, 1.5, ink.edge);
+            }
+        }
+    }
+}
+
+function drawTrail() {
+    const frames = sceneFrames[state.scene];
+    const times = column('frame_time_s');
+    const now = times[state.frame];
+    for (let at = state.row - 1; at >= 0 && times[frames[at]] > now - 0.5; at--) {
+        context.globalAlpha = 0.45 * (1 - (now - times[frames[at]]) / 0.5);
+        eachTarget(frames[at], (scan, target) => {
+            drawDot(toScreen(targetPlace(scan, target)), 2.2, colourOf(scan, target));
+        });
+    }
+    context.globalAlpha = 1;
+}
+
+function eachTarget(frame, visit) {
+    const {begin, end} = scansOf(frame);
+    for (let scan = begin; scan < end; scan++) {
+        const targets = targetsOf(scan);
+        for (let target = targets.begin; target < targets.end; target++) {
+            visit(scan, target);
+        }
+    }
+}
+
+// Along the line of sight, away from the sensor if receding: half a second long.
+function drawRate(scan, target, colour) {
+    const rate = rateOf(scan, target, state.rates === 'compensated');
+    if (Math.abs(rate) < 0.02) {
+        return;
+    }
+    const range = column('target_range_m')[target];
+    const azimuth = column('target_azimuth_rad')[target];
+    context.strokeStyle = colour;
+    context.lineWidth = 1.6;
+    line(toScreen(scanPlace(scan, range, azimuth)), toScreen(scanPlace(scan, range + rate / 2, azimuth)));
+}
+
+function drawTarget(scan, target) {
+    const at = toScreen(targetPlace(scan, target));
+    const colour = colourOf(scan, target);
+    drawRate(scan, target, colour);
+    drawSymbol(context, sensorStyle(scan), at.x, at.y, target === state.target ? 9.5 : 7, colour);
+    if (target === state.target) {
+        context.beginPath();
+        context.arc(at.x, at.y, 15, 0, 2 * Math.PI);
+        context.strokeStyle = ink.chosen;
+        context.lineWidth = 2;
+        context.stroke();
+    }
+}
+
+function drawCross(at, radius) {
+    context.strokeStyle = ink.lost;
+    context.lineWidth = 2;
+    line({x: at.x - radius, y: at.y - radius}, {x: at.x + radius, y: at.y + radius});
+    line({x: at.x - radius, y: at.y + radius}, {x: at.x + radius, y: at.y - radius});
+}
+
+// A target's reflection centres light up, tied to it by lines as strong as their weight.
+function drawParts(scan, target, strong) {
+    const at = toScreen(targetPlace(scan, target));
+    const colour = colourOf(scan, target);
+    const {begin, end} = contributorsOf(target);
+    const weights = column('contributor_weight');
+    for (let i = begin; i < end; i++) {
+        const from = toScreen(contributorPlace(scan, i));
+        context.strokeStyle = colour;
+        context.globalAlpha = strong ? 0.9 : 0.6;
+        context.lineWidth = 1 + 3 * weights[i];
+        line(from, at);
+        context.globalAlpha = 1;
+        drawDot(from, strong ? 5.5 : 4.5, ink.paper);
+        drawDot(from, strong ? 4 : 3, colour);
+    }
+}
+
+function labelPart(scan, i) {
+    const from = toScreen(contributorPlace(scan, i));
+    const weight = Math.round(100 * column('contributor_weight')[i]);
+    putLabel(`${names[column('contributor_reflector')[i]]} ${weight} %`, from, ink.ink);
+}
+
+function labelParts(target) {
+    const scan = scanOfTarget(state.frame, target);
+    const {begin, end} = contributorsOf(target);
+    for (let i = begin; i < Math.min(end, begin + 8); i++) {
+        labelPart(scan, i);
+    }
+}
+
+// Echoes of the chosen object that got lost, by reflection centre: what each sensor says of it.
+function lostReflectors() {
+    const found = new Map();
+    const {begin, end} = scansOf(state.frame);
+    for (let scan = begin; scan < end; scan++) {
+        for (const loss of lossesOf(scan, state.object).filter(one => one.reason.near)) {
+            const name = names[loss.reflector];
+            const known = found.get(name) || [];
+            found.set(name, known.concat(`${shortReason(loss)} for ${sensorOf(scan).name}`));
+        }
+    }
+    return found;
+}
+
+// What a chosen object's reflection centres came to.
+function drawExplanation() {
+    const row = objectRow(state.frame, state.object);
+    if (row < 0) {
+        return;
+    }
+    const {begin, end} = scansOf(state.frame);
+    for (let scan = begin; scan < end; scan++) {
+        for (const {target} of targetsFrom(scan, state.object)) {
+            drawParts(scan, target, false);
+        }
+    }
+    for (const name of lostReflectors().keys()) {
+        const found = reflectorPlace(row, name);
+        if (found) {
+            drawCross(toScreen(found.place), 5);
+        }
+    }
+}
+
+function labelTargets() {
+    const {begin, end} = scansOf(state.frame);
+    for (let scan = begin; scan < end; scan++) {
+        for (const {target, number} of targetsFrom(scan, state.object).slice(0, 12)) {
+            putLabel(String(number), toScreen(targetPlace(scan, target)), colourOf(scan, target), true);
+        }
+    }
+}
+
+function labelExplanation() {
+    const row = objectRow(state.frame, state.object);
+    if (row < 0) {
+        return;
+    }
+    labelTargets();
+    for (const [name, reasons] of [...lostReflectors()].slice(0, 8)) {
+        const found = reflectorPlace(row, name);
+        if (found) {
+            putLabel(`${name}: ${reasons.join(', ')}`, toScreen(found.place), ink.lost);
+        }
+    }
+}
+
+// The ring of one cell's width in range around the leader of a target: what else lies in it, and
+// moves alike, has no target of its own.
+function drawCellRing(scan, target) {
+    const range = column('contributor_range_m')[leaderOf(target)];
+    const sensor = sensorOf(scan);
+    const at = toScreen(scanPlace(scan, 0, 0));
+    const middle = screenAngle(column('scan_yaw_rad')[scan]);
+    const half = sensor.field_of_view_rad / 2;
+    context.strokeStyle = ink.soft;
+    context.lineWidth = 1;
+    context.setLineDash([3, 3]);
+    for (const side of [-0.5, 0.5]) {
+        context.beginPath();
+        context.arc(at.x, at.y, Math.max(0, range + side * sensor.cell_range_m) * camera.scale,
+            middle - half, middle + half);
+        context.stroke();
+    }
+    context.setLineDash([]);
+}
+
+function drawChosenReflector() {
+    const row = objectRow(state.frame, state.object);
+    const found = row >= 0 && state.reflector ? reflectorPlace(row, state.reflector) : null;
+    if (!found) {
+        return;
+    }
+    context.strokeStyle = ink.chosen;
+    context.lineWidth = 2.5;
+    if (found.segment) {
+        line(toScreen(found.segment[0]), toScreen(found.segment[1]));
+    }
+    const at = toScreen(found.place);
+    context.beginPath();
+    context.arc(at.x, at.y, 8, 0, 2 * Math.PI);
+    context.stroke();
+}
+
+function drawScaleBar() {
+    const step = gridStep(70);
+    const width = step * camera.scale;
+    const x = 16;
+    const y = canvas.clientHeight - 16;
+    context.fillStyle = ink.halo;
+    context.fillRect(x - 6, y - 24, width + 12, 31);
+    context.strokeStyle = ink.ink;
+    context.lineWidth = 1.5;
+    context.beginPath();
+    context.moveTo(x, y - 5);
+    context.lineTo(x, y);
+    context.lineTo(x + width, y);
+    context.lineTo(x + width, y - 5);
+    context.stroke();
+    context.fillStyle = ink.ink;
+    context.font = '12px system-ui, "DejaVu Sans", sans-serif';
+    context.textBaseline = 'alphabetic';
+    context.fillText(`${Number(step.toPrecision(2))} m`, x + 4, y - 7);
+}
+
+function reserveRoom() {
+    taken = [];
+    const legend = document.getElementById('legend');
+    taken.push({x: legend.offsetLeft, y: legend.offsetTop, width: legend.offsetWidth,
+        height: legend.offsetHeight});
+    taken.push({x: 10, y: canvas.clientHeight - 40, width: 190, height: 40});
+    eachTarget(state.frame, (scan, target) => takeAround(toScreen(targetPlace(scan, target)), 7));
+}
+
+function drawMap() {
+    fitCanvas(canvas, context);
+    if (state.frame < 0) {
+        return;
+    }
+    reserveRoom();
+    drawGrid();
+    const objects = objectsOf(state.frame);
+    const scans = scansOf(state.frame);
+    for (let scan = scans.begin; scan < scans.end; scan++) {
+        drawBeam(scan);
+    }
+    for (let row = objects.begin; row < objects.end; row++) {
+        drawObject(row);
+    }
+    for (let row = objects.begin; row < objects.end; row++) {
+        drawReflectors(row);
+    }
+    if (state.trail) {
+        drawTrail();
+    }
+    drawTargets();
+    drawScaleBar();
+}
+
+function drawTargets() {
+    drawExplanation();
+    drawChosenReflector();
+    if (state.target >= 0) {
+        const scan = scanOfTarget(state.frame, state.target);
+        drawCellRing(scan, state.target);
+        drawParts(scan, state.target, true);
+    }
+    eachTarget(state.frame, drawTarget);
+    if (state.target >= 0) {
+        labelParts(state.target);
+    } else {
+        labelExplanation();
+    }
+    labelObjects();
+}

@@ -1,0 +1,324 @@
+// The page: what is shown and chosen, the clock, the controls and the keys.
+
+const state = {
+    scene: 0,
+    row: 0, // of the scene's frames
+    frame: -1, // of all frames in the stream
+    ego: null,
+    object: -1, // number of its name
+    reflector: null,
+    target: -1,
+    colour: 'sensor',
+    rates: 'raw',
+    up: 'right',
+    follow: true,
+    trail: true,
+    playing: false,
+    pace: 1,
+    rateScale: 1,
+    amplitudes: {low: 0, high: 1},
+    limits: {range: 30, azimuth: 90, rate: 10},
+};
+
+const control = id => document.getElementById(id);
+
+let drawn = true;
+
+function redraw() {
+    if (drawn) {
+        drawn = false;
+        requestAnimationFrame(draw);
+    }
+}
+
+function draw() {
+    drawn = true;
+    drawMap();
+    drawPlots();
+}
+
+function refresh() {
+    showPanel();
+    redraw();
+}
+
+// Choosing.
+
+function chooseTarget(target) {
+    state.target = target;
+    state.reflector = null;
+    if (target >= 0) {
+        state.object = objectOfTarget(target);
+    }
+    refresh();
+}
+
+function chooseReflector(reflector, object) {
+    state.target = -1;
+    state.reflector = reflector;
+    if (object !== undefined) {
+        state.object = object;
+    }
+    refresh();
+}
+
+function chooseObject(object) {
+    state.target = -1;
+    state.reflector = null;
+    state.object = object;
+    refresh();
+}
+
+function chooseNone() {
+    if (state.target >= 0 || state.reflector) {
+        chooseReflector(null);
+    } else {
+        chooseObject(-1);
+    }
+}
+
+function chooseNext(step) {
+    const targets = [];
+    eachTarget(state.frame, (scan, target) => targets.push(target));
+    if (targets.length > 0) {
+        const at = targets.indexOf(state.target);
+        const from = at < 0 && step < 0 ? 0 : at;
+        chooseTarget(targets[(from + step + targets.length) % targets.length]);
+    }
+}
+
+// Time.
+
+function showClock() {
+    const scene = head.scenes[state.scene];
+    const time = scene.start_s + column('frame_time_s')[state.frame];
+    const last = sceneFrames[state.scene].length;
+    control('clock').textContent = `frame ${frameNumber(state.frame)} (${state.row + 1}/${last}), ${round(time, 3)} s`;
+    control('scrub').value = String(state.row);
+}
+
+function showRow(row) {
+    const frames = sceneFrames[state.scene];
+    state.row = Math.max(0, Math.min(frames.length - 1, row));
+    if (state.frame !== frames[state.row]) {
+        state.target = -1;
+    }
+    state.frame = frames.length > 0 ? frames[state.row] : -1;
+    state.ego = egoBox();
+    showClock();
+    refresh();
+}
+
+let playedFrom = {clock: 0, time: 0};
+
+function startClock() {
+    playedFrom = {clock: performance.now(), time: column('frame_time_s')[state.frame]};
+}
+
+function playOn(now) {
+    if (!state.playing) {
+        return;
+    }
+    const frames = sceneFrames[state.scene];
+    const time = playedFrom.time + state.pace * Math.max(0, now - playedFrom.clock) / 1000;
+    const row = rowAt(frames, time);
+    if (row !== state.row) {
+        showRow(row);
+    }
+    if (row === frames.length - 1) {
+        setPlaying(false);
+    }
+    requestAnimationFrame(playOn);
+}
+
+function setPlaying(playing) {
+    const last = sceneFrames[state.scene].length - 1;
+    if (playing && state.row === last) {
+        showRow(0);
+    }
+    state.playing = playing && last > 0;
+    control('play').textContent = state.playing ? '❚❚' : '▶';
+    control('play').setAttribute('aria-label', state.playing ? 'Pause' : 'Play');
+    panel.setAttribute('aria-live', state.playing ? 'off' : 'polite');
+    if (state.playing) {
+        startClock();
+        requestAnimationFrame(playOn);
+    }
+}
+
+function stepBy(rows) {
+    setPlaying(false);
+    showRow(state.row + rows);
+}
+
+// Starting.
+
+function scenesCutShort() {
+    return head.scenes.filter(scene => !scene.ended).map(scene => names[scene.name]);
+}
+
+function showNotice() {
+    const cut = scenesCutShort();
+    const notice = control('notice');
+    const shown = cut.slice(0, 5).map(name => `“${name}”`).join(', ');
+    const more = cut.length > 5 ? ` and ${cut.length - 5} more` : '';
+    notice.hidden = cut.length === 0;
+    notice.textContent = cut.length === 1 && head.scenes.length === 1
+        ? 'This scene ends before its last frame: the stream was cut.'
+        : `Cut stream: ${cut.length} of ${head.scenes.length} scenes end before their last frame: ${shown}${more}.`;
+}
+
+function setScene(number) {
+    state.scene = number;
+    state.object = -1;
+    state.reflector = null;
+    state.target = -1;
+    control('scrub').max = String(sceneFrames[number].length - 1);
+    const open = openingOf(number);
+    state.object = open.object;
+    setPlaying(false);
+    showRow(open.row);
+    fitView();
+    refresh();
+}
+
+function fillScenes() {
+    const choice = control('scene');
+    head.scenes.forEach((scene, i) => {
+        const option = make('option', names[scene.name]);
+        option.value = String(i);
+        choice.append(option);
+    });
+    control('scene-choice').hidden = head.scenes.length < 2;
+    control('scene-name').textContent = head.scenes.length === 1 ? names[head.scenes[0].name] : '';
+    choice.addEventListener('change', () => setScene(Number(choice.value)));
+}
+
+function setTheme(dark) {
+    document.documentElement.classList.toggle('dark', dark);
+    readInk();
+    showLegend();
+    refresh();
+}
+
+function choice(id, apply) {
+    control(id).addEventListener('change', () => {
+        apply(control(id).value);
+        showLegend();
+        refresh();
+    });
+}
+
+function connectChoices() {
+    choice('colour', value => { state.colour = value; });
+    choice('rates', value => { state.rates = value; });
+    choice('up', value => { state.up = value; fitView(); });
+    control('follow').addEventListener('change', () => setFollow(control('follow').checked));
+    control('trail').addEventListener('change', () => {
+        state.trail = control('trail').checked;
+        redraw();
+    });
+    control('pace').addEventListener('change', () => {
+        state.pace = Number(control('pace').value);
+        startClock();
+    });
+    control('scrub').addEventListener('input', () => {
+        setPlaying(false);
+        showRow(Number(control('scrub').value));
+    });
+}
+
+function connectButtons() {
+    const click = (id, act) => control(id).addEventListener('click', act);
+    click('play', () => setPlaying(!state.playing));
+    click('back', () => stepBy(-1));
+    click('forward', () => stepBy(1));
+    click('closer', () => zoomMiddle(1.4));
+    click('farther', () => zoomMiddle(1 / 1.4));
+    click('fit', fitView);
+    click('theme', () => setTheme(!isDark()));
+}
+
+function cycle(id) {
+    const select = control(id);
+    select.selectedIndex = (select.selectedIndex + 1) % select.options.length;
+    select.dispatchEvent(new Event('change'));
+}
+
+function toggle(id) {
+    control(id).click();
+}
+
+const keyActions = {
+    ' ': () => setPlaying(!state.playing),
+    'ArrowLeft': event => stepBy(event.shiftKey ? -10 : -1),
+    'ArrowRight': event => stepBy(event.shiftKey ? 10 : 1),
+    'Home': () => stepBy(-Infinity),
+    'End': () => stepBy(Infinity),
+    '+': () => zoomMiddle(1.25),
+    '=': () => zoomMiddle(1.25),
+    '-': () => zoomMiddle(0.8),
+    '0': fitView,
+    'n': () => chooseNext(1),
+    'b': () => chooseNext(-1),
+    'c': () => cycle('colour'),
+    'v': () => cycle('rates'),
+    'x': () => cycle('up'),
+    'f': () => toggle('follow'),
+    't': () => toggle('trail'),
+    'd': () => setTheme(!isDark()),
+    '?': () => control('keys').showModal(),
+    'Escape': chooseNone,
+};
+
+function onKey(event) {
+    const own = ['SELECT', 'INPUT', 'BUTTON'].includes(event.target.tagName);
+    const moves = event.key === ' ' || event.key.startsWith('Arrow') || event.key === 'Home' ||
+        event.key === 'End';
+    if (event.ctrlKey || event.metaKey || event.altKey || control('keys').open || (own && moves)) {
+        return;
+    }
+    const act = keyActions[event.key];
+    if (act) {
+        event.preventDefault();
+        act(event);
+    }
+}
+
+function followTheme() {
+    const dark = window.matchMedia('(prefers-color-scheme: dark)');
+    dark.addEventListener('change', event => setTheme(event.matches));
+    document.documentElement.classList.toggle('dark', dark.matches);
+    readInk();
+}
+
+function showEmpty() {
+    control('empty').hidden = false;
+    control('empty').textContent = 'The stream is empty: it has no frames.';
+    for (const part of document.querySelectorAll('header label, footer, aside, #legend, #zoom, #theme')) {
+        part.hidden = true;
+    }
+}
+
+function start() {
+    followTheme();
+    control('help').addEventListener('click', () => control('keys').showModal());
+    if (head.scenes.length === 0) {
+        showEmpty();
+        return;
+    }
+    fillScenes();
+    connectChoices();
+    connectButtons();
+    connectPointers();
+    document.addEventListener('keydown', onKey);
+    new ResizeObserver(redraw).observe(canvas);
+    state.rateScale = Math.max(1, extremes('target_range_rate_mps', true).high);
+    state.amplitudes = extremes('target_amplitude_db', false);
+    state.limits = plotLimits();
+    showNotice();
+    showLegend();
+    setScene(0);
+}
+
+start();

@@ -1,0 +1,376 @@
+// The panel: in words, what was chosen on the map. Text only ever enters the page as text.
+
+const panel = document.getElementById('panel');
+
+function make(tag, text, className) {
+    const element = document.createElement(tag);
+    if (text !== undefined && text !== null) {
+        element.textContent = text;
+    }
+    if (className) {
+        element.className = className;
+    }
+    return element;
+}
+
+function symbolCanvas(style, colour, size) {
+    const small = make('canvas');
+    const ratio = window.devicePixelRatio || 1;
+    small.width = small.height = Math.round(size * ratio);
+    small.style.width = small.style.height = size + 'px';
+    const drawing = small.getContext('2d');
+    drawing.scale(ratio, ratio);
+    drawSymbol(drawing, style, size / 2, size / 2, size * 0.36, colour);
+    return small;
+}
+
+function round(value, digits) {
+    return value.toFixed(digits).replace(/^-(0(\.0*)?)$/, '$1');
+}
+
+function plural(count, word) {
+    return `${count} ${word}${count === 1 ? '' : 's'}`;
+}
+
+function shortReason(loss) {
+    switch (loss.reason.name) {
+    case 'below_threshold': return `${round(loss.shortfall, 1)} dB too weak`;
+    case 'below_final_threshold': return `${round(loss.shortfall, 1)} dB too weak after noise`;
+    case 'blocked': return `blocked by ${loss.by}`;
+    case 'list_limit': return 'the list was full';
+    case 'no_angle': return 'no angle';
+    case 'no_amplitude': return 'in a null of the antenna';
+    default: return loss.reason.name.replace(/_/g, ' ');
+    }
+}
+
+function longReason(loss) {
+    switch (loss.reason.name) {
+    case 'facing_away': return 'It faces away: the sensor is outside its range of visibility.';
+    case 'no_specular_point': return 'It is a flat side, and mirrors the radar past the sensor.';
+    case 'out_of_range': return 'It is nearer or farther than the sensor measures.';
+    case 'out_of_view': return 'It is outside the sensor’s field of view.';
+    case 'blocked': return `${loss.by} stands in the way.`;
+    case 'no_amplitude': return 'Nothing comes back: the antenna has a null there.';
+    case 'below_threshold':
+        return `All echoes in its cell together are ${round(loss.shortfall, 2)} dB below the detection threshold.`;
+    case 'below_final_threshold':
+        return `After superposition and noise its cell is ${round(loss.shortfall, 2)} dB below the threshold.`;
+    case 'no_angle': return 'Both channels of its cell are exactly zero, so there is no angle.';
+    case 'list_limit': return 'The sensor reports no more targets than it did already.';
+    default: return loss.reason.name.replace(/_/g, ' ');
+    }
+}
+
+function button(className, onClick) {
+    const element = make('button', null, className);
+    element.addEventListener('click', onClick);
+    return element;
+}
+
+function rowButton(mark, what, value, onClick) {
+    const row = button('row', onClick);
+    const left = make('span', null, 'mark');
+    left.append(mark);
+    const middle = make('span', null, 'what');
+    middle.append(...what);
+    row.append(left, middle, make('span', value, 'value'));
+    return row;
+}
+
+function partsText(target, object) {
+    const {begin, end} = contributorsOf(target);
+    const parts = [];
+    for (let i = begin; i < end; i++) {
+        const foreign = column('contributor_object')[i] !== object;
+        const reflector = names[column('contributor_reflector')[i]];
+        parts.push({
+            weight: column('contributor_weight')[i],
+            text: foreign ? `${reflector} of ${names[column('contributor_object')[i]]}` : reflector,
+        });
+    }
+    parts.sort((a, b) => b.weight - a.weight);
+    return parts.map(part => `${part.text} ${Math.round(100 * part.weight)} %`).join(' + ');
+}
+
+function targetRow(scan, target, number, object) {
+    const mark = symbolCanvas(sensorStyle(scan), colourOf(scan, target), 18);
+    const label = make('b', `${number} `);
+    const level = `${round(column('target_amplitude_db')[target], 1)} dB`;
+    return rowButton(mark, [label, partsText(target, object)], level, () => chooseTarget(target));
+}
+
+function lossRow(loss) {
+    const name = names[loss.reflector];
+    const row = rowButton('✕', [make('b', name), ' ' + shortReason(loss)], '',
+        () => chooseReflector(name));
+    row.classList.add('lost');
+    return row;
+}
+
+function farSection(losses) {
+    const groups = new Map();
+    for (const loss of losses) {
+        const known = groups.get(loss.reason.name) || [];
+        groups.set(loss.reason.name, known.concat(names[loss.reflector]));
+    }
+    const lines = [];
+    for (const [reason, reflectors] of groups) {
+        const line = make('p', null, 'soft');
+        const more = reflectors.length > 12 ? ` and ${reflectors.length - 12} more` : '';
+        line.append(make('b', `${reflectors.length} ${farWords(reason)}: `),
+            reflectors.slice(0, 12).join(', ') + more);
+        lines.push(line);
+    }
+    return lines;
+}
+
+function farWords(reason) {
+    const words = {
+        facing_away: 'facing away',
+        no_specular_point: 'mirroring past the sensor',
+        out_of_range: 'out of range',
+        out_of_view: 'out of view',
+    };
+    return words[reason] || reason.replace(/_/g, ' ');
+}
+
+function summary(scan, targets, near, far) {
+    if (!column('scan_measured')[scan]) {
+        return 'did not measure in this frame';
+    }
+    const words = [plural(targets.length, 'target')];
+    if (near.length > 0) {
+        words.push(near.length === 1 ? '1 echo lost' : `${near.length} echoes lost`);
+    }
+    if (far.length > 0) {
+        words.push(`${far.length} sent no echo`);
+    }
+    return words.join(', ');
+}
+
+function sensorTitle(scan, text) {
+    const title = make('h3');
+    const style = sensorStyle(scan);
+    const colour = state.colour === 'sensor' ? ink.palette[style % ink.palette.length] : ink.soft;
+    const name = make('b', sensorOf(scan).name);
+    title.append(symbolCanvas(style, colour, 16), ' ', name, text ? `: ${text}` : '');
+    return title;
+}
+
+function section(title, rows) {
+    return rows.length === 0 ? [] : [make('h3', title), ...rows];
+}
+
+function objectTitle(id) {
+    const row = objectRow(state.frame, id);
+    const kind = row < 0 ? 'not in this frame' : names[column('object_class')[row]];
+    return kind === names[id] ? kind : `${names[id]} (${kind})`;
+}
+
+function objectNotes(row) {
+    if (names[state.object] === names[head.scenes[state.scene].ego]) {
+        return ['The ego carries the sensors. It neither reflects nor blocks.'];
+    }
+    const notes = [];
+    if (row >= 0 && !classOf(row).known) {
+        notes.push('There is no vehicle document of this class here, so its reflection centres ' +
+            'are not drawn.');
+    }
+    const centres = row < 0 ? 0 : reflectorCount(row);
+    if (centres > 0 && hasSensors()) {
+        notes.push(`${plural(centres, 'reflection centre')}: which of them made a target, which got ` +
+            'lost, and why.');
+    }
+    if (!head.scenes[state.scene].account && hasSensors()) {
+        notes.push('The stream does not tell what was lost: give --account to glint-ideal.');
+    }
+    return notes;
+}
+
+function reflectorCount(row) {
+    const kind = classOf(row);
+    const box = boxOf(row);
+    return kind.points.length + kind.planes.length +
+        kind.rows.reduce((sum, posts) => sum + postCount(box, posts), 0);
+}
+
+function hasSensors() {
+    const {begin, end} = scansOf(state.frame);
+    return end > begin;
+}
+
+function showObject() {
+    const row = objectRow(state.frame, state.object);
+    const parts = [make('h2', objectTitle(state.object))];
+    parts.push(...objectNotes(row).map(note => make('p', note, 'soft')));
+    const {begin, end} = scansOf(state.frame);
+    for (let scan = begin; scan < end && state.object !== head.scenes[state.scene].ego; scan++) {
+        parts.push(...objectSections(scan));
+    }
+    panel.replaceChildren(...parts);
+}
+
+function objectSections(scan) {
+    const targets = targetsFrom(scan, state.object);
+    const losses = lossesOf(scan, state.object);
+    const near = losses.filter(loss => loss.reason.near);
+    const far = losses.filter(loss => !loss.reason.near);
+    return [
+        sensorTitle(scan, summary(scan, targets, near, far)),
+        ...targets.map(one => targetRow(scan, one.target, one.number, state.object)),
+        ...near.slice(0, 40).map(lossRow),
+        ...farSection(far),
+    ];
+}
+
+function tableRow(cells, tag) {
+    const row = make('tr');
+    cells.forEach((cell, i) => row.append(make(tag || (i ? 'td' : 'th'), cell, i ? 'number' : '')));
+    return row;
+}
+
+function valuesTable(scan, target) {
+    const table = make('table', null, 'values');
+    const value = name => column(name)[target];
+    const noiseFree = 20 * Math.log10(value('target_cell_amplitude'));
+    table.append(
+        tableRow(['', 'reported', 'without noise'], 'th'),
+        tableRow(['range', `${round(value('target_range_m'), 3)} m`,
+            `${round(value('target_cell_range_m'), 3)} m`]),
+        tableRow(['azimuth', `${round(value('target_azimuth_rad') * degrees, 2)}°`,
+            `${round(value('target_cell_azimuth_rad') * degrees, 2)}°`]),
+        tableRow(['range rate', `${round(value('target_range_rate_mps'), 3)} m/s`,
+            `${round(value('target_cell_range_rate_mps'), 3)} m/s`]),
+        tableRow(['… over ground', `${round(rateOf(scan, target, true), 3)} m/s`, '']),
+        tableRow(['amplitude', `${round(value('target_amplitude_db'), 2)} dB`,
+            `at most ${round(noiseFree, 2)} dB`]));
+    return table;
+}
+
+function weightBar(weight, colour) {
+    const bar = make('div', null, 'bar');
+    const filled = make('div');
+    filled.style.width = 100 * weight + '%';
+    filled.style.background = colour;
+    bar.append(filled);
+    return bar;
+}
+
+function contributorRow(scan, target, i) {
+    const value = name => column('contributor_' + name)[i];
+    const object = value('object');
+    const reflector = names[value('reflector')];
+    const text = make('span');
+    text.append(make('b', reflector), ` of ${names[object]}, ${head.paths[value('path')]}`,
+        weightBar(value('weight'), colourOf(scan, target)),
+        make('span', `${round(value('range_m'), 3)} m, ${round(value('azimuth_rad') * degrees, 2)}°, ` +
+            `${round(value('range_rate_mps'), 3)} m/s, ERCS ${Number(value('ercs').toPrecision(3))}`, 'soft'));
+    return rowButton('●', [text], `${round(100 * value('weight'), 1)} %`,
+        () => chooseReflector(reflector, object));
+}
+
+function backButton() {
+    const back = button('', () => chooseTarget(-1));
+    back.textContent = '‹ all of this object';
+    return back;
+}
+
+function showTarget() {
+    const scan = scanOfTarget(state.frame, state.target);
+    const {begin, end} = contributorsOf(state.target);
+    const number = state.target - targetsOf(scan).begin + 1;
+    const title = make('h2');
+    title.append(symbolCanvas(sensorStyle(scan), colourOf(scan, state.target), 18),
+        ` Target ${number} of ${sensorOf(scan).name}`);
+    const order = Array.from({length: end - begin}, (_, i) => begin + i);
+    const weights = column('contributor_weight');
+    order.sort((a, b) => weights[b] - weights[a]);
+    const rows = order.slice(0, 40).map(i => contributorRow(scan, state.target, i));
+    panel.replaceChildren(backButton(), title, valuesTable(scan, state.target),
+        ...targetNotes(scan), ...section(`Made of ${plural(rows.length, 'reflection centre')}`, rows));
+}
+
+function targetNotes(scan) {
+    const notes = [];
+    if (column('target_sign_undecided')[state.target]) {
+        notes.push(make('p', 'Left or right is undecided: the phase did not tell.', 'soft'));
+    }
+    const age = column('scan_age_s')[scan];
+    if (age > 1e-6) {
+        notes.push(make('p', `Measured ${round(1000 * age, 1)} ms before the frame's time.`, 'soft'));
+    }
+    return notes;
+}
+
+// What became of one reflection centre, by sensor.
+function reflectorFates(scan) {
+    const fates = [];
+    for (const {target, number} of targetsFrom(scan, state.object)) {
+        const {begin, end} = contributorsOf(target);
+        for (let i = begin; i < end; i++) {
+            if (column('contributor_object')[i] === state.object &&
+                names[column('contributor_reflector')[i]] === state.reflector) {
+                const weight = round(100 * column('contributor_weight')[i], 1);
+                fates.push(rowButton(symbolCanvas(sensorStyle(scan), colourOf(scan, target), 18),
+                    [`In target ${number}, with ${weight} % of its weight.`], '',
+                    () => chooseTarget(target)));
+            }
+        }
+    }
+    for (const loss of lossesOf(scan, state.object)) {
+        if (names[loss.reflector] === state.reflector) {
+            const line = make('p');
+            line.append(make('b', `Lost in ${loss.stage}, ${head.paths[loss.path]}. `), longReason(loss));
+            fates.push(line);
+        }
+    }
+    return fates;
+}
+
+function showReflector() {
+    const parts = [button('', () => chooseReflector(null)),
+        make('h2', `${state.reflector} of ${objectTitle(state.object)}`)];
+    parts[0].textContent = '‹ all of this object';
+    const {begin, end} = scansOf(state.frame);
+    for (let scan = begin; scan < end; scan++) {
+        const fates = reflectorFates(scan);
+        const silent = !column('scan_measured')[scan] ? 'The sensor did not measure in this frame.'
+            : head.scenes[state.scene].account ? 'Not looked for: out of range.'
+                : 'In no target. Why is not in the stream: give --account to glint-ideal.';
+        parts.push(sensorTitle(scan, fates.length > 1 ? `${fates.length} echoes` : ''),
+            ...(fates.length > 0 ? fates : [make('p', silent)]));
+    }
+    panel.replaceChildren(...parts);
+}
+
+function showFrame() {
+    const parts = [make('h2', 'This frame')];
+    parts.push(make('p', hasSensors() ? 'Click a target, a reflection centre or an object.'
+        : 'The stream has no sensors: only the scene is shown.', 'soft'));
+    const {begin, end} = scansOf(state.frame);
+    for (let scan = begin; scan < end; scan++) {
+        const targets = targetsOf(scan);
+        const count = targets.end - targets.begin;
+        parts.push(sensorTitle(scan, summary(scan, {length: count}, [], [])));
+        for (let i = 0; i < Math.min(count, 300); i++) {
+            const target = targets.begin + i;
+            parts.push(targetRow(scan, target, i + 1, -1));
+        }
+    }
+    panel.replaceChildren(...parts);
+}
+
+function showPanel() {
+    if (state.frame < 0) {
+        panel.replaceChildren();
+    } else if (state.target >= 0) {
+        showTarget();
+    } else if (state.reflector) {
+        showReflector();
+    } else if (state.object >= 0) {
+        showObject();
+    } else {
+        showFrame();
+    }
+}

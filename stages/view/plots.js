@@ -1,0 +1,149 @@
+// The side plots: what the sensors measured, without geometry. Targets as symbols, the exact echoes
+// behind them as dots, resolution cells as boxes.
+
+const plots = {
+    azimuth: {canvas: document.getElementById('azimuths'), unit: '°', hits: []},
+    rate: {canvas: document.getElementById('speeds'), unit: 'm/s', hits: []},
+};
+
+const degrees = 180 / Math.PI;
+const plotMargin = {left: 30, right: 14, top: 8, bottom: 30};
+
+function roundStep(span, parts) {
+    const wanted = span / parts;
+    const power = Math.pow(10, Math.floor(Math.log10(wanted)));
+    return [1, 2, 5, 10].map(factor => factor * power).find(step => step >= wanted);
+}
+
+// The farthest, widest and fastest in the whole stream, so that the axes stand still.
+function plotLimits() {
+    const ranges = extremes('target_range_m', true);
+    const rates = extremes('target_range_rate_mps', true);
+    const widest = head.sensors.reduce((most, one) => Math.max(most, one.field_of_view_rad), 0);
+    return {
+        range: Math.max(5, ranges.high) * 1.08,
+        azimuth: Math.max(10, 10 * Math.ceil(widest / 2 * degrees / 10 - 0.01)),
+        rate: Math.max(2, rates.high) * 1.1,
+    };
+}
+
+function plotAxes(kind) {
+    const limits = state.limits;
+    return kind === 'azimuth' ? {left: limits.azimuth, right: -limits.azimuth, top: limits.range}
+        : {left: -limits.rate, right: limits.rate, top: limits.range};
+}
+
+function plotPlace(size, axes, x, range) {
+    const width = size.width - plotMargin.left - plotMargin.right;
+    const height = size.height - plotMargin.top - plotMargin.bottom;
+    return {
+        x: plotMargin.left + width * (x - axes.left) / (axes.right - axes.left),
+        y: size.height - plotMargin.bottom - height * range / axes.top,
+    };
+}
+
+function plotText(drawing, text, x, y, align) {
+    drawing.fillStyle = ink.soft;
+    drawing.font = '11px system-ui, "DejaVu Sans", sans-serif';
+    drawing.textAlign = align;
+    drawing.textBaseline = 'middle';
+    drawing.fillText(text, x, y);
+}
+
+function plotRule(drawing, from, to, strong) {
+    drawing.strokeStyle = strong ? ink.edge : ink.grid;
+    drawing.lineWidth = 1;
+    drawing.beginPath();
+    drawing.moveTo(from.x, from.y);
+    drawing.lineTo(to.x, to.y);
+    drawing.stroke();
+}
+
+function drawAxes(drawing, size, axes, unit) {
+    const span = Math.abs(axes.right - axes.left);
+    const step = span === 180 ? 45 : roundStep(span, 4);
+    const low = Math.min(axes.left, axes.right);
+    const high = Math.max(axes.left, axes.right);
+    for (let x = Math.ceil(low / step) * step; x <= high; x += step) {
+        const at = plotPlace(size, axes, x, 0);
+        plotRule(drawing, at, plotPlace(size, axes, x, axes.top), x === 0);
+        plotText(drawing, String(Number(x.toPrecision(3))), at.x, at.y + 9, 'center');
+    }
+    const stride = roundStep(axes.top, 4);
+    for (let range = 0; range <= axes.top; range += stride) {
+        const at = plotPlace(size, axes, axes.left, range);
+        plotRule(drawing, at, plotPlace(size, axes, axes.right, range), range === 0);
+        plotText(drawing, String(Number(range.toPrecision(3))), at.x - 4, at.y, 'right');
+    }
+    const middle = plotPlace(size, axes, (axes.left + axes.right) / 2, 0);
+    plotText(drawing, unit === '°' ? 'azimuth in °, left is left' : 'm/s, receding is right',
+        middle.x, size.height - 8, 'center');
+}
+
+function plotTarget(plot, kind, drawing, size, axes, scan, target) {
+    const compensated = state.rates === 'compensated';
+    const x = kind === 'azimuth' ? column('target_azimuth_rad')[target] * degrees
+        : rateOf(scan, target, compensated);
+    const at = plotPlace(size, axes, x, column('target_range_m')[target]);
+    const chosen = target === state.target;
+    drawSymbol(drawing, sensorStyle(scan), at.x, at.y, chosen ? 7.5 : 5, colourOf(scan, target));
+    if (chosen) {
+        drawing.beginPath();
+        drawing.arc(at.x, at.y, 11, 0, 2 * Math.PI);
+        drawing.strokeStyle = ink.chosen;
+        drawing.stroke();
+    }
+    plot.hits.push({x: at.x, y: at.y, target});
+}
+
+// The cell that opened around the leader: what falls into the box becomes one target.
+function plotCell(kind, drawing, size, axes, scan, target) {
+    const sensor = sensorOf(scan);
+    const leader = leaderOf(target);
+    if (kind !== 'rate' || state.rates === 'compensated') {
+        return;
+    }
+    const rate = column('contributor_range_rate_mps')[leader];
+    const range = column('contributor_range_m')[leader];
+    const low = plotPlace(size, axes, rate - sensor.cell_range_rate_mps / 2, range - sensor.cell_range_m / 2);
+    const high = plotPlace(size, axes, rate + sensor.cell_range_rate_mps / 2, range + sensor.cell_range_m / 2);
+    drawing.strokeStyle = ink.edge;
+    drawing.lineWidth = 1;
+    drawing.strokeRect(low.x, high.y, Math.max(2, high.x - low.x), Math.max(2, low.y - high.y));
+}
+
+function plotEchoes(kind, drawing, size, axes, scan, target) {
+    const {begin, end} = contributorsOf(target);
+    for (let i = begin; i < end; i++) {
+        if (kind === 'rate' && state.rates === 'compensated') {
+            continue;
+        }
+        const x = kind === 'azimuth' ? column('contributor_azimuth_rad')[i] * degrees
+            : column('contributor_range_rate_mps')[i];
+        const at = plotPlace(size, axes, x, column('contributor_range_m')[i]);
+        drawing.fillStyle = ink.soft;
+        drawing.fillRect(at.x - 1.5, at.y - 1.5, 3, 3);
+    }
+}
+
+function drawPlot(kind) {
+    const plot = plots[kind];
+    const drawing = plot.canvas.getContext('2d');
+    const size = fitCanvas(plot.canvas, drawing);
+    const axes = plotAxes(kind);
+    plot.hits = [];
+    drawAxes(drawing, size, axes, plot.unit);
+    if (state.frame < 0) {
+        return;
+    }
+    eachTarget(state.frame, (scan, target) => {
+        plotCell(kind, drawing, size, axes, scan, target);
+        plotEchoes(kind, drawing, size, axes, scan, target);
+    });
+    eachTarget(state.frame, (scan, target) => plotTarget(plot, kind, drawing, size, axes, scan, target));
+}
+
+function drawPlots() {
+    drawPlot('azimuth');
+    drawPlot('rate');
+}

@@ -1,0 +1,149 @@
+// Pointers: one pans or clicks, two zoom.
+
+const pointers = new Map();
+let moved = 0;
+
+function pointerPlace(event) {
+    const frame = canvas.getBoundingClientRect();
+    return {x: event.clientX - frame.left, y: event.clientY - frame.top};
+}
+
+function pinch(from, to, other) {
+    const before = Math.hypot(from.x - other.x, from.y - other.y);
+    const after = Math.hypot(to.x - other.x, to.y - other.y);
+    panBy((to.x - from.x) / 2, (to.y - from.y) / 2);
+    zoomBy(after / Math.max(1, before), (to.x + other.x) / 2, (to.y + other.y) / 2);
+}
+
+function onPointerMove(event) {
+    const from = pointers.get(event.pointerId);
+    if (!from) {
+        return;
+    }
+    const to = pointerPlace(event);
+    moved += Math.hypot(to.x - from.x, to.y - from.y);
+    const other = [...pointers].find(([id]) => id !== event.pointerId);
+    if (other) {
+        pinch(from, to, other[1]);
+    } else if (moved > 4) {
+        panBy(to.x - from.x, to.y - from.y);
+    }
+    pointers.set(event.pointerId, to);
+}
+
+function onPointerUp(event) {
+    const click = pointers.size === 1 && pointers.has(event.pointerId) && moved <= 4;
+    pointers.delete(event.pointerId);
+    if (click && event.type === 'pointerup') {
+        clickAt(pointerPlace(event));
+    }
+}
+
+function connectPointers() {
+    canvas.addEventListener('pointerdown', event => {
+        moved = pointers.size === 0 ? 0 : Infinity;
+        pointers.set(event.pointerId, pointerPlace(event));
+        canvas.setPointerCapture(event.pointerId);
+    });
+    canvas.addEventListener('pointermove', onPointerMove);
+    canvas.addEventListener('pointerup', onPointerUp);
+    canvas.addEventListener('pointercancel', onPointerUp);
+    canvas.addEventListener('wheel', event => {
+        event.preventDefault();
+        const at = pointerPlace(event);
+        zoomBy(Math.exp(-event.deltaY * (event.deltaMode === 1 ? 0.05 : 0.0015)), at.x, at.y);
+    }, {passive: false});
+    for (const plot of Object.values(plots)) {
+        plot.canvas.addEventListener('click', event => clickPlot(plot, event));
+    }
+}
+
+function nearest(candidates, at, reach) {
+    let best = null;
+    let least = reach;
+    for (const candidate of candidates) {
+        const distance = Math.hypot(candidate.x - at.x, candidate.y - at.y);
+        if (distance < least) {
+            least = distance;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+function targetHits() {
+    const hits = [];
+    eachTarget(state.frame, (scan, target) =>
+        hits.push({...toScreen(targetPlace(scan, target)), target}));
+    return hits;
+}
+
+function reflectorHits() {
+    const hits = [];
+    const {begin, end} = objectsOf(state.frame);
+    for (let row = begin; row < end; row++) {
+        const object = column('object_id')[row];
+        if (object === head.scenes[state.scene].ego || camera.scale < 6) {
+            continue;
+        }
+        for (const name of classOf(row).reflectors.keys()) {
+            hits.push({...toScreen(reflectorPlace(row, name).place), object, name});
+        }
+    }
+    return hits.concat(partHits());
+}
+
+// A flat side reflects from where it mirrors, not from its middle.
+function partHits() {
+    const hits = [];
+    eachTarget(state.frame, (scan, target) => {
+        const {begin, end} = contributorsOf(target);
+        for (let i = begin; i < end; i++) {
+            hits.push({
+                ...toScreen(contributorPlace(scan, i)),
+                object: column('contributor_object')[i],
+                name: names[column('contributor_reflector')[i]],
+            });
+        }
+    });
+    return hits;
+}
+
+// The smallest object under a place on the screen, or -1.
+function objectAt(at) {
+    const {begin, end} = objectsOf(state.frame);
+    const local = screenToLocal(at.x, at.y);
+    let best = {area: Infinity, object: -1};
+    for (let row = begin; row < end; row++) {
+        const box = boxOf(row);
+        const area = box.length * box.width;
+        if (area < best.area && inside(box, fromLocal(local))) {
+            best = {area, object: column('object_id')[row]};
+        }
+    }
+    return best.object;
+}
+
+function clickAt(at) {
+    if (state.frame < 0) {
+        return;
+    }
+    const target = nearest(targetHits(), at, 14);
+    const reflector = nearest(reflectorHits(), at, target ? 6 : 11);
+    const onTarget = target && (!reflector || Math.hypot(target.x - at.x, target.y - at.y) <=
+        Math.hypot(reflector.x - at.x, reflector.y - at.y) + 3);
+    if (onTarget) {
+        chooseTarget(target.target);
+    } else if (reflector) {
+        chooseReflector(reflector.name, reflector.object);
+    } else {
+        chooseObject(objectAt(at));
+    }
+}
+
+function clickPlot(plot, event) {
+    const hit = nearest(plot.hits, {x: event.offsetX, y: event.offsetY}, 14);
+    if (hit) {
+        chooseTarget(hit.target);
+    }
+}

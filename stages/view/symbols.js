@@ -1,0 +1,117 @@
+// Colours and symbols, in light and dark.
+
+// Colours that people with any colour vision can tell apart, in a light and a dark tone each.
+const palettes = {
+    light: ['#0072b2', '#c74e00', '#00805e', '#a8478a', '#8a6d00', '#3a6fd8', '#7a4a2b', '#4d4d4d'],
+    dark: ['#56b4e9', '#f0a030', '#2fc79a', '#e79ac6', '#e6d94c', '#9db8ff', '#d2a07c', '#c8c8c8'],
+};
+const symbols = ['star', 'circle', 'diamond', 'triangle', 'square', 'cross'];
+
+let ink = {};
+
+function isDark() {
+    return document.documentElement.classList.contains('dark');
+}
+
+function readInk() {
+    const style = getComputedStyle(document.documentElement);
+    ink = {palette: isDark() ? palettes.dark : palettes.light};
+    for (const name of ['paper', 'ink', 'soft', 'faint', 'grid', 'body', 'edge', 'ego', 'chosen',
+        'halo', 'lost']) {
+        ink[name] = style.getPropertyValue('--' + name).trim();
+    }
+}
+
+// Gives a canvas the pixels of its place on the screen and returns its size in CSS pixels.
+function fitCanvas(one, drawing) {
+    const ratio = window.devicePixelRatio || 1;
+    const width = one.clientWidth;
+    const height = one.clientHeight;
+    if (one.width !== Math.round(width * ratio) || one.height !== Math.round(height * ratio)) {
+        one.width = Math.round(width * ratio);
+        one.height = Math.round(height * ratio);
+    }
+    drawing.setTransform(ratio, 0, 0, ratio, 0, 0);
+    drawing.clearRect(0, 0, width, height);
+    return {width, height};
+}
+
+// Colours of numbers: blue through grey to red for rates, dark to bright for amplitudes.
+function mix(from, to, part) {
+    const channel = i => Math.round(from[i] + part * (to[i] - from[i]));
+    return `rgb(${channel(0)},${channel(1)},${channel(2)})`;
+}
+
+function rateColour(rate) {
+    const part = Math.max(-1, Math.min(1, rate / state.rateScale));
+    const neutral = isDark() ? [190, 190, 190] : [120, 120, 120];
+    const blue = isDark() ? [80, 170, 255] : [0, 90, 200];
+    const red = isDark() ? [255, 120, 60] : [205, 60, 0];
+    return part < 0 ? mix(neutral, blue, Math.sqrt(-part)) : mix(neutral, red, Math.sqrt(part));
+}
+
+function amplitudeColour(level) {
+    const {low, high} = state.amplitudes;
+    const part = high > low ? (level - low) / (high - low) : 1;
+    return isDark() ? mix([70, 90, 150], [255, 235, 90], part) : mix([215, 175, 20], [20, 40, 110], part);
+}
+
+function colourOf(scan, target) {
+    switch (state.colour) {
+    case 'object':
+        return ink.palette[objectOfTarget(target) % ink.palette.length];
+    case 'rate':
+        return rateColour(rateOf(scan, target, state.rates === 'compensated'));
+    case 'amplitude':
+        return amplitudeColour(column('target_amplitude_db')[target]);
+    case 'path':
+        return ink.palette[column('contributor_path')[leaderOf(target)] % ink.palette.length];
+    default:
+        return ink.palette[sensorStyle(scan) % ink.palette.length];
+    }
+}
+
+function tracePolygon(drawing, x, y, radius, corners, inner, turn) {
+    const steps = inner ? 2 * corners : corners;
+    for (let i = 0; i < steps; i++) {
+        const reach = inner && i % 2 ? radius * inner : radius;
+        const angle = turn - Math.PI / 2 + 2 * Math.PI * i / steps;
+        drawing.lineTo(x + reach * Math.cos(angle), y + reach * Math.sin(angle));
+    }
+    drawing.closePath();
+}
+
+function traceSymbol(drawing, style, x, y, radius) {
+    drawing.beginPath();
+    switch (symbols[style % symbols.length]) {
+    case 'star': return tracePolygon(drawing, x, y, 1.3 * radius, 5, 0.42, 0);
+    case 'circle': return drawing.arc(x, y, 0.95 * radius, 0, 2 * Math.PI);
+    case 'diamond': return tracePolygon(drawing, x, y, 1.2 * radius, 4, 0, 0);
+    case 'triangle': return tracePolygon(drawing, x, y, 1.2 * radius, 3, 0, 0);
+    case 'square': return tracePolygon(drawing, x, y, 1.2 * radius, 4, 0, Math.PI / 4);
+    default: return tracePolygon(drawing, x, y, 1.3 * radius, 4, 0.3, Math.PI / 4);
+    }
+}
+
+// Hollow, so that another sensor's symbol at the same place is seen through it.
+function drawRing(drawing, radius, colour) {
+    drawing.lineWidth = radius * 0.36 + 2;
+    drawing.strokeStyle = ink.paper;
+    drawing.stroke();
+    drawing.lineWidth = radius * 0.36;
+    drawing.strokeStyle = colour;
+    drawing.stroke();
+}
+
+function drawSymbol(drawing, style, x, y, radius, colour) {
+    traceSymbol(drawing, style, x, y, radius);
+    if (symbols[style % symbols.length] === 'circle') {
+        drawRing(drawing, radius, colour);
+        return;
+    }
+    drawing.fillStyle = colour;
+    drawing.fill();
+    drawing.lineWidth = 1.2;
+    drawing.strokeStyle = ink.paper;
+    drawing.stroke();
+}

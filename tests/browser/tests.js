@@ -1,0 +1,393 @@
+// What a person does with the page of glint-view, done by Chromium, and what must then be there. All
+// expected values come from the stream itself, never from the page's own data.
+
+const assert = require('node:assert');
+const {execFileSync, spawnSync} = require('node:child_process');
+const fs = require('node:fs');
+const path = require('node:path');
+const {launch, open} = require('./browser.js');
+
+const [, , work, ...wanted] = process.argv;
+const root = path.join(__dirname, '..', '..');
+let browser;
+
+function stream(pipeline) {
+    const text = execFileSync('glint', [path.join(root, 'pipelines', pipeline + '.sh')],
+        {maxBuffer: 1 << 28, cwd: root});
+    return text.toString().trim().split('\n').map(line => JSON.parse(line));
+}
+
+function write(frames) {
+    return frames.map(frame => JSON.stringify(frame) + '\n').join('');
+}
+
+let written = 0;
+
+// The page, or the still, of a stream of frames.
+function view(frames, ...options) {
+    const file = path.join(work, `view-${written++}.${options.includes('--svg') ? 'svg' : 'html'}`);
+    const run = spawnSync('glint-view', ['-o', file, ...options], {input: write(frames)});
+    assert.strictEqual(run.status, 0, String(run.stderr));
+    return file;
+}
+
+// A page that must stay silent and alone.
+async function withPage(file, use, options) {
+    const opened = await open(browser, file, options);
+    await use(opened.page);
+    assert.deepStrictEqual(opened.complaints, []);
+    assert.deepStrictEqual(opened.requests, ['file://' + file]);
+    await opened.page.context().close();
+}
+
+const panelText = page => page.innerText('#panel');
+const clock = page => page.innerText('#clock');
+
+async function clickMap(page, place) {
+    const box = await page.locator('#map').boundingBox();
+    await page.mouse.click(box.x + place.x, box.y + place.y);
+}
+
+// Where the page should have drawn a place, from the frame, the camera and nothing else.
+function targetOnMap(page, frame, target) {
+    const sensor = frame.sensors.list.find(one => one.name === target.sensor);
+    const ahead = sensor.mount_x_m + target.range_m * Math.cos(target.azimuth_rad + sensor.mount_yaw_rad);
+    const left = sensor.mount_y_m + target.range_m * Math.sin(target.azimuth_rad + sensor.mount_yaw_rad);
+    return page.evaluate(([x, y]) => ({
+        x: canvas.clientWidth / 2 + (x - camera.x) * camera.scale,
+        y: canvas.clientHeight / 2 - (y - camera.y) * camera.scale,
+    }), [ahead, left]);
+}
+
+// A frame in which the left sensor's targets are well apart from everything else.
+function richFrame(frames) {
+    return frames.find(frame => frame.targets.filter(one => one.sensor === 'left').length === 3);
+}
+
+const corner = stream('corner');
+const intersection = stream('intersection');
+
+const tests = {
+    async 'the first look shows three targets of one car and what got lost'() {
+        for (const frames of [corner, intersection]) {
+            await withPage(view(frames), async page => {
+                const text = await panelText(page);
+                assert.match(text, /\(?car\)?/);
+                assert.match(text, /: 3 targets/);
+                assert.match(text, /echo(es)? lost/);
+                assert.match(text, /dB too weak/);
+                assert.match(await page.innerText('#legend'), /target of left/);
+            });
+        }
+    },
+
+    async 'a click on a target tells its label'() {
+        const frame = richFrame(corner);
+        const target = frame.targets.filter(one => one.sensor === 'left')[2];
+        await withPage(view(corner, '--frame', String(frame.frame)), async page => {
+            await clickMap(page, await targetOnMap(page, frame, target));
+            const text = await panelText(page);
+            assert.match(text, /Target 3 of left/);
+            assert.ok(text.includes(`${target.range_m.toFixed(3)} m`), text);
+            assert.ok(text.includes(`${target.cell_range_m.toFixed(3)} m`), text);
+            assert.ok(text.includes(`${target.amplitude_db.toFixed(2)} dB`), text);
+            for (const one of target.contributors) {
+                assert.ok(text.includes(`${one.reflector} of ${one.object}, ${one.path}`), text);
+                assert.ok(text.includes(`${(100 * one.weight).toFixed(1)} %`), text);
+            }
+        });
+    },
+
+    async 'a tap on a target does the same'() {
+        const frame = richFrame(corner);
+        const target = frame.targets.find(one => one.sensor === 'left');
+        await withPage(view(corner, '--frame', String(frame.frame)), async page => {
+            const box = await page.locator('#map').boundingBox();
+            const at = await targetOnMap(page, frame, target);
+            await page.touchscreen.tap(box.x + at.x, box.y + at.y);
+            assert.match(await panelText(page), /Target \d of (left|right)/);
+        }, {hasTouch: true, viewport: {width: 420, height: 800}});
+    },
+
+    async 'a click on a reflection centre tells why it was lost'() {
+        const frame = corner.find(one => one.lost.some(group => group.reason === 'below_threshold') &&
+            one.targets.length > 3);
+        const group = frame.lost.find(one => one.reason === 'below_threshold');
+        const echo = group.echoes[0];
+        await withPage(view(corner, '--frame', String(frame.frame)), async page => {
+            await page.click(`.lost >> text=${echo.reflector}`);
+            const text = await panelText(page);
+            assert.match(text, new RegExp(`${echo.reflector} of ${echo.object}`));
+            assert.match(text, /Lost in sensor, direct\./);
+            assert.ok(text.includes(`${echo.shortfall_db.toFixed(2)} dB below the detection threshold`), text);
+        });
+    },
+
+    async 'a blocked reflection centre names who stands in the way'() {
+        const frame = intersection.find(one => one.lost.some(group => group.reason === 'blocked'));
+        const {object, by} = frame.lost.find(group => group.reason === 'blocked').echoes[0];
+        await withPage(view(intersection, '--frame', String(frame.frame)), async page => {
+            await page.evaluate(id => chooseObject(names.indexOf(id)), object);
+            assert.ok((await panelText(page)).includes(`blocked by ${by}`));
+        });
+    },
+
+    async 'it plays, pauses, steps and scrubs'() {
+        await withPage(view(corner, '--frame', '0'), async page => {
+            assert.match(await clock(page), /^frame 0 \(1\/131\), 0\.000 s/);
+            await page.click('#play');
+            await page.waitForFunction(() => state.row >= 5);
+            await page.click('#play');
+            const stopped = await clock(page);
+            await page.waitForTimeout(150);
+            assert.strictEqual(await clock(page), stopped);
+            await page.fill('#scrub', '57');
+            assert.match(await clock(page), /^frame 57 \(58\/131\), 2\.280 s/);
+            await page.click('#forward');
+            await page.click('#back');
+            await page.click('#back');
+            assert.match(await clock(page), /^frame 56 /);
+        });
+    },
+
+    async 'it plays to the end and stops there'() {
+        await withPage(view(corner, '--frame', '128'), async page => {
+            await page.click('#play');
+            await page.waitForFunction(() => !state.playing);
+            assert.match(await clock(page), /\(131\/131\)/);
+        });
+    },
+
+    async 'keys do what buttons do'() {
+        await withPage(view(corner, '--frame', '60'), async page => {
+            const press = async (key, expected) => {
+                await page.keyboard.press(key);
+                assert.ok(await page.evaluate(expected), `${key}: ${expected}`);
+            };
+            await press('ArrowRight', 'state.row === 61');
+            await press('Shift+ArrowLeft', 'state.row === 51');
+            await press('End', 'state.row === 130');
+            await press('n', 'state.target >= 0 || scansOf(state.frame).end === 0');
+            await press('Home', 'state.row === 0 && state.target === -1');
+            await press('x', 'state.up === "up"');
+            await press('f', 'state.follow === false');
+            await press('v', 'state.rates === "compensated"');
+            await press('t', 'state.trail === false');
+            await press('d', 'isDark()');
+            await press('Space', 'state.playing');
+            await press('Space', '!state.playing');
+            await press('?', 'document.getElementById("keys").open');
+        });
+    },
+
+    async 'every colouring draws'() {
+        await withPage(view(intersection), async page => {
+            for (const scheme of ['light', 'dark']) {
+                await page.emulateMedia({colorScheme: scheme});
+                for (const colour of ['sensor', 'object', 'rate', 'amplitude', 'path']) {
+                    await page.selectOption('#colour', colour);
+                    await page.evaluate(() => draw());
+                }
+            }
+        });
+    },
+
+    async 'a symbol stands where the target is, in its sensor’s colour'() {
+        const frame = richFrame(corner);
+        const target = frame.targets.filter(one => one.sensor === 'left')[2];
+        await withPage(view(corner, '--frame', String(frame.frame)), async page => {
+            const at = await targetOnMap(page, frame, target);
+            const pixel = await page.evaluate(({x, y}) => {
+                draw();
+                const ratio = window.devicePixelRatio;
+                return [...context.getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data];
+            }, at);
+            assert.deepStrictEqual(pixel, [0x00, 0x72, 0xb2, 255]);
+        });
+    },
+
+    async 'over ground, what is parked stands still'() {
+        const frame = intersection.find(one => one.targets.some(target =>
+            target.contributors.length === 1 && target.contributors[0].object.startsWith('parked')));
+        const target = frame.targets.find(one =>
+            one.contributors.length === 1 && one.contributors[0].object.startsWith('parked'));
+        assert.ok(Math.abs(target.range_rate_mps) > 3);
+        await withPage(view(intersection, '--frame', String(frame.frame)), async page => {
+            const rate = await page.evaluate(([sensor, number]) => {
+                const scan = scanOfSensor(state.frame, sensor);
+                return rateOf(scan, targetsOf(scan).begin + number, true);
+            }, [target.sensor, frame.targets.filter(one => one.sensor === target.sensor).indexOf(target)]);
+            assert.ok(Math.abs(rate) < 1.5, String(rate));
+        });
+    },
+
+    async 'an empty stream says so'() {
+        await withPage(view([]), async page => {
+            assert.match(await page.innerText('#empty'), /The stream is empty/);
+            await page.keyboard.press('Space');
+            await page.click('#map');
+            await page.emulateMedia({colorScheme: 'dark'});
+            await page.click('#help');
+        });
+        assert.match(fs.readFileSync(view([], '--svg'), 'utf8'), /The stream is empty/);
+    },
+
+    async 'one frame is enough'() {
+        await withPage(view([{...corner[100], last: true}]), async page => {
+            assert.match(await clock(page), /^frame 100 \(1\/1\)/);
+            await page.click('#play');
+            assert.ok(await page.evaluate(() => !state.playing));
+            assert.ok(await page.isHidden('#notice'));
+        });
+    },
+
+    async 'a frame with 500 targets is drawn and listed'() {
+        const frame = structuredClone(richFrame(corner));
+        const model = frame.targets.find(one => one.sensor === 'left');
+        frame.targets = Array.from({length: 500}, (_, i) => ({
+            ...model, range_m: 1 + i / 20, azimuth_rad: Math.sin(i), amplitude_db: 40 - i / 20,
+        }));
+        await withPage(view([{...frame, account: undefined, lost: undefined, counts: undefined, last: true}]),
+            async page => {
+                await page.keyboard.press('Escape');
+                assert.match(await panelText(page), /left: 500 targets/);
+                const time = await page.evaluate(() => {
+                    const begin = performance.now();
+                    draw();
+                    return performance.now() - begin;
+                });
+                assert.ok(time < 2000, `${time} ms`);
+            });
+    },
+
+    async 'interleaved scenes are told apart'() {
+        const side = stream('side');
+        const mixed = [];
+        for (let i = 0; i < Math.max(corner.length, side.length); i++) {
+            mixed.push(...[corner[i], side[i]].filter(Boolean));
+        }
+        await withPage(view(mixed), async page => {
+            const options = await page.locator('#scene option').allInnerTexts();
+            assert.deepStrictEqual(options, [corner[0].scene, side[0].scene]);
+            assert.match(await clock(page), new RegExp(`/${corner.length}\\)`));
+            await page.selectOption('#scene', '1');
+            assert.match(await clock(page), new RegExp(`/${side.length}\\)`));
+            assert.ok(await page.isHidden('#notice'));
+        });
+        const only = fs.readFileSync(view(mixed, '--scene', side[0].scene), 'utf8');
+        assert.ok(only.includes(side[0].scene) && !only.includes(corner[0].scene));
+    },
+
+    async 'a shuffled stream plays in order'() {
+        await withPage(view([...corner.slice(60), ...corner.slice(0, 60).reverse()]), async page => {
+            await page.keyboard.press('Home');
+            assert.match(await clock(page), /^frame 0 \(1\/131\), 0\.000 s/);
+            await page.keyboard.press('Shift+ArrowRight');
+            assert.match(await clock(page), /^frame 10 \(11\/131\), 0\.400 s/);
+        });
+    },
+
+    async 'names that look like markup stay names'() {
+        const evil = '</script><script>window.broken=1</script><img src=x onerror=window.broken=1>';
+        const frame = richFrame(corner);
+        const text = write([{...frame, last: true}])
+            .replaceAll('"car"', JSON.stringify(evil))
+            .replaceAll('"corner-approach/ego"', '"<script>alert(1)</script>"')
+            .replaceAll('"left"', '"<!--<script>"');
+        const frames = [JSON.parse(text)];
+        frames[0].objects.forEach(object => { object.class = 'car'; });
+        await withPage(view(frames), async page => {
+            assert.strictEqual(await page.evaluate(() => window.broken), undefined);
+            assert.ok((await panelText(page)).includes(evil));
+            assert.ok((await page.innerText('#legend')).includes('target of <!--<script>'));
+            assert.strictEqual(await page.innerText('#scene-name'), '<script>alert(1)</script>');
+        });
+        const {page} = await open(browser, view(frames, '--svg'));
+        assert.strictEqual(await page.evaluate(() => document.querySelectorAll('script, img').length), 0);
+        assert.ok((await page.evaluate(() => document.documentElement.textContent)).includes(evil));
+    },
+
+    async 'a cut stream is told'() {
+        await withPage(view(corner.slice(0, 40)), async page => {
+            assert.match(await page.innerText('#notice'), /ends before its last frame/);
+        });
+        const whole = write(corner.slice(0, 3));
+        const file = path.join(work, 'cut.html');
+        const run = spawnSync('glint-view', ['-o', file], {input: whole.slice(0, -200)});
+        assert.strictEqual(run.status, 65);
+        assert.match(String(run.stderr), /stdin:3: /);
+        assert.ok(!fs.existsSync(file));
+    },
+
+    async 'a stream without account says what to do'() {
+        const frames = corner.map(frame => ({...frame, account: undefined, lost: undefined, counts: undefined}));
+        await withPage(view(frames, '--frame', '110'), async page => {
+            assert.match(await panelText(page), /give --account to glint-ideal/);
+        });
+    },
+
+    async 'a class without a document is told'() {
+        const frames = structuredClone(corner.slice(100));
+        frames.forEach(frame => { frame.objects[1].class = 'hovercraft'; });
+        await withPage(view(frames), async page => {
+            assert.match(await panelText(page), /no vehicle document of this class/);
+        });
+    },
+
+    async 'a scene without sensors is shown'() {
+        const text = execFileSync('glint-traffic', ['intersection'], {cwd: root, maxBuffer: 1 << 28});
+        const frames = text.toString().trim().split('\n').map(line => JSON.parse(line));
+        await withPage(view(frames), async page => {
+            assert.match(await panelText(page), /no sensors/);
+        });
+    },
+
+    async 'the still is the committed one'() {
+        const fresh = fs.readFileSync(view(corner, '--svg', '--frame', '114'), 'utf8');
+        const known = fs.readFileSync(path.join(__dirname, 'corner.svg'), 'utf8');
+        const number = /-?\d+(\.\d+)?/g;
+        assert.strictEqual(fresh.replace(number, '#'), known.replace(number, '#'));
+        const values = known.match(number).map(Number);
+        fresh.match(number).map(Number).forEach((value, i) => {
+            assert.ok(Math.abs(value - values[i]) <= 0.5, `number ${i}: ${value}, expected ${values[i]}`);
+        });
+        const {page, complaints} = await open(browser, view(corner, '--svg', '--frame', '114'));
+        assert.strictEqual(await page.evaluate(() => document.documentElement.nodeName), 'svg');
+        assert.deepStrictEqual(complaints, []);
+    },
+
+    async 'a browser that cannot decode base64 by itself opens it too'() {
+        const {page, complaints} = await open(browser, view(corner), {},
+            () => { delete Uint8Array.fromBase64; });
+        assert.match(await panelText(page), /: 3 targets/);
+        assert.deepStrictEqual(complaints, []);
+    },
+
+    async 'asking for what is not there fails'() {
+        for (const options of [['--frame', '4000'], ['--scene', 'nowhere'], ['--svg', '--frame', '4000']]) {
+            const run = spawnSync('glint-view', options, {input: write(corner.slice(0, 5))});
+            assert.strictEqual(run.status, 65, options.join(' '));
+        }
+    },
+};
+
+async function main() {
+    browser = await launch();
+    let failed = 0;
+    for (const [name, test] of Object.entries(tests)) {
+        if (wanted.length > 0 && !wanted.some(word => name.includes(word))) {
+            continue;
+        }
+        try {
+            await test();
+        } catch (error) {
+            failed++;
+            console.log(`FAILED: ${name}\n${error.stack}`);
+        }
+    }
+    await browser.close();
+    console.log(failed ? `${failed} browser tests failed` : 'browser tests: passed');
+    process.exitCode = failed ? 1 : 0;
+}
+
+main();

@@ -1,0 +1,315 @@
+#include "check.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include <jansson.h>
+
+#include "frame_text.h"
+#include "view_data.h"
+
+/* The ego at (10, 20) heads north at 5 m/s and turns; its sensor sits 2 m ahead and 1 m left. */
+#define EGO                                                                                        \
+    "{\"id\":\"e\",\"class\":\"thing\",\"x_m\":10,\"y_m\":20,\"yaw_rad\":1.5707963267948966,"      \
+    "\"vx_mps\":0,\"vy_mps\":5,\"yaw_rate_radps\":0.1,\"length_m\":4,\"width_m\":2,"               \
+    "\"height_m\":1,\"travelled_m\":0}"
+#define OTHER                                                                                      \
+    "{\"id\":\"</script>\",\"class\":\"thing\",\"x_m\":10,\"y_m\":30,\"yaw_rad\":0,"               \
+    "\"vx_mps\":1,\"vy_mps\":0,\"yaw_rate_radps\":0,\"length_m\":3,\"width_m\":1,"                 \
+    "\"height_m\":1,\"travelled_m\":0}"
+#define SENSORS                                                                                    \
+    "\"sensors\":{\"suite\":\"s\",\"digest\":\"0123456789abcdef\",\"list\":[{\"name\":\"f\","      \
+    "\"mount_x_m\":2,\"mount_y_m\":1,\"mount_yaw_rad\":0.25,\"field_of_view_rad\":3,"              \
+    "\"range_max_m\":30,\"cell_range_m\":0.3,\"cell_range_rate_mps\":0.5,\"measured\":true}]},"
+#define PART(name, range, weight, time)                                                            \
+    "{\"object\":\"</script>\",\"reflector\":\"" name "\",\"path\":\"direct\",\"range_m\":" range  \
+    ",\"azimuth_rad\":0.5,\"range_rate_mps\":-2,\"ercs\":0.5,\"time_s\":" time                     \
+    ",\"weight\":" weight "}"
+#define TARGET(range, parts)                                                                       \
+    "{\"sensor\":\"f\",\"range_m\":" range ",\"azimuth_rad\":0.125,\"range_rate_mps\":-1.5,"       \
+    "\"amplitude_db\":12.5,\"cell_range_m\":8.25,\"cell_azimuth_rad\":0.25,"                       \
+    "\"cell_range_rate_mps\":-1.25,\"cell_amplitude\":4,\"contributors\":[" parts "]}"
+#define LOST                                                                                       \
+    "\"lost\":[{\"sensor\":\"f\",\"stage\":\"ideal\",\"reason\":\"facing_away\",\"echoes\":["      \
+    "{\"object\":\"</script>\",\"reflector\":\"c\",\"path\":\"direct\"}]},"                        \
+    "{\"sensor\":\"f\",\"stage\":\"sensor\",\"reason\":\"below_threshold\",\"echoes\":["           \
+    "{\"object\":\"</script>\",\"reflector\":\"d\",\"path\":\"direct\",\"shortfall_db\":2.5}]}]"
+#define FRAME(scene, number, time, last, rest)                                                     \
+    "{\"version\":0,\"scene\":\"" scene "\",\"frame\":" number ",\"time_s\":" time                 \
+    ",\"interval_s\":0.04,\"last\":" last ",\"seed\":\"1\",\"ego\":\"e\",\"account\":true,"        \
+    "\"objects\":[" EGO "," OTHER "]," SENSORS rest "}"
+#define RICH                                                                                       \
+    "\"targets\":[" TARGET(                                                                        \
+        "8", PART("a", "8.5", "0.75", "4") "," PART(                                               \
+                 "b", "8.75", "0.25", "4")) "," TARGET("9", PART("e", "9.5", "1", "4")) "]," LOST
+
+/* Frames from lines, packed; and what the page would get. */
+struct packed {
+    struct arena arena, frame_arena;
+    struct view_data data;
+    struct text head, columns;
+    json_t *json;
+};
+
+static void add_line(struct packed *packed, const char *line)
+{
+    struct frame frame = {.arena = &packed->frame_arena};
+    struct diag diag = {0};
+    if (frame_text_read(line, strlen(line), &frame, &diag) != 0)
+        fail_msg("%s", diag.text);
+    view_data_add(&packed->data, &frame);
+}
+
+static void finish(struct packed *packed)
+{
+    json_error_t error;
+    view_data_write_head(&packed->data, -1, &packed->head);
+    view_data_write_columns(&packed->data, &packed->columns);
+    packed->json = json_loadb(packed->head.bytes, packed->head.length, 0, &error);
+    if (packed->json == NULL)
+        fail_msg("the head is not JSON: %s", error.text);
+}
+
+static void release(struct packed *packed)
+{
+    json_decref(packed->json);
+    text_free(&packed->head);
+    text_free(&packed->columns);
+    arena_free(&packed->arena);
+    arena_free(&packed->frame_arena);
+}
+
+static unsigned digit(char letter)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const char *at = strchr(digits, letter);
+    assert_non_null(at);
+    return (unsigned)(at - digits);
+}
+
+static unsigned byte_at(const struct packed *packed, size_t begin, size_t index)
+{
+    const char *group = packed->columns.bytes + begin + index / 3 * 4;
+    unsigned bits =
+        digit(group[0]) << 18 | digit(group[1]) << 12 | digit(group[2]) << 6 | digit(group[3]);
+    return bits >> (16 - 8 * (index % 3)) & 0xff;
+}
+
+static size_t count_of(const struct packed *packed, const char *name)
+{
+    json_t *place = json_object_get(json_object_get(packed->json, "columns"), name);
+    return (size_t)json_integer_value(json_object_get(place, "count"));
+}
+
+/* A number of a column, decoded without the code under test. */
+static double value_of(const struct packed *packed, const char *name, size_t index)
+{
+    json_t *place = json_object_get(json_object_get(packed->json, "columns"), name);
+    assert_non_null(place);
+    assert_true(index < count_of(packed, name));
+    const char *type = json_string_value(json_object_get(place, "type"));
+    size_t begin = (size_t)json_integer_value(json_object_get(place, "begin"));
+    size_t width = (size_t)(type[1] - '0');
+    assert_int_equal(begin % 16, 0);
+    uint32_t bits = 0;
+    for (size_t i = 0; i < width; i++)
+        bits |= (uint32_t)byte_at(packed, begin, index * width + i) << 8 * i;
+    if (type[0] == 'u')
+        return bits;
+    float real;
+    memcpy(&real, &bits, sizeof real);
+    return (double)real;
+}
+
+static const char *name_at(const struct packed *packed, double index)
+{
+    return json_string_value(json_array_get(json_object_get(packed->json, "names"), (size_t)index));
+}
+
+static void begin(struct packed *packed)
+{
+    *packed = (struct packed){0};
+    view_data_begin(&packed->data, &packed->arena);
+}
+
+static void what_goes_in_comes_out_of_the_columns(void **state)
+{
+    (void)state;
+    struct packed packed;
+    begin(&packed);
+    add_line(&packed, FRAME("x", "100", "4", "false", RICH));
+    finish(&packed);
+    static const struct {
+        const char *column;
+        size_t index;
+        double value;
+    } cases[] = {
+        {"frame_objects",         0, 2    },
+        {"frame_scans",           0, 1    },
+        {"scan_targets",          0, 2    },
+        {"target_range_m",        0, 8    },
+        {"target_range_m",        1, 9    },
+        {"target_azimuth_rad",    0, 0.125},
+        {"target_range_rate_mps", 1, -1.5 },
+        {"target_amplitude_db",   0, 12.5 },
+        {"target_cell_range_m",   0, 8.25 },
+        {"target_cell_amplitude", 0, 4    },
+        {"target_contributors",   0, 2    },
+        {"target_contributors",   1, 1    },
+        {"contributor_weight",    0, 0.75 },
+        {"contributor_weight",    1, 0.25 },
+        {"contributor_range_m",   2, 9.5  },
+        {"object_length_m",       1, 3    },
+        {"object_vx_mps",         1, 1    },
+        {"scan_fates",            0, 1    },
+        {"scan_details",          0, 1    },
+        {"pattern_items",         0, 2    },
+        {"detail_shortfall_db",   0, 2.5  },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        if (value_of(&packed, cases[i].column, cases[i].index) != cases[i].value)
+            fail_msg("%s[%zu] is %g", cases[i].column, cases[i].index,
+                     value_of(&packed, cases[i].column, cases[i].index));
+    assert_string_equal(name_at(&packed, value_of(&packed, "contributor_reflector", 2)), "e");
+    assert_string_equal(name_at(&packed, value_of(&packed, "detail_reflector", 0)), "d");
+    assert_string_equal(name_at(&packed, value_of(&packed, "item_stage", 0)), "ideal");
+    release(&packed);
+}
+
+static void a_sensor_stands_and_moves_with_its_mount(void **state)
+{
+    (void)state;
+    struct packed packed;
+    begin(&packed);
+    add_line(&packed, FRAME("x", "0", "4", "false", RICH));
+    finish(&packed);
+    /* Coordinates are from the ego's start; omega x r of r = (-1, 2) is (-0.2, -0.1). */
+    assert_close(value_of(&packed, "scan_x_m", 0), -1, 1e-6);
+    assert_close(value_of(&packed, "scan_y_m", 0), 2, 1e-6);
+    assert_close(value_of(&packed, "scan_yaw_rad", 0), acos(0) + 0.25, 1e-6);
+    assert_close(value_of(&packed, "scan_vx_mps", 0), -0.2, 1e-6);
+    assert_close(value_of(&packed, "scan_vy_mps", 0), 4.9, 1e-6);
+    assert_close(value_of(&packed, "object_y_m", 1), 10, 1e-6);
+    release(&packed);
+}
+
+static void a_sensor_stands_where_it_was_when_it_measured(void **state)
+{
+    (void)state;
+    struct packed packed;
+    begin(&packed);
+    add_line(&packed, FRAME("x", "0", "4.02", "false",
+                            "\"targets\":[" TARGET("8", PART("a", "8.5", "1", "4")) "]"));
+    finish(&packed);
+    /* 0.02 s at 5 m/s earlier, and 0.002 rad less turned. */
+    assert_close(value_of(&packed, "scan_age_s", 0), 0.02, 1e-6);
+    assert_close(value_of(&packed, "scan_yaw_rad", 0), acos(0) + 0.25 - 0.002, 1e-6);
+    assert_close(value_of(&packed, "scan_y_m", 0), 2 - 0.1 + 0.002 * 1, 1e-4);
+    release(&packed);
+}
+
+static void no_name_can_end_the_script(void **state)
+{
+    (void)state;
+    struct packed packed;
+    begin(&packed);
+    add_line(&packed, FRAME("<!--<script>", "0", "4", "false", RICH));
+    finish(&packed);
+    assert_null(memchr(packed.head.bytes, '<', packed.head.length));
+    assert_string_equal(name_at(&packed, 0), "<!--<script>");
+    assert_string_equal(name_at(&packed, value_of(&packed, "object_id", 1)), "</script>");
+    release(&packed);
+}
+
+static void scenes_may_interleave_and_those_cut_short_are_known(void **state)
+{
+    (void)state;
+    struct packed packed;
+    begin(&packed);
+    add_line(&packed, FRAME("x", "7", "4", "false", RICH));
+    add_line(&packed, FRAME("y", "0", "4", "false", RICH));
+    add_line(&packed, FRAME("x", "8", "5", "false", RICH));
+    add_line(&packed, FRAME("y", "1", "5", "true", RICH));
+    finish(&packed);
+    json_t *scenes = json_object_get(packed.json, "scenes");
+    assert_int_equal(json_array_size(scenes), 2);
+    assert_false(json_is_true(json_object_get(json_array_get(scenes, 0), "ended")));
+    assert_true(json_is_true(json_object_get(json_array_get(scenes, 1), "ended")));
+    static const double owner[] = {0, 1, 0, 1}, number[] = {0, 0, 1, 1}, time_s[] = {0, 0, 1, 1};
+    for (size_t i = 0; i < 4; i++) {
+        assert_true(value_of(&packed, "frame_scene", i) == owner[i]);
+        assert_true(value_of(&packed, "frame_number", i) == number[i]);
+        assert_true(value_of(&packed, "frame_time_s", i) == time_s[i]);
+    }
+    release(&packed);
+}
+
+static void the_same_losses_share_a_pattern(void **state)
+{
+    (void)state;
+    struct packed packed;
+    begin(&packed);
+    for (int i = 0; i < 1000; i++)
+        add_line(&packed, FRAME("x", "0", "4", "false", RICH));
+    finish(&packed);
+    assert_int_equal(count_of(&packed, "pattern_items"), 1);
+    assert_int_equal(count_of(&packed, "fate_pattern"), 1000);
+    assert_int_equal(count_of(&packed, "detail_shortfall_db"), 1000);
+    release(&packed);
+}
+
+static void a_column_is_as_wide_as_its_largest_number(void **state)
+{
+    (void)state;
+    struct packed packed;
+    begin(&packed);
+    add_line(&packed, FRAME("x", "10", "4", "false", RICH));
+    add_line(&packed, FRAME("x", "265", "5", "false", RICH));
+    add_line(&packed, FRAME("x", "70010", "6", "false", RICH));
+    finish(&packed);
+    assert_true(value_of(&packed, "frame_number", 1) == 255);
+    assert_true(value_of(&packed, "frame_number", 2) == 70000);
+    release(&packed);
+}
+
+static void an_empty_stream_has_a_head(void **state)
+{
+    (void)state;
+    struct packed packed;
+    begin(&packed);
+    finish(&packed);
+    assert_int_equal(json_array_size(json_object_get(packed.json, "scenes")), 0);
+    assert_int_equal(packed.columns.length, 0);
+    release(&packed);
+}
+
+static void a_pool_numbers_pieces_as_they_come(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct view_pool pool = {0};
+    char word[16];
+    for (int round = 0; round < 2; round++)
+        for (unsigned i = 0; i < 5000; i++) {
+            snprintf(word, sizeof word, "w%u", i);
+            assert_int_equal(view_pool_word(&pool, word, &arena), i);
+        }
+    assert_int_equal(view_pool_number(&pool, "w1\0x", 4, &arena), 5000);
+    arena_free(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_goes_in_comes_out_of_the_columns),
+        cmocka_unit_test(a_sensor_stands_and_moves_with_its_mount),
+        cmocka_unit_test(a_sensor_stands_where_it_was_when_it_measured),
+        cmocka_unit_test(no_name_can_end_the_script),
+        cmocka_unit_test(scenes_may_interleave_and_those_cut_short_are_known),
+        cmocka_unit_test(the_same_losses_share_a_pattern),
+        cmocka_unit_test(a_column_is_as_wide_as_its_largest_number),
+        cmocka_unit_test(an_empty_stream_has_a_head),
+        cmocka_unit_test(a_pool_numbers_pieces_as_they_come),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

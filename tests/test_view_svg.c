@@ -1,0 +1,160 @@
+#include "check.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "frame_text.h"
+#include "view_svg.h"
+
+#define OBJECT(id, x)                                                                              \
+    "{\"id\":\"" id "\",\"class\":\"thing\",\"x_m\":" x ",\"y_m\":0,\"yaw_rad\":0,\"vx_mps\":0,"   \
+    "\"vy_mps\":0,\"yaw_rate_radps\":0,\"length_m\":4,\"width_m\":2,\"height_m\":1,"               \
+    "\"travelled_m\":0}"
+#define TARGET(range)                                                                              \
+    "{\"sensor\":\"f\",\"range_m\":" range ",\"azimuth_rad\":0,\"range_rate_mps\":0,"              \
+    "\"amplitude_db\":12,\"cell_range_m\":8,\"cell_azimuth_rad\":0,\"cell_range_rate_mps\":0,"     \
+    "\"cell_amplitude\":4,\"contributors\":[{\"object\":\"o\",\"reflector\":\"a\","                \
+    "\"path\":\"direct\",\"range_m\":8,\"azimuth_rad\":0,\"range_rate_mps\":0,\"ercs\":1,"         \
+    "\"time_s\":4,\"weight\":1}]}"
+#define FRAME(scene, objects, rest)                                                                \
+    "{\"version\":0,\"scene\":\"" scene "\",\"frame\":0,\"time_s\":4,\"interval_s\":0.04,"         \
+    "\"seed\":\"1\",\"ego\":\"e\",\"objects\":[" OBJECT("e", "0") objects "]" rest "}"
+#define SENSORS(name)                                                                              \
+    ",\"sensors\":{\"suite\":\"s\",\"digest\":\"0123456789abcdef\",\"list\":[{\"name\":\"" name    \
+    "\",\"mount_x_m\":2,\"mount_y_m\":0,\"mount_yaw_rad\":0,\"field_of_view_rad\":3,"              \
+    "\"range_max_m\":30,\"cell_range_m\":0.3,\"cell_range_rate_mps\":0.5,\"measured\":true}]}"
+
+/* The drawing of a line, NUL-terminated; the caller frees it. */
+static char *draw(const char *line)
+{
+    struct arena arena = {0}, documents = {0};
+    struct frame frame = {.arena = &arena};
+    struct view_models models = {.arena = &documents};
+    struct text text = {0};
+    struct diag diag = {0};
+    if (frame_text_read(line, strlen(line), &frame, &diag) != 0)
+        fail_msg("%s", diag.text);
+    view_svg_write(&frame, &models, &text);
+    text_add(&text, "", 1);
+    arena_free(&arena);
+    arena_free(&documents);
+    return text.bytes;
+}
+
+static const char *skip_entity(const char *at)
+{
+    static const char *const known[] = {"&amp;", "&lt;", "&gt;", "&quot;"};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strncmp(at, known[i], strlen(known[i])) == 0)
+            return at + strlen(known[i]) - 1;
+    fail_msg("a bare ampersand at %.20s", at);
+    return at;
+}
+
+/* Every element closes the one that is open, attributes are quoted, ampersands stand for something.
+ */
+static void assert_well_formed(const char *xml)
+{
+    const char *open[32];
+    size_t depth = 0, elements = 0;
+    for (const char *at = xml; *at != '\0'; at++) {
+        assert_true((unsigned char)*at >= 0x20 || *at == '\n');
+        if (*at == '&')
+            at = skip_entity(at);
+        if (*at != '<')
+            continue;
+        bool closing = at[1] == '/';
+        const char *name = at + (closing ? 2 : 1), *end = name;
+        assert_true(isalpha((unsigned char)*name));
+        size_t length = strcspn(name, " />");
+        for (bool quoted = false; *end != '>' || quoted; end++) {
+            assert_true(*end != '\0' && *end != '<');
+            quoted ^= *end == '"';
+        }
+        if (closing) {
+            assert_true(depth > 0 && strncmp(open[depth - 1], name, length) == 0);
+            depth--;
+        } else if (end[-1] != '/') {
+            assert_true(depth < 32);
+            open[depth++] = name;
+        }
+        elements++;
+        at = end;
+    }
+    assert_int_equal(depth, 0);
+    assert_true(elements > 3);
+}
+
+static void drawings_are_well_formed_xml(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {
+        FRAME("x", "", ""),
+        FRAME("x", "," OBJECT("o", "12"), ""),
+        FRAME("x", "," OBJECT("o", "12"), SENSORS("f") ",\"targets\":[" TARGET("8") "]"),
+        FRAME("<svg>&amp;\\\"]]>", "," OBJECT("</text><script>", "12"), SENSORS("<&>")),
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char *xml = draw(lines[i]);
+        assert_well_formed(xml);
+        assert_null(strstr(xml, "nan"));
+        assert_null(strstr(xml, "inf"));
+        free(xml);
+    }
+    struct text empty = {0};
+    view_svg_write_empty(&empty);
+    text_add(&empty, "", 1);
+    assert_well_formed(empty.bytes);
+    text_free(&empty);
+}
+
+static void names_are_escaped(void **state)
+{
+    (void)state;
+    char *xml = draw(FRAME("<b>&\\\"", "," OBJECT("</text><script>", "12"), SENSORS("f")));
+    assert_non_null(strstr(xml, "&lt;b&gt;&amp;&quot;"));
+    assert_non_null(strstr(xml, "&lt;/text&gt;&lt;script&gt;"));
+    assert_null(strstr(xml, "<script"));
+    free(xml);
+}
+
+/* The first corner of a path of a class, the nth of them. */
+static void corner_of(const char *xml, const char *class, int nth, double *x, double *y)
+{
+    char wanted[64];
+    snprintf(wanted, sizeof wanted, "class=\"%s\" d=\"M", class);
+    for (const char *at = strstr(xml, wanted); at != NULL; at = strstr(at + 1, wanted))
+        if (nth-- == 0) {
+            char *end;
+            *x = strtod(at + strlen(wanted), &end);
+            *y = strtod(end, &end);
+            return;
+        }
+    fail_msg("no %s", wanted);
+}
+
+static void it_is_drawn_to_the_scale_of_its_bar(void **state)
+{
+    (void)state;
+    char *xml = draw(FRAME("x", "," OBJECT("o", "12"),
+                           SENSORS("f") ",\"targets\":[" TARGET("8") "," TARGET("13") "]"));
+    double near_x, far_x, y, bar, metres;
+    corner_of(xml, "target f0", 0, &near_x, &y);
+    corner_of(xml, "target f0", 1, &far_x, &y);
+    assert_int_equal(sscanf(strstr(xml, "d=\"M20 774v6h"), "d=\"M20 774v6h%lfv", &bar), 1);
+    assert_int_equal(sscanf(strstr(xml, "y=\"770\">"), "y=\"770\">%lf m<", &metres), 1);
+    assert_close((far_x - near_x) / bar, 5 / metres, 0.01);
+    free(xml);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(drawings_are_well_formed_xml),
+        cmocka_unit_test(names_are_escaped),
+        cmocka_unit_test(it_is_drawn_to_the_scale_of_its_bar),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
