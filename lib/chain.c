@@ -4,6 +4,8 @@
 #include <time.h>
 
 #include "document.h"
+#include "frame_check.h"
+#include "frame_order.h"
 #include "frame_text.h"
 #include "input.h"
 #include "progress.h"

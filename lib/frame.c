@@ -1,6 +1,5 @@
 #include "frame.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "units.h"
@@ -333,135 +332,6 @@ void frame_clear(struct frame *frame)
     frame->arena = arena;
 }
 
-static int compare_echo_names(const char *object_a, const char *reflector_a, enum path path_a,
-                              const char *object_b, const char *reflector_b, enum path path_b)
-{
-    int order = strcmp(object_a, object_b);
-    if (order == 0)
-        order = strcmp(reflector_a, reflector_b);
-    return order != 0 ? order : (path_a > path_b) - (path_a < path_b);
-}
-
-static int compare_contributors(const void *left, const void *right)
-{
-    const struct contributor *a = left, *b = right;
-    return compare_echo_names(a->object, a->reflector, a->path, b->object, b->reflector, b->path);
-}
-
-static int compare_names(const void *left, const void *right)
-{
-    return strcmp(*(const char *const *)left, *(const char *const *)right);
-}
-
-static int compare_sets(const void *left, const void *right)
-{
-    return strcmp(((const struct reflector_set *)left)->model,
-                  ((const struct reflector_set *)right)->model);
-}
-
-static int compare_views(const void *left, const void *right)
-{
-    return strcmp(((const struct sensor_view *)left)->name,
-                  ((const struct sensor_view *)right)->name);
-}
-
-static int compare_echoes(const void *left, const void *right)
-{
-    const struct echo *a = left, *b = right;
-    int order = strcmp(a->sensor, b->sensor);
-    return order != 0 ? order
-                      : compare_echo_names(a->object, a->reflector, a->path, b->object,
-                                           b->reflector, b->path);
-}
-
-static int compare_cells(const void *left, const void *right)
-{
-    const struct cell *a = left, *b = right;
-    int order = strcmp(a->sensor, b->sensor);
-    return order != 0 || a->members.count == 0 || b->members.count == 0
-               ? order
-               : compare_contributors(a->members.items, b->members.items);
-}
-
-static int compare_lost_echoes(const void *left, const void *right)
-{
-    const struct lost_echo *a = left, *b = right;
-    return compare_echo_names(a->object, a->reflector, a->path, b->object, b->reflector, b->path);
-}
-
-static int compare_lost_groups(const void *left, const void *right)
-{
-    const struct lost_group *a = left, *b = right;
-    int order = strcmp(a->sensor, b->sensor);
-    if (order == 0)
-        order = strcmp(a->stage, b->stage);
-    return order != 0 ? order : (a->reason > b->reason) - (a->reason < b->reason);
-}
-
-static int compare_counts(const void *left, const void *right)
-{
-    return strcmp(((const struct count *)left)->sensor, ((const struct count *)right)->sensor);
-}
-
-#define SORT(list, compare)                                                                        \
-    do {                                                                                           \
-        if ((list).count > 1)                                                                      \
-            qsort((list).items, (list).count, sizeof *(list).items, (compare));                    \
-    } while (0)
-
-/* Targets keep the order of their list: sorted by sensor through their places. */
-static int compare_targets(const void *left, const void *right)
-{
-    const struct target *const *a = left, *const *b = right;
-    int order = strcmp((*a)->sensor, (*b)->sensor);
-    return order != 0 ? order : (*a > *b) - (*a < *b);
-}
-
-static bool targets_are_grouped(const struct frame *frame)
-{
-    for (size_t i = 1; i < frame->targets.count; i++)
-        if (strcmp(frame->targets.items[i - 1].sensor, frame->targets.items[i].sensor) > 0)
-            return false;
-    return true;
-}
-
-static void group_targets(struct frame *frame)
-{
-    if (targets_are_grouped(frame))
-        return;
-    size_t count = frame->targets.count;
-    const struct target **places = arena_get(frame->arena, count * sizeof(*places));
-    struct target *grouped = arena_get(frame->arena, count * sizeof *grouped);
-    for (size_t i = 0; i < count; i++)
-        places[i] = &frame->targets.items[i];
-    qsort(places, count, sizeof(*places), compare_targets);
-    for (size_t i = 0; i < count; i++)
-        grouped[i] = *places[i];
-    frame->targets.items = grouped;
-    frame->targets.room = count;
-}
-
-void frame_order(struct frame *frame)
-{
-    SORT(frame->reflectors, compare_sets);
-    for (size_t i = 0; i < frame->reflectors.count; i++)
-        SORT(frame->reflectors.items[i].worn_by, compare_names);
-    SORT(frame->sensors.list, compare_views);
-    SORT(frame->echoes, compare_echoes);
-    for (size_t i = 0; i < frame->cells.count; i++) {
-        struct cell *cell = &frame->cells.items[i];
-        if (cell->members.count > 2)
-            qsort(cell->members.items + 1, cell->members.count - 1, sizeof *cell->members.items,
-                  compare_contributors);
-    }
-    SORT(frame->cells, compare_cells);
-    group_targets(frame);
-    SORT(frame->lost, compare_lost_groups);
-    for (size_t i = 0; i < frame->lost.count; i++)
-        SORT(frame->lost.items[i].echoes, compare_lost_echoes);
-    SORT(frame->counts, compare_counts);
-}
-
 const char *frame_section_name(enum section section)
 {
     for (const struct field *field = frame_fields; field->name != NULL; field++)
@@ -492,108 +362,6 @@ void frame_drop(struct frame *frame, unsigned sections)
     frame->present &= ~sections;
 }
 
-static int check_objects(const struct frame *frame, struct diag *diag)
-{
-    size_t count = frame->objects.count;
-    const char **ids = arena_get(frame->arena, (count + 1) * sizeof *ids);
-    for (size_t i = 0; i < count; i++)
-        ids[i] = frame->objects.items[i].id;
-    qsort(ids, count, sizeof *ids, compare_names);
-    for (size_t i = 1; i < count; i++)
-        if (strcmp(ids[i - 1], ids[i]) == 0)
-            return diag_fail(diag, DIAG_DATA, "objects: the id \"%s\" stands twice", ids[i]);
-    if (frame_object(frame, frame->ego) == NULL)
-        return diag_fail(diag, DIAG_DATA, "ego: \"%s\" is not among the objects", frame->ego);
-    return 0;
-}
-
-static int check_sets(const struct frame *frame, struct diag *diag)
-{
-    for (size_t i = 0; i < frame->reflectors.count; i++) {
-        const struct reflector_set *set = &frame->reflectors.items[i];
-        const char *twice = reflectors_name_twice(set);
-        for (size_t j = 1; j < set->worn_by.count && twice == NULL; j++)
-            if (strcmp(set->worn_by.items[j - 1], set->worn_by.items[j]) == 0)
-                twice = set->worn_by.items[j];
-        if (twice != NULL)
-            return diag_fail(diag, DIAG_DATA, "reflectors[%zu]: \"%s\" stands twice", i, twice);
-    }
-    return 0;
-}
-
-static int check_views(const struct frame *frame, struct diag *diag)
-{
-    const struct sensor_view *view = frame->sensors.list.items;
-    for (size_t i = 1; i < frame->sensors.list.count; i++)
-        if (strcmp(view[i - 1].name, view[i].name) == 0)
-            return diag_fail(diag, DIAG_DATA, "sensors.list: \"%s\" stands twice", view[i].name);
-    return 0;
-}
-
-static int check_listed(const struct frame *frame, const char *section, size_t index,
-                        const char *sensor, struct diag *diag)
-{
-    for (size_t i = 0; i < frame->sensors.list.count; i++)
-        if (strcmp(frame->sensors.list.items[i].name, sensor) == 0)
-            return 0;
-    return diag_fail(diag, DIAG_DATA, "%s[%zu].sensor: \"%s\" is not in sensors.list", section,
-                     index, sensor);
-}
-
-static int check_echoes(const struct frame *frame, struct diag *diag)
-{
-    const struct echo *echo = frame->echoes.items;
-    for (size_t i = 0; i < frame->echoes.count; i++) {
-        if (i > 0 && compare_echoes(&echo[i - 1], &echo[i]) == 0)
-            return diag_fail(diag, DIAG_DATA,
-                             "echoes: sensor \"%s\", object \"%s\", reflector \"%s\" stands twice",
-                             echo[i].sensor, echo[i].object, echo[i].reflector);
-        if (check_listed(frame, "echoes", i, echo[i].sensor, diag) != 0)
-            return -1;
-    }
-    return 0;
-}
-
-static int check_cells(const struct frame *frame, struct diag *diag)
-{
-    const struct cell *cell = frame->cells.items;
-    for (size_t i = 0; i < frame->cells.count; i++) {
-        if (cell[i].members.count == 0)
-            return diag_fail(diag, DIAG_DATA, "cells[%zu].members: empty; expected the leader", i);
-        if (i > 0 && compare_cells(&cell[i - 1], &cell[i]) == 0)
-            return diag_fail(diag, DIAG_DATA,
-                             "cells: sensor \"%s\" has two led by object \"%s\", reflector \"%s\"",
-                             cell[i].sensor, cell[i].members.items[0].object,
-                             cell[i].members.items[0].reflector);
-        if (check_listed(frame, "cells", i, cell[i].sensor, diag) != 0)
-            return -1;
-    }
-    return 0;
-}
-
-static int check_targets(const struct frame *frame, struct diag *diag)
-{
-    const struct target *target = frame->targets.items;
-    for (size_t i = 0; i < frame->targets.count; i++) {
-        if (target[i].contributors.count == 0)
-            return diag_fail(diag, DIAG_DATA, "targets[%zu].contributors: empty; expected a label",
-                             i);
-        if (check_listed(frame, "targets", i, target[i].sensor, diag) != 0)
-            return -1;
-    }
-    return 0;
-}
-
-int frame_check(const struct frame *frame, struct diag *diag)
-{
-    if ((frame->present & SECTION_OBJECTS) != 0 && check_objects(frame, diag) != 0)
-        return -1;
-    if (check_sets(frame, diag) != 0 || check_views(frame, diag) != 0 ||
-        check_echoes(frame, diag) != 0 || check_cells(frame, diag) != 0)
-        return -1;
-    return check_targets(frame, diag);
-}
-
 struct object *frame_object(const struct frame *frame, const char *id)
 {
     for (size_t i = 0; i < frame->objects.count; i++)
@@ -622,17 +390,6 @@ struct cell_span frame_cells_of(const struct frame *frame, const char *sensor)
         if (strcmp(frame->cells.items[end].sensor, sensor) != 0)
             break;
     return (struct cell_span){frame->cells.items + first, end - first};
-}
-
-int frame_compare_tied(const struct contributor *a, const struct contributor *b)
-{
-    if (a->range_m != b->range_m)
-        return a->range_m < b->range_m ? -1 : 1;
-    if (a->range_rate_mps != b->range_rate_mps)
-        return a->range_rate_mps < b->range_rate_mps ? -1 : 1;
-    if (a->azimuth_rad != b->azimuth_rad)
-        return a->azimuth_rad < b->azimuth_rad ? -1 : 1;
-    return compare_contributors(a, b);
 }
 
 struct contributor frame_contributor(const struct echo *echo)

@@ -177,10 +177,6 @@ extern const struct record frame_record;
 /* Back to an empty frame that keeps its arena's room. */
 void frame_clear(struct frame *frame);
 
-/* Brings the sections into canonical order: ids, names and paths ascending. Objects stay as they
- * are; targets, in the order of their sensor's list, are grouped by sensor. */
-void frame_order(struct frame *frame);
-
 /* The name of a section, for messages. */
 const char *frame_section_name(enum section section);
 
@@ -189,11 +185,6 @@ const char *frame_loss_name(enum loss loss);
 
 /* Empties sections: they are then absent, as if they had never been there. */
 void frame_drop(struct frame *frame, unsigned sections);
-
-/* What no table of fields can say, for a frame in canonical order: ids, sensors, echoes and cells'
- * leaders stand once, the ego is among the objects, echoes, cells and targets are of listed
- * sensors, and every cell and target has contributors. */
-int frame_check(const struct frame *frame, struct diag *diag);
 
 /* The object of that id, or NULL. */
 struct object *frame_object(const struct frame *frame, const char *id);
@@ -209,10 +200,6 @@ struct cell_span {
 };
 struct echo_span frame_echoes_of(const struct frame *frame, const char *sensor);
 struct cell_span frame_cells_of(const struct frame *frame, const char *sensor);
-
-/* The total order in which echoes compete wherever amplitudes tie: range, range rate, azimuth, then
- * object, reflector, path. Negative, zero or positive. */
-int frame_compare_tied(const struct contributor *a, const struct contributor *b);
 
 /* The contributor that an echo is, with weight 0. */
 struct contributor frame_contributor(const struct echo *echo);

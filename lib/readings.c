@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "frame_order.h"
 #include "units.h"
 
 struct reading reading_of(const struct cell *cell)
@@ -24,7 +25,7 @@ double reading_step(double value, double step)
 
 static int compare_leaders(const struct reading *a, const struct reading *b)
 {
-    return frame_compare_tied(a->cell->members.items, b->cell->members.items);
+    return frame_order_tied(a->cell->members.items, b->cell->members.items);
 }
 
 static int compare_strength(const void *left, const void *right)

@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "audit.h"
+#include "frame_check.h"
+#include "frame_order.h"
 #include "hash.h"
 #include "random.h"
 

@@ -3,6 +3,7 @@
 #include <complex.h>
 #include <math.h>
 
+#include "frame_order.h"
 #include "resolution.h"
 
 struct ray superposition_ray(const struct sensor *sensor, const struct echo *echo, double phase_rad)
@@ -18,7 +19,7 @@ int superposition_compare(const void *left, const void *right)
     const struct ray *a = left, *b = right;
     if (a->amplitude != b->amplitude)
         return a->amplitude > b->amplitude ? -1 : 1;
-    return frame_compare_tied(&a->echo, &b->echo);
+    return frame_order_tied(&a->echo, &b->echo);
 }
 
 static struct antenna_pointers add_pointers(const struct sensor *sensor, const struct ray *rays,

@@ -1,4 +1,6 @@
 #include "check.h"
+#include "frame_check.h"
+#include "frame_order.h"
 
 #include <string.h>
 
@@ -268,7 +270,7 @@ static void ties_are_decided_by_a_total_order(void **state)
                                       .weight = 31 - i};
     for (int i = 0; i < 32; i++)
         for (int j = 0; j < 32; j++) {
-            int order = frame_compare_tied(&all[i], &all[j]);
+            int order = frame_order_tied(&all[i], &all[j]);
             assert_int_equal((order > 0) - (order < 0), (i > j) - (i < j));
         }
 }

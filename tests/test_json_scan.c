@@ -160,7 +160,7 @@ static void every_code_point_survives_its_escapes(void **state)
     for (unsigned code = 1; code < 0x110000; code += code < 0x3000 ? 1 : 97) {
         if (code >= 0xd800 && code < 0xe000)
             continue;
-        char text[16];
+        char text[24];
         unsigned high = 0xd800 + ((code - 0x10000) >> 10),
                  low = 0xdc00 + ((code - 0x10000) & 0x3ff);
         if (code < 0x10000)

@@ -311,7 +311,7 @@ static void posts_become_echoes_with_their_numbers(void **state)
     /* Posts at x = -200 + 4 n; those ahead within 100 m: x = 4 to 96, n = 51 to 74. */
     assert_int_equal(scene->frame.echoes.count, 24);
     for (int i = 0; i < 24; i++) {
-        char name[16];
+        char name[24];
         snprintf(name, sizeof name, "post_%d", 51 + i);
         assert_string_equal(scene->frame.echoes.items[i].reflector, name);
         assert_close(scene->frame.echoes.items[i].range_m, hypot(4 + 4 * i, 5), 1e-9);

@@ -527,8 +527,7 @@ static void values_outside_their_bounds_are_refused(void **state)
     struct scenario scenario = scenario_of(actors, 2);
     struct diag diag = {0};
     assert_int_equal(field_check(&scenario_record, &scenario, &diag), -1);
-    assert_string_equal(diag.text,
-                        "objects[1].waypoints[1].y_m: 1.5e+09 is outside [-1e9, 1e9] m");
+    assert_string_equal(diag.text, "objects[1].waypoints[1].y_m: 1.5e+09 is outside [-1e9, 1e9] m");
     waypoints[1].y_m = 0;
     diag = (struct diag){0};
     assert_int_equal(field_check(&scenario_record, &scenario, &diag), 0);

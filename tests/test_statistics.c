@@ -1,4 +1,6 @@
 #include "check.h"
+#include "frame_check.h"
+#include "frame_order.h"
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -664,7 +666,7 @@ static void two_reflectors_in_one_cell_make_one_target_between_them(void **state
         double left_deg, right_deg, ratio, azimuth_deg, tolerance_deg;
         bool sign_undecided;
     } cases[] = {
-        {"centre",  8,  -8, 1, 0,    1e-6,  true},
+        {"centre",  8,  -8, 1, 0,    1e-6,  true },
         {"centre",  8,  -8, 2, 2.70, 0.005, false},
         {"centre",  8,  -8, 5, 5.37, 0.005, false},
         {"centre",  15, -5, 1, 4.64, 0.005, false},

@@ -1,0 +1,108 @@
+#include "frame_check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "frame_order.h"
+
+static int check_objects(const struct frame *frame, struct diag *diag)
+{
+    size_t count = frame->objects.count;
+    const char **ids = arena_get(frame->arena, (count + 1) * sizeof *ids);
+    for (size_t i = 0; i < count; i++)
+        ids[i] = frame->objects.items[i].id;
+    qsort(ids, count, sizeof *ids, frame_order_names);
+    for (size_t i = 1; i < count; i++)
+        if (strcmp(ids[i - 1], ids[i]) == 0)
+            return diag_fail(diag, DIAG_DATA, "objects: the id \"%s\" stands twice", ids[i]);
+    if (frame_object(frame, frame->ego) == NULL)
+        return diag_fail(diag, DIAG_DATA, "ego: \"%s\" is not among the objects", frame->ego);
+    return 0;
+}
+
+static int check_sets(const struct frame *frame, struct diag *diag)
+{
+    for (size_t i = 0; i < frame->reflectors.count; i++) {
+        const struct reflector_set *set = &frame->reflectors.items[i];
+        const char *twice = reflectors_name_twice(set);
+        for (size_t j = 1; j < set->worn_by.count && twice == NULL; j++)
+            if (strcmp(set->worn_by.items[j - 1], set->worn_by.items[j]) == 0)
+                twice = set->worn_by.items[j];
+        if (twice != NULL)
+            return diag_fail(diag, DIAG_DATA, "reflectors[%zu]: \"%s\" stands twice", i, twice);
+    }
+    return 0;
+}
+
+static int check_views(const struct frame *frame, struct diag *diag)
+{
+    const struct sensor_view *view = frame->sensors.list.items;
+    for (size_t i = 1; i < frame->sensors.list.count; i++)
+        if (strcmp(view[i - 1].name, view[i].name) == 0)
+            return diag_fail(diag, DIAG_DATA, "sensors.list: \"%s\" stands twice", view[i].name);
+    return 0;
+}
+
+static int check_listed(const struct frame *frame, const char *section, size_t index,
+                        const char *sensor, struct diag *diag)
+{
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        if (strcmp(frame->sensors.list.items[i].name, sensor) == 0)
+            return 0;
+    return diag_fail(diag, DIAG_DATA, "%s[%zu].sensor: \"%s\" is not in sensors.list", section,
+                     index, sensor);
+}
+
+static int check_echoes(const struct frame *frame, struct diag *diag)
+{
+    const struct echo *echo = frame->echoes.items;
+    for (size_t i = 0; i < frame->echoes.count; i++) {
+        if (i > 0 && frame_order_echoes(&echo[i - 1], &echo[i]) == 0)
+            return diag_fail(diag, DIAG_DATA,
+                             "echoes: sensor \"%s\", object \"%s\", reflector \"%s\" stands twice",
+                             echo[i].sensor, echo[i].object, echo[i].reflector);
+        if (check_listed(frame, "echoes", i, echo[i].sensor, diag) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+static int check_cells(const struct frame *frame, struct diag *diag)
+{
+    const struct cell *cell = frame->cells.items;
+    for (size_t i = 0; i < frame->cells.count; i++) {
+        if (cell[i].members.count == 0)
+            return diag_fail(diag, DIAG_DATA, "cells[%zu].members: empty; expected the leader", i);
+        if (i > 0 && frame_order_cells(&cell[i - 1], &cell[i]) == 0)
+            return diag_fail(diag, DIAG_DATA,
+                             "cells: sensor \"%s\" has two led by object \"%s\", reflector \"%s\"",
+                             cell[i].sensor, cell[i].members.items[0].object,
+                             cell[i].members.items[0].reflector);
+        if (check_listed(frame, "cells", i, cell[i].sensor, diag) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+static int check_targets(const struct frame *frame, struct diag *diag)
+{
+    const struct target *target = frame->targets.items;
+    for (size_t i = 0; i < frame->targets.count; i++) {
+        if (target[i].contributors.count == 0)
+            return diag_fail(diag, DIAG_DATA, "targets[%zu].contributors: empty; expected a label",
+                             i);
+        if (check_listed(frame, "targets", i, target[i].sensor, diag) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+int frame_check(const struct frame *frame, struct diag *diag)
+{
+    if ((frame->present & SECTION_OBJECTS) != 0 && check_objects(frame, diag) != 0)
+        return -1;
+    if (check_sets(frame, diag) != 0 || check_views(frame, diag) != 0 ||
+        check_echoes(frame, diag) != 0 || check_cells(frame, diag) != 0)
+        return -1;
+    return check_targets(frame, diag);
+}

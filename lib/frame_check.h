@@ -1,0 +1,12 @@
+/* What no table of fields can say about a frame. */
+#ifndef FRAME_CHECK_H
+#define FRAME_CHECK_H
+
+#include "frame.h"
+
+/* For a frame in canonical order: ids, names, sensors, echoes and leaders stand once, the ego is
+ * among the objects, echoes, cells and targets are of listed sensors, and every cell and target has
+ * contributors. Refuses with DIAG_DATA. */
+int frame_check(const struct frame *frame, struct diag *diag);
+
+#endif
