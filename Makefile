@@ -6,6 +6,9 @@
 #   make CC=clang CXX=clang++ BUILD=build-clang
 #   make install    PREFIX=/usr/local DESTDIR=
 
+# No built-in rules: one of them would try to make a.d from a.d.o.
+MAKEFLAGS += -r
+
 PREFIX ?= /usr/local
 BUILD ?= build
 CFLAGS ?= -O2 -g
@@ -36,6 +39,11 @@ have = $(if $(call needs,$(1)),$(shell pkg-config --exists $(call needs,$(1)) &&
 all_stages := $(filter-out main,$(patsubst stages/%.c,%,$(sort $(wildcard stages/*.c))))
 stages := $(foreach s,$(all_stages),$(if $(call have,stages/$(s).c),$(s)))
 left_out := $(filter-out $(stages),$(all_stages))
+$(foreach s,$(left_out),$(info glint-$(subst _,-,$(s)) is left out: it needs $(call needs,stages/$(s).c)))
+# What a stage needs beyond the four packages is compiled and linked into it, and into glint.
+flags_of = $(if $(call needs,stages/$(1).c),$(shell pkg-config --cflags $(call needs,stages/$(1).c)))
+libs_of = $(if $(call needs,stages/$(1).c),$(shell pkg-config --libs $(call needs,stages/$(1).c)))
+stage_libs := $(foreach s,$(stages),$(call libs_of,$(s)))
 
 lib_objects := $(patsubst lib/%,$(BUILD)/lib/%.o,$(wildcard lib/*.c lib/*.cc)) $(BUILD)/lib/view_page.o
 stage_objects := $(patsubst %,$(BUILD)/stages/%.o,$(stages))
@@ -43,7 +51,6 @@ tools := $(foreach s,$(stages),$(BUILD)/bin/glint-$(subst _,-,$(s))) $(BUILD)/bi
 tests := $(patsubst tests/test_%.c,$(BUILD)/tests/test_%,$(wildcard tests/test_*.c))
 
 all: $(tools)
-	$(foreach s,$(left_out),@echo "glint-$(subst _,-,$(s)) is left out: it needs $(call needs,stages/$(s).c)")
 
 $(BUILD)/lib/%.c.o: lib/%.c
 	@mkdir -p $(@D)
@@ -75,7 +82,7 @@ $(BUILD)/libglint.a: $(lib_objects)
 
 $(BUILD)/stages/%.o: stages/%.c
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
+	$(Q)$(CC) $(HOUSE_C) $(call flags_of,$*) $(CFLAGS) -c -o $@ $<
 
 # One main for every stage: glint-sensor-perfect is stages/sensor_perfect.c and this.
 .SECONDEXPANSION:
@@ -106,14 +113,14 @@ $(BUILD)/main/glint.o: stages/main.c
 
 $(BUILD)/bin/glint: $(BUILD)/main/glint.o $(BUILD)/registry.o $(stage_objects) $(BUILD)/libglint.a
 	@mkdir -p $(@D)
-	$(Q)$(LINK) -o $@ $^ $(LIBS)
+	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS)
 
 $(BUILD)/tests/%.o: tests/%.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(HOUSE_C) -Itests $(CFLAGS) -c -o $@ $<
 
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
-	$(Q)$(LINK) -o $@ $^ $(LIBS) -lcmocka
+	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS) -lcmocka
 
 unit: $(tests)
 	@failed=0; for t in $(tests); do \
@@ -137,17 +144,19 @@ lint:
 	clang-format --dry-run --Werror $(wildcard lib/*.[ch] stages/*.c tests/*.[ch])
 	clang-tidy --quiet $(wildcard lib/*.c stages/*.c) -- -std=c11 -D_XOPEN_SOURCE=700 -Ilib
 
-# Man pages are made from --help; SOURCE_DATE_EPOCH makes them reproducible.
+# Man pages are made from --help, by help2man; SOURCE_DATE_EPOCH makes them reproducible.
 man: all
 	@mkdir -p $(BUILD)/man
-	$(Q)for t in $(notdir $(tools)); do \
-	    help2man --no-info --no-discard-stderr -n "$$($(BUILD)/bin/$$t --help | sed -n '/^Usage/,/^$$/{/^Usage/d;/^  or/d;p;q}')" \
-	        -o $(BUILD)/man/$$t.1 $(BUILD)/bin/$$t || exit 1; done
+	$(Q)command -v help2man >/dev/null || { echo "man pages are left out: they need help2man"; exit 0; }; \
+	for t in $(notdir $(tools)); do \
+	    name=$$($(BUILD)/bin/$$t --help | sed '/^Usage/d; /^  or/d' | sed -n 's/\.$$//; 1p'); \
+	    help2man --no-info -n "$$name" -o $(BUILD)/man/$$t.1 $(BUILD)/bin/$$t || exit 1; done
 
 install: all man
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1 $(DESTDIR)$(PREFIX)/share/glint
 	install -m 755 $(tools) $(DESTDIR)$(PREFIX)/bin
-	install -m 644 $(patsubst %,$(BUILD)/man/%.1,$(notdir $(tools))) $(DESTDIR)$(PREFIX)/share/man/man1
+	$(Q)for page in $(BUILD)/man/*.1; do \
+	    [ ! -e $$page ] || install -m 644 $$page $(DESTDIR)$(PREFIX)/share/man/man1; done
 	cp -R data/* $(DESTDIR)$(PREFIX)/share/glint
 	cp -R pipelines schemas $(DESTDIR)$(PREFIX)/share/glint
 

@@ -1,17 +1,20 @@
 #include "audit.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* One place where an echo ended. */
+#define LOST SIZE_MAX
+
+/* One place where an echo ended: a target, by its number, or lost. */
 struct ending {
     const char *sensor, *object, *reflector;
     enum path path;
+    size_t place;
 };
 
-static int compare_endings(const void *left, const void *right)
+static int compare_echoes(const struct ending *a, const struct ending *b)
 {
-    const struct ending *a = left, *b = right;
     int order = strcmp(a->sensor, b->sensor);
     if (order == 0)
         order = (a->path > b->path) - (a->path < b->path);
@@ -20,30 +23,55 @@ static int compare_endings(const void *left, const void *right)
     return order != 0 ? order : strcmp(a->reflector, b->reflector);
 }
 
+static int compare_endings(const void *left, const void *right)
+{
+    const struct ending *a = left, *b = right;
+    int order = compare_echoes(a, b);
+    return order != 0 ? order : (a->place > b->place) - (a->place < b->place);
+}
+
 static size_t collect(const struct frame *frame, struct ending *endings)
 {
     size_t count = 0;
     for (size_t i = 0; i < frame->targets.count; i++) {
         const struct target *target = &frame->targets.items[i];
-        for (size_t j = 0; j < target->contributors.count; j++) {
+        for (size_t j = 0; j < target->contributors.count; j++, count++) {
             const struct contributor *from = &target->contributors.items[j];
             if (endings != NULL)
                 endings[count] =
-                    (struct ending){target->sensor, from->object, from->reflector, from->path};
-            count++;
+                    (struct ending){target->sensor, from->object, from->reflector, from->path, i};
         }
     }
     for (size_t i = 0; i < frame->lost.count; i++) {
         const struct lost_group *group = &frame->lost.items[i];
-        for (size_t j = 0; j < group->echoes.count; j++) {
+        for (size_t j = 0; j < group->echoes.count; j++, count++) {
             const struct lost_echo *from = &group->echoes.items[j];
             if (endings != NULL)
                 endings[count] =
-                    (struct ending){group->sensor, from->object, from->reflector, from->path};
-            count++;
+                    (struct ending){group->sensor, from->object, from->reflector, from->path, LOST};
         }
     }
     return count;
+}
+
+/* An echo that feeds several targets is one entry; twice in one target, or lost as well, it is one
+ * too many. The endings are sorted; one of each echo moves to the front. */
+static int drop_repeats(struct ending *endings, size_t *count, struct diag *diag)
+{
+    size_t kept = 0, place = 0;
+    for (size_t i = 0; i < *count; i++) {
+        bool repeated = kept > 0 && compare_echoes(&endings[kept - 1], &endings[i]) == 0;
+        if (repeated && (endings[i].place == place || endings[i].place == LOST))
+            return diag_fail(diag, DIAG_INTERNAL,
+                             "account: sensor \"%s\", object \"%s\", reflector \"%s\" has two "
+                             "entries",
+                             endings[i].sensor, endings[i].object, endings[i].reflector);
+        place = endings[i].place;
+        if (!repeated)
+            endings[kept++] = endings[i];
+    }
+    *count = kept;
+    return 0;
 }
 
 static int64_t endings_of(const struct ending *endings, size_t count, const char *sensor)
@@ -71,12 +99,8 @@ int audit_frame(const struct frame *frame, struct diag *diag)
     struct ending *endings = arena_get(frame->arena, (count + 1) * sizeof *endings);
     collect(frame, endings);
     qsort(endings, count, sizeof *endings, compare_endings);
-    for (size_t i = 1; i < count; i++)
-        if (compare_endings(&endings[i - 1], &endings[i]) == 0)
-            return diag_fail(diag, DIAG_INTERNAL,
-                             "account: sensor \"%s\", object \"%s\", reflector \"%s\" has two "
-                             "entries",
-                             endings[i].sensor, endings[i].object, endings[i].reflector);
+    if (drop_repeats(endings, &count, diag) != 0)
+        return -1;
     size_t covered = 0;
     for (size_t i = 0; i < frame->counts.count; i++) {
         const struct count *counted = &frame->counts.items[i];

@@ -7,6 +7,8 @@
 #include "number.h"
 #include "text.h"
 
+const struct field field_none[] = {{0}};
+
 const char *field_unit(const char *name)
 {
     /* Longer endings first: "_mps2" also ends in "s2" of nothing, "_mps" in "_s" of nothing. */

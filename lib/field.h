@@ -44,6 +44,7 @@ struct field {
     const char *const *choices; /* NULL-terminated */
     unsigned section;           /* the bit of `present` that this member has, or 0 */
     const char *help;
+    const char *word; /* what --help calls the value, if not NUMBER, NAME, ... */
 };
 
 /* Tables end with a field without a name. A record with sections keeps their bits in an unsigned
@@ -55,6 +56,9 @@ struct record {
     const struct field *fields;
     size_t present_offset;
 };
+
+/* The table of a record without members. */
+extern const struct field field_none[];
 
 /* The offset of a member, refused by the compiler if the member is not of that type. */
 #define FIELD_AT(type, owner, member)                                                              \

@@ -4,7 +4,8 @@
  * dimensionless. ISO 8855: x forward, y left, counter-clockwise positive; azimuth is left-positive
  * from boresight; range rate is positive when receding. Positions are centres of bounding boxes,
  * relative to the frame's origin; mounts are relative to the centre of the ego's box. Amplitudes
- * are linear in echoes and cells, and so are all decisions; only targets carry decibels.
+ * are linear in echoes and cells, and so are all decisions; decibels stand only in targets and
+ * lost.
  *
  * One frame is one line and stands alone. Sections fill up along the chain: objects (traffic),
  * reflectors (extract), sensors and echoes (ideal), cells (sensor), targets (noise), and lost and

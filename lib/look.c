@@ -143,8 +143,7 @@ static void look_at(struct look *look, const struct look_body *body, const char 
         lose(look, body, reflector, LOSS_OUT_OF_RANGE, NULL);
         return;
     }
-    double border = fmin(sensor->field_of_view_rad, PI) / 2 - BORDER_RAD;
-    if (!(azimuth < border)) {
+    if (!(azimuth < sensor->field_of_view_rad / 2 - BORDER_RAD)) {
         lose(look, body, reflector, LOSS_OUT_OF_VIEW, NULL);
         return;
     }

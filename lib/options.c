@@ -3,13 +3,11 @@
 #include <stdio.h>
 #include <string.h>
 
-static const struct field no_choice_fields[] = {{0}};
-
-const struct record no_choice_record = {
-    .name = "stage", .size = sizeof(struct no_choice), .fields = no_choice_fields};
+const struct record stage_no_options = {.name = "stage", .fields = field_none};
 
 static const struct field suite_choice_fields[] = {
-    {FIELD_NAME_OF(struct suite_choice,                sensors, "take the suite from here, not from the frame"),
+    {FIELD_NAME_OF(struct suite_choice,                            sensors,
+     "the suite by another name; its digest must be the frame's"),
      FIELD_OPTIONAL},
     {0},
 };
@@ -18,18 +16,18 @@ const struct record suite_choice_record = {
     .name = "stage", .size = sizeof(struct suite_choice), .fields = suite_choice_fields};
 
 static const struct field common_fields[] = {
-    {FIELD_NAME_OF(struct common_options,                               output,
-     "write to this file instead of standard output (.gz compresses)"),
-     FIELD_OPTIONAL},
+    {FIELD_NAME_OF(struct common_options,                              output,
+     "write to this file instead of standard output; .gz compresses"),
+     FIELD_OPTIONAL, .word = "FILE"},
     {FIELD_FLAG_OF(struct common_options, keep, "keep the sections that this stage uses up"),
      FIELD_OPTIONAL},
-    {FIELD_NAME_OF(struct common_options,                                                                 seed_text, "seed of every draw from here on"),
+    {FIELD_SEED_OF(struct common_options,                                                  seed, "seed of every draw from here on; sources take 1"),
+     FIELD_OPTIONAL, .absent = 1},
+    {FIELD_FLAG_OF(struct common_options,                              complete, "fail unless every scene is there to its end"),
      FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct common_options,                                                             complete, "fail unless every scene is there to its end"),
-     FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct common_options,                                                    help, "print this help"), FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct common_options,                               version, "print the version"), FIELD_OPTIONAL},
-    {0                              },
+    {FIELD_FLAG_OF(struct common_options,                    help, "print this help"), FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct common_options,                                                                version, "print the version"), FIELD_OPTIONAL},
+    {0          },
 };
 
 static const struct record common_record = {
@@ -38,21 +36,28 @@ static const struct record common_record = {
     .fields = common_fields,
 };
 
-/* The option as people type it: "seed_text" is --seed, "radius_m" is --radius-m. */
-static void spell(const struct field *field, char *text, size_t size)
-{
-    snprintf(text, size, "%s", strcmp(field->name, "seed_text") == 0 ? "seed" : field->name);
-    for (char *at = text; *at != '\0'; at++)
-        if (*at == '_')
-            *at = '-';
-}
+/* Where the words of a command line go. */
+struct reading_options {
+    const struct stage *stage;
+    void *state;
+    struct common_options *common;
+    uint64_t seen, common_seen; /* bit i: fields[i] was given */
+    struct arena *arena;
+    struct diag *diag;
+};
 
-/* A message about a member becomes one about the option. */
-static void spell_message(struct diag *diag)
+/* A member's name becomes what people type: radius_m is --radius-m. Up to a colon, for messages. */
+static void use_dashes(char *text)
 {
-    for (char *letter = diag->text; *letter != '\0' && *letter != ':'; letter++)
+    for (char *letter = text; *letter != '\0' && *letter != ':'; letter++)
         if (*letter == '_')
             *letter = '-';
+}
+
+static void spell(const char *name, char *text, size_t size)
+{
+    snprintf(text, size, "%s", name);
+    use_dashes(text);
 }
 
 static bool is_source(const struct stage *stage)
@@ -60,21 +65,23 @@ static bool is_source(const struct stage *stage)
     return stage->next != NULL;
 }
 
+/* --complete is about frames that are read. */
 static bool applies(const struct stage *stage, const struct field *field)
 {
-    bool filter = !is_source(stage);
-    if (strcmp(field->name, "keep") == 0)
-        return filter && (stage->reads & SECTIONS_CONSUMED) != 0;
-    if (strcmp(field->name, "complete") == 0)
-        return filter;
-    return true;
+    return !is_source(stage) || field->offset != offsetof(struct common_options, complete);
 }
 
-static const struct field *find(const struct record *record, const char *word, size_t length)
+/* The stage's options without its operand, which is the first. */
+static const struct field *named_options(const struct stage *stage)
 {
-    for (const struct field *field = record->fields; field->name != NULL; field++) {
+    return stage->options->fields + (stage->operand != NULL ? 1 : 0);
+}
+
+static const struct field *find(const struct field *fields, const char *word, size_t length)
+{
+    for (const struct field *field = fields; field->name != NULL; field++) {
         char spelling[80];
-        spell(field, spelling, sizeof spelling);
+        spell(field->name, spelling, sizeof spelling);
         if (strlen(spelling) == length && memcmp(spelling, word, length) == 0)
             return field;
     }
@@ -84,88 +91,78 @@ static const struct field *find(const struct record *record, const char *word, s
 static int set(const struct field *field, void *base, const char *value, struct arena *arena,
                struct diag *diag)
 {
-    if (field->kind == FIELD_REAL || field->kind == FIELD_INTEGER) {
-        double number;
-        if (field_read_number(value, strlen(value), &number) != 0)
-            return field_wrong_kind(field, value, diag);
-        return field_set_number(field, base, number, diag);
-    }
-    return field_set_text(field, base, value, strlen(value), arena, diag);
+    int result;
+    double number;
+    if (field->kind != FIELD_REAL && field->kind != FIELD_INTEGER)
+        result = field_set_text(field, base, value, strlen(value), arena, diag);
+    else if (field_read_number(value, strlen(value), &number) != 0)
+        result = field_wrong_kind(field, value, diag);
+    else
+        result = field_set_number(field, base, number, diag);
+    if (result == 0)
+        return 0;
+    use_dashes(diag->text);
+    return diag_prefix(diag, "--");
 }
 
 /* One option at words[*at]; moves *at past its value if that is a word of its own. */
-static int read_option(const struct stage *stage, size_t count, const char *const *words,
-                       size_t *at, void *state, struct common_options *common, struct arena *arena,
-                       struct diag *diag)
+static int read_option(struct reading_options *options, size_t count, const char *const *words,
+                       size_t *at)
 {
-    const char *word = words[*at], *name = word + 2;
+    struct diag *diag = options->diag;
+    const char *word = words[*at], *name = strcmp(word, "-o") == 0 ? "output" : word + 2;
     size_t length = strcspn(name, "=");
-    if (strcmp(word, "-o") == 0) {
-        name = "output";
-        length = strlen(name);
-    } else if (word[1] != '-') {
+    bool spelled = word[1] == '-' || strcmp(word, "-o") == 0;
+    const struct field *own = find(named_options(options->stage), name, length);
+    const struct field *common = find(common_fields, name, length);
+    if (!spelled || (own == NULL && (common == NULL || !applies(options->stage, common))))
         return diag_fail(diag, DIAG_USAGE, "unknown option %s; see --help", word);
-    }
-    void *base = state;
-    const struct field *field = find(stage->options, name, length);
-    if (field != NULL && stage->operand != NULL && field == stage->options->fields)
-        field = NULL;
-    if (field == NULL) {
-        base = common;
-        field = find(&common_record, name, length);
-    }
-    if (field == NULL || (base == common && !applies(stage, field)))
-        return diag_fail(diag, DIAG_USAGE, "unknown option %s; see --help", word);
+    const struct field *field = own != NULL ? own : common;
+    void *base = own != NULL ? options->state : options->common;
+    if (own != NULL)
+        options->seen |= UINT64_C(1) << (own - options->stage->options->fields);
+    else
+        options->common_seen |= UINT64_C(1) << (common - common_fields);
     const char *value = name[length] == '=' ? name + length + 1 : NULL;
     if (field->kind == FIELD_FLAG) {
-        if (value != NULL)
-            return diag_fail(diag, DIAG_USAGE, "--%.*s takes no value", (int)length, name);
         memcpy((char *)base + field->offset, &(bool){true}, sizeof(bool));
-        return 0;
+        return value == NULL
+                   ? 0
+                   : diag_fail(diag, DIAG_USAGE, "--%.*s takes no value", (int)length, name);
     }
     if (value == NULL && *at + 1 < count)
         value = words[++*at];
     if (value == NULL)
         return diag_fail(diag, DIAG_USAGE, "%s needs a value", word);
-    if (set(field, base, value, arena, diag) != 0) {
-        diag->code = DIAG_USAGE;
-        spell_message(diag);
-        return diag_prefix(diag, "--");
-    }
-    return 0;
+    return set(field, base, value, options->arena, diag);
 }
 
-static const char *name_in(const struct field *field, const void *state)
+static int read_operand(struct reading_options *options, const char *word)
 {
-    const char *name;
-    memcpy(&name, (const char *)state + field->offset, sizeof name);
-    return name;
-}
-
-static int read_operand(const struct stage *stage, const char *word, void *state,
-                        struct common_options *common, struct arena *arena, struct diag *diag)
-{
-    if (!is_source(stage)) {
-        *list_add(&common->files, arena) = arena_text(arena, word, strlen(word));
+    if (!is_source(options->stage)) {
+        *list_add(&options->common->files, options->arena) =
+            arena_text(options->arena, word, strlen(word));
         return 0;
     }
-    const struct field *operand = stage->options->fields;
-    if (stage->operand == NULL || name_in(operand, state) != NULL)
-        return diag_fail(diag, DIAG_USAGE, "one argument too many: %s", word);
-    return field_set_text(operand, state, word, strlen(word), arena, diag);
+    if (options->stage->operand == NULL || (options->seen & 1) != 0)
+        return diag_fail(options->diag, DIAG_USAGE, "one argument too many: %s", word);
+    options->seen |= 1;
+    return field_set_text(options->stage->options->fields, options->state, word, strlen(word),
+                          options->arena, options->diag);
 }
 
-static int check_required(const struct stage *stage, const void *state, struct diag *diag)
+static int check_required(const struct reading_options *options)
 {
-    for (const struct field *field = stage->options->fields; field->name != NULL; field++) {
-        bool operand = stage->operand != NULL && field == stage->options->fields;
-        if ((field->optional && !operand) || field->kind != FIELD_NAME)
+    const struct stage *stage = options->stage;
+    for (size_t i = 0; stage->options->fields[i].name != NULL; i++) {
+        const struct field *field = &stage->options->fields[i];
+        if (field->optional || (options->seen >> i & 1) != 0)
             continue;
         char spelling[80];
-        spell(field, spelling, sizeof spelling);
-        if (name_in(field, state) == NULL)
-            return diag_fail(diag, DIAG_USAGE, "missing %s%s: %s; see --help", operand ? "" : "--",
-                             operand ? stage->operand : spelling, field->help);
+        spell(field->name, spelling, sizeof spelling);
+        bool operand = stage->operand != NULL && i == 0;
+        return diag_fail(options->diag, DIAG_USAGE, "missing %s%s: %s; see --help",
+                         operand ? "" : "--", operand ? stage->operand : spelling, field->help);
     }
     return 0;
 }
@@ -173,61 +170,52 @@ static int check_required(const struct stage *stage, const void *state, struct d
 int options_read(const struct stage *stage, size_t count, const char *const *words, void *state,
                  struct common_options *common, struct arena *arena, struct diag *diag)
 {
+    struct reading_options options = {
+        .stage = stage, .state = state, .common = common, .arena = arena, .diag = diag};
     field_clear(stage->options, state);
-    *common = (struct common_options){.seed = OPTIONS_DEFAULT_SEED};
+    field_clear(&common_record, common);
     bool only_operands = false;
-    for (size_t at = 0; at < count; at++) {
+    int result = 0;
+    for (size_t at = 0; at < count && result == 0; at++) {
         const char *word = words[at];
         bool option = !only_operands && word[0] == '-' && word[1] != '\0';
-        int result = 0;
         if (option && strcmp(word, "--") == 0)
             only_operands = true;
-        else if (option)
-            result = read_option(stage, count, words, &at, state, common, arena, diag);
         else
-            result = read_operand(stage, word, state, common, arena, diag);
-        if (result != 0) {
-            diag->code = DIAG_USAGE;
-            return -1;
-        }
+            result =
+                option ? read_option(&options, count, words, &at) : read_operand(&options, word);
     }
-    if (common->seed_text != NULL) {
-        const struct field seed = {FIELD_SEED_OF(struct common_options, seed, "")};
-        if (field_set_text(&seed, common, common->seed_text, strlen(common->seed_text), arena,
-                           diag) != 0) {
-            diag->code = DIAG_USAGE;
-            return diag_prefix(diag, "--");
-        }
-    }
-    return common->help || common->version ? 0 : check_required(stage, state, diag);
+    const struct field *seed = find(common_fields, "seed", strlen("seed"));
+    common->seed_given = (options.common_seen >> (seed - common_fields) & 1) != 0;
+    if (result == 0 && !common->help && !common->version)
+        result = check_required(&options);
+    if (result != 0)
+        diag->code = DIAG_USAGE;
+    return result;
+}
+
+static const char *value_word(const struct field *field)
+{
+    static const char *const words[] = {
+        [FIELD_REAL] = "NUMBER", [FIELD_INTEGER] = "NUMBER", [FIELD_NAME] = "NAME",
+        [FIELD_CHOICE] = "WORD", [FIELD_SEED] = "SEED",
+    };
+    return field->word != NULL ? field->word : words[field->kind];
 }
 
 static void help_option(const struct field *field, struct text *text)
 {
-    static const char *const values[] = {
-        [FIELD_REAL] = "NUMBER", [FIELD_INTEGER] = "NUMBER", [FIELD_NAME] = "NAME",
-        [FIELD_CHOICE] = "WORD", [FIELD_SEED] = "SEED",
-    };
-    char left[160], spelling[80];
-    spell(field, spelling, sizeof spelling);
-    bool output = strcmp(spelling, "output") == 0, seed = strcmp(spelling, "seed") == 0;
-    const char *value = output ? "=FILE" : seed ? "=SEED" : field->kind != FIELD_FLAG ? "=" : "";
-    snprintf(left, sizeof left, "%s--%s%s%s", output ? "-o, " : "    ", spelling, value,
-             strcmp(value, "=") == 0 ? values[field->kind] : "");
+    char left[160], spelling[80], expected[512];
+    spell(field->name, spelling, sizeof spelling);
+    bool flag = field->kind == FIELD_FLAG;
+    snprintf(left, sizeof left, "%s--%s%s%s", strcmp(spelling, "output") == 0 ? "-o, " : "    ",
+             spelling, flag ? "" : "=", flag ? "" : value_word(field));
     text_format(text, "  %-26s  %s", left, field->help);
-    if (seed)
-        text_format(text, "; sources take %d", OPTIONS_DEFAULT_SEED);
-    if (field->kind == FIELD_REAL || field->kind == FIELD_INTEGER) {
-        const char *unit = field_unit(field->name);
-        text_format(text, " (%g to %g%s%s)", field->low, field->high, *unit ? " " : "", unit);
+    if (field->kind == FIELD_REAL || field->kind == FIELD_INTEGER || field->kind == FIELD_CHOICE) {
+        field_expectation(field, expected, sizeof expected);
+        text_format(text, "; %s", expected);
     }
-    if (field->kind == FIELD_CHOICE) {
-        text_add_word(text, " (");
-        for (int i = 0; field->choices[i] != NULL; i++)
-            text_format(text, "%s%s", i > 0 ? ", " : "", field->choices[i]);
-        text_add_word(text, ")");
-    }
-    text_add_word(text, "\n");
+    text_add_word(text, field->optional ? "\n" : "; required\n");
 }
 
 static void help_sections(const char *verb, unsigned sections, struct text *text)
@@ -259,10 +247,11 @@ void options_help(const struct stage *stage, struct text *text)
                       stage->reads, text);
     if (stage->writes != 0)
         help_sections("Frames go as JSON lines to standard output; writes", stage->writes, text);
+    if (stage->sink)
+        text_add_word(text, "A sink: what it writes are no frames.\n");
     text_add_word(text, "\nOptions:\n");
-    for (const struct field *field = stage->options->fields; field->name != NULL; field++)
-        if (stage->operand == NULL || field != stage->options->fields)
-            help_option(field, text);
+    for (const struct field *field = named_options(stage); field->name != NULL; field++)
+        help_option(field, text);
     for (const struct field *field = common_fields; field->name != NULL; field++)
         if (applies(stage, field))
             help_option(field, text);

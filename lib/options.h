@@ -12,13 +12,11 @@ struct common_options {
     const char *output; /* NULL is standard output */
     bool keep;
     bool complete;
-    const char *seed_text;
     uint64_t seed;
+    bool seed_given;
     bool help, version;
     LIST_OF(const char *) files; /* of filters and sinks; empty is standard input */
 };
-
-enum { OPTIONS_DEFAULT_SEED = 1 };
 
 /* Reads the words after the program's name into state (which is cleared first) and common. GNU
  * style: --radius-m 50, --radius-m=50, -o FILE, -- ends the options. Refuses unknown options,

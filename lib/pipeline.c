@@ -178,6 +178,11 @@ int pipeline_parse(const char *text, size_t length, struct pipeline *pipeline, s
         bool piped = peek(&parser) == '|';
         if (pipeline->commands.count == 0 && !piped && is_pipefail(&command))
             continue;
+        if (command.words.count > 0 && strcmp(command.words.items[0], "set") == 0)
+            return diag_fail(
+                diag, DIAG_USAGE,
+                "%zu: of set, only `set -o pipefail` is understood here; run it with bash",
+                command.line);
         if (command.words.count == 0)
             return refuse(&parser, "there is no command before |");
         *list_add(&pipeline->commands, arena) = command;

@@ -31,11 +31,12 @@ struct radar_equation {
  * last two rows beyond it. */
 double radar_reference_amplitude(const struct radar_equation *law, double range_m);
 
-/* Where A_ref(R) · gain · ercs meets the threshold (MODEL 4.1), power law only:
- * calibration_range_m (ercs · gain / calibration_ercs)^(1/exponent). */
+/* Where A_ref(R) · gain · ercs meets the threshold (MODEL 4.1), power law only, for figures and
+ * tests: calibration_range_m (ercs · gain / calibration_ercs)^(1/exponent). */
 double radar_detection_range_m(const struct radar_equation *law, double gain, double ercs);
 
-/* The paper's equivalent radar cross section, an amplitude factor: sqrt(sigma / 10 m^2). */
+/* The paper's equivalent radar cross section, an amplitude factor: sqrt(sigma / 10 m^2). For those
+ * who write vehicle documents. */
 double radar_ercs(double cross_section_m2);
 double radar_cross_section_m2(double ercs);
 

@@ -115,7 +115,7 @@ static int check_sections(struct runner *runner, const struct frame *frame)
                          "%s: missing; the stage that writes it must stand before this one",
                          frame_section_name(missing & -missing));
     unsigned added = SECTION_LOST | SECTION_COUNTS;
-    unsigned doubled = runner->stage->writes & frame->present & ~added;
+    unsigned doubled = runner->stage->writes & ~runner->stage->reads & frame->present & ~added;
     if (doubled != 0)
         return diag_fail(&runner->diag, DIAG_DATA, "%s: already there; this stage would write it",
                          frame_section_name(doubled & -doubled));
@@ -149,7 +149,7 @@ static int conclude(struct runner *runner, struct frame *frame)
 {
     const struct stage *stage = runner->stage;
     if (!runner->common.keep)
-        frame_drop(frame, stage->reads & SECTIONS_CONSUMED);
+        frame_drop(frame, stage->reads & ~stage->writes & SECTIONS_CONSUMED);
     frame->present |= stage->writes & ~(unsigned)SECTION_LOST;
     if (frame->account && (stage->writes & SECTION_LOST) != 0)
         frame->present |= SECTION_LOST;
@@ -164,9 +164,18 @@ static int conclude(struct runner *runner, struct frame *frame)
     return 0;
 }
 
+/* A stage that fails without a word would look like the end of the stream. */
+static int told(struct runner *runner, int result)
+{
+    if (result < 0)
+        diag_fail(&runner->diag, DIAG_INTERNAL, "failed without saying why");
+    return result;
+}
+
 int runner_start(struct runner *runner)
 {
-    return runner->stage->start == NULL ? 0 : runner->stage->start(runner->state, runner);
+    const struct stage *stage = runner->stage;
+    return stage->start == NULL ? 0 : told(runner, stage->start(runner->state, runner));
 }
 
 int runner_next(struct runner *runner, struct frame *frame)
@@ -174,17 +183,17 @@ int runner_next(struct runner *runner, struct frame *frame)
     frame_clear(frame);
     frame->version = FRAME_VERSION;
     frame->seed = runner->common.seed;
-    int more = runner->stage->next(runner->state, frame, runner);
+    int more = told(runner, runner->stage->next(runner->state, frame, runner));
     return more == 1 && conclude(runner, frame) != 0 ? -1 : more;
 }
 
 int runner_step(struct runner *runner, struct frame *frame)
 {
-    if (runner->common.seed_text != NULL)
+    if (runner->common.seed_given)
         frame->seed = runner->common.seed;
     if (check_sections(runner, frame) != 0 ||
         (runner->common.complete && follow_scene(runner, frame) != 0) ||
-        runner->stage->step(runner->state, frame, runner) != 0)
+        told(runner, runner->stage->step(runner->state, frame, runner)) != 0)
         return -1;
     return runner->stage->sink ? 0 : conclude(runner, frame);
 }
@@ -195,5 +204,6 @@ int runner_finish(struct runner *runner)
         if (!runner->scenes.items[i].closed)
             return diag_fail(&runner->diag, DIAG_DATA, "scene \"%s\" ends before its last frame",
                              runner->scenes.items[i].name);
-    return runner->stage->stop == NULL ? 0 : runner->stage->stop(runner->state, runner);
+    const struct stage *stage = runner->stage;
+    return stage->stop == NULL ? 0 : told(runner, stage->stop(runner->state, runner));
 }

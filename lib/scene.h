@@ -21,7 +21,7 @@ struct scene {
 int scene_open(struct scene *scene, const char *source, const char *ego, struct arena *arena,
                struct diag *diag);
 
-/* "highway/7" for data/trajectories/highway.csv.gz and ego 7. */
+/* "tracks/7" for ../tracks.csv.gz and ego 7. */
 const char *scene_name(const char *source, const char *ego, struct arena *arena);
 
 /* Fills time, interval, origin and objects of frame number 0 <= number < frames. */

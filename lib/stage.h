@@ -28,18 +28,17 @@ struct stage {
     /* A source's argument, as --help calls it; it sets the first option. NULL for all others. */
     const char *operand;
     bool sink;
-    unsigned reads, writes; /* enum section; the runner checks that they are there, or not yet */
+    /* enum section. What a stage reads must be there; what it writes must not be there yet, unless
+     * it reads it too: then it changes it in place. */
+    unsigned reads, writes;
     int (*start)(void *state, struct runner *runner);
     int (*next)(void *state, struct frame *frame, struct runner *runner);
     int (*step)(void *state, struct frame *frame, struct runner *runner);
     int (*stop)(void *state, struct runner *runner); /* after the last frame; NULL: nothing */
 };
 
-/* The state of stages without options. */
-struct no_choice {
-    char nothing;
-};
-extern const struct record no_choice_record;
+/* For stages without options and without state. (These two records are in options.c.) */
+extern const struct record stage_no_options;
 
 /* The state of stages after ideal, which need the suite that ideal looked with. */
 struct suite_choice {
@@ -47,7 +46,7 @@ struct suite_choice {
 };
 extern const struct record suite_choice_record;
 
-/* What the runner does for stages. */
+/* What the runner does for stages (runner.c). */
 
 /* Memory that lasts as long as the stage, for what it loads. */
 struct arena *runner_arena(struct runner *runner);

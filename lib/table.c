@@ -185,3 +185,12 @@ int table_number(const struct table *table, size_t row, size_t column, double lo
     return diag_fail(diag, DIAG_DATA, "row %zu, column \"%.80s\": %.80s is outside [%g, %g]%s%s",
                      table->numbers[row], name, text, low, high, *unit != '\0' ? " " : "", unit);
 }
+
+size_t table_quote(const char *text, char *cell, size_t room)
+{
+    size_t length = strlen(text);
+    if (strpbrk(text, ",\"\r\n") != NULL)
+        return csv_write(cell, room, text, length);
+    memcpy(cell, text, length);
+    return length;
+}

@@ -27,6 +27,10 @@ struct table {
 /* The whole table, in the arena. Messages do not name the file. */
 int table_read(const char *path, struct table *table, struct arena *arena, struct diag *diag);
 
+/* One cell of a table that is written, quoted (by libcsv) where it must be: its length. The room
+ * must be twice the text's length and two. */
+size_t table_quote(const char *text, char *cell, size_t room);
+
 /* The column of that name; -1 and a message with what was found instead. */
 int table_column(const struct table *table, const char *name, size_t *column, struct diag *diag);
 

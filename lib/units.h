@@ -1,5 +1,6 @@
 /* Angles and decibels. Amplitude and power decibels never share a helper; glint's wire and its
- * decisions are linear, decibels appear only in documents (thresholds) and in targets. */
+ * decisions are linear, decibels appear only in documents (thresholds), in targets and in losses.
+ */
 #ifndef UNITS_H
 #define UNITS_H
 

@@ -1,11 +1,11 @@
 /* Export as CSV: one row per target with its strongest contributor. */
-#include <csv.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "number.h"
 #include "stage.h"
+#include "table.h"
 
 struct export_csv {
     bool begun; /* is the header out? */
@@ -33,12 +33,8 @@ static void add(struct row *row, const char *bytes, size_t length)
 
 static void add_word(struct row *row, const char *word)
 {
-    char quoted[CELL_ROOM];
-    size_t length = strlen(word);
-    if (strpbrk(word, ",\"\r\n") == NULL)
-        add(row, word, length);
-    else
-        add(row, quoted, csv_write(quoted, sizeof quoted, word, length));
+    char cell[CELL_ROOM];
+    add(row, cell, table_quote(word, cell, sizeof cell));
 }
 
 static void add_real(struct row *row, double value)
@@ -114,10 +110,8 @@ static int export_csv_step(void *state, struct frame *frame, struct runner *runn
     return 0;
 }
 
-static const struct field no_fields[] = {{0}};
-
 static const struct record export_csv_record = {
-    .name = "stage", .size = sizeof(struct export_csv), .fields = no_fields};
+    .name = "stage", .size = sizeof(struct export_csv), .fields = field_none};
 
 const struct stage stage_export_csv = {
     .name = "export-csv",

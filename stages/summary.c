@@ -110,10 +110,8 @@ static int summary_stop(void *state, struct runner *runner)
     return result;
 }
 
-static const struct field no_fields[] = {{0}};
-
 static const struct record summary_record = {
-    .name = "stage", .size = sizeof(struct summary), .fields = no_fields};
+    .name = "stage", .size = sizeof(struct summary), .fields = field_none};
 
 const struct stage stage_summary = {
     .name = "summary",

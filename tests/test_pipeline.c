@@ -48,7 +48,6 @@ static void words_and_bars_are_what_they_look_like(void **state)
          "<a>|<b>"                                                                                                                        },
         {"set -o pipefail\na",                                                                      "<a>"                                 },
         {"set \\\n -o 'pipefail' # why\na",                                                         "<a>"                                 },
-        {"set -o pipefail -x",                                                                      "<set><-o><pipefail><-x>"             },
         {"a --origin='one two' \"three  'four'\"",                                                  "<a><--origin=one two><three  'four'>"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
