@@ -19,7 +19,7 @@ static const char stage_name[] = "ideal";
 static struct box box_at(const struct object *object, double age_s)
 {
     struct motion now = {
-        .position_m = {object->x_m,    object->y_m   },
+        .position_m = {object->x_m, object->y_m},
         .velocity_mps = {object->vx_mps, object->vy_mps},
         .yaw_rad = object->yaw_rad,
         .yaw_rate_radps = object->yaw_rate_radps,

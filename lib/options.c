@@ -6,8 +6,8 @@
 const struct record stage_no_options = {.name = "stage", .fields = field_none};
 
 static const struct field suite_choice_fields[] = {
-    {FIELD_NAME_OF(struct suite_choice,                            sensors,
-     "the suite by another name; its digest must be the frame's"),
+    {FIELD_NAME_OF(struct suite_choice, sensors,
+                   "the suite by another name; its digest must be the frame's"),
      FIELD_OPTIONAL},
     {0},
 };
@@ -16,18 +16,18 @@ const struct record suite_choice_record = {
     .name = "stage", .size = sizeof(struct suite_choice), .fields = suite_choice_fields};
 
 static const struct field common_fields[] = {
-    {FIELD_NAME_OF(struct common_options,                              output,
-     "write to this file instead of standard output; .gz compresses"),
+    {FIELD_NAME_OF(struct common_options, output,
+                   "write to this file instead of standard output; .gz compresses"),
      FIELD_OPTIONAL, .word = "FILE"},
     {FIELD_FLAG_OF(struct common_options, keep, "keep the sections that this stage uses up"),
      FIELD_OPTIONAL},
-    {FIELD_SEED_OF(struct common_options,                                                  seed, "seed of every draw from here on; sources take 1"),
+    {FIELD_SEED_OF(struct common_options, seed, "seed of every draw from here on; sources take 1"),
      FIELD_OPTIONAL, .absent = 1},
-    {FIELD_FLAG_OF(struct common_options,                              complete, "fail unless every scene is there to its end"),
+    {FIELD_FLAG_OF(struct common_options, complete, "fail unless every scene is there to its end"),
      FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct common_options,                    help, "print this help"), FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct common_options,                                                                version, "print the version"), FIELD_OPTIONAL},
-    {0          },
+    {FIELD_FLAG_OF(struct common_options, help, "print this help"), FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct common_options, version, "print the version"), FIELD_OPTIONAL},
+    {0},
 };
 
 static const struct record common_record = {

@@ -10,11 +10,8 @@ void random_uniform(const struct random_address *address, enum random_purpose pu
                     uint32_t index, double uniform[4])
 {
     philox4x64_ctr_t counter = {
-        {address->frame, address->sensor, address->subject, (uint64_t)purpose << 32 | index}
-    };
-    philox4x64_key_t key = {
-        {address->seed, address->scene}
-    };
+        {address->frame, address->sensor, address->subject, (uint64_t)purpose << 32 | index}};
+    philox4x64_key_t key = {{address->seed, address->scene}};
     philox4x64_ctr_t bits = philox4x64(counter, key);
     for (int i = 0; i < 4; i++)
         uniform[i] = ((double)(bits.v[i] >> 12) + 0.5) * 0x1p-52;

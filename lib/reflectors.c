@@ -32,14 +32,14 @@ static const struct field point_fields[] = {
     {FIELD_NAME_OF(struct point_reflector, name, "unique in its set")},
     FRACTION(struct point_reflector, x, "place, as a fraction of the length from the centre"),
     FRACTION(struct point_reflector, y, "place, as a fraction of the width from the centre"),
-    {FIELD_REAL_IN(struct point_reflector,                inset_m, 0, 10, "depth behind the place"),
+    {FIELD_REAL_IN(struct point_reflector, inset_m, 0, 10, "depth behind the place"),
      FIELD_OPTIONAL},
     SEEN_FROM(struct point_reflector),
     {FIELD_REAL_IN(
          struct point_reflector, under_vehicles, 0, 1,
-     "part of the cross section that is left when only raised vehicles are in the way"),
+         "part of the cross section that is left when only raised vehicles are in the way"),
      FIELD_OPTIONAL},
-    {0                                  },
+    {0},
 };
 
 static const struct field plane_fields[] = {
@@ -48,10 +48,10 @@ static const struct field plane_fields[] = {
     FRACTION(struct plane_reflector, from_y, "start"),
     FRACTION(struct plane_reflector, to_x, "end"),
     FRACTION(struct plane_reflector, to_y, "end"),
-    {FIELD_REAL_IN(struct plane_reflector,                margin_m, 0, 10, "not flat this far from both ends"),
+    {FIELD_REAL_IN(struct plane_reflector, margin_m, 0, 10, "not flat this far from both ends"),
      FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct plane_reflector, ercs, 0, 1e3, "equivalent radar cross section")},
-    {0                                  },
+    {0},
 };
 
 static const struct field row_fields[] = {
@@ -66,16 +66,16 @@ static const struct field row_fields[] = {
 };
 
 static const struct field reflector_set_fields[] = {
-    {FIELD_NAME_OF(struct reflector_set,                model, "the class that the vehicle document describes")},
+    {FIELD_NAME_OF(struct reflector_set, model, "the class that the vehicle document describes")},
     {FIELD_NAMES_OF(struct reflector_set, worn_by, "ids of the objects that reflect like this")},
-    {FIELD_FLAG_OF(struct reflector_set,               blocks, "does the outline stop sight lines?"),
+    {FIELD_FLAG_OF(struct reflector_set, blocks, "does the outline stop sight lines?"),
      FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct reflector_set,     raised, "can a radar look under it?"), FIELD_OPTIONAL},
-    {FIELD_LIST_OF(struct reflector_set,                points, &point_record, "corners, wheel houses, poles"),
+    {FIELD_FLAG_OF(struct reflector_set, raised, "can a radar look under it?"), FIELD_OPTIONAL},
+    {FIELD_LIST_OF(struct reflector_set, points, &point_record, "corners, wheel houses, poles"),
      FIELD_OPTIONAL},
-    {FIELD_LIST_OF(struct reflector_set,            planes, &plane_record, "flat sides"), FIELD_OPTIONAL},
-    {FIELD_LIST_OF(struct reflector_set,                                                 rows, &row_record, "rows of posts"), FIELD_OPTIONAL},
-    {0                                      },
+    {FIELD_LIST_OF(struct reflector_set, planes, &plane_record, "flat sides"), FIELD_OPTIONAL},
+    {FIELD_LIST_OF(struct reflector_set, rows, &row_record, "rows of posts"), FIELD_OPTIONAL},
+    {0},
 };
 
 const struct record point_record = {

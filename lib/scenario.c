@@ -148,10 +148,7 @@ void scenario_shift(struct scenario *scenario, struct vec2 origin_m)
 
 static struct motion drive(const struct actor *actor, double time_s, double *travelled_m)
 {
-    struct motion body = {
-        .position_m = {actor->x_m, actor->y_m},
-          .yaw_rad = actor->yaw_rad
-    };
+    struct motion body = {.position_m = {actor->x_m, actor->y_m}, .yaw_rad = actor->yaw_rad};
     double speed_mps = actor->speed_mps;
     const struct segment *segments = actor->segments.items;
     size_t next = 0;
@@ -258,9 +255,9 @@ static double span_length_m(const struct actor *actor, size_t span, double s)
     static const double rule[][2] = {
         {-0.90617984593866399, 0.23692688505618909},
         {-0.53846931010568309, 0.47862867049936647},
-        {0,                    0.56888888888888889},
-        {0.53846931010568309,  0.47862867049936647},
-        {0.90617984593866399,  0.23692688505618909},
+        {0, 0.56888888888888889},
+        {0.53846931010568309, 0.47862867049936647},
+        {0.90617984593866399, 0.23692688505618909},
     };
     double sum_mps = 0;
     for (size_t i = 0; i < sizeof rule / sizeof rule[0]; i++) {

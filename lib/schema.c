@@ -9,10 +9,10 @@ static const struct {
     const char *name;
     const struct record *record;
 } schemas[] = {
-    {"frame",    &frame_record   },
+    {"frame", &frame_record},
     {"scenario", &scenario_record},
-    {"sensors",  &suite_record   },
-    {"vehicle",  &vehicle_record },
+    {"sensors", &suite_record},
+    {"vehicle", &vehicle_record},
 };
 
 enum { SCHEMAS = sizeof schemas / sizeof schemas[0] };

@@ -188,9 +188,10 @@ int table_number(const struct table *table, size_t row, size_t column, double lo
 
 size_t table_quote(const char *text, char *cell, size_t room)
 {
-    size_t length = strlen(text);
     if (strpbrk(text, ",\"\r\n") != NULL)
-        return csv_write(cell, room, text, length);
-    memcpy(cell, text, length);
+        return csv_write(cell, room, text, strlen(text));
+    size_t length = 0;
+    for (; text[length] != '\0'; length++)
+        cell[length] = text[length];
     return length;
 }

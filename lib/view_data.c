@@ -266,11 +266,9 @@ static int compare_rows(const void *left, const void *right)
 {
     const struct loss_row *a = left, *b = right;
     uint32_t keys[][2] = {
-        {a->object,         b->object        },
-        {a->item.reflector, b->item.reflector},
-        {a->item.path,      b->item.path     },
-        {a->item.stage,     b->item.stage    },
-        {a->item.reason,    b->item.reason   },
+        {a->object, b->object},           {a->item.reflector, b->item.reflector},
+        {a->item.path, b->item.path},     {a->item.stage, b->item.stage},
+        {a->item.reason, b->item.reason},
     };
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (keys[i][0] != keys[i][1])

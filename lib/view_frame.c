@@ -7,7 +7,7 @@
 static struct motion motion_of(const struct object *object)
 {
     return (struct motion){
-        .position_m = {object->x_m,    object->y_m   },
+        .position_m = {object->x_m, object->y_m},
         .velocity_mps = {object->vx_mps, object->vy_mps},
         .yaw_rad = object->yaw_rad,
         .yaw_rate_radps = object->yaw_rate_radps,

@@ -200,12 +200,8 @@ static void add_symbol(struct text *text, size_t style, struct vec2 at)
         int corners;
         double inner, turn, size;
     } shapes[STYLES] = {
-        {5, 0.42, 0,      9.5},
-        {0, 0,    0,      6.5},
-        {4, 1,    0,      8.5},
-        {3, 1,    0,      8.5},
-        {4, 1,    PI / 4, 8.5},
-        {4, 0.3,  PI / 4, 9.5},
+        {5, 0.42, 0, 9.5}, {0, 0, 0, 6.5},      {4, 1, 0, 8.5},
+        {3, 1, 0, 8.5},    {4, 1, PI / 4, 8.5}, {4, 0.3, PI / 4, 9.5},
     };
     size_t shape = style % STYLES;
     if (shapes[shape].corners == 0) {

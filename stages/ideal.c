@@ -64,10 +64,10 @@ static int ideal_step(void *state, struct frame *frame, struct runner *runner)
 }
 
 static const struct field ideal_options[] = {
-    {FIELD_NAME_OF(struct ideal,                               sensors, "the sensor suite: a name in data/sensors/, or a path")},
+    {FIELD_NAME_OF(struct ideal, sensors, "the sensor suite: a name in data/sensors/, or a path")},
     {FIELD_FLAG_OF(struct ideal, account, "account for every reflector from here on, in lost"),
      FIELD_OPTIONAL},
-    {0                              },
+    {0},
 };
 
 static const struct record ideal_record = {

@@ -56,16 +56,16 @@ static int traffic_next(void *state, struct frame *frame, struct runner *runner)
 }
 
 static const struct field traffic_options[] = {
-    {FIELD_NAME_OF(struct traffic,                                                   source,
-     "a scenario (a name in data/scenarios/, or a path), or a trajectory table")},
-    {FIELD_NAME_OF(struct traffic,    ego,
-     "the object that carries the sensors; a scenario names one, a table does not"),
+    {FIELD_NAME_OF(struct traffic, source,
+                   "a scenario (a name in data/scenarios/, or a path), or a trajectory table")},
+    {FIELD_NAME_OF(struct traffic, ego,
+                   "the object that carries the sensors; a scenario names one, a table does not"),
      FIELD_OPTIONAL},
-    {FIELD_NAME_OF(struct traffic,                                                   scene, "name of the scene instead of SOURCE/EGO"),
+    {FIELD_NAME_OF(struct traffic, scene, "name of the scene instead of SOURCE/EGO"),
      FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct traffic, radius_m, 0, 1e6, "leave out what is farther from the ego"),
      FIELD_OPTIONAL},
-    {0                                                                             },
+    {0},
 };
 
 static const struct record traffic_record = {

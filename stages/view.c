@@ -97,12 +97,12 @@ static int view_stop(void *state, struct runner *runner)
 }
 
 static const struct field view_fields[] = {
-    {FIELD_FLAG_OF(struct view,           svg, "write one frame as an SVG still"), FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct view, svg, "write one frame as an SVG still"), FIELD_OPTIONAL},
     {FIELD_INTEGER_IN(struct view, frame, 0, 0x1p53,
-     "the page opens at this frame, the still shows it"),
+                      "the page opens at this frame, the still shows it"),
      FIELD_OPTIONAL, .absent = -1},
-    {FIELD_NAME_OF(struct view,                                   scene, "only this scene"), FIELD_OPTIONAL},
-    {0                             },
+    {FIELD_NAME_OF(struct view, scene, "only this scene"), FIELD_OPTIONAL},
+    {0},
 };
 
 static const struct record view_record = {

@@ -14,21 +14,11 @@ static const struct antenna CENTRE = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = P
 static const struct antenna ELEMENT = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = PHASE_ELEMENT};
 
 static const struct antenna_row SKEWED_ROWS[] = {
-    {-1.2, 0,    -0.3},
-    {-0.5, 0.4,  -0.5},
-    {0.1,  1,    0.1 },
-    {0.6,  0.7,  0.6 },
-    {1.3,  0.05, 0.4 }
-};
+    {-1.2, 0, -0.3}, {-0.5, 0.4, -0.5}, {0.1, 1, 0.1}, {0.6, 0.7, 0.6}, {1.3, 0.05, 0.4}};
 static const struct antenna SKEWED = {ANTENNA_TABLE, PHASE_CENTRE, SKEWED_ROWS, COUNT(SKEWED_ROWS)};
 
 static const struct antenna_row EVEN_ROWS[] = {
-    {-PI / 2, 0,   -0.2},
-    {-0.7,    0.3, -0.6},
-    {0,       0.9, 0   },
-    {0.7,     0.3, 0.6 },
-    {PI / 2,  0,   0.2 }
-};
+    {-PI / 2, 0, -0.2}, {-0.7, 0.3, -0.6}, {0, 0.9, 0}, {0.7, 0.3, 0.6}, {PI / 2, 0, 0.2}};
 static const struct antenna EVEN = {ANTENNA_TABLE, PHASE_CENTRE, EVEN_ROWS, COUNT(EVEN_ROWS)};
 
 static double magnitude(double _Complex pointer)
@@ -79,17 +69,12 @@ static void the_patterns_are_those_of_the_paper(void **state)
     static const struct {
         double azimuth_deg, sum, delta, sum_db, delta_db, tolerance_db;
     } rows[] = {
-        {0,  1,     0,     0,     -HUGE_VAL, 0.005  },
-        {5,  .9838, .1355, -.14,  -17.4,     0.05   },
-        {10, .9367, .2620, -.57,  -11.6,     0.05   },
-        {20, .7690, .4581, -2.28, -6.78,     0.00501},
-        {30, .5513, .5513, -5.17, -5.17,     0.005  },
-        {35, .4425, .5587, -7.08, -5.06,     0.005  },
-        {40, .3418, .5439, -9.32, -5.29,     0.005  },
-        {50, .1791, .4652, -14.9, -6.65,     0.05   },
-        {60, .0751, .3515, -22.5, -9.08,     0.05   },
-        {70, .0218, .2296, -33.2, -12.8,     0.05   },
-        {80, .0027, .1122, -51.4, -19.0,     0.05   },
+        {0, 1, 0, 0, -HUGE_VAL, 0.005},          {5, .9838, .1355, -.14, -17.4, 0.05},
+        {10, .9367, .2620, -.57, -11.6, 0.05},   {20, .7690, .4581, -2.28, -6.78, 0.00501},
+        {30, .5513, .5513, -5.17, -5.17, 0.005}, {35, .4425, .5587, -7.08, -5.06, 0.005},
+        {40, .3418, .5439, -9.32, -5.29, 0.005}, {50, .1791, .4652, -14.9, -6.65, 0.05},
+        {60, .0751, .3515, -22.5, -9.08, 0.05},  {70, .0218, .2296, -33.2, -12.8, 0.05},
+        {80, .0027, .1122, -51.4, -19.0, 0.05},
     };
     for (size_t i = 0; i < COUNT(rows); i++) {
         struct antenna_pointers pointers = antenna_pointers(&ELEMENT, rows[i].azimuth_deg * DEGREE);
@@ -106,12 +91,10 @@ static void the_patterns_are_those_of_the_paper(void **state)
 static void the_patterns_agree_to_six_published_digits(void **state)
 {
     (void)state;
-    static const double rows[][3] = {
-        {10, 0.936682, 0.262026},
-        {20, 0.769032, 0.458104},
-        {45, 0.253277, 0.511110},
-        {60, 0.075087, 0.351513}
-    };
+    static const double rows[][3] = {{10, 0.936682, 0.262026},
+                                     {20, 0.769032, 0.458104},
+                                     {45, 0.253277, 0.511110},
+                                     {60, 0.075087, 0.351513}};
     for (size_t i = 0; i < COUNT(rows); i++) {
         struct antenna_pointers pointers = antenna_pointers(&CENTRE, rows[i][0] * DEGREE);
         assert_close(magnitude(pointers.sum), rows[i][1], 5.01e-7);
@@ -185,10 +168,7 @@ static void element_phase_is_equation_six_as_printed(void **state)
 static void delta_over_sum_is_minus_j_tan_u(void **state)
 {
     (void)state;
-    static const double rows[][2] = {
-        {10,  -0.279738},
-        {-40, 1.591105 }
-    };
+    static const double rows[][2] = {{10, -0.279738}, {-40, 1.591105}};
     const struct antenna *antennas[] = {&CENTRE, &ELEMENT};
     for (size_t i = 0; i < COUNT(rows); i++)
         for (size_t k = 0; k < 2; k++) {
@@ -357,10 +337,7 @@ static void a_table_turns_with_the_dipole_pair_under_element_phase(void **state)
 static void a_table_is_inverted_where_its_lines_cross_the_ratio(void **state)
 {
     (void)state;
-    static const struct antenna_row rows[] = {
-        {0,   1,   0  },
-        {0.2, 0.5, 0.5}
-    };
+    static const struct antenna_row rows[] = {{0, 1, 0}, {0.2, 0.5, 0.5}};
     struct antenna antenna = {ANTENNA_TABLE, PHASE_CENTRE, rows, COUNT(rows)};
     /* At the part w of the interval delta : sum = w/2 : 1 - w/2. */
     assert_near(antenna_azimuth_rad(&antenna, 1, 4), 0.08, 1e-15);
@@ -392,10 +369,7 @@ static void a_ratio_beyond_a_table_is_its_end(void **state)
     assert_close(antenna_azimuth_rad(&SKEWED, 9, 1), 1.3, 0);
     assert_close(antenna_azimuth_rad(&EVEN, 1, 0), PI / 2, 0);
     assert_close(antenna_azimuth_rad(&EVEN, -1, 0), -PI / 2, 0);
-    static const struct antenna_row narrow[] = {
-        {-0.3, 1, -0.1},
-        {0.3,  1, 0.1 }
-    };
+    static const struct antenna_row narrow[] = {{-0.3, 1, -0.1}, {0.3, 1, 0.1}};
     struct antenna antenna = {ANTENNA_TABLE, PHASE_CENTRE, narrow, COUNT(narrow)};
     assert_close(antenna_azimuth_rad(&antenna, -0.2, 1), -0.3, 0);
     assert_close(antenna_azimuth_rad(&antenna, 0.2, 1), 0.3, 0);
@@ -418,19 +392,19 @@ static void the_faulty_row_of_a_table_is_named(void **state)
         size_t count, row;
         const char *word;
     } cases[] = {
-        {{{0, 1, 0}},                         0, 0, "two rows"},
-        {{{0, 1, 0}},                         1, 1, "two rows"},
-        {{{0, -1, 0}, {1, 1, 1}},             2, 0, "negative"},
-        {{{0, 1, 0}, {1, (double)NAN, 1}},    2, 1, "negative"},
-        {{{0, 1, 0}, {1, 0, 0}},              2, 1, "both"    },
-        {{{0, 1, 0}, {0, 1, 1}},              2, 1, "azimuth" },
-        {{{0, 1, 0}, {1, 1, 1}, {0.5, 1, 2}}, 3, 2, "azimuth" },
-        {{{0, 1, 0}, {(double)NAN, 1, 1}},    2, 1, "azimuth" },
-        {{{0, 1, 0}, {1, 1, 1}, {2, 1, 0.5}}, 3, 2, "ratio"   },
-        {{{0, 1, 1}, {1, 2, 2}},              2, 1, "ratio"   },
-        {{{0, 0, -1}, {1, 0, 1}},             2, 1, "ratio"   },
-        {{{0, 1, 0}, {1, 0, 1}, {2, 0, 2}},   3, 2, "ratio"   },
-        {{{0, 1, 0}, {1, 1, (double)NAN}},    2, 1, "ratio"   },
+        {{{0, 1, 0}}, 0, 0, "two rows"},
+        {{{0, 1, 0}}, 1, 1, "two rows"},
+        {{{0, -1, 0}, {1, 1, 1}}, 2, 0, "negative"},
+        {{{0, 1, 0}, {1, (double)NAN, 1}}, 2, 1, "negative"},
+        {{{0, 1, 0}, {1, 0, 0}}, 2, 1, "both"},
+        {{{0, 1, 0}, {0, 1, 1}}, 2, 1, "azimuth"},
+        {{{0, 1, 0}, {1, 1, 1}, {0.5, 1, 2}}, 3, 2, "azimuth"},
+        {{{0, 1, 0}, {(double)NAN, 1, 1}}, 2, 1, "azimuth"},
+        {{{0, 1, 0}, {1, 1, 1}, {2, 1, 0.5}}, 3, 2, "ratio"},
+        {{{0, 1, 1}, {1, 2, 2}}, 2, 1, "ratio"},
+        {{{0, 0, -1}, {1, 0, 1}}, 2, 1, "ratio"},
+        {{{0, 1, 0}, {1, 0, 1}, {2, 0, 2}}, 3, 2, "ratio"},
+        {{{0, 1, 0}, {1, 1, (double)NAN}}, 2, 1, "ratio"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         size_t row = 99;

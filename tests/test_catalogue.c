@@ -177,12 +177,12 @@ static void the_digest_is_of_everything_that_was_read(void **state)
     static const struct {
         const char *document, *table, *rows;
     } variants[] = {
-        {SUITE(SENSOR("a", RANGES, TABLES)),      amplitudes,                          pattern},
-        {SUITE(SENSOR("b", RANGES, TABLES)),      amplitudes,                          pattern},
-        {SUITE(SENSOR("a", RANGES, TABLES)) "\n", amplitudes,                          pattern},
-        {SUITE(SENSOR("a", RANGES, TABLES)),      "range_m,amplitude\n10,8\n20,2.5\n", pattern},
-        {SUITE(SENSOR("a", RANGES, TABLES)),      amplitudes,
-         "azimuth_rad,sum,delta\n-1,0.5,-1\n0,1,0\n1,0.5,2\n"                                 },
+        {SUITE(SENSOR("a", RANGES, TABLES)), amplitudes, pattern},
+        {SUITE(SENSOR("b", RANGES, TABLES)), amplitudes, pattern},
+        {SUITE(SENSOR("a", RANGES, TABLES)) "\n", amplitudes, pattern},
+        {SUITE(SENSOR("a", RANGES, TABLES)), "range_m,amplitude\n10,8\n20,2.5\n", pattern},
+        {SUITE(SENSOR("a", RANGES, TABLES)), amplitudes,
+         "azimuth_rad,sum,delta\n-1,0.5,-1\n0,1,0\n1,0.5,2\n"},
     };
     char digests[COUNT(variants)][17];
     for (size_t i = 0; i < COUNT(variants); i++) {
@@ -208,30 +208,31 @@ static void suites_that_contradict_themselves_are_refused(void **state)
     static const struct {
         const char *document, *table, *rows, *message;
     } cases[] = {
-        {SUITE(""),               amplitudes,                             pattern,                                           "/suite.json: sensors: none; expected at least one"},
-        {        SUITE(SENSOR("a", RANGES,                                 TABLES) "," SENSOR("a",                                          RANGES,                                          TABLES)), amplitudes, pattern,
+        {SUITE(""), amplitudes, pattern, "/suite.json: sensors: none; expected at least one"},
+        {SUITE(SENSOR("a", RANGES, TABLES) "," SENSOR("a", RANGES, TABLES)), amplitudes, pattern,
          "/suite.json: sensors[1].name: \"a\" stands twice"},
-        { SUITE(SENSOR("a",                                                                                                                                                 "\"range_min_m\":5,\"range_max_m\":5,", TABLES)),                                          amplitudes,                                          pattern,
+        {SUITE(SENSOR("a", "\"range_min_m\":5,\"range_max_m\":5,", TABLES)), amplitudes, pattern,
          "/suite.json: sensors[0].range_max_m: 5 is not above range_min_m, 5 m"},
-        {SUITE(SENSOR("a",                                                                                                                             RANGES,                                 TABLES POWER)),                                    amplitudes,                                          pattern,
+        {SUITE(SENSOR("a", RANGES, TABLES POWER)), amplitudes, pattern,
          "/suite.json: sensors[0].amplitude_table: expected either a table or calibration_ercs "
          "and calibration_range_m"},
-        { SUITE(SENSOR("a",                                                                                                                                                                          RANGES,                                 PAIR)),                                            amplitudes,                                          pattern,
+        {SUITE(SENSOR("a", RANGES, PAIR)), amplitudes, pattern,
          "/suite.json: sensors[0].amplitude_table: expected either a table or calibration_ercs "
          "and calibration_range_m"},
-        {SUITE(SENSOR("a",                                                                                                                                                                          RANGES,                                 POWER "\"antenna_pattern\":\"table\",")),          amplitudes,                                          pattern,
+        {SUITE(SENSOR("a", RANGES, POWER "\"antenna_pattern\":\"table\",")), amplitudes, pattern,
          "/suite.json: sensors[0].antenna_table: goes with antenna_pattern \"table\", and only "
          "with it"},
-        { SUITE(SENSOR("a",                                                                                                                                                                                          RANGES,                                 POWER PAIR "\"antenna_table\":\"pattern.csv\",")), amplitudes,
-         pattern, "/suite.json: sensors[0].antenna_table: goes with antenna_pattern \"table\", and only "
+        {SUITE(SENSOR("a", RANGES, POWER PAIR "\"antenna_table\":\"pattern.csv\",")), amplitudes,
+         pattern,
+         "/suite.json: sensors[0].antenna_table: goes with antenna_pattern \"table\", and only "
          "with it"},
-        {                                                                                                                                                                          SUITE(SENSOR("a",                                                                                                                                                                         RANGES,                                 TABLES)),                                          "range_m,amplitude\n10,8\n",                         pattern,
+        {SUITE(SENSOR("a", RANGES, TABLES)), "range_m,amplitude\n10,8\n", pattern,
          "/amplitude.csv: rows: 1; expected at least 2"},
-        {SUITE(SENSOR("a",                                                                                                                                                     RANGES,                                 TABLES)),                                          "range_m,amplitude\n10,8\n10,2\n",                   pattern,
+        {SUITE(SENSOR("a", RANGES, TABLES)), "range_m,amplitude\n10,8\n10,2\n", pattern,
          "/amplitude.csv: row 3: range_m must ascend"},
-        {                                                                                                                                                                          SUITE(SENSOR("a",                                                                                                                                                       RANGES,                                 TABLES)),                                          "range_m,amplitude\n10,8\n20,0\n",                   pattern,
+        {SUITE(SENSOR("a", RANGES, TABLES)), "range_m,amplitude\n10,8\n20,0\n", pattern,
          "/amplitude.csv: row 3, column \"amplitude\": 0 is outside [1e-300, 1e+300]"},
-        {SUITE(SENSOR("a",                                                                                                                       RANGES,                                 TABLES)),                                          "range_m,gain\n10,8\n",                              pattern,
+        {SUITE(SENSOR("a", RANGES, TABLES)), "range_m,gain\n10,8\n", pattern,
          "/amplitude.csv: column \"amplitude\" is missing; the header is: range_m, gain"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {

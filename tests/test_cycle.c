@@ -10,31 +10,31 @@ static void known_frames_have_known_instants(void **state)
         enum cycle_answer answer;
         double instant_s;
     } cases[] = {
-  /* once a frame */
-        {0,     12.34,      0.05,          CYCLE_ONE,     12.34},
-        {0,     0,          0.05,          CYCLE_ONE,     0    },
- /* the frame at time 0 holds the first instant and none before it */
-        {0.05,  0,          0.05,          CYCLE_ONE,     0    },
-        {0.04,  0,          0.1,           CYCLE_ONE,     0    },
-        {0.04,  -0.02,      0.05,          CYCLE_NONE,    0    },
-        {0.04,  -0.2,       0.1,           CYCLE_NONE,    0    },
-        {0.04,  0.02,       0.1,           CYCLE_ONE,     0    },
- /* open at the start, closed at the end */
-        {0.5,   1.0,        0.25,          CYCLE_ONE,     1.0  },
-        {0.5,   1.25,       0.25,          CYCLE_NONE,    0    },
-        {0.5,   1.125,      0.25,          CYCLE_ONE,     1.0  },
-        {0.5,   1.0,        0.5,           CYCLE_ONE,     1.0  },
-        {0.5,   1.0,        0.75,          CYCLE_SEVERAL, 0    },
-        {0.5,   1.0,        0,             CYCLE_NONE,    0    },
- /* 1e-9 of a cycle counts as on it */
-        {0.5,   1 - 0.4e-9, 0.25,          CYCLE_ONE,     1.0  },
-        {0.5,   1 - 0.6e-9, 0.25,          CYCLE_NONE,    0    },
-        {0.5,   1.25,       0.25 + 0.4e-9, CYCLE_NONE,    0    },
-        {0.5,   1.25,       0.25 + 0.6e-9, CYCLE_ONE,     1.0  },
- /* too slow a frame rate */
-        {0.04,  0.1,        0.1,           CYCLE_SEVERAL, 0    },
-        {0.04,  0.2,        0.1,           CYCLE_SEVERAL, 0    },
-        {0.001, 100,        0.1,           CYCLE_SEVERAL, 0    },
+        /* once a frame */
+        {0, 12.34, 0.05, CYCLE_ONE, 12.34},
+        {0, 0, 0.05, CYCLE_ONE, 0},
+        /* the frame at time 0 holds the first instant and none before it */
+        {0.05, 0, 0.05, CYCLE_ONE, 0},
+        {0.04, 0, 0.1, CYCLE_ONE, 0},
+        {0.04, -0.02, 0.05, CYCLE_NONE, 0},
+        {0.04, -0.2, 0.1, CYCLE_NONE, 0},
+        {0.04, 0.02, 0.1, CYCLE_ONE, 0},
+        /* open at the start, closed at the end */
+        {0.5, 1.0, 0.25, CYCLE_ONE, 1.0},
+        {0.5, 1.25, 0.25, CYCLE_NONE, 0},
+        {0.5, 1.125, 0.25, CYCLE_ONE, 1.0},
+        {0.5, 1.0, 0.5, CYCLE_ONE, 1.0},
+        {0.5, 1.0, 0.75, CYCLE_SEVERAL, 0},
+        {0.5, 1.0, 0, CYCLE_NONE, 0},
+        /* 1e-9 of a cycle counts as on it */
+        {0.5, 1 - 0.4e-9, 0.25, CYCLE_ONE, 1.0},
+        {0.5, 1 - 0.6e-9, 0.25, CYCLE_NONE, 0},
+        {0.5, 1.25, 0.25 + 0.4e-9, CYCLE_NONE, 0},
+        {0.5, 1.25, 0.25 + 0.6e-9, CYCLE_ONE, 1.0},
+        /* too slow a frame rate */
+        {0.04, 0.1, 0.1, CYCLE_SEVERAL, 0},
+        {0.04, 0.2, 0.1, CYCLE_SEVERAL, 0},
+        {0.001, 100, 0.1, CYCLE_SEVERAL, 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         double instant_s = 0;
@@ -75,18 +75,8 @@ static void every_instant_is_delivered_exactly_once(void **state)
     (void)state;
     static const struct {
         int64_t rate_hz, ticks;
-    } cases[] = {
-        {20, 66 },
-        {25, 40 },
-        {20, 50 },
-        {10, 100},
-        {30, 35 },
-        {17, 60 },
-        {20, 100},
-        {10, 700},
-        {50, 66 },
-        {60, 50 }
-    };
+    } cases[] = {{20, 66}, {25, 40},  {20, 50},  {10, 100}, {30, 35},
+                 {17, 60}, {20, 100}, {10, 700}, {50, 66},  {60, 50}};
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         double rate_hz = (double)cases[c].rate_hz;
         double cycle_s = (double)cases[c].ticks / 1000;

@@ -135,24 +135,23 @@ static void faults_are_named_with_path_member_and_expectation(void **state)
     static const struct {
         const char *from, *to, *message;
     } cases[] = {
-        {"4,",                "0,",                               "length_m: 0 is outside [0.01, 10000] m"                  },
-        {"\"length_m\": 4, ", "",                                 "length_m: missing; expected a number in [0.01, 10000] m" },
-        {"4,",                "\"4\",",                           "length_m: a string; expected a number in [0.01, 10000] m"},
-        {"4,",                "null,",                            "length_m: null; expected a number in [0.01, 10000] m"    },
-        {"\"a test\"",        "[]",                               "origin: an array; expected a name"                       },
-        {"\"x\": 0.5",        "\"x\": 1.5",                       "reflectors.points[0].x: 1.5 is outside [-1, 1]"          },
-        {"\"x\"",             "\"z\"",
+        {"4,", "0,", "length_m: 0 is outside [0.01, 10000] m"},
+        {"\"length_m\": 4, ", "", "length_m: missing; expected a number in [0.01, 10000] m"},
+        {"4,", "\"4\",", "length_m: a string; expected a number in [0.01, 10000] m"},
+        {"4,", "null,", "length_m: null; expected a number in [0.01, 10000] m"},
+        {"\"a test\"", "[]", "origin: an array; expected a name"},
+        {"\"x\": 0.5", "\"x\": 1.5", "reflectors.points[0].x: 1.5 is outside [-1, 1]"},
+        {"\"x\"", "\"z\"",
          "reflectors.points[0].z: unknown key; expected one of name, x, y, inset_m, "
-         "facing_rad, full_rad, zero_rad, shape, ercs, under_vehicles"                                                      },
-        {"true",              "1",                                "reflectors.blocks: a number; expected true or false"     },
-        {"\"blocks\": true",  "\"worn_by\": []",
+         "facing_rad, full_rad, zero_rad, shape, ercs, under_vehicles"},
+        {"true", "1", "reflectors.blocks: a number; expected true or false"},
+        {"\"blocks\": true", "\"worn_by\": []",
          "reflectors.worn_by: unknown key; expected one of blocks, raised, points, planes, "
-         "rows"                                                                                                             },
-        {"[{",                "[3, {",                            "reflectors.points[0]: a number; expected an object"      },
-        {"\"ercs\": 1",       "\"ercs\": 1, \"shape\": \"flat\"",
+         "rows"},
+        {"[{", "[3, {", "reflectors.points[0]: a number; expected an object"},
+        {"\"ercs\": 1", "\"ercs\": 1, \"shape\": \"flat\"",
          "reflectors.points[0].shape: \"flat\" is unknown; expected one of raised_cosine, hard, "
-         "linear, cosine"                                                                                                   }
-    };
+         "linear, cosine"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct vehicle vehicle;
         struct diag diag = {0};
@@ -171,17 +170,15 @@ static void text_that_is_no_document_is_refused_with_its_line(void **state)
     struct scratch *scratch = *state;
     static const struct {
         const char *text, *message;
-    } cases[] = {
-        {"",                                        ":1: "                          },
-        {"\n\n{\"origin\": }",                      ":3: "                          },
-        {"{\"origin\": \"a\",\n\"origin\": \"b\"}", ":2: duplicate object key"      },
-        {"{} {}",                                   ":1: end of file expected"      },
-        {"\xef\xbb\xbf{}",                          ":1: "                          },
-        {"{\"origin\": \"\\u0000\"}",               ":1: "                          },
-        {"{\"origin\": \"\xff\"}",                  ":1: "                          },
-        {"{\"length_m\": 1e999}",                   ":1: "                          },
-        {"[]",                                      ": an array; expected an object"}
-    };
+    } cases[] = {{"", ":1: "},
+                 {"\n\n{\"origin\": }", ":3: "},
+                 {"{\"origin\": \"a\",\n\"origin\": \"b\"}", ":2: duplicate object key"},
+                 {"{} {}", ":1: end of file expected"},
+                 {"\xef\xbb\xbf{}", ":1: "},
+                 {"{\"origin\": \"\\u0000\"}", ":1: "},
+                 {"{\"origin\": \"\xff\"}", ":1: "},
+                 {"{\"length_m\": 1e999}", ":1: "},
+                 {"[]", ": an array; expected an object"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct vehicle vehicle;
         struct diag diag = {0};
@@ -200,9 +197,7 @@ static void notes_are_strings(void **state)
 {
     struct scratch *scratch = *state;
     static const struct field fields[] = {
-        {.name = "sources", .kind = FIELD_NOTES, .optional = true, .help = ""},
-        {0}
-    };
+        {.name = "sources", .kind = FIELD_NOTES, .optional = true, .help = ""}, {0}};
     static const struct record record = {.name = "thing", .size = 1, .fields = fields};
     char nothing;
     struct diag diag = {0};

@@ -33,9 +33,7 @@ struct thing {
 };
 
 static const struct field part_fields[] = {
-    {FIELD_REAL_IN(struct part, width_m, 0, 10, "width"), .absent = 2},
-    {0                       }
-};
+    {FIELD_REAL_IN(struct part, width_m, 0, 10, "width"), .absent = 2}, {0}};
 static const struct record part_record = {
     .name = "part", .size = sizeof(struct part), .fields = part_fields};
 
@@ -57,25 +55,24 @@ enum {
 };
 
 static const struct field fields[] = {
-    [RANGE] = {FIELD_REAL_IN(struct thing,    range_m, -1.5, 1e6, "range")},
-    [GAIN] = {FIELD_REAL_IN(struct thing,                         gain, 0, 0.1, "gain")},
-    [NUMBER] = {FIELD_INTEGER_IN(struct thing,                     number, -5, 9007199254740991, "number")},
-    [FLAG] = {FIELD_FLAG_OF(struct thing,    flag, "flag"), FIELD_OPTIONAL},
-    [NAME] = {FIELD_NAME_OF(struct thing,                            name, "name")},
-    [COLOUR] = {FIELD_CHOICE_OF(struct thing,                      colour, colours, "colour")},
+    [RANGE] = {FIELD_REAL_IN(struct thing, range_m, -1.5, 1e6, "range")},
+    [GAIN] = {FIELD_REAL_IN(struct thing, gain, 0, 0.1, "gain")},
+    [NUMBER] = {FIELD_INTEGER_IN(struct thing, number, -5, 9007199254740991, "number")},
+    [FLAG] = {FIELD_FLAG_OF(struct thing, flag, "flag"), FIELD_OPTIONAL},
+    [NAME] = {FIELD_NAME_OF(struct thing, name, "name")},
+    [COLOUR] = {FIELD_CHOICE_OF(struct thing, colour, colours, "colour")},
     [SEED] = {FIELD_SEED_OF(struct thing, seed, "seed")},
-    [NAMES] = {FIELD_NAMES_OF(struct thing,                           names, "names")},
-    [PART] = {FIELD_RECORD_OF(struct thing,                    part, &part_record, "part")},
-    [PARTS] = {FIELD_LIST_OF(struct thing,    parts, &part_record, "parts"), FIELD_OPTIONAL},
-    [EXTRA] = {FIELD_RAW_OF(struct thing,                      extra, "extra")},
-    [MAYBE] = {FIELD_REAL_IN(struct thing,                             maybe_s, -10, 10, "maybe"), FIELD_OPTIONAL,
+    [NAMES] = {FIELD_NAMES_OF(struct thing, names, "names")},
+    [PART] = {FIELD_RECORD_OF(struct thing, part, &part_record, "part")},
+    [PARTS] = {FIELD_LIST_OF(struct thing, parts, &part_record, "parts"), FIELD_OPTIONAL},
+    [EXTRA] = {FIELD_RAW_OF(struct thing, extra, "extra")},
+    [MAYBE] = {FIELD_REAL_IN(struct thing, maybe_s, -10, 10, "maybe"), FIELD_OPTIONAL,
                .absent = 0.5},
-    [TINT] = {FIELD_CHOICE_OF(struct thing,tint, colours, "tint"), FIELD_OPTIONAL,
-               .absent = GREEN},
-    [IN_SECTION] = {FIELD_LIST_OF(struct thing,                             section, &part_record, "section"), FIELD_OPTIONAL,
-               .section = 4},
-    {0 }
-};
+    [TINT] = {FIELD_CHOICE_OF(struct thing, tint, colours, "tint"), FIELD_OPTIONAL,
+              .absent = GREEN},
+    [IN_SECTION] = {FIELD_LIST_OF(struct thing, section, &part_record, "section"), FIELD_OPTIONAL,
+                    .section = 4},
+    {0}};
 static const struct record record = {.name = "thing",
                                      .size = sizeof(struct thing),
                                      .fields = fields,
@@ -84,22 +81,20 @@ static const struct record record = {.name = "thing",
 static void the_ending_of_a_name_is_its_unit(void **state)
 {
     (void)state;
-    static const char *const cases[][2] = {
-        {"range_m",           "m"    },
-        {"time_s",            "s"    },
-        {"range_rate_mps",    "m/s"  },
-        {"acceleration_mps2", "m/s²"},
-        {"azimuth_rad",       "rad"  },
-        {"yaw_rate_radps",    "rad/s"},
-        {"carrier_hz",        "Hz"   },
-        {"threshold_db",      "dB"   },
-        {"ercs",              ""     },
-        {"m",                 ""     },
-        {"_m",                ""     },
-        {"stream",            ""     },
-        {"class",             ""     },
-        {"m_x",               ""     }
-    };
+    static const char *const cases[][2] = {{"range_m", "m"},
+                                           {"time_s", "s"},
+                                           {"range_rate_mps", "m/s"},
+                                           {"acceleration_mps2", "m/s²"},
+                                           {"azimuth_rad", "rad"},
+                                           {"yaw_rate_radps", "rad/s"},
+                                           {"carrier_hz", "Hz"},
+                                           {"threshold_db", "dB"},
+                                           {"ercs", ""},
+                                           {"m", ""},
+                                           {"_m", ""},
+                                           {"stream", ""},
+                                           {"class", ""},
+                                           {"m_x", ""}};
     for (size_t i = 0; i < COUNT(cases); i++)
         assert_string_equal(field_unit(cases[i][0]), cases[i][1]);
 }
@@ -158,27 +153,26 @@ static void numbers_are_taken_between_their_bounds(void **state)
         double value;
         const char *message;
     } cases[] = {
-        {RANGE,  -1.5,                NULL                                                        },
-        {RANGE,  1e6,                 NULL                                                        },
-        {GAIN,   0.1,                 NULL                                                        },
-        {GAIN,   0,                   NULL                                                        },
-        {GAIN,   -0.0,                NULL                                                        },
-        {NUMBER, -5,                  NULL                                                        },
-        {NUMBER, 9007199254740991,    NULL                                                        },
-        {RANGE,  -1.5000000000000002, "range_m: -1.5000000000000002 is outside [-1.5, 1e6] m"     },
-        {RANGE,  1000000.0000000001,  "range_m: 1000000.0000000001 is outside [-1.5, 1e6] m"      },
-        {GAIN,   0.10000000000000002, "gain: 0.10000000000000002 is outside [0, 0.1]"             },
-        {GAIN,   -5e-324,             "gain: -5e-324 is outside [0, 0.1]"                         },
-        {RANGE,  (double)NAN,         "range_m: nan is outside [-1.5, 1e6] m"                     },
-        {RANGE,  (double)INFINITY,    "range_m: inf is outside [-1.5, 1e6] m"                     },
-        {NUMBER, 0.5,                 "number: 0.5 is not a whole number"                         },
-        {NUMBER, -6,                  "number: -6 is outside [-5, 9007199254740991]"              },
-        {NUMBER, 9007199254740992,    "number: 9007199254740992 is outside [-5, 9007199254740991]"},
-        {NAME,   1,                   "name: a number; expected a name"                           },
-        {FLAG,   1,                   "flag: a number; expected true or false"                    },
-        {SEED,   1,                   "seed: a number; expected a string of digits"               },
-        {COLOUR, 1,                   "colour: a number; expected one of red, green, blue"        }
-    };
+        {RANGE, -1.5, NULL},
+        {RANGE, 1e6, NULL},
+        {GAIN, 0.1, NULL},
+        {GAIN, 0, NULL},
+        {GAIN, -0.0, NULL},
+        {NUMBER, -5, NULL},
+        {NUMBER, 9007199254740991, NULL},
+        {RANGE, -1.5000000000000002, "range_m: -1.5000000000000002 is outside [-1.5, 1e6] m"},
+        {RANGE, 1000000.0000000001, "range_m: 1000000.0000000001 is outside [-1.5, 1e6] m"},
+        {GAIN, 0.10000000000000002, "gain: 0.10000000000000002 is outside [0, 0.1]"},
+        {GAIN, -5e-324, "gain: -5e-324 is outside [0, 0.1]"},
+        {RANGE, (double)NAN, "range_m: nan is outside [-1.5, 1e6] m"},
+        {RANGE, (double)INFINITY, "range_m: inf is outside [-1.5, 1e6] m"},
+        {NUMBER, 0.5, "number: 0.5 is not a whole number"},
+        {NUMBER, -6, "number: -6 is outside [-5, 9007199254740991]"},
+        {NUMBER, 9007199254740992, "number: 9007199254740992 is outside [-5, 9007199254740991]"},
+        {NAME, 1, "name: a number; expected a name"},
+        {FLAG, 1, "flag: a number; expected true or false"},
+        {SEED, 1, "seed: a number; expected a string of digits"},
+        {COLOUR, 1, "colour: a number; expected one of red, green, blue"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct thing thing = {0};
         struct diag diag = {0};
@@ -206,14 +200,12 @@ static void seeds_have_64_bits(void **state)
     static const struct {
         const char *text;
         uint64_t seed;
-    } good[] = {
-        {"0",                    0               },
-        {"1",                    1               },
-        {"007",                  7               },
-        {"9007199254740993",     9007199254740993},
-        {"18446744073709551615", UINT64_MAX      },
-        {"18446744073709551609", UINT64_MAX - 6  }
-    };
+    } good[] = {{"0", 0},
+                {"1", 1},
+                {"007", 7},
+                {"9007199254740993", 9007199254740993},
+                {"18446744073709551615", UINT64_MAX},
+                {"18446744073709551609", UINT64_MAX - 6}};
     struct arena arena = {0};
     struct thing thing = {0};
     struct diag diag;
@@ -304,15 +296,13 @@ static void the_first_missing_member_is_named(void **state)
     static const struct {
         int field;
         const char *message;
-    } cases[] = {
-        {RANGE,  "range_m: missing; expected a number in [-1.5, 1e6] m"              },
-        {NUMBER, "number: missing; expected a whole number in [-5, 9007199254740991]"},
-        {NAME,   "name: missing; expected a name"                                    },
-        {COLOUR, "colour: missing; expected one of red, green, blue"                 },
-        {SEED,   "seed: missing; expected a string of digits"                        },
-        {NAMES,  "names: missing; expected an array of names"                        },
-        {PART,   "part: missing; expected an object"                                 }
-    };
+    } cases[] = {{RANGE, "range_m: missing; expected a number in [-1.5, 1e6] m"},
+                 {NUMBER, "number: missing; expected a whole number in [-5, 9007199254740991]"},
+                 {NAME, "name: missing; expected a name"},
+                 {COLOUR, "colour: missing; expected one of red, green, blue"},
+                 {SEED, "seed: missing; expected a string of digits"},
+                 {NAMES, "names: missing; expected an array of names"},
+                 {PART, "part: missing; expected an object"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         diag = (struct diag){0};
         assert_int_equal(field_require(&record, all & ~(UINT64_C(1) << cases[i].field), &diag), -1);

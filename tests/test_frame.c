@@ -113,17 +113,15 @@ static void planted_faults_in_the_account_are_caught(void **state)
     static const struct {
         void (*plant)(struct frame *frame);
         const char *message;
-    } cases[] = {
-        {forget_one,                         "account: sensor \"right\" has 2 entries; 3 are due"},
-        {forget_a_loss,                      "account: sensor \"left\" has 2 entries; 3 are due" },
-        {double_one_in_a_target,
-         "account: sensor \"left\", object \"b\", reflector \"corner\" has two entries"          },
-        {double_one_between_target_and_lost,
-         "account: sensor \"left\", object \"a\", reflector \"rear\" has two entries"            },
-        {add_a_foreign_one,                  "account: sensor \"right\" has 4 entries; 3 are due"},
-        {add_one_of_a_foreign_sensor,        "account: 1 entries of sensors without a count"     },
-        {count_one_more,                     "account: sensor \"left\" has 3 entries; 4 are due" }
-    };
+    } cases[] = {{forget_one, "account: sensor \"right\" has 2 entries; 3 are due"},
+                 {forget_a_loss, "account: sensor \"left\" has 2 entries; 3 are due"},
+                 {double_one_in_a_target,
+                  "account: sensor \"left\", object \"b\", reflector \"corner\" has two entries"},
+                 {double_one_between_target_and_lost,
+                  "account: sensor \"left\", object \"a\", reflector \"rear\" has two entries"},
+                 {add_a_foreign_one, "account: sensor \"right\" has 4 entries; 3 are due"},
+                 {add_one_of_a_foreign_sensor, "account: 1 entries of sensors without a count"},
+                 {count_one_more, "account: sensor \"left\" has 3 entries; 4 are due"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct arena arena = {0};
         struct frame frame = accounted_frame(&arena);
@@ -332,16 +330,15 @@ static void frames_that_contradict_themselves_are_refused(void **state)
         void (*plant)(struct frame *frame);
         const char *message;
     } cases[] = {
-        {name_one_twice,                "objects: the id \"a\" stands twice"                                 },
-        {lose_the_ego,                  "ego: \"x\" is not among the objects"                                },
-        {name_a_sensor_twice,           "sensors.list: \"left\" stands twice"                                },
-        {see_one_twice,                 "echoes: sensor \"left\", object \"a\", reflector \"r\" stands twice"},
-        {see_with_no_sensor,            "echoes[0].sensor: \"top\" is not in sensors.list"                   },
-        {open_a_cell_twice,             "cells: sensor \"left\" has two led by object \"a\", reflector \"r\""},
-        {open_an_empty_cell,            "cells[0].members: empty; expected the leader"                       },
-        {report_a_target_without_label, "targets[0].contributors: empty; expected a label"                   },
-        {report_with_no_sensor,         "targets[1].sensor: \"top\" is not in sensors.list"                  }
-    };
+        {name_one_twice, "objects: the id \"a\" stands twice"},
+        {lose_the_ego, "ego: \"x\" is not among the objects"},
+        {name_a_sensor_twice, "sensors.list: \"left\" stands twice"},
+        {see_one_twice, "echoes: sensor \"left\", object \"a\", reflector \"r\" stands twice"},
+        {see_with_no_sensor, "echoes[0].sensor: \"top\" is not in sensors.list"},
+        {open_a_cell_twice, "cells: sensor \"left\" has two led by object \"a\", reflector \"r\""},
+        {open_an_empty_cell, "cells[0].members: empty; expected the leader"},
+        {report_a_target_without_label, "targets[0].contributors: empty; expected a label"},
+        {report_with_no_sensor, "targets[1].sensor: \"top\" is not in sensors.list"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct arena arena = {0};
         struct frame frame = accounted_frame(&arena);

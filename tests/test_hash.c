@@ -39,12 +39,7 @@ static void pieces_end_where_they_end(void **state)
 {
     (void)state;
     static const char *const pieces[][2] = {
-        {"a",   "bc" },
-        {"ab",  "c"  },
-        {"abc", ""   },
-        {"",    "abc"},
-        {"bc",  "a"  }
-    };
+        {"a", "bc"}, {"ab", "c"}, {"abc", ""}, {"", "abc"}, {"bc", "a"}};
     uint64_t hashes[5];
     for (size_t i = 0; i < 5; i++) {
         hashes[i] = hash_text(hash_text(HASH_START, pieces[i][0]), pieces[i][1]);

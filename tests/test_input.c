@@ -95,10 +95,7 @@ static void plain_and_gzip_and_several_members_read_the_same(void **state)
         for (size_t part = 0; part < 5; part++)
             add_member(start + bytes.length * part / 5,
                        bytes.length * (part + 1) / 5 - bytes.length * part / 5, &members);
-        const struct text forms[] = {
-            {(char *)(uintptr_t)start, bytes.length, 0},
-            packed, members
-        };
+        const struct text forms[] = {{(char *)(uintptr_t)start, bytes.length, 0}, packed, members};
         for (size_t form = 0; form < COUNT(forms); form++) {
             struct text text = {0};
             struct diag diag;

@@ -132,13 +132,13 @@ static void strings_are_decoded(void **state)
     static const struct {
         const char *text, *meaning;
     } cases[] = {
-        {"\"\"",                                           ""                                   },
-        {"\"plain \xe2\x82\xac\"",                         "plain \xe2\x82\xac"                 },
-        {"\"\\\"\\\\\\/\\b\\f\\n\\r\\t\"",                 "\"\\/\b\f\n\r\t"                    },
+        {"\"\"", ""},
+        {"\"plain \xe2\x82\xac\"", "plain \xe2\x82\xac"},
+        {"\"\\\"\\\\\\/\\b\\f\\n\\r\\t\"", "\"\\/\b\f\n\r\t"},
         {"\"\\u0041\\u007F\\u0080\\u07ff\\u0800\\uffff\"",
-         "A\x7f\xc2\x80\xdf\xbf\xe0\xa0\x80\xef\xbf\xbf"                                        },
-        {"\"x\\ud800\\udc00y\\uDBFF\\udfffz\"",            "x\xf0\x90\x80\x80y\xf4\x8f\xbf\xbfz"},
-        {"\"\\u0001\\u001f\"",                             "\x01\x1f"                           },
+         "A\x7f\xc2\x80\xdf\xbf\xe0\xa0\x80\xef\xbf\xbf"},
+        {"\"x\\ud800\\udc00y\\uDBFF\\udfffz\"", "x\xf0\x90\x80\x80y\xf4\x8f\xbf\xbfz"},
+        {"\"\\u0001\\u001f\"", "\x01\x1f"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct arena arena = {0};
@@ -187,20 +187,20 @@ static void messages_say_what_was_expected(void **state)
     static const struct {
         const char *text, *message;
     } cases[] = {
-        {"",           "the line ends where a value is expected"},
-        {"[1,",        "the line ends where a value is expected"},
-        {"[1;",        "';' where ',' or ']' is expected"       },
-        {"{\"a\":1;",  "';' where ',' or '}' is expected"       },
-        {"{\"a\" 1}",  "'1' where ':' is expected"              },
-        {"{1}",        "'1' where a string is expected"         },
-        {"[\x01]",     "byte 0x01 where a value is expected"    },
-        {"[\xc3\xa9]", "byte 0xc3 where a value is expected"    },
-        {"[01]",       "'0' where a number is expected"         },
-        {"1e999",      "1e999 is too large for a double"        },
-        {"\"a\tb\"",   "control character 0x09 in a string"     },
-        {"\"\\q\"",    "a bad escape in a string"               },
-        {"\"\xff\"",   "byte 0xff in a string is not UTF-8"     },
-        {"\"ab",       "the line ends inside a string"          },
+        {"", "the line ends where a value is expected"},
+        {"[1,", "the line ends where a value is expected"},
+        {"[1;", "';' where ',' or ']' is expected"},
+        {"{\"a\":1;", "';' where ',' or '}' is expected"},
+        {"{\"a\" 1}", "'1' where ':' is expected"},
+        {"{1}", "'1' where a string is expected"},
+        {"[\x01]", "byte 0x01 where a value is expected"},
+        {"[\xc3\xa9]", "byte 0xc3 where a value is expected"},
+        {"[01]", "'0' where a number is expected"},
+        {"1e999", "1e999 is too large for a double"},
+        {"\"a\tb\"", "control character 0x09 in a string"},
+        {"\"\\q\"", "a bad escape in a string"},
+        {"\"\xff\"", "byte 0xff in a string is not UTF-8"},
+        {"\"ab", "the line ends inside a string"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct arena arena = {0};

@@ -213,15 +213,10 @@ static void every_loss_has_its_reason(void **state)
     static const struct {
         double x_m, y_m, facing_rad;
         enum loss reason;
-    } cases[] = {
-        {50,    0,      0,           LOSS_FACING_AWAY },
-        {100.1, 0,      PI,          LOSS_OUT_OF_RANGE},
-        {0.05,  0,      PI,          LOSS_OUT_OF_RANGE},
-        {10,    10.001, -3 * PI / 4, LOSS_OUT_OF_VIEW },
-        {-10,   0,      0,           LOSS_OUT_OF_VIEW },
-        {0,     0,      0,           LOSS_OUT_OF_RANGE},
-        {500,   0,      0,           LOSS_FACING_AWAY }
-    };
+    } cases[] = {{50, 0, 0, LOSS_FACING_AWAY},     {100.1, 0, PI, LOSS_OUT_OF_RANGE},
+                 {0.05, 0, PI, LOSS_OUT_OF_RANGE}, {10, 10.001, -3 * PI / 4, LOSS_OUT_OF_VIEW},
+                 {-10, 0, 0, LOSS_OUT_OF_VIEW},    {0, 0, 0, LOSS_OUT_OF_RANGE},
+                 {500, 0, 0, LOSS_FACING_AWAY}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         void *place;
         make_scene(&place);
@@ -260,13 +255,11 @@ static void rows_are_expanded_in_range_and_no_post_is_missed(void **state)
     (void)state;
     uint64_t random = 6;
     for (int i = 0; i < 20000; i++) {
-        struct box box = {
-            .motion.position_m = {sample_between(&random, -50, 50),
-                                  sample_between(&random, -50, 50)},
-            .heading = vec2_heading(sample_between(&random, -4, 4)),
-            .length_m = sample_between(&random, 0, i % 7 ? 300 : 0.1),
-            .width_m = sample_between(&random, 0, 5)
-        };
+        struct box box = {.motion.position_m = {sample_between(&random, -50, 50),
+                                                sample_between(&random, -50, 50)},
+                          .heading = vec2_heading(sample_between(&random, -4, 4)),
+                          .length_m = sample_between(&random, 0, i % 7 ? 300 : 0.1),
+                          .width_m = sample_between(&random, 0, 5)};
         struct post_row row = {.from_x = sample_between(&random, -1, 1),
                                .from_y = sample_between(&random, -1, 1),
                                .to_x = sample_between(&random, -1, 1),

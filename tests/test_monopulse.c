@@ -15,12 +15,7 @@ static const struct antenna CENTRE = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = P
 static const struct antenna ELEMENT = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = PHASE_ELEMENT};
 
 static const struct antenna_row ROWS[] = {
-    {-1.2, 0,    -0.3},
-    {-0.5, 0.4,  -0.5},
-    {0.1,  1,    0.1 },
-    {0.6,  0.7,  0.6 },
-    {1.3,  0.05, 0.4 }
-};
+    {-1.2, 0, -0.3}, {-0.5, 0.4, -0.5}, {0.1, 1, 0.1}, {0.6, 0.7, 0.6}, {1.3, 0.05, 0.4}};
 static const struct antenna TABLE = {ANTENNA_TABLE, PHASE_CENTRE, ROWS, COUNT(ROWS)};
 static const struct antenna TURNED_TABLE = {ANTENNA_TABLE, PHASE_ELEMENT, ROWS, COUNT(ROWS)};
 
@@ -59,17 +54,15 @@ static double dense_azimuth(int i)
 static void the_sensing_ratio_has_the_published_values(void **state)
 {
     (void)state;
-    static const double rows[][3] = {
-        {0,  -1,        0      },
-        {5,  -0.75783,  5.01e-6},
-        {10, -0.562820, 5.01e-7},
-        {20, -0.253377, 5.01e-7},
-        {30, 0,         1e-15  },
-        {40, 0.22813,   5.01e-6},
-        {45, 0.337307,  5.01e-7},
-        {60, 0.647976,  5.01e-7},
-        {80, 0.95338,   5.01e-6}
-    };
+    static const double rows[][3] = {{0, -1, 0},
+                                     {5, -0.75783, 5.01e-6},
+                                     {10, -0.562820, 5.01e-7},
+                                     {20, -0.253377, 5.01e-7},
+                                     {30, 0, 1e-15},
+                                     {40, 0.22813, 5.01e-6},
+                                     {45, 0.337307, 5.01e-7},
+                                     {60, 0.647976, 5.01e-7},
+                                     {80, 0.95338, 5.01e-6}};
     for (size_t i = 0; i < COUNT(rows); i++) {
         assert_close(monopulse_asr(antenna_pointers(&ELEMENT, rows[i][0] * DEGREE)), rows[i][1],
                      rows[i][2]);
@@ -96,20 +89,10 @@ static void the_sensing_ratio_and_its_inverse_are_closed_forms(void **state)
 static void the_sensing_ratio_is_as_well_conditioned_as_published(void **state)
 {
     (void)state;
-    static const double rows[][3] = {
-        {0,  18.2, 0.0501},
-        {5,  23.3, 0.0501},
-        {10, 28.1, 0.0501},
-        {20, 36.5, 0.0501},
-        {30, 42.1, 0.0501},
-        {40, 45.3, 0.0501},
-        {50, 47.4, 0.0501},
-        {60, 51.4, 0.0501},
-        {70, 63.4, 0.0501},
-        {80, 110,  0.501 },
-        {85, 212,  0.501 },
-        {89, 1046, 0.501 }
-    };
+    static const double rows[][3] = {{0, 18.2, 0.0501},  {5, 23.3, 0.0501},  {10, 28.1, 0.0501},
+                                     {20, 36.5, 0.0501}, {30, 42.1, 0.0501}, {40, 45.3, 0.0501},
+                                     {50, 47.4, 0.0501}, {60, 51.4, 0.0501}, {70, 63.4, 0.0501},
+                                     {80, 110, 0.501},   {85, 212, 0.501},   {89, 1046, 0.501}};
     for (size_t i = 0; i < COUNT(rows); i++) {
         double below = fmax(rows[i][0] - 1e-4, 0);
         double above = rows[i][0] + 1e-4;
@@ -212,12 +195,10 @@ static void the_phase_decides_the_sign_whatever_the_sizes(void **state)
     (void)state;
     static const struct {
         double sum, delta, azimuth_rad;
-    } cases[] = {
-        {1e-300, 1e300,  PI / 2},
-        {1e300,  1e-300, 0     },
-        {1e-300, 1e-300, PI / 6},
-        {1e300,  1e300,  PI / 6}
-    };
+    } cases[] = {{1e-300, 1e300, PI / 2},
+                 {1e300, 1e-300, 0},
+                 {1e-300, 1e-300, PI / 6},
+                 {1e300, 1e300, PI / 6}};
     for (size_t i = 0; i < COUNT(cases); i++)
         for (size_t k = 0; k < 2; k++)
             for (int signs = 0; signs < 4; signs++) {
@@ -239,14 +220,8 @@ static void a_sign_below_the_rounding_is_undecided(void **state)
         double imag;
         int undecided;
         double azimuth_rad;
-    } cases[] = {
-        {0x1p-46,  0, -PI / 6},
-        {-0x1p-46, 0, PI / 6 },
-        {0x1p-47,  1, PI / 6 },
-        {-0x1p-47, 1, PI / 6 },
-        {0x1p-48,  1, PI / 6 },
-        {0,        1, PI / 6 }
-    };
+    } cases[] = {{0x1p-46, 0, -PI / 6}, {-0x1p-46, 0, PI / 6}, {0x1p-47, 1, PI / 6},
+                 {-0x1p-47, 1, PI / 6}, {0x1p-48, 1, PI / 6},  {0, 1, PI / 6}};
     static const double sizes[] = {1e-280, 1, 1e300};
     for (size_t i = 0; i < COUNT(cases); i++)
         for (size_t k = 0; k < COUNT(sizes); k++) {
@@ -266,17 +241,9 @@ static void a_sign_below_the_rounding_is_undecided(void **state)
 static void two_equal_echoes_meet_in_the_middle(void **state)
 {
     (void)state;
-    static const double rows[][3] = {
-        {4,  0.44, 0.00501},
-        {6,  1.00, 0.00501},
-        {8,  1.80, 0.00501},
-        {10, 2.85, 0.00501},
-        {12, 4.17, 0.00501},
-        {15, 6.70, 0.00501},
-        {20, 12.5, 0.0501 },
-        {25, 20.5, 0.0501 },
-        {30, 30.0, 1e-12  }
-    };
+    static const double rows[][3] = {{4, 0.44, 0.00501},  {6, 1.00, 0.00501},  {8, 1.80, 0.00501},
+                                     {10, 2.85, 0.00501}, {12, 4.17, 0.00501}, {15, 6.70, 0.00501},
+                                     {20, 12.5, 0.0501},  {25, 20.5, 0.0501},  {30, 30.0, 1e-12}};
     for (size_t i = 0; i < COUNT(rows); i++) {
         double azimuth_rad = rows[i][0] * DEGREE;
         struct antenna_pointers literal = superpose(&ELEMENT, azimuth_rad, 1, -azimuth_rad, 1);
@@ -302,12 +269,10 @@ static void unequal_echoes_are_seen_between(void **state)
     (void)state;
     static const struct {
         double first_deg, second_deg, ratio, literal_deg, centred_deg;
-    } rows[] = {
-        {-8, 8,  1, 1.80, 0   },
-        {-8, 8,  2, 3.23, 2.70},
-        {-8, 8,  5, 5.60, 5.37},
-        {-5, 15, 1, 5.40, 4.64}
-    };
+    } rows[] = {{-8, 8, 1, 1.80, 0},
+                {-8, 8, 2, 3.23, 2.70},
+                {-8, 8, 5, 5.60, 5.37},
+                {-5, 15, 1, 5.40, 4.64}};
     for (size_t i = 0; i < COUNT(rows); i++) {
         double first_rad = rows[i].first_deg * DEGREE;
         double second_rad = rows[i].second_deg * DEGREE;
@@ -416,17 +381,9 @@ static struct spread spread_of(enum monopulse_estimator estimator, double azimut
 static void noise_spreads_the_magnitude_angle_as_published(void **state)
 {
     (void)state;
-    static const double rows[][3] = {
-        {16, 0,  2.28},
-        {16, 10, 1.68},
-        {16, 30, 2.38},
-        {16, 50, 5.00},
-        {8,  0,  4.57},
-        {8,  5,  3.60},
-        {8,  10, 3.29},
-        {8,  30, 4.75},
-        {8,  40, 6.58}
-    };
+    static const double rows[][3] = {{16, 0, 2.28},  {16, 10, 1.68}, {16, 30, 2.38},
+                                     {16, 50, 5.00}, {8, 0, 4.57},   {8, 5, 3.60},
+                                     {8, 10, 3.29},  {8, 30, 4.75},  {8, 40, 6.58}};
     for (size_t i = 0; i < COUNT(rows); i++)
         assert_near(
             spread_of(MONOPULSE_MAGNITUDE, rows[i][1] * DEGREE, rows[i][0], 1).deviation_deg,
@@ -441,11 +398,7 @@ static void noise_spreads_the_magnitude_angle_as_published(void **state)
 static void noise_spreads_the_ratio_angle_as_published(void **state)
 {
     (void)state;
-    static const double rows[][2] = {
-        {0,  0.8156},
-        {20, 0.7457},
-        {40, 0.5666}
-    };
+    static const double rows[][2] = {{0, 0.8156}, {20, 0.7457}, {40, 0.5666}};
     for (size_t i = 0; i < COUNT(rows); i++) {
         double azimuth_rad = rows[i][0] * DEGREE;
         double noise = antenna_gain(&ELEMENT, azimuth_rad) / sqrt(1000);

@@ -7,19 +7,11 @@
 static const struct {
     double yaw_rad, speed_mps, acceleration_mps2, yaw_rate_radps, duration_s;
 } drives[] = {
-    {0,    15, 0,   0,       0.1},
-    {0.7,  15, 0,   1.3e-14, 0.1},
-    {0.7,  15, 2,   1.3e-14, 10 },
-    {-2.1, 30, -3,  1e-9,    5  },
-    {1.2,  30, -3,  1e-6,    5  },
-    {3.0,  30, -3,  -1e-3,   5  },
-    {0.3,  10, 1.5, 0.2,     8  },
-    {0.3,  10, -4,  -0.7,    6  },
-    {0.3,  0,  2,   0.5,     5.9},
-    {0.3,  0,  2,   0.5,     6.1},
-    {2.5,  -5, 3,   1.1,     4  },
-    {-1.5, 8,  -1,  6,       10 },
-    {-1.5, -8, 0.5, -2,      20 },
+    {0, 15, 0, 0, 0.1},      {0.7, 15, 0, 1.3e-14, 0.1}, {0.7, 15, 2, 1.3e-14, 10},
+    {-2.1, 30, -3, 1e-9, 5}, {1.2, 30, -3, 1e-6, 5},     {3.0, 30, -3, -1e-3, 5},
+    {0.3, 10, 1.5, 0.2, 8},  {0.3, 10, -4, -0.7, 6},     {0.3, 0, 2, 0.5, 5.9},
+    {0.3, 0, 2, 0.5, 6.1},   {2.5, -5, 3, 1.1, 4},       {-1.5, 8, -1, 6, 10},
+    {-1.5, -8, 0.5, -2, 20},
 };
 
 enum { DRIVES = sizeof drives / sizeof *drives, STEPS = 20000 };
@@ -117,11 +109,7 @@ static void a_hardly_turning_step_is_not_lost_to_rounding(void **state)
         double y_m = (double)(1.5L * (turn_rad / 2 - turn_rad * turn_rad * turn_rad / 24));
         struct motion driven = motion_drive((struct vec2){0, 0}, 0, 15, 0, rates_radps[i], 0.1);
         struct motion after = motion_after(
-            (struct motion){
-                .velocity_mps = {15, 0},
-                  .yaw_rate_radps = rates_radps[i]
-        },
-            0.1);
+            (struct motion){.velocity_mps = {15, 0}, .yaw_rate_radps = rates_radps[i]}, 0.1);
         assert_near(driven.position_m.x, x_m, 1e-15);
         assert_near(driven.position_m.y, y_m, 1e-15);
         assert_near(after.position_m.x, x_m, 1e-15);
@@ -132,11 +120,7 @@ static void a_hardly_turning_step_is_not_lost_to_rounding(void **state)
 static void a_full_circle_ends_at_its_start(void **state)
 {
     (void)state;
-    struct motion body = {
-        {5,  7},
-        {10, 0},
-        0, 0.5
-    };
+    struct motion body = {{5, 7}, {10, 0}, 0, 0.5};
     struct motion half = motion_after(body, 2 * PI);
     assert_close(half.position_m.x, 5, 1e-14);
     assert_close(half.position_m.y, 47, 1e-13);
@@ -155,7 +139,7 @@ static void going_forth_and_back_returns(void **state)
     for (int i = 0; i < 100000; i++) {
         struct motion body = {
             .position_m = {sample_between(&sample, -500, 500), sample_between(&sample, -500, 500)},
-            .velocity_mps = {sample_between(&sample, -50,  50),  sample_between(&sample, -50,  50) },
+            .velocity_mps = {sample_between(&sample, -50, 50), sample_between(&sample, -50, 50)},
             .yaw_rad = sample_between(&sample, -3, 3),
             .yaw_rate_radps = sample_between(&sample, -1, 1),
         };
@@ -173,13 +157,7 @@ static void going_forth_and_back_returns(void **state)
 static void a_crabbing_body_moves_along_its_velocity_and_not_its_yaw(void **state)
 {
     (void)state;
-    struct motion end = motion_after(
-        (struct motion){
-            {1, 1},
-            {0, 3},
-            0.4, 0
-    },
-        2);
+    struct motion end = motion_after((struct motion){{1, 1}, {0, 3}, 0.4, 0}, 2);
     assert_close(end.position_m.x, 1, 0);
     assert_close(end.position_m.y, 7, 0);
     assert_close(end.yaw_rad, 0.4, 0);
@@ -191,21 +169,11 @@ static void the_path_length_counts_reversing_forward(void **state)
     static const struct {
         double speed_mps, acceleration_mps2, duration_s, length_m;
     } cases[] = {
-        {10,   0,    3, 30           },
-        {10,   2,    3, 39           },
-        {10,   -2,   3, 21           },
-        {10,   -5,   2, 10           },
-        {10,   -5,   4, 20           },
-        {10,   -5,   3, 12.5         },
-        {-10,  0,    3, 30           },
-        {-3,   2,    1, 2            },
-        {-3,   2,    3, 4.5          },
-        {0,    2,    3, 9            },
-        {0,    -2,   3, 9            },
-        {0,    0,    5, 0            },
-        {10,   -5,   0, 0            },
-        {4,    -8,   1, 2            },
-        {1e-3, -1e3, 1, 499.999000001},
+        {10, 0, 3, 30},  {10, 2, 3, 39},  {10, -2, 3, 21},
+        {10, -5, 2, 10}, {10, -5, 4, 20}, {10, -5, 3, 12.5},
+        {-10, 0, 3, 30}, {-3, 2, 1, 2},   {-3, 2, 3, 4.5},
+        {0, 2, 3, 9},    {0, -2, 3, 9},   {0, 0, 5, 0},
+        {10, -5, 0, 0},  {4, -8, 1, 2},   {1e-3, -1e3, 1, 499.999000001},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_close(motion_drive_length_m(cases[i].speed_mps, cases[i].acceleration_mps2,
@@ -237,11 +205,7 @@ static void the_path_length_is_the_sum_of_its_two_ways(void **state)
 static void a_material_point_moves_with_its_body(void **state)
 {
     (void)state;
-    struct motion body = {
-        {10, 20},
-        {3,  4 },
-        0.5, 2
-    };
+    struct motion body = {{10, 20}, {3, 4}, 0.5, 2};
     struct vec2 own = motion_velocity_at(&body, body.position_m);
     assert_true(own.x == 3 && own.y == 4);
     struct vec2 ahead = motion_velocity_at(&body, (struct vec2){12, 20});
@@ -255,11 +219,7 @@ static void a_material_point_moves_with_its_body(void **state)
 static void a_material_points_velocity_is_the_rate_of_its_place(void **state)
 {
     (void)state;
-    const struct motion body = {
-        {10, 20},
-        {3,  4 },
-        0.5, 2
-    };
+    const struct motion body = {{10, 20}, {3, 4}, 0.5, 2};
     const struct vec2 own_m = {1.5, -0.7};
     struct vec2 places[3];
     for (int k = 0; k < 3; k++) {
@@ -293,11 +253,7 @@ struct hermite {
 /* A span of the cubic p = c0 + c1 t + c2 t^2 + c3 t^3 in each coordinate. */
 static struct vec2 cubic(const struct vec2 c[4], int derivative, double t_s)
 {
-    static const double factors[3][4] = {
-        {1, 1, 1, 1},
-        {0, 1, 2, 3},
-        {0, 0, 2, 6}
-    };
+    static const double factors[3][4] = {{1, 1, 1, 1}, {0, 1, 2, 3}, {0, 0, 2, 6}};
     struct vec2 sum = {0, 0};
     for (int k = derivative; k < 4; k++)
         sum = vec2_add(sum, vec2_scale(factors[derivative][k] * pow(t_s, k - derivative), c[k]));
@@ -321,30 +277,10 @@ static void assert_vectors_close(struct vec2 actual, struct vec2 expected, doubl
 static void a_hermite_span_of_a_cubic_is_that_cubic(void **state)
 {
     (void)state;
-    static const struct vec2 straight[4] = {
-        {3,  -2},
-        {10, 5 },
-        {0,  0 },
-        {0,  0 }
-    };
-    static const struct vec2 braking[4] = {
-        {3,    -2},
-        {10,   0 },
-        {-1.5, 0 },
-        {0,    0 }
-    };
-    static const struct vec2 lane_change[4] = {
-        {-40,  7    },
-        {20,   0    },
-        {0.3,  0.7  },
-        {-0.2, -0.11}
-    };
-    static const struct vec2 standing[4] = {
-        {0.1, 0.7},
-        {0,   0  },
-        {0,   0  },
-        {0,   0  }
-    };
+    static const struct vec2 straight[4] = {{3, -2}, {10, 5}, {0, 0}, {0, 0}};
+    static const struct vec2 braking[4] = {{3, -2}, {10, 0}, {-1.5, 0}, {0, 0}};
+    static const struct vec2 lane_change[4] = {{-40, 7}, {20, 0}, {0.3, 0.7}, {-0.2, -0.11}};
+    static const struct vec2 standing[4] = {{0.1, 0.7}, {0, 0}, {0, 0}, {0, 0}};
     static const struct vec2 *const cubics[] = {straight, braking, lane_change, standing};
     for (size_t c = 0; c < 4; c++) {
         for (int i = 0; i <= 20; i++) {

@@ -26,12 +26,7 @@ static struct vec2 opposite(struct vec2 from, struct vec2 middle)
 
 static void make_car(struct vec2 centre, double yaw_rad, struct vec2 corners[4])
 {
-    static const struct vec2 own[4] = {
-        {2.25,  0.9 },
-        {-2.25, 0.9 },
-        {-2.25, -0.9},
-        {2.25,  -0.9}
-    };
+    static const struct vec2 own[4] = {{2.25, 0.9}, {-2.25, 0.9}, {-2.25, -0.9}, {2.25, -0.9}};
     for (int i = 0; i < 4; i++)
         corners[i] = on_lattice(vec2_add(centre, vec2_turn(own[i], vec2_heading(yaw_rad))));
 }
@@ -43,29 +38,29 @@ static void closed_segments_touch_as_tabulated(void **state)
         struct vec2 p, q, a, b;
         bool touch;
     } cases[] = {
-        {{0, 0},   {2, 2},                    {0, 2}, {2, 0}, true },
-        {{0, 0},   {1, 1},                    {0, 4}, {4, 0}, false},
- /* an end on the other, both ends shared, just short of it */
-        {{0, 0},   {1, 1},                    {0, 2}, {2, 0}, true },
-        {{0, 0},   {1, 1},                    {1, 1}, {2, 0}, true },
-        {{0, 0},   {1, 1},                    {0, 0}, {1, 1}, true },
-        {{0, 0},   {1, 0x1.fffffffffffffp-1}, {0, 2}, {2, 0}, false},
- /* on one line: apart, in contact, overlapping, nested */
-        {{0, 0},   {1, 1},                    {2, 2}, {3, 3}, false},
-        {{0, 0},   {1, 1},                    {1, 1}, {3, 3}, true },
-        {{0, 0},   {2, 2},                    {1, 1}, {3, 3}, true },
-        {{0, 0},   {4, 4},                    {1, 1}, {3, 3}, true },
-        {{0, 0},   {0, 1},                    {0, 2}, {0, 3}, false},
-        {{0, 0},   {0, 2},                    {0, 1}, {0, 3}, true },
- /* parallel, with overlapping boxes */
-        {{0, 0},   {3, 3},                    {0, 1}, {3, 4}, false},
- /* points */
-        {{1, 1},   {1, 1},                    {0, 0}, {2, 2}, true },
-        {{1, 1},   {1, 1},                    {1, 1}, {2, 5}, true },
-        {{1, 1.5}, {1, 1.5},                  {0, 0}, {2, 2}, false},
-        {{3, 3},   {3, 3},                    {0, 0}, {2, 2}, false},
-        {{1, 1},   {1, 1},                    {1, 1}, {1, 1}, true },
-        {{1, 1},   {1, 1},                    {1, 2}, {1, 2}, false},
+        {{0, 0}, {2, 2}, {0, 2}, {2, 0}, true},
+        {{0, 0}, {1, 1}, {0, 4}, {4, 0}, false},
+        /* an end on the other, both ends shared, just short of it */
+        {{0, 0}, {1, 1}, {0, 2}, {2, 0}, true},
+        {{0, 0}, {1, 1}, {1, 1}, {2, 0}, true},
+        {{0, 0}, {1, 1}, {0, 0}, {1, 1}, true},
+        {{0, 0}, {1, 0x1.fffffffffffffp-1}, {0, 2}, {2, 0}, false},
+        /* on one line: apart, in contact, overlapping, nested */
+        {{0, 0}, {1, 1}, {2, 2}, {3, 3}, false},
+        {{0, 0}, {1, 1}, {1, 1}, {3, 3}, true},
+        {{0, 0}, {2, 2}, {1, 1}, {3, 3}, true},
+        {{0, 0}, {4, 4}, {1, 1}, {3, 3}, true},
+        {{0, 0}, {0, 1}, {0, 2}, {0, 3}, false},
+        {{0, 0}, {0, 2}, {0, 1}, {0, 3}, true},
+        /* parallel, with overlapping boxes */
+        {{0, 0}, {3, 3}, {0, 1}, {3, 4}, false},
+        /* points */
+        {{1, 1}, {1, 1}, {0, 0}, {2, 2}, true},
+        {{1, 1}, {1, 1}, {1, 1}, {2, 5}, true},
+        {{1, 1.5}, {1, 1.5}, {0, 0}, {2, 2}, false},
+        {{3, 3}, {3, 3}, {0, 0}, {2, 2}, false},
+        {{1, 1}, {1, 1}, {1, 1}, {1, 1}, true},
+        {{1, 1}, {1, 1}, {1, 2}, {1, 2}, false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_int_equal(occlusion_segments_touch(cases[i].p, cases[i].q, cases[i].a, cases[i].b),
@@ -204,11 +199,7 @@ static void a_ray_through_a_guard_rails_joint_is_always_blocked(void **state)
 static void a_ray_close_by_a_joint_cannot_slip_between_two_walls(void **state)
 {
     (void)state;
-    static const struct vec2 posts[3] = {
-        {-4.3, 20.1},
-        {0.1,  20.3},
-        {4.7,  20.2}
-    };
+    static const struct vec2 posts[3] = {{-4.3, 20.1}, {0.1, 20.3}, {4.7, 20.2}};
     uint64_t sample = 30;
     for (int i = 0; i < 250000; i++) {
         struct vec2 sensor = {sample_between(&sample, -3, 3), sample_between(&sample, -5, 5)};
@@ -222,41 +213,36 @@ static void a_ray_close_by_a_joint_cannot_slip_between_two_walls(void **state)
 static void an_outline_blocks_where_it_is_touched(void **state)
 {
     (void)state;
-    static const struct vec2 box[4] = {
-        {10, -1},
-        {14, -1},
-        {14, 1 },
-        {10, 1 }
-    };
+    static const struct vec2 box[4] = {{10, -1}, {14, -1}, {14, 1}, {10, 1}};
     static const struct {
         struct vec2 from, to;
         bool blocked;
     } cases[] = {
-        {{0, 0},                   {20, 0},                   true },
-        {{0, 0},                   {9, 0},                    false},
-        {{0, 0},                   {0x1.3ffffffffffffp3, 0},  false},
-        {{0, 0},                   {10, 0},                   true },
-        {{0, 3},                   {20, 3},                   false},
- /* along an edge, past a corner, onto a corner, one step beside it */
-        {{0, 1},                   {20, 1},                   true },
+        {{0, 0}, {20, 0}, true},
+        {{0, 0}, {9, 0}, false},
+        {{0, 0}, {0x1.3ffffffffffffp3, 0}, false},
+        {{0, 0}, {10, 0}, true},
+        {{0, 3}, {20, 3}, false},
+        /* along an edge, past a corner, onto a corner, one step beside it */
+        {{0, 1}, {20, 1}, true},
         {{0, 0x1.0000000000001p0}, {20, 0x1.0000000000001p0}, false},
-        {{8, 3},                   {12, -1},                  true },
-        {{6, 5},                   {14, -3},                  true },
-        {{10, 5},                  {10, -5},                  true },
-        {{0, 1},                   {10, 1},                   true },
-        {{9, 2},                   {10, 0x1.0000000000001p0}, false},
- /* from inside: what is inside is seen, nothing beyond, nor the outline itself */
-        {{12, 0},                  {13, 0.5},                 false},
-        {{12, 0},                  {20, 0},                   true },
-        {{12, 0},                  {12, -8},                  true },
-        {{12, 0},                  {14, 1},                   true },
-        {{20, 0},                  {12, 0},                   true },
-        {{12, 0},                  {12, 0},                   false},
- /* from the outline */
-        {{10, 0},                  {0, 0},                    true },
-        {{10, 0},                  {10, 0},                   true },
-        {{14, 1},                  {30, 30},                  true },
-        {{0, 0},                   {0, 0},                    false},
+        {{8, 3}, {12, -1}, true},
+        {{6, 5}, {14, -3}, true},
+        {{10, 5}, {10, -5}, true},
+        {{0, 1}, {10, 1}, true},
+        {{9, 2}, {10, 0x1.0000000000001p0}, false},
+        /* from inside: what is inside is seen, nothing beyond, nor the outline itself */
+        {{12, 0}, {13, 0.5}, false},
+        {{12, 0}, {20, 0}, true},
+        {{12, 0}, {12, -8}, true},
+        {{12, 0}, {14, 1}, true},
+        {{20, 0}, {12, 0}, true},
+        {{12, 0}, {12, 0}, false},
+        /* from the outline */
+        {{10, 0}, {0, 0}, true},
+        {{10, 0}, {10, 0}, true},
+        {{14, 1}, {30, 30}, true},
+        {{0, 0}, {0, 0}, false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_int_equal(occlusion_outline_blocks(box, 4, cases[i].from, cases[i].to),
@@ -266,27 +252,15 @@ static void an_outline_blocks_where_it_is_touched(void **state)
 static void outlines_of_few_corners_are_points_and_segments(void **state)
 {
     (void)state;
-    static const struct vec2 corners[3] = {
-        {5, 0},
-        {5, 4},
-        {5, 4}
-    };
+    static const struct vec2 corners[3] = {{5, 0}, {5, 4}, {5, 4}};
     static const struct {
         size_t count;
         struct vec2 to;
         bool blocked;
     } cases[] = {
-        {0, {10, 0},  false},
-        {1, {10, 0},  true },
-        {1, {10, 1},  false},
-        {1, {4, 0},   false},
-        {2, {10, 0},  true },
-        {2, {10, 8},  true },
-        {2, {10, 4},  true },
-        {2, {10, 9},  false},
-        {3, {10, 4},  true },
-        {3, {10, 8},  true },
-        {3, {10, -1}, false},
+        {0, {10, 0}, false}, {1, {10, 0}, true}, {1, {10, 1}, false},  {1, {4, 0}, false},
+        {2, {10, 0}, true},  {2, {10, 8}, true}, {2, {10, 4}, true},   {2, {10, 9}, false},
+        {3, {10, 4}, true},  {3, {10, 8}, true}, {3, {10, -1}, false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_int_equal(
@@ -297,11 +271,7 @@ static void outlines_of_few_corners_are_points_and_segments(void **state)
 static void the_edge_from_the_last_corner_to_the_first_blocks_too(void **state)
 {
     (void)state;
-    static const struct vec2 triangle[3] = {
-        {5, -2},
-        {9, 0 },
-        {5, 2 }
-    };
+    static const struct vec2 triangle[3] = {{5, -2}, {9, 0}, {5, 2}};
     assert_true(occlusion_outline_blocks(triangle, 3, (struct vec2){0, 0}, (struct vec2){6, 0}));
     assert_true(occlusion_outline_blocks(triangle, 3, (struct vec2){6, 0}, (struct vec2){0, 0.5}));
 }

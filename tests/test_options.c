@@ -18,12 +18,11 @@ static const char *const modes[] = {"slow", "fast", NULL};
 
 static const struct field fields[] = {
     {FIELD_NAME_OF(struct choice, where, "the place")},
-    {FIELD_REAL_IN(struct choice,               radius_m, -5, 100, "how far"), FIELD_OPTIONAL, .absent = 7},
+    {FIELD_REAL_IN(struct choice, radius_m, -5, 100, "how far"), FIELD_OPTIONAL, .absent = 7},
     {FIELD_INTEGER_IN(struct choice, number, 0, 9, "how many"), FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct choice,                         quick, "hurry"), FIELD_OPTIONAL},
-    {FIELD_CHOICE_OF(struct choice,                 mode, modes, "which way"), FIELD_OPTIONAL},
-    {0               }
-};
+    {FIELD_FLAG_OF(struct choice, quick, "hurry"), FIELD_OPTIONAL},
+    {FIELD_CHOICE_OF(struct choice, mode, modes, "which way"), FIELD_OPTIONAL},
+    {0}};
 static const struct record choices = {
     .name = "stage", .size = sizeof(struct choice), .fields = fields};
 
@@ -144,33 +143,31 @@ static void wrong_command_lines_are_refused(void **state)
     static const struct {
         const struct stage *stage;
         const char *line, *message;
-    } cases[] = {
-        {&filter, "",               "missing --where: the place; see --help"               },
-        {&source, "",               "missing PLACE: the place; see --help"                 },
-        {&source, "a b",            "one argument too many: b"                             },
-        {&source, "a -x",           "unknown option -x; see --help"                        },
-        {&source, "a --where b",    "unknown option --where; see --help"                   },
-        {&source, "a --complete",   "unknown option --complete; see --help"                },
-        {&filter, "--wher x",       "unknown option --wher; see --help"                    },
-        {&filter, "--where_ x",     "unknown option --where_; see --help"                  },
-        {&filter, "--seed-text 1",  "unknown option --seed-text; see --help"               },
-        {&filter, "--files 1",      "unknown option --files; see --help"                   },
-        {&filter, "--=1",           "unknown option --=1; see --help"                      },
-        {&filter, "--where",        "--where needs a value"                                },
-        {&filter, "--where x -o",   "-o needs a value"                                     },
-        {&filter, "--quick=yes",    "--quick takes no value"                               },
-        {&filter, "--where=",       "--where: a name of 0 bytes; expected 1 to 1024"       },
-        {&filter, "--number 1.5",   "--number: 1.5 is not a whole number"                  },
-        {&filter, "--number 10",    "--number: 10 is outside [0, 9]"                       },
-        {&filter, "--number ten",   "--number: ten; expected a whole number in [0, 9]"     },
-        {&filter, "--number nan",   "--number: nan; expected a whole number in [0, 9]"     },
-        {&filter, "--number 0x1",   "--number: 0x1; expected a whole number in [0, 9]"     },
-        {&filter, "--number=",      "--number: ; expected a whole number in [0, 9]"        },
-        {&filter, "--radius-m 101", "--radius-m: 101 is outside [-5, 100] m"               },
-        {&filter, "--mode up",      "--mode: \"up\" is unknown; expected one of slow, fast"},
-        {&filter, "--seed -1",
-         "--seed: \"-1\" is no seed; expected decimal digits up to 18446744073709551615"   }
-    };
+    } cases[] = {{&filter, "", "missing --where: the place; see --help"},
+                 {&source, "", "missing PLACE: the place; see --help"},
+                 {&source, "a b", "one argument too many: b"},
+                 {&source, "a -x", "unknown option -x; see --help"},
+                 {&source, "a --where b", "unknown option --where; see --help"},
+                 {&source, "a --complete", "unknown option --complete; see --help"},
+                 {&filter, "--wher x", "unknown option --wher; see --help"},
+                 {&filter, "--where_ x", "unknown option --where_; see --help"},
+                 {&filter, "--seed-text 1", "unknown option --seed-text; see --help"},
+                 {&filter, "--files 1", "unknown option --files; see --help"},
+                 {&filter, "--=1", "unknown option --=1; see --help"},
+                 {&filter, "--where", "--where needs a value"},
+                 {&filter, "--where x -o", "-o needs a value"},
+                 {&filter, "--quick=yes", "--quick takes no value"},
+                 {&filter, "--where=", "--where: a name of 0 bytes; expected 1 to 1024"},
+                 {&filter, "--number 1.5", "--number: 1.5 is not a whole number"},
+                 {&filter, "--number 10", "--number: 10 is outside [0, 9]"},
+                 {&filter, "--number ten", "--number: ten; expected a whole number in [0, 9]"},
+                 {&filter, "--number nan", "--number: nan; expected a whole number in [0, 9]"},
+                 {&filter, "--number 0x1", "--number: 0x1; expected a whole number in [0, 9]"},
+                 {&filter, "--number=", "--number: ; expected a whole number in [0, 9]"},
+                 {&filter, "--radius-m 101", "--radius-m: 101 is outside [-5, 100] m"},
+                 {&filter, "--mode up", "--mode: \"up\" is unknown; expected one of slow, fast"},
+                 {&filter, "--seed -1",
+                  "--seed: \"-1\" is no seed; expected decimal digits up to 18446744073709551615"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct result result;
         assert_int_equal(read_line(cases[i].stage, cases[i].line, &result), -1);

@@ -8,12 +8,7 @@
 
 static const struct antenna DIPOLE_PAIR = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = PHASE_ELEMENT};
 
-static const struct radar_row ROWS[] = {
-    {1,  1000},
-    {2,  300 },
-    {5,  100 },
-    {20, 5   }
-};
+static const struct radar_row ROWS[] = {{1, 1000}, {2, 300}, {5, 100}, {20, 5}};
 
 static struct radar_equation paper_law(void)
 {
@@ -46,11 +41,11 @@ static void detection_areas_are_those_of_the_paper(void **state)
     static const struct {
         double ercs, range_m[5], lateral_m, area_m2;
     } rows[] = {
-        {0.2, {15.00, 13.15, 9.98, 6.35, 4.11},   5.73,  133},
-        {0.3, {18.37, 16.11, 12.22, 7.77, 5.03},  7.01,  199},
-        {0.4, {21.21, 18.60, 14.11, 8.98, 5.81},  8.10,  265},
-        {0.5, {23.72, 20.80, 15.78, 10.04, 6.50}, 9.05,  332},
-        {0.6, {25.98, 22.78, 17.28, 11.00, 7.12}, 9.92,  398},
+        {0.2, {15.00, 13.15, 9.98, 6.35, 4.11}, 5.73, 133},
+        {0.3, {18.37, 16.11, 12.22, 7.77, 5.03}, 7.01, 199},
+        {0.4, {21.21, 18.60, 14.11, 8.98, 5.81}, 8.10, 265},
+        {0.5, {23.72, 20.80, 15.78, 10.04, 6.50}, 9.05, 332},
+        {0.6, {25.98, 22.78, 17.28, 11.00, 7.12}, 9.92, 398},
         {0.7, {28.06, 24.61, 18.67, 11.88, 7.69}, 10.71, 464},
         {0.8, {30.00, 26.31, 19.96, 12.70, 8.22}, 11.45, 531},
     };
@@ -126,9 +121,9 @@ static void other_exponents_move_the_detection_ranges(void **state)
     static const struct {
         double exponent, range_m, expected_m[6];
     } cases[] = {
-        {1.5, 30,   {11.9, 15.6, 18.9, 21.9, 24.8, 27.4}},
-        {1,   30,   {7.5, 11.25, 15, 18.75, 22.5, 26.25}},
-        {2,   39.3, {19.7, 24.1, 27.8, 31.1, 34.0, 36.8}},
+        {1.5, 30, {11.9, 15.6, 18.9, 21.9, 24.8, 27.4}},
+        {1, 30, {7.5, 11.25, 15, 18.75, 22.5, 26.25}},
+        {2, 39.3, {19.7, 24.1, 27.8, 31.1, 34.0, 36.8}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         for (int k = 0; k < 6; k++) {
@@ -185,10 +180,8 @@ static void two_rows_of_the_power_law_are_the_power_law(void **state)
 {
     (void)state;
     struct radar_equation law = paper_law();
-    struct radar_row rows[] = {
-        {1,  radar_reference_amplitude(&law, 1) },
-        {30, radar_reference_amplitude(&law, 30)}
-    };
+    struct radar_row rows[] = {{1, radar_reference_amplitude(&law, 1)},
+                               {30, radar_reference_amplitude(&law, 30)}};
     struct radar_equation table = table_law();
     table.rows = rows;
     table.row_count = 2;
@@ -212,16 +205,8 @@ static void an_ercs_is_the_root_of_a_cross_section_over_ten(void **state)
     (void)state;
     static const struct {
         double ercs, cross_section_m2, dbsm;
-    } rows[] = {
-        {0.2, 0.40, -4.0},
-        {0.3, 0.90, -0.5},
-        {0.4, 1.6,  2.0 },
-        {0.5, 2.5,  4.0 },
-        {0.6, 3.6,  5.6 },
-        {0.7, 4.9,  6.9 },
-        {0.8, 6.4,  8.1 },
-        {1.0, 10,   10  }
-    };
+    } rows[] = {{0.2, 0.40, -4.0}, {0.3, 0.90, -0.5}, {0.4, 1.6, 2.0}, {0.5, 2.5, 4.0},
+                {0.6, 3.6, 5.6},   {0.7, 4.9, 6.9},   {0.8, 6.4, 8.1}, {1.0, 10, 10}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         assert_near(radar_cross_section_m2(rows[i].ercs), rows[i].cross_section_m2, 1e-15);
         assert_near(radar_ercs(rows[i].cross_section_m2), rows[i].ercs, 1e-15);

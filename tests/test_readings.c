@@ -18,9 +18,7 @@ struct list {
 
 static void begin_list(struct list *list, enum list_order order)
 {
-    *list = (struct list){
-        .sensor = {.name = "s", .list_order = order}
-    };
+    *list = (struct list){.sensor = {.name = "s", .list_order = order}};
     list->frame.arena = &list->arena;
     list->frame.account = true;
 }
@@ -60,14 +58,9 @@ static void targets_come_strongest_or_nearest_first(void **state)
         enum list_order order;
         int64_t limit;
         const char *objects;
-    } cases[] = {
-        {LIST_STRONGEST, 0, "cadfb"},
-        {LIST_NEAREST,   0, "dfbca"},
-        {LIST_STRONGEST, 2, "ca"   },
-        {LIST_NEAREST,   4, "dfbc" },
-        {LIST_STRONGEST, 5, "cadfb"},
-        {LIST_STRONGEST, 9, "cadfb"}
-    };
+    } cases[] = {{LIST_STRONGEST, 0, "cadfb"}, {LIST_NEAREST, 0, "dfbca"},
+                 {LIST_STRONGEST, 2, "ca"},    {LIST_NEAREST, 4, "dfbc"},
+                 {LIST_STRONGEST, 5, "cadfb"}, {LIST_STRONGEST, 9, "cadfb"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct list list;
         begin_list(&list, cases[i].order);
@@ -153,18 +146,11 @@ static void no_number_among_the_amplitudes_makes_no_target(void **state)
 static void steps_round_to_the_nearest_multiple(void **state)
 {
     (void)state;
-    static const double cases[][3] = {
-        {12.3456, 0,    12.3456},
-        {12.34,   0.25, 12.25  },
-        {12.4,    0.25, 12.5   },
-        {-12.4,   0.25, -12.5  },
-        {0.125,   0.25, 0.25   },
-        {-0.125,  0.25, -0.25  },
-        {0.1,     0.25, 0      },
-        {7,       2,    8      },
-        {1e6,     1000, 1e6    },
-        {3,       1,    3      }
-    };
+    static const double cases[][3] = {{12.3456, 0, 12.3456}, {12.34, 0.25, 12.25},
+                                      {12.4, 0.25, 12.5},    {-12.4, 0.25, -12.5},
+                                      {0.125, 0.25, 0.25},   {-0.125, 0.25, -0.25},
+                                      {0.1, 0.25, 0},        {7, 2, 8},
+                                      {1e6, 1000, 1e6},      {3, 1, 3}};
     for (size_t i = 0; i < COUNT(cases); i++)
         assert_close(reading_step(cases[i][0], cases[i][1]), cases[i][2], 0);
 }

@@ -45,11 +45,7 @@ static void the_four_echoes_of_the_model_make_three_cells(void **state)
 {
     (void)state;
     static const struct resolution_echo echoes[] = {
-        {10.00, -2.0, 10},
-        {10.10, -2.1, 5 },
-        {10.40, -2.0, 4 },
-        {10.12, -1.5, 3 }
-    };
+        {10.00, -2.0, 10}, {10.10, -2.1, 5}, {10.40, -2.0, 4}, {10.12, -1.5, 3}};
     static const size_t expected[] = {0, 0, 1, 2};
     size_t cell[4];
     assert_int_equal(resolution_cluster(echoes, 4, 0.15, 0.25, cell), 3);
@@ -73,26 +69,14 @@ static void the_border_is_decided_by_the_doubles(void **state)
     static const struct {
         double leader_m, echo_m;
         size_t cells;
-    } cases[] = {
-        {12.55, 12.40, 2},
-        {12.70, 12.55, 1},
-        {0.45,  0.30,  2}
-    };
+    } cases[] = {{12.55, 12.40, 2}, {12.70, 12.55, 1}, {0.45, 0.30, 2}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct resolution_echo echoes[] = {
-            {cases[i].leader_m, 0, 2},
-            {cases[i].echo_m,   0, 1}
-        };
+        struct resolution_echo echoes[] = {{cases[i].leader_m, 0, 2}, {cases[i].echo_m, 0, 1}};
         size_t cell[2];
         assert_int_equal(resolution_cluster(echoes, 2, 0.15, 0.25, cell), cases[i].cells);
     }
     static const struct resolution_echo exact[] = {
-        {8,     1,    5},
-        {8,     1.25, 4},
-        {8,     0.75, 3},
-        {8.125, 1,    2},
-        {7.875, 1,    1}
-    };
+        {8, 1, 5}, {8, 1.25, 4}, {8, 0.75, 3}, {8.125, 1, 2}, {7.875, 1, 1}};
     size_t cell[5];
     assert_int_equal(resolution_cluster(exact, 5, 0.125, 0.25, cell), 1);
 }
@@ -101,11 +85,7 @@ static void a_cell_does_not_grow_along_a_chain(void **state)
 {
     (void)state;
     static const struct resolution_echo echoes[] = {
-        {10.0, 0, 5},
-        {10.1, 0, 4},
-        {10.2, 0, 3},
-        {10.3, 0, 2}
-    };
+        {10.0, 0, 5}, {10.1, 0, 4}, {10.2, 0, 3}, {10.3, 0, 2}};
     static const size_t expected[] = {0, 0, 1, 1};
     size_t cell[4];
     assert_int_equal(resolution_cluster(echoes, 4, 0.15, 0.25, cell), 2);
@@ -162,14 +142,9 @@ static void sorted_echoes_cluster_alike_in_every_input_order(void **state)
 static void three_equal_echoes_make_two_cells(void **state)
 {
     (void)state;
-    static const double ranges_m[6][3] = {
-        {10.00, 10.14, 10.28},
-        {10.00, 10.28, 10.14},
-        {10.14, 10.00, 10.28},
-        {10.14, 10.28, 10.00},
-        {10.28, 10.00, 10.14},
-        {10.28, 10.14, 10.00}
-    };
+    static const double ranges_m[6][3] = {{10.00, 10.14, 10.28}, {10.00, 10.28, 10.14},
+                                          {10.14, 10.00, 10.28}, {10.14, 10.28, 10.00},
+                                          {10.28, 10.00, 10.14}, {10.28, 10.14, 10.00}};
     for (size_t i = 0; i < 6; i++) {
         struct resolution_echo echoes[3];
         size_t cell[3];
@@ -225,10 +200,10 @@ static void weights_may_be_huge_or_tiny(void **state)
     static const struct {
         double weights[3], mean;
     } cases[] = {
-        {{1e300, 1e300, 1e300},     11                                  },
-        {{1e-300, 1e-300, 1e-300},  11                                  },
-        {{1e300, 1e-300, 1e300},    11                                  },
-        {{1e300, 1e-300, 1e-300},   10                                  },
+        {{1e300, 1e300, 1e300}, 11},
+        {{1e-300, 1e-300, 1e-300}, 11},
+        {{1e300, 1e-300, 1e300}, 11},
+        {{1e300, 1e-300, 1e-300}, 10},
         {{1.7e308, 1.7e308, 1e308}, (17 * 10 + 17 * 11 + 10 * 12) / 44.0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)

@@ -108,11 +108,7 @@ static void braking_beyond_standstill_reverses(void **state)
     static const struct {
         double time_s, y_m, speed_mps, travelled_m;
     } cases[] = {
-        {0, 0,    2,  0   },
-        {2, 2,    0,  2   },
-        {4, 0,    -2, 4   },
-        {5, -2.5, -3, 6.5 },
-        {7, -8.5, -3, 12.5},
+        {0, 0, 2, 0}, {2, 2, 0, 2}, {4, 0, -2, 4}, {5, -2.5, -3, 6.5}, {7, -8.5, -3, 12.5},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct motion body = motion_at(&actor, cases[i].time_s);
@@ -127,21 +123,21 @@ static void segments_follow_one_another(void **state)
 {
     (void)state;
     struct segment segments[] = {
-        {.duration_s = 2,  .acceleration_mps2 = 5   },
-        {.duration_s = 0,  .acceleration_mps2 = 1   },
-        {.duration_s = PI, .yaw_rate_radps = 0.5    },
-        {.duration_s = 4,  .acceleration_mps2 = -2.5},
+        {.duration_s = 2, .acceleration_mps2 = 5},
+        {.duration_s = 0, .acceleration_mps2 = 1},
+        {.duration_s = PI, .yaw_rate_radps = 0.5},
+        {.duration_s = 4, .acceleration_mps2 = -2.5},
     };
     struct actor actor = driver(segments, COUNT(segments));
     static const struct {
         double time_s, x_m, y_m, vx_mps, vy_mps, yaw_rad, yaw_rate_radps, travelled_m;
     } cases[] = {
-        {0,       0,   0,  0,  0,  0,      0,   0           },
-        {1,       2.5, 0,  5,  0,  0,      0,   2.5         },
-        {2,       10,  0,  10, 0,  0,      0.5, 10          },
-        {2 + PI,  30,  20, 0,  10, PI / 2, 0,   10 + 10 * PI},
-        {6 + PI,  30,  40, 0,  0,  PI / 2, 0,   30 + 10 * PI},
-        {60 + PI, 30,  40, 0,  0,  PI / 2, 0,   30 + 10 * PI},
+        {0, 0, 0, 0, 0, 0, 0, 0},
+        {1, 2.5, 0, 5, 0, 0, 0, 2.5},
+        {2, 10, 0, 10, 0, 0, 0.5, 10},
+        {2 + PI, 30, 20, 0, 10, PI / 2, 0, 10 + 10 * PI},
+        {6 + PI, 30, 40, 0, 0, PI / 2, 0, 30 + 10 * PI},
+        {60 + PI, 30, 40, 0, 0, PI / 2, 0, 30 + 10 * PI},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct motion body = motion_at(&actor, cases[i].time_s);
@@ -157,12 +153,7 @@ static void a_line_of_waypoints_is_driven_evenly(void **state)
 {
     (void)state;
     struct waypoint waypoints[] = {
-        {1,    5,     1 },
-        {1.5,  6.5,   3 },
-        {4,    14,    13},
-        {4.25, 14.75, 14},
-        {9,    29,    33}
-    };
+        {1, 5, 1}, {1.5, 6.5, 3}, {4, 14, 13}, {4.25, 14.75, 14}, {9, 29, 33}};
     struct actor actor = follower(waypoints, COUNT(waypoints));
     for (int i = 0; i <= 800; i++) {
         double time_s = 1 + 0.01 * i;
@@ -194,14 +185,8 @@ static void inner_waypoints_of_a_parabola_lie_on_the_parabola(void **state)
     }
 }
 
-static const struct waypoint WINDING[] = {
-    {0.5, 0,  0 },
-    {2,   12, 3 },
-    {2.6, 18, 1 },
-    {5,   25, 22},
-    {6,   20, 30},
-    {8.5, -3, 18}
-};
+static const struct waypoint WINDING[] = {{0.5, 0, 0}, {2, 12, 3},  {2.6, 18, 1},
+                                          {5, 25, 22}, {6, 20, 30}, {8.5, -3, 18}};
 
 static void a_curve_goes_through_its_waypoints(void **state)
 {
@@ -275,11 +260,7 @@ static void the_way_along_a_curve_is_that_of_its_chords(void **state)
 static void outside_its_waypoints_something_stands(void **state)
 {
     (void)state;
-    struct waypoint waypoints[] = {
-        {2, 1,  1},
-        {3, 1,  5},
-        {4, -3, 5}
-    };
+    struct waypoint waypoints[] = {{2, 1, 1}, {3, 1, 5}, {4, -3, 5}};
     struct actor actor = follower(waypoints, COUNT(waypoints));
     struct motion before = motion_at(&actor, 0);
     check_place(before.position_m, 1, 1, 0);
@@ -297,27 +278,15 @@ static void outside_its_waypoints_something_stands(void **state)
 static void between_equal_waypoints_something_stands(void **state)
 {
     (void)state;
-    struct waypoint waypoints[] = {
-        {0, 0,  0},
-        {2, 10, 0},
-        {3, 10, 0},
-        {5, 10, 0},
-        {7, 10, 8},
-        {9, 10, 8}
-    };
+    struct waypoint waypoints[] = {{0, 0, 0},  {2, 10, 0}, {3, 10, 0},
+                                   {5, 10, 0}, {7, 10, 8}, {9, 10, 8}};
     struct actor actor = follower(waypoints, COUNT(waypoints));
     static const struct {
         double time_s, x_m, y_m, yaw_rad, travelled_m;
     } cases[] = {
-        {1.999, 10, 0, 0,      10},
-        {2,     10, 0, PI / 2, 10},
-        {2.5,   10, 0, PI / 2, 10},
-        {4,     10, 0, PI / 2, 10},
-        {5,     10, 0, PI / 2, 10},
-        {6,     10, 4, PI / 2, 14},
-        {7,     10, 8, PI / 2, 18},
-        {8,     10, 8, PI / 2, 18},
-        {20,    10, 8, PI / 2, 18},
+        {1.999, 10, 0, 0, 10},  {2, 10, 0, PI / 2, 10}, {2.5, 10, 0, PI / 2, 10},
+        {4, 10, 0, PI / 2, 10}, {5, 10, 0, PI / 2, 10}, {6, 10, 4, PI / 2, 14},
+        {7, 10, 8, PI / 2, 18}, {8, 10, 8, PI / 2, 18}, {20, 10, 8, PI / 2, 18},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct motion body = motion_at(&actor, cases[i].time_s);
@@ -337,12 +306,7 @@ static void between_equal_waypoints_something_stands(void **state)
 static void a_turning_point_points_where_it_goes_next(void **state)
 {
     (void)state;
-    struct waypoint waypoints[] = {
-        {0, 0,  0},
-        {2, 10, 0},
-        {4, 0,  0},
-        {5, 0,  0}
-    };
+    struct waypoint waypoints[] = {{0, 0, 0}, {2, 10, 0}, {4, 0, 0}, {5, 0, 0}};
     struct actor actor = follower(waypoints, COUNT(waypoints));
     assert_close(motion_at(&actor, 1.9).yaw_rad, 0, 1e-15);
     assert_close(motion_at(&actor, 2 - 1e-8).yaw_rad, PI, 1e-15);
@@ -355,11 +319,7 @@ static void a_turning_point_points_where_it_goes_next(void **state)
 static void what_never_moves_keeps_its_yaw(void **state)
 {
     (void)state;
-    struct waypoint waypoints[] = {
-        {0, 4, 2},
-        {1, 4, 2},
-        {5, 4, 2}
-    };
+    struct waypoint waypoints[] = {{0, 4, 2}, {1, 4, 2}, {5, 4, 2}};
     struct actor actor = follower(waypoints, COUNT(waypoints));
     actor.yaw_rad = -1.25;
     for (int i = 0; i <= 60; i++) {
@@ -387,10 +347,7 @@ static void a_shifted_scenario_moves_like_a_local_one(void **state)
     struct waypoint near[COUNT(WINDING)], far[COUNT(WINDING)];
     memcpy(near, WINDING, sizeof near);
     memcpy(far, WINDING, sizeof far);
-    struct segment segments[] = {
-        {3, 1.5, 0.1 },
-        {4, -1,  -0.3}
-    };
+    struct segment segments[] = {{3, 1.5, 0.1}, {4, -1, -0.3}};
     for (size_t i = 0; i < COUNT(far); i++) {
         near[i].x_m += 0.1;
         near[i].y_m -= 0.3;
@@ -442,20 +399,20 @@ static void frames_are_counted_despite_rounding(void **state)
         double rate_hz, duration_s;
         int64_t frames;
     } cases[] = {
-        {25,  8,              201        },
-        {25,  7.999999,       200        },
-        {25,  8.039999,       201        },
-        {20,  0,              1          },
-        {20,  0.04,           1          },
-        {10,  0.3,            4          },
-        {10,  0.7,            8          },
-        {100, 0.29,           30         },
-        {100, 1.15,           116        },
-        {30,  0.1,            4          },
-        {0.1, 30,             4          },
-        {3,   1.0 / 3,        2          },
-        {17,  1000000.0 / 17, 1000001    },
-        {1e4, 1e6,            10000000001},
+        {25, 8, 201},
+        {25, 7.999999, 200},
+        {25, 8.039999, 201},
+        {20, 0, 1},
+        {20, 0.04, 1},
+        {10, 0.3, 4},
+        {10, 0.7, 8},
+        {100, 0.29, 30},
+        {100, 1.15, 116},
+        {30, 0.1, 4},
+        {0.1, 30, 4},
+        {3, 1.0 / 3, 2},
+        {17, 1000000.0 / 17, 1000001},
+        {1e4, 1e6, 10000000001},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct scenario scenario = scenario_of(NULL, 0);
@@ -475,12 +432,7 @@ static void frames_are_counted_despite_rounding(void **state)
 static void impossible_scenarios_are_refused(void **state)
 {
     (void)state;
-    struct waypoint good[] =
-        {
-            {0, 0, 0},
-            {1, 1, 0}
-    },
-                    bad[] = {{0, 0, 0}, {2, 1, 0}, {2, 2, 0}};
+    struct waypoint good[] = {{0, 0, 0}, {1, 1, 0}}, bad[] = {{0, 0, 0}, {2, 1, 0}, {2, 2, 0}};
     struct segment segment = {.duration_s = 1};
     struct actor plain = driver(NULL, 0), following = follower(good, 2);
     struct actor lonely = follower(good, 1), tangled = follower(bad, 3), torn = follower(good, 2);
@@ -495,15 +447,15 @@ static void impossible_scenarios_are_refused(void **state)
         struct actor actors[2];
         const char *message;
     } cases[] = {
-        {{plain, following},   NULL                                                           },
-        {{plain, plain},       "objects[1].id: \"a\" is that of objects[0] already"           },
-        {{unnamed, following}, "ego: \"a\" is not the id of an object"                        },
-        {{plain, lonely},      "objects[1].waypoints: only one; expected two or more, or none"},
+        {{plain, following}, NULL},
+        {{plain, plain}, "objects[1].id: \"a\" is that of objects[0] already"},
+        {{unnamed, following}, "ego: \"a\" is not the id of an object"},
+        {{plain, lonely}, "objects[1].waypoints: only one; expected two or more, or none"},
         {{plain, tangled},
-         "objects[1].waypoints[2].time_s: 2 is not after 2, that of the one before"           },
-        {{plain, torn},        "objects[1].segments: expected either segments or waypoints"   },
+         "objects[1].waypoints[2].time_s: 2 is not after 2, that of the one before"},
+        {{plain, torn}, "objects[1].segments: expected either segments or waypoints"},
         {{plain, started},
-         "objects[1].waypoints: they give place and speed; expected no x_m, y_m, speed_mps"   },
+         "objects[1].waypoints: they give place and speed; expected no x_m, y_m, speed_mps"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct actor actors[] = {cases[i].actors[0], cases[i].actors[1]};
@@ -519,10 +471,7 @@ static void impossible_scenarios_are_refused(void **state)
 static void values_outside_their_bounds_are_refused(void **state)
 {
     (void)state;
-    struct waypoint waypoints[] = {
-        {0, 1e9, -1e9 },
-        {1, 0,   1.5e9}
-    };
+    struct waypoint waypoints[] = {{0, 1e9, -1e9}, {1, 0, 1.5e9}};
     struct actor actors[] = {driver(NULL, 0), follower(waypoints, 2)};
     struct scenario scenario = scenario_of(actors, 2);
     struct diag diag = {0};

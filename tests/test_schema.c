@@ -119,12 +119,10 @@ static void every_schema_says_what_its_field_table_says(void **state)
     static const struct {
         const char *name;
         const struct record *record;
-    } schemas[] = {
-        {"frame",    &frame_record   },
-        {"scenario", &scenario_record},
-        {"sensors",  &suite_record   },
-        {"vehicle",  &vehicle_record }
-    };
+    } schemas[] = {{"frame", &frame_record},
+                   {"scenario", &scenario_record},
+                   {"sensors", &suite_record},
+                   {"vehicle", &vehicle_record}};
     for (size_t i = 0; i < sizeof schemas / sizeof schemas[0]; i++) {
         json_t *schema = schema_of(schemas[i].name);
         assert_string_equal(word(schema, "$schema"),

@@ -118,14 +118,10 @@ enum { DRAWS = 100000, POINTS = 8 };
 enum { AT_10_16, AT_10_32, AT_30_16, AT_30_32, AT_0_16, AT_5_8, OTHER_SENSOR, OTHER_LEADER };
 
 static const struct point points[POINTS] = {
-    [AT_10_16] = {"left",  "a", 16, 10},
-      [AT_10_32] = {"left",  "b", 32, 10},
-    [AT_30_16] = {"left",  "c", 16, 30},
-      [AT_30_32] = {"left",  "d", 32, 30},
-    [AT_0_16] = {"left",  "e", 16, 0 },
-      [AT_5_8] = {"left",  "f", 8,  5 },
-    [OTHER_SENSOR] = {"right", "c", 16, 30},
-      [OTHER_LEADER] = {"left",  "g", 16, 30},
+    [AT_10_16] = {"left", "a", 16, 10},      [AT_10_32] = {"left", "b", 32, 10},
+    [AT_30_16] = {"left", "c", 16, 30},      [AT_30_32] = {"left", "d", 32, 30},
+    [AT_0_16] = {"left", "e", 16, 0},        [AT_5_8] = {"left", "f", 8, 5},
+    [OTHER_SENSOR] = {"right", "c", 16, 30}, [OTHER_LEADER] = {"left", "g", 16, 30},
 };
 
 static const double cell_range_m = 12;
@@ -428,14 +424,8 @@ static void add_listed(struct frame *frame, const struct listed *listed)
 }
 
 static const struct listed ties[] = {
-    {"p", 8, 20, 0,  0   },
-    {"a", 8, 20, 0,  0   },
-    {"b", 8, 20, 0,  -0.1},
-    {"c", 8, 20, -1, 0.2 },
-    {"d", 8, 10, 3,  0.3 },
-    {"e", 9, 50, 0,  0   },
-    {"f", 5, 10, 0,  0   },
-    {"g", 2, 5,  0,  0   },
+    {"p", 8, 20, 0, 0},   {"a", 8, 20, 0, 0}, {"b", 8, 20, 0, -0.1}, {"c", 8, 20, -1, 0.2},
+    {"d", 8, 10, 3, 0.3}, {"e", 9, 50, 0, 0}, {"f", 5, 10, 0, 0},    {"g", 2, 5, 0, 0},
 };
 
 static void check_list(const struct scratch *scratch, const char *members, const char *order)
@@ -621,13 +611,13 @@ static struct pair draw_at(struct bench *bench, const struct address *address)
 static void draws_depend_on_every_part_of_their_address(void **state)
 {
     static const struct address addresses[] = {
-        {"s",  "o",  "r",  3, 1                    },
-        {"s2", "o",  "r",  3, 1                    },
-        {"s",  "o2", "r",  3, 1                    },
-        {"s",  "o",  "r2", 3, 1                    },
-        {"s",  "o",  "r",  4, 1                    },
-        {"s",  "o",  "r",  3, 2                    },
-        {"s",  "o",  "r",  3, UINT64_C(1) << 63 | 1},
+        {"s", "o", "r", 3, 1},
+        {"s2", "o", "r", 3, 1},
+        {"s", "o2", "r", 3, 1},
+        {"s", "o", "r2", 3, 1},
+        {"s", "o", "r", 4, 1},
+        {"s", "o", "r", 3, 2},
+        {"s", "o", "r", 3, UINT64_C(1) << 63 | 1},
     };
     struct pair drawn[COUNT(addresses)];
     struct bench bench;
@@ -666,14 +656,10 @@ static void two_reflectors_in_one_cell_make_one_target_between_them(void **state
         double left_deg, right_deg, ratio, azimuth_deg, tolerance_deg;
         bool sign_undecided;
     } cases[] = {
-        {"centre",  8,  -8, 1, 0,    1e-6,  true },
-        {"centre",  8,  -8, 2, 2.70, 0.005, false},
-        {"centre",  8,  -8, 5, 5.37, 0.005, false},
-        {"centre",  15, -5, 1, 4.64, 0.005, false},
-        {"element", 8,  -8, 1, 1.80, 0.005, true },
-        {"element", 8,  -8, 2, 3.23, 0.005, false},
-        {"element", 8,  -8, 5, 5.60, 0.005, false},
-        {"element", 15, -5, 1, 5.40, 0.005, false},
+        {"centre", 8, -8, 1, 0, 1e-6, true},       {"centre", 8, -8, 2, 2.70, 0.005, false},
+        {"centre", 8, -8, 5, 5.37, 0.005, false},  {"centre", 15, -5, 1, 4.64, 0.005, false},
+        {"element", 8, -8, 1, 1.80, 0.005, true},  {"element", 8, -8, 2, 3.23, 0.005, false},
+        {"element", 8, -8, 5, 5.60, 0.005, false}, {"element", 15, -5, 1, 5.40, 0.005, false},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         char members[400];

@@ -87,8 +87,7 @@ static void two_echoes_are_weighted_by_amplitude(void **state)
          .amplitude = 6},
         {.echo = {.object = "b", .reflector = "r", .range_m = 10.2, .range_rate_mps = 1},
          .strength = 2,
-         .amplitude = 2}
-    };
+         .amplitude = 2}};
     struct arena arena = {0};
     struct cell cell;
     assert_true(superposition_cell(&sensor, rays, 2, &arena, &cell));
@@ -119,14 +118,12 @@ static void pointers_add_up_as_in_equation_8(void **state)
     struct arena arena = {0};
     for (int element = 0; element < 2; element++) {
         struct sensor sensor = paper_sensor(element ? PHASE_ELEMENT : PHASE_CENTRE);
-        struct ray rays[] = {
-            {.echo = {.object = "a", .reflector = "r", .azimuth_rad = PI / 6},
-             .strength = 3,
-             .amplitude = 3 * part},
-            {.echo = {.object = "b", .reflector = "r", .azimuth_rad = -PI / 6},
-             .strength = 1,
-             .amplitude = part    }
-        };
+        struct ray rays[] = {{.echo = {.object = "a", .reflector = "r", .azimuth_rad = PI / 6},
+                              .strength = 3,
+                              .amplitude = 3 * part},
+                             {.echo = {.object = "b", .reflector = "r", .azimuth_rad = -PI / 6},
+                              .strength = 1,
+                              .amplitude = part}};
         struct cell cell;
         assert_true(superposition_cell(&sensor, rays, 2, &arena, &cell));
         /* From the element each turns by e^{ju}: (1 +- j) sqrt(1/2). */
@@ -147,13 +144,11 @@ static void phases_turn_the_pointers(void **state)
     (void)state;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     struct arena arena = {0};
-    struct ray rays[] = {
-        {.echo = {.object = "a", .reflector = "r"}, .strength = 4, .amplitude = 4},
-        { .echo = {.object = "b", .reflector = "r"},
-         .strength = 3,
-         .amplitude = 3,
-         .phase_rad = PI / 2}
-    };
+    struct ray rays[] = {{.echo = {.object = "a", .reflector = "r"}, .strength = 4, .amplitude = 4},
+                         {.echo = {.object = "b", .reflector = "r"},
+                          .strength = 3,
+                          .amplitude = 3,
+                          .phase_rad = PI / 2}};
     struct cell cell;
     assert_true(superposition_cell(&sensor, rays, 2, &arena, &cell));
     assert_close(cell.sum_re, 4, 1e-15);
@@ -207,14 +202,8 @@ static void weights_sum_to_one_and_means_stay_inside(void **state)
 static void ties_of_amplitude_go_by_the_frames_order(void **state)
 {
     (void)state;
-    struct ray near = {
-        .echo = {.object = "b", .reflector = "r", .range_m = 1},
-          .amplitude = 2
-    };
-    struct ray far = {
-        .echo = {.object = "a", .reflector = "r", .range_m = 2},
-          .amplitude = 2
-    };
+    struct ray near = {.echo = {.object = "b", .reflector = "r", .range_m = 1}, .amplitude = 2};
+    struct ray far = {.echo = {.object = "a", .reflector = "r", .range_m = 2}, .amplitude = 2};
     assert_true(superposition_compare(&near, &far) < 0);
     assert_true(superposition_compare(&far, &near) > 0);
     far.amplitude = 2.0000000000000004;

@@ -144,14 +144,14 @@ static void rows_have_the_numbers_that_a_spreadsheet_shows(void **state)
         const char *text;
         size_t numbers[2];
     } cases[] = {
-        {"a,b\n1,2\n3,4\n",               {2, 3}},
-        {"a,b\r\n1,2\r\n3,4\r\n",         {2, 3}},
-        {"a,b\r1,2\r3,4",                 {2, 3}},
-        {"a,b\n\n\n1,2\n\n3,4\n",         {4, 6}},
+        {"a,b\n1,2\n3,4\n", {2, 3}},
+        {"a,b\r\n1,2\r\n3,4\r\n", {2, 3}},
+        {"a,b\r1,2\r3,4", {2, 3}},
+        {"a,b\n\n\n1,2\n\n3,4\n", {4, 6}},
         {"a,b\r\n\r\n1,2\r\n\r\n\r\n3,4", {3, 6}},
-        {"a,b\r\r1,2\r\r3,4",             {3, 5}},
-        {"\n\na,b\n \t\n1,2\n3,4\n",      {5, 6}},
-        {"a,b\n\"1\n\n\n\",2\n3,4\n",     {2, 3}},
+        {"a,b\r\r1,2\r\r3,4", {3, 5}},
+        {"\n\na,b\n \t\n1,2\n3,4\n", {5, 6}},
+        {"a,b\n\"1\n\n\n\",2\n3,4\n", {2, 3}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct table table = table_of(*state, cases[i].text);
@@ -168,19 +168,19 @@ static void damaged_tables_are_refused(void **state)
     static const struct {
         const char *text, *message;
     } cases[] = {
-        {"",                       "the table is empty; expected a header"                   },
-        {"\xef\xbb\xbf",           "the table is empty; expected a header"                   },
-        {"\n \r\n\n",              "the table is empty; expected a header"                   },
-        {"a,b\n1,2\n3\n",          "row 3: 1 cell; expected 2 as in the header"              },
-        {"a,b\n1,2\n3,4,5\n",      "row 3: 3 cells; expected 2 as in the header"             },
-        {"a,b\r\n\r\n1,2\r\n3,4,", "row 4: 3 cells; expected 2 as in the header"             },
-        {"a;b\n1;2\n",             "the columns are separated by semicolons; expected commas"},
-        {"a,b,a\n1,2,3\n",         "columns 1 and 3 are both named \"a\""                    },
-        {"a,,\n1,2,3\n",           "columns 2 and 3 are both named \"\""                     },
-        {"a,b\n1,2\n\"3,4\n5,6\n", "row 3: a quote opens a cell and nothing closes it"       },
-        {"a,b\n1,2\n3,4\"5\n",     "row 3: " QUOTE_MESSAGE                                   },
-        {"a,b\n\n\"1\" 2,3\n",     "row 3: " QUOTE_MESSAGE                                   },
-        {"a,b\n1\n\"1\" 2,3\n",    "row 2: 1 cell; expected 2 as in the header"              },
+        {"", "the table is empty; expected a header"},
+        {"\xef\xbb\xbf", "the table is empty; expected a header"},
+        {"\n \r\n\n", "the table is empty; expected a header"},
+        {"a,b\n1,2\n3\n", "row 3: 1 cell; expected 2 as in the header"},
+        {"a,b\n1,2\n3,4,5\n", "row 3: 3 cells; expected 2 as in the header"},
+        {"a,b\r\n\r\n1,2\r\n3,4,", "row 4: 3 cells; expected 2 as in the header"},
+        {"a;b\n1;2\n", "the columns are separated by semicolons; expected commas"},
+        {"a,b,a\n1,2,3\n", "columns 1 and 3 are both named \"a\""},
+        {"a,,\n1,2,3\n", "columns 2 and 3 are both named \"\""},
+        {"a,b\n1,2\n\"3,4\n5,6\n", "row 3: a quote opens a cell and nothing closes it"},
+        {"a,b\n1,2\n3,4\"5\n", "row 3: " QUOTE_MESSAGE},
+        {"a,b\n\n\"1\" 2,3\n", "row 3: " QUOTE_MESSAGE},
+        {"a,b\n1\n\"1\" 2,3\n", "row 2: 1 cell; expected 2 as in the header"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct table table;

@@ -119,8 +119,8 @@ static void steps_ascend_in_time_and_their_states_in_id(void **state)
         int64_t time_ms, interval_ms;
         const char *ids[4];
     } steps[] = {
-        {100, 100, {"9", NULL}           },
-        {200, 100, {"9", "b", NULL}      },
+        {100, 100, {"9", NULL}},
+        {200, 100, {"9", "b", NULL}},
         {350, 150, {"10", "2", "9", NULL}},
     };
     assert_int_equal(read.step_count, 3);
@@ -163,14 +163,14 @@ static void no_rows_are_no_steps(void **state)
 static void classes_are_those_of_vehicle_documents(void **state)
 {
     static const char *const classes[][2] = {
-        {"car",                "car"       },
-        {"truck",              "truck"     },
-        {"bus",                "bus"       },
-        {"motorcycle",         "motorcycle"},
-        {"bicycle",            "bicycle"   },
-        {"pedestrian",         "pedestrian"},
+        {"car", "car"},
+        {"truck", "truck"},
+        {"bus", "bus"},
+        {"motorcycle", "motorcycle"},
+        {"bicycle", "bicycle"},
+        {"pedestrian", "pedestrian"},
         {"pedestrian/bicycle", "pedestrian"},
-        {"Tram 4000",          "Tram 4000" },
+        {"Tram 4000", "Tram 4000"},
     };
     for (size_t i = 0; i < sizeof classes / sizeof classes[0]; i++) {
         char text[256];
@@ -248,23 +248,24 @@ static void damaged_recordings_are_refused(void **state)
         const char *text, *message;
     } cases[] = {
         {HEADER
-         "1,1,100,car,0,0,0,0,0,4,2\n\n2,1,100,car,0,0,0,0,0,4,2\n1,2,100,car,1,0,0,0,0,4,2\n", "row 5: track 1 stands at 100 ms already in row 2"    },
+         "1,1,100,car,0,0,0,0,0,4,2\n\n2,1,100,car,0,0,0,0,0,4,2\n1,2,100,car,1,0,0,0,0,4,2\n",
+         "row 5: track 1 stands at 100 ms already in row 2"},
         {HEADER "1,1,100.5,car,0,0,0,0,0,4,2\n",
-         "row 2, column \"timestamp_ms\": 100.5 is not a whole number"                                                                                         },
+         "row 2, column \"timestamp_ms\": 100.5 is not a whole number"},
         {HEADER "1,1,1e16,car,0,0,0,0,0,4,2\n",
-         "row 2, column \"timestamp_ms\": 1e16 is outside [-9.0072e+15, 9.0072e+15]"                                                                           },
-        {HEADER "1,1,,car,0,0,0,0,0,4,2\n",                                                              "row 2, column \"timestamp_ms\": \"\" is not a number"},
+         "row 2, column \"timestamp_ms\": 1e16 is outside [-9.0072e+15, 9.0072e+15]"},
+        {HEADER "1,1,,car,0,0,0,0,0,4,2\n", "row 2, column \"timestamp_ms\": \"\" is not a number"},
         {HEADER "1,1,100,car,0,2e9,0,0,0,4,2\n",
-         "row 2, column \"y\": 2e9 is outside [-1e+09, 1e+09]"                                                                                                 },
-        {HEADER "1,1,100,car,nan,0,0,0,0,4,2\n",                                                         "row 2, column \"x\": \"nan\" is not a number"        },
+         "row 2, column \"y\": 2e9 is outside [-1e+09, 1e+09]"},
+        {HEADER "1,1,100,car,nan,0,0,0,0,4,2\n", "row 2, column \"x\": \"nan\" is not a number"},
         {HEADER "1,1,100,car,0,0,0,0,0,-4,2\n",
-         "row 2, column \"length\": -4 is outside [0, 1e+06]"                                                                                                  },
-        {HEADER "1,1,100,car,0,0,0,0,0,,2\n",                                                            "row 2, column \"length\": \"\" is not a number"      },
+         "row 2, column \"length\": -4 is outside [0, 1e+06]"},
+        {HEADER "1,1,100,car,0,0,0,0,0,,2\n", "row 2, column \"length\": \"\" is not a number"},
         {"track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy,psi,length,width\n",
          "column \"psi_rad\" is missing; the header is: track_id, frame_id, timestamp_ms, "
-         "agent_type, x, y, vx, vy, psi, length, width"                                                                                                        },
+         "agent_type, x, y, vx, vy, psi, length, width"},
         {"track_id,timestamp_ms,agent_type,x,y,vx\n",
-         "column \"vy\" is missing; the header is: track_id, timestamp_ms, agent_type, x, y, vx"                                                               },
+         "column \"vy\" is missing; the header is: track_id, timestamp_ms, agent_type, x, y, vx"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct trajectories read;

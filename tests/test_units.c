@@ -46,20 +46,20 @@ static void an_angle_wraps_into_one_turn(void **state)
     static const struct {
         double angle, wrapped, tolerance;
     } cases[] = {
-        {0,            0,             0    },
-        {1,            1,             0    },
-        {-3,           -3,            0    },
-        {PI,           PI,            0    },
-        {-PI,          PI,            0    },
-        {3 * PI,       PI,            1e-15},
-        {-3 * PI,      PI,            1e-15},
-        {2 * PI,       0,             0    },
-        {-2 * PI,      0,             0    },
-        {-1e-17,       -1e-17,        0    },
-        {2 * PI - 0.5, -0.5,          1e-15},
-        {5,            5 - 2 * PI,    1e-15},
-        {-5,           2 * PI - 5,    1e-15},
-        {100,          100 - 32 * PI, 1e-13},
+        {0, 0, 0},
+        {1, 1, 0},
+        {-3, -3, 0},
+        {PI, PI, 0},
+        {-PI, PI, 0},
+        {3 * PI, PI, 1e-15},
+        {-3 * PI, PI, 1e-15},
+        {2 * PI, 0, 0},
+        {-2 * PI, 0, 0},
+        {-1e-17, -1e-17, 0},
+        {2 * PI - 0.5, -0.5, 1e-15},
+        {5, 5 - 2 * PI, 1e-15},
+        {-5, 2 * PI - 5, 1e-15},
+        {100, 100 - 32 * PI, 1e-13},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         assert_close(units_wrap_rad(cases[i].angle), cases[i].wrapped, cases[i].tolerance);
