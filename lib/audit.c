@@ -1,8 +1,9 @@
 #include "audit.h"
 
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "sort.h"
 
 #define LOST SIZE_MAX
 
@@ -98,7 +99,7 @@ int audit_frame(const struct frame *frame, struct diag *diag)
     size_t count = collect(frame, NULL);
     struct ending *endings = arena_get(frame->arena, (count + 1) * sizeof *endings);
     collect(frame, endings);
-    qsort(endings, count, sizeof *endings, compare_endings);
+    sort_items(endings, count, sizeof *endings, compare_endings, frame->arena);
     if (drop_repeats(endings, &count, diag) != 0)
         return -1;
     size_t covered = 0;

@@ -1,9 +1,9 @@
 #include "frame_check.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "frame_order.h"
+#include "sort.h"
 
 static int check_objects(const struct frame *frame, struct diag *diag)
 {
@@ -11,7 +11,7 @@ static int check_objects(const struct frame *frame, struct diag *diag)
     const char **ids = arena_get(frame->arena, (count + 1) * sizeof *ids);
     for (size_t i = 0; i < count; i++)
         ids[i] = frame->objects.items[i].id;
-    qsort(ids, count, sizeof *ids, frame_order_names);
+    sort_items(ids, count, sizeof(*ids), frame_order_names, frame->arena);
     for (size_t i = 1; i < count; i++)
         if (strcmp(ids[i - 1], ids[i]) == 0)
             return diag_fail(diag, DIAG_DATA, "objects: the id \"%s\" stands twice", ids[i]);

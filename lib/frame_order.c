@@ -1,7 +1,8 @@
 #include "frame_order.h"
 
-#include <stdlib.h>
 #include <string.h>
+
+#include "sort.h"
 
 static int compare_echo_names(const char *object_a, const char *reflector_a, enum path path_a,
                               const char *object_b, const char *reflector_b, enum path path_b)
@@ -73,63 +74,32 @@ static int compare_counts(const void *left, const void *right)
     return strcmp(((const struct count *)left)->sensor, ((const struct count *)right)->sensor);
 }
 
-#define SORT(list, compare)                                                                        \
-    do {                                                                                           \
-        if ((list).count > 1)                                                                      \
-            qsort((list).items, (list).count, sizeof *(list).items, (compare));                    \
-    } while (0)
-
-/* Targets keep the order of their list: sorted by sensor through their places. */
+/* A stable sort leaves targets in the order of their sensor's list. */
 static int compare_targets(const void *left, const void *right)
 {
-    const struct target *const *a = left, *const *b = right;
-    int order = strcmp((*a)->sensor, (*b)->sensor);
-    return order != 0 ? order : (*a > *b) - (*a < *b);
-}
-
-static bool targets_are_grouped(const struct frame *frame)
-{
-    for (size_t i = 1; i < frame->targets.count; i++)
-        if (strcmp(frame->targets.items[i - 1].sensor, frame->targets.items[i].sensor) > 0)
-            return false;
-    return true;
-}
-
-static void group_targets(struct frame *frame)
-{
-    if (targets_are_grouped(frame))
-        return;
-    size_t count = frame->targets.count;
-    const struct target **places = arena_get(frame->arena, count * sizeof(*places));
-    struct target *grouped = arena_get(frame->arena, count * sizeof *grouped);
-    for (size_t i = 0; i < count; i++)
-        places[i] = &frame->targets.items[i];
-    qsort(places, count, sizeof(*places), compare_targets);
-    for (size_t i = 0; i < count; i++)
-        grouped[i] = *places[i];
-    frame->targets.items = grouped;
-    frame->targets.room = count;
+    return strcmp(((const struct target *)left)->sensor, ((const struct target *)right)->sensor);
 }
 
 void frame_order(struct frame *frame)
 {
-    SORT(frame->reflectors, compare_sets);
+    struct arena *arena = frame->arena;
+    sort_list(&frame->reflectors, compare_sets, arena);
     for (size_t i = 0; i < frame->reflectors.count; i++)
-        SORT(frame->reflectors.items[i].worn_by, frame_order_names);
-    SORT(frame->sensors.list, compare_views);
-    SORT(frame->echoes, frame_order_echoes);
+        sort_list(&frame->reflectors.items[i].worn_by, frame_order_names, arena);
+    sort_list(&frame->sensors.list, compare_views, arena);
+    sort_list(&frame->echoes, frame_order_echoes, arena);
     for (size_t i = 0; i < frame->cells.count; i++) {
         struct cell *cell = &frame->cells.items[i];
         if (cell->members.count > 2)
-            qsort(cell->members.items + 1, cell->members.count - 1, sizeof *cell->members.items,
-                  compare_contributors);
+            sort_items(cell->members.items + 1, cell->members.count - 1,
+                       sizeof *cell->members.items, compare_contributors, arena);
     }
-    SORT(frame->cells, frame_order_cells);
-    group_targets(frame);
-    SORT(frame->lost, compare_lost_groups);
+    sort_list(&frame->cells, frame_order_cells, arena);
+    sort_list(&frame->targets, compare_targets, arena);
+    sort_list(&frame->lost, compare_lost_groups, arena);
     for (size_t i = 0; i < frame->lost.count; i++)
-        SORT(frame->lost.items[i].echoes, compare_lost_echoes);
-    SORT(frame->counts, compare_counts);
+        sort_list(&frame->lost.items[i].echoes, compare_lost_echoes, arena);
+    sort_list(&frame->counts, compare_counts, arena);
 }
 
 int frame_order_tied(const struct contributor *a, const struct contributor *b)

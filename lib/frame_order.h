@@ -12,7 +12,7 @@ void frame_order(struct frame *frame);
  * object, reflector, path. Negative, zero or positive. */
 int frame_order_tied(const struct contributor *a, const struct contributor *b);
 
-/* The canonical order of names (const char *), echoes and cells, for qsort. */
+/* The canonical order of names (const char *), echoes and cells, for sort_items. */
 int frame_order_names(const void *left, const void *right);
 int frame_order_echoes(const void *left, const void *right);
 int frame_order_cells(const void *left, const void *right);

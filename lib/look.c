@@ -7,6 +7,7 @@
 #include "occlusion.h"
 #include "reflection.h"
 #include "sight.h"
+#include "sort.h"
 #include "units.h"
 
 /* The foot on a wall parallel to boresight lies at 90 degrees exactly: this much is its rounding.
@@ -55,7 +56,7 @@ static void place_bodies(struct look *look, double age_s)
         body->radius_m = 0.5 * vec2_length((struct vec2){object->length_m, object->width_m});
         reflectors_outline(&body->box, body->corner);
     }
-    qsort(look->bodies, look->body_count, sizeof *look->bodies, compare_bodies);
+    sort_items(look->bodies, look->body_count, sizeof *look->bodies, compare_bodies, frame->arena);
 }
 
 static int mark_blockers(struct look *look, struct diag *diag)

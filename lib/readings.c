@@ -1,9 +1,9 @@
 #include "readings.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "frame_order.h"
+#include "sort.h"
 #include "units.h"
 
 struct reading reading_of(const struct cell *cell)
@@ -47,8 +47,9 @@ static int compare_range(const void *left, const void *right)
 void readings_list(struct frame *frame, const char *stage, const struct sensor *sensor,
                    struct reading *readings, size_t count, int64_t limit)
 {
-    qsort(readings, count, sizeof *readings,
-          sensor->list_order == LIST_STRONGEST ? compare_strength : compare_range);
+    sort_items(readings, count, sizeof *readings,
+               sensor->list_order == LIST_STRONGEST ? compare_strength : compare_range,
+               frame->arena);
     int64_t listed = 0;
     for (size_t i = 0; i < count; i++) {
         const struct reading *reading = &readings[i];

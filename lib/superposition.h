@@ -17,7 +17,7 @@ struct ray {
 struct ray superposition_ray(const struct sensor *sensor, const struct echo *echo,
                              double phase_rad);
 
-/* Strongest first; ties by the frame's total order. For qsort. */
+/* Strongest first; ties by the frame's total order. For sort_items. */
 int superposition_compare(const void *left, const void *right);
 
 /* Adds up count rays, strongest first, which are the cell's members in this order; memory for them

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "field.h"
+#include "sort.h"
 #include "table.h"
 #include "units.h"
 #include "vec2.h"
@@ -241,11 +242,11 @@ int trajectory_read(const char *path, struct arena *arena, struct trajectories *
     for (size_t row = 0; row < table.rows; row++)
         if (read_state(&table, row, &layout, &states[row], diag) != 0)
             return -1;
-    qsort(states, table.rows, sizeof *states, compare_tracks);
+    sort_items(states, table.rows, sizeof *states, compare_tracks, arena);
     if (refuse_twins(states, table.rows, diag) != 0)
         return -1;
     follow_tracks(states, table.rows, arena, trajectories);
-    qsort(states, table.rows, sizeof *states, compare_instants);
+    sort_items(states, table.rows, sizeof *states, compare_instants, arena);
     divide_steps(states, table.rows, arena, trajectories);
     return 0;
 }

@@ -1,10 +1,10 @@
 #include "view_data.h"
 
 #include <inttypes.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "number.h"
+#include "sort.h"
 
 /* Real columns first. */
 enum column {
@@ -325,8 +325,7 @@ static void add_losses(struct view_data *data, const struct frame *frame, const 
     for (size_t i = 0; i < frame->lost.count; i++)
         if (strcmp(frame->lost.items[i].sensor, sensor) == 0)
             details += collect_losses(data, &frame->lost.items[i], &rows, frame->arena);
-    if (rows.list.count > 0)
-        qsort(rows.list.items, rows.list.count, sizeof *rows.list.items, compare_rows);
+    sort_list(&rows.list, compare_rows, frame->arena);
     for (size_t begin = 0, end; begin < rows.list.count; begin = end, fates++) {
         for (end = begin; end < rows.list.count; end++)
             if (rows.list.items[end].object != rows.list.items[begin].object)

@@ -1,9 +1,8 @@
 /* The sensor before noise: amplitude of every echo (MODEL 4), resolution cells (6), threshold on
  * the summed amplitude, superposed sum and delta pointers of each cell (7, 8). */
-#include <stdlib.h>
-
 #include "random.h"
 #include "resolution.h"
+#include "sort.h"
 #include "stage.h"
 #include "superposition.h"
 #include "units.h"
@@ -34,7 +33,7 @@ static size_t receive(struct frame *frame, const struct sensor *sensor, struct e
         else
             frame_lose_echo(frame, "sensor", echo, LOSS_NO_AMPLITUDE);
     }
-    qsort(rays, count, sizeof *rays, superposition_compare);
+    sort_items(rays, count, sizeof *rays, superposition_compare, frame->arena);
     return count;
 }
 

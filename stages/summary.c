@@ -1,8 +1,8 @@
 /* A summary that a person can read: what the sensors reported, and what became of the rest. */
 #include <inttypes.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "sort.h"
 #include "stage.h"
 #include "text.h"
 
@@ -79,11 +79,12 @@ static int most_first(const void *left, const void *right)
     return a->count != b->count ? (a->count < b->count ? 1 : -1) : strcmp(a->name, b->name);
 }
 
-static void print_tallies(const char *title, struct tallies *tallies, struct text *text)
+static void print_tallies(const char *title, struct tallies *tallies, struct text *text,
+                          struct arena *arena)
 {
     if (tallies->list.count == 0)
         return;
-    qsort(tallies->list.items, tallies->list.count, sizeof *tallies->list.items, most_first);
+    sort_list(&tallies->list, most_first, arena);
     text_format(text, "\n%s\n", title);
     for (size_t i = 0; i < tallies->list.count; i++)
         text_format(text, "  %9" PRId64 "  %s\n", tallies->list.items[i].count,
@@ -93,6 +94,7 @@ static void print_tallies(const char *title, struct tallies *tallies, struct tex
 static int summary_stop(void *state, struct runner *runner)
 {
     struct summary *summary = state;
+    struct arena *arena = runner_arena(runner);
     struct text text = {0};
     text_format(&text, "%" PRId64 " frames, %.2f s; scenes that reached their end: %" PRId64 "\n",
                 summary->frames, summary->seconds, summary->scenes);
@@ -100,11 +102,12 @@ static int summary_stop(void *state, struct runner *runner)
                 "%" PRId64 " targets, the farthest at %.1f m, %" PRId64
                 " of them merged from several objects\n",
                 summary->targets, summary->farthest_m, summary->merged);
-    print_tallies("scans by sensor", &summary->scans, &text);
-    print_tallies("targets by sensor", &summary->detections, &text);
-    print_tallies("targets by class of their strongest contributor", &summary->classes, &text);
+    print_tallies("scans by sensor", &summary->scans, &text, arena);
+    print_tallies("targets by sensor", &summary->detections, &text, arena);
+    print_tallies("targets by class of their strongest contributor", &summary->classes, &text,
+                  arena);
     print_tallies("reflectors that a sensor looked for, by what became of them", &summary->fates,
-                  &text);
+                  &text, arena);
     int result = runner_write(runner, text.bytes, text.length);
     text_free(&text);
     return result;
