@@ -69,6 +69,18 @@ const struct suite *runner_suite(struct runner *runner, const struct frame *fram
     return !seen || check_views(runner, frame, suite) == 0 ? suite : NULL;
 }
 
+int runner_visit_sensors(struct runner *runner, struct frame *frame,
+                         void (*visit)(struct frame *frame, const struct sensor *sensor))
+{
+    const struct suite_choice *choice = runner->state;
+    const struct suite *suite = runner_suite(runner, frame, choice->sensors);
+    if (suite == NULL)
+        return -1;
+    for (size_t i = 0; i < suite->sensors.count; i++)
+        visit(frame, &suite->sensors.items[i]);
+    return 0;
+}
+
 const struct vehicle *runner_vehicle(struct runner *runner, const char *class)
 {
     for (size_t i = 0; i < runner->vehicles.count; i++)

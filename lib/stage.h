@@ -58,6 +58,11 @@ struct diag *runner_diag(struct runner *runner);
 const struct suite *runner_suite(struct runner *runner, const struct frame *frame,
                                  const char *name);
 
+/* The whole step of a stage whose state is a suite_choice: visits every sensor of the suite that
+ * the frame was seen with. */
+int runner_visit_sensors(struct runner *runner, struct frame *frame,
+                         void (*visit)(struct frame *frame, const struct sensor *sensor));
+
 /* The vehicle document of a class. NULL after a message. Loaded once. */
 const struct vehicle *runner_vehicle(struct runner *runner, const char *class);
 

@@ -68,11 +68,8 @@ static void list_targets(struct frame *frame, const struct sensor *sensor)
 
 static int noise_step(void *state, struct frame *frame, struct runner *runner)
 {
-    const struct suite_choice *choice = state;
-    const struct suite *suite = runner_suite(runner, frame, choice->sensors);
-    for (size_t i = 0; suite != NULL && i < suite->sensors.count; i++)
-        list_targets(frame, &suite->sensors.items[i]);
-    return suite != NULL ? 0 : -1;
+    (void)state;
+    return runner_visit_sensors(runner, frame, list_targets);
 }
 
 const struct stage stage_noise = {

@@ -21,19 +21,19 @@ static struct reading measure(const struct frame *frame, const struct sensor *se
     return reading;
 }
 
+static void list_targets(struct frame *frame, const struct sensor *sensor)
+{
+    struct cell_span cells = frame_cells_of(frame, sensor->name);
+    struct reading *readings = arena_get(frame->arena, cells.count * sizeof *readings);
+    for (size_t i = 0; i < cells.count; i++)
+        readings[i] = measure(frame, sensor, &cells.items[i]);
+    readings_list(frame, "noise-gauss", sensor, readings, cells.count, 0);
+}
+
 static int noise_gauss_step(void *state, struct frame *frame, struct runner *runner)
 {
-    const struct suite_choice *choice = state;
-    const struct suite *suite = runner_suite(runner, frame, choice->sensors);
-    for (size_t i = 0; suite != NULL && i < suite->sensors.count; i++) {
-        const struct sensor *sensor = &suite->sensors.items[i];
-        struct cell_span cells = frame_cells_of(frame, sensor->name);
-        struct reading *readings = arena_get(frame->arena, cells.count * sizeof *readings);
-        for (size_t j = 0; j < cells.count; j++)
-            readings[j] = measure(frame, sensor, &cells.items[j]);
-        readings_list(frame, "noise-gauss", sensor, readings, cells.count, 0);
-    }
-    return suite != NULL ? 0 : -1;
+    (void)state;
+    return runner_visit_sensors(runner, frame, list_targets);
 }
 
 const struct stage stage_noise_gauss = {

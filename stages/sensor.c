@@ -63,8 +63,9 @@ static void report(struct frame *frame, const struct sensor *sensor, const struc
         *list_add(&frame->cells, frame->arena) = cell;
 }
 
-static void sense(struct frame *frame, const struct sensor *sensor, struct echo_span echoes)
+static void sense(struct frame *frame, const struct sensor *sensor)
 {
+    struct echo_span echoes = frame_echoes_of(frame, sensor->name);
     struct ray *rays = arena_get(frame->arena, 2 * (echoes.count + 1) * sizeof *rays);
     size_t count = receive(frame, sensor, echoes, rays);
     struct ray *members = rays + count;
@@ -81,13 +82,8 @@ static void sense(struct frame *frame, const struct sensor *sensor, struct echo_
 
 static int sensor_step(void *state, struct frame *frame, struct runner *runner)
 {
-    const struct suite_choice *choice = state;
-    const struct suite *suite = runner_suite(runner, frame, choice->sensors);
-    for (size_t i = 0; suite != NULL && i < suite->sensors.count; i++) {
-        const struct sensor *sensor = &suite->sensors.items[i];
-        sense(frame, sensor, frame_echoes_of(frame, sensor->name));
-    }
-    return suite != NULL ? 0 : -1;
+    (void)state;
+    return runner_visit_sensors(runner, frame, sense);
 }
 
 const struct stage stage_sensor = {

@@ -2,7 +2,7 @@
 #include "stage.h"
 #include "superposition.h"
 
-static void sense(struct frame *frame, const struct sensor *sensor, const struct echo *echo)
+static void keep(struct frame *frame, const struct sensor *sensor, const struct echo *echo)
 {
     struct ray ray = superposition_ray(sensor, echo, 0);
     struct cell cell;
@@ -16,17 +16,17 @@ static void sense(struct frame *frame, const struct sensor *sensor, const struct
     *list_add(&frame->cells, frame->arena) = cell;
 }
 
+static void sense(struct frame *frame, const struct sensor *sensor)
+{
+    struct echo_span echoes = frame_echoes_of(frame, sensor->name);
+    for (size_t i = 0; i < echoes.count; i++)
+        keep(frame, sensor, &echoes.items[i]);
+}
+
 static int sensor_perfect_step(void *state, struct frame *frame, struct runner *runner)
 {
-    const struct suite_choice *choice = state;
-    const struct suite *suite = runner_suite(runner, frame, choice->sensors);
-    for (size_t i = 0; suite != NULL && i < suite->sensors.count; i++) {
-        const struct sensor *sensor = &suite->sensors.items[i];
-        struct echo_span echoes = frame_echoes_of(frame, sensor->name);
-        for (size_t j = 0; j < echoes.count; j++)
-            sense(frame, sensor, &echoes.items[j]);
-    }
-    return suite != NULL ? 0 : -1;
+    (void)state;
+    return runner_visit_sensors(runner, frame, sense);
 }
 
 const struct stage stage_sensor_perfect = {

@@ -1,4 +1,5 @@
-#include "check.h"
+#define SCRATCH_FILE "table.csv"
+#include "scratch.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,34 +9,6 @@
 #include <zlib.h>
 
 #include "table.h"
-
-/* Every test writes its table to the one file of a fresh directory. */
-struct scratch {
-    char directory[64];
-    char path[96];
-    struct arena arena;
-};
-
-static int make_scratch(void **state)
-{
-    struct scratch *scratch = calloc(1, sizeof *scratch);
-    assert_non_null(scratch);
-    strcpy(scratch->directory, "/tmp/glint-table-XXXXXX");
-    assert_non_null(mkdtemp(scratch->directory));
-    snprintf(scratch->path, sizeof scratch->path, "%s/table.csv", scratch->directory);
-    *state = scratch;
-    return 0;
-}
-
-static int remove_scratch(void **state)
-{
-    struct scratch *scratch = *state;
-    arena_free(&scratch->arena);
-    unlink(scratch->path);
-    rmdir(scratch->directory);
-    free(scratch);
-    return 0;
-}
 
 static int read_bytes(struct scratch *scratch, const char *bytes, size_t length,
                       struct table *table, struct diag *diag)

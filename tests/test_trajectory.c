@@ -1,4 +1,5 @@
-#include "check.h"
+#define SCRATCH_FILE "tracks.csv"
+#include "scratch.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,34 +12,6 @@
 
 #define HEADER "track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy,psi_rad,length,width\n"
 #define WALKERS "track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy\n"
-
-/* Every test writes its recording to the one file of a fresh directory. */
-struct scratch {
-    char directory[64];
-    char path[96];
-    struct arena arena;
-};
-
-static int make_scratch(void **state)
-{
-    struct scratch *scratch = calloc(1, sizeof *scratch);
-    assert_non_null(scratch);
-    strcpy(scratch->directory, "/tmp/glint-trajectory-XXXXXX");
-    assert_non_null(mkdtemp(scratch->directory));
-    snprintf(scratch->path, sizeof scratch->path, "%s/tracks.csv", scratch->directory);
-    *state = scratch;
-    return 0;
-}
-
-static int remove_scratch(void **state)
-{
-    struct scratch *scratch = *state;
-    arena_free(&scratch->arena);
-    unlink(scratch->path);
-    rmdir(scratch->directory);
-    free(scratch);
-    return 0;
-}
 
 static int read_text(struct scratch *scratch, const char *text, struct trajectories *trajectories,
                      struct diag *diag)

@@ -1,0 +1,41 @@
+/* A fresh directory with one file in it and an arena, for tests that read what they write: setup
+ * and teardown functions for cmocka. The file's name is the constant SCRATCH_FILE. */
+#ifndef SCRATCH_H
+#define SCRATCH_H
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "check.h"
+#include "memory.h"
+
+struct scratch {
+    char directory[64];
+    char path[96];
+    struct arena arena;
+};
+
+static inline int make_scratch(void **state)
+{
+    struct scratch *scratch = calloc(1, sizeof *scratch);
+    assert_non_null(scratch);
+    strcpy(scratch->directory, "/tmp/glint-test-XXXXXX");
+    assert_non_null(mkdtemp(scratch->directory));
+    snprintf(scratch->path, sizeof scratch->path, "%s/%s", scratch->directory, SCRATCH_FILE);
+    *state = scratch;
+    return 0;
+}
+
+static inline int remove_scratch(void **state)
+{
+    struct scratch *scratch = *state;
+    arena_free(&scratch->arena);
+    unlink(scratch->path);
+    rmdir(scratch->directory);
+    free(scratch);
+    return 0;
+}
+
+#endif
