@@ -99,6 +99,9 @@ $(BUILD)/tests/%.o: tests/%.c
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ $(LIBS) -lcmocka
 
+# The reference of this one test alone.
+$(BUILD)/tests/test_elementary: LIBS += -lmpfr -lgmp
+
 unit: $(tests)
 	@failed=0; for t in $(tests); do \
 	    $$t >$$t.log 2>&1 || { grep -v ' OK \|RUN ' $$t.log; echo "$$t failed"; failed=1; }; done; \
