@@ -1,8 +1,11 @@
 #include "elementary.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
+
+_Static_assert(FLT_EVAL_METHOD == 0, "every operation must round to its own type");
 
 /* Polynomials: weighted minimax fits (Remez exchange in 60 digits). The leading two coefficients
  * are rounded to doubles in turn and the later ones fitted to what is left. The comment at each
