@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "elementary.h"
 #include "units.h"
 
 /* The two pointers before they turn by e: sum and -j delta. */
@@ -9,27 +10,28 @@ struct antenna_pair {
     double sum, delta;
 };
 
-/* u = (pi/2) sin|azimuth|, its cosine, and its sine with the azimuth's sign. */
+/* u = (pi/2) sin|azimuth|, the azimuth's cosine, u's, and u's sine with the azimuth's sign. */
 struct antenna_turn {
-    double u, cos_u, sin_u;
+    double u, cos_azimuth, cos_u, sin_u;
 };
 
 /* Near the side cos u comes from its cofunction (NUMERICS 4). The sign is put on last: mirrored
  * azimuths share every rounding. */
 static struct antenna_turn turn_at(double azimuth_rad)
 {
-    double sine = sin(fabs(azimuth_rad));
-    double cosine = cos(fabs(azimuth_rad));
-    double u = PI / 2 * sine;
-    double cos_u = sine < 0.5 ? cos(u) : sin(PI / 2 * (cosine * cosine / (1 + sine)));
-    return (struct antenna_turn){u, cos_u, copysign(sin(u), azimuth_rad)};
+    struct elementary_sincos azimuth = elementary_sincos(fabs(azimuth_rad));
+    double u = PI / 2 * azimuth.sin;
+    struct elementary_sincos turn = elementary_sincos(u);
+    if (azimuth.sin >= 0.5)
+        turn.cos = elementary_sin(PI / 2 * (azimuth.cos * azimuth.cos / (1 + azimuth.sin)));
+    return (struct antenna_turn){u, azimuth.cos, turn.cos, copysign(turn.sin, azimuth_rad)};
 }
 
 /* MODEL 7.1. */
 static struct antenna_pair dipole_pair(double azimuth_rad)
 {
     struct antenna_turn turn = turn_at(azimuth_rad);
-    double element = units_si(turn.u) * cos(fabs(azimuth_rad));
+    double element = units_si(turn.u) * turn.cos_azimuth;
     return (struct antenna_pair){element * turn.cos_u, element * turn.sin_u};
 }
 
@@ -109,10 +111,10 @@ static double dipole_azimuth(struct antenna_pair pair)
     double size = fabs(pair.delta);
     double azimuth_rad;
     if (size <= pair.sum) {
-        azimuth_rad = asin(atan2(size, pair.sum) / (PI / 2));
+        azimuth_rad = elementary_asin(elementary_atan2(size, pair.sum) / (PI / 2));
     } else {
-        double from_side = atan2(pair.sum, size) / (PI / 2);
-        azimuth_rad = atan2(1 - from_side, sqrt(from_side * (2 - from_side)));
+        double from_side = elementary_atan2(pair.sum, size) / (PI / 2);
+        azimuth_rad = elementary_atan2(1 - from_side, sqrt(from_side * (2 - from_side)));
     }
     return pair.delta < 0 ? -azimuth_rad : azimuth_rad;
 }

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "elementary.h"
+
 /* Im(delta conj(sum)) to this part of |delta| |sum| is rounding, not phase. */
 #define UNDECIDED 0x1p-47
 
@@ -18,7 +20,7 @@ static struct scaled_pointer scale_pointer(double _Complex pointer)
     frexp(fmax(fabs(creal(pointer)), fabs(cimag(pointer))), &scaled.exponent);
     scaled.real = scalbn(creal(pointer), -scaled.exponent);
     scaled.imag = scalbn(cimag(pointer), -scaled.exponent);
-    scaled.size = hypot(scaled.real, scaled.imag);
+    scaled.size = elementary_hypot(scaled.real, scaled.imag);
     return scaled;
 }
 
@@ -55,7 +57,7 @@ struct monopulse_angle monopulse_angle(const struct antenna *antenna,
 
 double monopulse_asr(struct antenna_pointers pointers)
 {
-    double sum = cabs(pointers.sum);
-    double delta = cabs(pointers.delta);
+    double sum = elementary_hypot(creal(pointers.sum), cimag(pointers.sum));
+    double delta = elementary_hypot(creal(pointers.delta), cimag(pointers.delta));
     return (delta - sum) / (delta + sum);
 }

@@ -1,5 +1,6 @@
 #include "motion.h"
 
+#include "elementary.h"
 #include "units.h"
 
 /* j1(h) = (si h - cos h) / h. Below 1.5 the difference cancels and the power series
@@ -8,7 +9,7 @@
 static double j1_of(double h)
 {
     if (fabs(h) > 1.5)
-        return (units_si(h) - cos(h)) / h;
+        return (units_si(h) - elementary_cos(h)) / h;
     double sum = 1;
     for (int k = 9; k >= 1; k--)
         sum = 1 - h * h / (2 * k * (2 * k + 3)) * sum;

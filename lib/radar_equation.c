@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "elementary.h"
+
 /* The cross section of a reflector with an ERCS of 1 (MODEL 3). */
 #define ERCS_UNIT_M2 10.0
 
@@ -19,8 +21,9 @@ static double table_amplitude(const struct radar_equation *law, double range_m)
         else
             high = middle;
     }
-    double part = log(range_m / rows[low].range_m) / log(rows[high].range_m / rows[low].range_m);
-    return rows[low].amplitude * pow(rows[high].amplitude / rows[low].amplitude, part);
+    double part = elementary_log(range_m / rows[low].range_m) /
+                  elementary_log(rows[high].range_m / rows[low].range_m);
+    return rows[low].amplitude * elementary_pow(rows[high].amplitude / rows[low].amplitude, part);
 }
 
 double radar_reference_amplitude(const struct radar_equation *law, double range_m)
@@ -29,12 +32,13 @@ double radar_reference_amplitude(const struct radar_equation *law, double range_
     if (law->law == RADAR_TABLE)
         return table_amplitude(law, counted_m);
     return law->threshold / law->calibration_ercs *
-           pow(law->calibration_range_m / counted_m, law->exponent);
+           elementary_pow(law->calibration_range_m / counted_m, law->exponent);
 }
 
 double radar_detection_range_m(const struct radar_equation *law, double gain, double ercs)
 {
-    return law->calibration_range_m * pow(ercs * gain / law->calibration_ercs, 1 / law->exponent);
+    return law->calibration_range_m *
+           elementary_pow(ercs * gain / law->calibration_ercs, 1 / law->exponent);
 }
 
 double radar_ercs(double cross_section_m2)

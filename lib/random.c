@@ -4,7 +4,7 @@
 
 #include <Random123/philox.h>
 
-#include "units.h"
+#include "elementary.h"
 
 void random_uniform(const struct random_address *address, enum random_purpose purpose,
                     uint32_t index, double uniform[4])
@@ -23,8 +23,9 @@ void random_gaussian(const struct random_address *address, enum random_purpose p
     double uniform[4];
     random_uniform(address, purpose, index, uniform);
     for (int i = 0; i < 4; i += 2) {
-        double radius = sqrt(-2 * log(uniform[i]));
-        gaussian[i] = radius * cos(2 * PI * uniform[i + 1]);
-        gaussian[i + 1] = radius * sin(2 * PI * uniform[i + 1]);
+        double radius = sqrt(-2 * elementary_log(uniform[i]));
+        struct elementary_sincos angle = elementary_sincos_turns(uniform[i + 1]);
+        gaussian[i] = radius * angle.cos;
+        gaussian[i + 1] = radius * angle.sin;
     }
 }

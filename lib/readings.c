@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "elementary.h"
 #include "frame_order.h"
 #include "sort.h"
 #include "units.h"
@@ -13,7 +14,7 @@ struct reading reading_of(const struct cell *cell)
         .range_m = cell->range_m,
         .azimuth_rad = cell->azimuth_rad,
         .range_rate_mps = cell->range_rate_mps,
-        .amplitude = hypot(cell->sum_re, cell->sum_im),
+        .amplitude = elementary_hypot(cell->sum_re, cell->sum_im),
         .sign_undecided = cell->sign_undecided,
     };
 }

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "elementary.h"
 #include "units.h"
 
 #define REAL(owner, member, low, high, help)                                                       \
@@ -229,7 +230,7 @@ static bool find_yaw(const struct actor *actor, size_t span, double from, double
         double s = from + ldexp(to - from, -halvings);
         struct vec2 velocity_mps = glide_at(actor, span, s).velocity_mps;
         if (moves(velocity_mps)) {
-            *yaw_rad = atan2(velocity_mps.y, velocity_mps.x);
+            *yaw_rad = elementary_atan2(velocity_mps.y, velocity_mps.x);
             return true;
         }
     }
@@ -286,7 +287,7 @@ static struct motion follow(const struct actor *actor, double time_s, double *tr
     struct glide glide = glide_at(actor, span, s);
     bool moving = moves(glide.velocity_mps);
     struct motion body = {.position_m = glide.position_m};
-    body.yaw_rad = moving ? atan2(glide.velocity_mps.y, glide.velocity_mps.x)
+    body.yaw_rad = moving ? elementary_atan2(glide.velocity_mps.y, glide.velocity_mps.x)
                           : standing_yaw_rad(actor, span, s);
     if (fraction < 0 || fraction > 1)
         return body;

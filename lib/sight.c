@@ -1,5 +1,6 @@
 #include "sight.h"
 
+#include "elementary.h"
 #include "units.h"
 
 struct sight sight_of(struct vec2 sensor_m, struct vec2 sensor_mps, struct vec2 boresight,
@@ -9,7 +10,8 @@ struct sight sight_of(struct vec2 sensor_m, struct vec2 sensor_mps, struct vec2 
     double range_m = vec2_length(line_m);
     if (range_m == 0)
         return (struct sight){0};
-    double azimuth_rad = atan2(vec2_cross(boresight, line_m), vec2_dot(boresight, line_m));
+    double azimuth_rad =
+        elementary_atan2(vec2_cross(boresight, line_m), vec2_dot(boresight, line_m));
     return (struct sight){
         .range_m = range_m,
         .azimuth_rad = azimuth_rad <= -PI ? PI : azimuth_rad,

@@ -3,6 +3,7 @@
 #include <complex.h>
 #include <math.h>
 
+#include "elementary.h"
 #include "frame_order.h"
 #include "resolution.h"
 
@@ -28,7 +29,8 @@ static struct antenna_pointers add_pointers(const struct sensor *sensor, const s
     struct antenna_pointers total = {0, 0};
     for (size_t i = 0; i < count; i++) {
         struct antenna_pointers one = antenna_pointers(&sensor->antenna, rays[i].echo.azimuth_rad);
-        double _Complex turn = cos(rays[i].phase_rad) + sin(rays[i].phase_rad) * (double _Complex)I;
+        struct elementary_sincos phase = elementary_sincos(rays[i].phase_rad);
+        double _Complex turn = phase.cos + phase.sin * (double _Complex)I;
         bool turned = rays[i].phase_rad != 0;
         total.sum += rays[i].strength * (turned ? turn * one.sum : one.sum);
         total.delta += rays[i].strength * (turned ? turn * one.delta : one.delta);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elementary.h"
 #include "field.h"
 #include "sort.h"
 #include "table.h"
@@ -141,7 +142,7 @@ static int read_state(const struct table *table, size_t row, const struct layout
             return -1;
         state->yaw_rad = units_wrap_rad(state->yaw_rad);
     } else if (state->vx_mps != 0 || state->vy_mps != 0) {
-        state->yaw_rad = atan2(state->vy_mps, state->vx_mps);
+        state->yaw_rad = elementary_atan2(state->vy_mps, state->vx_mps);
     }
     return 0;
 }

@@ -2,9 +2,11 @@
 
 #include <math.h>
 
+#include "elementary.h"
+
 double units_amplitude_db(double amplitude)
 {
-    return 20 * log10(amplitude);
+    return 20 * elementary_log10(amplitude);
 }
 
 double units_shortfall_db(double threshold, double amplitude)
@@ -15,7 +17,7 @@ double units_shortfall_db(double threshold, double amplitude)
 
 double units_amplitude_from_db(double db)
 {
-    return pow(10, db / 20);
+    return elementary_pow(10, db / 20);
 }
 
 double units_wrap_rad(double angle_rad)
@@ -26,5 +28,5 @@ double units_wrap_rad(double angle_rad)
 
 double units_si(double x)
 {
-    return x == 0 ? 1 : sin(x) / x;
+    return x == 0 ? 1 : elementary_sin(x) / x;
 }

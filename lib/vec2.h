@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "elementary.h"
+
 struct vec2 {
     double x, y;
 };
@@ -52,7 +54,8 @@ static inline double vec2_length(struct vec2 a)
 
 static inline struct vec2 vec2_heading(double angle_rad)
 {
-    return (struct vec2){cos(angle_rad), sin(angle_rad)};
+    struct elementary_sincos angle = elementary_sincos(angle_rad);
+    return (struct vec2){angle.cos, angle.sin};
 }
 
 /* Turns a by a heading: from the heading's own frame into the frame that the heading is given in.

@@ -133,7 +133,7 @@ static void draw_object(struct still *still, const struct object *object)
 {
     struct box box = box_of(still, object);
     struct vec2 corner[4], middle = to_pixels(still, box.motion.position_m);
-    if (!in_picture(middle, still->scale * hypot(box.length_m, box.width_m)))
+    if (!in_picture(middle, still->scale * elementary_hypot(box.length_m, box.width_m)))
         return;
     bool ego = strcmp(object->id, still->frame->ego) == 0;
     reflectors_outline(&box, corner);
@@ -215,8 +215,8 @@ static void add_symbol(struct text *text, size_t style, struct vec2 at)
     for (int i = 0; i < steps; i++) {
         double reach = shapes[shape].size * (star && i % 2 == 1 ? shapes[shape].inner : 1);
         double angle = shapes[shape].turn - PI / 2 + 2 * PI * i / steps;
-        text_format(text, "%s%.1f %.1f", i == 0 ? "M" : "L", at.x + reach * cos(angle),
-                    at.y + reach * sin(angle));
+        text_format(text, "%s%.1f %.1f", i == 0 ? "M" : "L", at.x + reach * elementary_cos(angle),
+                    at.y + reach * elementary_sin(angle));
     }
     text_add_word(text, "Z\"/>\n");
 }
@@ -276,7 +276,7 @@ static void draw_lost(struct still *still, const struct lost_group *group)
 
 static void draw_scale(struct still *still)
 {
-    double wanted = 80 / still->scale, step = pow(10, floor(log10(wanted)));
+    double wanted = 80 / still->scale, step = elementary_pow(10, floor(elementary_log10(wanted)));
     step *= wanted <= step ? 1 : wanted <= 2 * step ? 2 : wanted <= 5 * step ? 5 : 10;
     text_format(still->text, "<path class=\"scale\" d=\"M20 %dv6h%.1fv-6\"/>\n", HEIGHT - 26,
                 step * still->scale);

@@ -3,6 +3,7 @@
 #include <complex.h>
 #include <math.h>
 
+#include "elementary.h"
 #include "random.h"
 #include "readings.h"
 #include "stage.h"
@@ -38,7 +39,7 @@ static bool measure(const struct cell *cell, const struct sensor *sensor,
         .range_m = reading_step(fmax(range_m, 0), sensor->range_step_m),
         .azimuth_rad = reading_step(angle.azimuth_rad, sensor->azimuth_step_rad),
         .range_rate_mps = reading_step(rate_mps, sensor->range_rate_step_mps),
-        .amplitude = cabs(pointers.sum),
+        .amplitude = elementary_hypot(creal(pointers.sum), cimag(pointers.sum)),
         .sign_undecided = angle.sign_undecided,
     };
     return angle.valid;

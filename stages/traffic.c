@@ -1,6 +1,7 @@
 /* Traffic: plays a scenario document or a recorded trajectory table, frame by frame. */
 #include <math.h>
 
+#include "elementary.h"
 #include "scene.h"
 #include "stage.h"
 
@@ -33,7 +34,7 @@ static void limit_radius(struct frame *frame, double radius_m)
     size_t kept = 0;
     for (size_t i = 0; i < frame->objects.count; i++) {
         const struct object *object = &frame->objects.items[i];
-        if (hypot(object->x_m - ego.x_m, object->y_m - ego.y_m) <= radius_m)
+        if (elementary_hypot(object->x_m - ego.x_m, object->y_m - ego.y_m) <= radius_m)
             frame->objects.items[kept++] = *object;
     }
     frame->objects.count = kept;
