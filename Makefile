@@ -6,6 +6,9 @@
 #   make CC=clang CXX=clang++ BUILD=build-clang
 #   make install    PREFIX=/usr/local DESTDIR=
 
+# Only our own rules: the built-in ones would link build/main/extract.d, an included file.
+MAKEFLAGS += -r
+
 PREFIX ?= /usr/local
 BUILD ?= build
 CFLAGS ?= -O2 -g
