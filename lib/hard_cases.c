@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
+#include "look.h"
 #include "superposition.h"
 #include "units.h"
 
@@ -79,11 +80,6 @@ static double amplitude(const struct site *site, const struct spot *spot)
     return superposition_ray(site->sensor, &echo, 0).amplitude;
 }
 
-static double border_rad(const struct site *site)
-{
-    return fmin(site->sensor->field_of_view_rad, PI) / 2;
-}
-
 static enum random_class draw_point_class(struct draws *draws)
 {
     return draws_chance(draws, 0.5) ? RANDOM_POST : RANDOM_PEDESTRIAN;
@@ -94,7 +90,7 @@ static struct spot draw_spot(struct site *site)
 {
     double nearest_m = site->sensor->range_min_m + 3;
     double farthest_m = fmin(0.8 * site->sensor->range_max_m, 30);
-    double border = 0.8 * border_rad(site);
+    double border = 0.8 * look_border_rad(site->sensor);
     struct spot spot = {
         .class = draw_point_class(&site->draws),
         .range_m = draws_between(&site->draws, fmin(nearest_m, farthest_m), farthest_m),
@@ -164,7 +160,8 @@ static void build_threshold(struct site *site)
 static bool turn_to_amplitude(const struct site *site, struct spot *spot, double wanted)
 {
     struct spot turned = *spot;
-    double side = copysign(1, spot->azimuth_rad), strong_rad = 0, weak_rad = border_rad(site);
+    double side = copysign(1, spot->azimuth_rad), strong_rad = 0,
+           weak_rad = look_border_rad(site->sensor);
     double middle_rad = weak_rad / 2;
     while (middle_rad > strong_rad && middle_rad < weak_rad) {
         turned.azimuth_rad = side * middle_rad;
@@ -173,7 +170,7 @@ static bool turn_to_amplitude(const struct site *site, struct spot *spot, double
         weak_rad = strong ? weak_rad : middle_rad;
         middle_rad = strong_rad + (weak_rad - strong_rad) / 2;
     }
-    if (strong_rad < 1e-3 || strong_rad > 0.99 * border_rad(site))
+    if (strong_rad < 1e-3 || strong_rad > 0.99 * look_border_rad(site->sensor))
         return false;
     spot->azimuth_rad = side * strong_rad;
     return true;
@@ -238,10 +235,9 @@ static void build_symmetry(struct site *site)
 static void build_view(struct site *site)
 {
     struct spot spot = draw_spot(site);
-    double largest_rad = draws_chance(&site->draws, 0.5) ? 1e-9 : 1e-6;
-    double margin_rad = draws_margin(&site->draws, largest_rad);
+    double margin_rad = draws_margin(&site->draws, 1e-7);
     bool border = draws_chance(&site->draws, 0.6);
-    spot.azimuth_rad = border ? copysign(border_rad(site), spot.azimuth_rad) : 0;
+    spot.azimuth_rad = border ? copysign(look_border_rad(site->sensor), spot.azimuth_rad) : 0;
     spot.azimuth_rad += margin_rad;
     add_spot(site, &spot);
 }
@@ -302,7 +298,7 @@ static void build_touch(struct site *site)
 {
     const struct object *ego = &site->frame->objects.items[0];
     bool exact = ego->x_m == 0 && ego->y_m == 0 && ego->yaw_rad == 0;
-    if (exact && fabs(site->sensor->mount_yaw_rad) < border_rad(site) &&
+    if (exact && fabs(site->sensor->mount_yaw_rad) < look_border_rad(site->sensor) &&
         draws_chance(&site->draws, 0.5))
         build_along_side(site);
     else
@@ -331,6 +327,16 @@ static void build_foot(struct site *site)
     add_box(site, RANDOM_CAR, atan2(line.y, line.x), -0.5, draws_sign(&site->draws) * 0.5, end);
 }
 
+static void build_against(struct site *site)
+{
+    struct spot spot = draw_spot(site);
+    struct vec2 line = direction_to(site, spot.azimuth_rad);
+    add_box(site, RANDOM_CAR, atan2(line.y, line.x), -0.5, draws_between(&site->draws, -0.4, 0.4),
+            place_at(site, spot.range_m, spot.azimuth_rad));
+    spot.range_m += draws_margin(&site->draws, 1e-8);
+    add_spot(site, &spot);
+}
+
 static const struct {
     const char *name;
     void (*build)(struct site *site);
@@ -345,6 +351,7 @@ static const struct {
     {"touch",     build_touch    },
     {"facing",    build_facing   },
     {"foot",      build_foot     },
+    {"against",   build_against  },
 };
 
 static void build(struct site *site, const struct suite *suite)

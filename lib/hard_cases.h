@@ -12,9 +12,11 @@
  *                 side
  *     facing      a car's point at an edge of its visibility range
  *     foot        a car's rear whose foot is at its end
+ *     against     a point at the rear of a car, on either side of it
  *
  * Each up to a margin, which is 0 or down to a millionth of the most: amplitudes 1e-3, distances
- * in a cell 1e-6, angles and sight lines 1e-9 and 1e-6. Built for scans at the end of the frame. */
+ * in a cell and facing angles 1e-6, borders of view 1e-7, others 1e-9 to 1e-8. Built for scans at
+ * the end of the frame. */
 #ifndef HARD_CASES_H
 #define HARD_CASES_H
 

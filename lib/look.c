@@ -16,6 +16,11 @@
 /* Losses name the stage whose work this is. */
 static const char stage_name[] = "ideal";
 
+double look_border_rad(const struct sensor *sensor)
+{
+    return fmin(sensor->field_of_view_rad, PI) / 2 - BORDER_RAD;
+}
+
 static struct box box_at(const struct object *object, double age_s)
 {
     struct motion now = {
@@ -143,8 +148,7 @@ static void look_at(struct look *look, const struct look_body *body, const char 
         lose(look, body, reflector, LOSS_OUT_OF_RANGE, NULL);
         return;
     }
-    double border = fmin(sensor->field_of_view_rad, PI) / 2 - BORDER_RAD;
-    if (!(azimuth < border)) {
+    if (!(azimuth < look_border_rad(sensor))) {
         lose(look, body, reflector, LOSS_OUT_OF_VIEW, NULL);
         return;
     }
