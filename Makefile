@@ -24,7 +24,7 @@ SANITIZE = -fsanitize=address$(comma)undefined -fno-sanitize-recover=all -fno-om
 endif
 
 WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes \
-    -Wmissing-prototypes -Wvla -Wundef -Wwrite-strings -Wcast-align -Wdouble-promotion -Wformat=2
+    -Werror=implicit-function-declaration -Wmissing-prototypes -Wvla -Wundef -Wwrite-strings -Wcast-align -Wdouble-promotion -Wformat=2
 # Contraction would let a compiler round a*b+c once instead of twice, and so change results.
 # gcc 12's vectorizer does it all the same where a subtraction and an addition stand side by side.
 EXACT = -ffp-contract=off -fno-fast-math -fno-tree-vectorize -fno-tree-slp-vectorize

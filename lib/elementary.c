@@ -255,25 +255,25 @@ static double angle_of(double y, double x)
 {
     /* atan(j/8). */
     static const struct pair eighths[] = {
-        {0,                    0                     },
+        {0, 0},
         {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
-        {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57 },
+        {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
         {0x1.6f61941e4def1p-2, -0x1.c63aae6f6e918p-56},
-        {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56 },
+        {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56},
         {0x1.1e00babdefeb4p-1, -0x1.928df287a668fp-58},
-        {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56 },
+        {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56},
         {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
-        {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55 },
+        {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55},
     };
     /* By octant, from which axis the angle is counted and to which side. */
     static const struct {
         struct pair from;
         double side;
     } octants[] = {
-        {{0, 0},                     1 },
-        {{PI_2_HI, PI_2_LO},         -1},
+        {{0, 0}, 1},
+        {{PI_2_HI, PI_2_LO}, -1},
         {{2 * PI_2_HI, 2 * PI_2_LO}, -1},
-        {{PI_2_HI, PI_2_LO},         1 },
+        {{PI_2_HI, PI_2_LO}, 1},
     };
     double across = fabs(y), along = fabs(x);
     unsigned steep = across > along;
@@ -382,18 +382,12 @@ static struct pair log_of(double x)
     /* log(j/16), j = 11 to 22. hi is a multiple of 2^-42, so that its sum with
      * k log 2 is exact. */
     static const struct pair sixteenths[] = {
-        {-0x1.7fafa3bd81p-2, -0x1.46fb79bf6d4cbp-44},
-        {-0x1.269621134ep-2, 0x1.1b61f10522625p-44 },
-        {-0x1.a93ed3c8aep-3, 0x1.8724350562169p-45 },
-        {-0x1.1178e8227ep-3, -0x1.1ef78ce2d07f2p-45},
-        {-0x1.08598b59e4p-4, 0x1.7e5dd7009902cp-46 },
-        {0,                  0                     },
-        {0x1.f0a30c0118p-5,  -0x1.d599e83368e91p-45},
-        {0x1.e27076e2bp-4,   -0x1.a342c2af0003cp-45},
-        {0x1.5ff3070a7ap-3,  -0x1.8586f183bebf2p-44},
-        {0x1.c8ff7c79aap-3,  -0x1.7794f689f8434p-45},
-        {0x1.1675cababap-2,  0x1.8380e731f55c4p-44 },
-        {0x1.4618bc21c6p-2,  -0x1.3d82f484c84ccp-46},
+        {-0x1.7fafa3bd81p-2, -0x1.46fb79bf6d4cbp-44}, {-0x1.269621134ep-2, 0x1.1b61f10522625p-44},
+        {-0x1.a93ed3c8aep-3, 0x1.8724350562169p-45},  {-0x1.1178e8227ep-3, -0x1.1ef78ce2d07f2p-45},
+        {-0x1.08598b59e4p-4, 0x1.7e5dd7009902cp-46},  {0, 0},
+        {0x1.f0a30c0118p-5, -0x1.d599e83368e91p-45},  {0x1.e27076e2bp-4, -0x1.a342c2af0003cp-45},
+        {0x1.5ff3070a7ap-3, -0x1.8586f183bebf2p-44},  {0x1.c8ff7c79aap-3, -0x1.7794f689f8434p-45},
+        {0x1.1675cababap-2, 0x1.8380e731f55c4p-44},   {0x1.4618bc21c6p-2, -0x1.3d82f484c84ccp-46},
     };
     double k, m = split_binary(x, &k);
     int j = (int)(m * 16 + 0.5);

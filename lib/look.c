@@ -10,12 +10,17 @@
 #include "sort.h"
 #include "units.h"
 
-/* The foot on a wall parallel to boresight lies at 90 degrees exactly: this much is its rounding.
- */
+/* The border of a field of view is outside, and this wide: the foot on a wall that is parallel to
+ * boresight lies at 90 degrees but for its rounding. */
 #define BORDER_RAD 1e-9
 
 /* Losses name the stage whose work this is. */
 static const char stage_name[] = "ideal";
+
+double look_border_rad(const struct sensor *sensor)
+{
+    return sensor->field_of_view_rad / 2 - BORDER_RAD;
+}
 
 static struct box box_at(const struct object *object, double age_s)
 {
@@ -144,7 +149,7 @@ static void look_at(struct look *look, const struct look_body *body, const char 
         lose(look, body, reflector, LOSS_OUT_OF_RANGE, NULL);
         return;
     }
-    if (!(azimuth < sensor->field_of_view_rad / 2 - BORDER_RAD)) {
+    if (!(azimuth < look_border_rad(sensor))) {
         lose(look, body, reflector, LOSS_OUT_OF_VIEW, NULL);
         return;
     }

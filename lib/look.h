@@ -38,4 +38,7 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
 /* Every reflector of every object: adds echoes, losses and the sensor's count to the frame. */
 void look_around(struct look *look);
 
+/* Azimuths from here on, to either side, are outside the sensor's view. */
+double look_border_rad(const struct sensor *sensor);
+
 #endif

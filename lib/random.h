@@ -14,6 +14,8 @@ enum random_purpose {
     RANDOM_RANGE_RATE = 2, /* noise on range and range rate */
     RANDOM_AZIMUTH = 3,    /* noise on azimuth (glint-noise-gauss) */
     RANDOM_PHASE = 4,      /* relative phase of an echo */
+    RANDOM_TRAFFIC = 5,    /* who is there in a random scene, where and how fast */
+    RANDOM_HARD_CASE = 6,  /* which hard cases a random scene has */
 };
 
 struct random_address {

@@ -14,6 +14,8 @@ from fractions import Fraction
 
 DOUBT = 1e-12
 UNDECIDED = 2.0 ** -47
+# Reading: the border is outside and this wide: the foot on a wall along boresight lies on it but for rounding.
+VIEW_BORDER_RAD = 1e-9
 
 
 class View:
@@ -180,7 +182,7 @@ class Radar:
     def limits(self, distance, azimuth):
         """(within range and field of view, is that doubtful)."""
         low, high = self.document["range_min_m"], self.document["range_max_m"]
-        half = min(0.5 * self.document["field_of_view_rad"], 0.5 * math.pi)
+        half = min(0.5 * self.document["field_of_view_rad"], 0.5 * math.pi) - VIEW_BORDER_RAD
         inside = distance > 0 and low <= distance <= high and abs(azimuth) < half
         scale = max(1.0, distance)
         return inside, close(distance, low, scale) or close(distance, high, scale) or close(abs(azimuth), half)

@@ -1,0 +1,105 @@
+/* Random traffic: independent snapshots, each a scene of one frame that is drawn by its number
+ * alone. */
+#include <inttypes.h>
+#include <stdio.h>
+
+#include "hard_cases.h"
+#include "random_scene.h"
+#include "stage.h"
+
+struct traffic_random {
+    enum random_density density;
+    int64_t frames, first;
+    double rate_hz;
+    const char *sensors;
+    const struct suite *suite;
+    struct random_scene scene;
+    int64_t made;
+};
+
+static int traffic_random_start(void *state, struct runner *runner)
+{
+    struct traffic_random *traffic = state;
+    struct random_scene *scene = &traffic->scene;
+    if ((traffic->density == RANDOM_ADVERSARIAL) != (traffic->sensors != NULL))
+        return diag_fail(runner_diag(runner), DIAG_USAGE,
+                         "--density adversarial and --sensors SUITE need each other");
+    scene->density = traffic->density;
+    for (enum random_class class = 0; class < RANDOM_CLASSES; class ++) {
+        const struct vehicle *vehicle = runner_vehicle(runner, random_class_name(class));
+        if (vehicle == NULL)
+            return -1;
+        scene->models[class] =
+            (struct random_model){vehicle->length_m, vehicle->width_m, &vehicle->reflectors};
+    }
+    runner_expect(runner, traffic->frames);
+    if (traffic->sensors != NULL)
+        traffic->suite =
+            catalogue_suite(traffic->sensors, runner_arena(runner), runner_diag(runner));
+    return traffic->sensors == NULL || traffic->suite != NULL ? 0 : -1;
+}
+
+static const char *name_of(const struct traffic_random *traffic, const struct frame *frame,
+                           int64_t number)
+{
+    enum { SIZE = 80 };
+    char *name = arena_get(frame->arena, SIZE);
+    snprintf(name, SIZE, "random-%s/%" PRIu64 "/%" PRId64, random_densities[traffic->density],
+             frame->seed, number);
+    return name;
+}
+
+static int traffic_random_next(void *state, struct frame *frame, struct runner *runner)
+{
+    (void)runner;
+    struct traffic_random *traffic = state;
+    if (traffic->made == traffic->frames)
+        return 0;
+    int64_t number = traffic->first + traffic->made++;
+    frame->scene = name_of(traffic, frame, number);
+    frame->time_s = (double)number / traffic->rate_hz;
+    frame->interval_s = 1 / traffic->rate_hz;
+    frame->last = true;
+    random_scene_fill(&traffic->scene, number, frame);
+    if (traffic->suite != NULL)
+        hard_cases_add(&traffic->scene, traffic->suite, number, frame);
+    return 1;
+}
+
+static const struct field traffic_random_options[] = {
+    {FIELD_CHOICE_OF(struct traffic_random, density, random_densities,
+                     "how many objects, how near"),
+     FIELD_OPTIONAL, .absent = RANDOM_MEDIUM},
+    {FIELD_INTEGER_IN(struct traffic_random, frames, 0, 1e9, "how many; absent: 100"),
+     FIELD_OPTIONAL, .absent = 100},
+    {FIELD_INTEGER_IN(struct traffic_random, first, 0, 1e9, "number of the first one"),
+     FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct traffic_random, rate_hz, 1, 1e4,
+                   "frame number n is at n/rate; absent: 20"),
+     FIELD_OPTIONAL, .absent = 20},
+    {FIELD_NAME_OF(struct traffic_random, sensors,
+                   "the suite whose decisions adversarial scenes are built around"),
+     FIELD_OPTIONAL},
+    {0},
+};
+
+static const struct record traffic_random_record = {
+    .name = "traffic-random",
+    .size = sizeof(struct traffic_random),
+    .fields = traffic_random_options,
+};
+
+const struct stage stage_traffic_random = {
+    .name = "traffic-random",
+    .summary = "Make random traffic: independent snapshots, each a scene of its own.",
+    .details =
+        "Objects of all classes around an ego: 0 to 3 within 120 m (sparse), 0 to 8 within\n"
+        "60 m (medium, the default), 4 to 15 within 25 m (dense). Adversarial scenes hold what\n"
+        "decisions of the sensors turn on: amplitudes at the threshold, ties, distances of half\n"
+        "a cell, sight lines that touch corners, borders of view. A frame depends on seed,\n"
+        "density (and suite) and its number alone, so --first and --frames cut a set anywhere.",
+    .options = &traffic_random_record,
+    .writes = SECTION_OBJECTS,
+    .start = traffic_random_start,
+    .next = traffic_random_next,
+};
