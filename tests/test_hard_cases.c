@@ -214,7 +214,7 @@ static size_t length_of_case(const struct object *object)
 static double hardest(const struct bench *bench, size_t first, double (*off)(const struct view *))
 {
     const struct object *objects = bench->frame.objects.items;
-    double least = INFINITY;
+    double least = (double)INFINITY;
     size_t count = 1, length = length_of_case(&objects[first]);
     while (first + count < bench->frame.objects.count &&
            strncmp(objects[first + count].id, objects[first].id, length + 1) == 0)
