@@ -81,6 +81,12 @@ const tests = {
         }
     },
 
+    async 'where one sensor has three targets and lacks a fourth, that is shown first'() {
+        await withPage(view(stream('side')), async page => {
+            assert.match(await panelText(page), /: 3 targets, 1 echo lost/);
+        });
+    },
+
     async 'a click on a target tells its label'() {
         const frame = richFrame(corner);
         const target = frame.targets.filter(one => one.sensor === 'left')[2];
