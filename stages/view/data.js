@@ -240,6 +240,30 @@ function rateOf(scan, target, compensated) {
         column('scan_vy_mps')[scan] * Math.sin(angle);
 }
 
+// The fastest target of the stream, over ground or as reported.
+function fastestRate(compensated) {
+    let fastest = 0;
+    for (let scan = 0; scan < column('scan_targets').length; scan++) {
+        const {begin, end} = targetsOf(scan);
+        for (let target = begin; target < end; target++) {
+            fastest = Math.max(fastest, Math.abs(rateOf(scan, target, compensated)));
+        }
+    }
+    return fastest;
+}
+
+// How many frames a scene lacks between its first and its last.
+function framesMissing(number) {
+    const present = new Set(sceneFrames[number].map(frameNumber));
+    let low = Infinity;
+    let high = -Infinity;
+    for (const frame of present) {
+        low = Math.min(low, frame);
+        high = Math.max(high, frame);
+    }
+    return high - low + 1 - present.size;
+}
+
 function extremes(name, absolute) {
     let low = Infinity;
     let high = -Infinity;

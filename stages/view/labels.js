@@ -82,9 +82,12 @@ function labelObjects() {
 // Inside the box if it fits there, else beside it.
 function labelObject(box, text, colour) {
     const at = toScreen(box);
+    const turn = screenAngle(box.yaw);
+    const cos = Math.abs(Math.cos(turn));
+    const sin = Math.abs(Math.sin(turn));
     const size = {
-        x: (box.length * Math.abs(box.cos) + box.width * Math.abs(box.sin)) * camera.scale,
-        y: (box.length * Math.abs(box.sin) + box.width * Math.abs(box.cos)) * camera.scale,
+        x: (box.length * cos + box.width * sin) * camera.scale,
+        y: (box.length * sin + box.width * cos) * camera.scale,
     };
     context.font = '12px system-ui, "DejaVu Sans", sans-serif';
     const width = context.measureText(text).width;

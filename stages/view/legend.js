@@ -61,6 +61,14 @@ function colourLines() {
         const levels = [0, 0.25, 0.5, 0.75, 1].map(part => amplitudeColour(low + part * (high - low)));
         return [legendLine(gradient(levels), `${round(low, 1)} … ${round(high, 1)} dB`)];
     }
+    if (state.colour === 'object') {
+        return [legendLine(markCanvas(drawing => {
+            ink.palette.slice(0, 3).forEach((colour, i) => {
+                drawing.fillStyle = colour;
+                drawing.fillRect(6 * i, 4, 5, 8);
+            });
+        }), 'in the colour of its object')];
+    }
     if (state.colour === 'path') {
         return head.paths.map((path, i) =>
             legendLine(dotMark(ink.palette[i % ink.palette.length]), `path: ${path}`));
@@ -75,6 +83,7 @@ function showLegend() {
     control('legend').replaceChildren(...lines, ...colourLines(),
         legendLine(strokeMark(ink.soft, 1.6, [[1, 8, 17, 8]]),
             state.rates === 'raw' ? 'its radial speed, 0.5 s long' : 'its radial speed over ground, 0.5 s long'),
+        legendLine(strokeMark(ink.soft, 1.2, [[1, 8, 5, 8], [7, 8, 11, 8], [13, 8, 17, 8]]), 'field of view'),
         legendLine(dotMark(ink.edge), 'reflection centre'),
         legendLine(strokeMark(ink.lost, 2, [[4, 3, 14, 13], [4, 13, 14, 3]]), 'echo that is in no target'));
 }

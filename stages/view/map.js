@@ -133,13 +133,19 @@ function drawObject(row) {
     traceOutline(box);
     context.fillStyle = isEgo ? ink.ego : ink.body;
     context.fill();
-    context.lineWidth = id === state.object ? 2.2 : 1.2;
-    context.strokeStyle = id === state.object ? ink.chosen : ink.edge;
-    context.stroke();
+    strokeOutline(id, isEgo);
     if (box.length * camera.scale > 14 && box.width > 0.25 * box.length) {
         const colour = isEgo ? ink.paper : ink.edge;
         drawHeading(box, colour);
     }
+}
+
+function strokeOutline(id, isEgo) {
+    const coloured = state.colour === 'object' && !isEgo;
+    const chosen = id === state.object;
+    context.lineWidth = (chosen ? 2.2 : 1.2) + (coloured ? 1 : 0);
+    context.strokeStyle = coloured ? objectColour(id) : chosen ? ink.chosen : ink.edge;
+    context.stroke();
 }
 
 // A chevron at the front: which way it faces.

@@ -6,8 +6,8 @@ function objectsSeen(frame) {
     const seen = new Map();
     const {begin, end} = scansOf(frame);
     for (let scan = begin; scan < end; scan++) {
-        countTargets(scan, seen);
-        countLost(scan, seen);
+        const here = countTargets(scan, seen);
+        countLost(scan, seen, here);
     }
     return seen;
 }
@@ -18,11 +18,12 @@ function countTargets(scan, seen) {
     for (let target = begin; target < end; target++) {
         const object = objectOfTarget(target);
         here.set(object, (here.get(object) || 0) + 1);
-        const known = seen.get(object) || {targets: 0, lost: 0, foreign: 0};
+        const known = seen.get(object) || {targets: 0, lost: 0, foreign: 0, beside: false};
         known.targets = Math.max(known.targets, here.get(object));
         known.foreign += isMerged(target) ? 1 : 0;
         seen.set(object, known);
     }
+    return here;
 }
 
 function isMerged(target) {
@@ -36,21 +37,23 @@ function isMerged(target) {
     return false;
 }
 
-function countLost(scan, seen) {
+function countLost(scan, seen, here) {
     const objects = column('detail_object');
     const {begin, end} = detailsOf(scan);
     for (let i = begin; i < end; i++) {
         const known = seen.get(objects[i]);
         if (known) {
             known.lost++;
+            known.beside = known.beside || here.get(objects[i]) >= 3;
         }
     }
 }
 
-function scoreOf({targets, lost, foreign}, row) {
+// Best if one sensor's own list has three targets and lacks a fourth.
+function scoreOf({targets, lost, foreign, beside}, row) {
     const many = row >= 0 && classOf(row).points.length >= 6;
     return 3 * Math.min(targets, 3) + (lost > 0 ? 4 : 0) - 0.5 * Math.max(0, lost - 2) -
-        2 * foreign + (many ? 6 : 0);
+        2 * foreign + (beside ? 2 : 0) + (many ? 6 : 0);
 }
 
 function openingOf(number) {

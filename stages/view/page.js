@@ -15,6 +15,7 @@ const state = {
     trail: true,
     playing: false,
     pace: 1,
+    fastest: 1, // range rate, as it is shown
     rateScale: 1,
     amplitudes: {low: 0, high: 1},
     limits: {range: 30, azimuth: 90, rate: 10},
@@ -157,15 +158,31 @@ function scenesCutShort() {
     return head.scenes.filter(scene => !scene.ended).map(scene => names[scene.name]);
 }
 
+function scenesWithHoles() {
+    return head.scenes.filter((_, number) => framesMissing(number) > 0).map(scene => names[scene.name]);
+}
+
+function someOf(scenes) {
+    const shown = scenes.slice(0, 5).map(name => `“${name}”`).join(', ');
+    return `${scenes.length} of ${head.scenes.length} scenes: ${shown}` +
+        (scenes.length > 5 ? ` and ${scenes.length - 5} more` : '');
+}
+
 function showNotice() {
+    const alone = head.scenes.length === 1;
     const cut = scenesCutShort();
-    const notice = control('notice');
-    const shown = cut.slice(0, 5).map(name => `“${name}”`).join(', ');
-    const more = cut.length > 5 ? ` and ${cut.length - 5} more` : '';
-    notice.hidden = cut.length === 0;
-    notice.textContent = cut.length === 1 && head.scenes.length === 1
-        ? 'This scene ends before its last frame: the stream was cut.'
-        : `Cut stream: ${cut.length} of ${head.scenes.length} scenes end before their last frame: ${shown}${more}.`;
+    const holes = scenesWithHoles();
+    const told = [];
+    if (cut.length > 0) {
+        told.push(alone ? 'This scene ends before its last frame: the stream was cut.'
+            : `Cut stream, it ends before the last frame of ${someOf(cut)}.`);
+    }
+    if (holes.length > 0) {
+        told.push(alone ? `${plural(framesMissing(0), 'frame')} between its first and its last are not in the stream.`
+            : `Frames are missing within ${someOf(holes)}.`);
+    }
+    control('notice').hidden = told.length === 0;
+    control('notice').textContent = told.join(' ');
 }
 
 function setScene(number) {
@@ -201,6 +218,14 @@ function setTheme(dark) {
     refresh();
 }
 
+// Speeds over ground have a scale of their own.
+function setRates(rates) {
+    state.rates = rates;
+    state.fastest = fastestRate(rates === 'compensated');
+    state.rateScale = Math.max(1, state.fastest);
+    state.limits = plotLimits();
+}
+
 function choice(id, apply) {
     control(id).addEventListener('change', () => {
         apply(control(id).value);
@@ -211,7 +236,7 @@ function choice(id, apply) {
 
 function connectChoices() {
     choice('colour', value => { state.colour = value; });
-    choice('rates', value => { state.rates = value; });
+    choice('rates', setRates);
     choice('up', value => { state.up = value; fitView(); });
     control('follow').addEventListener('change', () => setFollow(control('follow').checked));
     control('trail').addEventListener('change', () => {
@@ -231,6 +256,11 @@ function connectChoices() {
 function connectButtons() {
     const click = (id, act) => control(id).addEventListener('click', act);
     click('play', () => setPlaying(!state.playing));
+    panel.addEventListener('pointerdown', event => {
+        if (event.target.closest('button')) {
+            setPlaying(false); // else the row is gone before the finger is up
+        }
+    });
     click('back', () => stepBy(-1));
     click('forward', () => stepBy(1));
     click('closer', () => zoomMiddle(1.4));
@@ -271,11 +301,15 @@ const keyActions = {
     'Escape': chooseNone,
 };
 
+// Does the control with the focus use this key itself?
+function isOwnKey({target, key}) {
+    const presses = ['SELECT', 'INPUT', 'BUTTON'].includes(target.tagName);
+    const moves = target.tagName === 'SELECT' || target.type === 'range';
+    return key === ' ' ? presses : moves && (key.startsWith('Arrow') || key === 'Home' || key === 'End');
+}
+
 function onKey(event) {
-    const own = ['SELECT', 'INPUT', 'BUTTON'].includes(event.target.tagName);
-    const moves = event.key === ' ' || event.key.startsWith('Arrow') || event.key === 'Home' ||
-        event.key === 'End';
-    if (event.ctrlKey || event.metaKey || event.altKey || control('keys').open || (own && moves)) {
+    if (event.ctrlKey || event.metaKey || event.altKey || control('keys').open || isOwnKey(event)) {
         return;
     }
     const act = keyActions[event.key];
@@ -313,9 +347,8 @@ function start() {
     connectPointers();
     document.addEventListener('keydown', onKey);
     new ResizeObserver(redraw).observe(canvas);
-    state.rateScale = Math.max(1, extremes('target_range_rate_mps', true).high);
     state.amplitudes = extremes('target_amplitude_db', false);
-    state.limits = plotLimits();
+    setRates('raw');
     showNotice();
     showLegend();
     setScene(0);

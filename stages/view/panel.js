@@ -117,6 +117,7 @@ function farSection(losses) {
     const lines = [];
     for (const [reason, reflectors] of groups) {
         const line = make('p', null, 'soft');
+        reflectors.sort();
         const more = reflectors.length > 12 ? ` and ${reflectors.length - 12} more` : '';
         line.append(make('b', `${reflectors.length} ${farWords(reason)}: `),
             reflectors.slice(0, 12).join(', ') + more);
@@ -156,6 +157,10 @@ function sensorTitle(scan, text) {
     const name = make('b', sensorOf(scan).name);
     title.append(symbolCanvas(style, colour, 16), ' ', name, text ? `: ${text}` : '');
     return title;
+}
+
+function moreLine(count) {
+    return count > 0 ? [make('p', `and ${count} more`, 'soft')] : [];
 }
 
 function section(title, rows) {
@@ -220,6 +225,7 @@ function objectSections(scan) {
         sensorTitle(scan, summary(scan, targets, near, far)),
         ...targets.map(one => targetRow(scan, one.target, one.number, state.object)),
         ...near.slice(0, 40).map(lossRow),
+        ...moreLine(near.length - 40),
         ...farSection(far),
     ];
 }
@@ -288,7 +294,8 @@ function showTarget() {
     order.sort((a, b) => weights[b] - weights[a]);
     const rows = order.slice(0, 40).map(i => contributorRow(scan, state.target, i));
     panel.replaceChildren(backButton(), title, valuesTable(scan, state.target),
-        ...targetNotes(scan), ...section(`Made of ${plural(rows.length, 'reflection centre')}`, rows));
+        ...targetNotes(scan), ...section(`Made of ${plural(order.length, 'reflection centre')}`, rows),
+        ...moreLine(order.length - rows.length));
 }
 
 function targetNotes(scan) {
@@ -348,6 +355,9 @@ function showFrame() {
     const parts = [make('h2', 'This frame')];
     parts.push(make('p', hasSensors() ? 'Click a target, a reflection centre or an object.'
         : 'The stream has no sensors: only the scene is shown.', 'soft'));
+    if (hasSensors() && column('target_range_m').length === 0) {
+        parts.push(make('p', 'No frame of this stream has a target: has it been through all stages?', 'soft'));
+    }
     const {begin, end} = scansOf(state.frame);
     for (let scan = begin; scan < end; scan++) {
         const targets = targetsOf(scan);
@@ -357,11 +367,21 @@ function showFrame() {
             const target = targets.begin + i;
             parts.push(targetRow(scan, target, i + 1, -1));
         }
+        parts.push(...moreLine(count - 300));
     }
     panel.replaceChildren(...parts);
 }
 
+// Whoever walks through the panel with the keyboard stays in it when it changes.
 function showPanel() {
+    const walking = panel.querySelector(':focus-visible') !== null;
+    fillPanel();
+    if (walking) {
+        (panel.querySelector('button') || canvas).focus({preventScroll: true});
+    }
+}
+
+function fillPanel() {
     if (state.frame < 0) {
         panel.replaceChildren();
     } else if (state.target >= 0) {

@@ -18,12 +18,11 @@ function roundStep(span, parts) {
 // The farthest, widest and fastest in the whole stream, so that the axes stand still.
 function plotLimits() {
     const ranges = extremes('target_range_m', true);
-    const rates = extremes('target_range_rate_mps', true);
     const widest = head.sensors.reduce((most, one) => Math.max(most, one.field_of_view_rad), 0);
     return {
         range: Math.max(5, ranges.high) * 1.08,
         azimuth: Math.max(10, 10 * Math.ceil(widest / 2 * degrees / 10 - 0.01)),
-        rate: Math.max(2, rates.high) * 1.1,
+        rate: Math.max(2, state.fastest) * 1.1,
     };
 }
 
@@ -76,7 +75,8 @@ function drawAxes(drawing, size, axes, unit) {
         plotText(drawing, String(Number(range.toPrecision(3))), at.x - 4, at.y, 'right');
     }
     const middle = plotPlace(size, axes, (axes.left + axes.right) / 2, 0);
-    plotText(drawing, unit === '°' ? 'azimuth in °, left is left' : 'm/s, receding is right',
+    plotText(drawing, unit === '°' ? 'azimuth in °, left is left'
+        : state.rates === 'raw' ? 'm/s, receding is right' : 'm/s over ground',
         middle.x, size.height - 8, 'center');
 }
 

@@ -56,10 +56,35 @@ function amplitudeColour(level) {
     return isDark() ? mix([70, 90, 150], [255, 235, 90], part) : mix([215, 175, 20], [20, 40, 110], part);
 }
 
+const objectOrders = new Map();
+
+// Objects take colours in the order in which they make targets, so that as few as can be share one.
+function objectOrder(number) {
+    let order = objectOrders.get(number);
+    if (order === undefined) {
+        order = new Map();
+        for (const frame of sceneFrames[number]) {
+            eachTarget(frame, (scan, target) => {
+                const object = objectOfTarget(target);
+                if (!order.has(object)) {
+                    order.set(object, order.size);
+                }
+            });
+        }
+        objectOrders.set(number, order);
+    }
+    return order;
+}
+
+function objectColour(object) {
+    const place = objectOrder(state.scene).get(object);
+    return place === undefined ? ink.edge : ink.palette[place % ink.palette.length];
+}
+
 function colourOf(scan, target) {
     switch (state.colour) {
     case 'object':
-        return ink.palette[objectOfTarget(target) % ink.palette.length];
+        return objectColour(objectOfTarget(target));
     case 'rate':
         return rateColour(rateOf(scan, target, state.rates === 'compensated'));
     case 'amplitude':

@@ -81,6 +81,12 @@ const tests = {
         }
     },
 
+    async 'where one sensor has three targets and lacks a fourth, that is shown first'() {
+        await withPage(view(stream('side')), async page => {
+            assert.match(await panelText(page), /: 3 targets, 1 echo lost/);
+        });
+    },
+
     async 'a click on a target tells its label'() {
         const frame = richFrame(corner);
         const target = frame.targets.filter(one => one.sensor === 'left')[2];
@@ -180,6 +186,79 @@ const tests = {
         });
     },
 
+    async 'arrow keys step after a button was pressed'() {
+        await withPage(view(corner, '--frame', '60'), async page => {
+            await page.click('#forward');
+            await page.keyboard.press('ArrowRight');
+            assert.match(await clock(page), /^frame 62 /);
+            await page.click('#follow');
+            await page.keyboard.press('ArrowLeft');
+            assert.match(await clock(page), /^frame 61 /);
+        });
+    },
+
+    async 'the keyboard walks through the panel without losing its place'() {
+        await withPage(view(corner, '--frame', '114'), async page => {
+            await page.keyboard.press('Tab');
+            await page.focus('#panel .row');
+            await page.keyboard.press('Enter');
+            assert.match(await panelText(page), /^.*all of this object/);
+            assert.ok(await page.evaluate(() => document.getElementById('panel').contains(document.activeElement)));
+            await page.keyboard.press('Enter');
+            assert.doesNotMatch(await panelText(page), /all of this object/);
+        });
+    },
+
+    async 'a press in the panel pauses and is a click'() {
+        const rows = corner.filter(frame => frame.frame >= 100);
+        await withPage(view(rows, '--frame', '100'), async page => {
+            await page.selectOption('#pace', '0.25');
+            await page.click('#play');
+            const place = await page.evaluate(() => {
+                const box = document.querySelector('#panel .row').getBoundingClientRect();
+                return {x: box.x + 60, y: box.y + 8};
+            });
+            await page.mouse.move(place.x, place.y);
+            await page.mouse.down();
+            await page.waitForTimeout(400);
+            await page.mouse.up();
+            assert.match(await panelText(page), /Target 1 of left/);
+            assert.ok(await page.evaluate(() => !state.playing));
+        });
+    },
+
+    async 'speeds over ground fit their plot'() {
+        await withPage(view(stream('highway')), async page => {
+            for (const rates of ['raw', 'compensated']) {
+                await page.selectOption('#rates', rates);
+                await page.evaluate(() => draw());
+                const hits = await page.evaluate(() => plots.rate.hits.map(hit => hit.x));
+                const width = await page.evaluate(() => plots.rate.canvas.clientWidth);
+                assert.ok(hits.length > 0 && hits.every(x => x > 0 && x < width), `${rates}: ${hits}`);
+            }
+        });
+    },
+
+    async 'objects have colours of their own'() {
+        const made = new Set(intersection.flatMap(frame => frame.targets.map(target => target.contributors[0].object)));
+        await withPage(view(intersection), async page => {
+            await page.selectOption('#colour', 'object');
+            const counts = await page.evaluate(ids => {
+                const colours = ids.map(id => objectColour(names.indexOf(id)));
+                return ink.palette.map(one => colours.filter(colour => colour === one).length);
+            }, [...made]);
+            assert.strictEqual(counts.reduce((sum, count) => sum + count), made.size);
+            assert.ok(Math.max(...counts) - Math.min(...counts) <= 1, String(counts));
+        });
+    },
+
+    async 'missing frames are told'() {
+        const frames = corner.filter(frame => frame.frame < 20 || frame.frame > 60);
+        await withPage(view(frames), async page => {
+            assert.match(await page.innerText('#notice'), /^41 frames between its first and its last/);
+        });
+    },
+
     async 'every colouring draws'() {
         await withPage(view(intersection), async page => {
             for (const scheme of ['light', 'dark']) {
@@ -251,6 +330,7 @@ const tests = {
             async page => {
                 await page.keyboard.press('Escape');
                 assert.match(await panelText(page), /left: 500 targets/);
+                assert.match(await panelText(page), /and 200 more/);
                 const time = await page.evaluate(() => {
                     const begin = performance.now();
                     draw();
