@@ -588,6 +588,7 @@ static void special_logarithms_and_powers_are_exact(void **state)
     assert_same_bits(elementary_pow(1e300, 1.7), inf);
     assert_same_bits(elementary_pow(1e-300, 1.7), 0);
     assert_same_bits(elementary_pow(1 + DBL_EPSILON, 1e300), inf);
+    assert_true(isnan(elementary_pow(1, inf)) && isnan(elementary_pow(2, (double)NAN)));
     assert_true(isnan(elementary_pow(-2, 0.7)) && isnan(elementary_pow((double)NAN, 0.7)));
 }
 
