@@ -503,7 +503,9 @@ double elementary_hypot(double x, double y)
     }
     if (longer >= 0x1p-400 && longer <= 0x1p500)
         return sqrt(longer * longer + shorter * shorter);
-    if (longer == 0 || isinf(longer) || isnan(longer) || isnan(shorter))
+    if (isinf(x) || isinf(y))
+        return INFINITE;
+    if (longer == 0 || isnan(longer) || isnan(shorter))
         return longer + shorter;
     int exponent;
     longer = frexp(longer, &exponent);
