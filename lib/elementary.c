@@ -235,9 +235,8 @@ static double atan_rest(double t)
     return t * (z * (low + z * z * (high - 0x1.70beaffe8644ep-4 * (z * z))));
 }
 
-/* (n - c d) / (d + c n), the tangent of what atan n/d leaves beyond atan c; c has few bits. hi has
- * 26 bits. */
-static struct pair tangent_beyond(double n, double d, double c)
+/* atan(n/d) - atan(c) = atan(t), t = (n - c d) / (d + c n) at most 1/16 in size; c has few bits. */
+static struct pair atan_beyond(double n, double d, double c)
 {
     double n_head = head(n), d_head = head(d);
     struct pair above = sum_of(n - c * d_head, -(c * (d - d_head)));
@@ -245,9 +244,9 @@ static struct pair tangent_beyond(double n, double d, double c)
     double below_head = head(below);
     double below_tail = ((d - below_head) + c * n_head) + c * (n - n_head);
     double inverse = 1 / below;
-    double t = head(above.hi * inverse);
+    double quotient = above.hi * inverse, t = head(quotient);
     double left = ((above.hi - t * below_head) - t * below_tail) + above.lo;
-    return (struct pair){t, left * inverse};
+    return (struct pair){t, left * inverse + atan_rest(quotient)};
 }
 
 /* x and y between 2^-500 and 2^500 in size. */
@@ -279,13 +278,13 @@ static double angle_of(double y, double x)
     unsigned steep = across > along;
     double n = steep ? along : across, d = steep ? across : along;
     int j = (int)(n / d * 8 + 0.5);
-    struct pair t = tangent_beyond(n, d, j * 0.125);
+    struct pair rest = atan_beyond(n, d, j * 0.125);
     unsigned octant = steep + (x < 0 ? 2 : 0);
     double side = octants[octant].side;
     struct pair start = sum_of(octants[octant].from.hi, side * eighths[j].hi);
     start.lo += octants[octant].from.lo + side * eighths[j].lo;
-    struct pair angle = sum_of(start.hi, side * t.hi);
-    angle.lo += start.lo + side * (t.lo + atan_rest(t.hi + t.lo));
+    struct pair angle = sum_of(start.hi, side * rest.hi);
+    angle.lo += start.lo + side * rest.lo;
     return copysign(angle.hi + angle.lo, y);
 }
 
@@ -394,11 +393,11 @@ static struct pair log_of(double x)
     double c = j * 0.0625;
     double above = m - c, below = m + c, inverse = 1 / below;
     double below_head = head(below), below_tail = m - (below_head - c);
-    double s = head(above * inverse);
+    double quotient = above * inverse, s = head(quotient);
     double s_tail = ((above - s * below_head) - s * below_tail) * inverse;
     struct pair base = sixteenths[j - 11];
     struct pair sum = sum_of(k * LOG_2_HI + base.hi, 2 * s);
-    sum.lo += (k * LOG_2_LO + base.lo) + (2 * s_tail + log_rest(s + s_tail));
+    sum.lo += (k * LOG_2_LO + base.lo) + (2 * s_tail + log_rest(quotient));
     return sum;
 }
 
@@ -479,10 +478,10 @@ double elementary_pow(double base, double exponent)
         return base * sqrt(base);
     if (exponent == 1 || exponent == 0)
         return exponent == 1 ? base : 1;
+    if (!(base >= 0 && isfinite(exponent)))
+        return NO_NUMBER;
     if (base == 0 || isinf(base))
         return (base == 0) == (exponent > 0) ? 0 : INFINITE;
-    if (!(base > 0))
-        return NO_NUMBER;
     struct pair log = log_of(base);
     log = sum_of(log.hi, log.lo);
     struct pair product = product_of(exponent, log.hi);
@@ -498,7 +497,9 @@ double elementary_hypot(double x, double y)
     }
     if (longer >= 0x1p-400 && longer <= 0x1p500)
         return sqrt(longer * longer + shorter * shorter);
-    if (longer == 0 || isinf(longer) || isnan(longer) || isnan(shorter))
+    if (isinf(x) || isinf(y))
+        return INFINITE;
+    if (longer == 0 || isnan(longer) || isnan(shorter))
         return longer + shorter;
     int exponent;
     longer = frexp(longer, &exponent);

@@ -39,8 +39,8 @@ double elementary_log10(double x);
  * result leaves the doubles. */
 double elementary_exp(double x);
 
-/* base^exponent for base >= 0 and finite exponents, within 1; correctly rounded for exponents 1, 2
- * and 1/2, within 1.3 for 3/2. */
+/* base^exponent for base >= 0 and a finite exponent, NaN otherwise; within 1, correctly rounded for
+ * exponents 1, 2 and 1/2, within 1.3 for 3/2. */
 double elementary_pow(double base, double exponent);
 
 /* sqrt(x^2 + y^2) without overflow or underflow on the way, within 1.2; exact where a side is 0. */

@@ -583,6 +583,7 @@ static void special_logarithms_and_powers_are_exact(void **state)
     assert_same_bits(elementary_pow(1e300, 1.7), inf);
     assert_same_bits(elementary_pow(1e-300, 1.7), 0);
     assert_same_bits(elementary_pow(1 + DBL_EPSILON, 1e300), inf);
+    assert_true(isnan(elementary_pow(1, inf)) && isnan(elementary_pow(2, (double)NAN)));
     assert_true(isnan(elementary_pow(-2, 0.7)) && isnan(elementary_pow((double)NAN, 0.7)));
 }
 
@@ -596,7 +597,8 @@ static void special_hypotenuses_are_exact(void **state)
     assert_same_bits(elementary_hypot(0, -0.0), 0);
     assert_same_bits(elementary_hypot(-inf, 1), inf);
     assert_same_bits(elementary_hypot(DBL_MAX, DBL_MAX), inf);
-    assert_true(isnan(elementary_hypot((double)NAN, 1)));
+    assert_true(isnan(elementary_hypot((double)NAN, 1)) && isnan(elementary_hypot(0, (double)NAN)));
+    assert_same_bits(elementary_hypot((double)NAN, inf), inf);
     uint64_t random = 4;
     for (int i = 0; i < 100000; i++) {
         double x = angle_of_any_size(&random).x;
