@@ -109,13 +109,13 @@ static int columns_of(const struct table *table, const char *const *names, size_
     return 0;
 }
 
-static int read_amplitudes(const char *path, struct sensor *sensor, struct arena *arena,
+static int read_amplitudes(const struct text *bytes, struct sensor *sensor, struct arena *arena,
                            struct diag *diag)
 {
     static const char *const names[] = {"range_m", "amplitude"};
     struct table table;
     size_t column[2];
-    if (table_read(path, &table, arena, diag) != 0 ||
+    if (table_parse(bytes, &table, arena, diag) != 0 ||
         columns_of(&table, names, 2, column, diag) != 0)
         return -1;
     struct radar_row *rows = arena_get(arena, table.rows * sizeof *rows);
@@ -133,13 +133,13 @@ static int read_amplitudes(const char *path, struct sensor *sensor, struct arena
     return 0;
 }
 
-static int read_pattern(const char *path, struct sensor *sensor, struct arena *arena,
+static int read_pattern(const struct text *bytes, struct sensor *sensor, struct arena *arena,
                         struct diag *diag)
 {
     static const char *const names[] = {"azimuth_rad", "sum", "delta"};
     struct table table;
     size_t column[3];
-    if (table_read(path, &table, arena, diag) != 0 ||
+    if (table_parse(bytes, &table, arena, diag) != 0 ||
         columns_of(&table, names, 3, column, diag) != 0)
         return -1;
     struct antenna_row *rows = arena_get(arena, table.rows * sizeof *rows);
@@ -160,7 +160,7 @@ static int read_pattern(const char *path, struct sensor *sensor, struct arena *a
 
 /* Reads one table that the suite names and counts its bytes into the digest. */
 static int add_table(const char *suite_path, const char *name, struct sensor *sensor,
-                     int (*read_table)(const char *, struct sensor *, struct arena *,
+                     int (*read_table)(const struct text *, struct sensor *, struct arena *,
                                        struct diag *),
                      uint64_t *digest, struct arena *arena, struct diag *diag)
 {
@@ -171,7 +171,7 @@ static int add_table(const char *suite_path, const char *name, struct sensor *se
     int result = document_bytes(path, &bytes, diag);
     if (result == 0) {
         *digest = hash_bytes(*digest, bytes.bytes, bytes.length);
-        result = read_table(path, sensor, arena, diag);
+        result = read_table(&bytes, sensor, arena, diag);
         if (result != 0)
             diag_prefix(diag, "%s: ", path);
     }

@@ -172,8 +172,8 @@ static int run_frame(struct chain *chain)
 /* The stages after the rightmost failure see the end of the stream, as they would in a pipe. */
 static void finish(struct chain *chain)
 {
-    for (struct runner *runner = last(chain); runner >= chain->runners && !failed(runner); runner--)
-        runner_finish(runner);
+    for (size_t i = chain->count; i > 0 && !failed(&chain->runners[i - 1]); i--)
+        runner_finish(&chain->runners[i - 1]);
 }
 
 /* A stage that has failed already, by its command line, is in the chain like one that fails now. */

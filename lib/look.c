@@ -177,10 +177,9 @@ static void look_at(struct look *look, const struct look_body *body, const char 
 }
 
 static void look_at_point(struct look *look, const struct look_body *body,
-                          const struct point_reflector *point)
+                          const struct point_reflector *point, struct vec2 place)
 {
     look->pairs++;
-    struct vec2 place = reflectors_point_place(&body->box, point);
     double visible =
         reflectors_visibility(&body->box, point->shape, point->facing_rad, point->full_rad,
                               point->zero_rad, place, look->position_m);
@@ -217,18 +216,30 @@ static void look_along_row(struct look *look, const struct look_body *body,
     int64_t first, end;
     reflectors_posts_within(&body->box, row, look->position_m, look->sensor->range_max_m, &first,
                             &end);
-    for (int64_t post = first; post < end; post++) {
-        struct vec2 place = reflectors_post_place(&body->box, row, post);
-        const char *name = post_name(look->frame->arena, row, post);
-        double visible =
-            reflectors_visibility(&body->box, row->shape, row->facing_rad, row->full_rad,
-                                  row->zero_rad, place, look->position_m);
-        look->pairs++;
-        if (visible > 0)
-            look_at(look, body, name, place, visible * row->ercs, 0);
-        else
-            lose(look, body, name, LOSS_FACING_AWAY, NULL);
+    for (int64_t number = first; number < end; number++) {
+        const struct point_reflector post = {
+            .name = post_name(look->frame->arena, row, number),
+            .facing_rad = row->facing_rad,
+            .full_rad = row->full_rad,
+            .zero_rad = row->zero_rad,
+            .shape = row->shape,
+            .ercs = row->ercs,
+        };
+        look_at_point(look, body, &post, reflectors_post_place(&body->box, row, number));
     }
+}
+
+static void look_at_body(struct look *look, const struct look_body *body,
+                         const struct reflector_set *set)
+{
+    for (size_t i = 0; i < set->points.count; i++) {
+        const struct point_reflector *point = &set->points.items[i];
+        look_at_point(look, body, point, reflectors_point_place(&body->box, point));
+    }
+    for (size_t i = 0; i < set->planes.count; i++)
+        look_at_plane(look, body, &set->planes.items[i]);
+    for (size_t i = 0; i < set->rows.count; i++)
+        look_along_row(look, body, &set->rows.items[i]);
 }
 
 void look_around(struct look *look)
@@ -236,15 +247,8 @@ void look_around(struct look *look)
     struct frame *frame = look->frame;
     for (size_t i = 0; i < frame->reflectors.count; i++) {
         const struct reflector_set *set = &frame->reflectors.items[i];
-        for (size_t j = 0; j < set->worn_by.count; j++) {
-            const struct look_body *body = body_of(look, set->worn_by.items[j]);
-            for (size_t k = 0; k < set->points.count; k++)
-                look_at_point(look, body, &set->points.items[k]);
-            for (size_t k = 0; k < set->planes.count; k++)
-                look_at_plane(look, body, &set->planes.items[k]);
-            for (size_t k = 0; k < set->rows.count; k++)
-                look_along_row(look, body, &set->rows.items[k]);
-        }
+        for (size_t j = 0; j < set->worn_by.count; j++)
+            look_at_body(look, body_of(look, set->worn_by.items[j]), set);
     }
     struct count *count = list_add(&frame->counts, frame->arena);
     count->sensor = look->sensor->name;

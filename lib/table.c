@@ -125,18 +125,26 @@ static int read_text(const struct text *text, struct reader *reader)
     return done;
 }
 
-int table_read(const char *path, struct table *table, struct arena *arena, struct diag *diag)
+int table_parse(const struct text *text, struct table *table, struct arena *arena,
+                struct diag *diag)
 {
     *table = (struct table){0};
     struct reader reader = {.table = table, .arena = arena, .diag = diag, .row = 1};
-    struct text text = {0};
-    int done = read_bytes(path, &text, diag);
-    if (done == 0)
-        done = read_text(&text, &reader);
-    text_free(&text);
+    int done = read_text(text, &reader);
     table->rows = reader.numbers.count;
     table->cells = reader.cells.items;
     table->numbers = reader.numbers.items;
+    return done;
+}
+
+int table_read(const char *path, struct table *table, struct arena *arena, struct diag *diag)
+{
+    *table = (struct table){0};
+    struct text text = {0};
+    int done = read_bytes(path, &text, diag);
+    if (done == 0)
+        done = table_parse(&text, table, arena, diag);
+    text_free(&text);
     return done;
 }
 

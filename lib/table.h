@@ -12,6 +12,7 @@
 
 #include "diag.h"
 #include "memory.h"
+#include "text.h"
 
 /* A table may be this large; recordings are tens of megabytes. */
 #define TABLE_SIZE ((size_t)4 << 30)
@@ -26,6 +27,10 @@ struct table {
 
 /* The whole table, in the arena. Messages do not name the file. */
 int table_read(const char *path, struct table *table, struct arena *arena, struct diag *diag);
+
+/* The same for one whose bytes are at hand; it keeps nothing of them. */
+int table_parse(const struct text *text, struct table *table, struct arena *arena,
+                struct diag *diag);
 
 /* One cell of a table that is written, quoted (by libcsv) where it must be: its length. The room
  * must be twice the text's length and two. */
