@@ -50,6 +50,7 @@ lib_objects := $(patsubst lib/%,$(BUILD)/lib/%.o,$(wildcard lib/*.c lib/*.cc)) $
 stage_objects := $(patsubst %,$(BUILD)/stages/%.o,$(stages))
 tools := $(foreach s,$(stages),$(BUILD)/bin/glint-$(subst _,-,$(s))) $(BUILD)/bin/glint
 tests := $(patsubst tests/test_%.c,$(BUILD)/tests/test_%,$(wildcard tests/test_*.c))
+hard_tests := $(patsubst tests/hard/%.c,$(BUILD)/tests/hard/%,$(wildcard tests/hard/*.c))
 
 all: $(tools)
 
@@ -123,6 +124,9 @@ $(BUILD)/tests/%.o: tests/%.c
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS) -lcmocka
 
+$(BUILD)/tests/hard/%: $(BUILD)/tests/hard/%.o $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
+	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS) -lcmocka -lmpfr -lgmp
+
 # The reference of this one test alone.
 $(BUILD)/tests/test_elementary: LIBS += -lmpfr -lgmp
 
@@ -130,6 +134,12 @@ unit: $(tests)
 	@failed=0; for t in $(tests); do \
 	    $$t >$$t.log 2>&1 || { grep -v ' OK \|RUN ' $$t.log; echo "$$t failed"; failed=1; }; done; \
 	    [ $$failed -eq 0 ] && echo "unit tests: $(words $(tests)) programs passed"
+
+# The numerical hard cases against MPFR; HARD_TENTH=1 takes a tenth of the points.
+hard: $(hard_tests)
+	@failed=0; for t in $(hard_tests); do \
+	    $$t >$$t.log 2>&1 || { grep -v ' OK \|RUN \|^hard' $$t.log; echo "$$t failed"; failed=1; }; done; \
+	    [ $$failed -eq 0 ] && echo "hard cases: $$(cat $(addsuffix .log,$(hard_tests)) | grep -c '^hard') held"
 
 check: all unit
 	$(Q)BUILD=$(BUILD) scripts/check-house
@@ -142,10 +152,10 @@ schemas: all
 	    $(BUILD)/bin/glint --schema $$s >schemas/$$s.json || exit 1; done
 
 format:
-	clang-format -i $(wildcard lib/*.[ch] stages/*.c tests/*.[ch])
+	clang-format -i $(wildcard lib/*.[ch] stages/*.c tests/*.[ch] tests/*/*.[ch])
 
 lint:
-	clang-format --dry-run --Werror $(wildcard lib/*.[ch] stages/*.c tests/*.[ch])
+	clang-format --dry-run --Werror $(wildcard lib/*.[ch] stages/*.c tests/*.[ch] tests/*/*.[ch])
 	clang-tidy --quiet $(wildcard lib/*.c stages/*.c) -- -std=c11 -D_XOPEN_SOURCE=700 -Ilib
 
 # Man pages are made from --help, by help2man; SOURCE_DATE_EPOCH makes them reproducible.
@@ -168,7 +178,7 @@ clean:
 	rm -rf build build-*
 
 FORCE:
-.PHONY: all unit check bench schemas format lint man install clean FORCE
+.PHONY: all unit hard check bench schemas format lint man install clean FORCE
 .PRECIOUS: $(BUILD)/main/%.o $(BUILD)/tests/%.o
 
--include $(wildcard $(BUILD)/*/*.d $(BUILD)/*.d)
+-include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*.d)

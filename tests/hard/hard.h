@@ -1,0 +1,43 @@
+/* One hard case: how far the plain form and ours come from the exact answer, and how far ours may.
+ *
+ * Cases carry the numbers of MODEL's sources on stability (NUMERICS 1 to 64); what has no number is
+ * named. Exact answers are MPFR's, computed in the test. Every case prints one row, which
+ * scripts/numerics collects, and fails if ours is worse than its bound. */
+#ifndef HARD_H
+#define HARD_H
+
+#include "../check.h"
+#include "../sample.h"
+
+#include <stdlib.h>
+
+#include <mpfr.h>
+
+/* All of the points, or a tenth of them where HARD_TENTH is set, as in builds with sanitizers. */
+static inline int hard_points(int all)
+{
+    return getenv("HARD_TENTH") != NULL ? (all + 9) / 10 : all;
+}
+
+/* The row of one case: naive and ours are the worst errors over its points, in unit ("ulp", "rad",
+ * "m", "wrong of 1e6"); NaN is written as such. Fails unless ours <= bound. */
+static inline void hard_case(const char *number, const char *title, const char *unit, double naive,
+                             double ours, double bound)
+{
+    print_message("hard\t%s\t%s\t%s\t%.2g\t%.2g\t%.2g\n", number, title, unit, naive, ours, bound);
+    if (!(ours <= bound))
+        fail_msg("case %s, %s: %.17g %s, at most %.17g allowed", number, title, ours, unit, bound);
+}
+
+/* In units in the last place of the exact result, which is used up; subnormal results share one. */
+static inline double hard_ulp(double result, mpfr_t exact)
+{
+    if (mpfr_zero_p(exact))
+        return result == 0 ? 0 : (double)INFINITY;
+    long exponent = mpfr_get_exp(exact) < -1021 ? -1021 : (long)mpfr_get_exp(exact);
+    mpfr_sub_d(exact, exact, result, MPFR_RNDN);
+    mpfr_mul_2si(exact, exact, 53 - exponent, MPFR_RNDN);
+    return fabs(mpfr_get_d(exact, MPFR_RNDN));
+}
+
+#endif
