@@ -63,7 +63,7 @@ void field_clear(const struct record *record, void *base)
             STORE(double, field, base, field->absent);
         else if (field->kind == FIELD_INTEGER)
             STORE(int64_t, field, base, (int64_t)field->absent);
-        else if (field->kind == FIELD_SEED)
+        else if (field->kind == FIELD_SEED || field->kind == FIELD_SET)
             STORE(uint64_t, field, base, (uint64_t)field->absent);
         else if (field->kind == FIELD_CHOICE)
             STORE(int, field, base, (int)field->absent);
@@ -115,18 +115,40 @@ int field_set_number(const struct field *field, void *base, double value, struct
     return 0;
 }
 
-static int set_choice(const struct field *field, void *base, const char *text, size_t length,
-                      struct diag *diag)
+/* The number of the choice of that name, or -1 after a message. */
+static int choice_of(const struct field *field, const char *text, size_t length, struct diag *diag)
 {
     for (int i = 0; field->choices[i] != NULL; i++)
-        if (strlen(field->choices[i]) == length && memcmp(field->choices[i], text, length) == 0) {
-            STORE(int, field, base, i);
-            return 0;
-        }
-    char expected[512];
+        if (strlen(field->choices[i]) == length && memcmp(field->choices[i], text, length) == 0)
+            return i;
+    char expected[1024];
     field_expectation(field, expected, sizeof expected);
     return diag_fail(diag, DIAG_DATA, "%s: \"%.*s\" is unknown; expected %s", field->name,
                      (int)(length < 80 ? length : 80), text, expected);
+}
+
+static int set_choice(const struct field *field, void *base, const char *text, size_t length,
+                      struct diag *diag)
+{
+    int choice = choice_of(field, text, length, diag);
+    if (choice < 0)
+        return -1;
+    STORE(int, field, base, choice);
+    return 0;
+}
+
+int field_add_to_set(const struct field *field, void *base, const char *text, size_t length,
+                     struct diag *diag)
+{
+    int choice = choice_of(field, text, length, diag);
+    if (choice < 0)
+        return -1;
+    uint64_t set = LOAD(uint64_t, field, base), bit = UINT64_C(1) << choice;
+    if ((set & bit) != 0)
+        return diag_fail(diag, DIAG_DATA, "%s: \"%s\" stands twice", field->name,
+                         field->choices[choice]);
+    STORE(uint64_t, field, base, set | bit);
+    return 0;
 }
 
 static int set_seed(const struct field *field, void *base, const char *text, size_t length,
@@ -205,6 +227,14 @@ static unsigned sections_of(const struct record *record, const void *base)
     return present;
 }
 
+static bool any_present(const struct record *record, const void *base)
+{
+    for (const struct field *field = record->fields; field->name != NULL; field++)
+        if (field_present(record, field, base))
+            return true;
+    return false;
+}
+
 bool field_present(const struct record *record, const struct field *field, const void *base)
 {
     if (field->section != 0)
@@ -219,6 +249,7 @@ bool field_present(const struct record *record, const struct field *field, const
     case FIELD_INTEGER:
         return LOAD(int64_t, field, base) != (int64_t)field->absent;
     case FIELD_SEED:
+    case FIELD_SET:
         return LOAD(uint64_t, field, base) != (uint64_t)field->absent;
     case FIELD_CHOICE:
         return LOAD(int, field, base) != (int)field->absent;
@@ -231,7 +262,7 @@ bool field_present(const struct record *record, const struct field *field, const
     case FIELD_LIST:
         return field_list(field, base).count > 0;
     case FIELD_RECORD:
-        return true;
+        return any_present(field->record, member_of(field, base));
     case FIELD_NOTES:
         return false;
     }
@@ -271,8 +302,10 @@ void field_expectation(const struct field *field, char *text, size_t size)
                  show(field->low, low, sizeof low), show(field->high, high, sizeof high),
                  *unit ? " " : "", unit);
         return;
-    case FIELD_CHOICE: {
-        size_t used = (size_t)snprintf(text, size, "one of");
+    case FIELD_CHOICE:
+    case FIELD_SET: {
+        size_t used = (size_t)snprintf(
+            text, size, field->kind == FIELD_CHOICE ? "one of" : "an array of names among");
         for (int i = 0; field->choices[i] != NULL && used < size; i++)
             used += (size_t)snprintf(text + used, size - used, "%s%s", i > 0 ? ", " : " ",
                                      field->choices[i]);

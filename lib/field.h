@@ -22,8 +22,9 @@ enum field_kind {
     FIELD_NAME,    /* const char *: 1 to FIELD_NAME_SIZE bytes of UTF-8, NULL where absent */
     FIELD_CHOICE,  /* an enum: the index of one of choices */
     FIELD_SEED, /* uint64_t, in text a string of decimal digits: JSON readers lose 64-bit numbers */
+    FIELD_SET,  /* uint64_t: bit i stands for choices[i]; in text an array of their names */
     FIELD_NAMES,  /* LIST_OF(const char *) */
-    FIELD_RECORD, /* an embedded struct */
+    FIELD_RECORD, /* an embedded struct; an optional one is there if one of its members is */
     FIELD_LIST,   /* LIST_OF(a struct) */
     FIELD_RAW,    /* const char *: any JSON value, byte for byte, at most FIELD_RAW_SIZE */
     FIELD_NOTES,  /* no member: an object of strings, for people; documents only */
@@ -81,6 +82,9 @@ extern const struct field field_none[];
 #define FIELD_SEED_OF(owner, member, help_)                                                        \
     .name = #member, .kind = FIELD_SEED, .offset = FIELD_AT(uint64_t, owner, member),              \
     .help = (help_)
+#define FIELD_SET_OF(owner, member, choices_, help_)                                               \
+    .name = #member, .kind = FIELD_SET, .offset = FIELD_AT(uint64_t, owner, member),               \
+    .choices = (choices_), .help = (help_)
 #define FIELD_NAMES_OF(owner, member, help_)                                                       \
     .name = #member, .kind = FIELD_NAMES, .offset = offsetof(owner, member), .help = (help_)
 #define FIELD_RECORD_OF(owner, member, record_, help_)                                             \
@@ -111,6 +115,10 @@ void field_clear(const struct record *record, void *base);
 int field_set_number(const struct field *field, void *base, double value, struct diag *diag);
 int field_set_text(const struct field *field, void *base, const char *text, size_t length,
                    struct arena *arena, struct diag *diag);
+
+/* Adds one name to a set. Refuses "name: ... is unknown" and "name: ... stands twice". */
+int field_add_to_set(const struct field *field, void *base, const char *text, size_t length,
+                     struct diag *diag);
 
 /* The whole of text as a finite decimal number ("1e3", ".5"), no words; -1 if it is none. */
 int field_read_number(const char *text, size_t length, double *value);

@@ -17,7 +17,22 @@ static const char *const losses[] = {
     [LOSS_BELOW_FINAL] = "below_final_threshold",
     [LOSS_NO_ANGLE] = "no_angle",
     [LOSS_LIST_LIMIT] = "list_limit",
+    [LOSS_SWITCHED_OFF] = "switched_off",
     NULL,
+};
+
+static const enum effect losing_effects[] = {
+    [LOSS_FACING_AWAY] = EFFECT_VISIBILITY,
+    [LOSS_NO_SPECULAR] = EFFECT_PLANE_REFLECTION,
+    [LOSS_OUT_OF_RANGE] = EFFECT_NONE,
+    [LOSS_OUT_OF_VIEW] = EFFECT_NONE,
+    [LOSS_BLOCKED] = EFFECT_OCCLUSION,
+    [LOSS_NO_AMPLITUDE] = EFFECT_NONE,
+    [LOSS_BELOW_THRESHOLD] = EFFECT_THRESHOLD,
+    [LOSS_BELOW_FINAL] = EFFECT_FINAL_THRESHOLD,
+    [LOSS_NO_ANGLE] = EFFECT_SUPERPOSITION,
+    [LOSS_LIST_LIMIT] = EFFECT_LIST_LIMIT,
+    [LOSS_SWITCHED_OFF] = EFFECT_PLANE_REFLECTION,
 };
 
 /* 1e7 m is farther than any local frame reaches; 1e6 m is farther than any radar. */
@@ -69,6 +84,10 @@ static const char *const losses[] = {
     {                                                                                              \
         FIELD_FLAG_OF(owner, sign_undecided, "the phase did not tell left from right"),            \
             FIELD_OPTIONAL                                                                         \
+    }
+#define EFFECTS(owner, help)                                                                       \
+    {                                                                                              \
+        FIELD_SET_OF(owner, effects, effects_names, help), FIELD_OPTIONAL                          \
     }
 #define EXTRA(owner)                                                                               \
     {                                                                                              \
@@ -135,6 +154,8 @@ static const struct record sensor_view_record = {
 static const struct field sensors_fields[] = {
     NAME(struct sensors, suite, "name of the suite document"),
     NAME(struct sensors, digest, "of the suite and every table it names"),
+    {FIELD_NAME_OF(struct sensors, effects, "as requested; absent: auto"), FIELD_OPTIONAL},
+    {FIELD_RECORD_OF(struct sensors, tolerance, &tolerance_record, "as requested"), FIELD_OPTIONAL},
     {FIELD_LIST_OF(struct sensors, list, &sensor_view_record, "by name")},
     {0},
 };
@@ -150,6 +171,7 @@ static const struct field echo_fields[] = {
     NAME(struct echo, sensor, "name in the suite"),
     ECHO_NAMES(struct echo),
     IDEAL_VALUES(struct echo),
+    EFFECTS(struct echo, "that changed one of these values"),
     EXTRA(struct echo),
     {0},
 };
@@ -186,6 +208,7 @@ static const struct field cell_fields[] = {
     POINTER(struct cell, delta_re, "delta channel without noise"),
     POINTER(struct cell, delta_im, "delta channel without noise"),
     UNDECIDED(struct cell),
+    EFFECTS(struct cell, "that changed a value of the cell or of a member"),
     {FIELD_LIST_OF(struct cell, members, &contributor_record, "the leader first")},
     EXTRA(struct cell),
     {0},
@@ -209,6 +232,7 @@ static const struct field target_fields[] = {
     AZIMUTH(struct target, cell_azimuth_rad, "without noise"),
     RATE(struct target, cell_range_rate_mps, "without noise"),
     AMPLITUDE(struct target, cell_amplitude, "sum of the contributors' amplitudes, linear"),
+    EFFECTS(struct target, "that changed a value of the target or of a contributor"),
     {FIELD_LIST_OF(struct target, contributors, &contributor_record, "the leader first")},
     EXTRA(struct target),
     {0},
@@ -240,6 +264,8 @@ static const struct field lost_group_fields[] = {
     NAME(struct lost_group, sensor, "name in the suite"),
     NAME(struct lost_group, stage, "that lost them"),
     {FIELD_CHOICE_OF(struct lost_group, reason, losses, "why")},
+    {FIELD_CHOICE_OF(struct lost_group, effect, effects_names, "that lost them"), FIELD_OPTIONAL,
+     .absent = EFFECT_NONE},
     {FIELD_LIST_OF(struct lost_group, echoes, &lost_echo_record, "by object, reflector, path")},
     {0},
 };
@@ -420,7 +446,8 @@ void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum
     }
     if (group == NULL) {
         group = list_add(&frame->lost, frame->arena);
-        *group = (struct lost_group){.sensor = sensor, .stage = stage, .reason = reason};
+        *group = (struct lost_group){
+            .sensor = sensor, .stage = stage, .reason = reason, .effect = losing_effects[reason]};
         frame->present |= SECTION_LOST;
     }
     *list_add(&group->echoes, frame->arena) = *echo;
@@ -461,6 +488,7 @@ struct target *frame_add_target(struct frame *frame, const struct cell *cell, do
         .cell_azimuth_rad = cell->azimuth_rad,
         .cell_range_rate_mps = cell->range_rate_mps,
         .cell_amplitude = cell->amplitude,
+        .effects = cell->effects,
     };
     target->contributors.items = cell->members.items;
     target->contributors.count = cell->members.count;

@@ -13,6 +13,7 @@
 #ifndef FRAME_H
 #define FRAME_H
 
+#include "effects.h"
 #include "field.h"
 #include "reflectors.h"
 
@@ -56,8 +57,10 @@ struct sensor_view {
 };
 
 struct sensors {
-    const char *suite;  /* the document's name, as it was given to glint-ideal */
-    const char *digest; /* of the suite and every table it names, 16 hexadecimal digits */
+    const char *suite;   /* the document's name, as it was given to glint-ideal */
+    const char *digest;  /* of the suite and every table it names, 16 hexadecimal digits */
+    const char *effects; /* as requested (effects.h); NULL stands for auto */
+    struct tolerance tolerance;
     LIST_OF(struct sensor_view) list;
 };
 
@@ -71,7 +74,8 @@ struct echo {
     enum path path;
     double range_m, azimuth_rad, range_rate_mps;
     double ercs;
-    double time_s; /* of the measurement */
+    double time_s;    /* of the measurement */
+    uint64_t effects; /* that changed one of these values */
     const char *extra;
 };
 
@@ -93,6 +97,7 @@ struct cell {
     double amplitude; /* sum over the members: the upper bound A_cell^u */
     double sum_re, sum_im, delta_re, delta_im;
     bool sign_undecided;
+    uint64_t effects; /* that changed a value of the cell or of a member */
     LIST_OF(struct contributor) members;
     const char *extra;
 };
@@ -105,6 +110,8 @@ struct target {
     bool sign_undecided;
     double cell_range_m, cell_azimuth_rad, cell_range_rate_mps;
     double cell_amplitude;
+    uint64_t effects; /* that changed a value of the target or of a contributor: input and output
+                         differed there */
     LIST_OF(struct contributor) contributors;
     const char *extra;
 };
@@ -120,6 +127,7 @@ enum loss {
     LOSS_BELOW_FINAL,     /* the amplitude after superposition and noise is too weak */
     LOSS_NO_ANGLE,        /* both channels are exactly zero */
     LOSS_LIST_LIMIT,      /* the sensor reports no more targets than this */
+    LOSS_SWITCHED_OFF,    /* the effect that would have made it is not selected */
 };
 
 struct lost_echo {
@@ -134,6 +142,7 @@ struct lost_group {
     const char *sensor;
     const char *stage;
     enum loss reason;
+    enum effect effect; /* that lost them, or EFFECT_NONE */
     LIST_OF(struct lost_echo) echoes;
 };
 
@@ -205,7 +214,8 @@ struct cell_span frame_cells_of(const struct frame *frame, const char *sensor);
 /* The contributor that an echo is, with weight 0. */
 struct contributor frame_contributor(const struct echo *echo);
 
-/* Writes the loss of one echo, grouped by sensor, stage and reason. Does nothing unless the frame
+/* Writes the loss of one echo, grouped by sensor, stage and reason, with the effect that the reason
+ * belongs to. Does nothing unless the frame
  * keeps account. Text must live as long as the frame. */
 void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum loss reason,
                 const struct lost_echo *echo);

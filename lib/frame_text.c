@@ -49,6 +49,17 @@ static int read_name(struct json_scan *scan, const struct field *field, void *ba
                           scan->arena, scan->diag);
 }
 
+static int read_choice(struct json_scan *scan, const struct field *field, void *base, size_t index)
+{
+    struct json_string name;
+    if (json_scan_peek(scan) != '"')
+        return diag_fail(scan->diag, DIAG_DATA, "%s[%zu]: %s; expected a name", field->name, index,
+                         json_scan_kind(scan));
+    if (json_scan_string(scan, &name) != 0)
+        return diag_prefix(scan->diag, "%s[%zu]: ", field->name, index);
+    return field_add_to_set(field, base, name.text, name.length, scan->diag);
+}
+
 static int read_list(struct json_scan *scan, const struct field *field, void *base)
 {
     if (!json_scan_take(scan, '['))
@@ -56,8 +67,9 @@ static int read_list(struct json_scan *scan, const struct field *field, void *ba
     if (json_scan_take(scan, ']'))
         return 0;
     for (size_t i = 0;; i++) {
-        int result = field->kind == FIELD_LIST ? read_item(scan, field, base, i)
-                                               : read_name(scan, field, base, i);
+        int result = field->kind == FIELD_LIST  ? read_item(scan, field, base, i)
+                     : field->kind == FIELD_SET ? read_choice(scan, field, base, i)
+                                                : read_name(scan, field, base, i);
         if (result != 0)
             return -1;
         if (json_scan_take(scan, ']'))
@@ -94,7 +106,7 @@ static int read_member(struct json_scan *scan, const struct field *field, void *
     }
     if (field->kind == FIELD_RAW)
         return read_raw(scan, field, base);
-    if (field->kind == FIELD_NAMES || field->kind == FIELD_LIST)
+    if (field->kind == FIELD_NAMES || field->kind == FIELD_SET || field->kind == FIELD_LIST)
         return read_list(scan, field, base);
     if (field->kind == FIELD_RECORD) {
         if (first != '{')
@@ -196,6 +208,19 @@ static void write_list(const struct field *field, const void *base, struct text 
     text_add(text, "]", 1);
 }
 
+static void write_set(const struct field *field, uint64_t set, struct text *text)
+{
+    char separator = '[';
+    for (int i = 0; field->choices[i] != NULL; i++) {
+        if ((set >> i & 1) == 0)
+            continue;
+        text_add(text, &separator, 1);
+        text_add_json(text, field->choices[i], strlen(field->choices[i]));
+        separator = ',';
+    }
+    text_add_word(text, separator == '[' ? "[]" : "]");
+}
+
 static void write_member(const struct field *field, const void *base, struct text *text)
 {
     const void *member = (const char *)base + field->offset;
@@ -219,6 +244,10 @@ static void write_member(const struct field *field, const void *base, struct tex
     case FIELD_SEED:
         memcpy(&value.seed, member, sizeof value.seed);
         text_format(text, "\"%" PRIu64 "\"", value.seed);
+        break;
+    case FIELD_SET:
+        memcpy(&value.seed, member, sizeof value.seed);
+        write_set(field, value.seed, text);
         break;
     case FIELD_FLAG:
         memcpy(&value.flag, member, sizeof value.flag);

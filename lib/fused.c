@@ -14,7 +14,7 @@ static const char usage[] =
     "Usage: glint FILE\n"
     "  or:  glint -c TEXT\n"
     "  or:  glint --times FILE\n"
-    "  or:  glint --list stages | schemas\n"
+    "  or:  glint --list stages | effects | schemas\n"
     "  or:  glint --schema NAME\n"
     "Run a pipeline of glint stages in one process.\n"
     "\n"
@@ -27,7 +27,7 @@ static const char usage[] =
     "Options:\n"
     "  -c TEXT              the pipeline itself\n"
     "      --times FILE     run it, then say on stderr where the time went (JSON lines)\n"
-    "      --list WHAT      list the stages, or the schemas\n"
+    "      --list WHAT      list the stages, the effects, or the schemas\n"
     "      --schema NAME    print a JSON Schema\n"
     "      --help           print this help\n"
     "      --version        print the version\n"
@@ -157,6 +157,18 @@ static int print(const char *bytes, size_t length)
     return diag.code == DIAG_OK ? 0 : complain(&diag);
 }
 
+static void list_effects(struct text *text)
+{
+    for (int i = 0; i < EFFECT_COUNT; i++) {
+        const struct effect_entry *effect = &effects_table[i];
+        text_format(text,
+                    "%-17s %s\n%17s in glint-%s, from %s\n%17s auto leaves it out: %s\n"
+                    "%17s costs %s\n",
+                    effects_names[i], effect->summary, "", effect->home, effect->member, "",
+                    effect->bound, "", effect->cost);
+    }
+}
+
 static int list(const char *what)
 {
     struct text text = {0};
@@ -164,12 +176,15 @@ static int list(const char *what)
     if (strcmp(what, "stages") == 0)
         for (size_t i = 0; stages[i] != NULL; i++)
             text_format(&text, "glint-%-16s %s\n", stages[i]->name, stages[i]->summary);
+    else if (strcmp(what, "effects") == 0)
+        list_effects(&text);
     else if (strcmp(what, "schemas") == 0)
         schema_list(&text);
     else
         known = false;
-    int code = known ? print(text.bytes, text.length)
-                     : complain(&(struct diag){DIAG_USAGE, "--list takes stages or schemas"});
+    int code =
+        known ? print(text.bytes, text.length)
+              : complain(&(struct diag){DIAG_USAGE, "--list takes stages, effects or schemas"});
     text_free(&text);
     return code;
 }

@@ -1,5 +1,6 @@
 #include "look.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,6 +48,18 @@ static struct look_body *body_of(const struct look *look, const char *id)
     return bsearch(&key, look->bodies, look->body_count, sizeof key, compare_bodies);
 }
 
+static bool same_place(const struct motion *a, const struct motion *b)
+{
+    return a->position_m.x == b->position_m.x && a->position_m.y == b->position_m.y &&
+           a->yaw_rad == b->yaw_rad;
+}
+
+static bool moves(const struct object *object, const struct box *then)
+{
+    struct box now = box_at(object, 0);
+    return !same_place(&now.motion, &then->motion);
+}
+
 static void place_bodies(struct look *look, double age_s)
 {
     const struct frame *frame = look->frame;
@@ -58,7 +71,10 @@ static void place_bodies(struct look *look, double age_s)
         struct look_body *body = &look->bodies[look->body_count++];
         body->object = object;
         body->box = box_at(object, age_s);
-        body->radius_m = 0.5 * vec2_length((struct vec2){object->length_m, object->width_m});
+        body->moved = age_s != 0 && moves(object, &body->box);
+        body->sector =
+            sector_of(vec2_sub(body->box.motion.position_m, look->position_m),
+                      0.5 * vec2_length((struct vec2){object->length_m, object->width_m}));
         reflectors_outline(&body->box, body->corner);
     }
     sort_items(look->bodies, look->body_count, sizeof *look->bodies, compare_bodies, frame->arena);
@@ -84,13 +100,16 @@ static int mark_blockers(struct look *look, struct diag *diag)
     return 0;
 }
 
-int look_begin(struct look *look, struct frame *frame, const struct sensor *sensor, double time_s,
-               struct diag *diag)
+int look_begin(struct look *look, struct frame *frame, const struct sensor *sensor,
+               const struct selection *selection, double time_s, struct diag *diag)
 {
     double age_s = frame->time_s - time_s;
-    struct box ego = box_at(frame_object(frame, frame->ego), age_s);
+    const struct object *carrier = frame_object(frame, frame->ego);
+    struct box ego = box_at(carrier, age_s);
     struct vec2 mount = {sensor->mount_x_m, sensor->mount_y_m};
-    *look = (struct look){.frame = frame, .sensor = sensor, .time_s = time_s};
+    *look =
+        (struct look){.frame = frame, .sensor = sensor, .selection = selection, .time_s = time_s};
+    look->moved = age_s != 0 && moves(carrier, &ego);
     look->position_m = vec2_add(ego.motion.position_m, vec2_turn(mount, ego.heading));
     look->velocity_mps = motion_velocity_at(&ego.motion, look->position_m);
     look->boresight = vec2_turn(vec2_heading(sensor->mount_yaw_rad), ego.heading);
@@ -103,22 +122,35 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
 static bool passes_clear(const struct look *look, const struct look_body *body, struct vec2 place)
 {
     struct vec2 line = vec2_sub(place, look->position_m);
-    struct vec2 centre = vec2_sub(body->box.motion.position_m, look->position_m);
-    double reach = (body->radius_m + 1e-6) * (1 + 1e-9) * vec2_length(line);
-    double along = vec2_dot(line, centre);
-    return fabs(vec2_cross(line, centre)) > reach || along < -reach ||
+    double reach = (body->sector.radius_m + 1e-6) * (1 + 1e-9) * vec2_length(line);
+    double along = vec2_dot(line, body->sector.centre_m);
+    return fabs(vec2_cross(line, body->sector.centre_m)) > reach || along < -reach ||
            along > vec2_dot(line, line) + reach;
 }
 
-/* The first object by id in the way to a place on own; only those that no radar can look under if
- * solid. */
-static const struct look_body *blocker(const struct look *look, const struct look_body *own,
-                                       struct vec2 place, bool solid)
+static void find_blockers(struct look *look, const struct look_body *own, double radius_m)
 {
+    const struct selection *selection = look->selection;
+    struct sector wanted = {own->sector.centre_m, own->sector.distance_m, radius_m};
+    look->blocker_count = 0;
+    if (!effects_may(selection, EFFECT_OCCLUSION))
+        return;
+    bool all = effects_must(selection, EFFECT_OCCLUSION);
     for (size_t i = 0; i < look->body_count; i++) {
         const struct look_body *body = &look->bodies[i];
-        if (body == own || !body->blocks || (solid && body->raised) ||
-            passes_clear(look, body, place))
+        if (body != own && body->blocks && (all || sectors_overlap(&body->sector, &wanted)))
+            look->blockers[look->blocker_count++] = body;
+    }
+    effects_note(selection, EFFECT_OCCLUSION, all || look->blocker_count > 0);
+}
+
+/* The first object by id in the way to a place on the body that is looked at; only those that no
+ * radar can look under if solid. */
+static const struct look_body *blocker(const struct look *look, struct vec2 place, bool solid)
+{
+    for (size_t i = 0; i < look->blocker_count; i++) {
+        const struct look_body *body = look->blockers[i];
+        if ((solid && body->raised) || passes_clear(look, body, place))
             continue;
         if (occlusion_outline_blocks(body->corner, 4, look->position_m, place))
             return body;
@@ -137,7 +169,7 @@ static void lose(struct look *look, const struct look_body *body, const char *re
 
 /* One reflector that faces the sensor: an echo if it is in range, in view and not blocked. */
 static void look_at(struct look *look, const struct look_body *body, const char *reflector,
-                    struct vec2 place, double ercs, double under_vehicles)
+                    struct vec2 place, double ercs, double under_vehicles, uint64_t effects)
 {
     const struct sensor *sensor = look->sensor;
     struct vec2 velocity = motion_velocity_at(&body->box.motion, place);
@@ -153,11 +185,14 @@ static void look_at(struct look *look, const struct look_body *body, const char 
         lose(look, body, reflector, LOSS_OUT_OF_VIEW, NULL);
         return;
     }
-    const struct look_body *by = blocker(look, body, place, false);
-    if (by != NULL && under_vehicles > 0 && blocker(look, body, place, true) == NULL) {
+    int64_t begin = effects_begin(look->selection);
+    const struct look_body *by = blocker(look, place, false);
+    if (by != NULL && under_vehicles > 0 && blocker(look, place, true) == NULL) {
         ercs *= under_vehicles;
         by = NULL;
+        effects |= EFFECT_BIT(EFFECT_OCCLUSION);
     }
+    effects_end(look->selection, EFFECT_OCCLUSION, begin);
     if (by != NULL) {
         lose(look, body, reflector, LOSS_BLOCKED, by);
         return;
@@ -173,18 +208,28 @@ static void look_at(struct look *look, const struct look_body *body, const char 
         .range_rate_mps = sight.range_rate_mps,
         .ercs = ercs,
         .time_s = look->time_s,
+        .effects = effects,
     };
+}
+
+/* What latency has changed before a reflector is looked at. */
+static uint64_t aged(const struct look *look, const struct look_body *body)
+{
+    return look->moved || body->moved ? EFFECT_BIT(EFFECT_LATENCY) : 0;
 }
 
 static void look_at_point(struct look *look, const struct look_body *body,
                           const struct point_reflector *point, struct vec2 place)
 {
     look->pairs++;
-    double visible =
-        reflectors_visibility(&body->box, point->shape, point->facing_rad, point->full_rad,
-                              point->zero_rad, place, look->position_m);
+    double visible = 1;
+    if (effects_may(look->selection, EFFECT_VISIBILITY))
+        visible = reflectors_visibility(&body->box, point->shape, point->facing_rad,
+                                        point->full_rad, point->zero_rad, place, look->position_m);
+    uint64_t effects = aged(look, body) | (visible < 1 ? EFFECT_BIT(EFFECT_VISIBILITY) : 0);
     if (visible > 0)
-        look_at(look, body, point->name, place, visible * point->ercs, point->under_vehicles);
+        look_at(look, body, point->name, place, visible * point->ercs, point->under_vehicles,
+                effects);
     else
         lose(look, body, point->name, LOSS_FACING_AWAY, NULL);
 }
@@ -193,11 +238,16 @@ static void look_at_plane(struct look *look, const struct look_body *body,
                           const struct plane_reflector *plane)
 {
     look->pairs++;
+    if (!effects_may(look->selection, EFFECT_PLANE_REFLECTION)) {
+        lose(look, body, plane->name, LOSS_SWITCHED_OFF, NULL);
+        return;
+    }
     struct vec2 foot;
     if (reflection_foot(reflectors_place(&body->box, plane->from_x, plane->from_y),
                         reflectors_place(&body->box, plane->to_x, plane->to_y), plane->margin_m,
                         look->position_m, &foot))
-        look_at(look, body, plane->name, foot, plane->ercs, 0);
+        look_at(look, body, plane->name, foot, plane->ercs, 0,
+                aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION));
     else
         lose(look, body, plane->name, LOSS_NO_SPECULAR, NULL);
 }
@@ -232,19 +282,26 @@ static void look_along_row(struct look *look, const struct look_body *body,
 static void look_at_body(struct look *look, const struct look_body *body,
                          const struct reflector_set *set)
 {
+    int64_t begin = effects_begin(look->selection);
+    find_blockers(look, body, reflectors_radius_m(set, body->sector.radius_m));
+    effects_end(look->selection, EFFECT_OCCLUSION, begin);
+    effects_note(look->selection, EFFECT_VISIBILITY, set->points.count + set->rows.count > 0);
+    effects_note(look->selection, EFFECT_PLANE_REFLECTION, set->planes.count > 0);
+    effects_note(look->selection, EFFECT_ROWS, set->rows.count > 0);
     for (size_t i = 0; i < set->points.count; i++) {
         const struct point_reflector *point = &set->points.items[i];
         look_at_point(look, body, point, reflectors_point_place(&body->box, point));
     }
     for (size_t i = 0; i < set->planes.count; i++)
         look_at_plane(look, body, &set->planes.items[i]);
-    for (size_t i = 0; i < set->rows.count; i++)
+    for (size_t i = 0; i < set->rows.count && effects_may(look->selection, EFFECT_ROWS); i++)
         look_along_row(look, body, &set->rows.items[i]);
 }
 
 void look_around(struct look *look)
 {
     struct frame *frame = look->frame;
+    look->blockers = arena_get(frame->arena, (look->body_count + 1) * sizeof(*look->blockers));
     for (size_t i = 0; i < frame->reflectors.count; i++) {
         const struct reflector_set *set = &frame->reflectors.items[i];
         for (size_t j = 0; j < set->worn_by.count; j++)

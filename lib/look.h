@@ -9,6 +9,7 @@
 #define LOOK_H
 
 #include "frame.h"
+#include "sectors.h"
 #include "suite.h"
 
 struct look_body {
@@ -18,22 +19,27 @@ struct look_body {
     double radius_m; /* around the box */
     bool blocks;
     bool raised;
+    bool moved; /* between the instant of the measurement and the frame's time */
 };
 
 struct look {
     struct frame *frame;
     const struct sensor *sensor;
+    const struct selection *selection;
     double time_s;
     struct vec2 position_m, velocity_mps, boresight;
+    bool moved;               /* the ego, since then */
     struct look_body *bodies; /* all objects but the ego, by id */
     size_t body_count;
+    const struct look_body **blockers; /* of the body that is looked at, by id */
+    size_t blocker_count;
     int64_t pairs, echoes;
 };
 
 /* The frame must have objects (the ego among them) and reflectors. Refuses a set that is worn by an
  * object that is not there. */
-int look_begin(struct look *look, struct frame *frame, const struct sensor *sensor, double time_s,
-               struct diag *diag);
+int look_begin(struct look *look, struct frame *frame, const struct sensor *sensor,
+               const struct selection *selection, double time_s, struct diag *diag);
 
 /* Every reflector of every object: adds echoes, losses and the sensor's count to the frame. */
 void look_around(struct look *look);

@@ -9,6 +9,7 @@ static const struct field suite_choice_fields[] = {
     {FIELD_NAME_OF(struct suite_choice, sensors,
                    "the suite by another name; its digest must be the frame's"),
      FIELD_OPTIONAL},
+    SUITE_CHOICE_EFFECTS,
     {0},
 };
 
@@ -23,6 +24,9 @@ static const struct field common_fields[] = {
      FIELD_OPTIONAL},
     {FIELD_SEED_OF(struct common_options, seed, "seed of every draw from here on; sources take 1"),
      FIELD_OPTIONAL, .absent = 1},
+    {FIELD_NAME_OF(struct common_options, explain,
+                   "append what was simulated, what was left out, why, and the time it took"),
+     FIELD_OPTIONAL, .word = "FILE"},
     {FIELD_FLAG_OF(struct common_options, complete, "fail unless every scene is there to its end"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct common_options, help, "print this help"), FIELD_OPTIONAL},
@@ -65,9 +69,11 @@ static bool is_source(const struct stage *stage)
     return stage->next != NULL;
 }
 
-/* --complete is about frames that are read. */
+/* --complete is about frames that are read, --explain about effects. */
 static bool applies(const struct stage *stage, const struct field *field)
 {
+    if (field->offset == offsetof(struct common_options, explain))
+        return ((stage->reads | stage->writes) & SECTION_SENSORS) != 0 && !stage->sink;
     return !is_source(stage) || field->offset != offsetof(struct common_options, complete);
 }
 

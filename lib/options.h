@@ -10,6 +10,7 @@
 /* What every stage understands. */
 struct common_options {
     const char *output; /* NULL is standard output */
+    const char *explain;
     bool keep;
     bool complete;
     uint64_t seed;

@@ -134,6 +134,29 @@ const char *reflectors_name_twice(const struct reflector_set *set)
     return NULL;
 }
 
+static double farthest(double least, double x, double y)
+{
+    return fmax(least, 2 * fmax(fabs(x), fabs(y)));
+}
+
+double reflectors_radius_m(const struct reflector_set *set, double radius_m)
+{
+    double share = 1, inset_m = 0;
+    for (size_t i = 0; i < set->points.count; i++) {
+        share = farthest(share, set->points.items[i].x, set->points.items[i].y);
+        inset_m = fmax(inset_m, set->points.items[i].inset_m);
+    }
+    for (size_t i = 0; i < set->planes.count; i++) {
+        share = farthest(share, set->planes.items[i].from_x, set->planes.items[i].from_y);
+        share = farthest(share, set->planes.items[i].to_x, set->planes.items[i].to_y);
+    }
+    for (size_t i = 0; i < set->rows.count; i++) {
+        share = farthest(share, set->rows.items[i].from_x, set->rows.items[i].from_y);
+        share = farthest(share, set->rows.items[i].to_x, set->rows.items[i].to_y);
+    }
+    return share * radius_m + inset_m;
+}
+
 struct vec2 reflectors_place(const struct box *box, double x, double y)
 {
     struct vec2 own = {x * box->length_m, y * box->width_m};

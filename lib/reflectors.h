@@ -61,6 +61,10 @@ extern const struct record reflector_model_record; /* without: the vehicle docum
 /* The first name that two reflectors of the set share, or NULL. */
 const char *reflectors_name_twice(const struct reflector_set *set);
 
+/* How far the set's reflectors may lie from the centre of an object's box: within radius_m, half of
+ * the box's diagonal, unless they stand out of the box or deep inside beyond its other side. */
+double reflectors_radius_m(const struct reflector_set *set, double radius_m);
+
 /* An object's box in the world. */
 struct box {
     struct motion motion;

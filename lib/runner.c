@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "audit.h"
+#include "explain.h"
 #include "frame_check.h"
 #include "frame_order.h"
 #include "hash.h"
@@ -69,15 +70,90 @@ const struct suite *runner_suite(struct runner *runner, const struct frame *fram
     return !seen || check_views(runner, frame, suite) == 0 ? suite : NULL;
 }
 
+/* Members of a choice that were not given are -1. */
+static bool chose_tolerance(const struct suite_choice *choice)
+{
+    return choice->tolerance || choice->tolerance_range_m >= 0 ||
+           choice->tolerance_azimuth_rad >= 0 || choice->tolerance_range_rate_mps >= 0 ||
+           choice->tolerance_amplitude_db >= 0;
+}
+
+static struct tolerance chosen_tolerance(const struct suite_choice *choice)
+{
+    struct tolerance tolerance = {0};
+    if (choice->tolerance)
+        tolerance = tolerance_default;
+    if (choice->tolerance_range_m >= 0)
+        tolerance.range_m = choice->tolerance_range_m;
+    if (choice->tolerance_azimuth_rad >= 0)
+        tolerance.azimuth_rad = choice->tolerance_azimuth_rad;
+    if (choice->tolerance_range_rate_mps >= 0)
+        tolerance.range_rate_mps = choice->tolerance_range_rate_mps;
+    if (choice->tolerance_amplitude_db >= 0)
+        tolerance.amplitude_db = choice->tolerance_amplitude_db;
+    return tolerance;
+}
+
+int runner_request(struct runner *runner, const struct suite_choice *choice,
+                   const struct suite *suite, struct sensors *request)
+{
+    *request = (struct sensors){
+        .suite = suite->name,
+        .digest = suite->digest,
+        .effects = choice->effects != NULL ? choice->effects : suite->effects,
+        .tolerance = chose_tolerance(choice) ? chosen_tolerance(choice) : suite->tolerance,
+    };
+    if (request->effects == NULL)
+        request->effects = "auto";
+    struct selection selection;
+    if (effects_read(request->effects, &selection, &runner->diag) == 0)
+        return 0;
+    if (choice->effects != NULL)
+        runner->diag.code = DIAG_USAGE;
+    return -1;
+}
+
+static bool same_tolerance(const struct tolerance *a, const struct tolerance *b)
+{
+    return a->range_m == b->range_m && a->azimuth_rad == b->azimuth_rad &&
+           a->range_rate_mps == b->range_rate_mps && a->amplitude_db == b->amplitude_db;
+}
+
+int runner_selection(struct runner *runner, const struct frame *frame,
+                     const struct suite_choice *choice, struct selection *selection)
+{
+    const struct sensors *sensors = &frame->sensors;
+    const char *effects = sensors->effects != NULL ? sensors->effects : "auto";
+    if (choice->effects != NULL && strcmp(choice->effects, effects) != 0)
+        return diag_fail(&runner->diag, DIAG_CONFIG,
+                         "sensors.effects: the frame was seen with \"%s\", not with \"%s\"; give "
+                         "the effects to glint-ideal",
+                         effects, choice->effects);
+    struct tolerance tolerance = chosen_tolerance(choice);
+    if (chose_tolerance(choice) && !same_tolerance(&tolerance, &sensors->tolerance))
+        return diag_fail(&runner->diag, DIAG_CONFIG,
+                         "sensors.tolerance: the frame was seen with another one; give it to "
+                         "glint-ideal");
+    if (effects_read(effects, selection, &runner->diag) != 0)
+        return diag_prefix(&runner->diag, "sensors.");
+    selection->tolerance = sensors->tolerance;
+    selection->log = runner->log;
+    return 0;
+}
+
 int runner_visit_sensors(struct runner *runner, struct frame *frame,
-                         void (*visit)(struct frame *frame, const struct sensor *sensor))
+                         void (*visit)(struct frame *frame, const struct sensor *sensor,
+                                       const struct selection *selection))
 {
     const struct suite_choice *choice = runner->state;
+    struct selection selection;
     const struct suite *suite = runner_suite(runner, frame, choice->sensors);
-    if (suite == NULL)
+    if (suite == NULL || runner_selection(runner, frame, choice, &selection) != 0)
         return -1;
-    for (size_t i = 0; i < suite->sensors.count; i++)
-        visit(frame, &suite->sensors.items[i]);
+    for (size_t i = 0; i < suite->sensors.count; i++) {
+        visit(frame, &suite->sensors.items[i], &selection);
+        effects_count_scan(&selection);
+    }
     return 0;
 }
 
@@ -110,8 +186,11 @@ int runner_prepare(struct runner *runner, const struct stage *stage, size_t coun
 {
     *runner = (struct runner){.stage = stage};
     runner->state = arena_get(&runner->arena, stage->options->size);
-    return options_read(stage, count, words, runner->state, &runner->common, &runner->arena,
-                        &runner->diag);
+    int result = options_read(stage, count, words, runner->state, &runner->common, &runner->arena,
+                              &runner->diag);
+    if (runner->common.explain != NULL)
+        runner->log = explain_begin(&runner->arena);
+    return result;
 }
 
 void runner_free(struct runner *runner)
@@ -217,5 +296,9 @@ int runner_finish(struct runner *runner)
             return diag_fail(&runner->diag, DIAG_DATA, "scene \"%s\" ends before its last frame",
                              runner->scenes.items[i].name);
     const struct stage *stage = runner->stage;
-    return stage->stop == NULL ? 0 : told(runner, stage->stop(runner->state, runner));
+    if (stage->stop != NULL && told(runner, stage->stop(runner->state, runner)) != 0)
+        return -1;
+    return runner->log == NULL
+               ? 0
+               : explain_append(runner->common.explain, stage->name, runner->log, &runner->diag);
 }

@@ -32,7 +32,7 @@ static void write_text_member(const char *key, const char *value, struct text *t
 
 static void write_choices(const struct field *field, struct text *text)
 {
-    text_add_word(text, ", \"enum\": [");
+    text_add_word(text, "\"enum\": [");
     for (int i = 0; field->choices[i] != NULL; i++)
         text_format(text, "%s\"%s\"", i > 0 ? ", " : "", field->choices[i]);
     text_add_word(text, "]");
@@ -54,7 +54,13 @@ static void write_type(const struct field *field, int depth, struct text *text)
                     FIELD_NAME_SIZE);
         break;
     case FIELD_CHOICE:
+        text_add_word(text, ", ");
         write_choices(field, text);
+        break;
+    case FIELD_SET:
+        text_add_word(text, ", \"type\": \"array\", \"uniqueItems\": true, \"items\": {");
+        write_choices(field, text);
+        text_add_word(text, "}");
         break;
     case FIELD_SEED:
         text_add_word(text, ", \"type\": \"string\", \"pattern\": \"^[0-9]{1,20}$\"");

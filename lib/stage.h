@@ -16,6 +16,7 @@
 
 #include "catalogue.h"
 #include "frame.h"
+#include "units.h"
 
 struct runner;
 
@@ -40,11 +41,34 @@ struct stage {
 /* For stages without options and without state. (These two records are in options.c.) */
 extern const struct record stage_no_options;
 
-/* The state of stages after ideal, which need the suite that ideal looked with. */
+/* Which suite, and which effects of it. It is the state of stages after ideal, for which the frame
+ * has the answers: other ones are refused. ideal's state begins with it. */
 struct suite_choice {
     const char *sensors; /* NULL: the suite that the frame names */
+    const char *effects; /* NULL: those that the frame names, or the suite does */
+    bool tolerance;      /* the default one; the members below change it */
+    double tolerance_range_m, tolerance_azimuth_rad;
+    double tolerance_range_rate_mps, tolerance_amplitude_db;
 };
 extern const struct record suite_choice_record;
+
+#define SUITE_CHOICE_LIMIT(member, high, help_)                                                    \
+    {                                                                                              \
+        FIELD_REAL_IN(struct suite_choice, member, 0, high, help_), FIELD_OPTIONAL, .absent = -1   \
+    }
+/* The members after `sensors`, for tables of options. */
+#define SUITE_CHOICE_EFFECTS                                                                       \
+    {FIELD_NAME_OF(struct suite_choice, effects,                                                   \
+                   "auto, all, none, or names; see glint --list effects"),                         \
+     FIELD_OPTIONAL, .word = "LIST"},                                                              \
+        {FIELD_FLAG_OF(struct suite_choice, tolerance,                                             \
+                       "auto may also leave out what changes no target by more than 0.02 m, "      \
+                       "0.1 degrees, 0.05 m/s, 0.5 dB before noise"),                              \
+         FIELD_OPTIONAL},                                                                          \
+        SUITE_CHOICE_LIMIT(tolerance_range_m, 1e6, "or by this much"),                             \
+        SUITE_CHOICE_LIMIT(tolerance_azimuth_rad, PI, "or by this much"),                          \
+        SUITE_CHOICE_LIMIT(tolerance_range_rate_mps, 1e5, "or by this much"),                      \
+        SUITE_CHOICE_LIMIT(tolerance_amplitude_db, 300, "or by this much")
 
 /* What the runner does for stages (runner.c). */
 
@@ -58,10 +82,20 @@ struct diag *runner_diag(struct runner *runner);
 const struct suite *runner_suite(struct runner *runner, const struct frame *frame,
                                  const char *name);
 
+/* What ideal writes of its suite into every frame: name, digest, and which effects at which
+ * tolerance, by its options or else by the suite itself. */
+int runner_request(struct runner *runner, const struct suite_choice *choice,
+                   const struct suite *suite, struct sensors *request);
+
+/* The effects that the frame asks for. Refuses options that ask for others (DIAG_CONFIG). */
+int runner_selection(struct runner *runner, const struct frame *frame,
+                     const struct suite_choice *choice, struct selection *selection);
+
 /* The whole step of a stage whose state is a suite_choice: visits every sensor of the suite that
  * the frame was seen with. */
 int runner_visit_sensors(struct runner *runner, struct frame *frame,
-                         void (*visit)(struct frame *frame, const struct sensor *sensor));
+                         void (*visit)(struct frame *frame, const struct sensor *sensor,
+                                       const struct selection *selection));
 
 /* The vehicle document of a class. NULL after a message. Loaded once. */
 const struct vehicle *runner_vehicle(struct runner *runner, const char *class);

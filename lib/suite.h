@@ -6,6 +6,7 @@
 #define SUITE_H
 
 #include "antenna.h"
+#include "effects.h"
 #include "field.h"
 #include "monopulse.h"
 #include "radar_equation.h"
@@ -54,6 +55,8 @@ struct sensor {
 
 struct suite {
     const char *origin;
+    const char *effects; /* effects.h; NULL: auto */
+    struct tolerance tolerance;
     LIST_OF(struct sensor) sensors; /* by name */
     const char *name;               /* as it was asked for */
     char digest[17];

@@ -5,16 +5,20 @@
 #include "stage.h"
 
 struct ideal {
-    const char *sensors;
+    struct suite_choice choice; /* first: its options are ideal's */
     bool account;
     const struct suite *suite;
+    struct sensors request;
 };
 
 static int ideal_start(void *state, struct runner *runner)
 {
     struct ideal *ideal = state;
-    ideal->suite = catalogue_suite(ideal->sensors, runner_arena(runner), runner_diag(runner));
-    return ideal->suite != NULL ? 0 : -1;
+    ideal->suite =
+        catalogue_suite(ideal->choice.sensors, runner_arena(runner), runner_diag(runner));
+    return ideal->suite != NULL
+               ? runner_request(runner, &ideal->choice, ideal->suite, &ideal->request)
+               : -1;
 }
 
 static struct sensor_view view_of(const struct sensor *sensor, bool measured)
@@ -33,13 +37,21 @@ static struct sensor_view view_of(const struct sensor *sensor, bool measured)
     };
 }
 
+static double latency_s(const struct sensor *sensor, const struct selection *selection)
+{
+    effects_note(selection, EFFECT_LATENCY, sensor->latency_s > 0);
+    return effects_may(selection, EFFECT_LATENCY) ? sensor->latency_s : 0;
+}
+
 static int ideal_step(void *state, struct frame *frame, struct runner *runner)
 {
     struct ideal *ideal = state;
     const struct suite *suite = ideal->suite;
+    struct selection selection;
     frame->account = ideal->account;
-    frame->sensors.suite = suite->name;
-    frame->sensors.digest = suite->digest;
+    frame->sensors = ideal->request;
+    if (runner_selection(runner, frame, &ideal->choice, &selection) != 0)
+        return -1;
     for (size_t i = 0; i < suite->sensors.count; i++) {
         const struct sensor *sensor = &suite->sensors.items[i];
         double instant_s = 0;
@@ -55,16 +67,19 @@ static int ideal_step(void *state, struct frame *frame, struct runner *runner)
         if (answer == CYCLE_NONE)
             continue;
         struct look look;
-        if (look_begin(&look, frame, sensor, instant_s - sensor->latency_s, runner_diag(runner)) !=
-            0)
+        if (look_begin(&look, frame, sensor, &selection, instant_s - latency_s(sensor, &selection),
+                       runner_diag(runner)) != 0)
             return -1;
         look_around(&look);
+        effects_count_scan(&selection);
     }
     return 0;
 }
 
 static const struct field ideal_options[] = {
-    {FIELD_NAME_OF(struct ideal, sensors, "the sensor suite: a name in data/sensors/, or a path")},
+    {FIELD_NAME_OF(struct suite_choice, sensors,
+                   "the sensor suite: a name in data/sensors/, or a path")},
+    SUITE_CHOICE_EFFECTS,
     {FIELD_FLAG_OF(struct ideal, account, "account for every reflector from here on, in lost"),
      FIELD_OPTIONAL},
     {0},

@@ -45,8 +45,10 @@ static bool measure(const struct cell *cell, const struct sensor *sensor,
     return angle.valid;
 }
 
-static void list_targets(struct frame *frame, const struct sensor *sensor)
+static void list_targets(struct frame *frame, const struct sensor *sensor,
+                         const struct selection *selection)
 {
+    (void)selection;
     struct cell_span cells = frame_cells_of(frame, sensor->name);
     struct reading *readings = arena_get(frame->arena, (cells.count + 1) * sizeof *readings);
     size_t count = 0;

@@ -2,8 +2,10 @@
 #include "readings.h"
 #include "stage.h"
 
-static void list_targets(struct frame *frame, const struct sensor *sensor)
+static void list_targets(struct frame *frame, const struct sensor *sensor,
+                         const struct selection *selection)
 {
+    (void)selection;
     struct cell_span cells = frame_cells_of(frame, sensor->name);
     struct reading *readings = arena_get(frame->arena, cells.count * sizeof *readings);
     for (size_t i = 0; i < cells.count; i++)

@@ -63,8 +63,10 @@ static void report(struct frame *frame, const struct sensor *sensor, const struc
         *list_add(&frame->cells, frame->arena) = cell;
 }
 
-static void sense(struct frame *frame, const struct sensor *sensor)
+static void sense(struct frame *frame, const struct sensor *sensor,
+                  const struct selection *selection)
 {
+    (void)selection;
     struct echo_span echoes = frame_echoes_of(frame, sensor->name);
     struct ray *rays = arena_get(frame->arena, 2 * (echoes.count + 1) * sizeof *rays);
     size_t count = receive(frame, sensor, echoes, rays);

@@ -16,8 +16,10 @@ static void keep(struct frame *frame, const struct sensor *sensor, const struct 
     *list_add(&frame->cells, frame->arena) = cell;
 }
 
-static void sense(struct frame *frame, const struct sensor *sensor)
+static void sense(struct frame *frame, const struct sensor *sensor,
+                  const struct selection *selection)
 {
+    (void)selection;
     struct echo_span echoes = frame_echoes_of(frame, sensor->name);
     for (size_t i = 0; i < echoes.count; i++)
         keep(frame, sensor, &echoes.items[i]);

@@ -15,6 +15,8 @@ struct scene {
     struct sensor sensor;
 };
 
+static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
+
 static int make_scene(void **state)
 {
     struct scene *scene = calloc(1, sizeof *scene);
@@ -66,7 +68,7 @@ static struct look look_around_at(struct scene *scene, double time_s)
 {
     struct look look;
     struct diag diag = {0};
-    if (look_begin(&look, &scene->frame, &scene->sensor, time_s, &diag) != 0)
+    if (look_begin(&look, &scene->frame, &scene->sensor, &everything, time_s, &diag) != 0)
         fail_msg("%s", diag.text);
     look_around(&look);
     return look;
@@ -324,7 +326,7 @@ static void a_set_on_nobody_is_refused(void **state)
     struct look look;
     struct diag diag = {0};
     add_set(scene, "ghost");
-    assert_int_equal(look_begin(&look, &scene->frame, &scene->sensor, 10, &diag), -1);
+    assert_int_equal(look_begin(&look, &scene->frame, &scene->sensor, &everything, 10, &diag), -1);
     assert_string_equal(diag.text, "reflectors[0].worn_by[0]: \"ghost\" is not among the objects, "
                                    "or is the ego");
 }

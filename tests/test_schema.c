@@ -42,7 +42,7 @@ static void assert_describes_member(const json_t *property, const struct field *
         [FIELD_REAL] = "number", [FIELD_INTEGER] = "integer", [FIELD_FLAG] = "boolean",
         [FIELD_NAME] = "string", [FIELD_CHOICE] = "",         [FIELD_SEED] = "string",
         [FIELD_NAMES] = "array", [FIELD_RECORD] = "object",   [FIELD_LIST] = "array",
-        [FIELD_RAW] = "",        [FIELD_NOTES] = "object",
+        [FIELD_RAW] = "",        [FIELD_NOTES] = "object",    [FIELD_SET] = "array",
     };
     assert_string_equal(word(property, "type"), types[field->kind]);
     assert_string_equal(word(property, field->kind == FIELD_RECORD ? "$comment" : "description"),
@@ -58,6 +58,10 @@ static void assert_describes_member(const json_t *property, const struct field *
         assert_close(bound(property, "minLength"), 1, 0);
         assert_close(bound(property, "maxLength"), FIELD_NAME_SIZE, 0);
         break;
+    case FIELD_SET:
+        choices = json_object_get(json_object_get(property, "items"), "enum");
+        assert_true(json_is_true(json_object_get(property, "uniqueItems")));
+        /* fall through */
     case FIELD_CHOICE:
         for (size_t i = 0; i <= json_array_size(choices); i++) {
             const char *choice = json_string_value(json_array_get(choices, i));

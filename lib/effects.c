@@ -1,0 +1,150 @@
+#include "effects.h"
+
+#include <string.h>
+
+#include "units.h"
+
+const char *const effects_names[] = {
+    [EFFECT_LATENCY] = "latency",
+    [EFFECT_VISIBILITY] = "visibility",
+    [EFFECT_PLANE_REFLECTION] = "plane_reflection",
+    [EFFECT_ROWS] = "rows",
+    [EFFECT_OCCLUSION] = "occlusion",
+    [EFFECT_COHERENCE] = "coherence",
+    [EFFECT_MERGING] = "merging",
+    [EFFECT_SUPERPOSITION] = "superposition",
+    [EFFECT_THRESHOLD] = "threshold",
+    [EFFECT_ANGLE_NOISE] = "angle_noise",
+    [EFFECT_RANGE_NOISE] = "range_noise",
+    [EFFECT_ACCURACY] = "accuracy",
+    [EFFECT_FINAL_THRESHOLD] = "final_threshold",
+    [EFFECT_QUANTISATION] = "quantisation",
+    [EFFECT_LIST_LIMIT] = "list_limit",
+    [EFFECT_COUNT] = NULL,
+};
+
+const struct effect_entry effects_table[EFFECT_COUNT] = {
+    [EFFECT_LATENCY] = {"the scan shows the world as it was a moment ago", "ideal",
+                        "latency_s of a sensor", "there is no latency", "a step back per object"},
+    [EFFECT_VISIBILITY] = {"a reflector is seen from a range of angles around its facing", "ideal",
+                           "full_rad, zero_rad of a point or row", "never: it costs as little",
+                           "an arctangent per reflector"},
+    [EFFECT_PLANE_REFLECTION] = {"a flat side mirrors the radar from the foot of the perpendicular",
+                                 "ideal", "planes of a vehicle", "no object has planes",
+                                 "a foot per plane"},
+    [EFFECT_ROWS] = {"posts along a line, made only within range", "ideal", "rows of a vehicle",
+                     "no object has rows", "the posts in range"},
+    [EFFECT_OCCLUSION] = {"an object hides what lies behind it", "ideal", "blocks of a vehicle",
+                          "for every object whose sector no nearer one overlaps",
+                          "a sight line per reflector and object in the way"},
+    [EFFECT_COHERENCE] = {"echoes of one cell add with their phases and fade", "sensor",
+                          "cell_phase of a sensor", "no cell has two members",
+                          "a sine and cosine per member"},
+    [EFFECT_MERGING] = {"echoes closer than the resolution share one cell", "sensor",
+                        "cell_range_m, cell_range_rate_mps of a sensor",
+                        "no two echoes are that close", "a test per pair of echoes"},
+    [EFFECT_SUPERPOSITION] = {"the angle of a cell is that of its added sum and delta pointers",
+                              "sensor", "antenna_pattern of a sensor",
+                              "for every cell with one member", "two pointers per member"},
+    [EFFECT_THRESHOLD] = {"cells whose summed amplitude is too weak are not detected", "sensor",
+                          "threshold_db of a sensor", "never: it costs nothing",
+                          "a comparison per cell"},
+    [EFFECT_ANGLE_NOISE] = {"noise on both channels disturbs angle and amplitude", "noise",
+                            "pointer_sigma of a sensor", "pointer_sigma is 0",
+                            "four draws and an angle per cell"},
+    [EFFECT_RANGE_NOISE] = {"noise on range and range rate", "noise",
+                            "range_sigma_m, range_rate_sigma_mps of a sensor", "both are 0",
+                            "two draws per cell"},
+    [EFFECT_ACCURACY] = {"stronger cells are measured better", "noise", "sigma_law of a sensor",
+                         "sigma_law is fixed", "a division per cell"},
+    [EFFECT_FINAL_THRESHOLD] = {"the noisy amplitude must pass the threshold once more", "noise",
+                                "final_threshold of a sensor", "there is none",
+                                "a comparison per cell"},
+    [EFFECT_QUANTISATION] = {"reported values are multiples of a step", "noise",
+                             "range_step_m, range_rate_step_mps, azimuth_step_rad of a sensor",
+                             "all steps are 0", "three roundings per target"},
+    [EFFECT_LIST_LIMIT] = {"the sensor reports no more targets than its list holds", "noise",
+                           "list_limit of a sensor", "the list is shorter", "nothing"},
+};
+
+const struct tolerance tolerance_default = {0.02, 0.1 * PI / 180, 0.05, 0.5};
+
+#define LIMIT(member, high, help)                                                                  \
+    {                                                                                              \
+        FIELD_REAL_IN(struct tolerance, member, 0, high, help), FIELD_OPTIONAL                     \
+    }
+
+static const struct field tolerance_fields[] = {
+    LIMIT(range_m, 1e6, "of a target's range"),
+    LIMIT(azimuth_rad, PI, "of its azimuth"),
+    LIMIT(range_rate_mps, 1e5, "of its range rate"),
+    LIMIT(amplitude_db, 300, "of its amplitude"),
+    {0},
+};
+
+const struct record tolerance_record = {
+    .name = "tolerance",
+    .help = "By how much leaving out effects may change a target before noise.",
+    .size = sizeof(struct tolerance),
+    .fields = tolerance_fields,
+};
+
+#define EVERY_EFFECT (EFFECT_BIT(EFFECT_COUNT) - 1)
+
+/* The word at text, up to a comma. */
+static bool is_word(const char *text, size_t length, const char *word)
+{
+    return strlen(word) == length && memcmp(text, word, length) == 0;
+}
+
+static int add_effect(const char *text, size_t length, struct selection *selection,
+                      struct diag *diag)
+{
+    bool remove = length > 0 && text[0] == '-';
+    const char *name = text + remove;
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        if (is_word(name, length - remove, effects_names[i])) {
+            if (remove)
+                selection->allowed &= ~EFFECT_BIT(i);
+            else
+                selection->allowed |= EFFECT_BIT(i);
+            return 0;
+        }
+    return diag_fail(diag, DIAG_CONFIG,
+                     "\"%.*s\" is no effect; expected auto, all, none or names from "
+                     "glint --list effects",
+                     (int)(length < 80 ? length : 80), text);
+}
+
+int effects_read(const char *text, struct selection *selection, struct diag *diag)
+{
+    *selection = (struct selection){0};
+    for (bool first = true;; first = false) {
+        size_t length = strcspn(text, ",");
+        bool automatic = is_word(text, length, "auto"), all = is_word(text, length, "all");
+        if (first && (automatic || all || text[0] == '-')) {
+            selection->allowed = EVERY_EFFECT;
+            selection->automatic = !all;
+        }
+        bool word = first && (automatic || all || is_word(text, length, "none"));
+        if (!word && add_effect(text, length, selection, diag) != 0)
+            return diag_prefix(diag, "effects: ");
+        if (text[length] == '\0')
+            return 0;
+        text += length + 1;
+    }
+}
+
+void effects_count_scan(const struct selection *selection)
+{
+    struct effect_log *log = selection->log;
+    if (log == NULL)
+        return;
+    log->scans++;
+    for (int i = 0; i < EFFECT_COUNT; i++) {
+        bool simulated = (log->simulated & EFFECT_BIT(i)) != 0;
+        log->scans_simulated[i] += simulated;
+        log->scans_left_out[i] += !simulated && (log->left_out & EFFECT_BIT(i)) != 0;
+    }
+    log->simulated = log->left_out = 0;
+}

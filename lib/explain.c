@@ -1,0 +1,63 @@
+#include "explain.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "text.h"
+
+static int64_t clock_ns(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
+
+struct effect_log *explain_begin(struct arena *arena)
+{
+    struct effect_log *log = arena_get(arena, sizeof *log);
+    *log = (struct effect_log){.clock_ns = clock_ns};
+    return log;
+}
+
+static void explain_effect(const char *stage, int effect, const struct effect_log *log,
+                           struct text *text)
+{
+    const struct effect_entry *entry = &effects_table[effect];
+    text_format(text,
+                "{\"stage\":\"%s\",\"effect\":\"%s\",\"scans\":%" PRId64 ",\"simulated\":%" PRId64
+                ",\"left_out\":%" PRId64 ",\"ns\":%" PRId64 ",\"left_out_when\":",
+                stage, effects_names[effect], log->scans, log->scans_simulated[effect],
+                log->scans_left_out[effect], log->spent_ns[effect]);
+    text_add_json(text, entry->bound, strlen(entry->bound));
+    text_add_word(text, "}\n");
+}
+
+static int append(const char *path, const struct text *text, struct diag *diag)
+{
+    int file = open(path, O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+    if (file < 0)
+        return diag_fail(diag, DIAG_CANNOT_CREATE, "%s: %s", path, strerror(errno));
+    ssize_t written = write(file, text->bytes, text->length);
+    bool whole = written == (ssize_t)text->length;
+    if (close(file) != 0 || !whole)
+        return diag_fail(diag, DIAG_IO, "%s: %s", path, strerror(errno));
+    return 0;
+}
+
+int explain_append(const char *path, const char *stage, const struct effect_log *log,
+                   struct diag *diag)
+{
+    struct text text = {0};
+    for (int i = 0; i < EFFECT_COUNT; i++) {
+        const char *home = effects_table[i].home;
+        if (strncmp(stage, home, strlen(home)) == 0)
+            explain_effect(stage, i, log, &text);
+    }
+    int result = append(path, &text, diag);
+    text_free(&text);
+    return result;
+}

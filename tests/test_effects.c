@@ -1,0 +1,94 @@
+#include "check.h"
+
+#include <string.h>
+
+#include "effects.h"
+
+#define EVERY (EFFECT_BIT(EFFECT_COUNT) - 1)
+
+static void a_request_names_what_may_be_simulated(void **state)
+{
+    static const struct {
+        const char *text;
+        uint64_t allowed;
+        bool automatic;
+    } cases[] = {
+        {"auto", EVERY, true},
+        {"all", EVERY, false},
+        {"none", 0, false},
+        {"occlusion", EFFECT_BIT(EFFECT_OCCLUSION), false},
+        {"occlusion,merging", EFFECT_BIT(EFFECT_OCCLUSION) | EFFECT_BIT(EFFECT_MERGING), false},
+        {"all,-merging", EVERY & ~EFFECT_BIT(EFFECT_MERGING), false},
+        {"auto,-merging,-rows", EVERY & ~(EFFECT_BIT(EFFECT_MERGING) | EFFECT_BIT(EFFECT_ROWS)),
+         true},
+        {"-merging", EVERY & ~EFFECT_BIT(EFFECT_MERGING), true},
+        {"none,merging", EFFECT_BIT(EFFECT_MERGING), false},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct selection selection;
+        struct diag diag = {0};
+        assert_int_equal(effects_read(cases[i].text, &selection, &diag), 0);
+        assert_int_equal(selection.allowed, cases[i].allowed);
+        assert_int_equal(selection.automatic, cases[i].automatic);
+    }
+}
+
+static void an_unknown_effect_is_refused_by_name(void **state)
+{
+    static const char *const texts[] = {"",          "fog horn", "auto,all",   "all,",
+                                        "merging,-", "-none",    "all,-mergin"};
+    (void)state;
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        struct selection selection;
+        struct diag diag = {0};
+        assert_int_equal(effects_read(texts[i], &selection, &diag), -1);
+        assert_int_equal(diag.code, DIAG_CONFIG);
+        assert_non_null(strstr(diag.text, "is no effect"));
+    }
+}
+
+static void every_effect_says_what_it_is(void **state)
+{
+    (void)state;
+    for (int i = 0; i < EFFECT_COUNT; i++) {
+        const struct effect_entry *entry = &effects_table[i];
+        assert_non_null(effects_names[i]);
+        assert_true(entry->summary && entry->home && entry->member && entry->bound && entry->cost);
+    }
+    assert_null(effects_names[EFFECT_COUNT]);
+}
+
+static int64_t no_clock(void)
+{
+    return 0;
+}
+
+static void a_scan_in_which_one_object_needs_an_effect_counts_as_simulated(void **state)
+{
+    (void)state;
+    struct effect_log log = {.clock_ns = no_clock};
+    const struct selection selection = {.allowed = EVERY, .automatic = true, .log = &log};
+    effects_note(&selection, EFFECT_OCCLUSION, false);
+    effects_note(&selection, EFFECT_OCCLUSION, true);
+    effects_note(&selection, EFFECT_MERGING, false);
+    effects_count_scan(&selection);
+    effects_note(&selection, EFFECT_OCCLUSION, false);
+    effects_count_scan(&selection);
+    assert_int_equal(log.scans, 2);
+    assert_int_equal(log.scans_simulated[EFFECT_OCCLUSION], 1);
+    assert_int_equal(log.scans_left_out[EFFECT_OCCLUSION], 1);
+    assert_int_equal(log.scans_left_out[EFFECT_MERGING], 1);
+    assert_int_equal(log.scans_simulated[EFFECT_MERGING], 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_request_names_what_may_be_simulated),
+        cmocka_unit_test(an_unknown_effect_is_refused_by_name),
+        cmocka_unit_test(every_effect_says_what_it_is),
+        cmocka_unit_test(a_scan_in_which_one_object_needs_an_effect_counts_as_simulated),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
