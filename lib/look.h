@@ -16,7 +16,7 @@ struct look_body {
     const struct object *object;
     struct box box;
     struct vec2 corner[4];
-    double radius_m; /* around the box */
+    struct sector sector; /* the circle around the box */
     bool blocks;
     bool raised;
     bool moved; /* between the instant of the measurement and the frame's time */
