@@ -1,5 +1,6 @@
 /* The sensor before noise: amplitude of every echo (MODEL 4), resolution cells (6), threshold on
  * the summed amplitude, superposed sum and delta pointers of each cell (7, 8). */
+#include "carrier.h"
 #include "random.h"
 #include "resolution.h"
 #include "sort.h"
@@ -7,7 +8,8 @@
 #include "superposition.h"
 #include "units.h"
 
-/* The relative phase of an echo: 0 in the paper's model, or drawn. */
+/* The relative phase of an echo: 0 in the paper's model, drawn in each frame, or that of its path
+ * and of its reflector, which is drawn once for all frames. */
 static double phase_of(const struct frame *frame, const struct sensor *sensor,
                        const struct echo *echo)
 {
@@ -16,8 +18,13 @@ static double phase_of(const struct frame *frame, const struct sensor *sensor,
     struct contributor subject = frame_contributor(echo);
     struct random_address address = runner_address(frame, sensor->name, &subject);
     double uniform[4];
-    random_uniform(&address, RANDOM_PHASE, 0, uniform);
-    return 2 * PI * uniform[0];
+    if (sensor->cell_phase == CELL_RANDOM_PHASE) {
+        random_uniform(&address, RANDOM_PHASE, 0, uniform);
+        return 2 * PI * uniform[0];
+    }
+    address.frame = 0;
+    random_uniform(&address, RANDOM_REFLECTOR_PHASE, 0, uniform);
+    return 2 * PI * (uniform[0] - carrier_phase_turns(echo->range_m, sensor->carrier_hz));
 }
 
 /* The echoes that have an amplitude, strongest first. */
