@@ -70,6 +70,11 @@ static const char *const losses[] = {
         FIELD_FLAG_OF(owner, sign_undecided, "the phase did not tell left from right"),            \
             FIELD_OPTIONAL                                                                         \
     }
+#define MARGINS(owner)                                                                             \
+    {                                                                                              \
+        FIELD_RECORD_OF(owner, margins, &margins_record, "how close decisions were"),              \
+            FIELD_OPTIONAL                                                                         \
+    }
 #define EXTRA(owner)                                                                               \
     {                                                                                              \
         FIELD_RAW_OF(owner, extra, "yours: passed on byte for byte")                               \
@@ -150,6 +155,7 @@ static const struct field echo_fields[] = {
     NAME(struct echo, sensor, "name in the suite"),
     ECHO_NAMES(struct echo),
     IDEAL_VALUES(struct echo),
+    MARGINS(struct echo),
     EXTRA(struct echo),
     {0},
 };
@@ -187,6 +193,7 @@ static const struct field cell_fields[] = {
     POINTER(struct cell, delta_im, "delta channel without noise"),
     UNDECIDED(struct cell),
     {FIELD_LIST_OF(struct cell, members, &contributor_record, "the leader first")},
+    MARGINS(struct cell),
     EXTRA(struct cell),
     {0},
 };
@@ -210,6 +217,7 @@ static const struct field target_fields[] = {
     RATE(struct target, cell_range_rate_mps, "without noise"),
     AMPLITUDE(struct target, cell_amplitude, "sum of the contributors' amplitudes, linear"),
     {FIELD_LIST_OF(struct target, contributors, &contributor_record, "the leader first")},
+    MARGINS(struct target),
     EXTRA(struct target),
     {0},
 };
@@ -226,6 +234,7 @@ static const struct field lost_echo_fields[] = {
     {FIELD_NAME_OF(struct lost_echo, by, "the object in the way"), FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct lost_echo, shortfall_db, 0, 1e5, "below the threshold by this much"),
      FIELD_OPTIONAL},
+    MARGINS(struct lost_echo),
     {0},
 };
 
@@ -297,6 +306,8 @@ static const struct field frame_fields[] = {
                    "of the frame's coordinates in the source's"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct frame, account, "every echo is accounted for"), FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct frame, margins, "entries carry how close decisions were"),
+     FIELD_OPTIONAL},
     {FIELD_LIST_OF(struct frame, objects, &object_record, "truth, the ego among them"),
      SECTION(SECTION_OBJECTS)},
     {FIELD_LIST_OF(struct frame, reflectors, &reflector_set_record, "by model"),
@@ -430,12 +441,14 @@ void frame_lose_echo(struct frame *frame, const char *stage, const struct echo *
                      enum loss reason)
 {
     frame_lose(frame, stage, echo->sensor, reason,
-               &(struct lost_echo){
-                   .object = echo->object, .reflector = echo->reflector, .path = echo->path});
+               &(struct lost_echo){.object = echo->object,
+                                   .reflector = echo->reflector,
+                                   .path = echo->path,
+                                   .margins = echo->margins});
 }
 
 void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *cell,
-                     enum loss reason, double shortfall_db)
+                     enum loss reason, double shortfall_db, const struct margins *margins)
 {
     for (size_t i = 0; i < cell->members.count; i++) {
         const struct contributor *member = &cell->members.items[i];
@@ -443,7 +456,8 @@ void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *
                    &(struct lost_echo){.object = member->object,
                                        .reflector = member->reflector,
                                        .path = member->path,
-                                       .shortfall_db = shortfall_db});
+                                       .shortfall_db = shortfall_db,
+                                       .margins = *margins});
     }
 }
 
@@ -461,6 +475,7 @@ struct target *frame_add_target(struct frame *frame, const struct cell *cell, do
         .cell_azimuth_rad = cell->azimuth_rad,
         .cell_range_rate_mps = cell->range_rate_mps,
         .cell_amplitude = cell->amplitude,
+        .margins = cell->margins,
     };
     target->contributors.items = cell->members.items;
     target->contributors.count = cell->members.count;

@@ -14,6 +14,7 @@
 #define FRAME_H
 
 #include "field.h"
+#include "margins.h"
 #include "reflectors.h"
 
 enum { FRAME_VERSION = 0 };
@@ -72,6 +73,7 @@ struct echo {
     double range_m, azimuth_rad, range_rate_mps;
     double ercs;
     double time_s; /* of the measurement */
+    struct margins margins;
     const char *extra;
 };
 
@@ -94,6 +96,7 @@ struct cell {
     double sum_re, sum_im, delta_re, delta_im;
     bool sign_undecided;
     LIST_OF(struct contributor) members;
+    struct margins margins;
     const char *extra;
 };
 
@@ -106,6 +109,7 @@ struct target {
     double cell_range_m, cell_azimuth_rad, cell_range_rate_mps;
     double cell_amplitude;
     LIST_OF(struct contributor) contributors;
+    struct margins margins;
     const char *extra;
 };
 
@@ -128,6 +132,7 @@ struct lost_echo {
     enum path path;
     const char *by;      /* blocked by this object */
     double shortfall_db; /* below the threshold by this much */
+    struct margins margins;
 };
 
 struct lost_group {
@@ -160,6 +165,7 @@ struct frame {
     const char *ego;
     double origin_x_m, origin_y_m;
     bool account;
+    bool margins; /* do entries carry them? Without, no stage works any out. */
     LIST_OF(struct object) objects;
     LIST_OF(struct reflector_set) reflectors;
     struct sensors sensors;
@@ -212,11 +218,13 @@ void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum
 void frame_lose_echo(struct frame *frame, const char *stage, const struct echo *echo,
                      enum loss reason);
 
-/* The same for every member of a cell; shortfall_db is 0 where the reason has none. */
+/* The same for every member of a cell, with the margins that it had in the end; shortfall_db is 0
+ * where the reason has none. */
 void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *cell,
-                     enum loss reason, double shortfall_db);
+                     enum loss reason, double shortfall_db, const struct margins *margins);
 
-/* Appends a target with the cell's label and the cell's noise-free values as its own. */
+/* Appends a target with the cell's label and the cell's noise-free values and margins as its own.
+ */
 struct target *frame_add_target(struct frame *frame, const struct cell *cell, double amplitude_db);
 
 #endif

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "clearance.h"
 #include "occlusion.h"
 #include "reflection.h"
 #include "sight.h"
@@ -126,41 +127,78 @@ static const struct look_body *blocker(const struct look *look, const struct loo
     return NULL;
 }
 
+/* Of the objects that blocker asks: how near the sight line comes to the nearest that lets it pass,
+ * or how deep it is in those in the way. */
+static double blocking_margin_m(const struct look *look, const struct look_body *own,
+                                struct vec2 place, bool solid, bool blocked)
+{
+    double nearest_m = (double)INFINITY, deepest_m = 0;
+    for (size_t i = 0; i < look->body_count; i++) {
+        const struct look_body *body = &look->bodies[i];
+        const struct vec2 *corner = body->corner, from = look->position_m;
+        if (body == own || !body->blocks || (solid && body->raised))
+            continue;
+        if (occlusion_outline_blocks(corner, 4, from, place))
+            deepest_m = fmax(deepest_m, clearance_depth_m(corner, 4, from, place));
+        else
+            nearest_m = fmin(nearest_m, clearance_outline_m(corner, 4, from, place));
+    }
+    return blocked ? deepest_m : nearest_m;
+}
+
+static struct margins margins_of(const struct look *look, double margin_m)
+{
+    struct margins margins = {0};
+    if (look->frame->margins)
+        margins_note(&margins, MARGIN_SIGHT, margin_m);
+    return margins;
+}
+
 static void lose(struct look *look, const struct look_body *body, const char *reflector,
-                 enum loss reason, const struct look_body *by)
+                 enum loss reason, const struct look_body *by, double margin_m)
 {
     frame_lose(look->frame, stage_name, look->sensor->name, reason,
                &(struct lost_echo){.object = body->object->id,
                                    .reflector = reflector,
-                                   .by = by != NULL ? by->object->id : NULL});
+                                   .by = by != NULL ? by->object->id : NULL,
+                                   .margins = margins_of(look, margin_m)});
 }
 
-/* One reflector that faces the sensor: an echo if it is in range, in view and not blocked. */
+/* One reflector that faces the sensor, by a margin: an echo if it is in range, in view and not
+ * blocked. */
 static void look_at(struct look *look, const struct look_body *body, const char *reflector,
-                    struct vec2 place, double ercs, double under_vehicles)
+                    struct vec2 place, double ercs, double under_vehicles, double margin_m)
 {
+    bool tell = look->frame->margins;
     const struct sensor *sensor = look->sensor;
     struct vec2 velocity = motion_velocity_at(&body->box.motion, place);
     struct sight sight =
         sight_of(look->position_m, look->velocity_mps, look->boresight, place, velocity);
     double azimuth = fabs(sight.azimuth_rad);
+    double reach_m =
+        fabs(fmin(sight.range_m - sensor->range_min_m, sensor->range_max_m - sight.range_m));
+    double view_m = sight.range_m * fabs(look_border_rad(sensor) - azimuth);
     if (!(sight.range_m > 0 && sight.range_m >= sensor->range_min_m &&
           sight.range_m <= sensor->range_max_m)) {
-        lose(look, body, reflector, LOSS_OUT_OF_RANGE, NULL);
+        lose(look, body, reflector, LOSS_OUT_OF_RANGE, NULL, reach_m);
         return;
     }
     if (!(azimuth < look_border_rad(sensor))) {
-        lose(look, body, reflector, LOSS_OUT_OF_VIEW, NULL);
+        lose(look, body, reflector, LOSS_OUT_OF_VIEW, NULL, view_m);
         return;
     }
     const struct look_body *by = blocker(look, body, place, false);
-    if (by != NULL && under_vehicles > 0 && blocker(look, body, place, true) == NULL) {
-        ercs *= under_vehicles;
-        by = NULL;
-    }
-    if (by != NULL) {
-        lose(look, body, reflector, LOSS_BLOCKED, by);
+    bool under = by != NULL && under_vehicles > 0 && blocker(look, body, place, true) == NULL;
+    if (by != NULL && !under) {
+        lose(look, body, reflector, LOSS_BLOCKED, by,
+             tell ? blocking_margin_m(look, body, place, under_vehicles > 0, true) : 0);
         return;
+    }
+    if (tell) {
+        margin_m = fmin(margin_m, fmin(reach_m, view_m));
+        margin_m = fmin(margin_m, blocking_margin_m(look, body, place, under, false));
+        if (under)
+            margin_m = fmin(margin_m, blocking_margin_m(look, body, place, false, true));
     }
     look->echoes++;
     *list_add(&look->frame->echoes, look->frame->arena) = (struct echo){
@@ -171,8 +209,9 @@ static void look_at(struct look *look, const struct look_body *body, const char 
         .range_m = sight.range_m,
         .azimuth_rad = sight.azimuth_rad,
         .range_rate_mps = sight.range_rate_mps,
-        .ercs = ercs,
+        .ercs = under ? under_vehicles * ercs : ercs,
         .time_s = look->time_s,
+        .margins = margins_of(look, margin_m),
     };
 }
 
@@ -183,23 +222,30 @@ static void look_at_point(struct look *look, const struct look_body *body,
     double visible =
         reflectors_visibility(&body->box, point->shape, point->facing_rad, point->full_rad,
                               point->zero_rad, place, look->position_m);
+    double margin_m = look->frame->margins
+                          ? clearance_facing_m(&body->box, point->shape, point->facing_rad,
+                                               point->zero_rad, place, look->position_m)
+                          : 0;
     if (visible > 0)
-        look_at(look, body, point->name, place, visible * point->ercs, point->under_vehicles);
+        look_at(look, body, point->name, place, visible * point->ercs, point->under_vehicles,
+                margin_m);
     else
-        lose(look, body, point->name, LOSS_FACING_AWAY, NULL);
+        lose(look, body, point->name, LOSS_FACING_AWAY, NULL, margin_m);
 }
 
 static void look_at_plane(struct look *look, const struct look_body *body,
                           const struct plane_reflector *plane)
 {
     look->pairs++;
+    struct vec2 from = reflectors_place(&body->box, plane->from_x, plane->from_y);
+    struct vec2 to = reflectors_place(&body->box, plane->to_x, plane->to_y);
     struct vec2 foot;
-    if (reflection_foot(reflectors_place(&body->box, plane->from_x, plane->from_y),
-                        reflectors_place(&body->box, plane->to_x, plane->to_y), plane->margin_m,
-                        look->position_m, &foot))
-        look_at(look, body, plane->name, foot, plane->ercs, 0);
+    double margin_m =
+        look->frame->margins ? clearance_foot_m(from, to, plane->margin_m, look->position_m) : 0;
+    if (reflection_foot(from, to, plane->margin_m, look->position_m, &foot))
+        look_at(look, body, plane->name, foot, plane->ercs, 0, margin_m);
     else
-        lose(look, body, plane->name, LOSS_NO_SPECULAR, NULL);
+        lose(look, body, plane->name, LOSS_NO_SPECULAR, NULL, margin_m);
 }
 
 static const char *post_name(struct arena *arena, const struct post_row *row, int64_t post)

@@ -9,7 +9,8 @@
 
 struct ray superposition_ray(const struct sensor *sensor, const struct echo *echo, double phase_rad)
 {
-    struct ray ray = {.echo = frame_contributor(echo), .phase_rad = phase_rad};
+    struct ray ray = {
+        .echo = frame_contributor(echo), .phase_rad = phase_rad, .margins = &echo->margins};
     ray.strength = radar_reference_amplitude(&sensor->amplitude_law, echo->range_m) * echo->ercs;
     ray.amplitude = ray.strength * antenna_gain(&sensor->antenna, echo->azimuth_rad);
     return ray;

@@ -6,7 +6,7 @@
 
 struct ideal {
     const char *sensors;
-    bool account;
+    bool account, margins;
     const struct suite *suite;
 };
 
@@ -38,6 +38,7 @@ static int ideal_step(void *state, struct frame *frame, struct runner *runner)
     struct ideal *ideal = state;
     const struct suite *suite = ideal->suite;
     frame->account = ideal->account;
+    frame->margins = ideal->margins;
     frame->sensors.suite = suite->name;
     frame->sensors.digest = suite->digest;
     for (size_t i = 0; i < suite->sensors.count; i++) {
@@ -66,6 +67,9 @@ static int ideal_step(void *state, struct frame *frame, struct runner *runner)
 static const struct field ideal_options[] = {
     {FIELD_NAME_OF(struct ideal, sensors, "the sensor suite: a name in data/sensors/, or a path")},
     {FIELD_FLAG_OF(struct ideal, account, "account for every reflector from here on, in lost"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct ideal, margins,
+                   "tell from here on how close decisions were to changing the list"),
      FIELD_OPTIONAL},
     {0},
 };
