@@ -1,15 +1,12 @@
 /* Time, binning and order (NUMERICS A4), and straight motion over a million frames (24). */
 #define SCRATCH_FILE "hard"
 #include "../scratch.h"
-#include "hard.h"
+#include "chain.h"
 
 #include "cycle.h"
-#include "frame_text.h"
-#include "fused.h"
 #include "number.h"
 #include "readings.h"
 #include "resolution.h"
-#include "runner.h"
 #include "scene.h"
 #include "sort.h"
 #include "superposition.h"
@@ -441,66 +438,6 @@ static void sorting_keeps_the_order_of_ties(void **state)
     hard_case("47", "64 tied keys sorted (naive: by exchange)", "wrong", naive, ours, 0);
 }
 
-#define SUITE "srr24-pair-every-frame"
-
-/* The stages from objects to targets, and a frame to run them on. */
-struct bench {
-    struct runner runners[5];
-    struct arena arena;
-    struct frame frame;
-};
-
-static void start_stage(struct runner *runner, const char *name, size_t count,
-                        const char *const *words)
-{
-    const struct stage *const *stage = stages;
-    while (strcmp((*stage)->name, name) != 0)
-        stage++;
-    if (runner_prepare(runner, *stage, count, words) != 0 || runner_start(runner) != 0)
-        fail_msg("%s", runner->diag.text);
-}
-
-static void start_bench(struct bench *bench)
-{
-    static const char *const scene[] = {"--density", "adversarial", "--sensors", SUITE,
-                                        "--first",   "999990",      "--frames",  "20"};
-    static const char *const suite[] = {"--sensors", SUITE};
-    *bench = (struct bench){.frame.arena = &bench->arena};
-    start_stage(&bench->runners[0], "traffic-random", COUNT(scene), scene);
-    start_stage(&bench->runners[1], "extract", 0, NULL);
-    start_stage(&bench->runners[2], "ideal", COUNT(suite), suite);
-    start_stage(&bench->runners[3], "sensor", 0, NULL);
-    start_stage(&bench->runners[4], "noise", 0, NULL);
-}
-
-static void stop_bench(struct bench *bench)
-{
-    for (size_t i = 0; i < COUNT(bench->runners); i++)
-        runner_free(&bench->runners[i]);
-    arena_free(&bench->arena);
-}
-
-/* The cells and targets of the frame as text, after stages from to 4. */
-static void run_stages(struct bench *bench, struct frame *frame, size_t from, struct text *text)
-{
-    struct diag diag = {0};
-    for (size_t i = from; i <= 4; i++) {
-        bench->runners[i].common.keep = true;
-        if (runner_step(&bench->runners[i], frame) != 0)
-            fail_msg("%s", bench->runners[i].diag.text);
-    }
-    frame_drop(frame, SECTION_OBJECTS | SECTION_REFLECTORS);
-    text->length = 0;
-    assert_int_equal(frame_text_write(frame, text, &diag), 0);
-}
-
-static void take(const struct text *line, struct frame *frame)
-{
-    struct diag diag = {0};
-    if (frame_text_read(line->bytes, line->length - 1, frame, &diag) != 0)
-        fail_msg("%s", diag.text);
-}
-
 /* The echoes of each sensor, which stand together. */
 static void shuffle_echoes(uint64_t *random, struct frame *frame)
 {
@@ -513,29 +450,36 @@ static void shuffle_echoes(uint64_t *random, struct frame *frame)
     }
 }
 
+/* The echoes, cells and targets that stages from to the last make of the chain's frame. */
+static void find_targets(struct hard_chain *chain, size_t from, struct text *text)
+{
+    hard_chain_step(chain, from, CHAIN_STAGES - 1);
+    frame_drop(&chain->frame, SECTION_OBJECTS | SECTION_REFLECTORS);
+    text->length = 0;
+    hard_chain_write(chain, text);
+}
+
 enum { ORDERS = 1000, SCENES = 20 };
 
-/* Runs one frame of random traffic near number 1e6 in 50 orders of its objects, or of its echoes:
- * how often cells or targets changed. */
-static double count_changes(struct bench *bench, uint64_t *random, bool objects)
+/* Runs one scene in 50 orders of its objects, or of its echoes: how often a byte changed. */
+static double count_changes(struct hard_chain *chain, uint64_t *random, bool objects)
 {
     struct text line = {0}, first = {0}, text = {0};
-    struct diag diag = {0};
-    double changes = 0;
-    assert_int_equal(runner_next(&bench->runners[0], &bench->frame), 1);
-    for (size_t i = 1; i <= 2 && !objects; i++)
-        assert_int_equal(runner_step(&bench->runners[i], &bench->frame), 0);
-    assert_int_equal(frame_text_write(&bench->frame, &line, &diag), 0);
+    struct frame *frame = &chain->frame;
     size_t from = objects ? 1 : 3;
-    run_stages(bench, &bench->frame, from, &first);
+    double changes = 0;
+    hard_chain_next(chain);
+    hard_chain_step(chain, 1, from - 1);
+    hard_chain_write(chain, &line);
+    find_targets(chain, from, &first);
     for (int i = 0; i < hard_points(ORDERS) / SCENES; i++) {
-        take(&line, &bench->frame);
-        struct frame *frame = &bench->frame;
+        struct diag diag = {0};
+        assert_int_equal(frame_text_read(line.bytes, line.length - 1, frame, &diag), 0);
         if (objects)
             shuffle(random, frame->objects.items, frame->objects.count, sizeof(struct object));
         else
             shuffle_echoes(random, frame);
-        run_stages(bench, frame, from, &text);
+        find_targets(chain, from, &text);
         changes += text.length != first.length || memcmp(text.bytes, first.bytes, text.length) != 0;
     }
     text_free(&line);
@@ -547,12 +491,12 @@ static double count_changes(struct bench *bench, uint64_t *random, bool objects)
 static void orders_of_input_change_no_byte(bool objects, const char *title)
 {
     uint64_t random = 451;
-    struct bench bench;
+    struct hard_chain chain;
     double ours = 0;
-    start_bench(&bench);
+    hard_chain_start(&chain, 999990, SCENES);
     for (int i = 0; i < SCENES; i++)
-        ours += count_changes(&bench, &random, objects);
-    stop_bench(&bench);
+        ours += count_changes(&chain, &random, objects);
+    hard_chain_stop(&chain);
     hard_case("45", title, "wrong", (double)NAN, ours, 0);
 }
 
