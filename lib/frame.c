@@ -108,7 +108,7 @@ static const struct field object_fields[] = {
     {0},
 };
 
-static const struct record object_record = {
+const struct record object_record = {
     .name = "object",
     .help = "A road user or thing: truth.",
     .size = sizeof(struct object),

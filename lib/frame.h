@@ -180,6 +180,7 @@ struct frame {
 };
 
 extern const struct record frame_record;
+extern const struct record object_record;
 
 /* Back to an empty frame that keeps its arena's room. */
 void frame_clear(struct frame *frame);
