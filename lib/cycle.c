@@ -2,6 +2,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 
 /* The number of the latest instant at or before time_s; -1 before the first. */
 static double latest_instant(double cycle_s, double time_s)
@@ -29,8 +30,8 @@ enum cycle_answer cycle_instant_s(double cycle_s, double time_s, double interval
         return CYCLE_SEVERAL;
     if (fresh < 1)
         return CYCLE_NONE;
-    *instant_s = decimal(latest * cycle_s);
-    if (fabs(*instant_s - time_s) <= 1e-9 * cycle_s)
-        *instant_s = time_s;
+    double slack_s = 1e-9 * cycle_s + 4 * DBL_EPSILON * fabs(time_s);
+    bool at_the_frame = fabs(latest * cycle_s - time_s) <= slack_s;
+    *instant_s = at_the_frame ? time_s : decimal(latest * cycle_s);
     return CYCLE_ONE;
 }

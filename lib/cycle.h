@@ -4,7 +4,7 @@
  * belongs to the frame whose interval (time_s - interval_s, time_s] holds its instant. What it
  * shows was measured latency_s earlier. An instant within 1e-9 of a cycle counts as on it, so that
  * times written as i/rate and cycles written as decimals meet; rounding stays below that for some
- * 3e6 cycles (33 hours at 25 Hz). */
+ * 3e6 cycles (33 hours at 25 Hz). An instant at a frame's own time is that time exactly. */
 #ifndef CYCLE_H
 #define CYCLE_H
 

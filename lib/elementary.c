@@ -180,6 +180,11 @@ static struct reduced reduce_far(double angle_rad)
     return (struct reduced){quarters_rad(sign * hi, sign * lo), angle_rad < 0 ? -whole : whole};
 }
 
+static struct reduced reduce(double angle_rad)
+{
+    return fabs(angle_rad) <= 0x1p20 ? reduce_near(angle_rad) : reduce_far(angle_rad);
+}
+
 static struct elementary_sincos turn_quarters(struct pair rest_rad, unsigned quarters)
 {
     double sine = sine_near_zero(rest_rad), cosine = cosine_near_zero(rest_rad);
@@ -197,12 +202,8 @@ struct elementary_sincos elementary_sincos(double angle_rad)
         return (struct elementary_sincos){NO_NUMBER, NO_NUMBER};
     if (fabs(angle_rad) < TINY)
         return (struct elementary_sincos){angle_rad, 1};
-    if (!(fabs(angle_rad) <= 0x1p20)) {
-        struct reduced far = reduce_far(angle_rad);
-        return turn_quarters(far.rest_rad, far.quarters);
-    }
-    struct reduced near = reduce_near(angle_rad);
-    return turn_quarters(near.rest_rad, near.quarters);
+    struct reduced reduced = reduce(angle_rad);
+    return turn_quarters(reduced.rest_rad, reduced.quarters);
 }
 
 double elementary_sin(double angle_rad)
@@ -217,6 +218,21 @@ double elementary_cos(double angle_rad)
     if (fabs(angle_rad) <= PI_4)
         return cosine_near_zero((struct pair){angle_rad, 0});
     return elementary_sincos(angle_rad).cos;
+}
+
+double elementary_wrap(double angle_rad)
+{
+    if (fabs(angle_rad) <= 2 * PI_2_HI)
+        return angle_rad;
+    if (!(fabs(angle_rad) < INFINITE))
+        return NO_NUMBER;
+    struct reduced reduced = reduce(angle_rad);
+    /* 0, 1, 2 or -1 quarters; half a turn back where that is nearer. */
+    double quarters = (double)((reduced.quarters + 1) & 3) - 1;
+    if (quarters == 2 && reduced.rest_rad.hi > 0)
+        quarters = -2;
+    struct pair wrapped = sum_of(quarters * PI_2_HI, reduced.rest_rad.hi);
+    return wrapped.hi + (wrapped.lo + (quarters * PI_2_LO + reduced.rest_rad.lo));
 }
 
 struct elementary_sincos elementary_sincos_turns(double turns)

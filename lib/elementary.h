@@ -20,6 +20,10 @@ double elementary_cos(double angle_rad);
 /* Both at the price of one: the same doubles as elementary_sin and elementary_cos. */
 struct elementary_sincos elementary_sincos(double angle_rad);
 
+/* The angle less whole turns (of 2 pi, not of its double), from -PI to PI as doubles: every finite
+ * angle within 0.6, those already there unchanged. Odd exactly; NaN for infinities. */
+double elementary_wrap(double angle_rad);
+
 /* Of 2 pi turns, |turns| <= 2^48, within 0.9: whole, half and quarter turns are exact. */
 struct elementary_sincos elementary_sincos_turns(double turns);
 

@@ -227,13 +227,7 @@ static unsigned sections_of(const struct record *record, const void *base)
     return present;
 }
 
-static bool any_present(const struct record *record, const void *base)
-{
-    for (const struct field *field = record->fields; field->name != NULL; field++)
-        if (field_present(record, field, base))
-            return true;
-    return false;
-}
+static bool any_present(const struct record *record, const void *base);
 
 bool field_present(const struct record *record, const struct field *field, const void *base)
 {
@@ -267,6 +261,14 @@ bool field_present(const struct record *record, const struct field *field, const
         return false;
     }
     return true;
+}
+
+static bool any_present(const struct record *record, const void *base)
+{
+    for (const struct field *field = record->fields; field->name != NULL; field++)
+        if (field_present(record, field, base))
+            return true;
+    return false;
 }
 
 void field_mark_present(const struct record *record, const struct field *field, void *base)

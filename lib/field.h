@@ -24,7 +24,7 @@ enum field_kind {
     FIELD_SEED, /* uint64_t, in text a string of decimal digits: JSON readers lose 64-bit numbers */
     FIELD_SET,  /* uint64_t: bit i stands for choices[i]; in text an array of their names */
     FIELD_NAMES,  /* LIST_OF(const char *) */
-    FIELD_RECORD, /* an embedded struct; an optional one is there if one of its members is */
+    FIELD_RECORD, /* an embedded struct; where optional, absent if all its members are */
     FIELD_LIST,   /* LIST_OF(a struct) */
     FIELD_RAW,    /* const char *: any JSON value, byte for byte, at most FIELD_RAW_SIZE */
     FIELD_NOTES,  /* no member: an object of strings, for people; documents only */
@@ -49,7 +49,8 @@ struct field {
 };
 
 /* Tables end with a field without a name. A record with sections keeps their bits in an unsigned
- * member at present_offset; a section counts as absent unless its bit is set. */
+ * member at present_offset; a section counts as absent unless its bit is set. (So do members of
+ * which 0 is a value like any other.) */
 struct record {
     const char *name;
     const char *help;

@@ -89,6 +89,11 @@ static const enum effect losing_effects[] = {
     {                                                                                              \
         FIELD_SET_OF(owner, effects, effects_names, help), FIELD_OPTIONAL                          \
     }
+#define MARGINS(owner)                                                                             \
+    {                                                                                              \
+        FIELD_RECORD_OF(owner, margins, &margins_record, "how close decisions were"),              \
+            FIELD_OPTIONAL                                                                         \
+    }
 #define EXTRA(owner)                                                                               \
     {                                                                                              \
         FIELD_RAW_OF(owner, extra, "yours: passed on byte for byte")                               \
@@ -122,7 +127,7 @@ static const struct field object_fields[] = {
     {0},
 };
 
-static const struct record object_record = {
+const struct record object_record = {
     .name = "object",
     .help = "A road user or thing: truth.",
     .size = sizeof(struct object),
@@ -172,6 +177,7 @@ static const struct field echo_fields[] = {
     ECHO_NAMES(struct echo),
     IDEAL_VALUES(struct echo),
     EFFECTS(struct echo, "that changed one of these values"),
+    MARGINS(struct echo),
     EXTRA(struct echo),
     {0},
 };
@@ -210,6 +216,7 @@ static const struct field cell_fields[] = {
     UNDECIDED(struct cell),
     EFFECTS(struct cell, "that changed a value of the cell or of a member"),
     {FIELD_LIST_OF(struct cell, members, &contributor_record, "the leader first")},
+    MARGINS(struct cell),
     EXTRA(struct cell),
     {0},
 };
@@ -234,6 +241,7 @@ static const struct field target_fields[] = {
     AMPLITUDE(struct target, cell_amplitude, "sum of the contributors' amplitudes, linear"),
     EFFECTS(struct target, "that changed a value of the target or of a contributor"),
     {FIELD_LIST_OF(struct target, contributors, &contributor_record, "the leader first")},
+    MARGINS(struct target),
     EXTRA(struct target),
     {0},
 };
@@ -250,6 +258,7 @@ static const struct field lost_echo_fields[] = {
     {FIELD_NAME_OF(struct lost_echo, by, "the object in the way"), FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct lost_echo, shortfall_db, 0, 1e5, "below the threshold by this much"),
      FIELD_OPTIONAL},
+    MARGINS(struct lost_echo),
     {0},
 };
 
@@ -323,6 +332,8 @@ static const struct field frame_fields[] = {
                    "of the frame's coordinates in the source's"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct frame, account, "every echo is accounted for"), FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct frame, margins, "entries carry how close decisions were"),
+     FIELD_OPTIONAL},
     {FIELD_LIST_OF(struct frame, objects, &object_record, "truth, the ego among them"),
      SECTION(SECTION_OBJECTS)},
     {FIELD_LIST_OF(struct frame, reflectors, &reflector_set_record, "by model"),
@@ -457,12 +468,14 @@ void frame_lose_echo(struct frame *frame, const char *stage, const struct echo *
                      enum loss reason)
 {
     frame_lose(frame, stage, echo->sensor, reason,
-               &(struct lost_echo){
-                   .object = echo->object, .reflector = echo->reflector, .path = echo->path});
+               &(struct lost_echo){.object = echo->object,
+                                   .reflector = echo->reflector,
+                                   .path = echo->path,
+                                   .margins = echo->margins});
 }
 
 void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *cell,
-                     enum loss reason, double shortfall_db)
+                     enum loss reason, double shortfall_db, const struct margins *margins)
 {
     for (size_t i = 0; i < cell->members.count; i++) {
         const struct contributor *member = &cell->members.items[i];
@@ -470,7 +483,8 @@ void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *
                    &(struct lost_echo){.object = member->object,
                                        .reflector = member->reflector,
                                        .path = member->path,
-                                       .shortfall_db = shortfall_db});
+                                       .shortfall_db = shortfall_db,
+                                       .margins = *margins});
     }
 }
 
@@ -489,6 +503,7 @@ struct target *frame_add_target(struct frame *frame, const struct cell *cell, do
         .cell_range_rate_mps = cell->range_rate_mps,
         .cell_amplitude = cell->amplitude,
         .effects = cell->effects,
+        .margins = cell->margins,
     };
     target->contributors.items = cell->members.items;
     target->contributors.count = cell->members.count;

@@ -15,6 +15,7 @@
 
 #include "effects.h"
 #include "field.h"
+#include "margins.h"
 #include "reflectors.h"
 
 enum { FRAME_VERSION = 0 };
@@ -76,6 +77,7 @@ struct echo {
     double ercs;
     double time_s;    /* of the measurement */
     uint64_t effects; /* that changed one of these values */
+    struct margins margins;
     const char *extra;
 };
 
@@ -99,6 +101,7 @@ struct cell {
     bool sign_undecided;
     uint64_t effects; /* that changed a value of the cell or of a member */
     LIST_OF(struct contributor) members;
+    struct margins margins;
     const char *extra;
 };
 
@@ -113,6 +116,7 @@ struct target {
     uint64_t effects; /* that changed a value of the target or of a contributor: input and output
                          differed there */
     LIST_OF(struct contributor) contributors;
+    struct margins margins;
     const char *extra;
 };
 
@@ -136,6 +140,7 @@ struct lost_echo {
     enum path path;
     const char *by;      /* blocked by this object */
     double shortfall_db; /* below the threshold by this much */
+    struct margins margins;
 };
 
 struct lost_group {
@@ -169,6 +174,7 @@ struct frame {
     const char *ego;
     double origin_x_m, origin_y_m;
     bool account;
+    bool margins; /* do entries carry them? Without, no stage works any out. */
     LIST_OF(struct object) objects;
     LIST_OF(struct reflector_set) reflectors;
     struct sensors sensors;
@@ -183,6 +189,7 @@ struct frame {
 };
 
 extern const struct record frame_record;
+extern const struct record object_record;
 
 /* Back to an empty frame that keeps its arena's room. */
 void frame_clear(struct frame *frame);
@@ -222,11 +229,13 @@ void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum
 void frame_lose_echo(struct frame *frame, const char *stage, const struct echo *echo,
                      enum loss reason);
 
-/* The same for every member of a cell; shortfall_db is 0 where the reason has none. */
+/* The same for every member of a cell, with the margins that it had in the end; shortfall_db is 0
+ * where the reason has none. */
 void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *cell,
-                     enum loss reason, double shortfall_db);
+                     enum loss reason, double shortfall_db, const struct margins *margins);
 
-/* Appends a target with the cell's label and the cell's noise-free values as its own. */
+/* Appends a target with the cell's label and the cell's noise-free values and margins as its own.
+ */
 struct target *frame_add_target(struct frame *frame, const struct cell *cell, double amplitude_db);
 
 #endif

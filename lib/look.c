@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "clearance.h"
 #include "occlusion.h"
 #include "reflection.h"
 #include "sight.h"
@@ -48,16 +49,10 @@ static struct look_body *body_of(const struct look *look, const char *id)
     return bsearch(&key, look->bodies, look->body_count, sizeof key, compare_bodies);
 }
 
-static bool same_place(const struct motion *a, const struct motion *b)
+static bool moves(const struct object *object, const struct motion *then)
 {
-    return a->position_m.x == b->position_m.x && a->position_m.y == b->position_m.y &&
-           a->yaw_rad == b->yaw_rad;
-}
-
-static bool moves(const struct object *object, const struct box *then)
-{
-    struct box now = box_at(object, 0);
-    return !same_place(&now.motion, &then->motion);
+    return object->x_m != then->position_m.x || object->y_m != then->position_m.y ||
+           object->yaw_rad != then->yaw_rad;
 }
 
 static void place_bodies(struct look *look, double age_s)
@@ -71,7 +66,7 @@ static void place_bodies(struct look *look, double age_s)
         struct look_body *body = &look->bodies[look->body_count++];
         body->object = object;
         body->box = box_at(object, age_s);
-        body->moved = age_s != 0 && moves(object, &body->box);
+        body->moved = age_s != 0 && moves(object, &body->box.motion);
         body->sector =
             sector_of(vec2_sub(body->box.motion.position_m, look->position_m),
                       0.5 * vec2_length((struct vec2){object->length_m, object->width_m}));
@@ -109,7 +104,7 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
     struct vec2 mount = {sensor->mount_x_m, sensor->mount_y_m};
     *look =
         (struct look){.frame = frame, .sensor = sensor, .selection = selection, .time_s = time_s};
-    look->moved = age_s != 0 && moves(carrier, &ego);
+    look->moved = age_s != 0 && moves(carrier, &ego.motion);
     look->position_m = vec2_add(ego.motion.position_m, vec2_turn(mount, ego.heading));
     look->velocity_mps = motion_velocity_at(&ego.motion, look->position_m);
     look->boresight = vec2_turn(vec2_heading(sensor->mount_yaw_rad), ego.heading);
@@ -128,10 +123,14 @@ static bool passes_clear(const struct look *look, const struct look_body *body, 
            along > vec2_dot(line, line) + reach;
 }
 
-static void find_blockers(struct look *look, const struct look_body *own, double radius_m)
+/* Which objects to ask for when a body's reflectors are looked at. */
+static void find_blockers(struct look *look, const struct look_body *own,
+                          const struct reflector_set *set)
 {
     const struct selection *selection = look->selection;
-    struct sector wanted = {own->sector.centre_m, own->sector.distance_m, radius_m};
+    int64_t begin = effects_begin(selection);
+    struct sector wanted = own->sector;
+    wanted.radius_m = reflectors_radius_m(set, own->sector.radius_m);
     look->blocker_count = 0;
     if (!effects_may(selection, EFFECT_OCCLUSION))
         return;
@@ -142,6 +141,7 @@ static void find_blockers(struct look *look, const struct look_body *own, double
             look->blockers[look->blocker_count++] = body;
     }
     effects_note(selection, EFFECT_OCCLUSION, all || look->blocker_count > 0);
+    effects_end(selection, EFFECT_OCCLUSION, begin);
 }
 
 /* The first object by id in the way to a place on the body that is looked at; only those that no
@@ -158,61 +158,113 @@ static const struct look_body *blocker(const struct look *look, struct vec2 plac
     return NULL;
 }
 
+/* Of all objects that can be in the way: how near the sight line comes to the nearest that lets it
+ * pass, or how deep it is in those in the way. */
+static double blocking_margin_m(const struct look *look, const struct look_body *own,
+                                struct vec2 place, bool solid, bool blocked)
+{
+    double nearest_m = (double)INFINITY, deepest_m = 0;
+    for (size_t i = 0; i < look->body_count; i++) {
+        const struct look_body *body = &look->bodies[i];
+        const struct vec2 *corner = body->corner, from = look->position_m;
+        if (body == own || !body->blocks || (solid && body->raised))
+            continue;
+        if (occlusion_outline_blocks(corner, 4, from, place))
+            deepest_m = fmax(deepest_m, clearance_depth_m(corner, 4, from, place));
+        else
+            nearest_m = fmin(nearest_m, clearance_outline_m(corner, 4, from, place));
+    }
+    return blocked ? deepest_m : nearest_m;
+}
+
+static struct margins margins_of(const struct look *look, double margin_m)
+{
+    struct margins margins = {0};
+    if (look->frame->margins)
+        margins_note(&margins, MARGIN_SIGHT, margin_m);
+    return margins;
+}
+
 static void lose(struct look *look, const struct look_body *body, const char *reflector,
-                 enum loss reason, const struct look_body *by)
+                 enum loss reason, const struct look_body *by, double margin_m)
 {
     frame_lose(look->frame, stage_name, look->sensor->name, reason,
                &(struct lost_echo){.object = body->object->id,
                                    .reflector = reflector,
-                                   .by = by != NULL ? by->object->id : NULL});
+                                   .by = by != NULL ? by->object->id : NULL,
+                                   .margins = margins_of(look, margin_m)});
 }
 
-/* One reflector that faces the sensor: an echo if it is in range, in view and not blocked. */
-static void look_at(struct look *look, const struct look_body *body, const char *reflector,
-                    struct vec2 place, double ercs, double under_vehicles, uint64_t effects)
+/* One reflector that faces the sensor. */
+struct glimpse {
+    const char *reflector;
+    struct vec2 place;
+    double ercs;
+    double under_vehicles;
+    double margin_m;  /* by which it faces the sensor */
+    uint64_t effects; /* that changed something so far */
+};
+
+static double sight_margin_m(const struct look *look, const struct look_body *body,
+                             const struct glimpse *seen, bool under)
 {
+    if (!effects_may(look->selection, EFFECT_OCCLUSION))
+        return (double)INFINITY;
+    double margin_m = blocking_margin_m(look, body, seen->place, under, false);
+    return under ? fmin(margin_m, blocking_margin_m(look, body, seen->place, false, true))
+                 : margin_m;
+}
+
+/* An echo if it is in range, in view and not blocked. */
+static void look_at(struct look *look, const struct look_body *body, struct glimpse seen)
+{
+    bool tell = look->frame->margins;
     const struct sensor *sensor = look->sensor;
-    struct vec2 velocity = motion_velocity_at(&body->box.motion, place);
+    struct vec2 velocity = motion_velocity_at(&body->box.motion, seen.place);
     struct sight sight =
-        sight_of(look->position_m, look->velocity_mps, look->boresight, place, velocity);
+        sight_of(look->position_m, look->velocity_mps, look->boresight, seen.place, velocity);
     double azimuth = fabs(sight.azimuth_rad);
+    double reach_m =
+        fabs(fmin(sight.range_m - sensor->range_min_m, sensor->range_max_m - sight.range_m));
+    double view_m = sight.range_m * fabs(look_border_rad(sensor) - azimuth);
     if (!(sight.range_m > 0 && sight.range_m >= sensor->range_min_m &&
           sight.range_m <= sensor->range_max_m)) {
-        lose(look, body, reflector, LOSS_OUT_OF_RANGE, NULL);
+        lose(look, body, seen.reflector, LOSS_OUT_OF_RANGE, NULL, reach_m);
         return;
     }
     if (!(azimuth < look_border_rad(sensor))) {
-        lose(look, body, reflector, LOSS_OUT_OF_VIEW, NULL);
+        lose(look, body, seen.reflector, LOSS_OUT_OF_VIEW, NULL, view_m);
         return;
     }
     int64_t begin = effects_begin(look->selection);
-    const struct look_body *by = blocker(look, place, false);
-    if (by != NULL && under_vehicles > 0 && blocker(look, place, true) == NULL) {
-        ercs *= under_vehicles;
-        by = NULL;
-        effects |= EFFECT_BIT(EFFECT_OCCLUSION);
-    }
+    const struct look_body *by = blocker(look, seen.place, false);
+    bool under = by != NULL && seen.under_vehicles > 0 && blocker(look, seen.place, true) == NULL;
     effects_end(look->selection, EFFECT_OCCLUSION, begin);
-    if (by != NULL) {
-        lose(look, body, reflector, LOSS_BLOCKED, by);
+    if (by != NULL && !under) {
+        lose(look, body, seen.reflector, LOSS_BLOCKED, by,
+             tell ? blocking_margin_m(look, body, seen.place, seen.under_vehicles > 0, true) : 0);
         return;
     }
+    if (tell)
+        seen.margin_m = fmin(fmin(seen.margin_m, sight_margin_m(look, body, &seen, under)),
+                             fmin(reach_m, view_m));
     look->echoes++;
     *list_add(&look->frame->echoes, look->frame->arena) = (struct echo){
         .sensor = sensor->name,
         .object = body->object->id,
-        .reflector = reflector,
+        .reflector = seen.reflector,
         .path = PATH_DIRECT,
         .range_m = sight.range_m,
         .azimuth_rad = sight.azimuth_rad,
         .range_rate_mps = sight.range_rate_mps,
-        .ercs = ercs,
+        .ercs = under ? seen.under_vehicles * seen.ercs : seen.ercs,
         .time_s = look->time_s,
-        .effects = effects,
+        .effects = seen.effects | (under ? EFFECT_BIT(EFFECT_OCCLUSION) : 0),
+        .margins = margins_of(look, seen.margin_m),
     };
 }
 
-/* What latency has changed before a reflector is looked at. */
+/* What latency has changed before a body is looked at. */
 static uint64_t aged(const struct look *look, const struct look_body *body)
 {
     return look->moved || body->moved ? EFFECT_BIT(EFFECT_LATENCY) : 0;
@@ -222,16 +274,27 @@ static void look_at_point(struct look *look, const struct look_body *body,
                           const struct point_reflector *point, struct vec2 place)
 {
     look->pairs++;
-    double visible = 1;
-    if (effects_may(look->selection, EFFECT_VISIBILITY))
-        visible = reflectors_visibility(&body->box, point->shape, point->facing_rad,
-                                        point->full_rad, point->zero_rad, place, look->position_m);
-    uint64_t effects = aged(look, body) | (visible < 1 ? EFFECT_BIT(EFFECT_VISIBILITY) : 0);
+    bool selective = effects_may(look->selection, EFFECT_VISIBILITY);
+    double visible =
+        selective ? reflectors_visibility(&body->box, point->shape, point->facing_rad,
+                                          point->full_rad, point->zero_rad, place, look->position_m)
+                  : 1;
+    double margin_m = (double)INFINITY;
+    if (look->frame->margins && selective)
+        margin_m = clearance_facing_m(&body->box, point->shape, point->facing_rad, point->zero_rad,
+                                      place, look->position_m);
     if (visible > 0)
-        look_at(look, body, point->name, place, visible * point->ercs, point->under_vehicles,
-                effects);
+        look_at(look, body,
+                (struct glimpse){
+                    .reflector = point->name,
+                    .place = place,
+                    .ercs = visible * point->ercs,
+                    .under_vehicles = point->under_vehicles,
+                    .margin_m = margin_m,
+                    .effects = aged(look, body) | (visible < 1 ? EFFECT_BIT(EFFECT_VISIBILITY) : 0),
+                });
     else
-        lose(look, body, point->name, LOSS_FACING_AWAY, NULL);
+        lose(look, body, point->name, LOSS_FACING_AWAY, NULL, margin_m);
 }
 
 static void look_at_plane(struct look *look, const struct look_body *body,
@@ -239,17 +302,25 @@ static void look_at_plane(struct look *look, const struct look_body *body,
 {
     look->pairs++;
     if (!effects_may(look->selection, EFFECT_PLANE_REFLECTION)) {
-        lose(look, body, plane->name, LOSS_SWITCHED_OFF, NULL);
+        lose(look, body, plane->name, LOSS_SWITCHED_OFF, NULL, (double)INFINITY);
         return;
     }
+    struct vec2 from = reflectors_place(&body->box, plane->from_x, plane->from_y);
+    struct vec2 to = reflectors_place(&body->box, plane->to_x, plane->to_y);
     struct vec2 foot;
-    if (reflection_foot(reflectors_place(&body->box, plane->from_x, plane->from_y),
-                        reflectors_place(&body->box, plane->to_x, plane->to_y), plane->margin_m,
-                        look->position_m, &foot))
-        look_at(look, body, plane->name, foot, plane->ercs, 0,
-                aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION));
+    double margin_m =
+        look->frame->margins ? clearance_foot_m(from, to, plane->margin_m, look->position_m) : 0;
+    if (reflection_foot(from, to, plane->margin_m, look->position_m, &foot))
+        look_at(look, body,
+                (struct glimpse){
+                    .reflector = plane->name,
+                    .place = foot,
+                    .ercs = plane->ercs,
+                    .margin_m = margin_m,
+                    .effects = aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
+                });
     else
-        lose(look, body, plane->name, LOSS_NO_SPECULAR, NULL);
+        lose(look, body, plane->name, LOSS_NO_SPECULAR, NULL, margin_m);
 }
 
 static const char *post_name(struct arena *arena, const struct post_row *row, int64_t post)
@@ -282,19 +353,18 @@ static void look_along_row(struct look *look, const struct look_body *body,
 static void look_at_body(struct look *look, const struct look_body *body,
                          const struct reflector_set *set)
 {
-    int64_t begin = effects_begin(look->selection);
-    find_blockers(look, body, reflectors_radius_m(set, body->sector.radius_m));
-    effects_end(look->selection, EFFECT_OCCLUSION, begin);
-    effects_note(look->selection, EFFECT_VISIBILITY, set->points.count + set->rows.count > 0);
-    effects_note(look->selection, EFFECT_PLANE_REFLECTION, set->planes.count > 0);
-    effects_note(look->selection, EFFECT_ROWS, set->rows.count > 0);
+    const struct selection *selection = look->selection;
+    find_blockers(look, body, set);
+    effects_note(selection, EFFECT_VISIBILITY, set->points.count + set->rows.count > 0);
+    effects_note(selection, EFFECT_PLANE_REFLECTION, set->planes.count > 0);
+    effects_note(selection, EFFECT_ROWS, set->rows.count > 0);
     for (size_t i = 0; i < set->points.count; i++) {
         const struct point_reflector *point = &set->points.items[i];
         look_at_point(look, body, point, reflectors_point_place(&body->box, point));
     }
     for (size_t i = 0; i < set->planes.count; i++)
         look_at_plane(look, body, &set->planes.items[i]);
-    for (size_t i = 0; i < set->rows.count && effects_may(look->selection, EFFECT_ROWS); i++)
+    for (size_t i = 0; i < set->rows.count && effects_may(selection, EFFECT_ROWS); i++)
         look_along_row(look, body, &set->rows.items[i]);
 }
 

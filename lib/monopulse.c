@@ -33,6 +33,12 @@ static double azimuth_of(const struct antenna *antenna, double delta, int delta_
                                scalbn(sum->size, sum->exponent - exponent));
 }
 
+/* Im(delta conj(sum)), in the scale of the two. */
+static double cross_of(const struct scaled_pointer *sum, const struct scaled_pointer *delta)
+{
+    return delta->imag * sum->real - delta->real * sum->imag;
+}
+
 struct monopulse_angle monopulse_angle(const struct antenna *antenna,
                                        enum monopulse_estimator estimator,
                                        struct antenna_pointers pointers)
@@ -43,7 +49,7 @@ struct monopulse_angle monopulse_angle(const struct antenna *antenna,
     if (sum.size == 0 && delta.size == 0)
         return angle;
     angle.valid = true;
-    double cross = delta.imag * sum.real - delta.real * sum.imag;
+    double cross = cross_of(&sum, &delta);
     double signed_delta;
     if (estimator == MONOPULSE_RATIO && sum.size > 0) {
         signed_delta = -cross / sum.size;
@@ -53,6 +59,14 @@ struct monopulse_angle monopulse_angle(const struct antenna *antenna,
     }
     angle.azimuth_rad = azimuth_of(antenna, signed_delta, delta.exponent, &sum);
     return angle;
+}
+
+double monopulse_sign_margin(struct antenna_pointers pointers)
+{
+    struct scaled_pointer sum = scale_pointer(pointers.sum);
+    struct scaled_pointer delta = scale_pointer(pointers.delta);
+    double sine = fabs(cross_of(&sum, &delta)) / (sum.size * delta.size);
+    return sine > 1 ? 1 : sine;
 }
 
 double monopulse_asr(struct antenna_pointers pointers)

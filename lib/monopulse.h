@@ -27,6 +27,10 @@ struct monopulse_angle monopulse_angle(const struct antenna *antenna,
                                        enum monopulse_estimator estimator,
                                        struct antenna_pointers pointers);
 
+/* How far the magnitude rule was from the other sign: |Im(delta conj(sum))| / (|delta| |sum|), from
+ * 0, undecided, to 1. NaN where a pointer is zero and there is no sign. */
+double monopulse_sign_margin(struct antenna_pointers pointers);
+
 /* The additive sensing ratio (|delta| - |sum|) / (|delta| + |sum|) in [-1, 1], equation (7).
  * For figures and tests: the pair itself carries more digits. Not both may be zero. */
 double monopulse_asr(struct antenna_pointers pointers);

@@ -10,12 +10,13 @@
 
 /* What a draw is for. New purposes go at the end: numbers are part of every data set made. */
 enum random_purpose {
-    RANDOM_POINTERS = 1,   /* complex noise on sum and delta: four Gaussians */
-    RANDOM_RANGE_RATE = 2, /* noise on range and range rate */
-    RANDOM_AZIMUTH = 3,    /* noise on azimuth (glint-noise-gauss) */
-    RANDOM_PHASE = 4,      /* relative phase of an echo */
-    RANDOM_TRAFFIC = 5,    /* who is there in a random scene, where and how fast */
-    RANDOM_HARD_CASE = 6,  /* which hard cases a random scene has */
+    RANDOM_POINTERS = 1,        /* complex noise on sum and delta: four Gaussians */
+    RANDOM_RANGE_RATE = 2,      /* noise on range and range rate */
+    RANDOM_AZIMUTH = 3,         /* noise on azimuth (glint-noise-gauss) */
+    RANDOM_PHASE = 4,           /* relative phase of an echo */
+    RANDOM_TRAFFIC = 5,         /* who is there in a random scene, where and how fast */
+    RANDOM_HARD_CASE = 6,       /* which hard cases a random scene has */
+    RANDOM_REFLECTOR_PHASE = 7, /* what a reflector adds to the phase of its path */
 };
 
 struct random_address {

@@ -16,6 +16,7 @@ struct reading reading_of(const struct cell *cell)
         .range_rate_mps = cell->range_rate_mps,
         .amplitude = elementary_hypot(cell->sum_re, cell->sum_im),
         .sign_undecided = cell->sign_undecided,
+        .margins = cell->margins,
     };
 }
 
@@ -45,19 +46,42 @@ static int compare_range(const void *left, const void *right)
     return compare_strength(left, right);
 }
 
+static void note_limit(struct reading *readings, size_t count, enum list_order order, int64_t limit)
+{
+    const struct reading *last = NULL, *next = NULL;
+    int64_t listed = 0;
+    for (size_t i = 0; i < count && next == NULL; i++)
+        if (readings[i].amplitude > 0)
+            *(listed++ < limit ? &last : &next) = &readings[i];
+    for (size_t i = 0; i < count && next != NULL; i++) {
+        struct reading *reading = &readings[i];
+        const struct reading *across = reading <= last ? next : last;
+        if (!(reading->amplitude > 0))
+            continue;
+        if (order == LIST_STRONGEST)
+            margins_note(&reading->margins, MARGIN_LIMIT_DB,
+                         margins_between_db(across->amplitude, reading->amplitude));
+        else
+            margins_note(&reading->margins, MARGIN_LIMIT_M,
+                         fabs(across->range_m - reading->range_m));
+    }
+}
+
 void readings_list(struct frame *frame, const char *stage, const struct sensor *sensor,
                    struct reading *readings, size_t count, int64_t limit)
 {
     sort_items(readings, count, sizeof *readings,
                sensor->list_order == LIST_STRONGEST ? compare_strength : compare_range,
                frame->arena);
+    if (frame->margins && limit > 0)
+        note_limit(readings, count, sensor->list_order, limit);
     int64_t listed = 0;
     for (size_t i = 0; i < count; i++) {
         const struct reading *reading = &readings[i];
         if (!(reading->amplitude > 0)) {
-            frame_lose_cell(frame, stage, reading->cell, LOSS_NO_AMPLITUDE, 0);
+            frame_lose_cell(frame, stage, reading->cell, LOSS_NO_AMPLITUDE, 0, &reading->margins);
         } else if (limit > 0 && listed == limit) {
-            frame_lose_cell(frame, stage, reading->cell, LOSS_LIST_LIMIT, 0);
+            frame_lose_cell(frame, stage, reading->cell, LOSS_LIST_LIMIT, 0, &reading->margins);
         } else {
             struct target *target =
                 frame_add_target(frame, reading->cell, units_amplitude_db(reading->amplitude));
@@ -65,6 +89,7 @@ void readings_list(struct frame *frame, const char *stage, const struct sensor *
             target->azimuth_rad = reading->azimuth_rad;
             target->range_rate_mps = reading->range_rate_mps;
             target->sign_undecided = reading->sign_undecided;
+            target->margins = reading->margins;
             listed++;
         }
     }

@@ -11,9 +11,10 @@ struct reading {
     double range_m, azimuth_rad, range_rate_mps;
     double amplitude; /* linear */
     bool sign_undecided;
+    struct margins margins;
 };
 
-/* The cell's own noise-free values; the amplitude is that of its sum pointer. */
+/* The cell's own noise-free values and margins; the amplitude is that of its sum pointer. */
 struct reading reading_of(const struct cell *cell);
 
 /* Rounds value to the nearest multiple of step; 0 leaves it as it is. */
@@ -21,7 +22,9 @@ double reading_step(double value, double step);
 
 /* Writes count readings of one sensor as targets: strongest or nearest first, ties by the frame's
  * total order, at most limit of them (0: all). The rest is lost for the stage. A reading without
- * amplitude is lost too: it has no decibels. */
+ * amplitude is lost too: it has no decibels. In a frame with margins, those of the readings get
+ * that of the limit, if it cuts the list: from what is listed to the first that is not, and from
+ * that to the last listed. */
 void readings_list(struct frame *frame, const char *stage, const struct sensor *sensor,
                    struct reading *readings, size_t count, int64_t limit);
 

@@ -174,3 +174,22 @@ void scene_frame(const struct scene *scene, int64_t number, struct frame *frame)
     else
         replay(scene->steps[number], scene->origin_m, frame);
 }
+
+static int refuse(const struct scene *scene, int64_t number, const char *id, struct diag *diag)
+{
+    if (scene->scenario == NULL)
+        return diag_prefix(diag, "row %zu: ", find_state(scene->steps[number], id)->row);
+    diag->code = DIAG_CONFIG;
+    return diag_prefix(diag, "object \"%s\" in frame %lld: ", id, (long long)number);
+}
+
+int scene_check(const struct scene *scene, int64_t number, const struct frame *frame,
+                struct diag *diag)
+{
+    for (size_t i = 0; i < frame->objects.count; i++) {
+        const struct object *object = &frame->objects.items[i];
+        if (field_check(&object_record, object, diag) != 0)
+            return refuse(scene, number, object->id, diag);
+    }
+    return 0;
+}

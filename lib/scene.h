@@ -27,4 +27,10 @@ const char *scene_name(const char *source, const char *ego, struct arena *arena)
 /* Fills time, interval, origin and objects of frame number 0 <= number < frames. */
 void scene_frame(const struct scene *scene, int64_t number, struct frame *frame);
 
+/* Refuses objects of that frame that no frame can hold, as they are too far from its origin, say,
+ * or turn too fast, and names their row (DIAG_DATA) or their object in the scenario (DIAG_CONFIG).
+ */
+int scene_check(const struct scene *scene, int64_t number, const struct frame *frame,
+                struct diag *diag);
+
 #endif

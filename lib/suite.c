@@ -6,8 +6,10 @@
 
 static const char *const extents[] = {
     [CELL_WIDTH] = "width", [CELL_HALF_WIDTH] = "half_width", NULL};
-static const char *const phases[] = {
-    [CELL_IN_PHASE] = "in_phase", [CELL_RANDOM_PHASE] = "random", NULL};
+static const char *const phases[] = {[CELL_IN_PHASE] = "in_phase",
+                                     [CELL_RANDOM_PHASE] = "random",
+                                     [CELL_PHASE_BY_PATH] = "by_path",
+                                     NULL};
 static const char *const laws[] = {
     [SIGMA_FIXED] = "fixed", [SIGMA_BY_AMPLITUDE] = "by_amplitude", NULL};
 static const char *const orders[] = {
@@ -48,7 +50,7 @@ static const struct field sensor_fields[] = {
     {REAL(cell_range_rate_mps, 1e-6, 1e5, "resolution cell")},
     {CHOICE(cell_extent, extents, "does the cell's size mean its width or half of it?"),
      FIELD_OPTIONAL},
-    {CHOICE(cell_phase, phases, "do the echoes of a cell add in phase or with random phases?"),
+    {CHOICE(cell_phase, phases, "do echoes of a cell add in phase, at random or by their paths?"),
      FIELD_OPTIONAL},
     {CHOICE(antenna_pattern, patterns, "the paper's two dipoles, or a table")},
     {FIELD_NAME_OF(struct sensor, antenna_table, "CSV file with azimuth_rad, sum, delta"),

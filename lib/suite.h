@@ -12,7 +12,7 @@
 #include "radar_equation.h"
 
 enum cell_extent { CELL_WIDTH, CELL_HALF_WIDTH };
-enum cell_phase { CELL_IN_PHASE, CELL_RANDOM_PHASE };
+enum cell_phase { CELL_IN_PHASE, CELL_RANDOM_PHASE, CELL_PHASE_BY_PATH };
 enum sigma_law { SIGMA_FIXED, SIGMA_BY_AMPLITUDE };
 enum list_order { LIST_STRONGEST, LIST_NEAREST };
 

@@ -9,7 +9,8 @@
 
 struct ray superposition_ray(const struct sensor *sensor, const struct echo *echo, double phase_rad)
 {
-    struct ray ray = {.echo = frame_contributor(echo), .phase_rad = phase_rad};
+    struct ray ray = {
+        .echo = frame_contributor(echo), .phase_rad = phase_rad, .margins = &echo->margins};
     ray.strength = radar_reference_amplitude(&sensor->amplitude_law, echo->range_m) * echo->ercs;
     ray.amplitude = ray.strength * antenna_gain(&sensor->antenna, echo->azimuth_rad);
     return ray;
@@ -23,19 +24,49 @@ int superposition_compare(const void *left, const void *right)
     return frame_order_tied(&a->echo, &b->echo);
 }
 
+/* A sum with what its roundings left out (Neumaier; NUMERICS 13, 14): a weak echo outlives strong
+ * ones that cancel. */
+struct compensated {
+    double sum, left_out;
+};
+
+static void add(struct compensated *total, double term)
+{
+    double sum = total->sum + term;
+    total->left_out +=
+        fabs(total->sum) >= fabs(term) ? total->sum - sum + term : term - sum + total->sum;
+    total->sum = sum;
+}
+
+struct channel {
+    struct compensated real, imag;
+};
+
+static void add_pointer(struct channel *channel, double _Complex pointer)
+{
+    add(&channel->real, creal(pointer));
+    add(&channel->imag, cimag(pointer));
+}
+
+static double _Complex total_pointer(const struct channel *channel)
+{
+    double imag = channel->imag.sum + channel->imag.left_out;
+    return channel->real.sum + channel->real.left_out + imag * (double _Complex)I;
+}
+
 static struct antenna_pointers add_pointers(const struct sensor *sensor, const struct ray *rays,
                                             size_t count)
 {
-    struct antenna_pointers total = {0, 0};
+    struct channel sum = {{0, 0}, {0, 0}}, delta = sum;
     for (size_t i = 0; i < count; i++) {
         struct antenna_pointers one = antenna_pointers(&sensor->antenna, rays[i].echo.azimuth_rad);
         struct elementary_sincos phase = elementary_sincos(rays[i].phase_rad);
         double _Complex turn = phase.cos + phase.sin * (double _Complex)I;
         bool turned = rays[i].phase_rad != 0;
-        total.sum += rays[i].strength * (turned ? turn * one.sum : one.sum);
-        total.delta += rays[i].strength * (turned ? turn * one.delta : one.delta);
+        add_pointer(&sum, rays[i].strength * (turned ? turn * one.sum : one.sum));
+        add_pointer(&delta, rays[i].strength * (turned ? turn * one.delta : one.delta));
     }
-    return total;
+    return (struct antenna_pointers){total_pointer(&sum), total_pointer(&delta)};
 }
 
 bool superposition_cell(const struct sensor *sensor, const struct ray *rays, size_t count,

@@ -12,6 +12,7 @@ struct ray {
     double strength;  /* G = A_ref(R) ERCS: the amplitude before the antenna */
     double amplitude; /* A = G A_phi, equation (2) */
     double phase_rad; /* relative to the other echoes of a cell; 0 in the paper's model */
+    const struct margins *margins; /* the echo's */
 };
 
 struct ray superposition_ray(const struct sensor *sensor, const struct echo *echo,

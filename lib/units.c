@@ -22,7 +22,7 @@ double units_amplitude_from_db(double db)
 
 double units_wrap_rad(double angle_rad)
 {
-    double wrapped = remainder(angle_rad, 2 * PI);
+    double wrapped = elementary_wrap(angle_rad);
     return wrapped <= -PI ? PI : wrapped;
 }
 

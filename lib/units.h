@@ -16,7 +16,8 @@ double units_shortfall_db(double threshold, double amplitude);
 /* 10^(db/20). */
 double units_amplitude_from_db(double db);
 
-/* The same direction in (-pi, pi]; ends for every finite angle, exact for |angle| < 1e3 rad. */
+/* The same direction in (-pi, pi], which -PI is not: within 1e-15 rad of every finite angle, 1e300
+ * rad too (NUMERICS 38). */
 double units_wrap_rad(double angle_rad);
 
 /* sin(x)/x, 1 at 0. Within 2 ulp for |x| <= 3 without a series: sin is accurate near 0. */

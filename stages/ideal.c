@@ -6,7 +6,7 @@
 
 struct ideal {
     struct suite_choice choice; /* first: its options are ideal's */
-    bool account;
+    bool account, margins;
     const struct suite *suite;
     struct sensors request;
 };
@@ -49,6 +49,7 @@ static int ideal_step(void *state, struct frame *frame, struct runner *runner)
     const struct suite *suite = ideal->suite;
     struct selection selection;
     frame->account = ideal->account;
+    frame->margins = ideal->margins;
     frame->sensors = ideal->request;
     if (runner_selection(runner, frame, &ideal->choice, &selection) != 0)
         return -1;
@@ -81,6 +82,9 @@ static const struct field ideal_options[] = {
                    "the sensor suite: a name in data/sensors/, or a path")},
     SUITE_CHOICE_EFFECTS,
     {FIELD_FLAG_OF(struct ideal, account, "account for every reflector from here on, in lost"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct ideal, margins,
+                   "tell from here on how close decisions were to changing the list"),
      FIELD_OPTIONAL},
     {0},
 };

@@ -3,6 +3,7 @@
 #include <complex.h>
 #include <math.h>
 
+#include "cell_margins.h"
 #include "elementary.h"
 #include "random.h"
 #include "readings.h"
@@ -24,9 +25,9 @@ static struct antenna_pointers noisy_pointers(const struct cell *cell, const str
 
 /* False if there is nothing to read an angle off. */
 static bool measure(const struct cell *cell, const struct sensor *sensor,
-                    const struct random_address *address, struct reading *reading)
+                    const struct random_address *address, struct antenna_pointers pointers,
+                    struct reading *reading)
 {
-    struct antenna_pointers pointers = noisy_pointers(cell, sensor, address);
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
     bool fixed = sensor->sigma_law == SIGMA_FIXED;
@@ -41,6 +42,7 @@ static bool measure(const struct cell *cell, const struct sensor *sensor,
         .range_rate_mps = reading_step(rate_mps, sensor->range_rate_step_mps),
         .amplitude = elementary_hypot(creal(pointers.sum), cimag(pointers.sum)),
         .sign_undecided = angle.sign_undecided,
+        .margins = cell->margins,
     };
     return angle.valid;
 }
@@ -56,13 +58,17 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
         const struct cell *cell = &cells.items[i];
         struct random_address address =
             runner_address(frame, sensor->name, &cell->members.items[0]);
-        bool has_angle = measure(cell, sensor, &address, &readings[count]);
+        struct antenna_pointers pointers = noisy_pointers(cell, sensor, &address);
+        bool has_angle = measure(cell, sensor, &address, pointers, &readings[count]);
         double amplitude = readings[count].amplitude;
+        struct margins *margins = &readings[count].margins;
+        if (frame->margins)
+            cell_margins_add_noisy(sensor, pointers, amplitude, margins);
         if (sensor->final_threshold && amplitude < sensor->threshold)
             frame_lose_cell(frame, "noise", cell, LOSS_BELOW_FINAL,
-                            units_shortfall_db(sensor->threshold, amplitude));
+                            units_shortfall_db(sensor->threshold, amplitude), margins);
         else if (!has_angle)
-            frame_lose_cell(frame, "noise", cell, LOSS_NO_ANGLE, 0);
+            frame_lose_cell(frame, "noise", cell, LOSS_NO_ANGLE, 0, margins);
         else
             count++;
     }

@@ -1,13 +1,15 @@
 /* The sensor before noise: amplitude of every echo (MODEL 4), resolution cells (6), threshold on
  * the summed amplitude, superposed sum and delta pointers of each cell (7, 8). */
+#include "carrier.h"
+#include "cell_margins.h"
 #include "random.h"
 #include "resolution.h"
 #include "sort.h"
 #include "stage.h"
-#include "superposition.h"
 #include "units.h"
 
-/* The relative phase of an echo: 0 in the paper's model, or drawn. */
+/* The relative phase of an echo: 0 in the paper's model, drawn in each frame, or that of its path
+ * and of its reflector, which is drawn once for all frames. */
 static double phase_of(const struct frame *frame, const struct sensor *sensor,
                        const struct echo *echo)
 {
@@ -16,8 +18,13 @@ static double phase_of(const struct frame *frame, const struct sensor *sensor,
     struct contributor subject = frame_contributor(echo);
     struct random_address address = runner_address(frame, sensor->name, &subject);
     double uniform[4];
-    random_uniform(&address, RANDOM_PHASE, 0, uniform);
-    return 2 * PI * uniform[0];
+    if (sensor->cell_phase == CELL_RANDOM_PHASE) {
+        random_uniform(&address, RANDOM_PHASE, 0, uniform);
+        return 2 * PI * uniform[0];
+    }
+    address.frame = 0;
+    random_uniform(&address, RANDOM_REFLECTOR_PHASE, 0, uniform);
+    return 2 * PI * (uniform[0] - carrier_phase_turns(echo->range_m, sensor->carrier_hz));
 }
 
 /* The echoes that have an amplitude, strongest first. */
@@ -50,15 +57,18 @@ static size_t resolve(struct frame *frame, const struct sensor *sensor, const st
 }
 
 static void report(struct frame *frame, const struct sensor *sensor, const struct ray *members,
-                   size_t count)
+                   size_t count, struct margins margins)
 {
     struct cell cell;
     bool has_angle = superposition_cell(sensor, members, count, frame->arena, &cell);
+    cell.margins = margins;
+    if (frame->margins)
+        cell_margins_add(sensor, &cell);
     if (cell.amplitude < sensor->threshold)
         frame_lose_cell(frame, "sensor", &cell, LOSS_BELOW_THRESHOLD,
-                        units_shortfall_db(sensor->threshold, cell.amplitude));
+                        units_shortfall_db(sensor->threshold, cell.amplitude), &cell.margins);
     else if (!has_angle)
-        frame_lose_cell(frame, "sensor", &cell, LOSS_NO_ANGLE, 0);
+        frame_lose_cell(frame, "sensor", &cell, LOSS_NO_ANGLE, 0, &cell.margins);
     else
         *list_add(&frame->cells, frame->arena) = cell;
 }
@@ -73,12 +83,16 @@ static void sense(struct frame *frame, const struct sensor *sensor,
     struct ray *members = rays + count;
     size_t *cell = arena_get(frame->arena, (count + 1) * sizeof *cell);
     size_t cells = resolve(frame, sensor, rays, count, cell);
+    struct clustered_rays all = {rays, cell, count};
     for (size_t number = 0; number < cells; number++) {
         size_t member_count = 0;
         for (size_t i = 0; i < count; i++)
             if (cell[i] == number)
                 members[member_count++] = rays[i];
-        report(frame, sensor, members, member_count);
+        struct margins margins = {0};
+        if (frame->margins)
+            margins = cell_margins_of(sensor, &all, number);
+        report(frame, sensor, members, member_count, margins);
     }
 }
 

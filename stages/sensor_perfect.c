@@ -13,6 +13,7 @@ static void keep(struct frame *frame, const struct sensor *sensor, const struct 
     superposition_cell(sensor, &ray, 1, frame->arena, &cell);
     cell.azimuth_rad = echo->azimuth_rad;
     cell.sign_undecided = false;
+    cell.margins = echo->margins;
     *list_add(&frame->cells, frame->arena) = cell;
 }
 

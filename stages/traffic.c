@@ -42,7 +42,6 @@ static void limit_radius(struct frame *frame, double radius_m)
 
 static int traffic_next(void *state, struct frame *frame, struct runner *runner)
 {
-    (void)runner;
     struct traffic *traffic = state;
     if (traffic->frame == traffic->played.frames)
         return 0;
@@ -53,6 +52,8 @@ static int traffic_next(void *state, struct frame *frame, struct runner *runner)
     frame->last = traffic->frame == traffic->played.frames;
     if (traffic->radius_m > 0)
         limit_radius(frame, traffic->radius_m);
+    if (scene_check(&traffic->played, frame->frame, frame, runner_diag(runner)) != 0)
+        return diag_prefix(runner_diag(runner), "%s: ", traffic->source);
     return 1;
 }
 

@@ -38,6 +38,11 @@ static double ours_cos(struct point at)
     return elementary_cos(at.x);
 }
 
+static double ours_wrap(struct point at)
+{
+    return elementary_wrap(at.x);
+}
+
 static double ours_turn_sin(struct point at)
 {
     return elementary_sincos_turns(at.x).sin;
@@ -93,6 +98,19 @@ static int exact_cos(mpfr_t result, mpfr_t x, mpfr_t y)
 {
     (void)y;
     return mpfr_cos(result, x, MPFR_RNDN);
+}
+
+/* 1400 bits hold any double in full and 160 bits of its rest. */
+static int exact_wrap(mpfr_t result, mpfr_t x, mpfr_t y)
+{
+    (void)y;
+    mpfr_t turn;
+    mpfr_init2(turn, 1400);
+    mpfr_const_pi(turn, MPFR_RNDN);
+    mpfr_mul_2ui(turn, turn, 1, MPFR_RNDN);
+    int rounded = mpfr_remainder(result, x, turn, MPFR_RNDN);
+    mpfr_clear(turn);
+    return rounded;
 }
 
 static int exact_turn_sin(mpfr_t result, mpfr_t x, mpfr_t y)
@@ -346,6 +364,10 @@ static const struct trial trials[] = {
     {"cos, one turn", ours_cos, exact_cos, angle_of_one_turn, 0.9},
     {"cos, seams to 2^20", ours_cos, exact_cos, angle_at_a_seam, 0.9},
     {"cos, zeros beyond", ours_cos, exact_cos, far_angle_at_a_zero, 0.9},
+    {"wrap, any size", ours_wrap, exact_wrap, angle_of_any_size, 0.51},
+    {"wrap, to 2^20", ours_wrap, exact_wrap, angle_of_the_chain, 0.51},
+    {"wrap, seams to 2^20", ours_wrap, exact_wrap, angle_at_a_seam, 0.51},
+    {"wrap, zeros beyond", ours_wrap, exact_wrap, far_angle_at_a_zero, 0.51},
     {"sin of turns, any size", ours_turn_sin, exact_turn_sin, turns_of_any_size, 0.9},
     {"sin of turns, draws", ours_turn_sin, exact_turn_sin, turns_of_a_draw, 0.9},
     {"sin of turns, seams", ours_turn_sin, exact_turn_sin, turns_at_a_seam, 0.9},
@@ -437,6 +459,7 @@ static void mirrored_arguments_give_mirrored_bits(void **state)
         double x = (i % 2 ? angle_of_the_chain(&random) : angle_of_any_size(&random)).x;
         assert_same_bits(elementary_sin(-x), -elementary_sin(x));
         assert_same_bits(elementary_cos(-x), elementary_cos(x));
+        assert_same_bits(elementary_wrap(-x), -elementary_wrap(x));
         double turns = turns_of_any_size(&random).x;
         assert_close(elementary_sincos_turns(-turns).sin, -elementary_sincos_turns(turns).sin, 0);
         assert_close(elementary_sincos_turns(-turns).cos, elementary_sincos_turns(turns).cos, 0);

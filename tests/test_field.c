@@ -145,6 +145,30 @@ static void absence_has_its_value_and_is_noticed(void **state)
     arena_free(&arena);
 }
 
+static void an_optional_record_is_there_with_any_of_its_members(void **state)
+{
+    (void)state;
+    static const struct field inner_fields[] = {
+        {FIELD_REAL_IN(struct thing, gain, 0, 1, "zero is a gain"), FIELD_OPTIONAL, .section = 1},
+        {FIELD_FLAG_OF(struct thing, flag, "flag"), FIELD_OPTIONAL},
+        {0}};
+    static const struct record inner = {.name = "inner",
+                                        .size = sizeof(struct thing),
+                                        .fields = inner_fields,
+                                        .present_offset = offsetof(struct thing, present)};
+    const struct field outer = {.name = "outer",
+                                .kind = FIELD_RECORD,
+                                FIELD_OPTIONAL,
+                                .offset = sizeof(struct thing),
+                                .record = &inner};
+    struct thing things[2] = {{.gain = 0.5, .flag = true, .present = 1}, {.gain = 0}};
+    assert_false(field_present(&record, &outer, things));
+    things[1].present = 1;
+    assert_true(field_present(&record, &outer, things));
+    things[1] = (struct thing){.flag = true};
+    assert_true(field_present(&record, &outer, things));
+}
+
 static void numbers_are_taken_between_their_bounds(void **state)
 {
     (void)state;
@@ -356,6 +380,7 @@ int main(void)
         cmocka_unit_test(the_ending_of_a_name_is_its_unit),
         cmocka_unit_test(members_are_found_by_their_whole_name),
         cmocka_unit_test(absence_has_its_value_and_is_noticed),
+        cmocka_unit_test(an_optional_record_is_there_with_any_of_its_members),
         cmocka_unit_test(numbers_are_taken_between_their_bounds),
         cmocka_unit_test(seeds_have_64_bits),
         cmocka_unit_test(names_and_choices_are_checked),

@@ -150,7 +150,7 @@ static void losses_are_grouped_by_sensor_stage_and_reason(void **state)
     assert_int_equal(frame.present, SECTION_LOST);
     struct cell cell =
         cell_of(&arena, "s", 2, (struct contributor[]){from("o", "p"), from("o", "q")});
-    frame_lose_cell(&frame, "sensor", &cell, LOSS_BELOW_THRESHOLD, 4.5);
+    frame_lose_cell(&frame, "sensor", &cell, LOSS_BELOW_THRESHOLD, 4.5, &cell.margins);
     const struct lost_group *group = &frame.lost.items[8];
     assert_int_equal(group->echoes.count, 2);
     assert_string_equal(group->echoes.items[1].reflector, "q");

@@ -15,7 +15,7 @@
 #define HEAD                                                                                       \
     "{\"version\":0,\"scene\":\"cut-in\",\"frame\":7,\"time_s\":0.28,\"interval_s\":0.04,"         \
     "\"last\":true,\"seed\":\"18446744073709551615\",\"ego\":\"e\",\"origin_x_m\":500000.25,"      \
-    "\"origin_y_m\":-0.0,\"account\":true,"
+    "\"origin_y_m\":-0.0,\"account\":true,\"margins\":true,"
 #define OBJECTS                                                                                    \
     "\"objects\":[{\"id\":\"e\",\"class\":\"car\",\"x_m\":-0.0,\"y_m\":1e-07,\"yaw_rad\":0.1,"     \
     "\"vx_mps\":5e-324,\"vy_mps\":-2.5,\"yaw_rate_radps\":0,\"length_m\":4.5,\"width_m\":1.8,"     \
@@ -38,18 +38,22 @@
     ",\"range_m\":1e+06,\"azimuth_rad\":-3.141592653589793,\"range_rate_mps\":-0.1,"               \
     "\"ercs\":1e+308,\"time_s\":0.27"
 #define MEMBER "[{" NAMES IDEAL ",\"weight\":1}]"
-#define ECHOES "\"echoes\":[{\"sensor\":\"f\"," NAMES IDEAL ",\"extra\":null}],"
+#define SIGHT ",\"margins\":{\"sight_m\":0}"
+#define ECHOES "\"echoes\":[{\"sensor\":\"f\"," NAMES IDEAL SIGHT ",\"extra\":null}],"
 #define CELLS                                                                                      \
     "\"cells\":[{\"sensor\":\"f\",\"range_m\":1,\"azimuth_rad\":0,\"range_rate_mps\":0,"           \
     "\"amplitude\":2,\"sum_re\":1,\"sum_im\":-1e+308,\"delta_re\":0,\"delta_im\":3,"               \
-    "\"sign_undecided\":true,\"members\":" MEMBER ",\"extra\":\"x\"}],"
+    "\"sign_undecided\":true,\"members\":" MEMBER ",\"margins\":{\"cell_edge\":2.5,\"sign\":1},"   \
+    "\"extra\":\"x\"}],"
 #define TARGETS                                                                                    \
     "\"targets\":[{\"sensor\":\"f\",\"range_m\":1,\"azimuth_rad\":0,\"range_rate_mps\":0,"         \
     "\"amplitude_db\":-10.5,\"sign_undecided\":true,\"cell_range_m\":1,\"cell_azimuth_rad\":0,"    \
-    "\"cell_range_rate_mps\":0,\"cell_amplitude\":2,\"contributors\":" MEMBER ",\"extra\":[]}],"
+    "\"cell_range_rate_mps\":0,\"cell_amplitude\":2,\"contributors\":" MEMBER ",\"margins\":{"     \
+    "\"sight_m\":1e-09,\"threshold_db\":3,\"leader_db\":0,\"cell_edge\":0.5,\"sign\":1e-14,"       \
+    "\"limit_db\":10000,\"limit_m\":2},\"extra\":[]}],"
 #define LOST                                                                                       \
     "\"lost\":[{\"sensor\":\"f\",\"stage\":\"ideal\",\"reason\":\"blocked\",\"echoes\":[{" NAMES   \
-    ",\"by\":\"e\",\"shortfall_db\":3}]}],"
+    ",\"by\":\"e\",\"shortfall_db\":3" SIGHT "}]}],"
 #define COUNTS                                                                                     \
     "\"counts\":[{\"sensor\":\"f\",\"pairs\":2,\"paths\":[{\"path\":\"direct\",\"echoes\":1}]}],"
 

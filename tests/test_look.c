@@ -320,6 +320,126 @@ static void posts_become_echoes_with_their_numbers(void **state)
     assert_int_equal(look.echoes, 24);
 }
 
+/* The echo's or the loss's, in a scene with one reflector. */
+static struct margins only_margins(const struct scene *scene)
+{
+    return scene->frame.echoes.count == 1 ? scene->frame.echoes.items[0].margins
+                                          : only_loss(scene)->echoes.items[0].margins;
+}
+
+/* A pole at (x, y) seen from (0, 0) between 1 and 100 m, 45 degrees to either side, facing the
+ * sensor's -x within 1 rad; a box of 4 m by 2 m, if any, at (box_x, 0). */
+static void a_reflector_tells_how_near_it_was_to_another_answer(void **state)
+{
+    (void)state;
+    static const struct {
+        double x_m, y_m, box_x_m;
+        int reason; /* -1: seen */
+        double margin_m;
+    } cases[] = {
+        {3, 0, 0, -1, 2},      /* nearest limit */
+        {99.5, 0, 0, -1, 0.5}, /* farthest limit */
+        {0.75, 0, 0, LOSS_OUT_OF_RANGE, 0.25},
+        {102, 0, 0, LOSS_OUT_OF_RANGE, 2},
+        {40, 39, 0, -1, 1},                 /* worked out below */
+        {39, 40, 0, LOSS_OUT_OF_VIEW, 1},   /* below, too */
+        {-10, 0, 0, LOSS_FACING_AWAY, 0},   /* below */
+        {60, 3, 30, -1, 2},                 /* below */
+        {60, 0, 30, LOSS_BLOCKED, 1},       /* the box reaches 1 m to either side */
+        {28.25, 0, 30, LOSS_BLOCKED, 0.25}, /* 0.25 m behind its rear at 28 m */
+        {27.5, 0, 30, -1, 0.5},             /* 0.5 m before it */
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        void *place;
+        make_scene(&place);
+        struct scene *scene = place;
+        scene->frame.margins = true;
+        scene->sensor.field_of_view_rad = PI / 2;
+        scene->sensor.range_min_m = 1;
+        struct point_reflector *pole = add_point(scene, add_set(scene, "pole"));
+        pole->facing_rad = PI;
+        pole->zero_rad = 1;
+        add_object(scene, "pole", cases[i].x_m, cases[i].y_m);
+        if (cases[i].box_x_m > 0) {
+            add_set(scene, "box");
+            add_object(scene, "box", cases[i].box_x_m, 0);
+        }
+        look_around_at(scene, 10);
+        double azimuth = fabs(atan2(cases[i].y_m, cases[i].x_m));
+        double range_m = hypot(cases[i].x_m, cases[i].y_m), margin_m = cases[i].margin_m;
+        if (cases[i].reason == LOSS_FACING_AWAY)
+            margin_m = range_m * (azimuth - 1);
+        else if (azimuth > PI / 5)
+            margin_m = range_m * fabs(azimuth - (PI / 4 - 1e-9));
+        else if (cases[i].y_m == 3) /* the sight line passes the near left corner (28, 1) */
+            margin_m = (28 * 3 - 60) / range_m;
+        if (cases[i].reason >= 0)
+            assert_int_equal(only_loss(scene)->reason, cases[i].reason);
+        struct margins margins = only_margins(scene);
+        assert_int_equal(margins.told, MARGIN_SIGHT);
+        assert_close(margins.sight_m, margin_m, 1e-12);
+        remove_scene(&place);
+    }
+}
+
+static void what_passes_under_a_vehicle_is_near_to_both_answers(void **state)
+{
+    (void)state;
+    static const struct {
+        double truck_y_m, wall_y_m, margin_m;
+    } cases[] = {
+        {0.5, 9, 0.5},   /* under the truck, out of it by 0.5 m */
+        {0, 1.25, 0.25}, /* the wall beside the truck is 0.25 m off */
+        {-1.5, 3, 0.5},  /* past the truck */
+        {0, 0.75,
+         0.25}, /* blocked by the wall, 0.25 m deep; by the truck 1 m, which is no matter */
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        void *place;
+        make_scene(&place);
+        struct scene *scene = place;
+        scene->frame.margins = true;
+        add_point(scene, add_set(scene, "pole"))->under_vehicles = 0.5;
+        add_set(scene, "truck")->raised = true;
+        add_set(scene, "wall");
+        add_object(scene, "pole", 50, 0);
+        add_object(scene, "truck", 20, cases[i].truck_y_m);
+        add_object(scene, "wall", 30, cases[i].wall_y_m);
+        look_around_at(scene, 10);
+        assert_close(only_margins(scene).sight_m, cases[i].margin_m, 1e-12);
+        remove_scene(&place);
+    }
+}
+
+static void a_plane_tells_how_near_its_foot_was_to_its_ends(void **state)
+{
+    struct scene *scene = *state;
+    scene->frame.margins = true;
+    struct reflector_set *set = add_set(scene, "a");
+    *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
+        .name = "rear", .from_x = -0.5, .from_y = 0.5, .to_x = -0.5, .to_y = -0.5, .ercs = 0.7};
+    struct object *car = add_object(scene, "a", 20, 0.75);
+    look_around_at(scene, 10);
+    assert_close(only_margins(scene).sight_m, 0.25, 1e-12);
+    scene->frame.echoes.count = 0;
+    car->y_m = 1.5;
+    look_around_at(scene, 10);
+    assert_int_equal(only_loss(scene)->reason, LOSS_NO_SPECULAR);
+    assert_close(only_margins(scene).sight_m, 0.5, 1e-12);
+}
+
+static void without_margins_nothing_is_told(void **state)
+{
+    struct scene *scene = *state;
+    add_point(scene, add_set(scene, "a"));
+    add_point(scene, add_set(scene, "b"))->zero_rad = 1;
+    add_object(scene, "a", 20, 0);
+    add_object(scene, "b", 0, 20);
+    look_around_at(scene, 10);
+    assert_int_equal(scene->frame.echoes.items[0].margins.told, 0);
+    assert_int_equal(scene->frame.lost.items[0].echoes.items[0].margins.told, 0);
+}
+
 static void a_set_on_nobody_is_refused(void **state)
 {
     struct scene *scene = *state;
@@ -345,6 +465,10 @@ int main(void)
         TEST(planes_mirror_from_the_foot_of_the_perpendicular),
         TEST(rows_are_expanded_in_range_and_no_post_is_missed),
         TEST(posts_become_echoes_with_their_numbers),
+        TEST(a_reflector_tells_how_near_it_was_to_another_answer),
+        TEST(what_passes_under_a_vehicle_is_near_to_both_answers),
+        TEST(a_plane_tells_how_near_its_foot_was_to_its_ends),
+        TEST(without_margins_nothing_is_told),
         TEST(a_set_on_nobody_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -417,6 +417,25 @@ static void the_magnitude_angle_folds_at_boresight(void **state)
     assert_close(spread.wrong_sign, 0.5, 0.013);
 }
 
+/* The phase between the channels, whatever their amplitudes: sine of the angle by which delta
+ * leads.
+ */
+static void the_sign_margin_is_the_sine_between_the_channels(void **state)
+{
+    (void)state;
+    const double _Complex i = (double _Complex)I;
+    for (int degrees = -180; degrees <= 180; degrees += 15)
+        for (double size = 1e-300; size <= 1e300; size *= 1e100) {
+            double sine = sin(degrees * DEGREE), cosine = cos(degrees * DEGREE);
+            struct antenna_pointers pointers = {.sum = 3 * size * (0.6 + 0.8 * i),
+                                                .delta =
+                                                    size * (cosine + sine * i) * (0.6 + 0.8 * i)};
+            assert_close(monopulse_sign_margin(pointers), fabs(sine), 1e-15);
+        }
+    assert_true(isnan(monopulse_sign_margin((struct antenna_pointers){.sum = 1})));
+    assert_true(isnan(monopulse_sign_margin((struct antenna_pointers){.delta = 1})));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -439,6 +458,7 @@ int main(void)
         cmocka_unit_test(noise_spreads_the_magnitude_angle_as_published),
         cmocka_unit_test(noise_spreads_the_ratio_angle_as_published),
         cmocka_unit_test(the_magnitude_angle_folds_at_boresight),
+        cmocka_unit_test(the_sign_margin_is_the_sine_between_the_channels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -133,6 +133,55 @@ static void a_target_has_the_reading_and_the_label_of_its_cell(void **state)
     arena_free(&list.arena);
 }
 
+/* Amplitudes 5, 5, 3, 3, 2 and ranges 10, 10, 10, 20, 30 in order. */
+static void the_limit_tells_how_near_it_cut(void **state)
+{
+    (void)state;
+    const double db = 20 * log10(5.0 / 3), two = 20 * log10(3.0 / 2), all = 20 * log10(2.5);
+    const struct {
+        enum list_order order;
+        int64_t limit;
+        unsigned told;
+        double listed[4], lost[3];
+    } cases[] = {
+        {LIST_STRONGEST, 2, MARGIN_LIMIT_DB, {db, db}, {db, db, all}},
+        {LIST_STRONGEST, 4, MARGIN_LIMIT_DB, {all, all, two, two}, {two}},
+        {LIST_STRONGEST, 1, MARGIN_LIMIT_DB, {0}, {0}},
+        {LIST_NEAREST, 3, MARGIN_LIMIT_M, {10, 10, 10}, {10, 20}},
+        {LIST_NEAREST, 4, MARGIN_LIMIT_M, {20, 20, 20, 10}, {10}},
+        {LIST_STRONGEST, 5, 0, {0}, {0}},
+        {LIST_NEAREST, 0, 0, {0}, {0}},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct list list;
+        begin_list(&list, cases[i].order);
+        list.frame.margins = true;
+        add_all(&list);
+        readings_list(&list.frame, "noise", &list.sensor, list.readings, list.count,
+                      cases[i].limit);
+        bool db_told = cases[i].told == MARGIN_LIMIT_DB;
+        for (size_t j = 0; j < list.frame.targets.count; j++) {
+            const struct margins *margins = &list.frame.targets.items[j].margins;
+            assert_int_equal(margins->told, cases[i].told);
+            if (margins->told != 0 && cases[i].limit > 1)
+                assert_close(db_told ? margins->limit_db : margins->limit_m, cases[i].listed[j],
+                             1e-13);
+        }
+        for (size_t j = 0; j < list.frame.lost.count; j++) {
+            const struct lost_group *group = &list.frame.lost.items[j];
+            for (size_t k = 0; k < group->echoes.count && k < COUNT(cases[i].lost); k++) {
+                const struct margins *margins = &group->echoes.items[k].margins;
+                bool mute = group->reason == LOSS_NO_AMPLITUDE;
+                assert_int_equal(margins->told, mute ? 0 : cases[i].told);
+                if (!mute && cases[i].limit > 1)
+                    assert_close(db_told ? margins->limit_db : margins->limit_m, cases[i].lost[k],
+                                 1e-13);
+            }
+        }
+        arena_free(&list.arena);
+    }
+}
+
 static void no_number_among_the_amplitudes_makes_no_target(void **state)
 {
     (void)state;
@@ -161,6 +210,7 @@ int main(void)
         cmocka_unit_test(targets_come_strongest_or_nearest_first),
         cmocka_unit_test(the_order_of_the_readings_does_not_matter),
         cmocka_unit_test(a_target_has_the_reading_and_the_label_of_its_cell),
+        cmocka_unit_test(the_limit_tells_how_near_it_cut),
         cmocka_unit_test(no_number_among_the_amplitudes_makes_no_target),
         cmocka_unit_test(steps_round_to_the_nearest_multiple),
     };

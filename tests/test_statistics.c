@@ -754,6 +754,35 @@ static void a_random_phase_turns_pointers_and_leaves_membership(void **state)
     bench_close(&random);
 }
 
+/* An eighth of a wavelength farther is a quarter of a turn later, in whatever frame; reflectors
+ * start from phases of their own. */
+static void phases_by_path_follow_the_range(void **state)
+{
+    const double wave_m = 299792458 / 24e9;
+    struct bench bench;
+    open_suite(&bench, &stage_sensor, *state,
+               QUIET CENTRE ", " ALL ", \"cell_phase\": \"by_path\"");
+    double first_rad[2] = {0, 0};
+    for (int i = 0; i < 40; i++) {
+        bench_begin(&bench, i);
+        add_echo(&bench.frame, "a", 20 + i * wave_m / 8, 0, 1);
+        add_echo(&bench.frame, "b", 40 + i * wave_m / 8, 0, 4);
+        bench_step(&bench);
+        assert_int_equal(bench.frame.cells.count, 2);
+        for (size_t j = 0; j < 2; j++) {
+            const struct cell *cell = &bench.frame.cells.items[j];
+            double phase_rad = atan2(cell->sum_im, cell->sum_re);
+            if (i == 0)
+                first_rad[j] = phase_rad;
+            assert_close(remainder(phase_rad - first_rad[j] + i * PI / 2, 2 * PI), 0, 1e-10);
+            assert_near(hypot(cell->sum_re, cell->sum_im), cell->amplitude, 1e-14);
+        }
+    }
+    double way_rad = -4 * PI * 20 / wave_m;
+    assert_true(fabs(remainder(first_rad[1] - first_rad[0] - way_rad, 2 * PI)) > 1e-3);
+    bench_close(&bench);
+}
+
 int main(void)
 {
     const struct CMUnitTest model[] = {
@@ -783,6 +812,7 @@ int main(void)
         cmocka_unit_test(two_reflectors_in_one_cell_make_one_target_between_them),
         cmocka_unit_test(random_phases_spread_the_angle_as_their_closed_form_says),
         cmocka_unit_test(a_random_phase_turns_pointers_and_leaves_membership),
+        cmocka_unit_test(phases_by_path_follow_the_range),
     };
     return cmocka_run_group_tests(model, draw_noise, free_sample) +
            cmocka_run_group_tests(textbook, draw_noise_gauss, free_sample) +

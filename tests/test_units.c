@@ -51,15 +51,15 @@ static void an_angle_wraps_into_one_turn(void **state)
         {-3, -3, 0},
         {PI, PI, 0},
         {-PI, PI, 0},
-        {3 * PI, PI, 1e-15},
-        {-3 * PI, PI, 1e-15},
-        {2 * PI, 0, 0},
-        {-2 * PI, 0, 0},
+        {3 * PI, 0x1.921fb54442d17p1, 0},
+        {-3 * PI, -0x1.921fb54442d17p1, 0},   /* the double is less than three half turns */
+        {2 * PI, -2.4492935982947064e-16, 0}, /* nor is twice PI a whole turn */
+        {-2 * PI, 2.4492935982947064e-16, 0},
         {-1e-17, -1e-17, 0},
         {2 * PI - 0.5, -0.5, 1e-15},
         {5, 5 - 2 * PI, 1e-15},
         {-5, 2 * PI - 5, 1e-15},
-        {100, 100 - 32 * PI, 1e-13},
+        {100, 100 - 32 * PI, 1e-14},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         assert_close(units_wrap_rad(cases[i].angle), cases[i].wrapped, cases[i].tolerance);
@@ -72,9 +72,8 @@ static void a_wrapped_angle_keeps_its_direction(void **state)
         double angle = 0.00999 * i;
         double wrapped = units_wrap_rad(angle);
         assert_true(wrapped > -PI && wrapped <= PI);
-        /* 160 turns of a 2 pi that is rounded to a double. */
         long double turns = ((long double)angle - (long double)wrapped) / (2 * PI_LONG);
-        assert_close((double)((turns - roundl(turns)) * 2 * PI_LONG), 0, 4e-14);
+        assert_close((double)((turns - roundl(turns)) * 2 * PI_LONG), 0, 1e-15);
     }
 }
 

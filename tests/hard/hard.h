@@ -19,6 +19,12 @@ static inline int hard_points(int all)
     return getenv("HARD_TENTH") != NULL ? (all + 9) / 10 : all;
 }
 
+/* The greater of two errors, where NaN is the greatest. */
+static inline double hard_worse(double error, double other)
+{
+    return isnan(error) || other <= error ? error : other;
+}
+
 /* The row of one case: naive and ours are the worst errors over its points, in unit ("ulp", "rad",
  * "m", "wrong of 1e6"); NaN is written as such. Fails unless ours <= bound. */
 static inline void hard_case(const char *number, const char *title, const char *unit, double naive,

@@ -1,0 +1,67 @@
+#include "cell_margins.h"
+
+#include <complex.h>
+#include <math.h>
+
+/* By how many half cells other lies beyond the edge of a cell around leader; negative inside. */
+static double beyond_edge(const struct sensor *sensor, const struct ray *leader,
+                          const struct ray *other)
+{
+    double range_m = fabs(other->echo.range_m - leader->echo.range_m);
+    double rate_mps = fabs(other->echo.range_rate_mps - leader->echo.range_rate_mps);
+    return fmax((range_m - sensor->half_range_m) / sensor->half_range_m,
+                (rate_mps - sensor->half_range_rate_mps) / sensor->half_range_rate_mps);
+}
+
+static void note_pair(const struct sensor *sensor, const struct ray *leader,
+                      const struct ray *other, struct margins *margins)
+{
+    double beyond = beyond_edge(sensor, leader, other);
+    margins_note(margins, MARGIN_CELL_EDGE, fabs(beyond));
+    if (beyond <= 1)
+        margins_note(margins, MARGIN_LEADER,
+                     margins_between_db(leader->amplitude, other->amplitude));
+}
+
+struct margins cell_margins_of(const struct sensor *sensor, const struct clustered_rays *all,
+                               size_t number)
+{
+    struct margins margins = {0};
+    size_t opened = 0;
+    for (size_t i = 0; i < all->count; i++) {
+        size_t own = all->cell[i];
+        if (own == number)
+            margins_merge(&margins, all->rays[i].margins);
+        bool leads = own == opened;
+        opened += leads;
+        for (size_t j = i + 1; j < all->count && leads && own <= number; j++)
+            if (all->cell[j] == number || (own == number && all->cell[j] > number))
+                note_pair(sensor, &all->rays[i], &all->rays[j], &margins);
+    }
+    return margins;
+}
+
+static void note_sign(const struct sensor *sensor, struct antenna_pointers pointers,
+                      struct margins *margins)
+{
+    if (sensor->angle_estimator == MONOPULSE_MAGNITUDE)
+        margins_note(margins, MARGIN_SIGN, monopulse_sign_margin(pointers));
+}
+
+void cell_margins_add(const struct sensor *sensor, struct cell *cell)
+{
+    const double _Complex i = (double _Complex)I;
+    struct antenna_pointers pointers = {cell->sum_re + i * cell->sum_im,
+                                        cell->delta_re + i * cell->delta_im};
+    margins_note(&cell->margins, MARGIN_THRESHOLD,
+                 margins_between_db(cell->amplitude, sensor->threshold));
+    note_sign(sensor, pointers, &cell->margins);
+}
+
+void cell_margins_add_noisy(const struct sensor *sensor, struct antenna_pointers pointers,
+                            double amplitude, struct margins *margins)
+{
+    if (sensor->final_threshold)
+        margins_note(margins, MARGIN_THRESHOLD, margins_between_db(amplitude, sensor->threshold));
+    note_sign(sensor, pointers, margins);
+}

@@ -1,0 +1,60 @@
+#include "margins.h"
+
+#include <math.h>
+
+#include "units.h"
+
+#define MARGIN(member, bit, high, help)                                                            \
+    {                                                                                              \
+        FIELD_REAL_IN(struct margins, member, 0, high, help), FIELD_OPTIONAL, .section = (bit)     \
+    }
+
+static const struct field margin_fields[] = {
+    MARGIN(sight_m, MARGIN_SIGHT, 1e8, "range, view, facing, foot and blockers; angles by range"),
+    MARGIN(threshold_db, MARGIN_THRESHOLD, 1e4, "amplitude to threshold"),
+    MARGIN(leader_db, MARGIN_LEADER, 1e4, "between echoes of which the stronger opened a cell"),
+    MARGIN(cell_edge, MARGIN_CELL_EDGE, 1e13, "to a cell's edge, in half cells"),
+    MARGIN(sign, MARGIN_SIGN, 1, "sine of the phase between sum and delta"),
+    MARGIN(limit_db, MARGIN_LIMIT_DB, 1e4, "to the list limit, strongest first"),
+    MARGIN(limit_m, MARGIN_LIMIT_M, 1e6, "to the list limit, nearest first"),
+    {0},
+};
+
+const struct record margins_record = {
+    .name = "margins",
+    .help = "How close decisions came to going the other way; absent: there was none.",
+    .size = sizeof(struct margins),
+    .fields = margin_fields,
+    .present_offset = offsetof(struct margins, told),
+};
+
+static double *member(struct margins *margins, enum margin which)
+{
+    const struct field *field = margin_fields;
+    while (field->section != (unsigned)which)
+        field++;
+    return (double *)(void *)((char *)margins + field->offset);
+}
+
+void margins_note(struct margins *margins, enum margin which, double value)
+{
+    if (!isfinite(value))
+        return;
+    double *least = member(margins, which);
+    if ((margins->told & which) == 0 || value < *least)
+        *least = value;
+    margins->told |= which;
+}
+
+void margins_merge(struct margins *margins, const struct margins *others)
+{
+    struct margins other = *others;
+    for (unsigned which = 1; which <= other.told; which <<= 1)
+        if ((other.told & which) != 0)
+            margins_note(margins, which, *member(&other, which));
+}
+
+double margins_between_db(double a, double b)
+{
+    return fmin(fabs(units_amplitude_db(a) - units_amplitude_db(b)), 1e4);
+}

@@ -1,0 +1,78 @@
+#include "mirror.h"
+
+#include "orientation.h"
+
+/* Towards the outer side; zero for a wall of length zero. */
+static struct vec2 normal_of(const struct mirror *mirror)
+{
+    struct vec2 along = vec2_sub(mirror->b, mirror->a);
+    double length_m = vec2_length(along);
+    if (length_m == 0)
+        return (struct vec2){0, 0};
+    return (struct vec2){along.y / length_m, -along.x / length_m};
+}
+
+/* Measured from the middle, so that a mirrored wall has the mirrored image to the last bit. */
+static double height_m(const struct mirror *mirror, struct vec2 normal, struct vec2 point_m)
+{
+    struct vec2 middle = vec2_scale(0.5, vec2_add(mirror->a, mirror->b));
+    return vec2_dot_accurate(vec2_sub(point_m, middle), normal);
+}
+
+static struct vec2 flipped(struct vec2 vector, double height, struct vec2 normal)
+{
+    return vec2_sub(vector, vec2_scale(2 * height, normal));
+}
+
+struct mirror_image mirror_image(const struct mirror *mirror, struct vec2 point_m,
+                                 struct vec2 point_mps)
+{
+    struct vec2 normal = normal_of(mirror);
+    struct vec2 place_m = flipped(point_m, height_m(mirror, normal, point_m), normal);
+    struct vec2 seen_mps = vec2_sub(point_mps, motion_velocity_at(&mirror->body, point_m));
+    struct vec2 image_mps = flipped(seen_mps, vec2_dot_accurate(seen_mps, normal), normal);
+    return (struct mirror_image){
+        .place_m = place_m,
+        .velocity_mps = vec2_add(motion_velocity_at(&mirror->body, place_m), image_mps),
+    };
+}
+
+bool mirror_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec2 point_m,
+                   struct vec2 *bounce_m)
+{
+    struct vec2 a = mirror->a, b = mirror->b;
+    if (orientation_sign(a, b, sensor_m) >= 0 || orientation_sign(a, b, point_m) >= 0)
+        return false;
+    struct vec2 normal = normal_of(mirror);
+    double sensor_height_m = height_m(mirror, normal, sensor_m);
+    double point_height_m = height_m(mirror, normal, point_m);
+    /* A hair before an aslant wall is before it, and yet on it when rounded. */
+    if (sensor_height_m <= 0 || point_height_m <= 0)
+        return false;
+    struct vec2 image_m = flipped(point_m, point_height_m, normal);
+    if (orientation_sign(sensor_m, image_m, a) < 0 || orientation_sign(sensor_m, image_m, b) > 0)
+        return false;
+    double part = sensor_height_m / (sensor_height_m + point_height_m);
+    *bounce_m = vec2_add(sensor_m, vec2_scale(part, vec2_sub(image_m, sensor_m)));
+    return true;
+}
+
+bool mirror_may_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec2 centre_m,
+                       double radius_m)
+{
+    struct vec2 a = mirror->a, b = mirror->b;
+    if (orientation_sign(a, b, sensor_m) >= 0)
+        return false;
+    struct vec2 normal = normal_of(mirror);
+    double height = height_m(mirror, normal, centre_m);
+    /* Thousands of times the rounding of what follows: each step costs a few 2^-53 of this. */
+    double scale_m =
+        vec2_length(a) + vec2_length(b) + vec2_length(sensor_m) + vec2_length(centre_m) + radius_m;
+    double reach_m = radius_m + 0x1p-40 * scale_m;
+    if (height < -reach_m)
+        return false;
+    struct vec2 to_a = vec2_sub(a, sensor_m), to_b = vec2_sub(b, sensor_m);
+    struct vec2 to_image = vec2_sub(flipped(centre_m, height, normal), sensor_m);
+    return vec2_cross(to_a, to_image) <= reach_m * vec2_length(to_a) &&
+           vec2_cross(to_b, to_image) >= -reach_m * vec2_length(to_b);
+}

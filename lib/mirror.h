@@ -1,0 +1,45 @@
+/* A straight wall as a mirror: what stands before it is seen a second time behind it (EFFECTS 7).
+ *
+ * The wall is the segment a to b with its outer face to the right of a -> b, like every flat side
+ * (reflection.h), and only that face mirrors: a guardrail has two. It may move and turn with the
+ * body that carries it. With the unit normal n and a point o at the height h = n · (o - a),
+ *     o' = o - 2 h n,   v' = V(o') + w - 2 (n · w) n,   w = v - V(o),
+ * where V is the velocity of the body's material at a place: seen from the wall, the image of the
+ * velocity is the velocity of the image. Metres and metres per second, in one plane. */
+#ifndef MIRROR_H
+#define MIRROR_H
+
+#include <stdbool.h>
+
+#include "motion.h"
+
+struct mirror {
+    struct vec2 a, b;   /* a != b */
+    struct motion body; /* {0} for a wall that stands */
+};
+
+struct mirror_image {
+    struct vec2 place_m, velocity_mps;
+};
+
+/* Of any point, on either side; a point on the wall is its own image. */
+struct mirror_image mirror_image(const struct mirror *mirror, struct vec2 point_m,
+                                 struct vec2 point_mps);
+
+/* True, and the place on the wall, if the wall mirrors the point towards the sensor: both are
+ * strictly on its outer side, and the line from the sensor to the image crosses the segment, ends
+ * included. Exact signs decide (orientation.h), for the image as it is rounded. A sensor or point
+ * on the wall's line, exactly or when its height is rounded, or behind it has no reflection, nor
+ * has a wall of length zero; with both before it nothing is parallel and nothing divides by zero. A
+ * mirrored scene has the mirrored answer to the last bit. */
+bool mirror_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec2 point_m,
+                   struct vec2 *bounce_m);
+
+/* False only if mirror_bounce is false for every point within radius_m of the centre: one question
+ * for a whole body and a wall that cannot matter to it. Sound under rounding for coordinates up to
+ * 1e7 m; true too often where the disc passes narrowly by an end of the wall. It knows nothing of
+ * paths without a bounce between sensor and wall (ghost_behind). */
+bool mirror_may_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec2 centre_m,
+                       double radius_m);
+
+#endif

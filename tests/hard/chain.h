@@ -1,0 +1,81 @@
+/* The stages from random traffic to targets, one by one in this process, and a frame to run them
+ * on. */
+#ifndef HARD_CHAIN_H
+#define HARD_CHAIN_H
+
+#include "hard.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "frame_text.h"
+#include "fused.h"
+#include "runner.h"
+
+enum { CHAIN_STAGES = 5 };
+
+struct hard_chain {
+    struct runner runners[CHAIN_STAGES];
+    struct arena arena;
+    struct frame frame;
+};
+
+static inline void hard_chain_stage(struct runner *runner, const char *name, size_t count,
+                                    const char *const *words)
+{
+    const struct stage *const *stage = stages;
+    while (strcmp((*stage)->name, name) != 0)
+        stage++;
+    if (runner_prepare(runner, *stage, count, words) != 0 || runner_start(runner) != 0)
+        fail_msg("%s", runner->diag.text);
+    runner->common.keep = true;
+}
+
+/* Adversarial scenes (they have ties), frames first to first + frames - 1. */
+static inline void hard_chain_start(struct hard_chain *chain, int first, int frames)
+{
+    static const char suite[] = "srr24-pair-every-frame";
+    char first_word[32], frames_word[32];
+    snprintf(first_word, sizeof first_word, "%d", first);
+    snprintf(frames_word, sizeof frames_word, "%d", frames);
+    const char *const scene[] = {"--density", "adversarial", "--sensors", suite,
+                                 "--first",   first_word,    "--frames",  frames_word};
+    *chain = (struct hard_chain){.frame = {.arena = NULL}};
+    chain->frame.arena = &chain->arena;
+    hard_chain_stage(&chain->runners[0], "traffic-random", 8, scene);
+    hard_chain_stage(&chain->runners[1], "extract", 0, NULL);
+    hard_chain_stage(&chain->runners[2], "ideal", 2, scene + 2);
+    hard_chain_stage(&chain->runners[3], "sensor", 0, NULL);
+    hard_chain_stage(&chain->runners[4], "noise", 0, NULL);
+}
+
+static inline void hard_chain_stop(struct hard_chain *chain)
+{
+    for (size_t i = 0; i < CHAIN_STAGES; i++)
+        runner_free(&chain->runners[i]);
+    arena_free(&chain->arena);
+}
+
+static inline void hard_chain_next(struct hard_chain *chain)
+{
+    if (runner_next(&chain->runners[0], &chain->frame) != 1)
+        fail_msg("%s", chain->runners[0].diag.text);
+}
+
+/* The frame through stages from to to. */
+static inline void hard_chain_step(struct hard_chain *chain, size_t from, size_t to)
+{
+    for (size_t i = from; i <= to; i++)
+        if (runner_step(&chain->runners[i], &chain->frame) != 0)
+            fail_msg("%s", chain->runners[i].diag.text);
+}
+
+/* Appends the frame's line. */
+static inline void hard_chain_write(const struct hard_chain *chain, struct text *text)
+{
+    struct diag diag = {0};
+    if (frame_text_write(&chain->frame, text, &diag) != 0)
+        fail_msg("%s", diag.text);
+}
+
+#endif

@@ -1,0 +1,536 @@
+/* Time, binning and order (NUMERICS A4), and straight motion over a million frames (24). */
+#define SCRATCH_FILE "hard"
+#include "../scratch.h"
+#include "chain.h"
+
+#include "cycle.h"
+#include "number.h"
+#include "readings.h"
+#include "resolution.h"
+#include "scene.h"
+#include "sort.h"
+#include "superposition.h"
+
+enum { FRAMES = 1000000, PRECISION = 320 };
+
+static const double rates_hz[] = {20, 10, 25, 30, 17};
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+static void write_file(const struct scratch *scratch, const char *text)
+{
+    FILE *file = fopen(scratch->path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+#define START_X_M 512345.678
+#define START_Y_M 5335123.4567
+#define SPEED_MPS 50.0
+#define YAW_RAD 0.6
+
+/* A car at 50 m/s in UTM coordinates for a million frames. */
+static struct scene open_scene(struct scratch *scratch, double rate_hz)
+{
+    char text[512];
+    snprintf(text, sizeof text,
+             "{\"origin\": \"test\", \"ego\": \"e\", \"rate_hz\": %.17g, \"duration_s\": %.17g, "
+             "\"objects\": [{\"id\": \"e\", \"class\": \"car\", \"x_m\": %.17g, \"y_m\": %.17g, "
+             "\"speed_mps\": %.17g, \"yaw_rad\": %.17g}]}",
+             rate_hz, (FRAMES - 1) / rate_hz, START_X_M, START_Y_M, SPEED_MPS, YAW_RAD);
+    write_file(scratch, text);
+    struct scene scene;
+    struct diag diag = {0};
+    if (scene_open(&scene, scratch->path, NULL, &scratch->arena, &diag) != 0)
+        fail_msg("%s", diag.text);
+    assert_int_equal(scene.frames, FRAMES);
+    return scene;
+}
+
+/* Every frame, or a tenth of them up to the last. */
+static int64_t frame_step(void)
+{
+    return FRAMES / hard_points(FRAMES);
+}
+
+static void frame_of(const struct scene *scene, int64_t number, struct frame *frame)
+{
+    frame_clear(frame);
+    scene_frame(scene, number, frame);
+}
+
+static void a_million_frames_stand_at_their_times(void **state)
+{
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena};
+    double naive = 0, ours = 0;
+    mpfr_t exact;
+    mpfr_init2(exact, PRECISION);
+    for (size_t r = 0; r < COUNT(rates_hz); r++) {
+        struct scene scene = open_scene(*state, rates_hz[r]);
+        double clock_s = 0;
+        for (int64_t i = 0; i < FRAMES; i++, clock_s += 1 / rates_hz[r]) {
+            if (i % frame_step() != 0)
+                continue;
+            frame_of(&scene, i, &frame);
+            mpfr_set_sj(exact, i, MPFR_RNDN);
+            mpfr_div_d(exact, exact, rates_hz[r], MPFR_RNDN);
+            ours = fmax(ours, hard_ulp(frame.time_s, exact));
+            mpfr_set_sj(exact, i, MPFR_RNDN);
+            mpfr_div_d(exact, exact, rates_hz[r], MPFR_RNDN);
+            naive = fmax(naive, hard_ulp(clock_s, exact));
+        }
+    }
+    mpfr_clear(exact);
+    arena_free(&arena);
+    hard_case("40", "time of 1e6 frames at 10 to 30 Hz", "ulp", naive, ours, 0.5);
+}
+
+static void a_frame_is_found_again_from_its_time(void **state)
+{
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena};
+    double naive = 0, ours = 0;
+    for (size_t r = 0; r < COUNT(rates_hz); r++) {
+        struct scene scene = open_scene(*state, rates_hz[r]);
+        for (int64_t i = 0; i < FRAMES; i += frame_step()) {
+            frame_of(&scene, i, &frame);
+            double interval_s = 1 / rates_hz[r];
+            naive += (int64_t)((double)i * interval_s / interval_s) != i;
+            ours += llround(frame.time_s * rates_hz[r]) != i;
+        }
+    }
+    arena_free(&arena);
+    hard_case("41", "frame number back from its time", "wrong", naive, ours, 0);
+}
+
+/* A sensor with a scan in every second frame, its cycle written as a decimal. */
+static void scans_fall_on_their_frames(void **state)
+{
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena};
+    double naive = 0, ours = 0;
+    for (size_t r = 0; r < COUNT(rates_hz); r++) {
+        struct scene scene = open_scene(*state, rates_hz[r]);
+        double cycle_s = 2 / rates_hz[r];
+        for (int64_t i = 0; i < FRAMES; i += frame_step()) {
+            double instant_s = -1;
+            frame_of(&scene, i, &frame);
+            bool scan =
+                floor(frame.time_s / cycle_s) != floor((frame.time_s - frame.interval_s) / cycle_s);
+            naive += scan != (i % 2 == 0);
+            enum cycle_answer answer =
+                cycle_instant_s(cycle_s, frame.time_s, frame.interval_s, &instant_s);
+            ours += i % 2 == 0 ? answer != CYCLE_ONE || instant_s != frame.time_s
+                               : answer != CYCLE_NONE;
+        }
+    }
+    arena_free(&arena);
+    hard_case("41", "scan of every second frame (naive: floor)", "wrong", naive, ours, 0);
+}
+
+static void unix_times_keep_their_intervals(void **state)
+{
+    struct scratch *scratch = *state;
+    const int64_t epoch_ms = INT64_C(1700000000000);
+    int steps = hard_points(10000);
+    FILE *file = fopen(scratch->path, "w");
+    assert_non_null(file);
+    fputs("track_id,timestamp_ms,agent_type,x,y,vx,vy\n", file);
+    for (int i = 0; i < steps; i++)
+        fprintf(file, "1,%lld,car,%d,0,50,0\n", (long long)(epoch_ms + 40 * (int64_t)i), 2 * i);
+    assert_int_equal(fclose(file), 0);
+    char path[128];
+    snprintf(path, sizeof path, "%s.csv", scratch->path);
+    assert_int_equal(rename(scratch->path, path), 0);
+    struct scene scene;
+    struct diag diag = {0};
+    if (scene_open(&scene, path, "1", &scratch->arena, &diag) != 0)
+        fail_msg("%s", diag.text);
+    unlink(path);
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena};
+    double naive = 0, ours = 0, before_s = 0;
+    for (int i = 0; i < steps; i++, before_s = frame.time_s) {
+        frame_of(&scene, i, &frame);
+        ours = fmax(ours, fabs(frame.interval_s - 0.04));
+        if (i > 0)
+            naive = fmax(naive, fabs((frame.time_s - before_s) - 0.04));
+        ours += frame.time_s != (double)(epoch_ms + 40 * i) / 1000;
+    }
+    arena_free(&arena);
+    hard_case("42", "interval of frames in UNIX time", "s", naive, ours, 0);
+}
+
+static double position_error_m(const struct frame *frame, mpfr_t time_s, mpfr_t cosine, mpfr_t sine)
+{
+    const struct object *car = &frame->objects.items[0];
+    double worst_m = 0;
+    mpfr_t place;
+    mpfr_init2(place, PRECISION);
+    for (int axis = 0; axis < 2; axis++) {
+        mpfr_mul(place, time_s, axis == 0 ? cosine : sine, MPFR_RNDN);
+        mpfr_mul_d(place, place, SPEED_MPS, MPFR_RNDN);
+        mpfr_add_d(place, place, axis == 0 ? START_X_M : START_Y_M, MPFR_RNDN);
+        mpfr_sub_d(place, place, axis == 0 ? frame->origin_x_m : frame->origin_y_m, MPFR_RNDN);
+        mpfr_sub_d(place, place, axis == 0 ? car->x_m : car->y_m, MPFR_RNDN);
+        worst_m = fmax(worst_m, fabs(mpfr_get_d(place, MPFR_RNDN)));
+    }
+    mpfr_clear(place);
+    return worst_m;
+}
+
+static void straight_motion_does_not_drift(void **state)
+{
+    static const double rates[] = {17, 25};
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena}, drifting = {.arena = &arena};
+    double naive = 0, ours = 0;
+    mpfr_t time_s, cosine, sine;
+    mpfr_inits2(PRECISION, time_s, cosine, sine, (mpfr_ptr)0);
+    mpfr_set_d(sine, YAW_RAD, MPFR_RNDN);
+    mpfr_cos(cosine, sine, MPFR_RNDN);
+    mpfr_sin(sine, sine, MPFR_RNDN);
+    for (size_t r = 0; r < COUNT(rates); r++) {
+        struct scene scene = open_scene(*state, rates[r]);
+        struct object car = {.x_m = START_X_M, .y_m = START_Y_M};
+        drifting.objects.items = &car;
+        for (int64_t i = 0; i < FRAMES; i++) {
+            if (i % frame_step() == 0) {
+                frame_of(&scene, i, &frame);
+                mpfr_set_sj(time_s, i, MPFR_RNDN);
+                mpfr_div_d(time_s, time_s, rates[r], MPFR_RNDN);
+                ours = fmax(ours, position_error_m(&frame, time_s, cosine, sine));
+                naive = fmax(naive, position_error_m(&drifting, time_s, cosine, sine));
+            }
+            car.x_m += SPEED_MPS * cos(YAW_RAD) / rates[r];
+            car.y_m += SPEED_MPS * sin(YAW_RAD) / rates[r];
+        }
+    }
+    mpfr_clears(time_s, cosine, sine, (mpfr_ptr)0);
+    arena_free(&arena);
+    hard_case("24", "place after 1e6 frames at 50 m/s from UTM", "m", naive, ours, 1e-9);
+}
+
+/* Every multiple stays the multiple it is, and reporting it twice changes nothing. */
+static void multiples_of_a_step_stay_in_their_bin(void **state)
+{
+    (void)state;
+    static const double steps[] = {0.3, 0.1, 0.05, 0.01, 0.0017453292519943295};
+    double naive = 0, ours = 0;
+    for (size_t s = 0; s < COUNT(steps); s++)
+        for (int k = 0; k < hard_points(10000); k++) {
+            char decimal[32];
+            snprintf(decimal, sizeof decimal, "%.10g", k * steps[s]);
+            double value = strtod(decimal, NULL), reported = reading_step(value, steps[s]);
+            naive += floor(value / steps[s]) != k;
+            ours += reported != k * steps[s] || reading_step(reported, steps[s]) != reported;
+        }
+    hard_case("43", "1e4 multiples of five steps", "wrong", naive, ours, 0);
+}
+
+/* The border of a cell is where the doubles put it: |a - b| rounded once, then <=. The naive count
+ * is of decimals, a multiple of 0.01 m apart, that the doubles put on the other side. */
+static void the_border_of_a_cell_is_decided_in_doubles(void **state)
+{
+    (void)state;
+    static const double pairs[][2] = {{12.55, 12.40}, {12.70, 12.55}, {0.45, 0.30}};
+    static const int shared[] = {0, 1, 0};
+    uint64_t random = 44;
+    int points = hard_points(1000000);
+    double naive = 0, ours = 0;
+    mpfr_t difference;
+    mpfr_init2(difference, 53);
+    for (int i = 0; i < points; i++) {
+        int64_t a = 20000 + sample_integer(&random, 19000), b = a + sample_integer(&random, 20);
+        struct resolution_echo echoes[] = {{(double)a / 100, 0, 2}, {(double)b / 100, 0, 1}};
+        if (i < 3)
+            for (int k = 0; k < 2; k++)
+                echoes[k].range_m = pairs[i][k];
+        size_t cell[2];
+        bool one = resolution_cluster(echoes, 2, 0.15, 0.25, cell) == 1;
+        mpfr_set_d(difference, echoes[0].range_m, MPFR_RNDN);
+        mpfr_sub_d(difference, difference, echoes[1].range_m, MPFR_RNDN);
+        mpfr_abs(difference, difference, MPFR_RNDN);
+        ours += one != (mpfr_cmp_d(difference, 0.15) <= 0) || (i < 3 && one != shared[i]);
+        naive += i >= 3 && one != (llabs(a - b) <= 15);
+    }
+    mpfr_clear(difference);
+    hard_case("44", "cell border (naive: as decimals)", "wrong", naive, ours, 0);
+}
+
+enum { TIED = 6 };
+
+static void shuffle(uint64_t *random, void *items, size_t count, size_t size)
+{
+    char spare[1024], *bytes = items;
+    assert_true(size <= sizeof spare);
+    for (size_t i = count; i > 1; i--) {
+        char *one = bytes + (i - 1) * size;
+        char *other = bytes + (size_t)(sample_bits(random) % i) * size;
+        memcpy(spare, one, size);
+        memmove(one, other, size);
+        memcpy(other, spare, size);
+    }
+}
+
+/* Echoes 0 to 0.28 m apart, amplitudes the same or apart_ulp steps apart. */
+static void draw_rays(uint64_t *random, int64_t apart_ulp, struct ray rays[TIED])
+{
+    static const char *const names[] = {"a", "b", "c", "d", "e", "f"};
+    for (size_t i = 0; i < TIED; i++) {
+        double amplitude = 2 * (1 + (double)sample_integer(random, apart_ulp) * 0x1p-52);
+        rays[i] = (struct ray){.echo = {.object = "o",
+                                        .reflector = names[i],
+                                        .range_m = 10 + 0.07 * (double)(sample_bits(random) % 5)},
+                               .strength = amplitude,
+                               .amplitude = amplitude};
+    }
+}
+
+/* The means of the cells, in their order. */
+static size_t find_cells(const struct ray rays[TIED], double range_m[TIED])
+{
+    struct resolution_echo echoes[TIED];
+    size_t cell[TIED];
+    for (size_t i = 0; i < TIED; i++)
+        echoes[i] = (struct resolution_echo){rays[i].echo.range_m, 0, rays[i].amplitude};
+    size_t cells = resolution_cluster(echoes, TIED, 0.15, 0.25, cell);
+    for (size_t number = 0; number < cells; number++) {
+        double ranges[TIED], weights[TIED];
+        size_t count = 0;
+        for (size_t i = 0; i < TIED; i++)
+            if (cell[i] == number) {
+                ranges[count] = echoes[i].range_m;
+                weights[count++] = echoes[i].amplitude;
+            }
+        range_m[number] = resolution_mean(ranges, weights, count);
+    }
+    return cells;
+}
+
+static int compare_amplitudes(const void *left, const void *right)
+{
+    const struct ray *a = left, *b = right;
+    return (a->amplitude < b->amplitude) - (a->amplitude > b->amplitude);
+}
+
+/* Whether two orders of the rays make different lists under an order of strength. */
+static bool differ(const struct ray one[TIED], const struct ray other[TIED],
+                   int (*compare)(const void *, const void *), struct arena *arena)
+{
+    struct ray sorted[2][TIED];
+    double range_m[2][TIED];
+    size_t cells[2];
+    for (int i = 0; i < 2; i++) {
+        memcpy(sorted[i], i == 0 ? one : other, sizeof sorted[i]);
+        sort_items(sorted[i], TIED, sizeof sorted[i][0], compare, arena);
+        cells[i] = find_cells(sorted[i], range_m[i]);
+    }
+    arena_clear(arena);
+    return cells[0] != cells[1] || memcmp(range_m[0], range_m[1], cells[0] * sizeof(double)) != 0;
+}
+
+static void ties_fall_the_same_way_in_every_order(void **state)
+{
+    (void)state;
+    uint64_t random = 45;
+    struct arena arena = {0};
+    int points = hard_points(200000);
+    double naive = 0, ours = 0;
+    for (int i = 0; i < points; i++) {
+        struct ray rays[TIED], shuffled[TIED];
+        draw_rays(&random, 0, rays);
+        memcpy(shuffled, rays, sizeof shuffled);
+        shuffle(&random, shuffled, TIED, sizeof shuffled[0]);
+        naive += differ(rays, shuffled, compare_amplitudes, &arena);
+        ours += differ(rays, shuffled, superposition_compare, &arena);
+    }
+    arena_free(&arena);
+    hard_case("45", "cells of tied echoes, input shuffled", "wrong", naive, ours, 0);
+}
+
+static double through_text(double value, int digits)
+{
+    char text[64];
+    double back;
+    size_t length = digits > 0 ? (size_t)snprintf(text, sizeof text, "%.*g", digits, value)
+                               : number_write(value, text);
+    assert_true(number_read(text, text + length, &back));
+    return back;
+}
+
+/* One ulp decides, so a pipe between two stages must not move it. */
+static void near_ties_survive_the_pipe(void **state)
+{
+    (void)state;
+    uint64_t random = 46;
+    struct arena arena = {0};
+    int points = hard_points(200000);
+    double naive = 0, ours = 0;
+    for (int i = 0; i < points; i++) {
+        struct ray rays[TIED], rounded[TIED], carried[TIED];
+        draw_rays(&random, 1, rays);
+        memcpy(rounded, rays, sizeof rounded);
+        memcpy(carried, rays, sizeof carried);
+        for (size_t k = 0; k < TIED; k++) {
+            rounded[k].amplitude = through_text(rays[k].amplitude, 15);
+            carried[k].amplitude = through_text(rays[k].amplitude, 0);
+        }
+        shuffle(&random, carried, TIED, sizeof carried[0]);
+        naive += differ(rays, rounded, superposition_compare, &arena);
+        ours += differ(rays, carried, superposition_compare, &arena);
+    }
+    arena_free(&arena);
+    hard_case("46", "ties of 1 ulp through text (naive: 15 digits)", "wrong", naive, ours, 0);
+}
+
+struct keyed {
+    int key, place;
+};
+
+static int compare_keys(const void *left, const void *right)
+{
+    return ((const struct keyed *)left)->key - ((const struct keyed *)right)->key;
+}
+
+/* Selection by exchange, as some qsort may order what ties. */
+static void sort_unstably(struct keyed *items, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = i + 1; k < count; k++)
+            if (items[k].key < items[i].key) {
+                struct keyed item = items[i];
+                items[i] = items[k];
+                items[k] = item;
+            }
+}
+
+static double count_swapped(const struct keyed *items, size_t count)
+{
+    double swapped = 0;
+    for (size_t i = 1; i < count; i++)
+        swapped += items[i].key < items[i - 1].key ||
+                   (items[i].key == items[i - 1].key && items[i].place < items[i - 1].place);
+    return swapped;
+}
+
+static void sorting_keeps_the_order_of_ties(void **state)
+{
+    (void)state;
+    enum { ITEMS = 64 };
+    uint64_t random = 47;
+    struct arena arena = {0};
+    int points = hard_points(10000);
+    double naive = 0, ours = 0;
+    for (int i = 0; i < points; i++) {
+        struct keyed items[ITEMS], others[ITEMS];
+        for (int k = 0; k < ITEMS; k++)
+            items[k] = others[k] = (struct keyed){(int)(sample_bits(&random) % 4), k};
+        sort_items(items, ITEMS, sizeof items[0], compare_keys, &arena);
+        sort_unstably(others, ITEMS);
+        ours += count_swapped(items, ITEMS) > 0;
+        naive += count_swapped(others, ITEMS) > 0;
+        arena_clear(&arena);
+    }
+    arena_free(&arena);
+    hard_case("47", "64 tied keys sorted (naive: by exchange)", "wrong", naive, ours, 0);
+}
+
+/* The echoes of each sensor, which stand together. */
+static void shuffle_echoes(uint64_t *random, struct frame *frame)
+{
+    struct echo *echoes = frame->echoes.items;
+    for (size_t begin = 0, end; begin < frame->echoes.count; begin = end) {
+        for (end = begin;
+             end < frame->echoes.count && strcmp(echoes[end].sensor, echoes[begin].sensor) == 0;)
+            end++;
+        shuffle(random, echoes + begin, end - begin, sizeof *echoes);
+    }
+}
+
+/* The echoes, cells and targets that stages from to the last make of the chain's frame. */
+static void find_targets(struct hard_chain *chain, size_t from, struct text *text)
+{
+    hard_chain_step(chain, from, CHAIN_STAGES - 1);
+    frame_drop(&chain->frame, SECTION_OBJECTS | SECTION_REFLECTORS);
+    text->length = 0;
+    hard_chain_write(chain, text);
+}
+
+enum { ORDERS = 1000, SCENES = 20 };
+
+/* Runs one scene in 50 orders of its objects, or of its echoes: how often a byte changed. */
+static double count_changes(struct hard_chain *chain, uint64_t *random, bool objects)
+{
+    struct text line = {0}, first = {0}, text = {0};
+    struct frame *frame = &chain->frame;
+    size_t from = objects ? 1 : 3;
+    double changes = 0;
+    hard_chain_next(chain);
+    hard_chain_step(chain, 1, from - 1);
+    hard_chain_write(chain, &line);
+    find_targets(chain, from, &first);
+    for (int i = 0; i < hard_points(ORDERS) / SCENES; i++) {
+        struct diag diag = {0};
+        assert_int_equal(frame_text_read(line.bytes, line.length - 1, frame, &diag), 0);
+        if (objects)
+            shuffle(random, frame->objects.items, frame->objects.count, sizeof(struct object));
+        else
+            shuffle_echoes(random, frame);
+        find_targets(chain, from, &text);
+        changes += text.length != first.length || memcmp(text.bytes, first.bytes, text.length) != 0;
+    }
+    text_free(&line);
+    text_free(&first);
+    text_free(&text);
+    return changes;
+}
+
+static void orders_of_input_change_no_byte(bool objects, const char *title)
+{
+    uint64_t random = 451;
+    struct hard_chain chain;
+    double ours = 0;
+    hard_chain_start(&chain, 999990, SCENES);
+    for (int i = 0; i < SCENES; i++)
+        ours += count_changes(&chain, &random, objects);
+    hard_chain_stop(&chain);
+    hard_case("45", title, "wrong", (double)NAN, ours, 0);
+}
+
+static void the_order_of_objects_changes_no_byte(void **state)
+{
+    (void)state;
+    orders_of_input_change_no_byte(true, "cells and targets, 1,000 orders of objects");
+}
+
+static void the_order_of_echoes_changes_no_byte(void **state)
+{
+    (void)state;
+    orders_of_input_change_no_byte(false, "cells and targets, 1,000 orders of echoes");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(a_million_frames_stand_at_their_times, make_scratch,
+                                        remove_scratch),
+        cmocka_unit_test_setup_teardown(a_frame_is_found_again_from_its_time, make_scratch,
+                                        remove_scratch),
+        cmocka_unit_test_setup_teardown(scans_fall_on_their_frames, make_scratch, remove_scratch),
+        cmocka_unit_test_setup_teardown(unix_times_keep_their_intervals, make_scratch,
+                                        remove_scratch),
+        cmocka_unit_test_setup_teardown(straight_motion_does_not_drift, make_scratch,
+                                        remove_scratch),
+        cmocka_unit_test(multiples_of_a_step_stay_in_their_bin),
+        cmocka_unit_test(the_border_of_a_cell_is_decided_in_doubles),
+        cmocka_unit_test(ties_fall_the_same_way_in_every_order),
+        cmocka_unit_test(near_ties_survive_the_pipe),
+        cmocka_unit_test(sorting_keeps_the_order_of_ties),
+        cmocka_unit_test(the_order_of_objects_changes_no_byte),
+        cmocka_unit_test(the_order_of_echoes_changes_no_byte),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

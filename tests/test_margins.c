@@ -1,0 +1,73 @@
+#include "check.h"
+
+#include <string.h>
+
+#include "margins.h"
+
+static void a_margin_is_the_least_that_was_noted(void **state)
+{
+    (void)state;
+    struct margins margins = {0};
+    assert_int_equal(margins.told, 0);
+    margins_note(&margins, MARGIN_LEADER, 3);
+    margins_note(&margins, MARGIN_LEADER, 2);
+    margins_note(&margins, MARGIN_LEADER, 5);
+    margins_note(&margins, MARGIN_SIGN, 0);
+    margins_note(&margins, MARGIN_SIGHT, (double)INFINITY);
+    margins_note(&margins, MARGIN_LIMIT_M, (double)NAN);
+    assert_int_equal(margins.told, MARGIN_LEADER | MARGIN_SIGN);
+    assert_close(margins.leader_db, 2, 0);
+    assert_close(margins.sign, 0, 0);
+}
+
+static void every_kind_has_its_member(void **state)
+{
+    (void)state;
+    struct margins margins = {0};
+    for (int kind = 0; kind < 7; kind++)
+        margins_note(&margins, (enum margin)(1 << kind), kind);
+    const double members[] = {margins.sight_m,   margins.threshold_db, margins.leader_db,
+                              margins.cell_edge, margins.sign,         margins.limit_db,
+                              margins.limit_m};
+    for (int kind = 0; kind < 7; kind++)
+        assert_close(members[kind], kind, 0);
+    assert_int_equal(margins.told, 127);
+}
+
+static void merging_keeps_the_least_of_each(void **state)
+{
+    (void)state;
+    struct margins one = {0}, other = {0};
+    margins_note(&one, MARGIN_SIGHT, 1);
+    margins_note(&one, MARGIN_SIGN, 0.5);
+    margins_note(&other, MARGIN_SIGHT, 2);
+    margins_note(&other, MARGIN_SIGN, 0.25);
+    margins_note(&other, MARGIN_LIMIT_M, 7);
+    margins_merge(&one, &other);
+    assert_int_equal(one.told, MARGIN_SIGHT | MARGIN_SIGN | MARGIN_LIMIT_M);
+    assert_close(one.sight_m, 1, 0);
+    assert_close(one.sign, 0.25, 0);
+    assert_close(one.limit_m, 7, 0);
+    margins_merge(&other, &(struct margins){0});
+    assert_close(other.sight_m, 2, 0);
+}
+
+static void amplitudes_are_apart_in_decibels(void **state)
+{
+    (void)state;
+    static const double cases[][3] = {{10, 1, 20}, {1, 10, 20},          {3, 3, 0},
+                                      {0, 1, 1e4}, {1e300, 1e-300, 1e4}, {100, 1, 40}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        assert_close(margins_between_db(cases[i][0], cases[i][1]), cases[i][2], 1e-12);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_margin_is_the_least_that_was_noted),
+        cmocka_unit_test(every_kind_has_its_member),
+        cmocka_unit_test(merging_keeps_the_least_of_each),
+        cmocka_unit_test(amplitudes_are_apart_in_decibels),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,172 @@
+#include "check.h"
+
+#include "poisson.h"
+#include "sample.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+/* The probability of k from its textbook form: Poisson, or negative binomial with r = m^2/(s^2 - m)
+ * and p = m/s^2, by logarithms of gamma functions in extended precision. */
+static long double probability(double mean, double overdispersion, int64_t count)
+{
+    long double k = (long double)count, m = (long double)mean, f = (long double)overdispersion;
+    if (overdispersion == 1)
+        return expl(k * logl(m) - m - lgammal(k + 1));
+    long double r = m / (f - 1);
+    return expl(lgammal(k + r) - lgammal(r) - lgammal(k + 1) - r * logl(f) + k * logl(1 - 1 / f));
+}
+
+static int64_t draw(double mean, double overdispersion, double uniform)
+{
+    return overdispersion == 1 ? poisson_count(mean, uniform)
+                               : poisson_overdispersed_count(mean, overdispersion, uniform);
+}
+
+static const double laws[][2] = {{1e-6, 1},     {0.032768, 1}, {0.5, 1},  {0.64, 1},  {1, 1},
+                                 {2.097152, 1}, {7.5, 1},      {15.9, 1}, {16, 1},    {16.1, 1},
+                                 {94, 1},       {1000, 1},     {5000, 1}, {20000, 1}, {0.3, 2},
+                                 {2, 1.5},      {10, 100},     {15.9, 3}, {16, 3},    {94, 3.4468},
+                                 {200, 19.845}, {30, 1.0001},  {20, 40},  {3000, 50}, {1e-3, 1000}};
+
+/* Both neighbours of the uniform among the sums of the exact probabilities. */
+static void a_count_is_where_the_sum_of_probabilities_passes_the_uniform(void **state)
+{
+    (void)state;
+    static const double uniforms[] = {0x1p-53, 1e-12, 1e-6, 1e-3, 0.01, 0.1,   0.3,      0.5,
+                                      0.527,   0.6,   0.8,  0.9,  0.99, 0.999, 0.999999, 1 - 1e-9};
+    for (size_t i = 0; i < COUNT(laws); i++) {
+        long double sum = 0;
+        int64_t next = 0;
+        for (size_t j = 0; j < COUNT(uniforms); j++) {
+            int64_t count = draw(laws[i][0], laws[i][1], uniforms[j]);
+            assert_true(count >= 0 && count + 1 >= next);
+            while (next < count)
+                sum += probability(laws[i][0], laws[i][1], next++);
+            long double slack = 1e-11L * (long double)uniforms[j] + 1e-14L;
+            long double with = sum + probability(laws[i][0], laws[i][1], count);
+            if (next > count) /* the sum holds the count already */
+                with = sum;
+            else
+                assert_true(sum <= (long double)uniforms[j] + slack);
+            assert_true(with >= (long double)uniforms[j] - slack);
+        }
+    }
+}
+
+static void effects_9_has_no_false_alarm_in_half_of_all_scans(void **state)
+{
+    (void)state;
+    assert_int_equal(poisson_count(6400 * 1e-4, 0.5272919), 0);
+    assert_int_equal(poisson_count(6400 * 1e-4, 0.5272930), 1);
+    assert_int_equal(poisson_count(32768e-6, 0.96776), 0);
+    assert_int_equal(poisson_count(32768e-6, 0.96777), 1);
+}
+
+static void counts_are_bounded_and_odd_means_are_none(void **state)
+{
+    (void)state;
+    static const double none[] = {0, -0.0, -1, -INFINITY, NAN};
+    for (size_t i = 0; i < COUNT(none); i++) {
+        assert_int_equal(poisson_count(none[i], 1 - 0x1p-53), 0);
+        assert_int_equal(poisson_overdispersed_count(none[i], 5, 1 - 0x1p-53), 0);
+    }
+    assert_int_equal(poisson_count(1e-300, 1 - 0x1p-53), 0);
+    assert_in_range(poisson_count(0.5, 1 - 0x1p-53), 12, 60);
+    assert_in_range(poisson_count(1000, 0x1p-53), 700, 1000);
+    assert_in_range(poisson_count(1000, 1 - 0x1p-53), 1000, 1350);
+    assert_int_equal(poisson_count(INFINITY, 0.25), poisson_count(1e9, 0.25));
+    assert_in_range(poisson_count(1e9, 0.5), 1000000000 - 2, 1000000000 + 2);
+    for (double uniform = 0.05; uniform < 1; uniform += 0.05) {
+        int64_t count = poisson_count(50, uniform);
+        assert_int_equal(poisson_overdispersed_count(50, 0.5, uniform), count);
+        assert_int_equal(poisson_overdispersed_count(50, NAN, uniform), count);
+        assert_int_equal(poisson_overdispersed_count(50, 1e9, uniform),
+                         poisson_overdispersed_count(50, 1e3, uniform));
+    }
+}
+
+static void counts_never_fall_when_their_uniform_grows(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < COUNT(laws); i++) {
+        int64_t before = 0;
+        for (double uniform = 0x1p-11; uniform < 1; uniform += 0x1p-10) {
+            int64_t count = draw(laws[i][0], laws[i][1], uniform);
+            assert_true(count >= before);
+            before = count;
+        }
+    }
+}
+
+enum { DRAWS = 100000, MOST = 8000 };
+
+/* Pearson's chi square over counts joined until 50 are expected. Its mean is the number of joined
+ * counts less one, its variance twice that; five standard deviations above are allowed. */
+static void check_frequencies(double mean, double overdispersion, uint64_t *sample)
+{
+    static int seen[MOST];
+    for (int k = 0; k < MOST; k++)
+        seen[k] = 0;
+    for (int i = 0; i < DRAWS; i++) {
+        int64_t count = draw(mean, overdispersion, sample_between(sample, 0x1p-50, 1));
+        seen[count < MOST ? count : MOST - 1]++;
+    }
+    double chi_square = 0, expected = 0, observed = 0, used = 0;
+    int groups = 0;
+    for (int k = 0; k < MOST; k++) {
+        expected += DRAWS * (double)probability(mean, overdispersion, k);
+        observed += seen[k];
+        if (expected >= 50 && DRAWS - used - expected >= 50) {
+            chi_square += (observed - expected) * (observed - expected) / expected;
+            used += expected;
+            groups++;
+            expected = observed = 0;
+        }
+    }
+    expected = DRAWS - used;
+    chi_square += (observed - expected) * (observed - expected) / expected;
+    assert_true(chi_square < groups + 5 * sqrt(2.0 * groups));
+    assert_true(chi_square > groups - 5 * sqrt(2.0 * groups) || groups < 5);
+}
+
+static void frequencies_are_those_of_the_law(void **state)
+{
+    (void)state;
+    static const double cases[][2] = {{0.5, 1}, {1.5, 1},  {12, 1},      {94, 1},      {1000, 1},
+                                      {2, 3},   {12, 4.5}, {94, 3.4468}, {200, 19.845}};
+    uint64_t sample = 9;
+    for (size_t i = 0; i < COUNT(cases); i++)
+        check_frequencies(cases[i][0], cases[i][1], &sample);
+}
+
+/* EFFECTS 24: 94 +- 18 detections a scan in a standing car, about 200 +- 63 in a moving one. */
+static void scan_totals_have_their_measured_mean_and_spread(void **state)
+{
+    (void)state;
+    static const double cases[][2] = {{94, 18}, {200, 63}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        double mean = cases[i][0], deviation = cases[i][1], sum = 0, squares = 0;
+        for (int k = 0; k < DRAWS; k++) { /* evenly spread: no chance in it */
+            double uniform = (k + 0.5) / DRAWS;
+            int64_t count =
+                poisson_overdispersed_count(mean, deviation * deviation / mean, uniform);
+            sum += (double)count;
+            squares += ((double)count - mean) * ((double)count - mean);
+        }
+        assert_near(sum / DRAWS, mean, 1e-4);
+        assert_near(sqrt(squares / DRAWS), deviation, 1e-3);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_count_is_where_the_sum_of_probabilities_passes_the_uniform),
+        cmocka_unit_test(effects_9_has_no_false_alarm_in_half_of_all_scans),
+        cmocka_unit_test(counts_are_bounded_and_odd_means_are_none),
+        cmocka_unit_test(counts_never_fall_when_their_uniform_grows),
+        cmocka_unit_test(frequencies_are_those_of_the_law),
+        cmocka_unit_test(scan_totals_have_their_measured_mean_and_spread),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
