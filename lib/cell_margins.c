@@ -50,18 +50,15 @@ static void note_sign(const struct sensor *sensor, struct antenna_pointers point
 
 void cell_margins_add(const struct sensor *sensor, struct cell *cell)
 {
-    const double _Complex i = (double _Complex)I;
-    struct antenna_pointers pointers = {cell->sum_re + i * cell->sum_im,
-                                        cell->delta_re + i * cell->delta_im};
     margins_note(&cell->margins, MARGIN_THRESHOLD,
                  margins_between_db(cell->amplitude, sensor->threshold));
-    note_sign(sensor, pointers, &cell->margins);
+    note_sign(sensor, superposition_pointers(cell), &cell->margins);
 }
 
 void cell_margins_add_noisy(const struct sensor *sensor, struct antenna_pointers pointers,
-                            double amplitude, struct margins *margins)
+                            double amplitude, bool final_threshold, struct margins *margins)
 {
-    if (sensor->final_threshold)
+    if (final_threshold)
         margins_note(margins, MARGIN_THRESHOLD, margins_between_db(amplitude, sensor->threshold));
     note_sign(sensor, pointers, margins);
 }

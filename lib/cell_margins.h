@@ -22,8 +22,8 @@ struct margins cell_margins_of(const struct sensor *sensor, const struct cluster
  * sign of its azimuth, which only the magnitude rule decides. */
 void cell_margins_add(const struct sensor *sensor, struct cell *cell);
 
-/* The same for what noise made of it: the final threshold, if there is one, and the sign. */
+/* The same for what noise made of it: the final threshold, if it is tested, and the sign. */
 void cell_margins_add_noisy(const struct sensor *sensor, struct antenna_pointers pointers,
-                            double amplitude, struct margins *margins);
+                            double amplitude, bool final_threshold, struct margins *margins);
 
 #endif

@@ -16,6 +16,7 @@ struct reading reading_of(const struct cell *cell)
         .range_rate_mps = cell->range_rate_mps,
         .amplitude = elementary_hypot(cell->sum_re, cell->sum_im),
         .sign_undecided = cell->sign_undecided,
+        .effects = cell->effects,
         .margins = cell->margins,
     };
 }
@@ -23,6 +24,17 @@ struct reading reading_of(const struct cell *cell)
 double reading_step(double value, double step)
 {
     return step > 0 ? step * round(value / step) : value;
+}
+
+void reading_round(struct reading *reading, const struct sensor *sensor)
+{
+    struct reading exact = *reading;
+    reading->range_m = reading_step(exact.range_m, sensor->range_step_m);
+    reading->azimuth_rad = reading_step(exact.azimuth_rad, sensor->azimuth_step_rad);
+    reading->range_rate_mps = reading_step(exact.range_rate_mps, sensor->range_rate_step_mps);
+    if (reading->range_m != exact.range_m || reading->azimuth_rad != exact.azimuth_rad ||
+        reading->range_rate_mps != exact.range_rate_mps)
+        reading->effects |= EFFECT_BIT(EFFECT_QUANTISATION);
 }
 
 static int compare_leaders(const struct reading *a, const struct reading *b)
@@ -89,6 +101,7 @@ void readings_list(struct frame *frame, const char *stage, const struct sensor *
             target->azimuth_rad = reading->azimuth_rad;
             target->range_rate_mps = reading->range_rate_mps;
             target->sign_undecided = reading->sign_undecided;
+            target->effects = reading->effects;
             target->margins = reading->margins;
             listed++;
         }

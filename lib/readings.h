@@ -11,6 +11,7 @@ struct reading {
     double range_m, azimuth_rad, range_rate_mps;
     double amplitude; /* linear */
     bool sign_undecided;
+    uint64_t effects; /* that changed one of these values */
     struct margins margins;
 };
 
@@ -19,6 +20,9 @@ struct reading reading_of(const struct cell *cell);
 
 /* Rounds value to the nearest multiple of step; 0 leaves it as it is. */
 double reading_step(double value, double step);
+
+/* Rounds all three values to the sensor's steps. */
+void reading_round(struct reading *reading, const struct sensor *sensor);
 
 /* Writes count readings of one sensor as targets: strongest or nearest first, ties by the frame's
  * total order, at most limit of them (0: all). The rest is lost for the stage. A reading without

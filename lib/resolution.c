@@ -1,8 +1,10 @@
 #include "resolution.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <stdint.h>
+#include <string.h>
+
+#include "sort.h"
 
 #define NO_CELL SIZE_MAX
 
@@ -11,6 +13,28 @@ static bool shares_cell(const struct resolution_echo *leader, const struct resol
 {
     return fabs(echo->range_m - leader->range_m) <= half_range_m &&
            fabs(echo->range_rate_mps - leader->range_rate_mps) <= half_range_rate_mps;
+}
+
+static int compare_ranges(const void *left, const void *right)
+{
+    const struct resolution_echo *a = left, *b = right;
+    return (a->range_m > b->range_m) - (a->range_m < b->range_m);
+}
+
+bool resolution_close(const struct resolution_echo *echoes, size_t count, double half_range_m,
+                      double half_range_rate_mps, struct resolution_echo *by_range,
+                      struct arena *arena)
+{
+    if (count == 0)
+        return false;
+    memcpy(by_range, echoes, count * sizeof *echoes);
+    sort_items(by_range, count, sizeof *by_range, compare_ranges, arena);
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = i + 1;
+             j < count && by_range[j].range_m - by_range[i].range_m <= half_range_m; j++)
+            if (shares_cell(&by_range[i], &by_range[j], half_range_m, half_range_rate_mps))
+                return true;
+    return false;
 }
 
 size_t resolution_cluster(const struct resolution_echo *echoes, size_t count, double half_range_m,

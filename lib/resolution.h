@@ -6,7 +6,10 @@
 #ifndef RESOLUTION_H
 #define RESOLUTION_H
 
+#include <stdbool.h>
 #include <stddef.h>
+
+#include "memory.h"
 
 struct resolution_echo {
     double range_m;
@@ -20,6 +23,12 @@ struct resolution_echo {
  * cell is its leader. */
 size_t resolution_cluster(const struct resolution_echo *echoes, size_t count, double half_range_m,
                           double half_range_rate_mps, size_t *cell);
+
+/* Do any two echoes lie within half a cell of each other in both, so that there is something to
+ * merge? by_range has room for the echoes; they may come in any order. */
+bool resolution_close(const struct resolution_echo *echoes, size_t count, double half_range_m,
+                      double half_range_rate_mps, struct resolution_echo *by_range,
+                      struct arena *arena);
 
 /* The mean of count values under positive weights, anchored at the first value: values + sum of
  * w (v - v0) / sum of w. Equal values come back exactly, and the mean never leaves their span

@@ -10,7 +10,11 @@
 struct ray superposition_ray(const struct sensor *sensor, const struct echo *echo, double phase_rad)
 {
     struct ray ray = {
-        .echo = frame_contributor(echo), .phase_rad = phase_rad, .margins = &echo->margins};
+        .echo = frame_contributor(echo),
+        .phase_rad = phase_rad,
+        .effects = echo->effects,
+        .margins = &echo->margins,
+    };
     ray.strength = radar_reference_amplitude(&sensor->amplitude_law, echo->range_m) * echo->ercs;
     ray.amplitude = ray.strength * antenna_gain(&sensor->antenna, echo->azimuth_rad);
     return ray;
@@ -69,12 +73,37 @@ static struct antenna_pointers add_pointers(const struct sensor *sensor, const s
     return (struct antenna_pointers){total_pointer(&sum), total_pointer(&delta)};
 }
 
-bool superposition_cell(const struct sensor *sensor, const struct ray *rays, size_t count,
-                        struct arena *arena, struct cell *cell)
+/* All rays as one echo at their mean azimuth. */
+static struct ray merge(const struct ray *rays, size_t count, const double *weight, double *azimuth)
 {
-    double *range = arena_get(arena, 3 * count * sizeof *range);
-    double *rate = range + count, *weight = rate + count;
-    *cell = (struct cell){.sensor = sensor->name};
+    struct ray merged = rays[0];
+    for (size_t i = 0; i < count; i++)
+        azimuth[i] = rays[i].echo.azimuth_rad;
+    for (size_t i = 1; i < count; i++)
+        merged.strength += rays[i].strength;
+    merged.echo.azimuth_rad = resolution_mean(azimuth, weight, count);
+    return merged;
+}
+
+static uint64_t effects_of(const struct ray *rays, size_t count, bool superpose)
+{
+    uint64_t effects = count > 1 ? EFFECT_BIT(EFFECT_MERGING) : 0;
+    if (count > 1 && superpose)
+        effects |= EFFECT_BIT(EFFECT_SUPERPOSITION);
+    for (size_t i = 0; i < count; i++) {
+        effects |= rays[i].effects;
+        if (superpose && rays[i].phase_rad != rays[0].phase_rad)
+            effects |= EFFECT_BIT(EFFECT_COHERENCE);
+    }
+    return effects;
+}
+
+bool superposition_cell(const struct sensor *sensor, const struct ray *rays, size_t count,
+                        bool superpose, struct arena *arena, struct cell *cell)
+{
+    double *range = arena_get(arena, 4 * count * sizeof *range);
+    double *rate = range + count, *weight = rate + count, *azimuth = weight + count;
+    *cell = (struct cell){.sensor = sensor->name, .effects = effects_of(rays, count, superpose)};
     for (size_t i = 0; i < count; i++) {
         range[i] = rays[i].echo.range_m;
         rate[i] = rays[i].echo.range_rate_mps;
@@ -88,7 +117,9 @@ bool superposition_cell(const struct sensor *sensor, const struct ray *rays, siz
     }
     cell->range_m = resolution_mean(range, weight, count);
     cell->range_rate_mps = resolution_mean(rate, weight, count);
-    struct antenna_pointers pointers = add_pointers(sensor, rays, count);
+    struct ray merged = superpose ? rays[0] : merge(rays, count, weight, azimuth);
+    struct antenna_pointers pointers =
+        superpose ? add_pointers(sensor, rays, count) : add_pointers(sensor, &merged, 1);
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
     cell->sum_re = creal(pointers.sum);
@@ -98,4 +129,13 @@ bool superposition_cell(const struct sensor *sensor, const struct ray *rays, siz
     cell->azimuth_rad = angle.azimuth_rad;
     cell->sign_undecided = angle.sign_undecided;
     return angle.valid;
+}
+
+struct antenna_pointers superposition_pointers(const struct cell *cell)
+{
+    const double _Complex i = (double _Complex)I;
+    return (struct antenna_pointers){
+        .sum = cell->sum_re + i * cell->sum_im,
+        .delta = cell->delta_re + i * cell->delta_im,
+    };
 }

@@ -12,6 +12,7 @@ struct ray {
     double strength;  /* G = A_ref(R) ERCS: the amplitude before the antenna */
     double amplitude; /* A = G A_phi, equation (2) */
     double phase_rad; /* relative to the other echoes of a cell; 0 in the paper's model */
+    uint64_t effects; /* the echo's, and those of its amplitude and phase */
     const struct margins *margins; /* the echo's */
 };
 
@@ -25,8 +26,14 @@ int superposition_compare(const void *left, const void *right);
  * comes from the arena. The amplitude is the sum of theirs (equation 5's denominator, the upper
  * bound of what the cell can return), range and rate are the means of equation (4), the pointers
  * are equation (8) without noise, the azimuth is read off them by the sensor's estimator. False if
- * both pointers are zero, so that there is no azimuth. */
+ * both pointers are zero, so that there is no azimuth.
+ *
+ * Without superpose, the pointers are those of one echo of the rays' whole strength at their mean
+ * azimuth: for a cell of one ray that is the same to the bit. */
 bool superposition_cell(const struct sensor *sensor, const struct ray *rays, size_t count,
-                        struct arena *arena, struct cell *cell);
+                        bool superpose, struct arena *arena, struct cell *cell);
+
+/* A cell's noise-free pointers. */
+struct antenna_pointers superposition_pointers(const struct cell *cell);
 
 #endif

@@ -8,71 +8,120 @@
 #include "random.h"
 #include "readings.h"
 #include "stage.h"
+#include "superposition.h"
 #include "units.h"
 
-/* Equation (8): both channels get independent complex noise of the same RMS. */
-static struct antenna_pointers noisy_pointers(const struct cell *cell, const struct sensor *sensor,
-                                              const struct random_address *address)
+/* What the effects at home here do to this sensor's cells. */
+struct disturbance {
+    const struct sensor *sensor;
+    bool pointers, range, by_amplitude, final_threshold, steps;
+    int64_t list_limit;
+};
+
+static bool on(const struct selection *selection, enum effect effect, bool described)
 {
-    double draw[4], sigma = sensor->pointer_sigma * sqrt(0.5);
-    random_gaussian(address, RANDOM_POINTERS, 0, draw);
-    const double _Complex i = (double _Complex)I;
-    return (struct antenna_pointers){
-        .sum = cell->sum_re + sigma * draw[0] + i * (cell->sum_im + sigma * draw[1]),
-        .delta = cell->delta_re + sigma * draw[2] + i * (cell->delta_im + sigma * draw[3]),
+    bool simulated = described && effects_may(selection, effect);
+    effects_note(selection, effect, simulated);
+    return simulated;
+}
+
+static struct disturbance disturbance_of(const struct sensor *sensor,
+                                         const struct selection *selection)
+{
+    bool steps =
+        sensor->range_step_m > 0 || sensor->range_rate_step_mps > 0 || sensor->azimuth_step_rad > 0;
+    return (struct disturbance){
+        .sensor = sensor,
+        .pointers = on(selection, EFFECT_ANGLE_NOISE, sensor->pointer_sigma > 0),
+        .range = on(selection, EFFECT_RANGE_NOISE,
+                    sensor->range_sigma_m > 0 || sensor->range_rate_sigma_mps > 0),
+        .by_amplitude = on(selection, EFFECT_ACCURACY, sensor->sigma_law == SIGMA_BY_AMPLITUDE),
+        .final_threshold = on(selection, EFFECT_FINAL_THRESHOLD, sensor->final_threshold),
+        .steps = on(selection, EFFECT_QUANTISATION, steps),
+        .list_limit =
+            on(selection, EFFECT_LIST_LIMIT, sensor->list_limit > 0) ? sensor->list_limit : 0,
     };
 }
 
-/* False if there is nothing to read an angle off. */
-static bool measure(const struct cell *cell, const struct sensor *sensor,
-                    const struct random_address *address, struct antenna_pointers pointers,
-                    struct reading *reading)
+/* Equation (8): both channels get independent complex noise of the same RMS. */
+static struct antenna_pointers disturb_pointers(const struct disturbance *by,
+                                                const struct random_address *address,
+                                                struct antenna_pointers pointers)
 {
+    double draw[4], sigma = by->sensor->pointer_sigma * sqrt(0.5);
+    if (!by->pointers)
+        return pointers;
+    random_gaussian(address, RANDOM_POINTERS, 0, draw);
+    const double _Complex i = (double _Complex)I;
+    pointers.sum += sigma * draw[0] + i * (sigma * draw[1]);
+    pointers.delta += sigma * draw[2] + i * (sigma * draw[3]);
+    return pointers;
+}
+
+static void disturb_range(const struct disturbance *by, const struct random_address *address,
+                          struct reading *reading)
+{
+    const struct sensor *sensor = by->sensor;
+    double draw[4], part = 1;
+    if (!by->range)
+        return;
+    if (by->by_amplitude)
+        part = fmin(sensor->threshold / reading->cell->amplitude, 1);
+    random_gaussian(address, RANDOM_RANGE_RATE, 0, draw);
+    reading->range_m = fmax(reading->range_m + part * sensor->range_sigma_m * draw[0], 0);
+    reading->range_rate_mps += part * sensor->range_rate_sigma_mps * draw[1];
+    if (reading->range_m != reading->cell->range_m ||
+        reading->range_rate_mps != reading->cell->range_rate_mps)
+        reading->effects |= EFFECT_BIT(EFFECT_RANGE_NOISE);
+    if (part != 1)
+        reading->effects |= EFFECT_BIT(EFFECT_ACCURACY);
+}
+
+/* False if there is nothing to read an angle off. */
+static bool measure(const struct frame *frame, const struct disturbance *by,
+                    const struct cell *cell, struct reading *reading)
+{
+    const struct sensor *sensor = by->sensor;
+    struct random_address address = runner_address(frame, sensor->name, &cell->members.items[0]);
+    struct antenna_pointers pointers = disturb_pointers(by, &address, superposition_pointers(cell));
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
-    bool fixed = sensor->sigma_law == SIGMA_FIXED;
-    double part = fixed ? 1 : fmin(sensor->threshold / cell->amplitude, 1), draw[4];
-    random_gaussian(address, RANDOM_RANGE_RATE, 0, draw);
-    double range_m = cell->range_m + part * sensor->range_sigma_m * draw[0];
-    double rate_mps = cell->range_rate_mps + part * sensor->range_rate_sigma_mps * draw[1];
-    *reading = (struct reading){
-        .cell = cell,
-        .range_m = reading_step(fmax(range_m, 0), sensor->range_step_m),
-        .azimuth_rad = reading_step(angle.azimuth_rad, sensor->azimuth_step_rad),
-        .range_rate_mps = reading_step(rate_mps, sensor->range_rate_step_mps),
-        .amplitude = elementary_hypot(creal(pointers.sum), cimag(pointers.sum)),
-        .sign_undecided = angle.sign_undecided,
-        .margins = cell->margins,
-    };
+    *reading = reading_of(cell);
+    reading->azimuth_rad = angle.azimuth_rad;
+    reading->amplitude = elementary_hypot(creal(pointers.sum), cimag(pointers.sum));
+    reading->sign_undecided = angle.sign_undecided;
+    if (by->pointers)
+        reading->effects |= EFFECT_BIT(EFFECT_ANGLE_NOISE);
+    disturb_range(by, &address, reading);
+    if (by->steps)
+        reading_round(reading, sensor);
+    if (frame->margins)
+        cell_margins_add_noisy(sensor, pointers, reading->amplitude, by->final_threshold,
+                               &reading->margins);
     return angle.valid;
 }
 
 static void list_targets(struct frame *frame, const struct sensor *sensor,
                          const struct selection *selection)
 {
-    (void)selection;
+    struct disturbance by = disturbance_of(sensor, selection);
     struct cell_span cells = frame_cells_of(frame, sensor->name);
     struct reading *readings = arena_get(frame->arena, (cells.count + 1) * sizeof *readings);
     size_t count = 0;
     for (size_t i = 0; i < cells.count; i++) {
         const struct cell *cell = &cells.items[i];
-        struct random_address address =
-            runner_address(frame, sensor->name, &cell->members.items[0]);
-        struct antenna_pointers pointers = noisy_pointers(cell, sensor, &address);
-        bool has_angle = measure(cell, sensor, &address, pointers, &readings[count]);
-        double amplitude = readings[count].amplitude;
-        struct margins *margins = &readings[count].margins;
-        if (frame->margins)
-            cell_margins_add_noisy(sensor, pointers, amplitude, margins);
-        if (sensor->final_threshold && amplitude < sensor->threshold)
+        struct reading *reading = &readings[count];
+        bool has_angle = measure(frame, &by, cell, reading);
+        if (by.final_threshold && reading->amplitude < sensor->threshold)
             frame_lose_cell(frame, "noise", cell, LOSS_BELOW_FINAL,
-                            units_shortfall_db(sensor->threshold, amplitude), margins);
+                            units_shortfall_db(sensor->threshold, reading->amplitude),
+                            &reading->margins);
         else if (!has_angle)
-            frame_lose_cell(frame, "noise", cell, LOSS_NO_ANGLE, 0, margins);
+            frame_lose_cell(frame, "noise", cell, LOSS_NO_ANGLE, 0, &reading->margins);
         else
             count++;
     }
-    readings_list(frame, "noise", sensor, readings, count, sensor->list_limit);
+    readings_list(frame, "noise", sensor, readings, count, by.list_limit);
 }
 
 static int noise_step(void *state, struct frame *frame, struct runner *runner)

@@ -10,7 +10,7 @@ static void keep(struct frame *frame, const struct sensor *sensor, const struct 
         frame_lose_echo(frame, "sensor-perfect", echo, LOSS_NO_AMPLITUDE);
         return;
     }
-    superposition_cell(sensor, &ray, 1, frame->arena, &cell);
+    superposition_cell(sensor, &ray, 1, true, frame->arena, &cell);
     cell.azimuth_rad = echo->azimuth_rad;
     cell.sign_undecided = false;
     cell.margins = echo->margins;

@@ -66,7 +66,7 @@ static void one_echo_is_its_cell(void **state)
         struct echo echo = echo_at(12.3, azimuth_rad, 3.4, 0.7);
         struct ray ray = superposition_ray(&sensor, &echo, 0);
         struct cell cell;
-        assert_true(superposition_cell(&sensor, &ray, 1, &arena, &cell));
+        assert_true(superposition_cell(&sensor, &ray, 1, true, &arena, &cell));
         assert_close(cell.range_m, 12.3, 0);
         assert_close(cell.range_rate_mps, 3.4, 0);
         assert_close(cell.azimuth_rad, azimuth_rad, 1e-14);
@@ -90,7 +90,7 @@ static void two_echoes_are_weighted_by_amplitude(void **state)
          .amplitude = 2}};
     struct arena arena = {0};
     struct cell cell;
-    assert_true(superposition_cell(&sensor, rays, 2, &arena, &cell));
+    assert_true(superposition_cell(&sensor, rays, 2, true, &arena, &cell));
     assert_string_equal(cell.sensor, "s");
     assert_close(cell.amplitude, 8, 0);
     assert_near(cell.range_m, 10.05, 1e-15);
@@ -125,7 +125,7 @@ static void pointers_add_up_as_in_equation_8(void **state)
                               .strength = 1,
                               .amplitude = part}};
         struct cell cell;
-        assert_true(superposition_cell(&sensor, rays, 2, &arena, &cell));
+        assert_true(superposition_cell(&sensor, rays, 2, true, &arena, &cell));
         /* From the element each turns by e^{ju}: (1 +- j) sqrt(1/2). */
         double turn = sqrt(0.5);
         assert_close(cell.sum_re, element ? 4 * part * turn : 4 * part, 1e-14);
@@ -150,14 +150,14 @@ static void phases_turn_the_pointers(void **state)
                           .amplitude = 3,
                           .phase_rad = PI / 2}};
     struct cell cell;
-    assert_true(superposition_cell(&sensor, rays, 2, &arena, &cell));
+    assert_true(superposition_cell(&sensor, rays, 2, true, &arena, &cell));
     assert_close(cell.sum_re, 4, 1e-15);
     assert_close(cell.sum_im, 3, 1e-15);
     assert_close(cell.amplitude, 7, 0);
     /* Opposite and equal: nothing is left but rounding, and with no phase at all it is exact. */
     rays[1].strength = 4;
     rays[1].phase_rad = PI;
-    superposition_cell(&sensor, rays, 2, &arena, &cell);
+    superposition_cell(&sensor, rays, 2, true, &arena, &cell);
     assert_close(hypot(cell.sum_re, cell.sum_im), 0, 1e-14);
     arena_free(&arena);
 }
@@ -182,7 +182,7 @@ static void weights_sum_to_one_and_means_stay_inside(void **state)
         }
         qsort(rays, count, sizeof *rays, superposition_compare);
         struct cell cell;
-        assert_true(superposition_cell(&sensor, rays, count, &arena, &cell));
+        assert_true(superposition_cell(&sensor, rays, count, true, &arena, &cell));
         double total = 0, amplitude = 0;
         for (size_t i = 0; i < count; i++) {
             total += cell.members.items[i].weight;

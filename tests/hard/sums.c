@@ -221,7 +221,7 @@ static void a_cell_is_the_same_for_every_order_of_its_echoes(void **state)
         for (size_t i = 0; i < ECHOES; i++)
             plain[k] += rays[i].amplitude * rays[i].echo.range_m;
         sort_items(rays, ECHOES, sizeof *rays, superposition_compare, &arena);
-        superposition_cell(&plain_sensor, rays, ECHOES, &arena, &cell);
+        superposition_cell(&plain_sensor, rays, ECHOES, true, &arena, &cell);
         ours[k] = fingerprint(&cell);
         arena_clear(&arena);
     }
@@ -251,7 +251,7 @@ static void cells_of_any_amplitude_are_finite_and_exact(void **state)
             power_mean += amplitude * amplitude * rays[k].echo.range_m;
         }
         naive += !isfinite(power_mean / powers);
-        superposition_cell(&plain_sensor, rays, 4, &arena, &cell);
+        superposition_cell(&plain_sensor, rays, 4, true, &arena, &cell);
         double share = 1 + pow(10, -2.5) + pow(10, -5) + pow(10, -7.5);
         double expected_m =
             30 + 0.05 * (pow(10, -2.5) + 2 * pow(10, -5) + 3 * pow(10, -7.5)) / share;
@@ -276,10 +276,10 @@ static void an_amplitude_beyond_the_doubles_is_refused(void **state)
     const struct ray rays[] = {ray_of("a", 10, 0, 1.2e308), ray_of("b", 10, 0, 1.2e308)};
     struct diag alone = {0}, both = {0};
     struct cell *cell = list_add(&frame.cells, &arena);
-    superposition_cell(&plain_sensor, rays, 1, &arena, cell);
+    superposition_cell(&plain_sensor, rays, 1, true, &arena, cell);
     cell->amplitude = cell->sum_re = 1e307;
     field_check(&frame_record, &frame, &alone);
-    superposition_cell(&plain_sensor, rays, 2, &arena, cell);
+    superposition_cell(&plain_sensor, rays, 2, true, &arena, cell);
     field_check(&frame_record, &frame, &both);
     hard_case("17", "amplitude sum of 2.4e308 passes unreported", "wrong", 1,
               (alone.code != DIAG_OK) + (both.code == DIAG_OK) +
@@ -341,7 +341,7 @@ static int is_dropped(const struct sensor *sensor, double amplitude)
     struct arena arena = {0};
     struct ray ray = ray_of("r", 10, 0, amplitude);
     struct cell cell;
-    superposition_cell(sensor, &ray, 1, &arena, &cell);
+    superposition_cell(sensor, &ray, 1, true, &arena, &cell);
     arena_free(&arena);
     return cell.amplitude < sensor->threshold;
 }
