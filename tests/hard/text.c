@@ -28,12 +28,13 @@ static double from_bits(uint64_t bits)
 
 static uint64_t any_word(uint64_t *random)
 {
-    return sample_bits(random) << 32 ^ sample_bits(random);
+    uint64_t high = sample_bits(random) << 32;
+    return high ^ sample_bits(random);
 }
 
 static double any_finite(uint64_t *random)
 {
-    double value = NAN;
+    double value = (double)NAN;
     while (!isfinite(value))
         value = from_bits(any_word(random));
     return value;
