@@ -57,7 +57,7 @@ static void noise_floor_and_rounding_add_as_variances(void **state)
     /* 0.5 * 0.68 / 10 = 0.034; floor 0.05, step 0.1: 0.001156 + 0.0025 + 0.01 / 12 */
     struct accuracy accuracy = {.cell = 0.5, .factor = 0.68, .floor = 0.05, .step = 0.1};
     assert_near(accuracy_sigma(&accuracy, 100), sqrt(0.001156 + 0.0025 + 0.01 / 12), 1e-15);
-    assert_near(accuracy_sigma(&accuracy, INFINITY), sqrt(0.0025 + 0.01 / 12), 1e-15);
+    assert_near(accuracy_sigma(&accuracy, HUGE_VAL), sqrt(0.0025 + 0.01 / 12), 1e-15);
     /* Weak: anywhere in the cell, then rounded. */
     assert_near(accuracy_sigma(&accuracy, 1), sqrt(0.25 / 12 + 0.01 / 12), 1e-15);
     assert_near(accuracy_sigma(&accuracy, 0), sqrt(0.25 / 12 + 0.01 / 12), 1e-15);
@@ -65,7 +65,7 @@ static void noise_floor_and_rounding_add_as_variances(void **state)
     assert_near(accuracy_sigma(&accuracy, 1e-300), 0.5 / sqrt(12), 1e-15);
     struct accuracy nothing = {0};
     assert_close(accuracy_sigma(&nothing, 0), 0, 0);
-    assert_close(accuracy_sigma(&nothing, INFINITY), 0, 0);
+    assert_close(accuracy_sigma(&nothing, HUGE_VAL), 0, 0);
     /* Without a factor the floor is all, but for no echo at all. */
     struct accuracy exact = {.cell = 0.5, .floor = 0.05};
     assert_close(accuracy_sigma(&exact, 1e-9), 0.05, 1e-17);
@@ -114,7 +114,7 @@ static void monopulse_sigmas_are_finite_everywhere(void **state)
     assert_close(accuracy_dipole_pair_rad(0.3, 1e-300), PI / sqrt(12), 0);
     assert_close(accuracy_dipole_pair_rad(PI / 2, 100), 0, 1e-15);
     assert_close(accuracy_dipole_pair_rad(-PI / 2, 100), 0, 1e-15);
-    assert_close(accuracy_dipole_pair_rad(0.3, INFINITY), 0, 0);
+    assert_close(accuracy_dipole_pair_rad(0.3, HUGE_VAL), 0, 0);
     /* cos u / cos azimuth is (pi/4) cos azimuth before the side. */
     for (double aside = 1e-3; aside > 1e-9; aside /= 10)
         assert_near(accuracy_dipole_pair_rad(PI / 2 - aside, 50), aside / 20, 1e-6);

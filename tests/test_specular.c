@@ -18,9 +18,9 @@ static void effects_2_2_has_these_cross_sections(void **state)
     static const struct {
         double radius_1_m, radius_2_m, range_m, dbsm, tolerance;
     } cases[] = {
-        {INFINITY, INFINITY, 10, 24.971499, 5e-7},
-        {INFINITY, INFINITY, 30, 34.513924, 5e-7},
-        {INFINITY, INFINITY, 50, 38.950899, 5e-7},
+        {HUGE_VAL, HUGE_VAL, 10, 24.971499, 5e-7},
+        {HUGE_VAL, HUGE_VAL, 30, 34.513924, 5e-7},
+        {HUGE_VAL, HUGE_VAL, 50, 38.950899, 5e-7},
         {1e9, 1e9, 10, 24.971499, 6e-7},
         {20, 1.5, 5, 11.6136, 5e-5},
         {20, 1.5, 10, 14.3645, 5e-5},
@@ -41,7 +41,7 @@ static void a_rail_is_lit_along_a_line(void **state)
     (void)state;
     for (double range_m = 0.5; range_m < 200; range_m *= 1.5) {
         double rail_m2 = PI * 0.04 * range_m * range_m / (0.04 + range_m);
-        assert_near(specular_cross_section_m2(INFINITY, 0.04, range_m), rail_m2, 1e-15);
+        assert_near(specular_cross_section_m2(HUGE_VAL, 0.04, range_m), rail_m2, 1e-15);
         assert_near(specular_cross_section_m2(1e9, 0.04, range_m), rail_m2, 3e-7);
     }
 }
@@ -65,7 +65,7 @@ static void no_radius_and_no_range_is_too_large_or_too_small(void **state)
 static void nothing_is_zero_and_never_nan(void **state)
 {
     (void)state;
-    static const double radii_m[] = {0, 1e-300, 1, 1e9, INFINITY};
+    static const double radii_m[] = {0, 1e-300, 1, 1e9, HUGE_VAL};
     for (size_t i = 0; i < COUNT(radii_m); i++) {
         assert_close(specular_cross_section_m2(radii_m[i], 0, 0), 0, 0);
         assert_close(specular_cross_section_m2(0, radii_m[i], 7), 0, 0);
