@@ -127,6 +127,10 @@ $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(stage_objects) $(BUILD)/registr
 $(BUILD)/tests/hard/%: $(BUILD)/tests/hard/%.o $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS) -lcmocka -lmpfr -lgmp
 
+# For scripts/bench --functions: our functions beside libm's.
+$(BUILD)/tests/speed/%: $(BUILD)/tests/speed/%.o $(BUILD)/libglint.a
+	$(Q)$(LINK) -o $@ $^ -lm
+
 # The reference of this one test alone.
 $(BUILD)/tests/test_elementary: LIBS += -lmpfr -lgmp
 

@@ -5,7 +5,10 @@
 #include <stdint.h>
 #include <string.h>
 
-_Static_assert(FLT_EVAL_METHOD == 0, "every operation must round to its own type");
+#if FLT_EVAL_METHOD != 0 || defined __FAST_MATH__
+#error "every operation must round once, to double, as written: with -ffast-math, or registers \
+wider than a double (x87: use SSE2), results would depend on the compiler (NUMERICS A6)"
+#endif
 
 /* Polynomials: weighted minimax fits (Remez exchange in 60 digits). The leading two coefficients
  * are rounded to doubles in turn and the later ones fitted to what is left. The comment at each

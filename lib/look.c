@@ -7,6 +7,7 @@
 
 #include "clearance.h"
 #include "occlusion.h"
+#include "orientation.h"
 #include "reflection.h"
 #include "sight.h"
 #include "sort.h"
@@ -297,6 +298,32 @@ static void look_at_point(struct look *look, const struct look_body *body,
         lose(look, body, point->name, LOSS_FACING_AWAY, NULL, margin_m);
 }
 
+static bool begins_at(const struct look_body *body, const struct reflector_set *set,
+                      struct vec2 place, struct vec2 along)
+{
+    for (size_t i = 0; i < set->planes.count; i++) {
+        const struct plane_reflector *plane = &set->planes.items[i];
+        if (plane->margin_m == 0 && vec2_same(reflectors_along(&body->box, plane), along) &&
+            vec2_same(reflectors_place(&body->box, plane->from_x, plane->from_y), place))
+            return true;
+    }
+    return false;
+}
+
+/* A foot exactly at the joint of two sides in line is the second one's (NUMERICS 33). */
+static bool next_side_has_foot(const struct look *look, struct vec2 end, struct vec2 along)
+{
+    if (orientation_along(end, look->position_m, along) != 0)
+        return false;
+    for (size_t i = 0; i < look->frame->reflectors.count; i++) {
+        const struct reflector_set *set = &look->frame->reflectors.items[i];
+        for (size_t j = 0; j < set->worn_by.count; j++)
+            if (begins_at(body_of(look, set->worn_by.items[j]), set, end, along))
+                return true;
+    }
+    return false;
+}
+
 static void look_at_plane(struct look *look, const struct look_body *body,
                           const struct plane_reflector *plane)
 {
@@ -307,10 +334,11 @@ static void look_at_plane(struct look *look, const struct look_body *body,
     }
     struct vec2 from = reflectors_place(&body->box, plane->from_x, plane->from_y);
     struct vec2 to = reflectors_place(&body->box, plane->to_x, plane->to_y);
-    struct vec2 foot;
+    struct vec2 along = reflectors_along(&body->box, plane), foot;
     double margin_m =
         look->frame->margins ? clearance_foot_m(from, to, plane->margin_m, look->position_m) : 0;
-    if (reflection_foot(from, to, plane->margin_m, look->position_m, &foot))
+    if (reflection_foot(from, to, along, plane->margin_m, look->position_m, &foot) &&
+        !next_side_has_foot(look, to, along))
         look_at(look, body,
                 (struct glimpse){
                     .reflector = plane->name,

@@ -4,7 +4,9 @@
  * closed form, the sensor's place and speed follow from its mount on the moving, turning ego. Every
  * reflector of an object then either becomes an echo in the frame or is written down as lost, with
  * the first reason that applies: it faces away or mirrors past the sensor, it is out of range, out
- * of view, or blocked. */
+ * of view, or blocked. Of two sides in line the second one mirrors what is exactly before their
+ * joint, where its beginning is the other's end as doubles; another object that blocks touches that
+ * sight line with its end and hides it. */
 #ifndef LOOK_H
 #define LOOK_H
 

@@ -2,8 +2,10 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <string>
+
+#include <locale.h>
+#include <stdlib.h>
 
 size_t number_write(double value, char *text)
 {
@@ -24,7 +26,10 @@ bool number_read(const char *begin, const char *end, double *value)
         return false;
     if (result.ec == std::errc())
         return true;
-    // from_chars does not say whether it left the doubles above or below; strtod does.
-    *value = std::strtod(std::string(begin, end).c_str(), nullptr);
+    // from_chars does not say whether it left the doubles above or below; strtod does, but by the
+    // locale of whoever calls.
+    locale_t plain = newlocale(LC_ALL_MASK, "C", nullptr);
+    *value = strtod_l(std::string(begin, end).c_str(), nullptr, plain);
+    freelocale(plain);
     return std::isfinite(*value);
 }

@@ -1,7 +1,7 @@
-/* On which side of a line a point lies, decided exactly.
+/* On which side of a line a point lies, and which of two is farther on, decided exactly.
  *
  * Every yes-or-no of glint's geometry (is the sight line blocked, does it touch a corner) rests on
- * this sign, so that no compiler, no CPU and no rotation of the scene can change an answer. A
+ * these signs, so that no compiler, no CPU and no rotation of the scene can change an answer. A
  * floating-point filter settles nearly all calls; the rest is summed exactly (Shewchuk's
  * expansions). Exact as long as no product of coordinates under- or overflows: any coordinate of
  * size 0 or between 1e-140 and 1e140 m. */
@@ -13,5 +13,9 @@
 /* The sign of (b - a) × (c - a): +1 if c lies to the left of the line from a to b, -1 to the
  * right, 0 exactly on it (or a == b). */
 int orientation_sign(struct vec2 a, struct vec2 b, struct vec2 c);
+
+/* The sign of (b - a) · direction: +1 if b is farther along the direction than a, -1 if a is, 0 if
+ * they are exactly abreast. */
+int orientation_along(struct vec2 a, struct vec2 b, struct vec2 direction);
 
 #endif

@@ -27,6 +27,10 @@ struct random_address {
     uint64_t subject; /* hash of object, reflector and path; a cell draws by its leader */
 };
 
+/* The extremes of uniform draws: what a draw can lead to is bounded by what these lead to. */
+#define RANDOM_LEAST 0x1p-53
+#define RANDOM_MOST (1 - 0x1p-53)
+
 /* Four uniform draws in (0, 1), never 0 nor 1: (k + 1/2) 2^-52 (NUMERICS 48, 49). index counts the
  * blocks of one purpose. */
 void random_uniform(const struct random_address *address, enum random_purpose purpose,

@@ -179,6 +179,14 @@ struct vec2 reflectors_point_place(const struct box *box, const struct point_ref
     return vec2_sub(surface, vec2_scale(point->inset_m, facing));
 }
 
+struct vec2 reflectors_along(const struct box *box, const struct plane_reflector *plane)
+{
+    struct vec2 own = {(plane->to_x - plane->from_x) * box->length_m,
+                       (plane->to_y - plane->from_y) * box->width_m};
+    double length = vec2_length(own);
+    return vec2_turn((struct vec2){own.x / length, own.y / length}, box->heading);
+}
+
 double reflectors_visibility(const struct box *box, enum visibility_shape shape, double facing_rad,
                              double full_rad, double zero_rad, struct vec2 place,
                              struct vec2 sensor)

@@ -81,6 +81,10 @@ void reflectors_outline(const struct box *box, struct vec2 corner[4]);
 /* A point with its inset. */
 struct vec2 reflectors_point_place(const struct box *box, const struct point_reflector *point);
 
+/* The unit vector from a plane's start to its end. Of a side of the box it is the heading itself,
+ * or square to it, so that walls in line that are turned alike share it to the last bit. */
+struct vec2 reflectors_along(const struct box *box, const struct plane_reflector *plane);
+
 /* V(alpha) of MODEL 2.2: how much of a reflector at place, facing facing_rad in the object's
  * frame, a sensor sees. */
 double reflectors_visibility(const struct box *box, enum visibility_shape shape, double facing_rad,

@@ -12,8 +12,8 @@ struct sight {
 };
 
 /* A point moving with point_mps seen by a sensor moving with sensor_mps; boresight is a unit
- * vector. The range rate is (v · r) / R with the difference of products kept by fma, so that
- * nearly tangential motion keeps its sign (NUMERICS 35). */
+ * vector. The range rate is (v · r) / R with the products exact, so that nearly tangential motion
+ * keeps its sign (NUMERICS 35). */
 struct sight sight_of(struct vec2 sensor_m, struct vec2 sensor_mps, struct vec2 boresight,
                       struct vec2 point_m, struct vec2 point_mps);
 

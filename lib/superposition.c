@@ -42,6 +42,12 @@ static void add(struct compensated *total, double term)
     total->sum = sum;
 }
 
+/* A sum beyond the doubles stays infinite, for the bounds check to refuse. */
+static double total(const struct compensated *terms)
+{
+    return isfinite(terms->sum) ? terms->sum + terms->left_out : terms->sum;
+}
+
 struct channel {
     struct compensated real, imag;
 };
@@ -54,8 +60,7 @@ static void add_pointer(struct channel *channel, double _Complex pointer)
 
 static double _Complex total_pointer(const struct channel *channel)
 {
-    double imag = channel->imag.sum + channel->imag.left_out;
-    return channel->real.sum + channel->real.left_out + imag * (double _Complex)I;
+    return total(&channel->real) + total(&channel->imag) * (double _Complex)I;
 }
 
 static struct antenna_pointers add_pointers(const struct sensor *sensor, const struct ray *rays,

@@ -20,6 +20,11 @@ double units_amplitude_from_db(double db)
     return elementary_pow(10, db / 20);
 }
 
+double units_wavelength_m(double carrier_hz)
+{
+    return SPEED_OF_LIGHT_MPS / carrier_hz;
+}
+
 double units_wrap_rad(double angle_rad)
 {
     double wrapped = elementary_wrap(angle_rad);

@@ -201,7 +201,10 @@ static bool measure(const struct scene *scene, double range_m[PATHS])
     struct vec2 sensor = scene->sensor.position_m, object = scene->object.place_m, bounce, foot;
     if (leg_m(scene->mirror.a, scene->mirror.b) < 5 ||
         !mirror_bounce(&scene->mirror, sensor, object, &bounce) ||
-        !reflection_foot(scene->mirror.a, scene->mirror.b, 0, object, &foot) ||
+        !reflection_foot(scene->mirror.a, scene->mirror.b,
+                         vec2_scale(1 / vec2_length(vec2_sub(scene->mirror.b, scene->mirror.a)),
+                                    vec2_sub(scene->mirror.b, scene->mirror.a)),
+                         0, object, &foot) ||
         leg_m(sensor, object) < 2 || leg_m(object, foot) < 1 || leg_m(sensor, bounce) < 1)
         return false;
     range_m[OUT] = (leg_m(sensor, bounce) + leg_m(bounce, object) + leg_m(object, sensor)) / 2;

@@ -252,6 +252,30 @@ static void planes_mirror_from_the_foot_of_the_perpendicular(void **state)
     assert_int_equal(only_loss(scene)->reason, LOSS_NO_SPECULAR);
 }
 
+/* Two walls of 4 m in line, the sensor before their joint, then a hair to either side. */
+static void the_joint_of_two_walls_mirrors_once(void **state)
+{
+    struct scene *scene = *state;
+    struct reflector_set *set = add_set(scene, "a");
+    set->blocks = false;
+    *list_add(&set->worn_by, &scene->arena) = "b";
+    *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
+        .name = "right", .from_x = -0.5, .from_y = -0.5, .to_x = 0.5, .to_y = -0.5, .ercs = 1};
+    add_object(scene, "a", 8, 21);
+    add_object(scene, "b", 12, 21);
+    scene->sensor.mount_yaw_rad = PI / 2;
+    static const double before_m[] = {10, 10 - 0x1p-49, 10 + 0x1p-49};
+    static const char *const whose[] = {"b", "a", "b"};
+    for (int i = 0; i < 3; i++) {
+        scene->frame.objects.items[0].x_m = before_m[i];
+        scene->frame.echoes.count = 0;
+        look_around_at(scene, 10);
+        assert_int_equal(scene->frame.echoes.count, 1);
+        assert_string_equal(scene->frame.echoes.items[0].object, whose[i]);
+        assert_close(scene->frame.echoes.items[0].range_m, 20, 0);
+    }
+}
+
 static void rows_are_expanded_in_range_and_no_post_is_missed(void **state)
 {
     (void)state;
@@ -463,6 +487,7 @@ int main(void)
         TEST(wheel_houses_are_seen_under_raised_vehicles_only),
         TEST(every_loss_has_its_reason),
         TEST(planes_mirror_from_the_foot_of_the_perpendicular),
+        TEST(the_joint_of_two_walls_mirrors_once),
         TEST(rows_are_expanded_in_range_and_no_post_is_missed),
         TEST(posts_become_echoes_with_their_numbers),
         TEST(a_reflector_tells_how_near_it_was_to_another_answer),

@@ -127,6 +127,31 @@ static void every_distance_from_the_line_agrees_with_integer_arithmetic(void **s
     }
 }
 
+/* Points abreast of a but for one lattice step along or across. */
+static void who_is_farther_on_agrees_with_integer_arithmetic(void **state)
+{
+    (void)state;
+    uint64_t sample = 4;
+    for (int i = 0; i < 200000; i++) {
+        struct lattice_point a = {sample_integer(&sample, INT64_C(1) << 45),
+                                  sample_integer(&sample, INT64_C(1) << 45)};
+        struct lattice_point way = {sample_integer(&sample, INT64_C(1) << 26),
+                                    sample_integer(&sample, INT64_C(1) << 26)};
+        int64_t steps = sample_integer(&sample, INT64_C(1) << 24);
+        int64_t offset = INT64_C(1) << i % 45;
+        struct lattice_point b = {a.x - steps * way.y + (i % 3 ? sample_integer(&sample, 1) : 0),
+                                  a.y + steps * way.x +
+                                      (i % 7 ? 0 : sample_integer(&sample, offset))};
+        wide exact = (wide)(b.x - a.x) * way.x + (wide)(b.y - a.y) * way.y;
+        int sign = (exact > 0) - (exact < 0);
+        struct vec2 from = lattice_place(a, 0x1p-30), to = lattice_place(b, 0x1p-30);
+        struct vec2 direction = lattice_place(way, 0x1p-10);
+        assert_int_equal(orientation_along(from, to, direction), sign);
+        assert_int_equal(orientation_along(to, from, direction), -sign);
+        assert_int_equal(orientation_along(from, from, direction), 0);
+    }
+}
+
 static void mirroring_and_quarter_turns_keep_the_answer(void **state)
 {
     (void)state;
@@ -153,6 +178,7 @@ int main(void)
         cmocka_unit_test(a_fine_grid_beside_a_diagonal_is_told_apart_point_by_point),
         cmocka_unit_test(near_collinear_triples_agree_with_integer_arithmetic),
         cmocka_unit_test(every_distance_from_the_line_agrees_with_integer_arithmetic),
+        cmocka_unit_test(who_is_farther_on_agrees_with_integer_arithmetic),
         cmocka_unit_test(mirroring_and_quarter_turns_keep_the_answer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -162,6 +162,70 @@ static void phases_turn_the_pointers(void **state)
     arena_free(&arena);
 }
 
+/* EFFECTS 5: two echoes half a separation to either side, the weaker rho times as strong and psi
+ * behind. In half separations towards the stronger one the ratio rule reads the coherent position
+ * g = (1 - rho^2) / (1 + rho^2 + 2 rho cos psi); the magnitude rule reads the size of the complex
+ * position, sqrt((1 + rho^2 - 2 rho cos psi) / (1 + rho^2 + 2 rho cos psi)), which is g in phase
+ * and in antiphase only. Range stays at the centroid of amplitudes, g in phase, as in (4). */
+static void a_coherent_pair_is_read_where_effects_5_has_it(void **state)
+{
+    (void)state;
+    static const struct {
+        double rho, psi_deg, ratio, magnitude;
+    } cases[] = {
+        {0.5, 0, 0.333333, 0.333333},   {0.5, 90, 0.600000, 1},
+        {0.5, 150, 1.953254, 2.347519}, {0.5, 180, 3.000000, 3.000000},
+        {0.9, 0, 0.052632, 0.052632},   {0.9, 90, 0.104972, 1},
+        {0.9, 150, 0.756507, 3.662438}, {0.9, 180, 19.000000, 19.000000},
+    };
+    const double half_rad = 1e-7;
+    struct arena arena = {0};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (int rule = 0; rule < 4; rule++) {
+            struct sensor sensor = paper_sensor(rule < 2 ? PHASE_CENTRE : PHASE_ELEMENT);
+            sensor.angle_estimator = rule % 2 ? MONOPULSE_MAGNITUDE : MONOPULSE_RATIO;
+            double rho = cases[i].rho;
+            struct ray rays[] = {
+                {.echo = {.range_m = 11, .azimuth_rad = half_rad}, .strength = 1, .amplitude = 1},
+                {.echo = {.range_m = 9, .azimuth_rad = -half_rad},
+                 .strength = rho,
+                 .amplitude = rho,
+                 .phase_rad = -cases[i].psi_deg * PI / 180}};
+            struct cell cell;
+            assert_true(superposition_cell(&sensor, rays, 2, &arena, &cell));
+            double expected = rule % 2 ? cases[i].magnitude : cases[i].ratio;
+            assert_close(fabs(cell.azimuth_rad) / half_rad, expected, 1e-6 + 1e-6 * expected);
+            assert_true(rule % 2 || cell.azimuth_rad > 0);
+            assert_near(cell.range_m, 10 + (1 - rho) / (1 + rho), 1e-14);
+        }
+    arena_free(&arena);
+}
+
+/* The mean of g over all phases is the stronger echo's place, exactly (EFFECTS 5). */
+static void a_coherent_pair_is_at_its_stronger_echo_on_average(void **state)
+{
+    (void)state;
+    enum { PHASES = 4096 };
+    const double half_rad = 1e-5;
+    struct sensor sensor = paper_sensor(PHASE_CENTRE);
+    sensor.angle_estimator = MONOPULSE_RATIO;
+    struct arena arena = {0};
+    double sum = 0;
+    for (int i = 0; i < PHASES; i++) {
+        struct ray rays[] = {{.echo = {.azimuth_rad = half_rad}, .strength = 1, .amplitude = 1},
+                             {.echo = {.azimuth_rad = -half_rad},
+                              .strength = 0.9,
+                              .amplitude = 0.9,
+                              .phase_rad = 2 * PI * (i + 0.5) / PHASES}};
+        struct cell cell;
+        assert_true(superposition_cell(&sensor, rays, 2, &arena, &cell));
+        sum += cell.azimuth_rad / half_rad;
+        arena_clear(&arena);
+    }
+    assert_close(sum / PHASES, 1, 1e-6);
+    arena_free(&arena);
+}
+
 static void weights_sum_to_one_and_means_stay_inside(void **state)
 {
     (void)state;
@@ -218,6 +282,8 @@ int main(void)
         cmocka_unit_test(two_echoes_are_weighted_by_amplitude),
         cmocka_unit_test(pointers_add_up_as_in_equation_8),
         cmocka_unit_test(phases_turn_the_pointers),
+        cmocka_unit_test(a_coherent_pair_is_read_where_effects_5_has_it),
+        cmocka_unit_test(a_coherent_pair_is_at_its_stronger_echo_on_average),
         cmocka_unit_test(weights_sum_to_one_and_means_stay_inside),
         cmocka_unit_test(ties_of_amplitude_go_by_the_frames_order),
     };

@@ -21,6 +21,15 @@ static void six_decibels_are_the_paper_threshold(void **state)
     assert_close(units_amplitude_from_db(0), 1, 0);
 }
 
+/* EFFECTS 0. */
+static void wavelengths_are_those_of_the_radar_bands(void **state)
+{
+    (void)state;
+    assert_near(units_wavelength_m(24.125e9), 0.0124266303, 1e-8);
+    assert_near(units_wavelength_m(76.5e9), 0.00391885566, 2e-9);
+    assert_near(units_wavelength_m(79e9), 0.00379484124, 2e-9);
+}
+
 static void a_shortfall_is_a_bounded_count_of_decibels(void **state)
 {
     (void)state;
@@ -106,6 +115,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(amplitude_decibels_are_twenty_to_the_decade),
         cmocka_unit_test(six_decibels_are_the_paper_threshold),
+        cmocka_unit_test(wavelengths_are_those_of_the_radar_bands),
         cmocka_unit_test(a_shortfall_is_a_bounded_count_of_decibels),
         cmocka_unit_test(decibels_come_back),
         cmocka_unit_test(an_angle_wraps_into_one_turn),

@@ -209,7 +209,8 @@ static void philox(uint64_t c[4], uint64_t key, uint64_t other_key)
 
 static uint64_t any_word(uint64_t *random)
 {
-    return sample_bits(random) << 32 ^ sample_bits(random);
+    uint64_t high = sample_bits(random) << 32;
+    return high ^ sample_bits(random);
 }
 
 static void draws_are_philox_at_any_address(void **state)
@@ -219,8 +220,10 @@ static void draws_are_philox_at_any_address(void **state)
     int points = hard_points(100000);
     double ours = 0;
     for (int i = 0; i < points; i++) {
-        struct random_address address = {any_word(&random), any_word(&random), any_word(&random),
-                                         any_word(&random), any_word(&random)};
+        uint64_t words[5];
+        for (int k = 0; k < 5; k++)
+            words[k] = any_word(&random);
+        struct random_address address = {words[0], words[1], words[2], words[3], words[4]};
         uint32_t index = (uint32_t)any_word(&random);
         uint64_t block[4] = {address.frame, address.sensor, address.subject,
                              (uint64_t)RANDOM_AZIMUTH << 32 | index};

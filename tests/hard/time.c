@@ -235,8 +235,9 @@ static void multiples_of_a_step_stay_in_their_bin(void **state)
 static void the_border_of_a_cell_is_decided_in_doubles(void **state)
 {
     (void)state;
-    static const double pairs[][2] = {{12.55, 12.40}, {12.70, 12.55}, {0.45, 0.30}};
-    static const int shared[] = {0, 1, 0};
+    static const double pairs[][2] = {
+        {12.55, 12.40}, {12.70, 12.55}, {0.45, 0.30}, {0.30, 0.15}, {0, 0.15}};
+    static const bool shared[] = {false, true, false, true, true};
     uint64_t random = 44;
     int points = hard_points(1000000);
     double naive = 0, ours = 0;
@@ -245,7 +246,7 @@ static void the_border_of_a_cell_is_decided_in_doubles(void **state)
     for (int i = 0; i < points; i++) {
         int64_t a = 20000 + sample_integer(&random, 19000), b = a + sample_integer(&random, 20);
         struct resolution_echo echoes[] = {{(double)a / 100, 0, 2}, {(double)b / 100, 0, 1}};
-        if (i < 3)
+        if (i < 5)
             for (int k = 0; k < 2; k++)
                 echoes[k].range_m = pairs[i][k];
         size_t cell[2];
@@ -253,8 +254,8 @@ static void the_border_of_a_cell_is_decided_in_doubles(void **state)
         mpfr_set_d(difference, echoes[0].range_m, MPFR_RNDN);
         mpfr_sub_d(difference, difference, echoes[1].range_m, MPFR_RNDN);
         mpfr_abs(difference, difference, MPFR_RNDN);
-        ours += one != (mpfr_cmp_d(difference, 0.15) <= 0) || (i < 3 && one != shared[i]);
-        naive += i >= 3 && one != (llabs(a - b) <= 15);
+        ours += one != (mpfr_cmp_d(difference, 0.15) <= 0) || (i < 5 && one != shared[i]);
+        naive += i >= 5 && one != (llabs(a - b) <= 15);
     }
     mpfr_clear(difference);
     hard_case("44", "cell border (naive: as decimals)", "wrong", naive, ours, 0);

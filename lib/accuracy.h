@@ -1,0 +1,26 @@
+/* How well a value can be read at a signal-to-noise ratio (EFFECTS 3). snr is a ratio of powers,
+ * linear, at the peak of the integrated echo: (amplitude / noise RMS)^2. */
+#ifndef ACCURACY_H
+#define ACCURACY_H
+
+/* One of range, range rate and sine of azimuth; everything in its unit. */
+struct accuracy {
+    double cell;   /* X: c/(2B), lambda/(2T) or lambda/(N d) */
+    double factor; /* 0.39 is the Cramer-Rao bound sqrt(6)/(2 pi), 0.68 a Hann window */
+    double floor;  /* what stays at any ratio */
+    double step;   /* of the reported numbers; 0 for a value that is rounded afterwards */
+};
+
+/* The standard deviation: sigma^2 = (factor cell)^2 / snr + floor^2, at most that of a value
+ * anywhere in the cell, cell^2 / 12, as noise alone says less than the cell itself at low ratios;
+ * and step^2 / 12 for the rounding on top. Defined for snr = 0 and infinity. */
+double accuracy_sigma(const struct accuracy *accuracy, double snr);
+
+/* Of the azimuth that the dipole pair reads (antenna.h), snr that of the sum channel there, equal
+ * noise on both channels:
+ *     sigma = (2/pi) cos((pi/2) sin azimuth) / (cos azimuth sqrt(2 snr)),
+ * at most pi / sqrt(12), anywhere in the half plane. No 0/0 at the side. First order in the noise:
+ * the magnitude rule folds near boresight (MODEL 7.3). */
+double accuracy_dipole_pair_rad(double azimuth_rad, double snr);
+
+#endif

@@ -1,0 +1,54 @@
+#include "knife_edge.h"
+
+#include <math.h>
+
+#include "elementary.h"
+#include "units.h"
+
+#define LIT (-0.78)
+#define TEN_TO_MINUS_069 0.204173794466952965
+
+/* d1 d2/(d1 + d2), without underflow. */
+static double reduced_distance_m(double sensor_side_m, double reflector_side_m)
+{
+    double near = fmax(fmin(sensor_side_m, reflector_side_m), 0.1);
+    double far = fmax(fmax(sensor_side_m, reflector_side_m), 0.1);
+    return near / (near / far + 1);
+}
+
+/* What the logarithm in J is taken of. */
+static double steepness(double parameter)
+{
+    return elementary_hypot(parameter - 0.1, 1) + (parameter - 0.1);
+}
+
+double knife_edge_parameter(double depth_m, double sensor_side_m, double reflector_side_m,
+                            double wavelength_m)
+{
+    return depth_m * sqrt(2 / wavelength_m / reduced_distance_m(sensor_side_m, reflector_side_m));
+}
+
+double knife_edge_loss_db(double parameter)
+{
+    return parameter > LIT ? 6.9 + units_amplitude_db(steepness(parameter)) : 0;
+}
+
+double knife_edge_amplitude_factor(double parameter)
+{
+    if (!(parameter > LIT))
+        return 1;
+    return TEN_TO_MINUS_069 / steepness(parameter) / steepness(parameter);
+}
+
+double knife_edge_fresnel_radius_m(double sensor_side_m, double reflector_side_m,
+                                   double wavelength_m)
+{
+    return sqrt(wavelength_m * reduced_distance_m(sensor_side_m, reflector_side_m));
+}
+
+double knife_edge_ray_height_m(double sensor_height_m, double reflector_height_m,
+                               double sensor_side_m, double reflector_side_m)
+{
+    double way = sensor_side_m / (sensor_side_m + reflector_side_m);
+    return sensor_height_m + (reflector_height_m - sensor_height_m) * way;
+}

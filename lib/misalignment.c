@@ -1,0 +1,22 @@
+#include "misalignment.h"
+
+#include <math.h>
+
+#include "elementary.h"
+#include "units.h"
+
+double misalignment_reported_rad(const struct misalignment *misalignment, double azimuth_rad)
+{
+    double reported_rad = azimuth_rad + misalignment->yaw_error_rad;
+    if (misalignment->bias_rad != 0) {
+        double turns = azimuth_rad / misalignment->bias_period_rad;
+        double angle_rad = 2 * PI * turns + misalignment->bias_phase_rad;
+        reported_rad += misalignment->bias_rad * elementary_sin(angle_rad);
+    }
+    return units_wrap_rad(reported_rad);
+}
+
+double misalignment_bound_rad(const struct misalignment *misalignment)
+{
+    return fabs(misalignment->yaw_error_rad) + fabs(misalignment->bias_rad);
+}

@@ -1,0 +1,21 @@
+/* A sensor that does not look where it believes, and a bumper that bends its beam (EFFECTS 14):
+ *     reported azimuth = true azimuth + yaw error + bias sin(2 pi azimuth / period + phase).
+ * The bias is fixed for a sensor; its period is 20 to 40 degrees in practice. Radians throughout.
+ */
+#ifndef MISALIGNMENT_H
+#define MISALIGNMENT_H
+
+struct misalignment {
+    double yaw_error_rad;
+    double bias_rad;
+    double bias_period_rad; /* > 0, unless the bias is 0 */
+    double bias_phase_rad;
+};
+
+/* In (-pi, pi]. Without error and bias the azimuth itself, if it is in there. */
+double misalignment_reported_rad(const struct misalignment *misalignment, double azimuth_rad);
+
+/* By how much no report is farther off, but for its rounding. */
+double misalignment_bound_rad(const struct misalignment *misalignment);
+
+#endif

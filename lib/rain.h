@@ -1,0 +1,37 @@
+/* What rain and fog take from a wave, and what rain sends back (EFFECTS 13).
+ *
+ * Rain attenuates by gamma = k R^alpha dB/km for a rate of R mm/h, with k and alpha of ITU-R
+ * P.838-3 (1 to 1000 GHz); fog by K_l dB/km per g/m^3 of water, droplets far smaller than the
+ * wavelength and water by the double-Debye permittivity of ITU-R P.840 (up to 200 GHz). */
+#ifndef RAIN_H
+#define RAIN_H
+
+#include "polarization.h"
+
+struct rain_law {
+    double k, alpha;
+};
+
+/* Constant for a sensor. carrier_hz from 1e9 to 1e12. */
+struct rain_law rain_law(double carrier_hz, enum polarization polarization);
+
+/* One way; rate >= 0, and 0 without rain. */
+double rain_attenuation_dbpkm(struct rain_law law, double rate_mmph);
+
+/* One way; liquid water, from -10 to 50 deg C; water >= 0 (dense fog has 0.5 g/m^3). */
+double rain_fog_attenuation_dbpkm(double carrier_hz, double temperature_c, double water_gpm3);
+
+/* There and back through both together: 10^(-2 gamma R/(1000 · 20)). Exactly 1 without either. */
+double rain_amplitude_factor(double attenuation_dbpkm, double range_m);
+
+/* What a cubic metre of rain sends back, in m^2/m^3 [A]. Below 50 GHz the Rayleigh bound for 200
+ * R^1.6 mm^6/m^3, pi^5 · 0.93 · 200e-18 R^1.6/lambda^4. From there on drops are no longer small,
+ * and the fit for 70 GHz holds, 4.2e-5 R^1.1; for 1 mm/h the two meet within 5 %. */
+double rain_reflectivity(double carrier_hz, double rate_mmph);
+
+/* Of the rain in one resolution cell, where the beam has the given full widths at half power (two
+ * ways Gaussian: pi/(8 ln 2)). */
+double rain_cross_section_m2(double reflectivity, double cell_range_m, double range_m,
+                             double azimuth_width_rad, double elevation_width_rad);
+
+#endif

@@ -1,0 +1,152 @@
+#include "check.h"
+
+#include "knife_edge.h"
+#include "units.h"
+
+/* Fresnel's integrals behind an edge: -20 lg(|1 - C - S + j (C - S)|/2), by Simpson's rule. */
+static double exact_loss_db(double parameter)
+{
+    enum { STEPS = 20000 };
+    double c = 0, s = 0;
+    for (int k = 0; k <= STEPS; k++) {
+        double t = parameter * k / STEPS;
+        double weight = (k == 0 || k == STEPS ? 1 : k % 2 ? 4 : 2) * parameter / STEPS / 3;
+        c += weight * cos(PI / 2 * t * t);
+        s += weight * sin(PI / 2 * t * t);
+    }
+    return -20 * log10(hypot(1 - c - s, c - s) / 2);
+}
+
+/* EFFECTS 16: the formula, and the integral it stands for. */
+static void losses_are_as_published(void **state)
+{
+    (void)state;
+    static const struct {
+        double parameter, loss_db, exact_db;
+    } rows[] = {{0, 6.032852, 6.020600}, {1, 13.925729, 13.864105}, {2, 19.042860, 19.090962}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        assert_close(knife_edge_loss_db(rows[i].parameter), rows[i].loss_db, 5.1e-7);
+        assert_close(exact_loss_db(rows[i].parameter), rows[i].exact_db, 5.1e-7);
+    }
+}
+
+static void losses_are_fresnels_at_the_edge_and_behind(void **state)
+{
+    (void)state;
+    for (double parameter = -0.77; parameter < 12; parameter += 0.01)
+        assert_close(knife_edge_loss_db(parameter), exact_loss_db(parameter), 0.15);
+}
+
+/* EFFECTS 16: half way over 30 m. */
+static void fresnel_zones_are_as_wide_as_published(void **state)
+{
+    (void)state;
+    assert_close(knife_edge_fresnel_radius_m(15, 15, units_wavelength_m(24.125e9)), 0.3053, 5.1e-5);
+    assert_close(knife_edge_fresnel_radius_m(15, 15, units_wavelength_m(76.5e9)), 0.1714, 5.1e-5);
+    assert_near(knife_edge_fresnel_radius_m(3, 12, 0.01), sqrt(0.01 * 3 * 12 / 15), 1e-15);
+}
+
+/* EFFECTS 16: 0.3 m inside the shadow half way over 30 m. */
+static void shadows_are_as_deep_as_published(void **state)
+{
+    (void)state;
+    static const struct {
+        double carrier_hz, loss_db;
+    } rows[] = {{24.125e9, 32.4}, {76.5e9, 41.6}};
+    for (size_t i = 0; i < 2; i++) {
+        double parameter =
+            knife_edge_parameter(0.3, 15, 15, units_wavelength_m(rows[i].carrier_hz));
+        assert_close(-units_amplitude_db(knife_edge_amplitude_factor(parameter)), rows[i].loss_db,
+                     0.051);
+    }
+}
+
+static void the_factor_is_the_loss_both_ways(void **state)
+{
+    (void)state;
+    for (double parameter = -3; parameter < 40; parameter += 0.01)
+        assert_near(knife_edge_amplitude_factor(parameter),
+                    pow(10, -knife_edge_loss_db(parameter) / 10), 1e-14);
+}
+
+static void deeper_is_darker(void **state)
+{
+    (void)state;
+    double before = 1;
+    for (double parameter = -2; parameter < 100; parameter += 0.01) {
+        double factor = knife_edge_amplitude_factor(parameter);
+        assert_true(factor <= before && factor > 0);
+        before = factor;
+    }
+}
+
+static void outside_the_shadow_all_is_seen(void **state)
+{
+    (void)state;
+    assert_close(knife_edge_amplitude_factor(-0.78), 1, 0);
+    assert_close(knife_edge_loss_db(-0.78), 0, 0);
+    assert_close(knife_edge_amplitude_factor(-1e300), 1, 0);
+    assert_close(knife_edge_amplitude_factor((double)-INFINITY), 1, 0);
+    double wavelength_m = 0.0039;
+    double radius_m = knife_edge_fresnel_radius_m(4, 9, wavelength_m);
+    assert_close(knife_edge_parameter(-radius_m, 4, 9, wavelength_m), -sqrt(2), 1e-15);
+    assert_close(
+        knife_edge_amplitude_factor(knife_edge_parameter(-0.5516 * radius_m, 4, 9, wavelength_m)),
+        1, 0);
+    assert_true(knife_edge_amplitude_factor(
+                    knife_edge_parameter(-0.55 * radius_m, 4, 9, wavelength_m)) < 1);
+    assert_true(knife_edge_amplitude_factor(nextafter(-0.78, 0)) > 0.999);
+}
+
+static void far_inside_nothing_is_left(void **state)
+{
+    (void)state;
+    assert_close(knife_edge_amplitude_factor(1e300), 0, 0);
+    assert_close(knife_edge_amplitude_factor((double)INFINITY), 0, 0);
+}
+
+static void ends_at_the_edge_count_as_a_tenth_of_a_metre(void **state)
+{
+    (void)state;
+    double near = knife_edge_parameter(0.2, 0.1, 20, 0.004);
+    assert_close(knife_edge_parameter(0.2, 0, 20, 0.004), near, 0);
+    assert_close(knife_edge_parameter(0.2, 20, 1e-9, 0.004), near, 0);
+    assert_near(near, 0.2 * sqrt(2 * 20.1 / (0.004 * 0.1 * 20)), 1e-15);
+    assert_close(knife_edge_parameter(0, 0, 0, 0.004), 0, 0);
+}
+
+/* A car of 1.5 m hides a car behind it from a radar at 0.5 m, but not the top of a truck. */
+static void a_car_does_not_hide_a_truck(void **state)
+{
+    (void)state;
+    assert_true(knife_edge_ray_height_m(0.5, 1.2, 20, 10) < 1.5);
+    assert_true(knife_edge_ray_height_m(0.5, 3.5, 20, 10) > 1.5);
+    static const struct {
+        double sensor_m, reflector_m, before_m, behind_m, ray_m;
+    } rows[] = {{0.5, 3.5, 20, 10, 2.5},
+                {0.5, 3.5, 0, 10, 0.5},
+                {0.5, 3.5, 10, 0, 3.5},
+                {0.4, 0.4, 7, 3, 0.4},
+                {2, 1, 1, 3, 1.75}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        assert_close(knife_edge_ray_height_m(rows[i].sensor_m, rows[i].reflector_m,
+                                             rows[i].before_m, rows[i].behind_m),
+                     rows[i].ray_m, 5e-16);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(losses_are_as_published),
+        cmocka_unit_test(losses_are_fresnels_at_the_edge_and_behind),
+        cmocka_unit_test(fresnel_zones_are_as_wide_as_published),
+        cmocka_unit_test(shadows_are_as_deep_as_published),
+        cmocka_unit_test(the_factor_is_the_loss_both_ways),
+        cmocka_unit_test(deeper_is_darker),
+        cmocka_unit_test(outside_the_shadow_all_is_seen),
+        cmocka_unit_test(far_inside_nothing_is_left),
+        cmocka_unit_test(ends_at_the_edge_count_as_a_tenth_of_a_metre),
+        cmocka_unit_test(a_car_does_not_hide_a_truck),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
