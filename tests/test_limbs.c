@@ -74,7 +74,7 @@ static void every_other_person_shows_a_limb_on_average(void **state)
     for (int k = 0; k < STEPS; k++) {
         int64_t count = limbs_count((k + 0.5) / STEPS);
         assert_true(count <= limbs_most_count());
-        sum += count;
+        sum += (double)count;
         none += count == 0;
     }
     assert_close(sum / STEPS, 0.5, 1e-4);

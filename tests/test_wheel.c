@@ -103,7 +103,7 @@ static void one_and_a_half_points_show_on_average(void **state)
     for (int k = 0; k < STEPS; k++) {
         int64_t count = wheel_count((k + 0.5) / STEPS);
         assert_true(count <= wheel_most_count());
-        sum += count;
+        sum += (double)count;
         none += count == 0;
     }
     assert_close(sum / STEPS, 1.5, 1e-4);

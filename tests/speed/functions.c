@@ -9,6 +9,7 @@
 
 #include "../sample.h"
 #include "elementary.h"
+#include "random.h"
 #include "units.h"
 
 enum { CALLS = 4096, SWEEPS = 25 };
@@ -58,6 +59,25 @@ static double libm_turns(double x, double y)
     return libm_pair(2 * PI * x, y);
 }
 
+/* Four normal draws, both from the same four uniform ones; y is the index. */
+static double our_gaussians(double x, double y)
+{
+    double of[4];
+    random_gaussian(&(struct random_address){.seed = 1, .frame = (uint64_t)x}, RANDOM_POINTERS,
+                    (uint32_t)y, of);
+    return of[0] + of[1] + of[2] + of[3];
+}
+
+static double libm_gaussians(double x, double y)
+{
+    double of[4], sum = 0;
+    random_uniform(&(struct random_address){.seed = 1, .frame = (uint64_t)x}, RANDOM_POINTERS,
+                   (uint32_t)y, of);
+    for (int i = 0; i < 4; i += 2)
+        sum += sqrt(-2 * log(of[i])) * (cos(2 * PI * of[i + 1]) + sin(2 * PI * of[i + 1]));
+    return sum;
+}
+
 static const struct {
     const char *name;
     double (*ours)(double x, double y), (*libm)(double x, double y);
@@ -75,6 +95,7 @@ static const struct {
     {"exp", our_exp, libm_exp, -20, 20, 0, 0},
     {"pow", elementary_pow, pow, 1e-3, 1e3, -4, 4},
     {"hypot", elementary_hypot, hypot, -200, 200, -200, 200},
+    {"4 Gaussian draws", our_gaussians, libm_gaussians, 0, 1e6, 0, 100},
 };
 
 static double cpu_ns(void)
