@@ -58,8 +58,7 @@ extern const struct record suite_choice_record;
     }
 /* The members after `sensors`, for tables of options. */
 #define SUITE_CHOICE_EFFECTS                                                                       \
-    {FIELD_NAME_OF(struct suite_choice, effects,                                                   \
-                   "auto, all, none, or names; see glint --list effects"),                         \
+    {FIELD_NAME_OF(struct suite_choice, effects, "auto, all, none, or effects by their names"),    \
      FIELD_OPTIONAL, .word = "LIST"},                                                              \
         {FIELD_FLAG_OF(struct suite_choice, tolerance,                                             \
                        "auto may also leave out what changes no target by more than 0.02 m, "      \

@@ -192,7 +192,7 @@ static void a_coherent_pair_is_read_where_effects_5_has_it(void **state)
                  .amplitude = rho,
                  .phase_rad = -cases[i].psi_deg * PI / 180}};
             struct cell cell;
-            assert_true(superposition_cell(&sensor, rays, 2, &arena, &cell));
+            assert_true(superposition_cell(&sensor, rays, 2, true, &arena, &cell));
             double expected = rule % 2 ? cases[i].magnitude : cases[i].ratio;
             assert_close(fabs(cell.azimuth_rad) / half_rad, expected, 1e-6 + 1e-6 * expected);
             assert_true(rule % 2 || cell.azimuth_rad > 0);
@@ -218,7 +218,7 @@ static void a_coherent_pair_is_at_its_stronger_echo_on_average(void **state)
                               .amplitude = 0.9,
                               .phase_rad = 2 * PI * (i + 0.5) / PHASES}};
         struct cell cell;
-        assert_true(superposition_cell(&sensor, rays, 2, &arena, &cell));
+        assert_true(superposition_cell(&sensor, rays, 2, true, &arena, &cell));
         sum += cell.azimuth_rad / half_rad;
         arena_clear(&arena);
     }

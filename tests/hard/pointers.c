@@ -153,7 +153,8 @@ static struct look look_at_pole(struct bench *bench, struct vec2 ego, struct vec
     frame->present |= SECTION_OBJECTS | SECTION_REFLECTORS;
     struct look look;
     struct diag diag = {0};
-    if (look_begin(&look, frame, &bench->sensor, 0, &diag) != 0)
+    static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
+    if (look_begin(&look, frame, &bench->sensor, &everything, 0, &diag) != 0)
         fail_msg("%s", diag.text);
     look_around(&look);
     return look;
@@ -225,7 +226,7 @@ static struct cell cell_of(const struct sensor *sensor, struct ray *rays, size_t
     struct cell cell;
     arena_clear(arena);
     qsort(rays, count, sizeof *rays, superposition_compare);
-    assert_true(superposition_cell(sensor, rays, count, arena, &cell));
+    assert_true(superposition_cell(sensor, rays, count, true, arena, &cell));
     return cell;
 }
 
