@@ -3,25 +3,22 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "frame_order.h"
 #include "sort.h"
 
 #define LOST SIZE_MAX
 
 /* One place where an echo ended: a target, by its number, or lost. */
 struct ending {
-    const char *sensor, *object, *reflector;
-    enum path path;
+    const char *sensor;
+    struct subject subject;
     size_t place;
 };
 
 static int compare_echoes(const struct ending *a, const struct ending *b)
 {
     int order = strcmp(a->sensor, b->sensor);
-    if (order == 0)
-        order = (a->path > b->path) - (a->path < b->path);
-    if (order == 0)
-        order = strcmp(a->object, b->object);
-    return order != 0 ? order : strcmp(a->reflector, b->reflector);
+    return order != 0 ? order : frame_order_subjects(a->subject, b->subject);
 }
 
 static int compare_endings(const void *left, const void *right)
@@ -39,8 +36,7 @@ static size_t collect(const struct frame *frame, struct ending *endings)
         for (size_t j = 0; j < target->contributors.count; j++, count++) {
             const struct contributor *from = &target->contributors.items[j];
             if (endings != NULL)
-                endings[count] =
-                    (struct ending){target->sensor, from->object, from->reflector, from->path, i};
+                endings[count] = (struct ending){target->sensor, SUBJECT_OF(from), i};
         }
     }
     for (size_t i = 0; i < frame->lost.count; i++) {
@@ -48,8 +44,7 @@ static size_t collect(const struct frame *frame, struct ending *endings)
         for (size_t j = 0; j < group->echoes.count; j++, count++) {
             const struct lost_echo *from = &group->echoes.items[j];
             if (endings != NULL)
-                endings[count] =
-                    (struct ending){group->sensor, from->object, from->reflector, from->path, LOST};
+                endings[count] = (struct ending){group->sensor, SUBJECT_OF(from), LOST};
         }
     }
     return count;
@@ -66,7 +61,8 @@ static int drop_repeats(struct ending *endings, size_t *count, struct diag *diag
             return diag_fail(diag, DIAG_INTERNAL,
                              "account: sensor \"%s\", object \"%s\", reflector \"%s\" has two "
                              "entries",
-                             endings[i].sensor, endings[i].object, endings[i].reflector);
+                             endings[i].sensor, endings[i].subject.object,
+                             endings[i].subject.reflector);
         place = endings[i].place;
         if (!repeated)
             endings[kept++] = endings[i];

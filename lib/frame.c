@@ -4,7 +4,19 @@
 
 #include "units.h"
 
-static const char *const paths[] = {[PATH_DIRECT] = "direct", NULL};
+static const char *const paths[] = {
+    [PATH_DIRECT] = "direct",
+    [PATH_WALL_OBJECT] = "wall_object",
+    [PATH_OBJECT_WALL] = "object_wall",
+    [PATH_WALL_OBJECT_WALL] = "wall_object_wall",
+    [PATH_OBJECT_WALL_OBJECT] = "object_wall_object",
+    [PATH_OBJECT_EGO_OBJECT] = "object_ego_object",
+    [PATH_WHEEL] = "wheel",
+    [PATH_LIMB] = "limb",
+    [PATH_CLUTTER] = "clutter",
+    [PATH_FALSE_ALARM] = "false_alarm",
+    NULL,
+};
 
 static const char *const losses[] = {
     [LOSS_FACING_AWAY] = "facing_away",
@@ -100,8 +112,11 @@ static const enum effect losing_effects[] = {
     }
 #define ECHO_NAMES(owner)                                                                          \
     NAME(owner, object, "id of the object"), NAME(owner, reflector, "name in the object's set"),   \
+        {FIELD_CHOICE_OF(owner, path, paths, "the way the echo took")},                            \
+        {FIELD_NAME_OF(owner, mirror, "the wall's object, on the path of a ghost"),                \
+         FIELD_OPTIONAL},                                                                          \
     {                                                                                              \
-        FIELD_CHOICE_OF(owner, path, paths, "the way the echo took")                               \
+        FIELD_INTEGER_IN(owner, number, 0, 1e9, "of several of this kind, from 1"), FIELD_OPTIONAL \
     }
 #define IDEAL_VALUES(owner)                                                                        \
     RANGE(owner, range_m, "sensor to reflector, exact"),                                           \
@@ -429,12 +444,25 @@ struct cell_span frame_cells_of(const struct frame *frame, const char *sensor)
     return (struct cell_span){frame->cells.items + first, end - first};
 }
 
+struct lost_echo frame_lost(struct subject subject)
+{
+    return (struct lost_echo){
+        .object = subject.object,
+        .reflector = subject.reflector,
+        .path = subject.path,
+        .mirror = subject.mirror,
+        .number = subject.number,
+    };
+}
+
 struct contributor frame_contributor(const struct echo *echo)
 {
     return (struct contributor){
         .object = echo->object,
         .reflector = echo->reflector,
         .path = echo->path,
+        .mirror = echo->mirror,
+        .number = echo->number,
         .range_m = echo->range_m,
         .azimuth_rad = echo->azimuth_rad,
         .range_rate_mps = echo->range_rate_mps,
@@ -467,25 +495,46 @@ void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum
 void frame_lose_echo(struct frame *frame, const char *stage, const struct echo *echo,
                      enum loss reason)
 {
-    frame_lose(frame, stage, echo->sensor, reason,
-               &(struct lost_echo){.object = echo->object,
-                                   .reflector = echo->reflector,
-                                   .path = echo->path,
-                                   .margins = echo->margins});
+    struct lost_echo lost = frame_lost(SUBJECT_OF(echo));
+    lost.margins = echo->margins;
+    frame_lose(frame, stage, echo->sensor, reason, &lost);
 }
 
 void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *cell,
                      enum loss reason, double shortfall_db, const struct margins *margins)
 {
     for (size_t i = 0; i < cell->members.count; i++) {
-        const struct contributor *member = &cell->members.items[i];
-        frame_lose(frame, stage, cell->sensor, reason,
-                   &(struct lost_echo){.object = member->object,
-                                       .reflector = member->reflector,
-                                       .path = member->path,
-                                       .shortfall_db = shortfall_db,
-                                       .margins = *margins});
+        struct lost_echo lost = frame_lost(SUBJECT_OF(&cell->members.items[i]));
+        lost.shortfall_db = shortfall_db;
+        lost.margins = *margins;
+        frame_lose(frame, stage, cell->sensor, reason, &lost);
     }
+}
+
+static struct count *count_of(struct frame *frame, const char *sensor)
+{
+    for (size_t i = 0; i < frame->counts.count; i++)
+        if (strcmp(frame->counts.items[i].sensor, sensor) == 0)
+            return &frame->counts.items[i];
+    struct count *count = list_add(&frame->counts, frame->arena);
+    count->sensor = sensor;
+    return count;
+}
+
+void frame_count_echoes(struct frame *frame, const char *sensor, enum path path, int64_t echoes)
+{
+    struct count *count = count_of(frame, sensor);
+    for (size_t i = 0; i < count->paths.count; i++)
+        if (count->paths.items[i].path == path) {
+            count->paths.items[i].echoes += echoes;
+            return;
+        }
+    *list_add(&count->paths, frame->arena) = (struct path_count){path, echoes};
+}
+
+void frame_count_pairs(struct frame *frame, const char *sensor, int64_t pairs)
+{
+    count_of(frame, sensor)->pairs += pairs;
 }
 
 struct target *frame_add_target(struct frame *frame, const struct cell *cell, double amplitude_db)

@@ -65,7 +65,32 @@ struct sensors {
     LIST_OF(struct sensor_view) list;
 };
 
-enum path { PATH_DIRECT };
+/* The way an echo took, and what sent it back. A ghost's last leg is where the radar sees it. */
+enum path {
+    PATH_DIRECT,             /* sensor, object, sensor */
+    PATH_WALL_OBJECT,        /* sensor, wall, object, sensor */
+    PATH_OBJECT_WALL,        /* sensor, object, wall, sensor */
+    PATH_WALL_OBJECT_WALL,   /* sensor, wall, object, wall, sensor */
+    PATH_OBJECT_WALL_OBJECT, /* sensor, object, wall, object, sensor */
+    PATH_OBJECT_EGO_OBJECT,  /* sensor, object, ego, object, sensor */
+    PATH_WHEEL,              /* a point on a turning wheel */
+    PATH_LIMB,               /* an arm or a leg */
+    PATH_CLUTTER,            /* the ground and what stands on it */
+    PATH_FALSE_ALARM,        /* nothing: noise */
+};
+
+/* What an echo is of, in one sensor's view. */
+struct subject {
+    const char *object;
+    const char *reflector;
+    enum path path;
+    const char *mirror; /* the wall's object on ghost paths, else NULL */
+    int64_t number;     /* of several of this kind, from 1; else 0 */
+};
+
+#define SUBJECT_OF(item)                                                                           \
+    ((struct subject){(item)->object, (item)->reflector, (item)->path, (item)->mirror,             \
+                      (item)->number})
 
 /* One sensor's view of one reflector along one path. */
 struct echo {
@@ -73,6 +98,8 @@ struct echo {
     const char *object;
     const char *reflector;
     enum path path;
+    const char *mirror;
+    int64_t number;
     double range_m, azimuth_rad, range_rate_mps;
     double ercs;
     double time_s;    /* of the measurement */
@@ -86,6 +113,8 @@ struct contributor {
     const char *object;
     const char *reflector;
     enum path path;
+    const char *mirror;
+    int64_t number;
     double range_m, azimuth_rad, range_rate_mps;
     double ercs;
     double time_s;
@@ -138,6 +167,8 @@ struct lost_echo {
     const char *object;
     const char *reflector;
     enum path path;
+    const char *mirror;
+    int64_t number;
     const char *by;      /* blocked by this object */
     double shortfall_db; /* below the threshold by this much */
     struct margins margins;
@@ -218,6 +249,9 @@ struct cell_span {
 struct echo_span frame_echoes_of(const struct frame *frame, const char *sensor);
 struct cell_span frame_cells_of(const struct frame *frame, const char *sensor);
 
+/* The entry in lost of what an echo is of. */
+struct lost_echo frame_lost(struct subject subject);
+
 /* The contributor that an echo is, with weight 0. */
 struct contributor frame_contributor(const struct echo *echo);
 
@@ -233,6 +267,10 @@ void frame_lose_echo(struct frame *frame, const char *stage, const struct echo *
  * where the reason has none. */
 void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *cell,
                      enum loss reason, double shortfall_db, const struct margins *margins);
+
+/* Counts echoes that were made, by path, and pairs of the sensor and a reflector. */
+void frame_count_echoes(struct frame *frame, const char *sensor, enum path path, int64_t echoes);
+void frame_count_pairs(struct frame *frame, const char *sensor, int64_t pairs);
 
 /* Appends a target with the cell's label and the cell's noise-free values and margins as its own.
  */

@@ -4,19 +4,27 @@
 
 #include "sort.h"
 
-static int compare_echo_names(const char *object_a, const char *reflector_a, enum path path_a,
-                              const char *object_b, const char *reflector_b, enum path path_b)
+static const char *text_of(const char *name)
 {
-    int order = strcmp(object_a, object_b);
+    return name != NULL ? name : "";
+}
+
+int frame_order_subjects(struct subject a, struct subject b)
+{
+    int order = strcmp(a.object, b.object);
     if (order == 0)
-        order = strcmp(reflector_a, reflector_b);
-    return order != 0 ? order : (path_a > path_b) - (path_a < path_b);
+        order = strcmp(a.reflector, b.reflector);
+    if (order == 0)
+        order = (a.path > b.path) - (a.path < b.path);
+    if (order == 0)
+        order = strcmp(text_of(a.mirror), text_of(b.mirror));
+    return order != 0 ? order : (a.number > b.number) - (a.number < b.number);
 }
 
 static int compare_contributors(const void *left, const void *right)
 {
     const struct contributor *a = left, *b = right;
-    return compare_echo_names(a->object, a->reflector, a->path, b->object, b->reflector, b->path);
+    return frame_order_subjects(SUBJECT_OF(a), SUBJECT_OF(b));
 }
 
 int frame_order_names(const void *left, const void *right)
@@ -40,9 +48,7 @@ int frame_order_echoes(const void *left, const void *right)
 {
     const struct echo *a = left, *b = right;
     int order = strcmp(a->sensor, b->sensor);
-    return order != 0 ? order
-                      : compare_echo_names(a->object, a->reflector, a->path, b->object,
-                                           b->reflector, b->path);
+    return order != 0 ? order : frame_order_subjects(SUBJECT_OF(a), SUBJECT_OF(b));
 }
 
 int frame_order_cells(const void *left, const void *right)
@@ -57,7 +63,7 @@ int frame_order_cells(const void *left, const void *right)
 static int compare_lost_echoes(const void *left, const void *right)
 {
     const struct lost_echo *a = left, *b = right;
-    return compare_echo_names(a->object, a->reflector, a->path, b->object, b->reflector, b->path);
+    return frame_order_subjects(SUBJECT_OF(a), SUBJECT_OF(b));
 }
 
 static int compare_lost_groups(const void *left, const void *right)
@@ -72,6 +78,12 @@ static int compare_lost_groups(const void *left, const void *right)
 static int compare_counts(const void *left, const void *right)
 {
     return strcmp(((const struct count *)left)->sensor, ((const struct count *)right)->sensor);
+}
+
+static int compare_paths(const void *left, const void *right)
+{
+    const struct path_count *a = left, *b = right;
+    return (a->path > b->path) - (a->path < b->path);
 }
 
 /* A stable sort leaves targets in the order of their sensor's list. */
@@ -100,6 +112,8 @@ void frame_order(struct frame *frame)
     for (size_t i = 0; i < frame->lost.count; i++)
         sort_list(&frame->lost.items[i].echoes, compare_lost_echoes, arena);
     sort_list(&frame->counts, compare_counts, arena);
+    for (size_t i = 0; i < frame->counts.count; i++)
+        sort_list(&frame->counts.items[i].paths, compare_paths, arena);
 }
 
 int frame_order_tied(const struct contributor *a, const struct contributor *b)

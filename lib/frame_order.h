@@ -12,6 +12,10 @@ void frame_order(struct frame *frame);
  * object, reflector, path. Negative, zero or positive. */
 int frame_order_tied(const struct contributor *a, const struct contributor *b);
 
+/* The canonical order of what echoes of one sensor are of: object, reflector, path, mirror, number.
+ */
+int frame_order_subjects(struct subject a, struct subject b);
+
 /* The canonical order of names (const char *), echoes and cells, for sort_items. */
 int frame_order_names(const void *left, const void *right);
 int frame_order_echoes(const void *left, const void *right);

@@ -405,9 +405,6 @@ void look_around(struct look *look)
         for (size_t j = 0; j < set->worn_by.count; j++)
             look_at_body(look, body_of(look, set->worn_by.items[j]), set);
     }
-    struct count *count = list_add(&frame->counts, frame->arena);
-    count->sensor = look->sensor->name;
-    count->pairs = look->pairs;
-    *list_add(&count->paths, frame->arena) =
-        (struct path_count){.path = PATH_DIRECT, .echoes = look->echoes};
+    frame_count_pairs(frame, look->sensor->name, look->pairs);
+    frame_count_echoes(frame, look->sensor->name, PATH_DIRECT, look->echoes);
 }

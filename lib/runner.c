@@ -172,12 +172,17 @@ struct random_address runner_address(const struct frame *frame, const char *sens
                                      const struct contributor *echo)
 {
     uint64_t subject = hash_text(hash_text(HASH_START, echo->object), echo->reflector);
+    subject = hash_bytes(subject, &(char){(char)echo->path}, 1);
+    if (echo->mirror != NULL)
+        subject = hash_text(subject, echo->mirror);
+    for (uint64_t rest = (uint64_t)echo->number; rest > 0; rest >>= 8)
+        subject = hash_bytes(subject, &(char){(char)rest}, 1);
     return (struct random_address){
         .seed = frame->seed,
         .scene = hash_text(HASH_START, frame->scene),
         .frame = (uint64_t)frame->frame,
         .sensor = hash_text(HASH_START, sensor),
-        .subject = hash_bytes(subject, &(char){(char)echo->path}, 1),
+        .subject = subject,
     };
 }
 
