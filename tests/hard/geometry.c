@@ -414,11 +414,9 @@ static struct vec2 build_wall(struct scene *scene, uint64_t *random, bool straig
     const struct box next = {{.position_m = {two.x_m, two.y_m}}, heading, two.length_m, 1};
     struct vec2 end = reflectors_place(&box, 0.5, -0.5);
     struct reflector_set *set = add_object(scene, one);
-    set->blocks = false;
     if (vec2_same(end, reflectors_place(&next, -0.5, -0.5))) {
         add_plane(scene, set, -0.5, 0.5);
         set = add_object(scene, two);
-        set->blocks = false;
         add_plane(scene, set, -0.5, 0.5);
         return end;
     }
