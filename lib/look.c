@@ -89,6 +89,7 @@ static int mark_blockers(struct look *look, struct diag *diag)
                     "reflectors[%zu].worn_by[%zu]: \"%s\" is not among the objects, or "
                     "is the ego",
                     i, j, set->worn_by.items[j]);
+            body->set = set;
             body->blocks = set->blocks;
             body->raised = set->raised;
         }
@@ -124,6 +125,42 @@ static bool passes_clear(const struct look *look, const struct look_body *body, 
            along > vec2_dot(line, line) + reach;
 }
 
+/* A plane in the world. */
+struct side {
+    struct vec2 from, to, along;
+};
+
+static struct side side_of(const struct look_body *body, const struct plane_reflector *plane)
+{
+    return (struct side){.from = reflectors_place(&body->box, plane->from_x, plane->from_y),
+                         .to = reflectors_place(&body->box, plane->to_x, plane->to_y),
+                         .along = reflectors_along(&body->box, plane)};
+}
+
+/* Has the body a side in line with this one that begins where it ends (or ends where it begins)? */
+static bool joins(const struct look_body *body, const struct side *side, bool begins)
+{
+    for (size_t i = 0; body->set != NULL && i < body->set->planes.count; i++) {
+        const struct plane_reflector *plane = &body->set->planes.items[i];
+        struct side other = side_of(body, plane);
+        if (plane->margin_m == 0 && vec2_same(other.along, side->along) &&
+            (begins ? vec2_same(other.from, side->to) : vec2_same(other.to, side->from)))
+            return true;
+    }
+    return false;
+}
+
+/* A foot exactly at the joint of two sides in line is the second one's (NUMERICS 33). */
+static bool next_side_has_foot(const struct look *look, const struct side *side)
+{
+    if (orientation_along(side->to, look->position_m, side->along) != 0)
+        return false;
+    for (size_t i = 0; i < look->body_count; i++)
+        if (joins(&look->bodies[i], side, true))
+            return true;
+    return false;
+}
+
 /* Which objects to ask for when a body's reflectors are looked at. */
 static void find_blockers(struct look *look, const struct look_body *own,
                           const struct reflector_set *set)
@@ -145,15 +182,17 @@ static void find_blockers(struct look *look, const struct look_body *own,
     effects_end(selection, EFFECT_OCCLUSION, begin);
 }
 
-/* The first object by id in the way to a place on the body that is looked at; only those that no
- * radar can look under if solid. */
-static const struct look_body *blocker(const struct look *look, struct vec2 place, bool solid)
+/* The first object by id in the way to a place on the body that is looked at, on a side of it or
+ * not (NULL); only those that no radar can look under if solid. */
+static const struct look_body *blocker(const struct look *look, const struct side *side,
+                                       struct vec2 place, bool solid)
 {
     for (size_t i = 0; i < look->blocker_count; i++) {
         const struct look_body *body = look->blockers[i];
         if ((solid && body->raised) || passes_clear(look, body, place))
             continue;
-        if (occlusion_outline_blocks(body->corner, 4, look->position_m, place))
+        if (occlusion_outline_blocks(body->corner, 4, look->position_m, place) &&
+            !(side != NULL && (joins(body, side, true) || joins(body, side, false))))
             return body;
     }
     return NULL;
@@ -199,6 +238,7 @@ static void lose(struct look *look, const struct look_body *body, const char *re
 /* One reflector that faces the sensor. */
 struct glimpse {
     const char *reflector;
+    const struct side *side; /* that it is, or NULL for a point */
     struct vec2 place;
     double ercs;
     double under_vehicles;
@@ -238,8 +278,9 @@ static void look_at(struct look *look, const struct look_body *body, struct glim
         return;
     }
     int64_t begin = effects_begin(look->selection);
-    const struct look_body *by = blocker(look, seen.place, false);
-    bool under = by != NULL && seen.under_vehicles > 0 && blocker(look, seen.place, true) == NULL;
+    const struct look_body *by = blocker(look, seen.side, seen.place, false);
+    bool under =
+        by != NULL && seen.under_vehicles > 0 && blocker(look, seen.side, seen.place, true) == NULL;
     effects_end(look->selection, EFFECT_OCCLUSION, begin);
     if (by != NULL && !under) {
         lose(look, body, seen.reflector, LOSS_BLOCKED, by,
@@ -298,32 +339,6 @@ static void look_at_point(struct look *look, const struct look_body *body,
         lose(look, body, point->name, LOSS_FACING_AWAY, NULL, margin_m);
 }
 
-static bool begins_at(const struct look_body *body, const struct reflector_set *set,
-                      struct vec2 place, struct vec2 along)
-{
-    for (size_t i = 0; i < set->planes.count; i++) {
-        const struct plane_reflector *plane = &set->planes.items[i];
-        if (plane->margin_m == 0 && vec2_same(reflectors_along(&body->box, plane), along) &&
-            vec2_same(reflectors_place(&body->box, plane->from_x, plane->from_y), place))
-            return true;
-    }
-    return false;
-}
-
-/* A foot exactly at the joint of two sides in line is the second one's (NUMERICS 33). */
-static bool next_side_has_foot(const struct look *look, struct vec2 end, struct vec2 along)
-{
-    if (orientation_along(end, look->position_m, along) != 0)
-        return false;
-    for (size_t i = 0; i < look->frame->reflectors.count; i++) {
-        const struct reflector_set *set = &look->frame->reflectors.items[i];
-        for (size_t j = 0; j < set->worn_by.count; j++)
-            if (begins_at(body_of(look, set->worn_by.items[j]), set, end, along))
-                return true;
-    }
-    return false;
-}
-
 static void look_at_plane(struct look *look, const struct look_body *body,
                           const struct plane_reflector *plane)
 {
@@ -332,16 +347,17 @@ static void look_at_plane(struct look *look, const struct look_body *body,
         lose(look, body, plane->name, LOSS_SWITCHED_OFF, NULL, (double)INFINITY);
         return;
     }
-    struct vec2 from = reflectors_place(&body->box, plane->from_x, plane->from_y);
-    struct vec2 to = reflectors_place(&body->box, plane->to_x, plane->to_y);
-    struct vec2 along = reflectors_along(&body->box, plane), foot;
-    double margin_m =
-        look->frame->margins ? clearance_foot_m(from, to, plane->margin_m, look->position_m) : 0;
-    if (reflection_foot(from, to, along, plane->margin_m, look->position_m, &foot) &&
-        !next_side_has_foot(look, to, along))
+    struct side side = side_of(body, plane);
+    struct vec2 foot;
+    double margin_m = look->frame->margins
+                          ? clearance_foot_m(side.from, side.to, plane->margin_m, look->position_m)
+                          : 0;
+    if (reflection_foot(side.from, side.to, side.along, plane->margin_m, look->position_m, &foot) &&
+        !next_side_has_foot(look, &side))
         look_at(look, body,
                 (struct glimpse){
                     .reflector = plane->name,
+                    .side = &side,
                     .place = foot,
                     .ercs = plane->ercs,
                     .margin_m = margin_m,

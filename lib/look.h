@@ -4,9 +4,9 @@
  * closed form, the sensor's place and speed follow from its mount on the moving, turning ego. Every
  * reflector of an object then either becomes an echo in the frame or is written down as lost, with
  * the first reason that applies: it faces away or mirrors past the sensor, it is out of range, out
- * of view, or blocked. Of two sides in line the second one mirrors what is exactly before their
- * joint, where its beginning is the other's end as doubles; another object that blocks touches that
- * sight line with its end and hides it. */
+ * of view, or blocked. Two sides in line, where the beginning of one is the end of the other as
+ * doubles, are one wall: the second mirrors what is exactly before their joint, and the object of
+ * neither hides a foot on the other, though it may touch the sight line there. */
 #ifndef LOOK_H
 #define LOOK_H
 
@@ -16,6 +16,7 @@
 
 struct look_body {
     const struct object *object;
+    const struct reflector_set *set; /* NULL: it wears none */
     struct box box;
     struct vec2 corner[4];
     struct sector sector; /* the circle around the box */

@@ -21,7 +21,7 @@
  * of length zero (below 1e-160 m) has none.
  *
  * The foot is rounded. On a side parallel to an axis the sight line is parallel to the other to the
- * last bit, so that an outline it touches blocks it; else it passes within 4 ulp of the largest
+ * last bit, so that an outline it touches blocks it; else it passes within 2 ulp of the largest
  * coordinate or distance, and an outline that it only touches may be missed by that. */
 bool reflection_foot(struct vec2 a, struct vec2 b, struct vec2 along, double margin_m,
                      struct vec2 sensor, struct vec2 *foot);

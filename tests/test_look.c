@@ -257,7 +257,6 @@ static void the_joint_of_two_walls_mirrors_once(void **state)
 {
     struct scene *scene = *state;
     struct reflector_set *set = add_set(scene, "a");
-    set->blocks = false;
     *list_add(&set->worn_by, &scene->arena) = "b";
     *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
         .name = "right", .from_x = -0.5, .from_y = -0.5, .to_x = 0.5, .to_y = -0.5, .ercs = 1};

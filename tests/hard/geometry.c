@@ -1,0 +1,680 @@
+/* Which side, which foot, what is in the way: NUMERICS A3, 22 and 26 to 34, decided exactly. */
+#include "hard.h"
+
+#include <stdbool.h>
+
+#include "look.h"
+#include "occlusion.h"
+#include "orientation.h"
+#include "reflection.h"
+#include "sight.h"
+#include "units.h"
+
+__extension__ typedef __int128 wide;
+
+#define LENGTH(array) (sizeof(array) / sizeof((array)[0]))
+
+static int sign_of(double value)
+{
+    return (value > 0) - (value < 0);
+}
+
+static double between_powers(uint64_t *random, int low, int high)
+{
+    int exponent = low + (int)(sample_bits(random) % (uint64_t)(high - low));
+    return ldexp(sample_between(random, 1, 2), exponent);
+}
+
+static struct vec2 draw_place(uint64_t *random, double bound_m)
+{
+    double x = sample_between(random, -bound_m, bound_m);
+    return (struct vec2){x, sample_between(random, -bound_m, bound_m)};
+}
+
+/* To a multiple of unit_m, so that the sums below stay exact. */
+static struct vec2 on_grid(struct vec2 place, double unit_m)
+{
+    return (struct vec2){round(place.x / unit_m) * unit_m, round(place.y / unit_m) * unit_m};
+}
+
+static void a_length_is_within_its_bound(void **state)
+{
+    (void)state;
+    uint64_t random = 22;
+    double naive = 0, ours = 0;
+    mpfr_t x, y, exact;
+    mpfr_inits2(320, x, y, exact, (mpfr_ptr)NULL);
+    for (int i = 0; i < hard_points(1000000); i++) {
+        bool local = i % 2;
+        struct vec2 way = {between_powers(&random, local ? -40 : -1022, local ? 23 : 1022),
+                           between_powers(&random, local ? -40 : -1022, local ? 23 : 1022)};
+        mpfr_set_d(x, way.x, MPFR_RNDN);
+        mpfr_set_d(y, way.y, MPFR_RNDN);
+        double length_m = local ? vec2_length(way) : elementary_hypot(way.x, way.y);
+        mpfr_hypot(exact, x, y, MPFR_RNDN);
+        ours = fmax(ours, hard_ulp(length_m, exact));
+        mpfr_hypot(exact, x, y, MPFR_RNDN);
+        naive = fmax(naive, hard_ulp(sqrt(way.x * way.x + way.y * way.y), exact));
+    }
+    mpfr_clears(x, y, exact, (mpfr_ptr)NULL);
+    hard_case("22", "lengths in range, and of any size", "ulp", naive, ours, 1.2);
+}
+
+static struct vec2 posts_of_a_row_without_length(int64_t *count)
+{
+    const struct box box = {.motion.position_m = {3, 4}, .heading = {0.6, 0.8}, .length_m = 2};
+    const struct post_row row = {.from_x = 0.5, .to_x = 0.5, .spacing_m = 4};
+    int64_t first;
+    reflectors_posts_within(&box, &row, (struct vec2){0, 0}, 100, &first, count);
+    return reflectors_post_place(&box, &row, first);
+}
+
+/* What stands on nothing has one answer: no NaN, no guess. */
+static void what_has_no_size_has_a_fixed_answer(void **state)
+{
+    (void)state;
+    const struct vec2 o = {0, 0}, p = {1, 0}, q = {2, 0}, up = {0, 1}, off = {1, 1};
+    const struct vec2 point[] = {p, p, p, p}, line[] = {p, p, off, off}, flat[] = {o, o, q, q};
+    struct vec2 foot;
+    int64_t posts;
+    struct vec2 post = posts_of_a_row_without_length(&posts);
+    struct sight here = sight_of(p, up, up, p, o);
+    struct motion still = motion_drive(p, 1, 0, 0, 0, 0);
+    const double no_length = vec2_length(o);
+    const struct {
+        double naive, ours, fixed;
+    } rows[] = {
+        {1, occlusion_segments_touch(p, p, p, p), 1},
+        {0, occlusion_segments_touch(p, p, q, q), 0},
+        {1, occlusion_segments_touch(p, p, o, q), 1},
+        {1, occlusion_segments_touch(o, q, p, p), 1},
+        {0, occlusion_segments_touch(off, off, o, q), 0},
+        {0, occlusion_segments_touch(o, p, q, q), 0},
+        {1, occlusion_segments_touch(q, q, o, q), 1},
+        {0, occlusion_outline_blocks(point, 4, o, q), 1},
+        {0, occlusion_outline_blocks(point, 4, up, off), 0},
+        {0, occlusion_outline_blocks(point, 4, p, p), 1},
+        {0, occlusion_outline_blocks(line, 4, o, (struct vec2){2, 1}), 1},
+        {0, occlusion_outline_blocks(line, 4, o, up), 0},
+        {0, occlusion_outline_blocks(flat, 4, p, (struct vec2){9, 0}), 1},
+        {0, occlusion_outline_blocks(flat, 4, (struct vec2){3, 0}, (struct vec2){9, 0}), 0},
+        {0, orientation_sign(p, p, off), 0},
+        {0, orientation_sign(off, p, p), 0},
+        {0, orientation_sign(p, off, p), 0},
+        {0, orientation_sign(p, p, p), 0},
+        {0, orientation_along(p, p, up), 0},
+        {0, orientation_along(o, off, o), 0},
+        {no_length / no_length, reflection_foot(p, p, up, 0, o, &foot), 0},
+        {no_length / no_length, reflection_foot(p, p, up, 0, p, &foot), 0},
+        {1, reflection_foot(p, q, p, 0, p, &foot), 0},
+        {1, reflection_foot(p, q, p, 0.75, (struct vec2){1.5, -1}, &foot), 0},
+        {1, reflection_foot(o, (struct vec2){1e-170, 0}, p, 0, (struct vec2){0, -1}, &foot), 0},
+        {0, here.range_m, 0},
+        {no_length / no_length, here.azimuth_rad, 0},
+        {no_length / no_length, here.range_rate_mps, 0},
+        {no_length / no_length, visibility_angle_rad(o, up), 0},
+        {no_length / no_length, visibility_angle_rad(o, vec2_scale(-1, o)), 0},
+        {no_length / no_length, visibility(VISIBILITY_LINEAR, 1, 1, 1), 1},
+        {no_length / no_length, visibility(VISIBILITY_RAISED_COSINE, 0, 0, 0), 1},
+        {1, (double)posts, 1},
+        {no_length / no_length, post.x, 3.6},
+        {no_length / no_length, still.position_m.x, 1},
+        {no_length / no_length, motion_drive_length_m(0, 0, 0), 0},
+        {no_length / no_length, units_si(0), 1},
+    };
+    double naive = 0, ours = 0;
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        naive += rows[i].naive != rows[i].fixed;
+        ours += rows[i].ours != rows[i].fixed;
+    }
+    hard_case("26", "37 answers about what has no size", "wrong", naive, ours, 0);
+}
+
+static int plain_sign(struct vec2 a, struct vec2 b, struct vec2 c)
+{
+    return sign_of((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+}
+
+/* A corner of the grid beside the diagonal, and steps of an integer lattice along a line. */
+static void near_collinear_points_have_their_side(void **state)
+{
+    (void)state;
+    uint64_t random = 27;
+    double naive = 0, ours = 0;
+    for (int i = 0; i < 256; i++)
+        for (int j = 0; j < 256; j++) {
+            struct vec2 a = {0.5 + i * 0x1p-53, 0.5 + j * 0x1p-53}, b = {12, 12}, c = {24, 24};
+            naive += plain_sign(a, b, c) != sign_of(j - i);
+            ours += orientation_sign(a, b, c) != sign_of(j - i) ||
+                    orientation_sign(b, c, a) != sign_of(j - i);
+        }
+    for (int i = 0; i < hard_points(1000000); i++) {
+        int64_t x = sample_integer(&random, INT64_C(1) << 40);
+        int64_t y = sample_integer(&random, INT64_C(1) << 40);
+        int64_t step_x = sample_integer(&random, INT64_C(1) << 32);
+        int64_t step_y = sample_integer(&random, INT64_C(1) << 32);
+        int64_t m = sample_integer(&random, 1 << 18), n = sample_integer(&random, 1 << 18);
+        int64_t bx = m * step_x, by = m * step_y;
+        int64_t cx = n * step_x + sample_integer(&random, 1);
+        int64_t cy = n * step_y + sample_integer(&random, 1);
+        wide left = (wide)bx * cy, right = (wide)by * cx;
+        int exact = (left > right) - (left < right);
+        struct vec2 a = {(double)x, (double)y}, b = {(double)(x + bx), (double)(y + by)};
+        struct vec2 c = {(double)(x + cx), (double)(y + cy)};
+        naive += plain_sign(a, b, c) != exact;
+        ours += orientation_sign(a, b, c) != exact || orientation_sign(c, b, a) != -exact;
+    }
+    hard_case("27", "sides of 1e6 near-collinear triples", "wrong", naive, ours, 0);
+}
+
+static int exact_sign(struct vec2 a, struct vec2 b, struct vec2 c, mpfr_t *work)
+{
+    const double first[] = {a.x, b.x, c.x}, second[] = {b.y, c.y, a.y};
+    const double third[] = {a.y, b.y, c.y}, fourth[] = {b.x, c.x, a.x};
+    mpfr_set_zero(work[0], 1);
+    for (int i = 0; i < 3; i++) {
+        mpfr_set_d(work[1], first[i], MPFR_RNDN);
+        mpfr_mul_d(work[1], work[1], second[i], MPFR_RNDN);
+        mpfr_add(work[0], work[0], work[1], MPFR_RNDN);
+        mpfr_set_d(work[1], third[i], MPFR_RNDN);
+        mpfr_mul_d(work[1], work[1], fourth[i], MPFR_RNDN);
+        mpfr_sub(work[0], work[0], work[1], MPFR_RNDN);
+    }
+    return mpfr_sgn(work[0]);
+}
+
+/* All 62 196 triples of the first 73 points, spelled as multiples and as quotients. */
+static void decimal_road_points_have_their_side(void **state)
+{
+    (void)state;
+    struct vec2 road[2][73];
+    for (int k = 0; k < 73; k++) {
+        road[0][k] = (struct vec2){(k + 1) * 0.1, (k + 1) * 0.3};
+        road[1][k] = (struct vec2){(k + 1) / 10.0, 3 * (k + 1) / 10.0};
+    }
+    double naive = 0, ours = 0;
+    mpfr_t work[2];
+    mpfr_inits2(320, work[0], work[1], (mpfr_ptr)NULL);
+    for (int spelling = 0; spelling < 2; spelling++)
+        for (int i = 0; i < 73; i++)
+            for (int j = i + 1; j < 73; j++)
+                for (int k = j + 1; k < 73; k++) {
+                    struct vec2 *p = road[spelling];
+                    int exact = exact_sign(p[i], p[j], p[k], work);
+                    naive += plain_sign(p[i], p[j], p[k]) != exact;
+                    ours += orientation_sign(p[i], p[j], p[k]) != exact;
+                }
+    mpfr_clears(work[0], work[1], (mpfr_ptr)NULL);
+    hard_case("28", "sides of decimal road points", "wrong", naive, ours, 0);
+}
+
+static bool strict_cross(struct vec2 p, struct vec2 q, struct vec2 a, struct vec2 b)
+{
+    return plain_sign(p, q, a) * plain_sign(p, q, b) < 0 &&
+           plain_sign(a, b, p) * plain_sign(a, b, q) < 0;
+}
+
+/* Where on p-q and on a-b the lines meet, with contracted products as some builds have them. */
+static bool parametric_touch(struct vec2 p, struct vec2 q, struct vec2 a, struct vec2 b)
+{
+    struct vec2 r = vec2_sub(q, p), s = vec2_sub(b, a), w = vec2_sub(a, p);
+    double det = fma(r.x, s.y, -(r.y * s.x));
+    double t = fma(w.x, s.y, -(w.y * s.x)) / det, u = fma(w.x, r.y, -(w.y * r.x)) / det;
+    return t >= 0 && t <= 1 && u >= 0 && u <= 1;
+}
+
+/* Rays aimed exactly at a corner of a turned car: on the grid 2^-36 m the target, as far behind the
+ * corner as the sensor is before it, is exact. */
+static void no_ray_leaks_through_a_corner(void **state)
+{
+    (void)state;
+    uint64_t random = 29;
+    double strict = 0, parametric = 0, ours = 0;
+    for (int i = 0; i < hard_points(1000000); i++) {
+        const struct box box = {.motion.position_m = draw_place(&random, 20),
+                                .heading = vec2_heading(sample_between(&random, -PI, PI)),
+                                .length_m = sample_between(&random, 3, 12),
+                                .width_m = sample_between(&random, 1.5, 2.5)};
+        struct vec2 corner[4];
+        reflectors_outline(&box, corner);
+        for (int k = 0; k < 4; k++)
+            corner[k] = on_grid(corner[k], 0x1p-36);
+        int k = i % 4;
+        struct vec2 sensor = on_grid(draw_place(&random, 50), 0x1p-36);
+        struct vec2 target = vec2_add(corner[k], vec2_sub(corner[k], sensor));
+        struct vec2 before = corner[(k + 3) % 4], after = corner[(k + 1) % 4];
+        strict += !strict_cross(sensor, target, before, corner[k]) &&
+                  !strict_cross(sensor, target, corner[k], after);
+        parametric += !parametric_touch(sensor, target, before, corner[k]) &&
+                      !parametric_touch(sensor, target, corner[k], after);
+        ours += !occlusion_segments_touch(sensor, target, before, corner[k]) ||
+                !occlusion_segments_touch(sensor, target, corner[k], after) ||
+                !occlusion_outline_blocks(corner, 4, sensor, target);
+    }
+    hard_case("29", "rays through a corner that leak", "wrong", strict, ours, 0);
+    hard_case("30", "the same, products contracted", "wrong", parametric, ours, 0);
+}
+
+/* Two rails of at least 4 m that share a rounded vertex, and rays within rounding of it from 1 m
+ * to either side. */
+static void no_ray_leaks_through_a_joint(void **state)
+{
+    (void)state;
+    uint64_t random = 31;
+    double naive = 0, ours = 0;
+    for (int i = 0; i < hard_points(1000000); i++) {
+        struct vec2 along = vec2_heading(sample_between(&random, -PI, PI));
+        struct vec2 joint = draw_place(&random, 100);
+        struct vec2 a = vec2_sub(joint, vec2_scale(sample_between(&random, 4, 8), along));
+        struct vec2 b = vec2_add(joint, vec2_scale(sample_between(&random, 4, 8), along));
+        struct vec2 own = {sample_between(&random, -3, 3), sample_between(&random, 1, 50)};
+        struct vec2 sensor = vec2_add(joint, vec2_turn(own, along));
+        struct vec2 target = vec2_sub(joint, vec2_sub(sensor, joint));
+        naive += !strict_cross(sensor, target, a, joint) && !strict_cross(sensor, target, joint, b);
+        ours += !occlusion_segments_touch(sensor, target, a, joint) &&
+                !occlusion_segments_touch(sensor, target, joint, b);
+    }
+    hard_case("31", "rays through a rail's joint that leak", "wrong", naive, ours, 0);
+}
+
+/* A frame in which "e" carries a sensor, and what else is there. */
+struct scene {
+    struct arena arena;
+    struct frame frame;
+    struct sensor sensor;
+};
+
+static void begin_scene(struct scene *scene, struct vec2 sensor, double yaw_rad)
+{
+    scene->frame.arena = &scene->arena;
+    frame_clear(&scene->frame);
+    scene->frame.scene = "s";
+    scene->frame.ego = "e";
+    scene->frame.interval_s = 1;
+    scene->frame.account = true;
+    scene->sensor = (struct sensor){.name = "front", .range_max_m = 1000, .field_of_view_rad = PI};
+    *list_add(&scene->frame.objects, &scene->arena) = (struct object){
+        .id = "e", .class = "car", .x_m = sensor.x, .y_m = sensor.y, .yaw_rad = yaw_rad};
+}
+
+/* An object that alone wears its set. */
+static struct reflector_set *add_object(struct scene *scene, struct object object)
+{
+    *list_add(&scene->frame.objects, &scene->arena) = object;
+    struct reflector_set *set = list_add(&scene->frame.reflectors, &scene->arena);
+    *set = (struct reflector_set){.model = object.id, .blocks = true};
+    *list_add(&set->worn_by, &scene->arena) = object.id;
+    return set;
+}
+
+static void add_point(struct scene *scene, struct reflector_set *set, double x, double y)
+{
+    *list_add(&set->points, &scene->arena) = (struct point_reflector){.name = "p",
+                                                                      .x = x,
+                                                                      .y = y,
+                                                                      .full_rad = PI,
+                                                                      .zero_rad = PI,
+                                                                      .shape = VISIBILITY_HARD,
+                                                                      .ercs = 1};
+}
+
+static void add_plane(struct scene *scene, struct reflector_set *set, double from, double to)
+{
+    *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
+        .name = "w", .from_x = from, .from_y = -0.5, .to_x = to, .to_y = -0.5, .ercs = 1};
+}
+
+static void look(struct scene *scene)
+{
+    struct look seen;
+    struct diag diag = {0};
+    if (look_begin(&seen, &scene->frame, &scene->sensor, 0, &diag) != 0)
+        fail_msg("%s", diag.text);
+    look_around(&seen);
+}
+
+static size_t lost_for(const struct scene *scene, enum loss reason)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < scene->frame.lost.count; i++)
+        if (scene->frame.lost.items[i].reason == reason)
+            count += scene->frame.lost.items[i].echoes.count;
+    return count;
+}
+
+static void no_object_hides_its_own_outline(void **state)
+{
+    (void)state;
+    uint64_t random = 32;
+    struct scene scene = {0};
+    double naive = 0, ours = 0;
+    for (int i = 0; i < hard_points(200000) / 20; i++) {
+        begin_scene(&scene, (struct vec2){0, 0}, 0);
+        struct object car = {.id = "a",
+                             .class = "car",
+                             .x_m = sample_between(&random, 10, 100),
+                             .y_m = sample_between(&random, -9, 9),
+                             .yaw_rad = sample_between(&random, -PI, PI),
+                             .length_m = 4.5,
+                             .width_m = 1.8};
+        struct reflector_set *set = add_object(&scene, car);
+        const struct box box = {.motion.position_m = {car.x_m, car.y_m},
+                                .heading = vec2_heading(car.yaw_rad),
+                                .length_m = 4.5,
+                                .width_m = 1.8};
+        struct vec2 corner[4];
+        reflectors_outline(&box, corner);
+        for (int k = 0; k < 20; k++) {
+            double part = sample_between(&random, -0.5, 0.5), side = k % 2 ? 0.5 : -0.5;
+            double x = k % 4 < 2 ? part : side, y = k % 4 < 2 ? side : part;
+            add_point(&scene, set, x, y);
+            naive += occlusion_outline_blocks(corner, 4, (struct vec2){0, 0},
+                                              reflectors_place(&box, x, y));
+        }
+        look(&scene);
+        ours += (double)(20 - scene.frame.echoes.count);
+    }
+    arena_free(&scene.arena);
+    hard_case("32", "points hidden by their own outline", "wrong", naive, ours, 0);
+}
+
+/* Feet on the two sides that a plain test finds, ends included. */
+static int plain_feet(struct vec2 a, struct vec2 joint, struct vec2 b, struct vec2 sensor)
+{
+    struct vec2 first = vec2_sub(joint, a), second = vec2_sub(b, joint);
+    bool before = vec2_dot(vec2_sub(sensor, joint), first) <= 0;
+    bool beyond = vec2_dot(vec2_sub(sensor, joint), second) >= 0;
+    return before + beyond;
+}
+
+/* A wall in two pieces: of one object, or of two whose ends coincide as doubles. */
+static struct vec2 build_wall(struct scene *scene, uint64_t *random, bool straight, double yaw_rad)
+{
+    struct object one = {.id = "a",
+                         .class = "wall",
+                         .x_m = sample_between(random, -900, 900),
+                         .y_m = sample_between(random, -900, 900),
+                         .yaw_rad = yaw_rad,
+                         .length_m = sample_between(random, 4, 40),
+                         .width_m = 1};
+    double part = sample_between(random, -0.4, 0.4);
+    struct vec2 heading = vec2_heading(yaw_rad);
+    struct vec2 centre = on_grid((struct vec2){one.x_m, one.y_m}, straight ? 0x1p-10 : 0x1p-40);
+    if (straight)
+        one.length_m = 16;
+    one.x_m = centre.x;
+    one.y_m = centre.y;
+    const struct box box = {{.position_m = centre}, heading, one.length_m, 1};
+    struct object two = one;
+    two.id = "b";
+    two.length_m = straight ? 8 : sample_between(random, 4, 40);
+    struct vec2 apart = vec2_scale((one.length_m + two.length_m) / 2, heading);
+    two.x_m += apart.x;
+    two.y_m += apart.y;
+    const struct box next = {{.position_m = {two.x_m, two.y_m}}, heading, two.length_m, 1};
+    struct vec2 end = reflectors_place(&box, 0.5, -0.5);
+    struct reflector_set *set = add_object(scene, one);
+    if (vec2_same(end, reflectors_place(&next, -0.5, -0.5))) {
+        add_plane(scene, set, -0.5, 0.5);
+        set = add_object(scene, two);
+        add_plane(scene, set, -0.5, 0.5);
+        return end;
+    }
+    add_plane(scene, set, -0.5, part);
+    add_plane(scene, set, part, 0.5);
+    return reflectors_place(&box, part, -0.5);
+}
+
+/* The sensor stands before the joint but for rounding; every eighth wall is straight and the sensor
+ * exactly before it. */
+static void every_joint_has_one_foot(void **state)
+{
+    (void)state;
+    uint64_t random = 33;
+    struct scene scene = {0};
+    double naive = 0, ours = 0, objects = 0;
+    for (int i = 0; i < hard_points(1000000); i++) {
+        bool straight = i % 8 == 0;
+        double yaw_rad = straight ? 0 : sample_between(&random, -PI, PI);
+        begin_scene(&scene, (struct vec2){0, 0}, yaw_rad + PI / 2);
+        struct vec2 joint = build_wall(&scene, &random, straight, yaw_rad);
+        struct vec2 along = vec2_heading(yaw_rad);
+        double range_m = straight ? 32 : sample_between(&random, 1, 200);
+        struct vec2 sensor = vec2_sub(joint, vec2_scale(range_m, vec2_left(along)));
+        scene.frame.objects.items[0].x_m = sensor.x;
+        scene.frame.objects.items[0].y_m = sensor.y;
+        struct vec2 a = vec2_sub(joint, vec2_scale(4, along));
+        naive += plain_feet(a, joint, vec2_add(joint, vec2_scale(5, along)), sensor) != 1;
+        look(&scene);
+        ours += scene.frame.echoes.count != 1;
+        objects += scene.frame.objects.count == 3;
+    }
+    arena_free(&scene.arena);
+    assert_true(objects > 0.2 * hard_points(1000000));
+    hard_case("33", "joints of a wall without just one foot", "wrong", naive, ours, 0);
+}
+
+/* Two boxes whose ends coincide only up to rounding, and a sensor 1e-12 m beside the joint. */
+static void a_joint_up_to_rounding_has_one_foot_beside_it(void **state)
+{
+    (void)state;
+    uint64_t random = 133;
+    double naive = 0, ours = 0;
+    for (int i = 0; i < hard_points(1000000); i++) {
+        struct vec2 along = vec2_heading(sample_between(&random, -PI, PI)), foot;
+        double lengths_m[] = {sample_between(&random, 4, 40), sample_between(&random, 4, 40)};
+        struct box one = {{.position_m = draw_place(&random, 900)}, along, lengths_m[0], 1};
+        struct box two = {
+            {.position_m = vec2_add(one.motion.position_m,
+                                    vec2_scale((lengths_m[0] + lengths_m[1]) / 2, along))},
+            along,
+            lengths_m[1],
+            1};
+        struct vec2 end = reflectors_place(&one, 0.5, -0.5);
+        struct vec2 begin = reflectors_place(&two, -0.5, -0.5);
+        double range_m = sample_between(&random, 1, 200);
+        struct vec2 before = vec2_sub(end, vec2_scale(range_m, vec2_left(along)));
+        struct vec2 beside = vec2_add(before, vec2_scale(i % 2 ? 1e-12 : -1e-12, along));
+        struct vec2 from = reflectors_place(&one, -0.5, -0.5);
+        struct vec2 to = reflectors_place(&two, 0.5, -0.5);
+        naive += reflection_foot(from, end, along, 0, before, &foot) +
+                     reflection_foot(begin, to, along, 0, before, &foot) !=
+                 1;
+        ours += reflection_foot(from, end, along, 0, beside, &foot) +
+                    reflection_foot(begin, to, along, 0, beside, &foot) !=
+                1;
+    }
+    hard_case("33 apart", "ends that differ: at, and 1e-12 m beside", "wrong", naive, ours, 0);
+}
+
+/* A side along an axis, and another object whose corner or side lies exactly on its sight line. */
+static void an_outline_along_the_sight_line_blocks_the_foot(void **state)
+{
+    (void)state;
+    uint64_t random = 34;
+    double naive = 0, ours = 0;
+    for (int i = 0; i < hard_points(1000000); i++) {
+        struct vec2 a = {sample_between(&random, 20, 60), sample_between(&random, 1, 9)};
+        struct vec2 b = {a.x, sample_between(&random, -9, -1)}, along = {0, -1}, foot;
+        struct vec2 sensor = {sample_between(&random, -9, 9), sample_between(&random, -1, 1)};
+        double aside_m = i % 2 ? 1.8 : -1.8;
+        struct vec2 corner[] = {{12, sensor.y},
+                                {16, i % 3 ? sensor.y : sensor.y + aside_m},
+                                {16, sensor.y + aside_m},
+                                {12, sensor.y + aside_m}};
+        if (i % 4 > 1) {
+            struct vec2 *all[] = {&a, &b, &sensor, &corner[0], &corner[1], &corner[2], &corner[3]};
+            for (size_t k = 0; k < LENGTH(all); k++)
+                *all[k] = vec2_left(*all[k]);
+            along = vec2_left(along);
+        }
+        assert_true(reflection_foot(a, b, along, 0, sensor, &foot));
+        struct vec2 edge = vec2_sub(b, a);
+        double part = vec2_dot(vec2_sub(sensor, a), edge) / vec2_dot(edge, edge);
+        struct vec2 plain = vec2_add(a, vec2_scale(part, edge));
+        naive += !occlusion_outline_blocks(corner, 4, sensor, plain);
+        ours += !occlusion_outline_blocks(corner, 4, sensor, foot);
+    }
+    hard_case("foot", "outlines along its sight line missed", "wrong", naive, ours, 0);
+}
+
+/* Of the largest coordinate or distance. */
+static double foot_error_ulp(struct vec2 a, struct vec2 b, struct vec2 sensor, struct vec2 foot,
+                             mpfr_t *w)
+{
+    double sizes[] = {fabs(a.x), fabs(a.y), fabs(b.x), fabs(b.y), fabs(sensor.x), fabs(sensor.y)};
+    double most = 0;
+    for (size_t i = 0; i < LENGTH(sizes); i++)
+        most = fmax(most, sizes[i]);
+    int exponent;
+    frexp(most, &exponent);
+    /* across = (a.y - b.y, b.x - a.x); off = (foot - sensor) x across / |across| */
+    mpfr_set_d(w[0], a.y, MPFR_RNDN);
+    mpfr_sub_d(w[0], w[0], b.y, MPFR_RNDN);
+    mpfr_set_d(w[1], b.x, MPFR_RNDN);
+    mpfr_sub_d(w[1], w[1], a.x, MPFR_RNDN);
+    mpfr_set_d(w[2], foot.x, MPFR_RNDN);
+    mpfr_sub_d(w[2], w[2], sensor.x, MPFR_RNDN);
+    mpfr_set_d(w[3], foot.y, MPFR_RNDN);
+    mpfr_sub_d(w[3], w[3], sensor.y, MPFR_RNDN);
+    mpfr_mul(w[2], w[2], w[1], MPFR_RNDN);
+    mpfr_mul(w[3], w[3], w[0], MPFR_RNDN);
+    mpfr_sub(w[2], w[2], w[3], MPFR_RNDN);
+    mpfr_hypot(w[3], w[0], w[1], MPFR_RNDN);
+    mpfr_div(w[2], w[2], w[3], MPFR_RNDN);
+    mpfr_mul_2si(w[2], w[2], 53 - exponent, MPFR_RNDN);
+    return fabs(mpfr_get_d(w[2], MPFR_RNDN));
+}
+
+static void a_turned_foot_is_off_its_sight_line_by_rounding_alone(void **state)
+{
+    (void)state;
+    uint64_t random = 35;
+    double naive = 0, ours = 0;
+    mpfr_t w[4];
+    mpfr_inits2(320, w[0], w[1], w[2], w[3], (mpfr_ptr)NULL);
+    for (int i = 0; i < hard_points(1000000); i++) {
+        struct vec2 along = vec2_heading(sample_between(&random, -PI, PI)), foot;
+        struct vec2 a = draw_place(&random, i % 2 ? 50 : 1000);
+        double length_m = between_powers(&random, -3, 8);
+        struct vec2 b = vec2_add(a, vec2_scale(length_m, along));
+        struct vec2 own = {sample_between(&random, 0.1, 0.9) * length_m,
+                           -between_powers(&random, -7, 8)};
+        struct vec2 sensor = vec2_add(a, vec2_turn(own, along));
+        assert_true(reflection_foot(a, b, along, 0, sensor, &foot));
+        struct vec2 edge = vec2_sub(b, a);
+        double part = vec2_dot(vec2_sub(sensor, a), edge) / vec2_dot(edge, edge);
+        struct vec2 plain = vec2_add(a, vec2_scale(part, edge));
+        naive = fmax(naive, foot_error_ulp(a, b, sensor, plain, w));
+        ours = fmax(ours, foot_error_ulp(a, b, sensor, foot, w));
+    }
+    mpfr_clears(w[0], w[1], w[2], w[3], (mpfr_ptr)NULL);
+    hard_case("foot, turned", "foot off the line of sight", "ulp", naive, ours, 2);
+}
+
+/* Points at the sensor's very place, and next to it by anything from 2^-1074 m up. */
+static void nothing_at_range_zero_is_infinite(void **state)
+{
+    (void)state;
+    uint64_t random = 36;
+    double naive = 0, ours = 0;
+    const struct radar_equation law = {.exponent = 2,
+                                       .calibration_ercs = 1,
+                                       .calibration_range_m = 100,
+                                       .range_floor_m = 0.5,
+                                       .threshold = 1};
+    for (int i = 0; i < hard_points(1000000); i++) {
+        struct vec2 sensor = i % 3 ? (struct vec2){0, 0} : draw_place(&random, 1e3);
+        struct vec2 beside = {ldexp(1, -(i % 1075)), i % 2 ? 0 : ldexp(-1, -(i % 1074))};
+        struct vec2 point = i % 4 ? vec2_add(sensor, beside) : sensor;
+        struct sight sight = sight_of(sensor, draw_place(&random, 50), (struct vec2){1, 0}, point,
+                                      draw_place(&random, 50));
+        struct vec2 line = vec2_sub(point, sensor);
+        naive += !isfinite(line.y / vec2_length(line)) || !isfinite(1 / vec2_dot(line, line));
+        ours += !isfinite(sight.range_m) || !isfinite(sight.azimuth_rad) ||
+                !isfinite(sight.range_rate_mps) ||
+                !isfinite(radar_reference_amplitude(&law, sight.range_m));
+    }
+    hard_case("34", "not finite at coincident points", "wrong", naive, ours, 0);
+}
+
+/* The whole look with no blind range: the same place is out of range, and what is next to it has a
+ * finite echo. */
+static void a_look_at_its_own_place_is_out_of_range(void **state)
+{
+    (void)state;
+    uint64_t random = 37;
+    struct scene scene = {0};
+    double ours = 0;
+    int looks = hard_points(100000);
+    for (int i = 0; i < looks; i++) {
+        struct vec2 place = draw_place(&random, 1e3);
+        begin_scene(&scene, place, sample_between(&random, -PI, PI));
+        add_point(&scene,
+                  add_object(&scene, (struct object){.id = "a", .x_m = place.x, .y_m = place.y}), 0,
+                  0);
+        look(&scene);
+        ours += scene.frame.echoes.count != 0 || lost_for(&scene, LOSS_OUT_OF_RANGE) != 1;
+    }
+    arena_free(&scene.arena);
+    hard_case("34 look", "looks at the sensor's own place", "wrong", looks, ours, 0);
+}
+
+/* A sensor inside a turned box sees the point in there with it and not the one beyond. */
+static void a_sensor_inside_an_object_sees_the_inside_alone(void **state)
+{
+    (void)state;
+    uint64_t random = 38;
+    struct scene scene = {0};
+    double naive = 0, ours = 0;
+    for (int i = 0; i < hard_points(100000); i++) {
+        struct object around = {
+            .id = "a", .yaw_rad = sample_between(&random, -PI, PI), .length_m = 12, .width_m = 3};
+        struct box box = {.heading = vec2_heading(around.yaw_rad), .length_m = 12, .width_m = 3};
+        struct vec2 sensor = reflectors_place(&box, sample_between(&random, -0.45, -0.05),
+                                              sample_between(&random, -0.4, 0.4));
+        begin_scene(&scene, sensor, around.yaw_rad);
+        add_object(&scene, around);
+        struct vec2 inside = reflectors_place(&box, sample_between(&random, 0.05, 0.45), 0.1);
+        struct vec2 beyond = vec2_add(sensor, vec2_scale(40, vec2_sub(inside, sensor)));
+        add_point(&scene,
+                  add_object(&scene, (struct object){.id = "b", .x_m = inside.x, .y_m = inside.y}),
+                  0, 0);
+        add_point(&scene,
+                  add_object(&scene, (struct object){.id = "c", .x_m = beyond.x, .y_m = beyond.y}),
+                  0, 0);
+        scene.frame.reflectors.items[1].blocks = false;
+        look(&scene);
+        struct vec2 corner[4];
+        reflectors_outline(&box, corner);
+        int crossed = 0;
+        for (int k = 0; k < 4; k++)
+            crossed += strict_cross(corner[k], corner[(k + 1) % 4], inside, beyond);
+        naive += crossed != 0;
+        ours += scene.frame.echoes.count != 1 || lost_for(&scene, LOSS_BLOCKED) != 1 ||
+                scene.frame.echoes.items[0].object[0] != 'b';
+    }
+    arena_free(&scene.arena);
+    hard_case("inside", "a sensor inside an object sees out", "wrong", naive, ours, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_length_is_within_its_bound),
+        cmocka_unit_test(what_has_no_size_has_a_fixed_answer),
+        cmocka_unit_test(near_collinear_points_have_their_side),
+        cmocka_unit_test(decimal_road_points_have_their_side),
+        cmocka_unit_test(no_ray_leaks_through_a_corner),
+        cmocka_unit_test(no_ray_leaks_through_a_joint),
+        cmocka_unit_test(no_object_hides_its_own_outline),
+        cmocka_unit_test(every_joint_has_one_foot),
+        cmocka_unit_test(a_joint_up_to_rounding_has_one_foot_beside_it),
+        cmocka_unit_test(an_outline_along_the_sight_line_blocks_the_foot),
+        cmocka_unit_test(a_turned_foot_is_off_its_sight_line_by_rounding_alone),
+        cmocka_unit_test(nothing_at_range_zero_is_infinite),
+        cmocka_unit_test(a_look_at_its_own_place_is_out_of_range),
+        cmocka_unit_test(a_sensor_inside_an_object_sees_the_inside_alone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
