@@ -14,6 +14,8 @@ __extension__ typedef __int128 wide;
 
 #define LENGTH(array) (sizeof(array) / sizeof((array)[0]))
 
+static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
+
 static int sign_of(double value)
 {
     return (value > 0) - (value < 0);
@@ -328,7 +330,7 @@ static void look(struct scene *scene)
 {
     struct look seen;
     struct diag diag = {0};
-    if (look_begin(&seen, &scene->frame, &scene->sensor, 0, &diag) != 0)
+    if (look_begin(&seen, &scene->frame, &scene->sensor, &everything, 0, &diag) != 0)
         fail_msg("%s", diag.text);
     look_around(&seen);
 }
