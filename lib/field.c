@@ -227,8 +227,6 @@ static unsigned sections_of(const struct record *record, const void *base)
     return present;
 }
 
-static bool any_present(const struct record *record, const void *base);
-
 bool field_present(const struct record *record, const struct field *field, const void *base)
 {
     if (field->section != 0)
@@ -256,19 +254,11 @@ bool field_present(const struct record *record, const struct field *field, const
     case FIELD_LIST:
         return field_list(field, base).count > 0;
     case FIELD_RECORD:
-        return any_present(field->record, member_of(field, base));
+        return sections_of(field->record, member_of(field, base)) != 0;
     case FIELD_NOTES:
         return false;
     }
     return true;
-}
-
-static bool any_present(const struct record *record, const void *base)
-{
-    for (const struct field *field = record->fields; field->name != NULL; field++)
-        if (field_present(record, field, base))
-            return true;
-    return false;
 }
 
 void field_mark_present(const struct record *record, const struct field *field, void *base)
