@@ -242,11 +242,14 @@ static struct look_way way_along(const struct look *look, const struct side *sid
 }
 
 /* Of all objects that can be in the way: how near the sight line comes to the nearest that lets it
- * pass, beside it or over it, or how deep it is in those in the way. Edges count as hard. */
+ * pass, beside it or over it, or how deep it is in those in the way. Of a soft shadow nothing is
+ * known but how deep the line lies in what is always dark. */
 static double blocking_margin_m(const struct look *look, const struct look_body *own,
                                 const struct passage_line *line, bool solid, bool blocked)
 {
     double nearest_m = (double)INFINITY, deepest_m = 0;
+    double length_m = vec2_length(vec2_sub(line->to, line->from));
+    double soft_m = 2 * knife_edge_reach_m(length_m, look->wavelength_m);
     for (size_t i = 0; i < look->body_count; i++) {
         const struct look_body *body = &look->bodies[i];
         const struct vec2 *corner = body->corner, from = line->from, to = line->to;
@@ -257,10 +260,10 @@ static double blocking_margin_m(const struct look *look, const struct look_body 
             continue;
         }
         double above_m = passage_above_m(corner, 4, top_m(look, body), line);
-        if (above_m > 0)
-            nearest_m = fmin(nearest_m, above_m);
-        else
-            deepest_m = fmax(deepest_m, fmin(clearance_depth_m(corner, 4, from, to), -above_m));
+        if (above_m > 0 || soft_m > 0)
+            nearest_m = fmin(nearest_m, fmax(above_m, 0));
+        double depth_m = fmin(clearance_depth_m(corner, 4, from, to), -above_m);
+        deepest_m = fmax(deepest_m, depth_m - soft_m);
     }
     return blocked ? deepest_m : nearest_m;
 }
@@ -348,31 +351,40 @@ static struct sight sight_from_height(const struct look *look, struct glimpse *s
     return slant;
 }
 
+/* Is it in range and in view? If not, it is lost. */
+static bool in_reach(struct look *look, const struct look_body *body, struct glimpse *seen,
+                     const struct sight *sight)
+{
+    const struct sensor *sensor = look->sensor;
+    double azimuth = fabs(sight->azimuth_rad);
+    double reach_m =
+        fabs(fmin(sight->range_m - sensor->range_min_m, sensor->range_max_m - sight->range_m));
+    double view_m = sight->range_m * fabs(look_border_rad(sensor) - azimuth);
+    if (!(sight->range_m > 0 && sight->range_m >= sensor->range_min_m &&
+          sight->range_m <= sensor->range_max_m)) {
+        lose(look, body, seen->reflector, LOSS_OUT_OF_RANGE, NULL, reach_m);
+        return false;
+    }
+    if (!(azimuth < look_border_rad(sensor))) {
+        lose(look, body, seen->reflector, LOSS_OUT_OF_VIEW, NULL, view_m);
+        return false;
+    }
+    seen->margin_m = fmin(seen->margin_m, fmin(reach_m, view_m));
+    return true;
+}
+
 /* An echo if it is in range, in view and not blocked. */
 static void look_at(struct look *look, const struct look_body *body, struct glimpse seen)
 {
-    bool tell = look->frame->margins;
-    const struct sensor *sensor = look->sensor;
+    bool tell = look->frame->margins, under;
     struct vec2 velocity = motion_velocity_at(&body->box.motion, seen.place);
     struct sight sight = sight_from_height(
         look, &seen,
         sight_of(look->position_m, look->velocity_mps, look->boresight, seen.place, velocity));
-    double azimuth = fabs(sight.azimuth_rad);
-    double reach_m =
-        fabs(fmin(sight.range_m - sensor->range_min_m, sensor->range_max_m - sight.range_m));
-    double view_m = sight.range_m * fabs(look_border_rad(sensor) - azimuth);
-    if (!(sight.range_m > 0 && sight.range_m >= sensor->range_min_m &&
-          sight.range_m <= sensor->range_max_m)) {
-        lose(look, body, seen.reflector, LOSS_OUT_OF_RANGE, NULL, reach_m);
+    if (!in_reach(look, body, &seen, &sight))
         return;
-    }
-    if (!(azimuth < look_border_rad(sensor))) {
-        lose(look, body, seen.reflector, LOSS_OUT_OF_VIEW, NULL, view_m);
-        return;
-    }
     const struct passage_line line = {look->position_m, seen.place, look->height_m, seen.height_m};
     int64_t begin = effects_begin(look->selection);
-    bool under;
     struct look_way way = best_way(look, &seen, &line, &under);
     effects_end(look->selection, EFFECT_OCCLUSION, begin);
     if (way.by != NULL) {
@@ -381,11 +393,10 @@ static void look_at(struct look *look, const struct look_body *body, struct glim
         return;
     }
     if (tell)
-        seen.margin_m = fmin(fmin(seen.margin_m, sight_margin_m(look, body, &line, under)),
-                             fmin(reach_m, view_m));
+        seen.margin_m = fmin(seen.margin_m, sight_margin_m(look, body, &line, under));
     look->echoes++;
     *list_add(&look->frame->echoes, look->frame->arena) = (struct echo){
-        .sensor = sensor->name,
+        .sensor = look->sensor->name,
         .object = body->object->id,
         .reflector = seen.reflector,
         .path = PATH_DIRECT,

@@ -41,11 +41,15 @@ def body(name, kind, x, y, height, length=0.2, width=0.2, velocity=(0.0, 0.0)):
     return dict(thing(name, kind, x, y, length=length, width=width, velocity=velocity), height_m=height)
 
 
+def ideal(bench, things, suite, effects="auto", *options):
+    words = ["glint-ideal", "--sensors", bench.write_suite(suite), "--effects", effects, "--account", *options]
+    text = bench.stage(words, bench.stage(["glint-extract"], json.dumps(frame([ego(), *things])) + "\n"))
+    return json.loads(text)
+
+
 def look(bench, things, suite, effects="auto"):
     """Echoes by object and reflector, and losses with their reasons, of one frame."""
-    words = ["glint-ideal", "--sensors", bench.write_suite(suite), "--effects", effects, "--account"]
-    text = bench.stage(words, bench.stage(["glint-extract"], json.dumps(frame([ego(), *things])) + "\n"))
-    answer = json.loads(text)
+    answer = ideal(bench, things, suite, effects)
     lost = {(one["object"], one["reflector"]): group["reason"]
             for group in answer.get("lost", []) for one in group["echoes"]}
     return {(one["object"], one["reflector"]): one for one in answer.get("echoes", [])}, lost
@@ -218,6 +222,26 @@ def an_edge_just_beside_the_sector_still_counts(bench):
         bench.check(hard["ercs"] == 0.5 and "effects" not in hard, "a shadow without occlusion")
 
 
+def margin_of(bench, things, suite):
+    answer = ideal(bench, things, suite, "auto", "--margins")
+    ones = answer.get("echoes", []) + [one for group in answer.get("lost", []) for one in group["echoes"]]
+    return ones[0]["margins"]["sight_m"]
+
+
+def margins_tell_of_tops_and_soft_shadows(bench):
+    """The ray from 0.5 m to 3 m, 40 m away, over a car of 1.5 m that begins at 25 m and at 10 m."""
+    suite = suite_of(wide(mount_z_m=0.5))
+    for begin, margin in (25, 0.5625), (10, 0.375):
+        things = [body("car", "block", begin + 2, 0, 1.5, length=4, width=1.8), body("truck", "high", 40, 0, 3)]
+        near(bench, margin_of(bench, things, suite), margin, 1e-12, "margin to a top")
+    wall, far = body("wall", "block", 15, -1.8, 5, length=1e-6, width=4), body("far", "flat", 30, 0, 1)
+    near(bench, margin_of(bench, [wall, far], suite_of(wide())), 0.2, 1e-12, "margin in a hard shadow")
+    near(bench, margin_of(bench, [wall, far], suite_of(wide(diffraction=True))), 0, 0, "margin in a soft shadow")
+    dark = dict(wall, y_m=-1)
+    near(bench, margin_of(bench, [dark, far], suite_of(wide(diffraction=True))), 1 - 2 * 0.3053, 5e-3,
+         "margin in a dark shadow")
+
+
 # ---- curvature and latency -----------------------------------------------------------------------
 
 
@@ -300,7 +324,8 @@ def main(bin_dir):
                 "elevation": [slant_ranges_are_as_published, azimuths_are_those_of_a_cone,
                               the_beam_is_down_by_half_at_its_half_width, equal_heights_change_no_bit],
                 "height": [a_truck_is_seen_over_a_car, a_low_reflector_hides_from_a_high_sensor,
-                           a_level_ray_at_a_top_is_blocked, under_and_over_vehicles],
+                           a_level_ray_at_a_top_is_blocked, under_and_over_vehicles,
+                           margins_tell_of_tops_and_soft_shadows],
                 "diffraction": [shadows_are_as_deep_as_published, several_edges_multiply_and_the_easiest_way_counts,
                                 an_edge_just_beside_the_sector_still_counts],
                 "curvature and latency": [a_rail_reflects_by_its_corrugation,
