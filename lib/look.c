@@ -116,13 +116,36 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
 
 /* A sight line that stays clear of the circle around a body cannot touch its outline. The slack
  * covers the rounding of this test, so the exact one is only spared where it would say no. */
-static bool passes_clear(const struct look *look, const struct look_body *body, struct vec2 place)
+static bool passes_clear(const struct look_body *body, struct vec2 from, struct vec2 to)
 {
-    struct vec2 line = vec2_sub(place, look->position_m);
+    struct vec2 line = vec2_sub(to, from), centre = vec2_sub(body->box.motion.position_m, from);
     double reach = (body->sector.radius_m + 1e-6) * (1 + 1e-9) * vec2_length(line);
-    double along = vec2_dot(line, body->sector.centre_m);
-    return fabs(vec2_cross(line, body->sector.centre_m)) > reach || along < -reach ||
+    double along = vec2_dot(line, centre);
+    return fabs(vec2_cross(line, centre)) > reach || along < -reach ||
            along > vec2_dot(line, line) + reach;
+}
+
+static bool is_among(const struct look_body *body, const struct look_body *const *bodies,
+                     size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (bodies[i] == body)
+            return true;
+    return false;
+}
+
+bool look_blocked(const struct look *look, struct vec2 from, struct vec2 to,
+                  const struct look_body *const *but, size_t count)
+{
+    if (!effects_may(look->selection, EFFECT_OCCLUSION))
+        return false;
+    for (size_t i = 0; i < look->body_count; i++) {
+        const struct look_body *body = &look->bodies[i];
+        if (body->blocks && !passes_clear(body, from, to) && !is_among(body, but, count) &&
+            occlusion_outline_blocks(body->corner, 4, from, to))
+            return true;
+    }
+    return false;
 }
 
 /* A plane in the world. */
@@ -189,7 +212,7 @@ static const struct look_body *blocker(const struct look *look, const struct sid
 {
     for (size_t i = 0; i < look->blocker_count; i++) {
         const struct look_body *body = look->blockers[i];
-        if ((solid && body->raised) || passes_clear(look, body, place))
+        if ((solid && body->raised) || passes_clear(body, look->position_m, place))
             continue;
         if (occlusion_outline_blocks(body->corner, 4, look->position_m, place) &&
             !(side != NULL && (joins(body, side, true) || joins(body, side, false))))
@@ -306,8 +329,7 @@ static void look_at(struct look *look, const struct look_body *body, struct glim
     };
 }
 
-/* What latency has changed before a body is looked at. */
-static uint64_t aged(const struct look *look, const struct look_body *body)
+uint64_t look_aged(const struct look *look, const struct look_body *body)
 {
     return look->moved || body->moved ? EFFECT_BIT(EFFECT_LATENCY) : 0;
 }
@@ -333,7 +355,8 @@ static void look_at_point(struct look *look, const struct look_body *body,
                     .ercs = visible * point->ercs,
                     .under_vehicles = point->under_vehicles,
                     .margin_m = margin_m,
-                    .effects = aged(look, body) | (visible < 1 ? EFFECT_BIT(EFFECT_VISIBILITY) : 0),
+                    .effects =
+                        look_aged(look, body) | (visible < 1 ? EFFECT_BIT(EFFECT_VISIBILITY) : 0),
                 });
     else
         lose(look, body, point->name, LOSS_FACING_AWAY, NULL, margin_m);
@@ -361,7 +384,7 @@ static void look_at_plane(struct look *look, const struct look_body *body,
                     .place = foot,
                     .ercs = plane->ercs,
                     .margin_m = margin_m,
-                    .effects = aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
+                    .effects = look_aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
                 });
     else
         lose(look, body, plane->name, LOSS_NO_SPECULAR, NULL, margin_m);
@@ -375,6 +398,18 @@ static const char *post_name(struct arena *arena, const struct post_row *row, in
     return name;
 }
 
+struct point_reflector look_post(const struct look *look, const struct post_row *row, int64_t post)
+{
+    return (struct point_reflector){
+        .name = post_name(look->frame->arena, row, post),
+        .facing_rad = row->facing_rad,
+        .full_rad = row->full_rad,
+        .zero_rad = row->zero_rad,
+        .shape = row->shape,
+        .ercs = row->ercs,
+    };
+}
+
 static void look_along_row(struct look *look, const struct look_body *body,
                            const struct post_row *row)
 {
@@ -382,14 +417,7 @@ static void look_along_row(struct look *look, const struct look_body *body,
     reflectors_posts_within(&body->box, row, look->position_m, look->sensor->range_max_m, &first,
                             &end);
     for (int64_t number = first; number < end; number++) {
-        const struct point_reflector post = {
-            .name = post_name(look->frame->arena, row, number),
-            .facing_rad = row->facing_rad,
-            .full_rad = row->full_rad,
-            .zero_rad = row->zero_rad,
-            .shape = row->shape,
-            .ercs = row->ercs,
-        };
+        const struct point_reflector post = look_post(look, row, number);
         look_at_point(look, body, &post, reflectors_post_place(&body->box, row, number));
     }
 }

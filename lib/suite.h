@@ -23,6 +23,7 @@ struct sensor {
     double range_min_m, range_max_m;
     double field_of_view_rad;
     double cycle_s, latency_s;
+    int64_t bounces; /* of the longest path, off objects and mirrors; below 2 only direct ones */
 
     double threshold_db;
     double calibration_ercs, calibration_range_m;
