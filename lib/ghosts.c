@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "clearance.h"
 #include "ghost.h"
 #include "orientation.h"
 #include "reflection.h"
@@ -81,6 +82,7 @@ struct reflex {
     struct sight direct, image;
     double ercs;
     double visible_direct, visible_mirrored;
+    double margin_m, direct_margin_m; /* of what decides about it, and about its direct way */
     uint64_t effects;
 };
 
@@ -99,6 +101,8 @@ static struct reflex reflex_of(const struct look *look, const struct facet *face
                           image.velocity_mps),
         .visible_direct = 1,
         .visible_mirrored = 1,
+        .margin_m = (double)INFINITY,
+        .direct_margin_m = (double)INFINITY,
         .effects = EFFECT_BIT(EFFECT_GHOSTS) | look_aged(look, body) | look_aged(look, facet->body),
     };
 }
@@ -114,12 +118,43 @@ static bool bounces(const struct look *look, const struct facet *facet, struct v
     return orientation_sign(look->position_m, image, facet->mirror.b) != 0;
 }
 
-static bool mirrored_way_is_free(const struct look *look, const struct reflex *reflex)
+/* Of the bounce from the mirror's ends, and of the sensor and the reflector from its line. */
+static double bounce_margin_m(const struct look *look, const struct reflex *reflex)
+{
+    const struct facet *facet = reflex->facet;
+    struct vec2 a = facet->mirror.a, b = facet->mirror.b, along = facet->along;
+    double ends_m = fmin(fabs(vec2_dot(vec2_sub(reflex->bounce, a), along)),
+                         fabs(vec2_dot(vec2_sub(b, reflex->bounce), along)));
+    double line_m = fmin(fabs(vec2_cross(along, vec2_sub(look->position_m, a))),
+                         fabs(vec2_cross(along, vec2_sub(reflex->place, a))));
+    return fmin(ends_m, line_m);
+}
+
+static bool mirrored_way_is_free(const struct look *look, struct reflex *reflex)
 {
     const struct facet *facet = reflex->facet;
     const struct look_body *touched[] = {facet->body, facet->before, facet->after, reflex->body};
-    return !look_blocked(look, look->position_m, reflex->bounce, touched, 3) &&
-           !look_blocked(look, reflex->bounce, reflex->place, touched, 4);
+    if (look_blocked(look, look->position_m, reflex->bounce, touched, 3) ||
+        look_blocked(look, reflex->bounce, reflex->place, touched, 4))
+        return false;
+    if (look->frame->margins) {
+        double out_m = look_clearance_m(look, look->position_m, reflex->bounce, touched, 3);
+        double on_m = look_clearance_m(look, reflex->bounce, reflex->place, touched, 4);
+        reflex->margin_m =
+            fmin(fmin(reflex->margin_m, bounce_margin_m(look, reflex)), fmin(out_m, on_m));
+    }
+    return true;
+}
+
+static bool direct_way_is_free(const struct look *look, struct reflex *reflex)
+{
+    if (look_blocked(look, look->position_m, reflex->place, &reflex->body, 1))
+        return false;
+    if (look->frame->margins)
+        reflex->direct_margin_m =
+            fmin(reflex->direct_margin_m,
+                 look_clearance_m(look, look->position_m, reflex->place, &reflex->body, 1));
+    return true;
 }
 
 static bool is_listed(const struct sensor *sensor, const struct sight *sight, double departure_rad)
@@ -128,11 +163,27 @@ static bool is_listed(const struct sensor *sensor, const struct sight *sight, do
            fabs(sight->azimuth_rad) < look_border_rad(sensor) && fabs(departure_rad) <= PI / 2;
 }
 
+static double limits_margin_m(const struct sensor *sensor, const struct sight *sight,
+                              double departure_rad)
+{
+    double view_rad =
+        fmin(look_border_rad(sensor) - fabs(sight->azimuth_rad), PI / 2 - fabs(departure_rad));
+    return fmin(fmin(sight->range_m - sensor->range_min_m, sensor->range_max_m - sight->range_m),
+                sight->range_m * view_rad);
+}
+
 static void add(struct look *look, const struct reflex *reflex, enum path path,
                 const struct ghost *ghost, double visible, double departure_rad)
 {
     if (!is_listed(look->sensor, &ghost->sight, departure_rad))
         return;
+    struct margins margins = {0};
+    double margin_m = path == PATH_WALL_OBJECT_WALL
+                          ? reflex->margin_m
+                          : fmin(reflex->margin_m, reflex->direct_margin_m);
+    if (look->frame->margins)
+        margins_note(&margins, MARGIN_SIGHT,
+                     fmin(margin_m, limits_margin_m(look->sensor, &ghost->sight, departure_rad)));
     frame_count_echoes(look->frame, look->sensor->name, path, 1);
     *list_add(&look->frame->echoes, look->frame->arena) = (struct echo){
         .sensor = look->sensor->name,
@@ -148,13 +199,14 @@ static void add(struct look *look, const struct reflex *reflex, enum path path,
         .departure_rad = departure_rad - ghost->sight.azimuth_rad,
         .time_s = look->time_s,
         .effects = reflex->effects | (visible < 1 ? EFFECT_BIT(EFFECT_VISIBILITY) : 0),
+        .margins = margins,
     };
 }
 
-static void add_one_way(struct look *look, const struct reflex *reflex)
+static void add_one_way(struct look *look, struct reflex *reflex)
 {
     if (!(reflex->visible_direct > 0 && reflex->direct.range_m > 0) ||
-        look_blocked(look, look->position_m, reflex->place, &reflex->body, 1))
+        !direct_way_is_free(look, reflex))
         return;
     double reflection = reflex->facet->reflection;
     double visible = sqrt(reflex->visible_direct * reflex->visible_mirrored);
@@ -171,14 +223,19 @@ static void add_both_ways(struct look *look, const struct reflex *reflex)
         reflex->image.azimuth_rad);
 }
 
-static double visible_from(const struct look *look, const struct look_body *body,
-                           const struct point_reflector *point, struct vec2 place,
-                           struct vec2 viewer)
+/* What a viewer at the sensor or the bounce sees of a point, and how near it is to losing it. */
+static double visible_from(const struct look *look, const struct reflex *reflex,
+                           const struct point_reflector *point, struct vec2 viewer,
+                           double *margin_m)
 {
+    const struct box *box = &reflex->body->box;
     if (!effects_may(look->selection, EFFECT_VISIBILITY))
         return 1;
-    return reflectors_visibility(&body->box, point->shape, point->facing_rad, point->full_rad,
-                                 point->zero_rad, place, viewer);
+    if (look->frame->margins)
+        *margin_m = clearance_facing_m(box, point->shape, point->facing_rad, point->zero_rad,
+                                       reflex->place, viewer);
+    return reflectors_visibility(box, point->shape, point->facing_rad, point->full_rad,
+                                 point->zero_rad, reflex->place, viewer);
 }
 
 static void add_point(struct look *look, const struct facet *facet, const struct look_body *body,
@@ -187,8 +244,9 @@ static void add_point(struct look *look, const struct facet *facet, const struct
     struct reflex reflex = reflex_of(look, facet, body, place, bounce);
     reflex.reflector = point->name;
     reflex.ercs = point->ercs;
-    reflex.visible_direct = visible_from(look, body, point, place, look->position_m);
-    reflex.visible_mirrored = visible_from(look, body, point, place, bounce);
+    reflex.visible_direct =
+        visible_from(look, &reflex, point, look->position_m, &reflex.direct_margin_m);
+    reflex.visible_mirrored = visible_from(look, &reflex, point, bounce, &reflex.margin_m);
     if (!(reflex.visible_mirrored > 0) || !mirrored_way_is_free(look, &reflex))
         return;
     add_one_way(look, &reflex);
@@ -228,14 +286,16 @@ static void add_plane(struct look *look, const struct facet *facet, const struct
     struct vec2 a = reflectors_place(&body->box, plane->from_x, plane->from_y);
     struct vec2 b = reflectors_place(&body->box, plane->to_x, plane->to_y);
     struct vec2 eye = mirror_image(&facet->mirror, look->position_m, (struct vec2){0, 0}).place_m;
-    struct vec2 foot, bounce;
-    if (!reflection_foot(a, b, reflectors_along(&body->box, plane), plane->margin_m, eye, &foot) ||
+    struct vec2 along = reflectors_along(&body->box, plane), foot, bounce;
+    if (!reflection_foot(a, b, along, plane->margin_m, eye, &foot) ||
         !bounces(look, facet, foot, &bounce))
         return;
     struct reflex reflex = reflex_of(look, facet, body, foot, bounce);
     reflex.reflector = plane->name;
     reflex.ercs = plane->ercs;
     reflex.effects |= EFFECT_BIT(EFFECT_PLANE_REFLECTION);
+    if (look->frame->margins)
+        reflex.margin_m = clearance_foot_m(a, b, along, plane->margin_m, eye);
     if (mirrored_way_is_free(look, &reflex))
         add_both_ways(look, &reflex);
 }

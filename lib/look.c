@@ -148,6 +148,20 @@ bool look_blocked(const struct look *look, struct vec2 from, struct vec2 to,
     return false;
 }
 
+double look_clearance_m(const struct look *look, struct vec2 from, struct vec2 to,
+                        const struct look_body *const *but, size_t count)
+{
+    double nearest_m = (double)INFINITY;
+    if (!effects_may(look->selection, EFFECT_OCCLUSION))
+        return nearest_m;
+    for (size_t i = 0; i < look->body_count; i++) {
+        const struct look_body *body = &look->bodies[i];
+        if (body->blocks && !is_among(body, but, count))
+            nearest_m = fmin(nearest_m, clearance_outline_m(body->corner, 4, from, to));
+    }
+    return nearest_m;
+}
+
 /* A plane in the world. */
 struct side {
     struct vec2 from, to, along;

@@ -52,6 +52,11 @@ void look_around(struct look *look);
 bool look_blocked(const struct look *look, struct vec2 from, struct vec2 to,
                   const struct look_body *const *but, size_t count);
 
+/* Of the bodies that could and do not: how near the nearest comes to the segment; infinite where
+ * there is none. */
+double look_clearance_m(const struct look *look, struct vec2 from, struct vec2 to,
+                        const struct look_body *const *but, size_t count);
+
 /* A post of a row as the point it is, under its name. */
 struct point_reflector look_post(const struct look *look, const struct post_row *row, int64_t post);
 
