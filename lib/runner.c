@@ -270,6 +270,9 @@ static int told(struct runner *runner, int result)
 int runner_start(struct runner *runner)
 {
     const struct stage *stage = runner->stage;
+    if (runner->log != NULL && runner->common.explain != NULL &&
+        explain_check(runner->common.explain, &runner->diag) != 0)
+        return -1;
     return stage->start == NULL ? 0 : told(runner, stage->start(runner->state, runner));
 }
 
