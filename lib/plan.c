@@ -65,29 +65,35 @@ bool plan_stands_in(const struct plan *plan, const struct plan_position *positio
            position->azimuth_off_rad <= plan->tolerance_azimuth_rad;
 }
 
-static const struct plan_position *home_of(const struct plan *plan, int effect)
-{
-    int at = 0;
-    while (strcmp(plan->positions[at].stage, effects_table[effect].home) != 0)
-        at++;
-    return &plan->positions[at];
-}
-
 uint64_t plan_effects(const struct plan *plan)
 {
     uint64_t effects = 0;
-    for (int i = 0; i < EFFECT_COUNT; i++) {
-        const struct plan_position *home = home_of(plan, i);
-        if (home->log.scans_simulated[i] > 0 && !plan_stands_in(plan, home))
-            effects |= EFFECT_BIT(i);
+    for (int at = 0; at < PLAN_POSITIONS; at++) {
+        const struct plan_position *position = &plan->positions[at];
+        for (int i = 0; i < EFFECT_COUNT && !plan_stands_in(plan, position); i++)
+            if (position->log.scans_simulated[i] > 0)
+                effects |= EFFECT_BIT(i);
     }
     return effects;
+}
+
+/* The log that says most of an effect: its home's, whose note the others lack. */
+static const struct effect_log *log_of(const struct plan *plan, int effect)
+{
+    const struct effect_log *best = &plan->positions[0].log;
+    for (int at = 1; at < PLAN_POSITIONS; at++) {
+        const struct effect_log *log = &plan->positions[at].log;
+        if (log->scans_simulated[effect] + log->scans_left_out[effect] >
+            best->scans_simulated[effect] + best->scans_left_out[effect])
+            best = log;
+    }
+    return best;
 }
 
 static void write_effect(const struct plan *plan, int effect, struct text *text)
 {
     const struct effect_entry *entry = &effects_table[effect];
-    const struct effect_log *log = &home_of(plan, effect)->log;
+    const struct effect_log *log = log_of(plan, effect);
     text_format(text, "# %-17s ", effects_names[effect]);
     if ((plan->allowed & EFFECT_BIT(effect)) == 0)
         text_add_word(text, "off: not asked for\n");
