@@ -8,12 +8,14 @@
 #include "antenna.h"
 #include "effects.h"
 #include "field.h"
+#include "fluctuation.h"
 #include "monopulse.h"
+#include "polarization.h"
 #include "radar_equation.h"
 
 enum cell_extent { CELL_WIDTH, CELL_HALF_WIDTH };
 enum cell_phase { CELL_IN_PHASE, CELL_RANDOM_PHASE, CELL_PHASE_BY_PATH };
-enum sigma_law { SIGMA_FIXED, SIGMA_BY_AMPLITUDE };
+enum sigma_law { SIGMA_FIXED, SIGMA_BY_AMPLITUDE, SIGMA_BY_SNR };
 enum list_order { LIST_STRONGEST, LIST_NEAREST };
 
 struct sensor {
@@ -23,6 +25,13 @@ struct sensor {
     double range_min_m, range_max_m;
     double field_of_view_rad;
     double cycle_s, latency_s;
+
+    enum polarization polarization;
+    enum fluctuation_law fluctuation;
+    double fluctuation_sigma_db;
+    double unambiguous_range_m, unambiguous_rate_mps; /* 0: any */
+    double receiver_bandwidth_hz, noise_figure_db, antenna_gain_dbi;
+    double chirp_slope_hzps, chirp_s;
 
     double threshold_db;
     double calibration_ercs, calibration_range_m;
@@ -42,7 +51,10 @@ struct sensor {
     double pointer_sigma;
     double range_sigma_m, range_rate_sigma_mps, azimuth_sigma_rad;
     enum sigma_law sigma_law;
+    double window_factor;
+    double misalignment_rad, radome_bias_rad, radome_period_rad, radome_phase_rad;
     bool final_threshold;
+    double false_alarms, false_alarm_range_rate_mps;
     double range_step_m, range_rate_step_mps, azimuth_step_rad;
     enum list_order list_order;
     int64_t list_limit;

@@ -44,7 +44,7 @@ function dotMark(colour) {
     });
 }
 
-const pathsSeen = new Set(column('contributor_path'));
+const pathsSeen = [...new Set(column('contributor_path'))].sort((a, b) => a - b);
 
 function colourLines() {
     if (state.effect >= 0) {
@@ -77,7 +77,7 @@ function colourLines() {
         }), 'in the colour of its object')];
     }
     if (state.colour === 'path') {
-        return [...pathsSeen].map(path => legendLine(dotMark(ink.palette[path % ink.palette.length]),
+        return pathsSeen.map(path => legendLine(dotMark(ink.palette[path % ink.palette.length]),
             `path: ${words(head.paths[path])}`));
     }
     return [];
@@ -86,7 +86,7 @@ function colourLines() {
 function showLegend() {
     const lines = sensorNames.map((name, i) => legendLine(
         symbolCanvas(i, sensorColour(i), 18), `target of ${name}`));
-    const ghosts = [...pathsSeen].some(path => ghostPaths[path])
+    const ghosts = pathsSeen.some(path => ghostPaths[path])
         ? [legendLine(symbolCanvas(0, ink.soft, 18, true), 'ghost: seen by way of a mirror')] : [];
     control('legend').replaceChildren(...lines, ...ghosts, ...colourLines(),
         legendLine(strokeMark(ink.soft, 1.6, [[1, 8, 17, 8]]),
