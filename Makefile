@@ -51,6 +51,7 @@ stage_objects := $(patsubst %,$(BUILD)/stages/%.o,$(stages))
 tools := $(foreach s,$(stages),$(BUILD)/bin/glint-$(subst _,-,$(s))) $(BUILD)/bin/glint
 tests := $(patsubst tests/test_%.c,$(BUILD)/tests/test_%,$(wildcard tests/test_*.c))
 hard_tests := $(patsubst tests/hard/%.c,$(BUILD)/tests/hard/%,$(wildcard tests/hard/*.c))
+soundness_tests := $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/soundness/planted_*.c))
 
 all: $(tools)
 
@@ -127,9 +128,19 @@ $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(stage_objects) $(BUILD)/registr
 $(BUILD)/tests/hard/%: $(BUILD)/tests/hard/%.o $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS) -lcmocka -lmpfr -lgmp
 
+# scripts/soundness: the planner as it is, and with faults planted in place of modules of lib/.
+soundness_objects := $(addprefix $(BUILD)/tests/soundness/,soundness.o compare.o)
+$(BUILD)/tests/soundness/planted_%: $(BUILD)/tests/soundness/planted_%.o $(soundness_objects) \
+    $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
+	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS)
+
+$(BUILD)/tests/soundness/planted_draws: LDFLAGS += -Wl,--wrap=resolution_cluster
+
 # For scripts/bench --functions: our functions beside libm's.
 $(BUILD)/tests/speed/%: $(BUILD)/tests/speed/%.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ -lm
+
+$(BUILD)/tests/test_compare: $(BUILD)/tests/soundness/compare.o
 
 # The reference of this one test alone.
 $(BUILD)/tests/test_elementary: LIBS += -lmpfr -lgmp
@@ -144,6 +155,8 @@ hard: $(hard_tests)
 	@failed=0; for t in $(hard_tests); do \
 	    $$t >$$t.log 2>&1 || { grep -v ' OK \|RUN \|^hard' $$t.log; echo "$$t failed"; failed=1; }; done; \
 	    [ $$failed -eq 0 ] && echo "hard cases: $$(cat $(addsuffix .log,$(hard_tests)) | grep -c '^hard') held"
+
+soundness: $(soundness_tests)
 
 check: all unit
 	$(Q)BUILD=$(BUILD) scripts/check-house
@@ -182,7 +195,7 @@ clean:
 	rm -rf build build-*
 
 FORCE:
-.PHONY: all unit hard check bench schemas format lint man install clean FORCE
+.PHONY: all unit hard soundness check bench schemas format lint man install clean FORCE
 .PRECIOUS: $(BUILD)/main/%.o $(BUILD)/tests/%.o
 
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*.d)
