@@ -349,6 +349,8 @@ static const struct field frame_fields[] = {
     {FIELD_FLAG_OF(struct frame, account, "every echo is accounted for"), FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct frame, margins, "entries carry how close decisions were"),
      FIELD_OPTIONAL},
+    {FIELD_RECORD_OF(struct frame, conditions, &conditions_record, "road and weather"),
+     FIELD_OPTIONAL},
     {FIELD_LIST_OF(struct frame, objects, &object_record, "truth, the ego among them"),
      SECTION(SECTION_OBJECTS)},
     {FIELD_LIST_OF(struct frame, reflectors, &reflector_set_record, "by model"),

@@ -13,6 +13,7 @@
 #ifndef FRAME_H
 #define FRAME_H
 
+#include "conditions.h"
 #include "effects.h"
 #include "field.h"
 #include "margins.h"
@@ -206,6 +207,7 @@ struct frame {
     double origin_x_m, origin_y_m;
     bool account;
     bool margins; /* do entries carry them? Without, no stage works any out. */
+    struct conditions conditions;
     LIST_OF(struct object) objects;
     LIST_OF(struct reflector_set) reflectors;
     struct sensors sensors;

@@ -349,9 +349,9 @@ static void look_at_plane(struct look *look, const struct look_body *body,
     }
     struct side side = side_of(body, plane);
     struct vec2 foot;
-    double margin_m = look->frame->margins
-                          ? clearance_foot_m(side.from, side.to, plane->margin_m, look->position_m)
-                          : 0;
+    double margin_m = look->frame->margins ? clearance_foot_m(side.from, side.to, side.along,
+                                                              plane->margin_m, look->position_m)
+                                           : 0;
     if (reflection_foot(side.from, side.to, side.along, plane->margin_m, look->position_m, &foot) &&
         !next_side_has_foot(look, &side))
         look_at(look, body,

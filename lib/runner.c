@@ -2,12 +2,11 @@
 
 #include <string.h>
 
+#include "address.h"
 #include "audit.h"
 #include "explain.h"
 #include "frame_check.h"
 #include "frame_order.h"
-#include "hash.h"
-#include "random.h"
 
 struct arena *runner_arena(struct runner *runner)
 {
@@ -171,19 +170,7 @@ const struct vehicle *runner_vehicle(struct runner *runner, const char *class)
 struct random_address runner_address(const struct frame *frame, const char *sensor,
                                      const struct contributor *echo)
 {
-    uint64_t subject = hash_text(hash_text(HASH_START, echo->object), echo->reflector);
-    subject = hash_bytes(subject, &(char){(char)echo->path}, 1);
-    if (echo->mirror != NULL)
-        subject = hash_text(subject, echo->mirror);
-    for (uint64_t rest = (uint64_t)echo->number; rest > 0; rest >>= 8)
-        subject = hash_bytes(subject, &(char){(char)rest}, 1);
-    return (struct random_address){
-        .seed = frame->seed,
-        .scene = hash_text(HASH_START, frame->scene),
-        .frame = (uint64_t)frame->frame,
-        .sensor = hash_text(HASH_START, sensor),
-        .subject = subject,
-    };
+    return address_of(frame, sensor, SUBJECT_OF(echo));
 }
 
 int runner_prepare(struct runner *runner, const struct stage *stage, size_t count,

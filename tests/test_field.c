@@ -150,7 +150,7 @@ static void an_optional_record_is_there_with_any_of_its_members(void **state)
     (void)state;
     static const struct field inner_fields[] = {
         {FIELD_REAL_IN(struct thing, gain, 0, 1, "zero is a gain"), FIELD_OPTIONAL, .section = 1},
-        {FIELD_FLAG_OF(struct thing, flag, "flag"), FIELD_OPTIONAL},
+        {FIELD_REAL_IN(struct thing, range_m, 0, 1, "range"), FIELD_OPTIONAL, .section = 2},
         {0}};
     static const struct record inner = {.name = "inner",
                                         .size = sizeof(struct thing),
@@ -161,11 +161,11 @@ static void an_optional_record_is_there_with_any_of_its_members(void **state)
                                 FIELD_OPTIONAL,
                                 .offset = sizeof(struct thing),
                                 .record = &inner};
-    struct thing things[2] = {{.gain = 0.5, .flag = true, .present = 1}, {.gain = 0}};
+    struct thing things[2] = {{.gain = 0.5, .present = 1}, {.gain = 0.5}};
     assert_false(field_present(&record, &outer, things));
-    things[1].present = 1;
+    things[1] = (struct thing){.gain = 0, .present = 1};
     assert_true(field_present(&record, &outer, things));
-    things[1] = (struct thing){.flag = true};
+    things[1].present = 2;
     assert_true(field_present(&record, &outer, things));
 }
 
