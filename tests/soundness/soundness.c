@@ -1,16 +1,18 @@
 /* Is choosing effects from the scene sound? Random scenes, each seen with every effect and with
  * those that a planner chose, in this process and without text.
  *
- * Frame number n is that of glint-traffic-random --first n --frames 1 with the same options, so
- * whatever is found can be looked at. The answer is one JSON line: per planner the violations, the
- * first of them, how often each effect was simulated and left out, and the time. Exit status 1 if
- * there is a violation. */
+ * Frame number n is that of glint-traffic-random --first n --frames 1 with the same options, in
+ * drawn conditions; --first n --frames 1 --print writes it, for the chain to read. The answer is
+ * one JSON line: per planner the violations, the first of them, how often each effect was simulated
+ * and left out, and the time. Exit status 1 if there is a violation. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
 
 #include "compare.h"
+#include "draws.h"
+#include "frame_text.h"
 #include "fused.h"
 #include "options.h"
 #include "planted.h"
@@ -48,7 +50,7 @@ struct soundness {
     int64_t first, frames;
     enum planners planners;
     const char *without;
-    bool cars, margins, until_caught;
+    bool cars, margins, until_caught, print;
 };
 
 struct bench {
@@ -79,6 +81,8 @@ static const struct field soundness_options[] = {
     {FIELD_FLAG_OF(struct soundness, margins, "targets and lost tell margins too"), FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct soundness, until_caught,
                    "a planner with a violation needs no more scenes"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct soundness, print, "write the scenes, and compare nothing"),
      FIELD_OPTIONAL},
     {0},
 };
@@ -231,6 +235,28 @@ static void judge(const struct frame *all, int64_t number, struct planner *plann
     planner->violations++;
 }
 
+/* Whatever a document may say of road, weather and other radars, each in some of the scenes. */
+static void draw_conditions(struct frame *frame, struct random_address address)
+{
+    struct conditions *conditions = &frame->conditions;
+    address.subject = UINT64_MAX;
+    struct draws draws = draws_at(address, RANDOM_TRAFFIC);
+    conditions->road = (enum road)draws_whole(&draws, ROAD_UNKNOWN, ROAD_CONCRETE);
+    if (draws_chance(&draws, 0.3))
+        conditions->rain_mmph = draws_between(&draws, 0, 60);
+    if (draws_chance(&draws, 0.2))
+        conditions->fog_gpm3 = draws_between(&draws, 0, 0.5);
+    bool interfered = draws_chance(&draws, 0.3);
+    for (size_t i = 1; i < frame->objects.count && interfered; i++)
+        if (draws_chance(&draws, 0.5))
+            *list_add(&conditions->interferers, frame->arena) = (struct interferer){
+                .object = frame->objects.items[i].id,
+                .eirp_dbm = draws_between(&draws, 0, 40),
+                .slope_hzps = draws_sign(&draws) * draws_between(&draws, 1e12, 5e13),
+                .hit_share = draws_between(&draws, 0, 0.3),
+            };
+}
+
 static bool wants(const struct soundness *wanted, const struct frame *scene)
 {
     for (size_t i = 0; i < scene->objects.count && wanted->cars; i++)
@@ -239,15 +265,28 @@ static bool wants(const struct soundness *wanted, const struct frame *scene)
     return true;
 }
 
+static int print(struct bench *bench)
+{
+    struct text text = {0};
+    int result = frame_text_write(&bench->scene, &text, &bench->source.diag);
+    fwrite(text.bytes, 1, text.length, stdout);
+    text_free(&text);
+    return result == 0 ? 1 : refuse(&bench->source);
+}
+
 /* 1 after a scene, 0 if no planner needs another. */
 static int visit(struct bench *bench, int64_t number)
 {
     int needed = 0;
     struct planner *all = &bench->planners[0];
+    struct random_scene drawn = {.density = bench->wanted->density};
     if (runner_next(&bench->source, &bench->scene) != 1)
         return refuse(&bench->source);
+    draw_conditions(&bench->scene, random_scene_address(&drawn, bench->scene.seed, number));
     if (!wants(bench->wanted, &bench->scene))
         return 1;
+    if (bench->wanted->print)
+        return print(bench);
     if (runner_step(&bench->extract, &bench->scene) != 0)
         return refuse(&bench->extract);
     if (run(all, &bench->scene) != 0)
@@ -349,7 +388,8 @@ static int prove(struct bench *bench)
     progress_end(&progress);
     if (more < 0)
         return DIAG_INTERNAL;
-    tell(bench);
+    if (!bench->wanted->print)
+        tell(bench);
     for (size_t i = 1; i < bench->count; i++)
         violations += bench->planners[i].violations;
     return violations > 0;
