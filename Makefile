@@ -128,13 +128,12 @@ $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(stage_objects) $(BUILD)/registr
 $(BUILD)/tests/hard/%: $(BUILD)/tests/hard/%.o $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS) -lcmocka -lmpfr -lgmp
 
-# scripts/soundness: the planner as it is, and with faults planted in place of modules of lib/.
+# scripts/soundness: the planner as it is, and with faults planted in place of functions of lib/.
 soundness_objects := $(addprefix $(BUILD)/tests/soundness/,soundness.o compare.o)
+wraps = $(shell grep -o '__wrap_[a-z_]*' $(1) | sort -u | sed 's/__wrap_/-Wl,--wrap=/')
 $(BUILD)/tests/soundness/planted_%: $(BUILD)/tests/soundness/planted_%.o $(soundness_objects) \
     $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
-	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS)
-
-$(BUILD)/tests/soundness/planted_draws: LDFLAGS += -Wl,--wrap=resolution_cluster
+	$(Q)$(LINK) $(call wraps,tests/soundness/planted_$*.c) -o $@ $^ $(stage_libs) $(LIBS)
 
 # For scripts/bench --functions: our functions beside libm's.
 $(BUILD)/tests/speed/%: $(BUILD)/tests/speed/%.o $(BUILD)/libglint.a
