@@ -17,6 +17,7 @@ enum random_purpose {
     RANDOM_TRAFFIC = 5,         /* who is there in a random scene, where and how fast */
     RANDOM_HARD_CASE = 6,       /* which hard cases a random scene has */
     RANDOM_REFLECTOR_PHASE = 7, /* what a reflector adds to the phase of its path */
+    RANDOM_FLUCTUATION = 8,     /* an echo's strength in this scan */
 };
 
 struct random_address {

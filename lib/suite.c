@@ -21,6 +21,16 @@ static const char *const references[] = {
 static const char *const estimators[] = {
     [MONOPULSE_MAGNITUDE] = "magnitude", [MONOPULSE_RATIO] = "ratio", NULL};
 
+static const char *const polarizations[] = {
+    [POLARIZATION_HORIZONTAL] = "horizontal", [POLARIZATION_VERTICAL] = "vertical", NULL};
+static const char *const fluctuations[] = {
+    [FLUCTUATION_NONE] = "none",
+    [FLUCTUATION_SWERLING_1] = "swerling_1",
+    [FLUCTUATION_SWERLING_3] = "swerling_3",
+    [FLUCTUATION_LOG_NORMAL] = "log_normal",
+    NULL,
+};
+
 #define REAL(member, low, high, help) FIELD_REAL_IN(struct sensor, member, low, high, help)
 #define CHOICE(member, choices, help) FIELD_CHOICE_OF(struct sensor, member, choices, help)
 
@@ -35,6 +45,21 @@ static const struct field sensor_fields[] = {
     {REAL(field_of_view_rad, 0, PI, "full width; the border itself is outside")},
     {REAL(cycle_s, 1e-4, 1e3, "from scan to scan; absent: a scan in every frame"), FIELD_OPTIONAL},
     {REAL(latency_s, 0, 10, "the scan shows the world this much earlier"), FIELD_OPTIONAL},
+    {CHOICE(polarization, polarizations, "of both antennas; absent: vertical"), FIELD_OPTIONAL,
+     .absent = POLARIZATION_VERTICAL},
+    {CHOICE(fluctuation, fluctuations, "how echoes vary from scan to scan"), FIELD_OPTIONAL},
+    {REAL(fluctuation_sigma_db, 0, 30, "of the log-normal law; absent: 3.41"), FIELD_OPTIONAL,
+     .absent = 3.41},
+    {REAL(unambiguous_range_m, 0.1, 1e6, "farther echoes fold below it; absent: none do"),
+     FIELD_OPTIONAL},
+    {REAL(unambiguous_rate_mps, 0.1, 1e5, "faster echoes fold to within +- this; absent: none do"),
+     FIELD_OPTIONAL},
+    {REAL(receiver_bandwidth_hz, 1, 1e12, "what other radars are heard in; absent: none is"),
+     FIELD_OPTIONAL},
+    {REAL(noise_figure_db, 0, 100, "of the receiver"), FIELD_OPTIONAL},
+    {REAL(antenna_gain_dbi, -100, 100, "one way, on boresight"), FIELD_OPTIONAL},
+    {REAL(chirp_slope_hzps, -1e15, 1e15, "of a chirp, falling negative"), FIELD_OPTIONAL},
+    {REAL(chirp_s, 1e-9, 1, "how long a chirp takes"), FIELD_OPTIONAL},
     {REAL(threshold_db, -300, 300, "detection threshold, 20 log10 of the amplitude")},
     {REAL(calibration_ercs, 1e-6, 1e6, "this cross section meets the threshold on boresight"),
      FIELD_OPTIONAL},
@@ -129,6 +154,9 @@ void suite_derive(struct sensor *sensor)
 
 int suite_check(const struct sensor *sensor, struct diag *diag)
 {
+    if (sensor->receiver_bandwidth_hz > 0 && sensor->chirp_s == 0)
+        return diag_fail(diag, DIAG_CONFIG,
+                         "chirp_s: missing; receiver_bandwidth_hz needs it to hear other radars");
     if (sensor->range_max_m <= sensor->range_min_m)
         return diag_fail(diag, DIAG_CONFIG, "range_max_m: %g is not above range_min_m, %g m",
                          sensor->range_max_m, sensor->range_min_m);

@@ -22,10 +22,10 @@ static size_t margins_of(const struct spot *spots, size_t count, struct margins 
     size_t cell[ALL];
     for (size_t i = 0; i < count; i++) {
         margins_note(&sights[i], MARGIN_SIGHT, spots[i].sight_m);
-        rays[i] = (struct ray){
-            .echo = {.range_m = spots[i].range_m, .range_rate_mps = spots[i].range_rate_mps},
-            .amplitude = spots[i].amplitude,
-            .margins = &sights[i]};
+        rays[i] = (struct ray){.range_m = spots[i].range_m,
+                               .range_rate_mps = spots[i].range_rate_mps,
+                               .amplitude = spots[i].amplitude,
+                               .margins = &sights[i]};
         echoes[i] =
             (struct resolution_echo){spots[i].range_m, spots[i].range_rate_mps, spots[i].amplitude};
     }
