@@ -55,10 +55,12 @@ void cell_margins_add(const struct sensor *sensor, struct cell *cell)
     note_sign(sensor, superposition_pointers(cell), &cell->margins);
 }
 
-void cell_margins_add_noisy(const struct sensor *sensor, struct antenna_pointers pointers,
-                            double amplitude, bool final_threshold, struct margins *margins)
+void cell_margins_add_noisy(const struct sensor *sensor, const struct cell *cell,
+                            struct antenna_pointers pointers, double amplitude,
+                            bool final_threshold, struct margins *margins)
 {
     if (final_threshold)
-        margins_note(margins, MARGIN_THRESHOLD, margins_between_db(amplitude, sensor->threshold));
+        margins_note(margins, MARGIN_THRESHOLD,
+                     margins_between_db(amplitude, superposition_threshold(sensor, cell)));
     note_sign(sensor, pointers, margins);
 }

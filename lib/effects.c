@@ -22,9 +22,11 @@ const char *const effects_names[] = {
     [EFFECT_ANGLE_NOISE] = "angle_noise",
     [EFFECT_RANGE_NOISE] = "range_noise",
     [EFFECT_ACCURACY] = "accuracy",
+    [EFFECT_MISALIGNMENT] = "misalignment",
     [EFFECT_FINAL_THRESHOLD] = "final_threshold",
-    [EFFECT_QUANTISATION] = "quantisation",
+    [EFFECT_FALSE_ALARMS] = "false_alarms",
     [EFFECT_LIST_LIMIT] = "list_limit",
+    [EFFECT_QUANTISATION] = "quantisation",
     [EFFECT_COUNT] = NULL,
 };
 
@@ -73,18 +75,25 @@ const struct effect_entry effects_table[EFFECT_COUNT] = {
                             "pointer_sigma of a sensor", "pointer_sigma is 0",
                             "four draws and an angle per cell"},
     [EFFECT_RANGE_NOISE] = {"noise on range and range rate", "noise",
-                            "range_sigma_m, range_rate_sigma_mps of a sensor", "both are 0",
-                            "two draws per cell"},
+                            "range_sigma_m, range_rate_sigma_mps of a sensor",
+                            "both are 0 and sigma_law is not by_snr", "two draws per cell"},
     [EFFECT_ACCURACY] = {"stronger cells are measured better", "noise", "sigma_law of a sensor",
                          "sigma_law is fixed", "a division per cell"},
+    [EFFECT_MISALIGNMENT] = {"the sensor looks aside of where it believes, through a bumper that "
+                             "bends the beam",
+                             "noise", "misalignment_rad, radome_bias_rad of a sensor", "both are 0",
+                             "a sine per cell"},
     [EFFECT_FINAL_THRESHOLD] = {"the noisy amplitude must pass the threshold once more", "noise",
                                 "final_threshold of a sensor", "there is none",
                                 "a comparison per cell"},
+    [EFFECT_FALSE_ALARMS] = {"noise alone passes the threshold where there is nothing", "noise",
+                             "false_alarms of a sensor", "false_alarms is 0",
+                             "four draws per false alarm"},
+    [EFFECT_LIST_LIMIT] = {"the sensor reports no more targets than its list holds", "noise",
+                           "list_limit of a sensor", "the list is shorter", "nothing"},
     [EFFECT_QUANTISATION] = {"reported values are multiples of a step", "noise",
                              "range_step_m, range_rate_step_mps, azimuth_step_rad of a sensor",
                              "all steps are 0", "three roundings per target"},
-    [EFFECT_LIST_LIMIT] = {"the sensor reports no more targets than its list holds", "noise",
-                           "list_limit of a sensor", "the list is shorter", "nothing"},
 };
 
 const struct tolerance tolerance_default = {0.02, 0.1 * PI / 180, 0.05, 0.5};

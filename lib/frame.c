@@ -426,6 +426,14 @@ struct object *frame_object(const struct frame *frame, const char *id)
     return NULL;
 }
 
+const struct sensor_view *frame_view(const struct frame *frame, const char *sensor)
+{
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        if (strcmp(frame->sensors.list.items[i].name, sensor) == 0)
+            return &frame->sensors.list.items[i];
+    return NULL;
+}
+
 struct echo_span frame_echoes_of(const struct frame *frame, const char *sensor)
 {
     size_t first = 0, end;

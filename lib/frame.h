@@ -231,6 +231,7 @@ void frame_clear(struct frame *frame);
 /* The name of a section, for messages. */
 const char *frame_section_name(enum section section);
 
+/* NULL behind the last one. */
 const char *frame_path_name(enum path path);
 const char *frame_loss_name(enum loss loss);
 
@@ -239,6 +240,9 @@ void frame_drop(struct frame *frame, unsigned sections);
 
 /* The object of that id, or NULL. */
 struct object *frame_object(const struct frame *frame, const char *id);
+
+/* The sensor of that name as the frame knows it, or NULL. */
+const struct sensor_view *frame_view(const struct frame *frame, const char *sensor);
 
 /* The echoes, or cells, of one sensor: sections are grouped by sensor. */
 struct echo_span {

@@ -10,8 +10,10 @@ static const char *const phases[] = {[CELL_IN_PHASE] = "in_phase",
                                      [CELL_RANDOM_PHASE] = "random",
                                      [CELL_PHASE_BY_PATH] = "by_path",
                                      NULL};
-static const char *const laws[] = {
-    [SIGMA_FIXED] = "fixed", [SIGMA_BY_AMPLITUDE] = "by_amplitude", NULL};
+static const char *const laws[] = {[SIGMA_FIXED] = "fixed",
+                                   [SIGMA_BY_AMPLITUDE] = "by_amplitude",
+                                   [SIGMA_BY_SNR] = "by_snr",
+                                   NULL};
 static const char *const orders[] = {
     [LIST_STRONGEST] = "strongest", [LIST_NEAREST] = "nearest", NULL};
 static const char *const patterns[] = {
@@ -87,9 +89,22 @@ static const struct field sensor_fields[] = {
     {REAL(range_rate_sigma_mps, 0, 1e3, "noise on range rate")},
     {REAL(azimuth_sigma_rad, 0, PI, "noise on azimuth, for glint-noise-gauss")},
     {CHOICE(sigma_law, laws,
-            "range and rate noise as it stands, or falling as threshold/amplitude"),
+            "range and rate noise as it stands, falling as threshold/amplitude, or what "
+            "window_factor says of amplitude/pointer_sigma, with what stands as its floor"),
      FIELD_OPTIONAL},
+    {REAL(window_factor, 1e-3, 1e3, "by_snr: sigma in cells at a signal as strong as the noise"),
+     FIELD_OPTIONAL, .absent = 0.68},
+    {REAL(misalignment_rad, -PI / 4, PI / 4, "every azimuth is reported larger by this"),
+     FIELD_OPTIONAL},
+    {REAL(radome_bias_rad, 0, PI / 4, "and by this times a sine of the azimuth"), FIELD_OPTIONAL},
+    {REAL(radome_period_rad, 1e-3, 2 * PI, "of that sine, in azimuth; needed if there is a bias"),
+     FIELD_OPTIONAL},
+    {REAL(radome_phase_rad, -PI, PI, "of that sine at boresight"), FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct sensor, final_threshold, "test the noisy amplitude once more")},
+    {REAL(false_alarms, 0, 1e4, "targets per scan that are nothing but noise, on average"),
+     FIELD_OPTIONAL},
+    {REAL(false_alarm_range_rate_mps, 0, 1e5, "their range rates lie within plus or minus this"),
+     FIELD_OPTIONAL, .absent = 70},
     {REAL(range_step_m, 0, 1e3, "reported in multiples of this; 0: exactly"), FIELD_OPTIONAL},
     {REAL(range_rate_step_mps, 0, 1e3, "reported in multiples of this; 0: exactly"),
      FIELD_OPTIONAL},
@@ -169,5 +184,7 @@ int suite_check(const struct sensor *sensor, struct diag *diag)
     if ((sensor->antenna_pattern == ANTENNA_TABLE) != (sensor->antenna_table != NULL))
         return diag_fail(diag, DIAG_CONFIG,
                          "antenna_table: goes with antenna_pattern \"table\", and only with it");
+    if (sensor->radome_bias_rad > 0 && sensor->radome_period_rad == 0)
+        return diag_fail(diag, DIAG_CONFIG, "radome_period_rad: missing; radome_bias_rad needs it");
     return 0;
 }

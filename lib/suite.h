@@ -15,7 +15,7 @@
 
 enum cell_extent { CELL_WIDTH, CELL_HALF_WIDTH };
 enum cell_phase { CELL_IN_PHASE, CELL_RANDOM_PHASE, CELL_PHASE_BY_PATH };
-enum sigma_law { SIGMA_FIXED, SIGMA_BY_AMPLITUDE };
+enum sigma_law { SIGMA_FIXED, SIGMA_BY_AMPLITUDE, SIGMA_BY_SNR };
 enum list_order { LIST_STRONGEST, LIST_NEAREST };
 
 struct sensor {
@@ -51,7 +51,10 @@ struct sensor {
     double pointer_sigma;
     double range_sigma_m, range_rate_sigma_mps, azimuth_sigma_rad;
     enum sigma_law sigma_law;
+    double window_factor;
+    double misalignment_rad, radome_bias_rad, radome_period_rad, radome_phase_rad;
     bool final_threshold;
+    double false_alarms, false_alarm_range_rate_mps;
     double range_step_m, range_rate_step_mps, azimuth_step_rad;
     enum list_order list_order;
     int64_t list_limit;

@@ -184,17 +184,18 @@ def expected_pairs(frame):
 
 
 def endings(frame):
-    ends = [(target["sensor"],) + tuple(one[key] for key in NAMES[1:])
-            for target in frame["targets"] for one in target["contributors"]]
-    return ends + [(group["sensor"],) + tuple(one[key] for key in NAMES[1:])
-                   for group in frame["lost"] for one in group["echoes"]]
+    def name(sensor, one):
+        return (sensor,) + tuple(one[key] for key in NAMES[1:]) + (one.get("mirror"), one.get("number"))
+
+    ends = [name(target["sensor"], one) for target in frame["targets"] for one in target["contributors"]]
+    return ends + [name(group["sensor"], one) for group in frame["lost"] for one in group["echoes"]]
 
 
 def check_laws(frame):
     """Both laws of the account, from the vehicle documents and not from what ideal says."""
     where, ends = place(frame), endings(frame)
     check(len(ends) == len(set(ends)), f"{where}: an echo ends twice")
-    direct = {end for end in ends if end[3] == "direct"}
+    direct = {end[:4] for end in ends if end[3] == "direct"}
     must, may = expected_pairs(frame)
     check(must <= direct, f"{where}: no entry for {sorted(must - direct)[:3]}")
     check(direct <= may, f"{where}: entries for no pair: {sorted(direct - may)[:3]}")
