@@ -49,8 +49,8 @@ struct soundness {
     const char *sensors;
     int64_t first, frames;
     enum planners planners;
-    const char *without;
-    bool cars, margins, until_caught, print;
+    const char *without, *only;
+    bool margins, until_caught, print;
 };
 
 struct bench {
@@ -76,8 +76,9 @@ static const struct field soundness_options[] = {
     {FIELD_NAME_OF(struct soundness, without,
                    "effects that nobody simulates, such as -occlusion,-rows"),
      FIELD_OPTIONAL, .word = "LIST"},
-    {FIELD_FLAG_OF(struct soundness, cars, "only scenes in which every object is a car"),
-     FIELD_OPTIONAL},
+    {FIELD_NAME_OF(struct soundness, only,
+                   "only scenes in which every object is of one of these classes: car,van"),
+     FIELD_OPTIONAL, .word = "LIST"},
     {FIELD_FLAG_OF(struct soundness, margins, "targets and lost tell margins too"), FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct soundness, until_caught,
                    "a planner with a violation needs no more scenes"),
@@ -257,10 +258,24 @@ static void draw_conditions(struct frame *frame, struct random_address address)
             };
 }
 
+static bool lists(const char *names, const char *name)
+{
+    size_t length = strlen(name);
+    for (;; names++) {
+        size_t word = strcspn(names, ",");
+        if (word == length && memcmp(names, name, length) == 0)
+            return true;
+        names += word;
+        if (*names == '\0')
+            return false;
+    }
+}
+
+/* The ego's class does not count. */
 static bool wants(const struct soundness *wanted, const struct frame *scene)
 {
-    for (size_t i = 0; i < scene->objects.count && wanted->cars; i++)
-        if (strcmp(scene->objects.items[i].class, "car") != 0)
+    for (size_t i = 1; i < scene->objects.count && wanted->only != NULL; i++)
+        if (!lists(wanted->only, scene->objects.items[i].class))
             return false;
     return true;
 }
