@@ -40,11 +40,21 @@ static const struct field sensor_fields[] = {
     {FIELD_NAME_OF(struct sensor, name, "unique in the suite")},
     {REAL(mount_x_m, -100, 100, "from the centre of the ego's box")},
     {REAL(mount_y_m, -100, 100, "from the centre of the ego's box")},
+    {REAL(mount_z_m, 0.01, 100, "above the road; absent: in a flat world, without heights"),
+     FIELD_OPTIONAL},
     {REAL(mount_yaw_rad, -PI, PI, "boresight, from the ego's heading")},
     {REAL(carrier_hz, 1e9, 1e12, "carrier frequency")},
     {REAL(range_min_m, 0, 1e6, "nothing nearer is measured")},
     {REAL(range_max_m, 0, 1e6, "nothing farther is measured")},
     {REAL(field_of_view_rad, 0, PI, "full width; the border itself is outside")},
+    {REAL(elevation_half_width_rad, 1e-3, PI / 2,
+          "one way, the beam is down by half this far above and below; absent: all the same"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct sensor, diffraction, "do waves bend around the edges of what blocks?"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct sensor, curved_sides,
+                   "do planes with a profile_radius_m reflect as curved surfaces?"),
+     FIELD_OPTIONAL},
     {REAL(cycle_s, 1e-4, 1e3, "from scan to scan; absent: a scan in every frame"), FIELD_OPTIONAL},
     {REAL(latency_s, 0, 10, "the scan shows the world this much earlier"), FIELD_OPTIONAL},
     {CHOICE(polarization, polarizations, "of both antennas; absent: vertical"), FIELD_OPTIONAL,
@@ -186,5 +196,7 @@ int suite_check(const struct sensor *sensor, struct diag *diag)
                          "antenna_table: goes with antenna_pattern \"table\", and only with it");
     if (sensor->radome_bias_rad > 0 && sensor->radome_period_rad == 0)
         return diag_fail(diag, DIAG_CONFIG, "radome_period_rad: missing; radome_bias_rad needs it");
+    if (sensor->elevation_half_width_rad > 0 && !(sensor->mount_z_m > 0))
+        return diag_fail(diag, DIAG_CONFIG, "elevation_half_width_rad: goes with mount_z_m");
     return 0;
 }

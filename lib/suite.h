@@ -20,10 +20,12 @@ enum list_order { LIST_STRONGEST, LIST_NEAREST };
 
 struct sensor {
     const char *name;
-    double mount_x_m, mount_y_m, mount_yaw_rad;
+    double mount_x_m, mount_y_m, mount_z_m, mount_yaw_rad;
     double carrier_hz;
     double range_min_m, range_max_m;
     double field_of_view_rad;
+    double elevation_half_width_rad;
+    bool diffraction, curved_sides;
     double cycle_s, latency_s;
 
     enum polarization polarization;
