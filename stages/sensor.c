@@ -1,7 +1,7 @@
 /* The sensor before noise: amplitude of every echo (MODEL 4), resolution cells (6), threshold on
  * the summed amplitude, superposed sum and delta pointers of each cell (7, 8). */
 #include "cell_margins.h"
-#include "scan.h"
+#include "escalation.h"
 #include "stage.h"
 #include "units.h"
 
@@ -10,8 +10,10 @@ static bool superpose(const struct scan *scan, const struct selection *selection
                       const struct ray *members, size_t count, struct cell *cell)
 {
     const struct sensor *sensor = scan->reception.sensor;
-    bool superposed = effects_must(selection, EFFECT_SUPERPOSITION) ||
-                      (effects_may(selection, EFFECT_SUPERPOSITION) && count > 1);
+    bool superposed =
+        effects_must(selection, EFFECT_SUPERPOSITION) ||
+        (effects_may(selection, EFFECT_SUPERPOSITION) && count > 1 &&
+         !escalation_spares_superposition(sensor, members, count, &selection->tolerance));
     int64_t begin = effects_begin(selection);
     bool has_angle =
         superposition_cell(sensor, members, count, superposed, scan->reception.frame->arena, cell);
@@ -45,10 +47,23 @@ static void report(struct frame *frame, const struct scan *scan, const struct se
         *list_add(&frame->cells, frame->arena) = cell;
 }
 
+/* The scan with all that it calls for. */
+static struct scan escalate(struct frame *frame, const struct sensor *sensor,
+                            const struct selection *selection)
+{
+    struct reception whole = reception_begin(frame, sensor, selection->allowed);
+    uint64_t spared = escalation_spared(&whole, selection);
+    struct scan scan = scan_make(frame, sensor, selection, spared);
+    if (spared != 0 &&
+        !escalation_holds(&scan, escalation_weakening(&whole), &selection->tolerance))
+        scan = scan_make(frame, sensor, selection, 0);
+    return scan;
+}
+
 static void sense(struct frame *frame, const struct sensor *sensor,
                   const struct selection *selection)
 {
-    struct scan scan = scan_make(frame, sensor, selection, 0);
+    struct scan scan = escalate(frame, sensor, selection);
     for (size_t i = 0; i < scan.silent_count; i++)
         frame_lose_subject(frame, "sensor", sensor->name, &scan.silent[i].echo, LOSS_NO_AMPLITUDE);
     for (size_t number = 0; number < scan.cells; number++)
