@@ -13,13 +13,14 @@ double clearance_facing_m(const struct box *box, enum visibility_shape shape, do
     return fabs(zero_rad - visibility_angle_rad(facing, sight)) * vec2_length(sight);
 }
 
-double clearance_foot_m(struct vec2 a, struct vec2 b, double margin_m, struct vec2 sensor)
+double clearance_foot_m(struct vec2 a, struct vec2 b, struct vec2 along, double margin_m,
+                        struct vec2 sensor)
 {
-    struct vec2 edge = vec2_sub(b, a);
-    double length_m = vec2_length(edge);
-    double before_m = -vec2_cross(edge, vec2_sub(sensor, a)) / length_m;
-    double from_a_m = vec2_dot(vec2_sub(sensor, a), edge) / length_m - margin_m;
-    double from_b_m = vec2_dot(vec2_sub(b, sensor), edge) / length_m - margin_m;
+    if (vec2_same(a, b))
+        return (double)NAN;
+    double before_m = -vec2_cross(along, vec2_sub(sensor, a));
+    double from_a_m = vec2_dot(vec2_sub(sensor, a), along) - margin_m;
+    double from_b_m = vec2_dot(vec2_sub(b, sensor), along) - margin_m;
     return fabs(fmin(before_m, fmin(from_a_m, from_b_m)));
 }
 

@@ -11,9 +11,11 @@
 double clearance_facing_m(const struct box *box, enum visibility_shape shape, double facing_rad,
                           double zero_rad, struct vec2 place, struct vec2 sensor);
 
-/* Of the foot on a side from its ends, and of the sensor from the side's line: the least, or the
- * farthest beyond. NaN for a side of length zero, which never has a foot. */
-double clearance_foot_m(struct vec2 a, struct vec2 b, double margin_m, struct vec2 sensor);
+/* Of the foot on a side from its ends, along its unit vector as reflection_foot has it, and of the
+ * sensor from the side's line: the least, or the farthest beyond. NaN for a side of length zero,
+ * which never has a foot. */
+double clearance_foot_m(struct vec2 a, struct vec2 b, struct vec2 along, double margin_m,
+                        struct vec2 sensor);
 
 /* Between a sight line and an outline that it does not touch. */
 double clearance_outline_m(const struct vec2 *corners, size_t count, struct vec2 from,

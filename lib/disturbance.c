@@ -4,7 +4,9 @@
 #include <math.h>
 
 #include "accuracy.h"
+#include "interference.h"
 #include "misalignment.h"
+#include "superposition.h"
 
 static bool on(const struct selection *selection, enum effect effect, bool described)
 {
@@ -37,9 +39,11 @@ struct disturbance disturbance_of(const struct sensor *sensor, const struct sele
 
 struct antenna_pointers disturbance_pointers(const struct disturbance *by,
                                              const struct random_address *address,
-                                             struct antenna_pointers pointers)
+                                             const struct cell *cell)
 {
-    double draw[4], sigma = by->sensor->pointer_sigma * sqrt(0.5);
+    struct antenna_pointers pointers = superposition_pointers(cell);
+    double draw[4], sigma = by->sensor->pointer_sigma * sqrt(0.5) *
+                            interference_noise_factor(cell->interference);
     if (!by->pointers)
         return pointers;
     random_gaussian(address, RANDOM_POINTERS, 0, draw);
@@ -56,9 +60,10 @@ static double sigma_by_snr(const struct sensor *sensor, double amplitude, double
     return accuracy_sigma(&accuracy, ratio * ratio);
 }
 
-struct deviation disturbance_deviation(const struct disturbance *by, double amplitude)
+struct deviation disturbance_deviation(const struct disturbance *by, const struct cell *cell)
 {
     const struct sensor *sensor = by->sensor;
+    double amplitude = cell->amplitude / interference_noise_factor(cell->interference);
     struct deviation fixed = {sensor->range_sigma_m, sensor->range_rate_sigma_mps};
     if (!by->accuracy)
         return fixed;
@@ -77,7 +82,7 @@ void disturbance_range(const struct disturbance *by, const struct random_address
     double draw[4];
     if (!by->range)
         return;
-    struct deviation sigma = disturbance_deviation(by, reading->cell->amplitude);
+    struct deviation sigma = disturbance_deviation(by, reading->cell);
     random_gaussian(address, RANDOM_RANGE_RATE, 0, draw);
     reading->range_m = fmax(reading->range_m + sigma.range_m * draw[0], 0);
     reading->range_rate_mps += sigma.range_rate_mps * draw[1];

@@ -17,22 +17,23 @@ struct disturbance {
 /* Also notes every one of them in the selection's log. */
 struct disturbance disturbance_of(const struct sensor *sensor, const struct selection *selection);
 
-/* Equation (8): both channels get independent complex noise of the same RMS. */
+/* The cell's pointers by equation (8): both channels get independent complex noise of the same RMS,
+ * which other radars raise. */
 struct antenna_pointers disturbance_pointers(const struct disturbance *by,
                                              const struct random_address *address,
-                                             struct antenna_pointers pointers);
+                                             const struct cell *cell);
 
 /* Standard deviations of range and range rate. */
 struct deviation {
     double range_m, range_rate_mps;
 };
 
-/* Of a cell of that noise-free amplitude, by the sensor's sigma_law:
+/* Of a cell, whose noise-free amplitude counts over its noise, by the sensor's sigma_law:
  *     fixed          as the document says;
  *     by_amplitude   that times threshold / amplitude, at most 1;
  *     by_snr         accuracy.h's, for the cell's size and (amplitude / pointer_sigma)^2, with the
  *                    document's as floor. */
-struct deviation disturbance_deviation(const struct disturbance *by, double amplitude);
+struct deviation disturbance_deviation(const struct disturbance *by, const struct cell *cell);
 
 /* Noise on range and range rate; no range is below 0. */
 void disturbance_range(const struct disturbance *by, const struct random_address *address,

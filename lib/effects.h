@@ -28,8 +28,18 @@ enum effect {
     EFFECT_LATENCY,
     EFFECT_VISIBILITY,
     EFFECT_PLANE_REFLECTION,
+    EFFECT_CURVATURE,
     EFFECT_ROWS,
+    EFFECT_ELEVATION,
     EFFECT_OCCLUSION,
+    EFFECT_HEIGHT,
+    EFFECT_DIFFRACTION,
+    EFFECT_GHOSTS,
+    EFFECT_FLUCTUATION,
+    EFFECT_RAIN,
+    EFFECT_FOG,
+    EFFECT_AMBIGUITY,
+    EFFECT_INTERFERENCE,
     EFFECT_COHERENCE,
     EFFECT_MERGING,
     EFFECT_SUPERPOSITION,
@@ -102,6 +112,7 @@ static inline bool effects_must(const struct selection *selection, enum effect e
 static inline void effects_note(const struct selection *selection, enum effect effect,
                                 bool simulated)
 {
+    simulated = simulated && effects_may(selection, effect);
     if (selection->log != NULL)
         *(simulated ? &selection->log->simulated : &selection->log->left_out) |= EFFECT_BIT(effect);
 }

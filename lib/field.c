@@ -13,8 +13,9 @@ const char *field_unit(const char *name)
 {
     /* Longer endings first: "_mps2" also ends in "s2" of nothing, "_mps" in "_s" of nothing. */
     static const char *const units[][2] = {
-        {"_mps2", "m/s²"}, {"_radps", "rad/s"}, {"_mps", "m/s"}, {"_rad", "rad"},
-        {"_hz", "Hz"},     {"_db", "dB"},       {"_m", "m"},     {"_s", "s"},
+        {"_mps2", "m/s²"}, {"_radps", "rad/s"}, {"_mmph", "mm/h"}, {"_gpm3", "g/m³"},
+        {"_hzps", "Hz/s"}, {"_dbm", "dBm"},     {"_mps", "m/s"},   {"_rad", "rad"},
+        {"_hz", "Hz"},     {"_db", "dB"},       {"_m", "m"},       {"_s", "s"},
     };
     size_t length = strlen(name);
     for (size_t i = 0; i < sizeof units / sizeof units[0]; i++) {
@@ -227,6 +228,8 @@ static unsigned sections_of(const struct record *record, const void *base)
     return present;
 }
 
+static bool any_present(const struct record *record, const void *base);
+
 bool field_present(const struct record *record, const struct field *field, const void *base)
 {
     if (field->section != 0)
@@ -254,11 +257,22 @@ bool field_present(const struct record *record, const struct field *field, const
     case FIELD_LIST:
         return field_list(field, base).count > 0;
     case FIELD_RECORD:
-        return sections_of(field->record, member_of(field, base)) != 0;
+        return any_present(field->record, member_of(field, base));
     case FIELD_NOTES:
         return false;
     }
     return true;
+}
+
+/* Of sections only, which are told by one look at their bits, or of plain members only. */
+static bool any_present(const struct record *record, const void *base)
+{
+    if (record->fields[0].section != 0)
+        return sections_of(record, base) != 0;
+    for (const struct field *field = record->fields; field->name != NULL; field++)
+        if (field_present(record, field, base))
+            return true;
+    return false;
 }
 
 void field_mark_present(const struct record *record, const struct field *field, void *base)

@@ -191,6 +191,10 @@ static const struct field echo_fields[] = {
     NAME(struct echo, sensor, "name in the suite"),
     ECHO_NAMES(struct echo),
     IDEAL_VALUES(struct echo),
+    {FIELD_REAL_IN(struct echo, departure_rad, -PI, PI,
+                   "azimuth of departure less that of arrival, of a ghost that goes one way by a "
+                   "mirror"),
+     FIELD_OPTIONAL},
     EFFECTS(struct echo, "that changed one of these values"),
     MARGINS(struct echo),
     EXTRA(struct echo),
@@ -229,6 +233,8 @@ static const struct field cell_fields[] = {
     POINTER(struct cell, delta_re, "delta channel without noise"),
     POINTER(struct cell, delta_im, "delta channel without noise"),
     UNDECIDED(struct cell),
+    {FIELD_REAL_IN(struct cell, interference, 0, 1e300, "over the sensor's own noise, in power"),
+     FIELD_OPTIONAL},
     EFFECTS(struct cell, "that changed a value of the cell or of a member"),
     {FIELD_LIST_OF(struct cell, members, &contributor_record, "the leader first")},
     MARGINS(struct cell),
@@ -348,6 +354,8 @@ static const struct field frame_fields[] = {
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct frame, account, "every echo is accounted for"), FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct frame, margins, "entries carry how close decisions were"),
+     FIELD_OPTIONAL},
+    {FIELD_RECORD_OF(struct frame, conditions, &conditions_record, "road and weather"),
      FIELD_OPTIONAL},
     {FIELD_LIST_OF(struct frame, objects, &object_record, "truth, the ego among them"),
      SECTION(SECTION_OBJECTS)},
@@ -506,6 +514,13 @@ void frame_lose_echo(struct frame *frame, const char *stage, const struct echo *
     struct lost_echo lost = frame_lost(SUBJECT_OF(echo));
     lost.margins = echo->margins;
     frame_lose(frame, stage, echo->sensor, reason, &lost);
+}
+
+void frame_lose_subject(struct frame *frame, const char *stage, const char *sensor,
+                        const struct contributor *echo, enum loss reason)
+{
+    struct lost_echo lost = frame_lost(SUBJECT_OF(echo));
+    frame_lose(frame, stage, sensor, reason, &lost);
 }
 
 void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *cell,

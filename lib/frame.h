@@ -13,6 +13,7 @@
 #ifndef FRAME_H
 #define FRAME_H
 
+#include "conditions.h"
 #include "effects.h"
 #include "field.h"
 #include "margins.h"
@@ -102,8 +103,9 @@ struct echo {
     int64_t number;
     double range_m, azimuth_rad, range_rate_mps;
     double ercs;
-    double time_s;    /* of the measurement */
-    uint64_t effects; /* that changed one of these values */
+    double departure_rad; /* azimuth in which its wave left, less the one in which it came back */
+    double time_s;        /* of the measurement */
+    uint64_t effects;     /* that changed one of these values */
     struct margins margins;
     const char *extra;
 };
@@ -128,7 +130,8 @@ struct cell {
     double amplitude; /* sum over the members: the upper bound A_cell^u */
     double sum_re, sum_im, delta_re, delta_im;
     bool sign_undecided;
-    uint64_t effects; /* that changed a value of the cell or of a member */
+    double interference; /* of other radars, over the sensor's own noise, in power */
+    uint64_t effects;    /* that changed a value of the cell or of a member */
     LIST_OF(struct contributor) members;
     struct margins margins;
     const char *extra;
@@ -206,6 +209,7 @@ struct frame {
     double origin_x_m, origin_y_m;
     bool account;
     bool margins; /* do entries carry them? Without, no stage works any out. */
+    struct conditions conditions;
     LIST_OF(struct object) objects;
     LIST_OF(struct reflector_set) reflectors;
     struct sensors sensors;
@@ -260,12 +264,13 @@ struct lost_echo frame_lost(struct subject subject);
 struct contributor frame_contributor(const struct echo *echo);
 
 /* Writes the loss of one echo, grouped by sensor, stage and reason, with the effect that the reason
- * belongs to. Does nothing unless the frame
- * keeps account. Text must live as long as the frame. */
+ * belongs to. Does nothing unless the frame keeps account. Text must live as long as the frame. */
 void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum loss reason,
                 const struct lost_echo *echo);
 void frame_lose_echo(struct frame *frame, const char *stage, const struct echo *echo,
                      enum loss reason);
+void frame_lose_subject(struct frame *frame, const char *stage, const char *sensor,
+                        const struct contributor *echo, enum loss reason);
 
 /* The same for every member of a cell, with the margins that it had in the end; shortfall_db is 0
  * where the reason has none. */

@@ -6,11 +6,16 @@
  * the first reason that applies: it faces away or mirrors past the sensor, it is out of range, out
  * of view, or blocked. Two sides in line, where the beginning of one is the end of the other as
  * doubles, are one wall: the second mirrors what is exactly before their joint, and the object of
- * neither hides a foot on the other, though it may touch the sight line there. */
+ * neither hides a foot on the other, though it may touch the sight line there.
+ *
+ * With mount_z_m reflectors that have a height are seen from the sensor's: their slant range, the
+ * angle that a linear array reads, and the rate along the slant decide and are reported (EFFECTS
+ * 19), and objects hide what they are high enough for. An object without a height hides all. */
 #ifndef LOOK_H
 #define LOOK_H
 
 #include "frame.h"
+#include "passage.h"
 #include "sectors.h"
 #include "suite.h"
 
@@ -31,12 +36,22 @@ struct look {
     const struct selection *selection;
     double time_s;
     struct vec2 position_m, velocity_mps, boresight;
+    double height_m;          /* 0: in a flat world */
+    bool over;                /* is something seen over what is low? */
+    double wavelength_m;      /* that bends around edges; 0: none does */
     bool moved;               /* the ego, since then */
     struct look_body *bodies; /* all objects but the ego, by id */
     size_t body_count;
     const struct look_body **blockers; /* of the body that is looked at, by id */
     size_t blocker_count;
     int64_t pairs, echoes;
+};
+
+/* What comes through to a place and back, there along a straight line. */
+struct look_way {
+    double factor;              /* on amplitude; 0 if it is blocked */
+    const struct look_body *by; /* by the first of these by id; NULL if it is not */
+    uint64_t effects;           /* that changed the factor */
 };
 
 /* The frame must have objects (the ego among them) and reflectors. Refuses a set that is worn by an
@@ -46,6 +61,22 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
 
 /* Every reflector of every object: adds echoes, losses and the sensor's count to the frame. */
 void look_around(struct look *look);
+
+/* Does a body that blocks touch the segment between two places (closed: occlusion.h)? The count
+ * bodies of but do not matter, of which any may be NULL; never, where occlusion is not selected. */
+bool look_blocked(const struct look *look, struct vec2 from, struct vec2 to,
+                  const struct look_body *const *but, size_t count);
+
+/* Of the bodies that could and do not: how near the nearest comes to the segment; infinite where
+ * there is none. */
+double look_clearance_m(const struct look *look, struct vec2 from, struct vec2 to,
+                        const struct look_body *const *but, size_t count);
+
+/* A post of a row as the point it is, under its name. */
+struct point_reflector look_post(const struct look *look, const struct post_row *row, int64_t post);
+
+/* EFFECT_BIT of latency if it changes how the sensor sees this body, else 0. */
+uint64_t look_aged(const struct look *look, const struct look_body *body);
 
 /* Azimuths from here on, to either side, are outside the sensor's view. */
 double look_border_rad(const struct sensor *sensor);

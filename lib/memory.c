@@ -10,7 +10,7 @@
 enum { BLOCK_SIZE = 64 * 1024, ALIGNMENT = 16 };
 
 struct arena_block {
-    struct arena_block *older;
+    _Alignas(ALIGNMENT) struct arena_block *older;
     size_t size; /* of the bytes behind this header */
 };
 

@@ -83,15 +83,29 @@ static const struct field *named_options(const struct stage *stage)
     return stage->options->fields + (stage->operand != NULL ? 1 : 0);
 }
 
-static const struct field *find(const struct field *fields, const char *word, size_t length)
+/* What a word stands for: a member of a table's struct, or of a record in it. */
+struct option {
+    const struct field *field; /* NULL: nothing */
+    size_t base;               /* of its struct in the table's */
+    size_t index;              /* of the table's own entry */
+};
+
+static struct option find(const struct field *fields, const char *word, size_t length)
 {
-    for (const struct field *field = fields; field->name != NULL; field++) {
+    for (size_t i = 0; fields[i].name != NULL; i++) {
+        const struct field *field = &fields[i];
         char spelling[80];
         spell(field->name, spelling, sizeof spelling);
-        if (strlen(spelling) == length && memcmp(spelling, word, length) == 0)
-            return field;
+        if (field->kind == FIELD_RECORD) {
+            struct option member = find(field->record->fields, word, length);
+            if (member.field != NULL)
+                return (struct option){member.field, field->offset + member.base, i};
+        } else if (field->kind != FIELD_LIST && strlen(spelling) == length &&
+                   memcmp(spelling, word, length) == 0) {
+            return (struct option){field, 0, i};
+        }
     }
-    return NULL;
+    return (struct option){0};
 }
 
 static int set(const struct field *field, void *base, const char *value, struct arena *arena,
@@ -119,16 +133,21 @@ static int read_option(struct reading_options *options, size_t count, const char
     const char *word = words[*at], *name = strcmp(word, "-o") == 0 ? "output" : word + 2;
     size_t length = strcspn(name, "=");
     bool spelled = word[1] == '-' || strcmp(word, "-o") == 0;
-    const struct field *own = find(named_options(options->stage), name, length);
-    const struct field *common = find(common_fields, name, length);
-    if (!spelled || (own == NULL && (common == NULL || !applies(options->stage, common))))
+    struct option own = find(named_options(options->stage), name, length);
+    struct option common = find(common_fields, name, length);
+    bool known =
+        own.field != NULL || (common.field != NULL && applies(options->stage, common.field));
+    if (!spelled || !known)
         return diag_fail(diag, DIAG_USAGE, "unknown option %s; see --help", word);
-    const struct field *field = own != NULL ? own : common;
-    void *base = own != NULL ? options->state : options->common;
-    if (own != NULL)
-        options->seen |= UINT64_C(1) << (own - options->stage->options->fields);
+    struct option option = own.field != NULL ? own : common;
+    const struct field *field = option.field;
+    void *base =
+        (char *)(own.field != NULL ? options->state : (void *)options->common) + option.base;
+    size_t operands = options->stage->operand != NULL ? 1 : 0;
+    if (own.field != NULL)
+        options->seen |= UINT64_C(1) << (own.index + operands);
     else
-        options->common_seen |= UINT64_C(1) << (common - common_fields);
+        options->common_seen |= UINT64_C(1) << common.index;
     const char *value = name[length] == '=' ? name + length + 1 : NULL;
     if (field->kind == FIELD_FLAG) {
         memcpy((char *)base + field->offset, &(bool){true}, sizeof(bool));
@@ -191,8 +210,8 @@ int options_read(const struct stage *stage, size_t count, const char *const *wor
             result =
                 option ? read_option(&options, count, words, &at) : read_operand(&options, word);
     }
-    const struct field *seed = find(common_fields, "seed", strlen("seed"));
-    common->seed_given = (options.common_seen >> (seed - common_fields) & 1) != 0;
+    size_t seed = find(common_fields, "seed", strlen("seed")).index;
+    common->seed_given = (options.common_seen >> seed & 1) != 0;
     if (result == 0 && !common->help && !common->version)
         result = check_required(&options);
     if (result != 0)
@@ -211,6 +230,11 @@ static const char *value_word(const struct field *field)
 
 static void help_option(const struct field *field, struct text *text)
 {
+    if (field->kind == FIELD_RECORD)
+        for (const struct field *member = field->record->fields; member->name != NULL; member++)
+            help_option(member, text);
+    if (field->kind == FIELD_RECORD || field->kind == FIELD_LIST)
+        return;
     char left[160], spelling[80], expected[512];
     spell(field->name, spelling, sizeof spelling);
     bool flag = field->kind == FIELD_FLAG;

@@ -77,6 +77,8 @@ static const struct field scenario_fields[] = {
     NAME(struct scenario, ego, "id of the object that carries the sensors"),
     REAL(struct scenario, rate_hz, 0.1, 1e4, "frames in a second"),
     REAL(struct scenario, duration_s, 0, 1e6, "the last frame is not later"),
+    {FIELD_RECORD_OF(struct scenario, conditions, &conditions_record, "road and weather"),
+     FIELD_OPTIONAL},
     {FIELD_LIST_OF(struct scenario, objects, &actor_record, "everything there is")},
     {0},
 };

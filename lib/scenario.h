@@ -10,6 +10,7 @@
 #ifndef SCENARIO_H
 #define SCENARIO_H
 
+#include "conditions.h"
 #include "field.h"
 #include "motion.h"
 
@@ -39,6 +40,7 @@ struct scenario {
     const char *ego;
     double rate_hz;
     double duration_s;
+    struct conditions conditions;
     LIST_OF(struct actor) objects;
 };
 

@@ -151,6 +151,7 @@ static void play(const struct scenario *scenario, int64_t number, struct frame *
 {
     frame->time_s = (double)number / scenario->rate_hz;
     frame->interval_s = 1 / scenario->rate_hz;
+    frame->conditions = scenario->conditions;
     for (size_t i = 0; i < scenario->objects.count; i++)
         *list_add(&frame->objects, frame->arena) =
             object_of_actor(&scenario->objects.items[i], frame->time_s);

@@ -5,18 +5,34 @@
 
 #include "elementary.h"
 #include "frame_order.h"
+#include "interference.h"
 #include "resolution.h"
+
+/* A ghost leaves in one direction and comes back from another: each way has the root of the
+ * antenna pattern (EFFECTS 7), and the pointers are those of its arrival. */
+static double departure_factor(const struct antenna *antenna, const struct echo *echo,
+                               double arrival_gain)
+{
+    if (echo->departure_rad == 0 || arrival_gain == 0)
+        return 1;
+    double gain = antenna_gain(antenna, echo->azimuth_rad + echo->departure_rad);
+    return sqrt(fmax(gain, 0) / arrival_gain);
+}
 
 struct ray superposition_ray(const struct sensor *sensor, const struct echo *echo, double phase_rad)
 {
     struct ray ray = {
         .echo = frame_contributor(echo),
+        .range_m = echo->range_m,
+        .range_rate_mps = echo->range_rate_mps,
         .phase_rad = phase_rad,
         .effects = echo->effects,
         .margins = &echo->margins,
     };
-    ray.strength = radar_reference_amplitude(&sensor->amplitude_law, echo->range_m) * echo->ercs;
-    ray.amplitude = ray.strength * antenna_gain(&sensor->antenna, echo->azimuth_rad);
+    double gain = antenna_gain(&sensor->antenna, echo->azimuth_rad);
+    ray.strength = radar_reference_amplitude(&sensor->amplitude_law, echo->range_m) * echo->ercs *
+                   departure_factor(&sensor->antenna, echo, gain);
+    ray.amplitude = ray.strength * gain;
     return ray;
 }
 
@@ -108,10 +124,13 @@ bool superposition_cell(const struct sensor *sensor, const struct ray *rays, siz
 {
     double *range = arena_get(arena, 4 * count * sizeof *range);
     double *rate = range + count, *weight = rate + count, *azimuth = weight + count;
-    *cell = (struct cell){.sensor = sensor->name, .effects = effects_of(rays, count, superpose)};
+    *cell = (struct cell){
+        .sensor = sensor->name,
+        .effects = effects_of(rays, count, superpose),
+    };
     for (size_t i = 0; i < count; i++) {
-        range[i] = rays[i].echo.range_m;
-        rate[i] = rays[i].echo.range_rate_mps;
+        range[i] = rays[i].range_m;
+        rate[i] = rays[i].range_rate_mps;
         weight[i] = rays[i].amplitude;
         cell->amplitude += rays[i].amplitude;
     }
@@ -134,6 +153,11 @@ bool superposition_cell(const struct sensor *sensor, const struct ray *rays, siz
     cell->azimuth_rad = angle.azimuth_rad;
     cell->sign_undecided = angle.sign_undecided;
     return angle.valid;
+}
+
+double superposition_threshold(const struct sensor *sensor, const struct cell *cell)
+{
+    return sensor->threshold * interference_noise_factor(cell->interference);
 }
 
 struct antenna_pointers superposition_pointers(const struct cell *cell)

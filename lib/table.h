@@ -9,13 +9,14 @@
 #define TABLE_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "diag.h"
 #include "memory.h"
 #include "text.h"
 
 /* A table may be this large; recordings are tens of megabytes. */
-#define TABLE_SIZE ((size_t)4 << 30)
+#define TABLE_SIZE ((size_t)(SIZE_MAX < UINT64_C(4) << 30 ? SIZE_MAX / 2 : UINT64_C(4) << 30))
 
 struct table {
     size_t columns;

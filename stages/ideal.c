@@ -1,6 +1,7 @@
 /* The ideal target list: exact range, azimuth, range rate and cross section of every reflector that
  * a sensor sees (MODEL 2.2 to 2.5, 5). */
 #include "cycle.h"
+#include "ghosts.h"
 #include "look.h"
 #include "stage.h"
 
@@ -39,8 +40,9 @@ static struct sensor_view view_of(const struct sensor *sensor, bool measured)
 
 static double latency_s(const struct sensor *sensor, const struct selection *selection)
 {
-    effects_note(selection, EFFECT_LATENCY, sensor->latency_s > 0);
-    return effects_may(selection, EFFECT_LATENCY) ? sensor->latency_s : 0;
+    bool late = sensor->latency_s > 0 && effects_may(selection, EFFECT_LATENCY);
+    effects_note(selection, EFFECT_LATENCY, late);
+    return late ? sensor->latency_s : 0;
 }
 
 static int ideal_step(void *state, struct frame *frame, struct runner *runner)
@@ -72,6 +74,7 @@ static int ideal_step(void *state, struct frame *frame, struct runner *runner)
                        runner_diag(runner)) != 0)
             return -1;
         look_around(&look);
+        ghosts_around(&look);
         effects_count_scan(&selection);
     }
     return 0;
@@ -98,7 +101,8 @@ const struct stage stage_ideal = {
     .details =
         "Computes, for each sensor of the suite that measures in the frame, the exact range,\n"
         "azimuth, range rate and cross section of all reflectors it can see: in range and\n"
-        "field of view, facing it, and with no other object in the way.",
+        "field of view, facing it, and with no other object in the way. Sensors that say so\n"
+        "see ghosts as well: what walls, guardrails and flat sides mirror.",
     .options = &ideal_record,
     .reads = SECTION_OBJECTS | SECTION_REFLECTORS,
     .writes = SECTION_SENSORS | SECTION_ECHOES | SECTION_LOST | SECTION_COUNTS,

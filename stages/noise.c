@@ -17,8 +17,7 @@ static bool measure(const struct frame *frame, const struct disturbance *by,
 {
     const struct sensor *sensor = by->sensor;
     struct random_address address = runner_address(frame, sensor->name, &cell->members.items[0]);
-    struct antenna_pointers pointers =
-        disturbance_pointers(by, &address, superposition_pointers(cell));
+    struct antenna_pointers pointers = disturbance_pointers(by, &address, cell);
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
     *reading = reading_of(cell);
@@ -30,7 +29,7 @@ static bool measure(const struct frame *frame, const struct disturbance *by,
     disturbance_range(by, &address, reading);
     disturbance_azimuth(by, reading);
     if (frame->margins)
-        cell_margins_add_noisy(sensor, pointers, reading->amplitude, by->final_threshold,
+        cell_margins_add_noisy(sensor, cell, pointers, reading->amplitude, by->final_threshold,
                                &reading->margins);
     return angle.valid;
 }
@@ -45,10 +44,10 @@ static size_t read_cells(struct frame *frame, const struct disturbance *by, stru
         const struct cell *cell = &cells.items[i];
         struct reading *reading = &readings[count];
         bool has_angle = measure(frame, by, cell, reading);
-        if (by->final_threshold && reading->amplitude < sensor->threshold)
+        double threshold = superposition_threshold(sensor, cell);
+        if (by->final_threshold && reading->amplitude < threshold)
             frame_lose_cell(frame, "noise", cell, LOSS_BELOW_FINAL,
-                            units_shortfall_db(sensor->threshold, reading->amplitude),
-                            &reading->margins);
+                            units_shortfall_db(threshold, reading->amplitude), &reading->margins);
         else if (!has_angle)
             frame_lose_cell(frame, "noise", cell, LOSS_NO_ANGLE, 0, &reading->margins);
         else

@@ -10,6 +10,7 @@ struct traffic {
     const char *ego;
     const char *scene;
     double radius_m;
+    struct conditions conditions;
     struct scene played;
     int64_t frame;
 };
@@ -46,6 +47,7 @@ static int traffic_next(void *state, struct frame *frame, struct runner *runner)
     if (traffic->frame == traffic->played.frames)
         return 0;
     scene_frame(&traffic->played, traffic->frame, frame);
+    conditions_change(&frame->conditions, &traffic->conditions);
     frame->scene = traffic->scene;
     frame->ego = traffic->played.ego;
     frame->frame = traffic->frame++;
@@ -66,6 +68,8 @@ static const struct field traffic_options[] = {
     {FIELD_NAME_OF(struct traffic, scene, "name of the scene instead of SOURCE/EGO"),
      FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct traffic, radius_m, 0, 1e6, "leave out what is farther from the ego"),
+     FIELD_OPTIONAL},
+    {FIELD_RECORD_OF(struct traffic, conditions, &conditions_record, "over what the scenario says"),
      FIELD_OPTIONAL},
     {0},
 };

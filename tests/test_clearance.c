@@ -41,9 +41,9 @@ static void a_foot_margin_is_the_way_to_the_border(void **state)
                  {{-9, 3.5}, 0},   {{-9, 4}, 0.5}, {{-9, -2}, 2.5},  {{1, 2}, 1},
                  {{0.25, 4}, 0.5}, {{3, -1}, 3}};
     for (size_t i = 0; i < COUNT(cases); i++)
-        assert_close(
-            clearance_foot_m((struct vec2){0, 4}, (struct vec2){0, 0}, 0.5, cases[i].sensor),
-            cases[i].margin_m, 1e-15);
+        assert_close(clearance_foot_m((struct vec2){0, 4}, (struct vec2){0, 0},
+                                      (struct vec2){0, -1}, 0.5, cases[i].sensor),
+                     cases[i].margin_m, 1e-15);
 }
 
 static void a_clear_sight_line_is_a_distance_from_the_outline(void **state)
@@ -97,7 +97,8 @@ static void an_outline_without_size_is_a_point(void **state)
     static const struct vec2 point[4] = {{1, 2}, {1, 2}, {1, 2}, {1, 2}};
     assert_close(clearance_outline_m(point, 4, (struct vec2){0, 0}, (struct vec2){4, 0}), 2, 0);
     assert_close(clearance_depth_m(point, 4, (struct vec2){0, 2}, (struct vec2){4, 2}), 0, 0);
-    assert_true(isnan(clearance_foot_m(point[0], point[1], 0, (struct vec2){0, 0})));
+    assert_true(
+        isnan(clearance_foot_m(point[0], point[1], (struct vec2){1, 0}, 0, (struct vec2){0, 0})));
 }
 
 int main(void)

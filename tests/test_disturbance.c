@@ -45,7 +45,7 @@ static void what_no_member_describes_is_not_there(void **state)
     assert_close(reading.range_rate_mps, -3, 0);
     assert_int_equal(reading.effects, 0);
     struct antenna_pointers pointers =
-        disturbance_pointers(&by, &address, (struct antenna_pointers){3, 1});
+        disturbance_pointers(&by, &address, &(struct cell){.sum_re = 3, .delta_re = 1});
     assert_true(pointers.sum == 3 && pointers.delta == 1);
 }
 
@@ -92,7 +92,8 @@ static void deviations_follow_the_law_of_the_sensor(void **state)
         struct sensor sensor = radar;
         sensor.sigma_law = cases[i].law;
         struct disturbance by = disturbance_of(&sensor, &everything);
-        struct deviation sigma = disturbance_deviation(&by, cases[i].amplitude);
+        struct deviation sigma =
+            disturbance_deviation(&by, &(struct cell){.amplitude = cases[i].amplitude});
         assert_near(sigma.range_m, cases[i].range_m, 1e-12);
         assert_near(sigma.range_rate_mps, cases[i].range_rate_mps, 1e-12);
     }
@@ -105,7 +106,7 @@ static void without_noise_on_the_pointers_only_the_floor_is_left(void **state)
     quiet.sigma_law = SIGMA_BY_SNR;
     quiet.pointer_sigma = 0;
     struct disturbance by = disturbance_of(&quiet, &everything);
-    struct deviation sigma = disturbance_deviation(&by, 4);
+    struct deviation sigma = disturbance_deviation(&by, &(struct cell){.amplitude = 4});
     assert_near(sigma.range_m, 0.02, 1e-15);
     assert_near(sigma.range_rate_mps, 0.05, 1e-15);
 }
@@ -119,7 +120,7 @@ static void accuracy_scales_the_same_draws(void **state)
     struct disturbance plain = disturbance_of(&fixed, &everything);
     struct disturbance better = disturbance_of(&by_snr, &everything);
     struct reading one = read_cell(&plain, &cell), other = read_cell(&better, &cell);
-    struct deviation sigma = disturbance_deviation(&better, 5);
+    struct deviation sigma = disturbance_deviation(&better, &(struct cell){.amplitude = 5});
     assert_true(one.range_m != 10);
     assert_near(other.range_m - 10, (one.range_m - 10) * sigma.range_m / 0.02, 1e-12);
     assert_near(other.range_rate_mps, one.range_rate_mps * sigma.range_rate_mps / 0.05, 1e-14);

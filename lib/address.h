@@ -1,0 +1,12 @@
+/* Where a draw belongs (random.h): the seed and scene of the frame, the sensor, and what the echo
+ * is of. A cell draws by its leader. */
+#ifndef ADDRESS_H
+#define ADDRESS_H
+
+#include "frame.h"
+#include "random.h"
+
+struct random_address address_of(const struct frame *frame, const char *sensor,
+                                 struct subject subject);
+
+#endif

@@ -1,0 +1,49 @@
+#include "conditions.h"
+
+static const char *const roads[] = {
+    [ROAD_UNKNOWN] = "unknown", [ROAD_ASPHALT] = "asphalt", [ROAD_CONCRETE] = "concrete", NULL};
+
+static const struct field interferer_fields[] = {
+    {FIELD_NAME_OF(struct interferer, object, "id of the object that carries it")},
+    {FIELD_REAL_IN(struct interferer, eirp_dbm, -100, 100, "what it radiates towards us")},
+    {FIELD_REAL_IN(struct interferer, slope_hzps, -1e15, 1e15, "of its chirps, falling negative")},
+    {FIELD_REAL_IN(struct interferer, hit_share, 0, 1, "part of our chirps that it crosses")},
+    {0},
+};
+
+static const struct record interferer_record = {
+    .name = "interferer",
+    .help = "An object with a radar of its own.",
+    .size = sizeof(struct interferer),
+    .fields = interferer_fields,
+};
+
+static const struct field condition_fields[] = {
+    {FIELD_CHOICE_OF(struct conditions, road, roads, "what the road is made of: it mirrors"),
+     FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct conditions, rain_mmph, 0, 500, "rain"), FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct conditions, fog_gpm3, 0, 10, "fog, liquid water; dense fog has 0.5"),
+     FIELD_OPTIONAL},
+    {FIELD_LIST_OF(struct conditions, interferers, &interferer_record, "other radars"),
+     FIELD_OPTIONAL},
+    {0},
+};
+
+const struct record conditions_record = {
+    .name = "conditions",
+    .help = "Road and weather; what is not said is not there.",
+    .size = sizeof(struct conditions),
+    .fields = condition_fields,
+};
+
+void conditions_change(struct conditions *conditions, const struct conditions *changes)
+{
+    if (changes->road != ROAD_UNKNOWN)
+        conditions->road = changes->road;
+    if (changes->rain_mmph != 0)
+        conditions->rain_mmph = changes->rain_mmph;
+    if (changes->fog_gpm3 != 0)
+        conditions->fog_gpm3 = changes->fog_gpm3;
+    if (changes->interferers.count > 0)
+        conditions->interferers = changes->interferers;
+}

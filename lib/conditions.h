@@ -1,0 +1,30 @@
+/* Road and weather of a scene, as its document or the source's options say. What is not said is not
+ * there: no road to mirror, no rain, nobody else's radar. */
+#ifndef CONDITIONS_H
+#define CONDITIONS_H
+
+#include "field.h"
+
+enum road { ROAD_UNKNOWN, ROAD_ASPHALT, ROAD_CONCRETE };
+
+/* An object that carries a radar of its own, of another kind or out of step. */
+struct interferer {
+    const char *object;
+    double eirp_dbm;
+    double slope_hzps; /* of its chirps */
+    double hit_share;  /* the part of our chirps that one of its crosses */
+};
+
+struct conditions {
+    enum road road;
+    double rain_mmph;
+    double fog_gpm3; /* liquid water */
+    LIST_OF(struct interferer) interferers;
+};
+
+extern const struct record conditions_record;
+
+/* Puts what is said in changes in place of what conditions say. */
+void conditions_change(struct conditions *conditions, const struct conditions *changes);
+
+#endif
