@@ -14,6 +14,7 @@ const char *const effects_names[] = {
     [EFFECT_OCCLUSION] = "occlusion",
     [EFFECT_HEIGHT] = "height",
     [EFFECT_DIFFRACTION] = "diffraction",
+    [EFFECT_GHOSTS] = "ghosts",
     [EFFECT_FLUCTUATION] = "fluctuation",
     [EFFECT_RAIN] = "rain",
     [EFFECT_FOG] = "fog",
@@ -64,6 +65,10 @@ const struct effect_entry effects_table[EFFECT_COUNT] = {
                             "for every object whose edges stay a Fresnel "
                             "radius clear of the sector",
                             "four edges per sight line and object near it"},
+    [EFFECT_GHOSTS] = {"walls, guardrails and flat sides mirror what stands before them", "ideal",
+                       "bounces of a sensor, mirrors of a vehicle",
+                       "for every object and mirror that cannot face it and the sensor",
+                       "a mirror image per reflector and mirror in reach"},
     [EFFECT_FLUCTUATION] = {"echoes vary in strength from scan to scan", "sensor",
                             "fluctuation of a sensor", "never: any draw may matter",
                             "a draw per echo"},
