@@ -1,5 +1,7 @@
 /* The sensor before noise: amplitude of every echo (MODEL 4), resolution cells (6), threshold on
  * the summed amplitude, superposed sum and delta pointers of each cell (7, 8). */
+#include <string.h>
+
 #include "cell_margins.h"
 #include "escalation.h"
 #include "stage.h"
@@ -47,9 +49,9 @@ static void report(struct frame *frame, const struct scan *scan, const struct se
         *list_add(&frame->cells, frame->arena) = cell;
 }
 
-/* The scan with all that it calls for. */
-static struct scan escalate(struct frame *frame, const struct sensor *sensor,
-                            const struct selection *selection)
+/* The scan with all that it calls for: under a tolerance, first without what may be spared. */
+static struct scan receive(struct frame *frame, const struct sensor *sensor,
+                           const struct selection *selection)
 {
     struct reception whole = reception_begin(frame, sensor, selection->allowed);
     uint64_t spared = escalation_spared(&whole, selection);
@@ -60,14 +62,24 @@ static struct scan escalate(struct frame *frame, const struct sensor *sensor,
     return scan;
 }
 
+/* What is at home here and was simulated by nobody was left out. */
+static void note(const struct reception *reception, const struct selection *selection)
+{
+    for (int i = 0; i < EFFECT_COUNT && selection->log != NULL; i++)
+        if (strcmp(effects_table[i].home, "sensor") == 0)
+            effects_note(selection, i, (reception->effects & EFFECT_BIT(i)) != 0);
+    effects_note(selection, EFFECT_THRESHOLD, true);
+}
+
 static void sense(struct frame *frame, const struct sensor *sensor,
                   const struct selection *selection)
 {
-    struct scan scan = escalate(frame, sensor, selection);
+    struct scan scan = receive(frame, sensor, selection);
     for (size_t i = 0; i < scan.silent_count; i++)
         frame_lose_subject(frame, "sensor", sensor->name, &scan.silent[i].echo, LOSS_NO_AMPLITUDE);
     for (size_t number = 0; number < scan.cells; number++)
         report(frame, &scan, selection, number);
+    note(&scan.reception, selection);
 }
 
 static int sensor_step(void *state, struct frame *frame, struct runner *runner)
