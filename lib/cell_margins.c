@@ -7,8 +7,8 @@
 static double beyond_edge(const struct sensor *sensor, const struct ray *leader,
                           const struct ray *other)
 {
-    double range_m = fabs(other->echo.range_m - leader->echo.range_m);
-    double rate_mps = fabs(other->echo.range_rate_mps - leader->echo.range_rate_mps);
+    double range_m = fabs(other->range_m - leader->range_m);
+    double rate_mps = fabs(other->range_rate_mps - leader->range_rate_mps);
     return fmax((range_m - sensor->half_range_m) / sensor->half_range_m,
                 (rate_mps - sensor->half_range_rate_mps) / sensor->half_range_rate_mps);
 }
@@ -51,14 +51,16 @@ static void note_sign(const struct sensor *sensor, struct antenna_pointers point
 void cell_margins_add(const struct sensor *sensor, struct cell *cell)
 {
     margins_note(&cell->margins, MARGIN_THRESHOLD,
-                 margins_between_db(cell->amplitude, sensor->threshold));
+                 margins_between_db(cell->amplitude, superposition_threshold(sensor, cell)));
     note_sign(sensor, superposition_pointers(cell), &cell->margins);
 }
 
-void cell_margins_add_noisy(const struct sensor *sensor, struct antenna_pointers pointers,
-                            double amplitude, bool final_threshold, struct margins *margins)
+void cell_margins_add_noisy(const struct sensor *sensor, const struct cell *cell,
+                            struct antenna_pointers pointers, double amplitude,
+                            bool final_threshold, struct margins *margins)
 {
     if (final_threshold)
-        margins_note(margins, MARGIN_THRESHOLD, margins_between_db(amplitude, sensor->threshold));
+        margins_note(margins, MARGIN_THRESHOLD,
+                     margins_between_db(amplitude, superposition_threshold(sensor, cell)));
     note_sign(sensor, pointers, margins);
 }

@@ -23,7 +23,8 @@ struct margins cell_margins_of(const struct sensor *sensor, const struct cluster
 void cell_margins_add(const struct sensor *sensor, struct cell *cell);
 
 /* The same for what noise made of it: the final threshold, if it is tested, and the sign. */
-void cell_margins_add_noisy(const struct sensor *sensor, struct antenna_pointers pointers,
-                            double amplitude, bool final_threshold, struct margins *margins);
+void cell_margins_add_noisy(const struct sensor *sensor, const struct cell *cell,
+                            struct antenna_pointers pointers, double amplitude,
+                            bool final_threshold, struct margins *margins);
 
 #endif

@@ -21,7 +21,7 @@ enum diag_code {
 
 struct diag {
     enum diag_code code;
-    char text[1024];
+    char text[2048];
 };
 
 /* Records the first failure and returns -1. A failure already recorded stays: the first message is

@@ -325,7 +325,7 @@ int field_wrong_kind(const struct field *field, const char *kind, struct diag *d
 
 int field_unknown(const struct record *record, const char *name, size_t length, struct diag *diag)
 {
-    char known[640] = "";
+    char known[1536] = "";
     size_t used = 0;
     for (const struct field *field = record->fields; field->name != NULL; field++)
         if (used < sizeof known)

@@ -233,6 +233,8 @@ static const struct field cell_fields[] = {
     POINTER(struct cell, delta_re, "delta channel without noise"),
     POINTER(struct cell, delta_im, "delta channel without noise"),
     UNDECIDED(struct cell),
+    {FIELD_REAL_IN(struct cell, interference, 0, 1e300, "over the sensor's own noise, in power"),
+     FIELD_OPTIONAL},
     EFFECTS(struct cell, "that changed a value of the cell or of a member"),
     {FIELD_LIST_OF(struct cell, members, &contributor_record, "the leader first")},
     MARGINS(struct cell),
@@ -428,6 +430,14 @@ struct object *frame_object(const struct frame *frame, const char *id)
     return NULL;
 }
 
+const struct sensor_view *frame_view(const struct frame *frame, const char *sensor)
+{
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        if (strcmp(frame->sensors.list.items[i].name, sensor) == 0)
+            return &frame->sensors.list.items[i];
+    return NULL;
+}
+
 struct echo_span frame_echoes_of(const struct frame *frame, const char *sensor)
 {
     size_t first = 0, end;
@@ -504,6 +514,13 @@ void frame_lose_echo(struct frame *frame, const char *stage, const struct echo *
     struct lost_echo lost = frame_lost(SUBJECT_OF(echo));
     lost.margins = echo->margins;
     frame_lose(frame, stage, echo->sensor, reason, &lost);
+}
+
+void frame_lose_subject(struct frame *frame, const char *stage, const char *sensor,
+                        const struct contributor *echo, enum loss reason)
+{
+    struct lost_echo lost = frame_lost(SUBJECT_OF(echo));
+    frame_lose(frame, stage, sensor, reason, &lost);
 }
 
 void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *cell,

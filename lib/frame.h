@@ -130,7 +130,8 @@ struct cell {
     double amplitude; /* sum over the members: the upper bound A_cell^u */
     double sum_re, sum_im, delta_re, delta_im;
     bool sign_undecided;
-    uint64_t effects; /* that changed a value of the cell or of a member */
+    double interference; /* of other radars, over the sensor's own noise, in power */
+    uint64_t effects;    /* that changed a value of the cell or of a member */
     LIST_OF(struct contributor) members;
     struct margins margins;
     const char *extra;
@@ -231,6 +232,7 @@ void frame_clear(struct frame *frame);
 /* The name of a section, for messages. */
 const char *frame_section_name(enum section section);
 
+/* NULL behind the last one. */
 const char *frame_path_name(enum path path);
 const char *frame_loss_name(enum loss loss);
 
@@ -239,6 +241,9 @@ void frame_drop(struct frame *frame, unsigned sections);
 
 /* The object of that id, or NULL. */
 struct object *frame_object(const struct frame *frame, const char *id);
+
+/* The sensor of that name as the frame knows it, or NULL. */
+const struct sensor_view *frame_view(const struct frame *frame, const char *sensor);
 
 /* The echoes, or cells, of one sensor: sections are grouped by sensor. */
 struct echo_span {
@@ -259,12 +264,13 @@ struct lost_echo frame_lost(struct subject subject);
 struct contributor frame_contributor(const struct echo *echo);
 
 /* Writes the loss of one echo, grouped by sensor, stage and reason, with the effect that the reason
- * belongs to. Does nothing unless the frame
- * keeps account. Text must live as long as the frame. */
+ * belongs to. Does nothing unless the frame keeps account. Text must live as long as the frame. */
 void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum loss reason,
                 const struct lost_echo *echo);
 void frame_lose_echo(struct frame *frame, const char *stage, const struct echo *echo,
                      enum loss reason);
+void frame_lose_subject(struct frame *frame, const char *stage, const char *sensor,
+                        const struct contributor *echo, enum loss reason);
 
 /* The same for every member of a cell, with the margins that it had in the end; shortfall_db is 0
  * where the reason has none. */

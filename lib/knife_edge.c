@@ -46,6 +46,12 @@ double knife_edge_fresnel_radius_m(double sensor_side_m, double reflector_side_m
     return sqrt(wavelength_m * reduced_distance_m(sensor_side_m, reflector_side_m));
 }
 
+/* d1 d2/(d1 + d2) is largest half way, and the two may have grown by a tenth of a metre each. */
+double knife_edge_reach_m(double range_m, double wavelength_m)
+{
+    return sqrt(wavelength_m * (range_m + 0.2) / 4);
+}
+
 double knife_edge_ray_height_m(double sensor_height_m, double reflector_height_m,
                                double sensor_side_m, double reflector_side_m)
 {

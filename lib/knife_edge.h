@@ -22,6 +22,10 @@ double knife_edge_amplitude_factor(double parameter);
 double knife_edge_fresnel_radius_m(double sensor_side_m, double reflector_side_m,
                                    double wavelength_m);
 
+/* No edge farther than this from a sight line of that length changes what it lets through: the
+ * largest first Fresnel radius that it has anywhere; 0 for a wavelength of 0. */
+double knife_edge_reach_m(double range_m, double wavelength_m);
+
 /* How high the straight line between both heights runs over the edge. A sight that is blocked in
  * the plane passes where this is more than the occluder's height; the occluder's height less this
  * is the depth under its upper edge. Distances as they are, not both 0. */

@@ -6,11 +6,14 @@
 #include <string.h>
 
 #include "clearance.h"
+#include "elevation.h"
+#include "knife_edge.h"
 #include "occlusion.h"
 #include "orientation.h"
 #include "reflection.h"
 #include "sight.h"
 #include "sort.h"
+#include "specular.h"
 #include "units.h"
 
 /* The border of a field of view is outside, and this wide: the foot on a wall that is parallel to
@@ -110,56 +113,25 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
     look->position_m = vec2_add(ego.motion.position_m, vec2_turn(mount, ego.heading));
     look->velocity_mps = motion_velocity_at(&ego.motion, look->position_m);
     look->boresight = vec2_turn(vec2_heading(sensor->mount_yaw_rad), ego.heading);
+    look->height_m = sensor->mount_z_m;
+    look->over = look->height_m > 0 && effects_may(selection, EFFECT_HEIGHT);
+    if (sensor->diffraction && effects_may(selection, EFFECT_DIFFRACTION))
+        look->wavelength_m = units_wavelength_m(sensor->carrier_hz);
     place_bodies(look, age_s);
     return mark_blockers(look, diag);
 }
 
 /* A sight line that stays clear of the circle around a body cannot touch its outline. The slack
  * covers the rounding of this test, so the exact one is only spared where it would say no. */
-static bool passes_clear(const struct look_body *body, struct vec2 from, struct vec2 to)
+static bool passes_clear(const struct look_body *body, struct vec2 from, struct vec2 to,
+                         double wavelength_m)
 {
     struct vec2 line = vec2_sub(to, from), centre = vec2_sub(body->box.motion.position_m, from);
-    double reach = (body->sector.radius_m + 1e-6) * (1 + 1e-9) * vec2_length(line);
-    double along = vec2_dot(line, centre);
+    double length_m = vec2_length(line), along = vec2_dot(line, centre);
+    double radius_m = body->sector.radius_m + 1e-6 + knife_edge_reach_m(length_m, wavelength_m);
+    double reach = radius_m * (1 + 1e-9) * length_m;
     return fabs(vec2_cross(line, centre)) > reach || along < -reach ||
            along > vec2_dot(line, line) + reach;
-}
-
-static bool is_among(const struct look_body *body, const struct look_body *const *bodies,
-                     size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        if (bodies[i] == body)
-            return true;
-    return false;
-}
-
-bool look_blocked(const struct look *look, struct vec2 from, struct vec2 to,
-                  const struct look_body *const *but, size_t count)
-{
-    if (!effects_may(look->selection, EFFECT_OCCLUSION))
-        return false;
-    for (size_t i = 0; i < look->body_count; i++) {
-        const struct look_body *body = &look->bodies[i];
-        if (body->blocks && !passes_clear(body, from, to) && !is_among(body, but, count) &&
-            occlusion_outline_blocks(body->corner, 4, from, to))
-            return true;
-    }
-    return false;
-}
-
-double look_clearance_m(const struct look *look, struct vec2 from, struct vec2 to,
-                        const struct look_body *const *but, size_t count)
-{
-    double nearest_m = (double)INFINITY;
-    if (!effects_may(look->selection, EFFECT_OCCLUSION))
-        return nearest_m;
-    for (size_t i = 0; i < look->body_count; i++) {
-        const struct look_body *body = &look->bodies[i];
-        if (body->blocks && !is_among(body, but, count))
-            nearest_m = fmin(nearest_m, clearance_outline_m(body->corner, 4, from, to));
-    }
-    return nearest_m;
 }
 
 /* A plane in the world. */
@@ -210,48 +182,126 @@ static void find_blockers(struct look *look, const struct look_body *own,
     if (!effects_may(selection, EFFECT_OCCLUSION))
         return;
     bool all = effects_must(selection, EFFECT_OCCLUSION);
+    double reach_m = knife_edge_reach_m(wanted.distance_m + wanted.radius_m, look->wavelength_m);
     for (size_t i = 0; i < look->body_count; i++) {
         const struct look_body *body = &look->bodies[i];
-        if (body != own && body->blocks && (all || sectors_overlap(&body->sector, &wanted)))
+        struct sector shadow = body->sector;
+        shadow.radius_m += reach_m;
+        if (body != own && body->blocks && (all || sectors_overlap(&shadow, &wanted)))
             look->blockers[look->blocker_count++] = body;
     }
-    effects_note(selection, EFFECT_OCCLUSION, all || look->blocker_count > 0);
+    bool some = all || look->blocker_count > 0;
+    effects_note(selection, EFFECT_OCCLUSION, some);
+    effects_note(selection, EFFECT_HEIGHT, look->over && some);
+    effects_note(selection, EFFECT_DIFFRACTION, look->wavelength_m > 0 && some);
     effects_end(selection, EFFECT_OCCLUSION, begin);
 }
 
-/* The first object by id in the way to a place on the body that is looked at, on a side of it or
- * not (NULL); only those that no radar can look under if solid. */
-static const struct look_body *blocker(const struct look *look, const struct side *side,
-                                       struct vec2 place, bool solid)
+double look_top_m(const struct look *look, const struct look_body *body)
 {
+    return look->over && body->object->height_m > 0 ? body->object->height_m : (double)INFINITY;
+}
+
+/* What one body lets through, and which effects beside occlusion matter to it. */
+static struct look_way past(const struct look *look, const struct look_body *body,
+                            const struct passage_line *line)
+{
+    double top = look_top_m(look, body), wavelength_m = look->wavelength_m;
+    struct look_way way = {.factor = passage_factor(body->corner, 4, top, line, wavelength_m)};
+    if (way.factor == 0)
+        way.by = body;
+    if (wavelength_m > 0 && way.factor != passage_factor(body->corner, 4, top, line, 0))
+        way.effects |= EFFECT_BIT(EFFECT_DIFFRACTION);
+    if (top < (double)INFINITY &&
+        way.factor != passage_factor(body->corner, 4, (double)INFINITY, line, wavelength_m))
+        way.effects |= EFFECT_BIT(EFFECT_HEIGHT);
+    return way;
+}
+
+/* What comes through to a place on the body that is looked at, on a side of it or not (NULL); only
+ * those objects count that no radar can look under if solid. */
+static struct look_way way_along(const struct look *look, const struct side *side,
+                                 const struct passage_line *line, bool solid)
+{
+    struct look_way all = {.factor = 1};
     for (size_t i = 0; i < look->blocker_count; i++) {
         const struct look_body *body = look->blockers[i];
-        if ((solid && body->raised) || passes_clear(body, look->position_m, place))
+        if ((solid && body->raised) || passes_clear(body, line->from, line->to, look->wavelength_m))
             continue;
-        if (occlusion_outline_blocks(body->corner, 4, look->position_m, place) &&
-            !(side != NULL && (joins(body, side, true) || joins(body, side, false))))
-            return body;
+        struct look_way way = past(look, body, line);
+        if ((way.factor == 1 && way.effects == 0) ||
+            (side != NULL && (joins(body, side, true) || joins(body, side, false))))
+            continue;
+        if (way.by != NULL)
+            return way;
+        all.factor *= way.factor;
+        all.effects |= way.effects;
     }
-    return NULL;
+    return all;
+}
+
+static bool is_among(const struct look_body *body, const struct look_body *const *bodies,
+                     size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (bodies[i] == body)
+            return true;
+    return false;
+}
+
+struct look_way look_along(const struct look *look, const struct passage_line *line,
+                           const struct look_body *const *but, size_t count)
+{
+    struct look_way all = {.factor = 1};
+    for (size_t i = 0; i < look->body_count && effects_may(look->selection, EFFECT_OCCLUSION);
+         i++) {
+        const struct look_body *body = &look->bodies[i];
+        if (!body->blocks || passes_clear(body, line->from, line->to, look->wavelength_m) ||
+            is_among(body, but, count))
+            continue;
+        struct look_way way = past(look, body, line);
+        if (way.by != NULL)
+            return way;
+        all.factor *= way.factor;
+        all.effects |= way.effects;
+    }
+    return all;
 }
 
 /* Of all objects that can be in the way: how near the sight line comes to the nearest that lets it
- * pass, or how deep it is in those in the way. */
-static double blocking_margin_m(const struct look *look, const struct look_body *own,
-                                struct vec2 place, bool solid, bool blocked)
+ * pass, beside it or over it, or how deep it is in those in the way. Of a soft shadow nothing is
+ * known but how deep the line lies in what is always dark. */
+static double blocking_margin_m(const struct look *look, const struct look_body *const *but,
+                                size_t count, const struct passage_line *line, bool solid,
+                                bool blocked)
 {
     double nearest_m = (double)INFINITY, deepest_m = 0;
+    double length_m = vec2_length(vec2_sub(line->to, line->from));
+    double soft_m = 2 * knife_edge_reach_m(length_m, look->wavelength_m);
     for (size_t i = 0; i < look->body_count; i++) {
         const struct look_body *body = &look->bodies[i];
-        const struct vec2 *corner = body->corner, from = look->position_m;
-        if (body == own || !body->blocks || (solid && body->raised))
+        const struct vec2 *corner = body->corner, from = line->from, to = line->to;
+        if (!body->blocks || (solid && body->raised) || is_among(body, but, count))
             continue;
-        if (occlusion_outline_blocks(corner, 4, from, place))
-            deepest_m = fmax(deepest_m, clearance_depth_m(corner, 4, from, place));
-        else
-            nearest_m = fmin(nearest_m, clearance_outline_m(corner, 4, from, place));
+        if (!occlusion_outline_blocks(corner, 4, from, to)) {
+            nearest_m = fmin(nearest_m, clearance_outline_m(corner, 4, from, to));
+            continue;
+        }
+        double above_m = passage_above_m(corner, 4, look_top_m(look, body), line);
+        if (above_m > 0 || soft_m > 0)
+            nearest_m = fmin(nearest_m, fmax(above_m, 0));
+        double depth_m = fmin(clearance_depth_m(corner, 4, from, to), -above_m);
+        deepest_m = fmax(deepest_m, depth_m - soft_m);
     }
     return blocked ? deepest_m : nearest_m;
+}
+
+double look_clearance_m(const struct look *look, const struct passage_line *line,
+                        const struct look_body *const *but, size_t count)
+{
+    return effects_may(look->selection, EFFECT_OCCLUSION)
+               ? blocking_margin_m(look, but, count, line, false, false)
+               : (double)INFINITY;
 }
 
 static struct margins margins_of(const struct look *look, double margin_m)
@@ -277,6 +327,7 @@ struct glimpse {
     const char *reflector;
     const struct side *side; /* that it is, or NULL for a point */
     struct vec2 place;
+    double height_m;
     double ercs;
     double under_vehicles;
     double margin_m;  /* by which it faces the sensor */
@@ -284,63 +335,122 @@ struct glimpse {
 };
 
 static double sight_margin_m(const struct look *look, const struct look_body *body,
-                             const struct glimpse *seen, bool under)
+                             const struct passage_line *line, bool under)
 {
-    if (!effects_may(look->selection, EFFECT_OCCLUSION))
-        return (double)INFINITY;
-    double margin_m = blocking_margin_m(look, body, seen->place, under, false);
-    return under ? fmin(margin_m, blocking_margin_m(look, body, seen->place, false, true))
-                 : margin_m;
+    if (!under)
+        return look_clearance_m(look, line, &body, 1);
+    return fmin(blocking_margin_m(look, &body, 1, line, true, false),
+                blocking_margin_m(look, &body, 1, line, false, true));
+}
+
+/* The way past what stands there, or under it where that lets more through. */
+static struct look_way best_way(const struct look *look, const struct glimpse *seen,
+                                const struct passage_line *line, bool *under)
+{
+    *under = false;
+    struct look_way way = way_along(look, seen->side, line, false);
+    if (seen->under_vehicles == 0 || way.factor == 1)
+        return way;
+    struct look_way below = way_along(look, seen->side, line, true);
+    below.factor *= seen->under_vehicles;
+    below.effects |= EFFECT_BIT(EFFECT_OCCLUSION);
+    *under = below.factor > way.factor;
+    return *under ? below : way;
+}
+
+struct sight look_lifted(const struct look *look, double reflector_m, struct sight sight,
+                         double *gain, uint64_t *effects)
+{
+    const struct selection *selection = look->selection;
+    double height_m = reflector_m - look->height_m;
+    *gain = 1;
+    bool lift = look->height_m > 0 && effects_may(selection, EFFECT_ELEVATION) &&
+                (effects_must(selection, EFFECT_ELEVATION) || height_m != 0);
+    effects_note(selection, EFFECT_ELEVATION, lift);
+    if (!lift)
+        return sight;
+    int64_t begin = effects_begin(selection);
+    struct elevation elevation = elevation_of(sight.range_m, height_m);
+    struct sight slant = {
+        .range_m = elevation.range_m,
+        .azimuth_rad = elevation_azimuth_rad(elevation, sight.azimuth_rad),
+        .range_rate_mps = elevation.cosine * sight.range_rate_mps,
+    };
+    double half_width_rad = look->sensor->elevation_half_width_rad;
+    if (half_width_rad > 0)
+        *gain = elevation_amplitude_factor(elevation, half_width_rad);
+    if (slant.range_m != sight.range_m || slant.azimuth_rad != sight.azimuth_rad ||
+        slant.range_rate_mps != sight.range_rate_mps || *gain != 1)
+        *effects |= EFFECT_BIT(EFFECT_ELEVATION);
+    effects_end(selection, EFFECT_ELEVATION, begin);
+    return slant;
+}
+
+/* Is it in range and in view? If not, it is lost. */
+static bool in_reach(struct look *look, const struct look_body *body, struct glimpse *seen,
+                     const struct sight *sight)
+{
+    const struct sensor *sensor = look->sensor;
+    double azimuth = fabs(sight->azimuth_rad);
+    double reach_m =
+        fabs(fmin(sight->range_m - sensor->range_min_m, sensor->range_max_m - sight->range_m));
+    double view_m = sight->range_m * fabs(look_border_rad(sensor) - azimuth);
+    if (!(sight->range_m > 0 && sight->range_m >= sensor->range_min_m &&
+          sight->range_m <= sensor->range_max_m)) {
+        lose(look, body, seen->reflector, LOSS_OUT_OF_RANGE, NULL, reach_m);
+        return false;
+    }
+    if (!(azimuth < look_border_rad(sensor))) {
+        lose(look, body, seen->reflector, LOSS_OUT_OF_VIEW, NULL, view_m);
+        return false;
+    }
+    seen->margin_m = fmin(seen->margin_m, fmin(reach_m, view_m));
+    return true;
 }
 
 /* An echo if it is in range, in view and not blocked. */
 static void look_at(struct look *look, const struct look_body *body, struct glimpse seen)
 {
-    bool tell = look->frame->margins;
-    const struct sensor *sensor = look->sensor;
+    bool tell = look->frame->margins, under;
     struct vec2 velocity = motion_velocity_at(&body->box.motion, seen.place);
-    struct sight sight =
-        sight_of(look->position_m, look->velocity_mps, look->boresight, seen.place, velocity);
-    double azimuth = fabs(sight.azimuth_rad);
-    double reach_m =
-        fabs(fmin(sight.range_m - sensor->range_min_m, sensor->range_max_m - sight.range_m));
-    double view_m = sight.range_m * fabs(look_border_rad(sensor) - azimuth);
-    if (!(sight.range_m > 0 && sight.range_m >= sensor->range_min_m &&
-          sight.range_m <= sensor->range_max_m)) {
-        lose(look, body, seen.reflector, LOSS_OUT_OF_RANGE, NULL, reach_m);
+    double gain;
+    struct sight sight = look_lifted(
+        look, seen.height_m,
+        sight_of(look->position_m, look->velocity_mps, look->boresight, seen.place, velocity),
+        &gain, &seen.effects);
+    seen.ercs *= gain;
+    if (!in_reach(look, body, &seen, &sight))
         return;
-    }
-    if (!(azimuth < look_border_rad(sensor))) {
-        lose(look, body, seen.reflector, LOSS_OUT_OF_VIEW, NULL, view_m);
-        return;
-    }
+    const struct passage_line line = {look->position_m, seen.place, look->height_m, seen.height_m};
     int64_t begin = effects_begin(look->selection);
-    const struct look_body *by = blocker(look, seen.side, seen.place, false);
-    bool under =
-        by != NULL && seen.under_vehicles > 0 && blocker(look, seen.side, seen.place, true) == NULL;
+    struct look_way way = best_way(look, &seen, &line, &under);
     effects_end(look->selection, EFFECT_OCCLUSION, begin);
-    if (by != NULL && !under) {
-        lose(look, body, seen.reflector, LOSS_BLOCKED, by,
-             tell ? blocking_margin_m(look, body, seen.place, seen.under_vehicles > 0, true) : 0);
+    if (way.by != NULL) {
+        lose(look, body, seen.reflector, LOSS_BLOCKED, way.by,
+             tell ? blocking_margin_m(look, &body, 1, &line, seen.under_vehicles > 0, true) : 0);
         return;
     }
     if (tell)
-        seen.margin_m = fmin(fmin(seen.margin_m, sight_margin_m(look, body, &seen, under)),
-                             fmin(reach_m, view_m));
+        seen.margin_m = fmin(seen.margin_m, sight_margin_m(look, body, &line, under));
     look->echoes++;
     *list_add(&look->frame->echoes, look->frame->arena) = (struct echo){
-        .sensor = sensor->name,
+        .sensor = look->sensor->name,
         .object = body->object->id,
         .reflector = seen.reflector,
         .path = PATH_DIRECT,
         .range_m = sight.range_m,
         .azimuth_rad = sight.azimuth_rad,
         .range_rate_mps = sight.range_rate_mps,
-        .ercs = under ? seen.under_vehicles * seen.ercs : seen.ercs,
+        .ercs = way.factor * seen.ercs,
         .time_s = look->time_s,
-        .effects = seen.effects | (under ? EFFECT_BIT(EFFECT_OCCLUSION) : 0),
+        .effects = seen.effects | way.effects,
         .margins = margins_of(look, seen.margin_m),
     };
+}
+
+double look_height_m(const struct look *look, const struct look_body *body, double z)
+{
+    return z > 0 ? z * body->object->height_m : look->height_m;
 }
 
 uint64_t look_aged(const struct look *look, const struct look_body *body)
@@ -366,6 +476,7 @@ static void look_at_point(struct look *look, const struct look_body *body,
                 (struct glimpse){
                     .reflector = point->name,
                     .place = place,
+                    .height_m = look_height_m(look, body, point->z),
                     .ercs = visible * point->ercs,
                     .under_vehicles = point->under_vehicles,
                     .margin_m = margin_m,
@@ -374,6 +485,21 @@ static void look_at_point(struct look *look, const struct look_body *body,
                 });
     else
         lose(look, body, point->name, LOSS_FACING_AWAY, NULL, margin_m);
+}
+
+double look_plane_ercs(const struct look *look, const struct plane_reflector *plane, double range_m,
+                       uint64_t *effects)
+{
+    bool curved = look->sensor->curved_sides && plane->profile_radius_m > 0 &&
+                  effects_may(look->selection, EFFECT_CURVATURE);
+    effects_note(look->selection, EFFECT_CURVATURE, curved);
+    if (!curved)
+        return plane->ercs;
+    double radius_m = plane->radius_m > 0 ? plane->radius_m : (double)INFINITY;
+    double ercs = specular_ercs(plane->profile_radius_m, radius_m, range_m);
+    if (ercs != plane->ercs)
+        *effects |= EFFECT_BIT(EFFECT_CURVATURE);
+    return ercs;
 }
 
 static void look_at_plane(struct look *look, const struct look_body *body,
@@ -390,17 +516,19 @@ static void look_at_plane(struct look *look, const struct look_body *body,
                                                               plane->margin_m, look->position_m)
                                            : 0;
     if (reflection_foot(side.from, side.to, side.along, plane->margin_m, look->position_m, &foot) &&
-        !next_side_has_foot(look, &side))
-        look_at(look, body,
-                (struct glimpse){
-                    .reflector = plane->name,
-                    .side = &side,
-                    .place = foot,
-                    .ercs = plane->ercs,
-                    .margin_m = margin_m,
-                    .effects = look_aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
-                });
-    else
+        !next_side_has_foot(look, &side)) {
+        struct glimpse seen = {
+            .reflector = plane->name,
+            .side = &side,
+            .place = foot,
+            .height_m = look_height_m(look, body, plane->z),
+            .margin_m = margin_m,
+            .effects = look_aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
+        };
+        double range_m = vec2_length(vec2_sub(foot, look->position_m));
+        seen.ercs = look_plane_ercs(look, plane, range_m, &seen.effects);
+        look_at(look, body, seen);
+    } else
         lose(look, body, plane->name, LOSS_NO_SPECULAR, NULL, margin_m);
 }
 
@@ -416,6 +544,7 @@ struct point_reflector look_post(const struct look *look, const struct post_row 
 {
     return (struct point_reflector){
         .name = post_name(look->frame->arena, row, post),
+        .z = row->z,
         .facing_rad = row->facing_rad,
         .full_rad = row->full_rad,
         .zero_rad = row->zero_rad,

@@ -17,6 +17,8 @@ enum random_purpose {
     RANDOM_TRAFFIC = 5,         /* who is there in a random scene, where and how fast */
     RANDOM_HARD_CASE = 6,       /* which hard cases a random scene has */
     RANDOM_REFLECTOR_PHASE = 7, /* what a reflector adds to the phase of its path */
+    RANDOM_FLUCTUATION = 8,     /* an echo's strength in this scan */
+    RANDOM_FALSE_ALARMS = 9,    /* of a scan: block 0 how many, block n where the n-th is */
 };
 
 struct random_address {

@@ -26,17 +26,6 @@ double reading_step(double value, double step)
     return step > 0 ? step * round(value / step) : value;
 }
 
-void reading_round(struct reading *reading, const struct sensor *sensor)
-{
-    struct reading exact = *reading;
-    reading->range_m = reading_step(exact.range_m, sensor->range_step_m);
-    reading->azimuth_rad = reading_step(exact.azimuth_rad, sensor->azimuth_step_rad);
-    reading->range_rate_mps = reading_step(exact.range_rate_mps, sensor->range_rate_step_mps);
-    if (reading->range_m != exact.range_m || reading->azimuth_rad != exact.azimuth_rad ||
-        reading->range_rate_mps != exact.range_rate_mps)
-        reading->effects |= EFFECT_BIT(EFFECT_QUANTISATION);
-}
-
 static int compare_leaders(const struct reading *a, const struct reading *b)
 {
     return frame_order_tied(a->cell->members.items, b->cell->members.items);
@@ -106,4 +95,15 @@ void readings_list(struct frame *frame, const char *stage, const struct sensor *
             listed++;
         }
     }
+}
+
+void readings_round(struct target *target, const struct sensor *sensor)
+{
+    struct target exact = *target;
+    target->range_m = reading_step(exact.range_m, sensor->range_step_m);
+    target->azimuth_rad = units_wrap_rad(reading_step(exact.azimuth_rad, sensor->azimuth_step_rad));
+    target->range_rate_mps = reading_step(exact.range_rate_mps, sensor->range_rate_step_mps);
+    if (target->range_m != exact.range_m || target->azimuth_rad != exact.azimuth_rad ||
+        target->range_rate_mps != exact.range_rate_mps)
+        target->effects |= EFFECT_BIT(EFFECT_QUANTISATION);
 }

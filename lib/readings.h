@@ -21,9 +21,6 @@ struct reading reading_of(const struct cell *cell);
 /* Rounds value to the nearest multiple of step; 0 leaves it as it is. */
 double reading_step(double value, double step);
 
-/* Rounds all three values to the sensor's steps. */
-void reading_round(struct reading *reading, const struct sensor *sensor);
-
 /* Writes count readings of one sensor as targets: strongest or nearest first, ties by the frame's
  * total order, at most limit of them (0: all). The rest is lost for the stage. A reading without
  * amplitude is lost too: it has no decibels. In a frame with margins, those of the readings get
@@ -31,5 +28,9 @@ void reading_round(struct reading *reading, const struct sensor *sensor);
  * that to the last listed. */
 void readings_list(struct frame *frame, const char *stage, const struct sensor *sensor,
                    struct reading *readings, size_t count, int64_t limit);
+
+/* Rounds the values of a listed target to the sensor's steps; its label keeps the exact ones. The
+ * last of all: a sensor orders and cuts its list by what it has itself (EFFECTS 15). */
+void readings_round(struct target *target, const struct sensor *sensor);
 
 #endif

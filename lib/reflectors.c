@@ -18,6 +18,13 @@ static const char *const shapes[] = {
         FIELD_REAL_IN(owner, member, -1, 1, help)                                                  \
     }
 
+#define HEIGHT(owner)                                                                              \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, z, 1e-3, 2,                                                           \
+                      "height, as a fraction of the object's; absent: the sensor's"),              \
+            FIELD_OPTIONAL                                                                         \
+    }
+
 #define SEEN_FROM(owner)                                                                           \
     {FIELD_REAL_IN(owner, facing_rad, -PI, PI, "middle of the visibility range, object frame")},   \
         {FIELD_REAL_IN(owner, full_rad, 0, PI, "fully visible up to this angle off the facing")},  \
@@ -32,6 +39,7 @@ static const struct field point_fields[] = {
     {FIELD_NAME_OF(struct point_reflector, name, "unique in its set")},
     FRACTION(struct point_reflector, x, "place, as a fraction of the length from the centre"),
     FRACTION(struct point_reflector, y, "place, as a fraction of the width from the centre"),
+    HEIGHT(struct point_reflector),
     {FIELD_REAL_IN(struct point_reflector, inset_m, 0, 10, "depth behind the place"),
      FIELD_OPTIONAL},
     SEEN_FROM(struct point_reflector),
@@ -48,9 +56,16 @@ static const struct field plane_fields[] = {
     FRACTION(struct plane_reflector, from_y, "start"),
     FRACTION(struct plane_reflector, to_x, "end"),
     FRACTION(struct plane_reflector, to_y, "end"),
+    HEIGHT(struct plane_reflector),
     {FIELD_REAL_IN(struct plane_reflector, margin_m, 0, 10, "not flat this far from both ends"),
      FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct plane_reflector, ercs, 0, 1e3, "equivalent radar cross section")},
+    {FIELD_REAL_IN(struct plane_reflector, profile_radius_m, 1e-3, 1e6,
+                   "of curvature from below to above; absent: of constant cross section"),
+     FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct plane_reflector, radius_m, 1e-3, 1e6,
+                   "of curvature along the side; absent: straight"),
+     FIELD_OPTIONAL},
     {0},
 };
 
@@ -77,6 +92,7 @@ static const struct field row_fields[] = {
     FRACTION(struct post_row, from_y, "the first post"),
     FRACTION(struct post_row, to_x, "where the row ends"),
     FRACTION(struct post_row, to_y, "where the row ends"),
+    HEIGHT(struct post_row),
     {FIELD_REAL_IN(struct post_row, spacing_m, 0.01, 1e4, "from post to post")},
     SEEN_FROM(struct post_row),
     {0},

@@ -2,8 +2,8 @@
  *
  * A vehicle document in data/vehicles/ describes one class; glint-extract writes it as a set, worn
  * by every object of that class. Positions are fractions of the object's length and width from the
- * centre of its box (x forward, y left; 0.5 is the front and the left side), so one set serves cars
- * of any size. */
+ * centre of its box (x forward, y left; 0.5 is the front and the left side), and of its height from
+ * the road (z), so one set serves cars of any size. */
 #ifndef REFLECTORS_H
 #define REFLECTORS_H
 
@@ -15,6 +15,7 @@
 struct point_reflector {
     const char *name;
     double x, y;
+    double z;       /* 0: at the sensor's height */
     double inset_m; /* the point lies this far inside, against its facing */
     double facing_rad;
     double full_rad, zero_rad;
@@ -23,13 +24,17 @@ struct point_reflector {
     double under_vehicles; /* the part of its ERCS that passes under a raised vehicle in the way */
 };
 
-/* A flat side: mirrors the radar from the foot of the perpendicular, with constant ERCS. Its outer
- * face is to the right of from -> to, that is, sides run counter-clockwise around the outline. */
+/* A flat side: mirrors the radar from the foot of the perpendicular, with constant ERCS, or, of a
+ * side that is curved, with that of its specular point (specular.h) if the sensor asks for it. Its
+ * outer face is to the right of from -> to, that is, sides run counter-clockwise around the
+ * outline. */
 struct plane_reflector {
     const char *name;
     double from_x, from_y, to_x, to_y;
+    double z;
     double margin_m;
     double ercs;
+    double profile_radius_m, radius_m; /* of curvature, upright and in the plane; 0: none */
 };
 
 /* A flat side that mirrors what stands before its outer face, for sensors that see ghosts
@@ -44,6 +49,7 @@ struct mirror_plane {
 struct post_row {
     const char *name;
     double from_x, from_y, to_x, to_y;
+    double z;
     double spacing_m;
     double facing_rad;
     double full_rad, zero_rad;

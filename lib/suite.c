@@ -10,8 +10,10 @@ static const char *const phases[] = {[CELL_IN_PHASE] = "in_phase",
                                      [CELL_RANDOM_PHASE] = "random",
                                      [CELL_PHASE_BY_PATH] = "by_path",
                                      NULL};
-static const char *const laws[] = {
-    [SIGMA_FIXED] = "fixed", [SIGMA_BY_AMPLITUDE] = "by_amplitude", NULL};
+static const char *const laws[] = {[SIGMA_FIXED] = "fixed",
+                                   [SIGMA_BY_AMPLITUDE] = "by_amplitude",
+                                   [SIGMA_BY_SNR] = "by_snr",
+                                   NULL};
 static const char *const orders[] = {
     [LIST_STRONGEST] = "strongest", [LIST_NEAREST] = "nearest", NULL};
 static const char *const patterns[] = {
@@ -21,6 +23,16 @@ static const char *const references[] = {
 static const char *const estimators[] = {
     [MONOPULSE_MAGNITUDE] = "magnitude", [MONOPULSE_RATIO] = "ratio", NULL};
 
+static const char *const polarizations[] = {
+    [POLARIZATION_HORIZONTAL] = "horizontal", [POLARIZATION_VERTICAL] = "vertical", NULL};
+static const char *const fluctuations[] = {
+    [FLUCTUATION_NONE] = "none",
+    [FLUCTUATION_SWERLING_1] = "swerling_1",
+    [FLUCTUATION_SWERLING_3] = "swerling_3",
+    [FLUCTUATION_LOG_NORMAL] = "log_normal",
+    NULL,
+};
+
 #define REAL(member, low, high, help) FIELD_REAL_IN(struct sensor, member, low, high, help)
 #define CHOICE(member, choices, help) FIELD_CHOICE_OF(struct sensor, member, choices, help)
 
@@ -28,16 +40,41 @@ static const struct field sensor_fields[] = {
     {FIELD_NAME_OF(struct sensor, name, "unique in the suite")},
     {REAL(mount_x_m, -100, 100, "from the centre of the ego's box")},
     {REAL(mount_y_m, -100, 100, "from the centre of the ego's box")},
+    {REAL(mount_z_m, 0.01, 100, "above the road; absent: in a flat world, without heights"),
+     FIELD_OPTIONAL},
     {REAL(mount_yaw_rad, -PI, PI, "boresight, from the ego's heading")},
     {REAL(carrier_hz, 1e9, 1e12, "carrier frequency")},
     {REAL(range_min_m, 0, 1e6, "nothing nearer is measured")},
     {REAL(range_max_m, 0, 1e6, "nothing farther is measured")},
     {REAL(field_of_view_rad, 0, PI, "full width; the border itself is outside")},
+    {REAL(elevation_half_width_rad, 1e-3, PI / 2,
+          "one way, the beam is down by half this far above and below; absent: all the same"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct sensor, diffraction, "do waves bend around the edges of what blocks?"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct sensor, curved_sides,
+                   "do planes with a profile_radius_m reflect as curved surfaces?"),
+     FIELD_OPTIONAL},
     {REAL(cycle_s, 1e-4, 1e3, "from scan to scan; absent: a scan in every frame"), FIELD_OPTIONAL},
     {REAL(latency_s, 0, 10, "the scan shows the world this much earlier"), FIELD_OPTIONAL},
     {FIELD_INTEGER_IN(struct sensor, bounces, 0, 3,
                       "2: ghosts by way of a mirror out or back; 3: out and back too"),
      FIELD_OPTIONAL},
+    {CHOICE(polarization, polarizations, "of both antennas; absent: vertical"), FIELD_OPTIONAL,
+     .absent = POLARIZATION_VERTICAL},
+    {CHOICE(fluctuation, fluctuations, "how echoes vary from scan to scan"), FIELD_OPTIONAL},
+    {REAL(fluctuation_sigma_db, 0, 30, "of the log-normal law; absent: 3.41"), FIELD_OPTIONAL,
+     .absent = 3.41},
+    {REAL(unambiguous_range_m, 0.1, 1e6, "farther echoes fold below it; absent: none do"),
+     FIELD_OPTIONAL},
+    {REAL(unambiguous_rate_mps, 0.1, 1e5, "faster echoes fold to within +- this; absent: none do"),
+     FIELD_OPTIONAL},
+    {REAL(receiver_bandwidth_hz, 1, 1e12, "what other radars are heard in; absent: none is"),
+     FIELD_OPTIONAL},
+    {REAL(noise_figure_db, 0, 100, "of the receiver"), FIELD_OPTIONAL},
+    {REAL(antenna_gain_dbi, -100, 100, "one way, on boresight"), FIELD_OPTIONAL},
+    {REAL(chirp_slope_hzps, -1e15, 1e15, "of a chirp, falling negative"), FIELD_OPTIONAL},
+    {REAL(chirp_s, 1e-9, 1, "how long a chirp takes"), FIELD_OPTIONAL},
     {REAL(threshold_db, -300, 300, "detection threshold, 20 log10 of the amplitude")},
     {REAL(calibration_ercs, 1e-6, 1e6, "this cross section meets the threshold on boresight"),
      FIELD_OPTIONAL},
@@ -65,9 +102,22 @@ static const struct field sensor_fields[] = {
     {REAL(range_rate_sigma_mps, 0, 1e3, "noise on range rate")},
     {REAL(azimuth_sigma_rad, 0, PI, "noise on azimuth, for glint-noise-gauss")},
     {CHOICE(sigma_law, laws,
-            "range and rate noise as it stands, or falling as threshold/amplitude"),
+            "range and rate noise as it stands, falling as threshold/amplitude, or what "
+            "window_factor says of amplitude/pointer_sigma, with what stands as its floor"),
      FIELD_OPTIONAL},
+    {REAL(window_factor, 1e-3, 1e3, "by_snr: sigma in cells at a signal as strong as the noise"),
+     FIELD_OPTIONAL, .absent = 0.68},
+    {REAL(misalignment_rad, -PI / 4, PI / 4, "every azimuth is reported larger by this"),
+     FIELD_OPTIONAL},
+    {REAL(radome_bias_rad, 0, PI / 4, "and by this times a sine of the azimuth"), FIELD_OPTIONAL},
+    {REAL(radome_period_rad, 1e-3, 2 * PI, "of that sine, in azimuth; needed if there is a bias"),
+     FIELD_OPTIONAL},
+    {REAL(radome_phase_rad, -PI, PI, "of that sine at boresight"), FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct sensor, final_threshold, "test the noisy amplitude once more")},
+    {REAL(false_alarms, 0, 1e4, "targets per scan that are nothing but noise, on average"),
+     FIELD_OPTIONAL},
+    {REAL(false_alarm_range_rate_mps, 0, 1e5, "their range rates lie within plus or minus this"),
+     FIELD_OPTIONAL, .absent = 70},
     {REAL(range_step_m, 0, 1e3, "reported in multiples of this; 0: exactly"), FIELD_OPTIONAL},
     {REAL(range_rate_step_mps, 0, 1e3, "reported in multiples of this; 0: exactly"),
      FIELD_OPTIONAL},
@@ -132,6 +182,9 @@ void suite_derive(struct sensor *sensor)
 
 int suite_check(const struct sensor *sensor, struct diag *diag)
 {
+    if (sensor->receiver_bandwidth_hz > 0 && sensor->chirp_s == 0)
+        return diag_fail(diag, DIAG_CONFIG,
+                         "chirp_s: missing; receiver_bandwidth_hz needs it to hear other radars");
     if (sensor->range_max_m <= sensor->range_min_m)
         return diag_fail(diag, DIAG_CONFIG, "range_max_m: %g is not above range_min_m, %g m",
                          sensor->range_max_m, sensor->range_min_m);
@@ -144,5 +197,9 @@ int suite_check(const struct sensor *sensor, struct diag *diag)
     if ((sensor->antenna_pattern == ANTENNA_TABLE) != (sensor->antenna_table != NULL))
         return diag_fail(diag, DIAG_CONFIG,
                          "antenna_table: goes with antenna_pattern \"table\", and only with it");
+    if (sensor->radome_bias_rad > 0 && sensor->radome_period_rad == 0)
+        return diag_fail(diag, DIAG_CONFIG, "radome_period_rad: missing; radome_bias_rad needs it");
+    if (sensor->elevation_half_width_rad > 0 && !(sensor->mount_z_m > 0))
+        return diag_fail(diag, DIAG_CONFIG, "elevation_half_width_rad: goes with mount_z_m");
     return 0;
 }

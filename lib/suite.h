@@ -8,22 +8,33 @@
 #include "antenna.h"
 #include "effects.h"
 #include "field.h"
+#include "fluctuation.h"
 #include "monopulse.h"
+#include "polarization.h"
 #include "radar_equation.h"
 
 enum cell_extent { CELL_WIDTH, CELL_HALF_WIDTH };
 enum cell_phase { CELL_IN_PHASE, CELL_RANDOM_PHASE, CELL_PHASE_BY_PATH };
-enum sigma_law { SIGMA_FIXED, SIGMA_BY_AMPLITUDE };
+enum sigma_law { SIGMA_FIXED, SIGMA_BY_AMPLITUDE, SIGMA_BY_SNR };
 enum list_order { LIST_STRONGEST, LIST_NEAREST };
 
 struct sensor {
     const char *name;
-    double mount_x_m, mount_y_m, mount_yaw_rad;
+    double mount_x_m, mount_y_m, mount_z_m, mount_yaw_rad;
     double carrier_hz;
     double range_min_m, range_max_m;
     double field_of_view_rad;
+    double elevation_half_width_rad;
+    bool diffraction, curved_sides;
     double cycle_s, latency_s;
     int64_t bounces; /* of the longest path, off objects and mirrors; below 2 only direct ones */
+
+    enum polarization polarization;
+    enum fluctuation_law fluctuation;
+    double fluctuation_sigma_db;
+    double unambiguous_range_m, unambiguous_rate_mps; /* 0: any */
+    double receiver_bandwidth_hz, noise_figure_db, antenna_gain_dbi;
+    double chirp_slope_hzps, chirp_s;
 
     double threshold_db;
     double calibration_ercs, calibration_range_m;
@@ -43,7 +54,10 @@ struct sensor {
     double pointer_sigma;
     double range_sigma_m, range_rate_sigma_mps, azimuth_sigma_rad;
     enum sigma_law sigma_law;
+    double window_factor;
+    double misalignment_rad, radome_bias_rad, radome_period_rad, radome_phase_rad;
     bool final_threshold;
+    double false_alarms, false_alarm_range_rate_mps;
     double range_step_m, range_rate_step_mps, azimuth_step_rad;
     enum list_order list_order;
     int64_t list_limit;

@@ -5,6 +5,7 @@
 
 #include "elementary.h"
 #include "frame_order.h"
+#include "interference.h"
 #include "resolution.h"
 
 /* A ghost leaves in one direction and comes back from another: each way has the root of the
@@ -22,6 +23,8 @@ struct ray superposition_ray(const struct sensor *sensor, const struct echo *ech
 {
     struct ray ray = {
         .echo = frame_contributor(echo),
+        .range_m = echo->range_m,
+        .range_rate_mps = echo->range_rate_mps,
         .phase_rad = phase_rad,
         .effects = echo->effects,
         .margins = &echo->margins,
@@ -121,10 +124,13 @@ bool superposition_cell(const struct sensor *sensor, const struct ray *rays, siz
 {
     double *range = arena_get(arena, 4 * count * sizeof *range);
     double *rate = range + count, *weight = rate + count, *azimuth = weight + count;
-    *cell = (struct cell){.sensor = sensor->name, .effects = effects_of(rays, count, superpose)};
+    *cell = (struct cell){
+        .sensor = sensor->name,
+        .effects = effects_of(rays, count, superpose),
+    };
     for (size_t i = 0; i < count; i++) {
-        range[i] = rays[i].echo.range_m;
-        rate[i] = rays[i].echo.range_rate_mps;
+        range[i] = rays[i].range_m;
+        rate[i] = rays[i].range_rate_mps;
         weight[i] = rays[i].amplitude;
         cell->amplitude += rays[i].amplitude;
     }
@@ -147,6 +153,11 @@ bool superposition_cell(const struct sensor *sensor, const struct ray *rays, siz
     cell->azimuth_rad = angle.azimuth_rad;
     cell->sign_undecided = angle.sign_undecided;
     return angle.valid;
+}
+
+double superposition_threshold(const struct sensor *sensor, const struct cell *cell)
+{
+    return sensor->threshold * interference_noise_factor(cell->interference);
 }
 
 struct antenna_pointers superposition_pointers(const struct cell *cell)

@@ -11,6 +11,7 @@ struct ray {
     struct contributor echo;
     double strength;  /* G = A_ref(R) ERCS: the amplitude before the antenna of its arrival */
     double amplitude; /* A = G A_phi, equation (2) */
+    double range_m, range_rate_mps; /* as the radar reads them: the echo's, or folded */
     double phase_rad; /* relative to the other echoes of a cell; 0 in the paper's model */
     uint64_t effects; /* the echo's, and those of its amplitude and phase */
     const struct margins *margins; /* the echo's */
@@ -33,6 +34,9 @@ int superposition_compare(const void *left, const void *right);
  * azimuth: for a cell of one ray that is the same to the bit. */
 bool superposition_cell(const struct sensor *sensor, const struct ray *rays, size_t count,
                         bool superpose, struct arena *arena, struct cell *cell);
+
+/* The detection threshold at a cell: it rises with the noise that other radars add. */
+double superposition_threshold(const struct sensor *sensor, const struct cell *cell);
 
 /* A cell's noise-free pointers. */
 struct antenna_pointers superposition_pointers(const struct cell *cell);

@@ -428,7 +428,7 @@ static void write_names(const struct view_data *data, struct text *text)
         write_word(text, data->names.pieces.items[i].bytes);
     }
     text_add_word(text, "],\n\"reasons\":[");
-    for (enum loss loss = 0; loss <= LOSS_LIST_LIMIT; loss++) {
+    for (enum loss loss = 0; frame_loss_name(loss) != NULL; loss++) {
         write_separator(text, loss);
         text_add_word(text, "{");
         write_named_word(text, "name", frame_loss_name(loss));
@@ -436,7 +436,7 @@ static void write_names(const struct view_data *data, struct text *text)
         text_add_word(text, "}");
     }
     text_add_word(text, "],\n\"paths\":[");
-    for (enum path path = 0; path <= PATH_DIRECT; path++) {
+    for (enum path path = 0; frame_path_name(path) != NULL; path++) {
         write_separator(text, path);
         write_word(text, frame_path_name(path));
     }

@@ -40,8 +40,9 @@ static struct sensor_view view_of(const struct sensor *sensor, bool measured)
 
 static double latency_s(const struct sensor *sensor, const struct selection *selection)
 {
-    effects_note(selection, EFFECT_LATENCY, sensor->latency_s > 0);
-    return effects_may(selection, EFFECT_LATENCY) ? sensor->latency_s : 0;
+    bool late = sensor->latency_s > 0 && effects_may(selection, EFFECT_LATENCY);
+    effects_note(selection, EFFECT_LATENCY, late);
+    return late ? sensor->latency_s : 0;
 }
 
 static int ideal_step(void *state, struct frame *frame, struct runner *runner)

@@ -43,9 +43,10 @@ const struct stage stage_noise_gauss = {
     .summary = "Add independent Gaussian noise to range, azimuth and range rate.",
     .details =
         "Stands in for glint-noise: every cell becomes a target, its values blurred by the\n"
-        "sensor's range_sigma_m, azimuth_sigma_rad and range_rate_sigma_mps. No threshold\n"
-        "and no list limit is applied; a cell of zero amplitude is lost. A range below zero\n"
-        "is reported as zero.",
+        "sensor's range_sigma_m, azimuth_sigma_rad and range_rate_sigma_mps, whatever its\n"
+        "sigma_law. No threshold and no list limit is applied, nothing is rounded, misaligned\n"
+        "or a false alarm; a cell of zero amplitude is lost. A range below zero is reported\n"
+        "as zero.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_CELLS,
     .writes = SECTION_TARGETS | SECTION_LOST,

@@ -23,8 +23,8 @@ const struct stage stage_noise_none = {
     .name = "noise-none",
     .summary = "Write the cells as targets, without noise.",
     .details = "Stands in for glint-noise: every cell becomes a target with the cell's own range,\n"
-               "azimuth and range rate. No threshold and no list limit is applied; a cell of zero\n"
-               "amplitude is lost.",
+               "azimuth and range rate. No threshold and no list limit is applied, nothing is\n"
+               "rounded, misaligned or a false alarm; a cell of zero amplitude is lost.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_CELLS,
     .writes = SECTION_TARGETS | SECTION_LOST,

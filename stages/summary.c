@@ -43,8 +43,8 @@ static void count_target(struct summary *summary, const struct frame *frame,
         const struct contributor *from = &target->contributors.items[i];
         const struct object *object = frame_object(frame, from->object);
         merged = merged || strcmp(from->object, target->contributors.items[0].object) != 0;
-        if (i == 0 && object != NULL)
-            count(&summary->classes, object->class, 1, arena);
+        if (i == 0)
+            count(&summary->classes, object != NULL ? object->class : from->object, 1, arena);
     }
     summary->targets++;
     summary->merged += merged;

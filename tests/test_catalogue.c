@@ -226,6 +226,8 @@ static void suites_that_contradict_themselves_are_refused(void **state)
          pattern,
          "/suite.json: sensors[0].antenna_table: goes with antenna_pattern \"table\", and only "
          "with it"},
+        {SUITE(SENSOR("a", RANGES, POWER PAIR "\"radome_bias_rad\":0.01,")), amplitudes, pattern,
+         "/suite.json: sensors[0].radome_period_rad: missing; radome_bias_rad needs it"},
         {SUITE(SENSOR("a", RANGES, TABLES)), "range_m,amplitude\n10,8\n", pattern,
          "/amplitude.csv: rows: 1; expected at least 2"},
         {SUITE(SENSOR("a", RANGES, TABLES)), "range_m,amplitude\n10,8\n10,2\n", pattern,

@@ -22,10 +22,10 @@ static size_t margins_of(const struct spot *spots, size_t count, struct margins 
     size_t cell[ALL];
     for (size_t i = 0; i < count; i++) {
         margins_note(&sights[i], MARGIN_SIGHT, spots[i].sight_m);
-        rays[i] = (struct ray){
-            .echo = {.range_m = spots[i].range_m, .range_rate_mps = spots[i].range_rate_mps},
-            .amplitude = spots[i].amplitude,
-            .margins = &sights[i]};
+        rays[i] = (struct ray){.range_m = spots[i].range_m,
+                               .range_rate_mps = spots[i].range_rate_mps,
+                               .amplitude = spots[i].amplitude,
+                               .margins = &sights[i]};
         echoes[i] =
             (struct resolution_echo){spots[i].range_m, spots[i].range_rate_mps, spots[i].amplitude};
     }
@@ -141,15 +141,16 @@ static void noise_tells_its_own_if_it_is_less(void **state)
     (void)state;
     struct margins margins = {
         .threshold_db = 10, .sign = 0.5, .told = MARGIN_THRESHOLD | MARGIN_SIGN};
+    const struct cell cell = {0};
     struct antenna_pointers pointers = {.sum = 1, .delta = 0.1 * (double _Complex)I + 0.4};
-    cell_margins_add_noisy(&sensor, pointers, 2, sensor.final_threshold, &margins);
+    cell_margins_add_noisy(&sensor, &cell, pointers, 2, sensor.final_threshold, &margins);
     assert_close(margins.threshold_db, 10, 0);
     assert_close(margins.sign, 0.1 / sqrt(0.17), 1e-15);
     struct sensor final = sensor;
     final.final_threshold = true;
-    cell_margins_add_noisy(&final, pointers, 200, final.final_threshold, &margins);
+    cell_margins_add_noisy(&final, &cell, pointers, 200, final.final_threshold, &margins);
     assert_close(margins.threshold_db, 10, 0);
-    cell_margins_add_noisy(&final, pointers, 2, final.final_threshold, &margins);
+    cell_margins_add_noisy(&final, &cell, pointers, 2, final.final_threshold, &margins);
     assert_close(margins.threshold_db, 0, 0);
 }
 

@@ -141,8 +141,8 @@ static void faults_are_named_with_path_member_and_expectation(void **state)
         {"4,", "null,", "length_m: null; expected a number in [0.01, 10000] m"},
         {"\"a test\"", "[]", "origin: an array; expected a name"},
         {"\"x\": 0.5", "\"x\": 1.5", "reflectors.points[0].x: 1.5 is outside [-1, 1]"},
-        {"\"x\"", "\"z\"",
-         "reflectors.points[0].z: unknown key; expected one of name, x, y, inset_m, "
+        {"\"x\"", "\"q\"",
+         "reflectors.points[0].q: unknown key; expected one of name, x, y, z, inset_m, "
          "facing_rad, full_rad, zero_rad, shape, ercs, under_vehicles"},
         {"true", "1", "reflectors.blocks: a number; expected true or false"},
         {"\"blocks\": true", "\"worn_by\": []",

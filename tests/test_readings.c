@@ -4,6 +4,7 @@
 
 #include "readings.h"
 #include "sample.h"
+#include "units.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
@@ -204,6 +205,33 @@ static void steps_round_to_the_nearest_multiple(void **state)
         assert_close(reading_step(cases[i][0], cases[i][1]), cases[i][2], 0);
 }
 
+static void a_listed_target_is_rounded_and_its_label_is_not(void **state)
+{
+    (void)state;
+    const struct sensor sensor = {
+        .range_step_m = 0.5, .range_rate_step_mps = 0.25, .azimuth_step_rad = 1.1};
+    static const struct {
+        double azimuth_rad, reported_rad;
+    } cases[] = {{0.4, 0}, {-1, -1.1}, {3.1, 3.3 - 2 * PI}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct target target = {.range_m = 10.3,
+                                .azimuth_rad = cases[i].azimuth_rad,
+                                .range_rate_mps = -3.2,
+                                .cell_range_m = 10.3,
+                                .amplitude_db = 7.7};
+        readings_round(&target, &sensor);
+        assert_close(target.range_m, 10.5, 0);
+        assert_close(target.azimuth_rad, cases[i].reported_rad, 1e-15);
+        assert_close(target.range_rate_mps, -3.25, 0);
+        assert_close(target.cell_range_m, 10.3, 0);
+        assert_close(target.amplitude_db, 7.7, 0);
+        assert_int_equal(target.effects, EFFECT_BIT(EFFECT_QUANTISATION));
+    }
+    struct target even = {.range_m = 10.5, .range_rate_mps = -3.25};
+    readings_round(&even, &sensor);
+    assert_int_equal(even.effects, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -213,6 +241,7 @@ int main(void)
         cmocka_unit_test(the_limit_tells_how_near_it_cut),
         cmocka_unit_test(no_number_among_the_amplitudes_makes_no_target),
         cmocka_unit_test(steps_round_to_the_nearest_multiple),
+        cmocka_unit_test(a_listed_target_is_rounded_and_its_label_is_not),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

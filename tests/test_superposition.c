@@ -117,9 +117,13 @@ static void two_echoes_are_weighted_by_amplitude(void **state)
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     struct ray rays[] = {
         {.echo = {.object = "a", .reflector = "r", .range_m = 10, .range_rate_mps = -1},
+         .range_m = 10,
+         .range_rate_mps = -1,
          .strength = 6,
          .amplitude = 6},
         {.echo = {.object = "b", .reflector = "r", .range_m = 10.2, .range_rate_mps = 1},
+         .range_m = 10.2,
+         .range_rate_mps = 1,
          .strength = 2,
          .amplitude = 2}};
     struct arena arena = {0};
@@ -220,8 +224,9 @@ static void a_coherent_pair_is_read_where_effects_5_has_it(void **state)
             sensor.angle_estimator = rule % 2 ? MONOPULSE_MAGNITUDE : MONOPULSE_RATIO;
             double rho = cases[i].rho;
             struct ray rays[] = {
-                {.echo = {.range_m = 11, .azimuth_rad = half_rad}, .strength = 1, .amplitude = 1},
-                {.echo = {.range_m = 9, .azimuth_rad = -half_rad},
+                {.echo = {.azimuth_rad = half_rad}, .range_m = 11, .strength = 1, .amplitude = 1},
+                {.echo = {.azimuth_rad = -half_rad},
+                 .range_m = 9,
                  .strength = rho,
                  .amplitude = rho,
                  .phase_rad = -cases[i].psi_deg * PI / 180}};

@@ -70,8 +70,9 @@ function colourLines() {
         }), 'in the colour of its object')];
     }
     if (state.colour === 'path') {
-        return head.paths.map((path, i) =>
-            legendLine(dotMark(ink.palette[i % ink.palette.length]), `path: ${path}`));
+        const paths = Array.from(new Set(column('contributor_path'))).sort((a, b) => a - b);
+        return paths.map(i =>
+            legendLine(dotMark(ink.palette[i % ink.palette.length]), `path: ${head.paths[i]}`));
     }
     return [];
 }

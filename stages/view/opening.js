@@ -51,7 +51,10 @@ function countLost(scan, seen, here) {
 
 // Best if one sensor's own list has three targets and lacks a fourth.
 function scoreOf({targets, lost, foreign, beside}, row) {
-    const many = row >= 0 && classOf(row).points.length >= 6;
+    if (row < 0) {
+        return 0;
+    }
+    const many = classOf(row).points.length >= 6;
     return 3 * Math.min(targets, 3) + (lost > 0 ? 4 : 0) - 0.5 * Math.max(0, lost - 2) -
         2 * foreign + (beside ? 2 : 0) + (many ? 6 : 0);
 }

@@ -171,6 +171,8 @@ static struct ray ray_of(const char *reflector, double range_m, double rate_mps,
                                  .reflector = reflector,
                                  .range_m = range_m,
                                  .range_rate_mps = rate_mps},
+                        .range_m = range_m,
+                        .range_rate_mps = rate_mps,
                         .strength = amplitude,
                         .amplitude = amplitude};
 }

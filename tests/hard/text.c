@@ -534,7 +534,7 @@ static bool table_says(const char *bytes, const char *expected)
     struct arena arena = {0};
     struct table table;
     struct diag diag;
-    char said[1100];
+    char said[2100];
     double value;
     if (parse_table(&arena, bytes, strlen(bytes), &table, &diag) &&
         table_number(&table, table.rows - 1, table.columns - 1, -1e9, 1e9, &value, &diag) == 0)

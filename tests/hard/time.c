@@ -282,9 +282,9 @@ static void draw_rays(uint64_t *random, int64_t apart_ulp, struct ray rays[TIED]
     static const char *const names[] = {"a", "b", "c", "d", "e", "f"};
     for (size_t i = 0; i < TIED; i++) {
         double amplitude = 2 * (1 + (double)sample_integer(random, apart_ulp) * 0x1p-52);
-        rays[i] = (struct ray){.echo = {.object = "o",
-                                        .reflector = names[i],
-                                        .range_m = 10 + 0.07 * (double)(sample_bits(random) % 5)},
+        double range_m = 10 + 0.07 * (double)(sample_bits(random) % 5);
+        rays[i] = (struct ray){.echo = {.object = "o", .reflector = names[i], .range_m = range_m},
+                               .range_m = range_m,
                                .strength = amplitude,
                                .amplitude = amplitude};
     }

@@ -1,0 +1,76 @@
+#include "false_alarms.h"
+
+#include "clutter.h"
+#include "cycle.h"
+#include "poisson.h"
+
+struct contributor false_alarms_contributor(int64_t number)
+{
+    return (struct contributor){
+        .object = "noise",
+        .reflector = "cell",
+        .path = PATH_FALSE_ALARM,
+        .number = number,
+        .weight = 1,
+    };
+}
+
+/* Of what the sensor shows in this frame. */
+static double measured_s(const struct frame *frame, const struct sensor *sensor,
+                         const struct selection *selection)
+{
+    double instant_s = frame->time_s;
+    cycle_instant_s(sensor->cycle_s, frame->time_s, frame->interval_s, &instant_s);
+    return instant_s - (effects_may(selection, EFFECT_LATENCY) ? sensor->latency_s : 0);
+}
+
+static struct contributor draw_place(const struct sensor *sensor, int64_t number,
+                                     const double uniform[3])
+{
+    struct contributor drawn = false_alarms_contributor(number);
+    double depth_m = sensor->range_max_m - sensor->range_min_m;
+    drawn.range_m = sensor->range_min_m + depth_m * uniform[0];
+    drawn.azimuth_rad = sensor->field_of_view_rad * (uniform[1] - 0.5);
+    drawn.range_rate_mps = sensor->false_alarm_range_rate_mps * (2 * uniform[2] - 1);
+    return drawn;
+}
+
+static struct cell make_cell(struct frame *frame, const struct sensor *sensor,
+                             const struct contributor *drawn, double amplitude)
+{
+    struct cell cell = {
+        .sensor = sensor->name,
+        .range_m = drawn->range_m,
+        .azimuth_rad = drawn->azimuth_rad,
+        .range_rate_mps = drawn->range_rate_mps,
+        .amplitude = amplitude,
+        .sum_re = amplitude,
+        .effects = EFFECT_BIT(EFFECT_FALSE_ALARMS),
+    };
+    *list_add(&cell.members, frame->arena) = *drawn;
+    return cell;
+}
+
+struct cell_span false_alarms_of(struct frame *frame, const struct sensor *sensor,
+                                 const struct selection *selection, double mean,
+                                 const struct random_address *scan)
+{
+    const struct sensor_view *view = frame_view(frame, sensor->name);
+    double uniform[4];
+    if (!(mean > 0) || view == NULL || !view->measured)
+        return (struct cell_span){0};
+    random_uniform(scan, RANDOM_FALSE_ALARMS, 0, uniform);
+    size_t count = (size_t)poisson_count(mean, uniform[0]);
+    struct cell *cells = arena_get(frame->arena, (count + 1) * sizeof *cells);
+    for (size_t i = 0; i < count; i++) {
+        random_uniform(scan, RANDOM_FALSE_ALARMS, (uint32_t)i + 1, uniform);
+        struct contributor drawn = draw_place(sensor, (int64_t)i + 1, uniform);
+        drawn.time_s = measured_s(frame, sensor, selection);
+        cells[i] = make_cell(
+            frame, sensor, &drawn,
+            clutter_false_alarm_amplitude(sensor->threshold, sensor->pointer_sigma, uniform[3]));
+    }
+    if (count > 0)
+        frame_count_echoes(frame, sensor->name, PATH_FALSE_ALARM, (int64_t)count);
+    return (struct cell_span){cells, count};
+}

@@ -1,0 +1,87 @@
+#include "passage.h"
+
+#include "knife_edge.h"
+#include "occlusion.h"
+
+#define DEEPEST 2.82842712474619009760
+
+/* Where a line is inside a convex outline, as shares of its way; for one that only grazes it, where
+ * that is, but for rounding. */
+struct stretch {
+    double begin, end;
+};
+
+static struct stretch stretch_of(const struct vec2 *corners, size_t count,
+                                 const struct passage_line *line)
+{
+    struct stretch inside = {0, 1};
+    for (size_t i = 0; i < count; i++) {
+        struct vec2 edge = vec2_sub(corners[i + 1 < count ? i + 1 : 0], corners[i]);
+        double from = vec2_cross(edge, vec2_sub(line->from, corners[i]));
+        double to = vec2_cross(edge, vec2_sub(line->to, corners[i]));
+        if (from < 0 && to > from)
+            inside.begin = fmax(inside.begin, fmin(from / (from - to), 1));
+        if (to < 0 && from > to)
+            inside.end = fmin(inside.end, fmax(from / (from - to), 0));
+    }
+    return inside;
+}
+
+static double height_m(const struct passage_line *line, double share)
+{
+    return line->from_height_m + share * (line->to_height_m - line->from_height_m);
+}
+
+double passage_above_m(const struct vec2 *corners, size_t count, double top_m,
+                       const struct passage_line *line)
+{
+    struct stretch inside = stretch_of(corners, count, line);
+    return fmin(height_m(line, inside.begin), height_m(line, inside.end)) - top_m;
+}
+
+/* nu of the way round to one side: 1 is left, -1 right. */
+static double beside(const struct vec2 *corners, size_t count, const struct passage_line *line,
+                     double side, bool touched, double wavelength_m)
+{
+    struct vec2 way = vec2_sub(line->to, line->from);
+    double length_m = vec2_length(way), deepest = -(double)INFINITY;
+    struct vec2 along = vec2_scale(1 / length_m, way);
+    for (size_t i = 0; i < count; i++) {
+        struct vec2 offset = vec2_sub(corners[i], line->from);
+        double foot_m = vec2_dot(along, offset);
+        if (!touched && !(foot_m > 0 && foot_m < length_m))
+            continue;
+        double before_m = fmin(fmax(foot_m, 0), length_m);
+        deepest = fmax(deepest, knife_edge_parameter(side * vec2_cross(along, offset), before_m,
+                                                     length_m - before_m, wavelength_m));
+    }
+    return deepest;
+}
+
+/* nu of the way over the top. */
+static double above(const struct passage_line *line, struct stretch inside, double top_m,
+                    double wavelength_m)
+{
+    double length_m = vec2_length(vec2_sub(line->to, line->from));
+    double front =
+        knife_edge_parameter(top_m - height_m(line, inside.begin), inside.begin * length_m,
+                             (1 - inside.begin) * length_m, wavelength_m);
+    double back = knife_edge_parameter(top_m - height_m(line, inside.end), inside.end * length_m,
+                                       (1 - inside.end) * length_m, wavelength_m);
+    return fmax(front, back);
+}
+
+double passage_factor(const struct vec2 *corners, size_t count, double top_m,
+                      const struct passage_line *line, double wavelength_m)
+{
+    bool touched = occlusion_outline_blocks(corners, count, line->from, line->to);
+    if (wavelength_m == 0 || vec2_same(line->from, line->to))
+        return touched && passage_above_m(corners, count, top_m, line) <= 0 ? 0 : 1;
+    struct stretch inside = stretch_of(corners, count, line);
+    if (!touched && inside.end - inside.begin == 1)
+        return 1;
+    double left = beside(corners, count, line, 1, touched, wavelength_m);
+    double right = beside(corners, count, line, -1, touched, wavelength_m);
+    double parameter = fmin(fmin(left, right), above(line, inside, top_m, wavelength_m));
+    return parameter < DEEPEST ? knife_edge_amplitude_factor(parameter) : 0;
+}

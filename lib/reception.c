@@ -1,0 +1,154 @@
+#include "reception.h"
+
+#include <math.h>
+
+#include "address.h"
+#include "ambiguity.h"
+#include "carrier.h"
+#include "elementary.h"
+#include "fluctuation.h"
+#include "interference.h"
+#include "units.h"
+
+#define FOG_C 10
+
+static bool simulates(const struct reception *reception, enum effect effect)
+{
+    return (reception->effects & EFFECT_BIT(effect)) != 0;
+}
+
+uint64_t reception_described(const struct frame *frame, const struct sensor *sensor)
+{
+    const struct conditions *conditions = &frame->conditions;
+    bool receiver = sensor->receiver_bandwidth_hz > 0;
+    return (sensor->fluctuation != FLUCTUATION_NONE ? EFFECT_BIT(EFFECT_FLUCTUATION) : 0) |
+           (conditions->rain_mmph > 0 ? EFFECT_BIT(EFFECT_RAIN) : 0) |
+           (conditions->fog_gpm3 > 0 ? EFFECT_BIT(EFFECT_FOG) : 0) |
+           (sensor->cell_phase != CELL_IN_PHASE ? EFFECT_BIT(EFFECT_COHERENCE) : 0) |
+           (sensor->unambiguous_range_m > 0 || sensor->unambiguous_rate_mps > 0
+                ? EFFECT_BIT(EFFECT_AMBIGUITY)
+                : 0) |
+           (receiver && conditions->interferers.count > 0 ? EFFECT_BIT(EFFECT_INTERFERENCE) : 0);
+}
+
+/* The antenna's one-way gain is the root of its pattern in amplitude, that is, the pattern itself
+ * in power. */
+static double interference_of(const struct frame *frame, const struct sensor *sensor,
+                              const struct interferer *other)
+{
+    const struct object *ego = frame_object(frame, frame->ego);
+    const struct object *carrier = frame_object(frame, other->object);
+    if (carrier == NULL || carrier == ego)
+        return 0;
+    struct vec2 heading = vec2_heading(ego->yaw_rad);
+    struct vec2 mount = vec2_turn((struct vec2){sensor->mount_x_m, sensor->mount_y_m}, heading);
+    struct vec2 boresight = vec2_turn(vec2_heading(sensor->mount_yaw_rad), heading);
+    struct vec2 sight = {carrier->x_m - ego->x_m - mount.x, carrier->y_m - ego->y_m - mount.y};
+    double range_m = vec2_length(sight);
+    double azimuth_rad = elementary_atan2(vec2_cross(boresight, sight), vec2_dot(boresight, sight));
+    if (!(range_m > 0) || !(fabs(azimuth_rad) < sensor->field_of_view_rad / 2))
+        return 0;
+    double pattern = antenna_gain(&sensor->antenna, azimuth_rad);
+    if (!(pattern > 0))
+        return 0;
+    double gain_db = sensor->antenna_gain_dbi + units_amplitude_db(pattern) / 2;
+    return interference_ratio(
+        interference_power_dbm(other->eirp_dbm, gain_db, units_wavelength_m(sensor->carrier_hz),
+                               range_m),
+        interference_noise_dbm(sensor->receiver_bandwidth_hz, sensor->noise_figure_db),
+        interference_overlap(sensor->receiver_bandwidth_hz,
+                             sensor->chirp_slope_hzps - other->slope_hzps, sensor->chirp_s),
+        other->hit_share);
+}
+
+struct reception reception_begin(const struct frame *frame, const struct sensor *sensor,
+                                 uint64_t effects)
+{
+    struct reception reception = {
+        .frame = frame,
+        .sensor = sensor,
+        .effects = effects & reception_described(frame, sensor),
+    };
+    if (simulates(&reception, EFFECT_RAIN))
+        reception.rain_dbpkm = rain_attenuation_dbpkm(
+            rain_law(sensor->carrier_hz, sensor->polarization), frame->conditions.rain_mmph);
+    if (simulates(&reception, EFFECT_FOG))
+        reception.fog_dbpkm =
+            rain_fog_attenuation_dbpkm(sensor->carrier_hz, FOG_C, frame->conditions.fog_gpm3);
+    if (simulates(&reception, EFFECT_INTERFERENCE))
+        for (size_t i = 0; i < frame->conditions.interferers.count; i++)
+            reception.interference +=
+                interference_of(frame, sensor, &frame->conditions.interferers.items[i]);
+    return reception;
+}
+
+/* Drawn in each frame, or that of the path and of the reflector, which is drawn once for all
+ * frames. */
+static double phase_of(const struct sensor *sensor, const struct echo *echo,
+                       struct random_address address)
+{
+    double uniform[4];
+    if (sensor->cell_phase == CELL_RANDOM_PHASE) {
+        random_uniform(&address, RANDOM_PHASE, 0, uniform);
+        return 2 * PI * uniform[0];
+    }
+    address.frame = 0;
+    random_uniform(&address, RANDOM_REFLECTOR_PHASE, 0, uniform);
+    return 2 * PI * (uniform[0] - carrier_phase_turns(echo->range_m, sensor->carrier_hz));
+}
+
+static void scale(struct ray *ray, double factor, enum effect effect)
+{
+    ray->strength *= factor;
+    ray->amplitude *= factor;
+    if (factor != 1)
+        ray->effects |= EFFECT_BIT(effect);
+}
+
+static void fluctuate(const struct sensor *sensor, struct random_address address, struct ray *ray)
+{
+    double uniform[4];
+    random_uniform(&address, RANDOM_FLUCTUATION, 0, uniform);
+    scale(ray,
+          fluctuation_amplitude_factor(sensor->fluctuation, sensor->fluctuation_sigma_db, uniform),
+          EFFECT_FLUCTUATION);
+}
+
+static void fold(const struct sensor *sensor, struct ray *ray)
+{
+    double range_m = ray->range_m, rate_mps = ray->range_rate_mps;
+    if (sensor->unambiguous_range_m > 0)
+        ray->range_m = ambiguity_range_m(range_m, sensor->unambiguous_range_m);
+    if (sensor->unambiguous_rate_mps > 0)
+        ray->range_rate_mps = ambiguity_range_rate_mps(rate_mps, sensor->unambiguous_rate_mps);
+    if (ray->range_m != range_m || ray->range_rate_mps != rate_mps)
+        ray->effects |= EFFECT_BIT(EFFECT_AMBIGUITY);
+}
+
+struct ray reception_ray(const struct reception *reception, const struct echo *echo)
+{
+    const struct sensor *sensor = reception->sensor;
+    struct ray ray = superposition_ray(sensor, echo, 0);
+    struct random_address address = address_of(reception->frame, sensor->name, SUBJECT_OF(echo));
+    if (simulates(reception, EFFECT_COHERENCE))
+        ray.phase_rad = phase_of(sensor, echo, address);
+    if (simulates(reception, EFFECT_FLUCTUATION))
+        fluctuate(sensor, address, &ray);
+    if (simulates(reception, EFFECT_RAIN))
+        scale(&ray, rain_amplitude_factor(reception->rain_dbpkm, echo->range_m), EFFECT_RAIN);
+    if (simulates(reception, EFFECT_FOG))
+        scale(&ray, rain_amplitude_factor(reception->fog_dbpkm, echo->range_m), EFFECT_FOG);
+    if (simulates(reception, EFFECT_AMBIGUITY))
+        fold(sensor, &ray);
+    return ray;
+}
+
+double reception_gain_bound(const struct reception *reception, uint64_t effects, double range_m)
+{
+    double least = 1;
+    if ((effects & EFFECT_BIT(EFFECT_RAIN)) != 0)
+        least *= rain_amplitude_factor(reception->rain_dbpkm, range_m);
+    if ((effects & EFFECT_BIT(EFFECT_FOG)) != 0)
+        least *= rain_amplitude_factor(reception->fog_dbpkm, range_m);
+    return 1 / least;
+}

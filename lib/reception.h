@@ -1,0 +1,34 @@
+/* What a receiver gets of the echoes of one scan: every factor on their amplitudes between ideal
+ * view and antenna, their phases, where ambiguity folds them to, and the noise they compete with.
+ *
+ * The factors apply in this order, each only where a document describes its cause: radar equation
+ * and cross section (MODEL 4), fluctuation (EFFECTS 1), rain and fog (13). Range and rate are
+ * folded after that (10), so amplitudes are those of the true range. */
+#ifndef RECEPTION_H
+#define RECEPTION_H
+
+#include "rain.h"
+#include "superposition.h"
+
+struct reception {
+    const struct frame *frame;
+    const struct sensor *sensor;
+    uint64_t effects; /* to simulate */
+    double rain_dbpkm, fog_dbpkm;
+    double interference; /* of all other radars, over the noise, in power */
+};
+
+/* The effects at home here that the documents describe for this scan. */
+uint64_t reception_described(const struct frame *frame, const struct sensor *sensor);
+
+struct reception reception_begin(const struct frame *frame, const struct sensor *sensor,
+                                 uint64_t effects);
+
+/* The echo as it is received. */
+struct ray reception_ray(const struct reception *reception, const struct echo *echo);
+
+/* At most this factor, and at least its inverse, is what rain and fog, as far as they are in the
+ * set, do to the amplitude of any echo up to range_m. */
+double reception_gain_bound(const struct reception *reception, uint64_t effects, double range_m);
+
+#endif

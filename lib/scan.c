@@ -1,0 +1,69 @@
+#include "scan.h"
+
+#include "resolution.h"
+#include "sort.h"
+
+static void receive(struct scan *scan)
+{
+    const struct frame *frame = scan->reception.frame;
+    struct echo_span echoes = frame_echoes_of(frame, scan->reception.sensor->name);
+    struct ray *rays = arena_get(frame->arena, (echoes.count + 1) * sizeof *rays);
+    size_t count = echoes.count;
+    for (size_t i = 0; i < count; i++)
+        rays[i] = reception_ray(&scan->reception, &echoes.items[i]);
+    sort_items(rays, count, sizeof *rays, superposition_compare, frame->arena);
+    while (count > 0 && !(rays[count - 1].amplitude > 0))
+        count--;
+    scan->resolved.rays = rays;
+    scan->resolved.count = count;
+    scan->silent = rays + count;
+    scan->silent_count = echoes.count - count;
+}
+
+static void resolve(struct scan *scan, const struct selection *selection)
+{
+    const struct sensor *sensor = scan->reception.sensor;
+    struct arena *arena = scan->reception.frame->arena;
+    double half_range_m = sensor->half_range_m, half_rate_mps = sensor->half_range_rate_mps;
+    const struct ray *rays = scan->resolved.rays;
+    size_t count = scan->resolved.count;
+    int64_t begin = effects_begin(selection);
+    struct resolution_echo *echoes = arena_get(arena, 2 * (count + 1) * sizeof *echoes);
+    size_t *cell = arena_get(arena, (count + 1) * sizeof *cell);
+    for (size_t i = 0; i < count; i++)
+        echoes[i] =
+            (struct resolution_echo){rays[i].range_m, rays[i].range_rate_mps, rays[i].amplitude};
+    bool merge =
+        effects_must(selection, EFFECT_MERGING) ||
+        (effects_may(selection, EFFECT_MERGING) &&
+         resolution_close(echoes, count, half_range_m, half_rate_mps, echoes + count, arena));
+    scan->cells = count;
+    if (merge)
+        scan->cells = resolution_cluster(echoes, count, half_range_m, half_rate_mps, cell);
+    for (size_t i = 0; i < count && !merge; i++)
+        cell[i] = i;
+    scan->resolved.cell = cell;
+    effects_note(selection, EFFECT_MERGING, merge);
+    effects_end(selection, EFFECT_MERGING, begin);
+}
+
+struct scan scan_make(struct frame *frame, const struct sensor *sensor,
+                      const struct selection *selection, uint64_t without)
+{
+    struct scan scan = {.reception = reception_begin(frame, sensor, selection->allowed & ~without)};
+    receive(&scan);
+    resolve(&scan, selection);
+    return scan;
+}
+
+struct ray *scan_members(const struct scan *scan, size_t number, size_t *count)
+{
+    const struct clustered_rays *all = &scan->resolved;
+    struct ray *members =
+        arena_get(scan->reception.frame->arena, (all->count + 1) * sizeof *members);
+    *count = 0;
+    for (size_t i = 0; i < all->count; i++)
+        if (all->cell[i] == number)
+            members[(*count)++] = all->rays[i];
+    return members;
+}

@@ -1,0 +1,26 @@
+/* One scan of one sensor before noise: the rays that it received, and which of them share a cell.
+ */
+#ifndef SCAN_H
+#define SCAN_H
+
+#include "cell_margins.h"
+#include "reception.h"
+
+struct scan {
+    struct reception reception;
+    struct clustered_rays resolved;
+    size_t cells;             /* numbered in the order of their leaders */
+    const struct ray *silent; /* without amplitude: they are in no cell */
+    size_t silent_count;
+};
+
+/* Receives the sensor's echoes and resolves them. Under a selection, a scan is made with all of its
+ * effects but those of without; merging may be left out where no two rays are close. Memory comes
+ * from the frame's arena. */
+struct scan scan_make(struct frame *frame, const struct sensor *sensor,
+                      const struct selection *selection, uint64_t without);
+
+/* The rays of one cell, the leader first: copies, count of them. */
+struct ray *scan_members(const struct scan *scan, size_t number, size_t *count);
+
+#endif
