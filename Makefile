@@ -51,6 +51,7 @@ stage_objects := $(patsubst %,$(BUILD)/stages/%.o,$(stages))
 tools := $(foreach s,$(stages),$(BUILD)/bin/glint-$(subst _,-,$(s))) $(BUILD)/bin/glint
 tests := $(patsubst tests/test_%.c,$(BUILD)/tests/test_%,$(wildcard tests/test_*.c))
 hard_tests := $(patsubst tests/hard/%.c,$(BUILD)/tests/hard/%,$(wildcard tests/hard/*.c))
+soundness_tests := $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/soundness/planted_*.c))
 
 all: $(tools)
 
@@ -86,6 +87,11 @@ $(BUILD)/stages/%.o: stages/%.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(HOUSE_C) $(call flags_of,$*) $(CFLAGS) -c -o $@ $<
 
+# From which an executable takes the stages that its own one names.
+$(BUILD)/libstages.a: $(stage_objects)
+	$(Q)rm -f $@
+	$(Q)$(AR) rcs $@ $^
+
 # One main for every stage: glint-sensor-perfect is stages/sensor_perfect.c and this.
 .SECONDEXPANSION:
 $(BUILD)/main/%.o: stages/main.c
@@ -93,7 +99,8 @@ $(BUILD)/main/%.o: stages/main.c
 	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -DSTAGE=stage_$* -c -o $@ $<
 
 under = $(subst -,_,$(patsubst $(BUILD)/bin/glint-%,%,$(1)))
-$(BUILD)/bin/glint-%: $(BUILD)/stages/$$(subst -,_,$$*).o $(BUILD)/main/$$(subst -,_,$$*).o $(BUILD)/libglint.a
+$(BUILD)/bin/glint-%: $(BUILD)/stages/$$(subst -,_,$$*).o $(BUILD)/main/$$(subst -,_,$$*).o \
+    $(BUILD)/libstages.a $(BUILD)/libglint.a
 	@mkdir -p $(@D)
 	$(Q)$(LINK) -o $@ $^ $(LIBS)
 
@@ -127,9 +134,18 @@ $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(stage_objects) $(BUILD)/registr
 $(BUILD)/tests/hard/%: $(BUILD)/tests/hard/%.o $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS) -lcmocka -lmpfr -lgmp
 
+# scripts/soundness: the planner as it is, and with faults planted in place of functions of lib/.
+soundness_objects := $(addprefix $(BUILD)/tests/soundness/,soundness.o compare.o)
+wraps = $(shell grep -o '__wrap_[a-z_]*' $(1) | sort -u | sed 's/__wrap_/-Wl,--wrap=/')
+$(BUILD)/tests/soundness/planted_%: $(BUILD)/tests/soundness/planted_%.o $(soundness_objects) \
+    $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
+	$(Q)$(LINK) $(call wraps,tests/soundness/planted_$*.c) -o $@ $^ $(stage_libs) $(LIBS)
+
 # For scripts/bench --functions: our functions beside libm's.
 $(BUILD)/tests/speed/%: $(BUILD)/tests/speed/%.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ -lm
+
+$(BUILD)/tests/test_compare: $(BUILD)/tests/soundness/compare.o
 
 # The reference of this one test alone.
 $(BUILD)/tests/test_elementary: LIBS += -lmpfr -lgmp
@@ -144,6 +160,8 @@ unit: $(addsuffix .ran,$(tests))
 # The numerical hard cases against MPFR; HARD_TENTH=1 takes a tenth of the points.
 hard: $(addsuffix .ran,$(hard_tests))
 	@echo "hard cases: $$(cat $(addsuffix .log,$(hard_tests)) | grep -c '^hard') held"
+
+soundness: $(soundness_tests)
 
 check: all unit
 	$(Q)BUILD=$(BUILD) scripts/check-house
@@ -182,7 +200,7 @@ clean:
 	rm -rf build build-*
 
 FORCE:
-.PHONY: all unit hard check bench schemas format lint man install clean FORCE
+.PHONY: all unit hard soundness check bench schemas format lint man install clean FORCE
 .PRECIOUS: $(BUILD)/main/%.o $(BUILD)/tests/%.o $(BUILD)/tests/test_% $(BUILD)/tests/hard/%
 
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*.d)

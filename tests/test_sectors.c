@@ -73,11 +73,39 @@ static void no_line_that_touches_is_called_clear(void **state)
     assert_true(clear > 100000);
 }
 
+static double half_angle_rad(const struct sector *sector)
+{
+    return elementary_asin(sector->radius_m / sector->distance_m);
+}
+
+/* One line touches both, to the last digits: what is clear by rounding alone is not clear. */
+static void sectors_that_only_touch_are_not_called_clear(void **state)
+{
+    (void)state;
+    uint64_t random = 2;
+    for (int i = 0; i < 100000; i++) {
+        double distance_m = sample_between(&random, 1, 200);
+        struct sector front = sector_of(around(&random, (struct vec2){0, 0}, distance_m),
+                                        distance_m * sample_between(&random, 0, 0.999) *
+                                            sample_between(&random, 0, 1));
+        double share = sample_between(&random, 0, 1);
+        struct sector target = {.distance_m = distance_m * sample_between(&random, 1, 3)};
+        target.radius_m = target.distance_m * 0.999 * share * share * share;
+        double apart_rad = half_angle_rad(&front) + half_angle_rad(&target);
+        struct vec2 turn = vec2_heading(i % 2 == 0 ? apart_rad : -apart_rad);
+        target.centre_m =
+            vec2_scale(target.distance_m / front.distance_m, vec2_turn(front.centre_m, turn));
+        if (!sectors_overlap(&front, &target))
+            fail_msg("pair %d: sectors touch and are called apart", i);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_stands_behind_or_aside_is_not_in_the_way),
         cmocka_unit_test(no_line_that_touches_is_called_clear),
+        cmocka_unit_test(sectors_that_only_touch_are_not_called_clear),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

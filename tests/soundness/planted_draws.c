@@ -1,0 +1,55 @@
+/* Draws in their order, of which merging takes one: where it is left out, all that follow move.
+ * Traffic is drawn by address all the same: scenes stay what they are. */
+#include "planted.h"
+#include "random.h"
+#include "resolution.h"
+
+static uint64_t drawn;
+
+void planted_begin(void)
+{
+    drawn = 0;
+}
+
+static struct random_address next_of(const struct random_address *address,
+                                     enum random_purpose purpose)
+{
+    struct random_address next = {
+        .seed = address->seed, .scene = address->scene, .frame = address->frame};
+    if (purpose == RANDOM_TRAFFIC || purpose == RANDOM_HARD_CASE)
+        return *address;
+    next.subject = ++drawn;
+    return next;
+}
+
+#define DRAW(name)                                                                                 \
+    void name(const struct random_address *address, enum random_purpose purpose, uint32_t index,   \
+              double numbers[4])
+DRAW(__real_random_uniform);
+DRAW(__real_random_gaussian);
+DRAW(__wrap_random_uniform);
+DRAW(__wrap_random_gaussian);
+
+DRAW(__wrap_random_uniform)
+{
+    struct random_address next = next_of(address, purpose);
+    __real_random_uniform(&next, purpose, index, numbers);
+}
+
+DRAW(__wrap_random_gaussian)
+{
+    struct random_address next = next_of(address, purpose);
+    __real_random_gaussian(&next, purpose, index, numbers);
+}
+
+#define CLUSTER(name)                                                                              \
+    size_t name(const struct resolution_echo *echoes, size_t count, double half_range_m,           \
+                double half_range_rate_mps, size_t *cell)
+CLUSTER(__real_resolution_cluster);
+CLUSTER(__wrap_resolution_cluster);
+
+CLUSTER(__wrap_resolution_cluster)
+{
+    drawn++;
+    return __real_resolution_cluster(echoes, count, half_range_m, half_range_rate_mps, cell);
+}

@@ -1,0 +1,6 @@
+/* The planner as it is. */
+#include "planted.h"
+
+void planted_begin(void)
+{
+}

@@ -1,0 +1,432 @@
+/* Is choosing effects from the scene sound? Random scenes, each seen with every effect and with
+ * those that a planner chose, in this process and without text.
+ *
+ * Frame number n is that of glint-traffic-random --first n --frames 1 with the same options, in
+ * drawn conditions; --first n --frames 1 --print writes it, for the chain to read. The answer is
+ * one JSON line: per planner the violations, the first of them, how often each effect was simulated
+ * and left out, and the time. Exit status 1 if there is a violation. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "compare.h"
+#include "draws.h"
+#include "frame_text.h"
+#include "fused.h"
+#include "options.h"
+#include "planted.h"
+#include "progress.h"
+#include "random_scene.h"
+#include "runner.h"
+
+enum { STEPS = 3, SHOWN = 5 };
+static const char *const steps[STEPS] = {"ideal", "sensor", "noise"};
+
+struct finding {
+    int64_t frame;
+    char what[160];
+};
+
+/* One way to choose effects. */
+struct planner {
+    const char *effects;
+    struct tolerance tolerance;
+    bool tolerant;
+    struct runner runners[STEPS];
+    struct effect_log logs[STEPS];
+    struct arena arena;
+    struct frame frame;
+    int64_t frames, violations, spent_ns;
+    struct finding findings[SHOWN];
+};
+
+enum planners { PLANNERS_AUTO, PLANNERS_TOLERANCE, PLANNERS_BOTH, PLANNERS_DROPS };
+static const char *const planner_choices[] = {"auto", "tolerance", "both", "drops", NULL};
+
+struct soundness {
+    enum random_density density;
+    const char *sensors;
+    int64_t first, frames;
+    enum planners planners;
+    const char *without, *only;
+    bool margins, until_caught, print;
+};
+
+struct bench {
+    const struct soundness *wanted;
+    struct runner source, extract;
+    struct arena arena, documents;
+    struct frame scene;
+    struct planner planners[EFFECT_COUNT + 1]; /* the first simulates all; it judges the others */
+    size_t count;
+};
+
+static const struct field soundness_options[] = {
+    {FIELD_CHOICE_OF(struct soundness, density, random_densities, "of the scenes"), FIELD_OPTIONAL},
+    {FIELD_NAME_OF(struct soundness, sensors, "the suite")},
+    {FIELD_INTEGER_IN(struct soundness, first, 0, 1e9, "number of the first scene"),
+     FIELD_OPTIONAL},
+    {FIELD_INTEGER_IN(struct soundness, frames, 0, 1e9, "how many scenes; absent: 1000"),
+     FIELD_OPTIONAL, .absent = 1000},
+    {FIELD_CHOICE_OF(struct soundness, planners, planner_choices,
+                     "auto to the bit, with the default tolerance, both, or for every effect one "
+                     "that always drops it"),
+     FIELD_OPTIONAL},
+    {FIELD_NAME_OF(struct soundness, without,
+                   "effects that nobody simulates, such as -occlusion,-rows"),
+     FIELD_OPTIONAL, .word = "LIST"},
+    {FIELD_NAME_OF(struct soundness, only,
+                   "only scenes in which every object is of one of these classes: car,van"),
+     FIELD_OPTIONAL, .word = "LIST"},
+    {FIELD_FLAG_OF(struct soundness, margins, "targets and lost tell margins too"), FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct soundness, until_caught,
+                   "a planner with a violation needs no more scenes"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct soundness, print, "write the scenes, and compare nothing"),
+     FIELD_OPTIONAL},
+    {0},
+};
+
+static const struct record soundness_record = {
+    .name = "soundness", .size = sizeof(struct soundness), .fields = soundness_options};
+
+static int no_frame(void *state, struct frame *frame, struct runner *runner)
+{
+    (void)state, (void)frame, (void)runner;
+    return 0;
+}
+
+/* For the command line alone. */
+static const struct stage stage_soundness = {
+    .name = "soundness",
+    .summary = "Compare what planners leave out with what simulating every effect says.",
+    .options = &soundness_record,
+    .next = no_frame,
+};
+
+static int64_t no_clock_ns(void)
+{
+    return 0;
+}
+
+static int64_t now_ns(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
+
+static int refuse(struct runner *runner)
+{
+    diag_print(runner->stage->name, &runner->diag);
+    return -1;
+}
+
+static int start_stage(struct runner *runner, const char *name, const char *const *words)
+{
+    const struct stage *const *stage = stages;
+    size_t count = 0;
+    while (strcmp((*stage)->name, name) != 0)
+        stage++;
+    while (words[count] != NULL)
+        count++;
+    return runner_prepare(runner, *stage, count, words) == 0 && runner_start(runner) == 0
+               ? 0
+               : refuse(runner);
+}
+
+static int start_scenes(struct bench *bench)
+{
+    const struct soundness *wanted = bench->wanted;
+    char first[24], frames[24];
+    snprintf(first, sizeof first, "%" PRId64, wanted->first);
+    snprintf(frames, sizeof frames, "%" PRId64, wanted->frames);
+    const char *around = wanted->density == RANDOM_ADVERSARIAL ? "--sensors" : NULL;
+    bench->scene.arena = &bench->arena;
+    return start_stage(&bench->source, "traffic-random",
+                       (const char *const[]){"--density", random_densities[wanted->density],
+                                             "--first", first, "--frames", frames, around,
+                                             wanted->sensors, NULL}) == 0
+               ? start_stage(&bench->extract, "extract", (const char *const[]){NULL})
+               : -1;
+}
+
+static int start_planner(struct planner *planner, const struct bench *bench, const char *effects,
+                         bool tolerant)
+{
+    const struct soundness *wanted = bench->wanted;
+    const char *words[8] = {"--sensors", wanted->sensors, "--effects", effects, "--account"};
+    size_t count = 5;
+    if (wanted->margins)
+        words[count++] = "--margins";
+    if (tolerant)
+        words[count++] = "--tolerance";
+    *planner =
+        (struct planner){.effects = effects, .tolerance = tolerance_default, .tolerant = tolerant};
+    for (int i = 0; i < STEPS; i++) {
+        planner->logs[i].clock_ns = no_clock_ns;
+        if (start_stage(&planner->runners[i], steps[i],
+                        i == 0 ? words : (const char *const[]){NULL}) != 0)
+            return -1;
+        planner->runners[i].log = &planner->logs[i];
+        planner->runners[i].common.keep = i == STEPS - 1;
+    }
+    return 0;
+}
+
+/* The next planner to compare: auto, or all, but for what nobody simulates and for one effect. */
+static int add_planner(struct bench *bench, const char *word, const char *but, bool tolerant)
+{
+    const char *without = bench->wanted->without;
+    size_t size = FIELD_NAME_SIZE;
+    char *effects = arena_get(&bench->documents, size);
+    snprintf(effects, size, "%s%s%s%s%s", word, without != NULL ? "," : "",
+             without != NULL ? without : "", but != NULL ? ",-" : "", but != NULL ? but : "");
+    return start_planner(&bench->planners[bench->count++], bench, effects, tolerant);
+}
+
+static int start(struct bench *bench)
+{
+    enum planners planners = bench->wanted->planners;
+    if (start_scenes(bench) != 0 || add_planner(bench, "all", NULL, false) != 0)
+        return -1;
+    if ((planners == PLANNERS_AUTO || planners == PLANNERS_BOTH) &&
+        add_planner(bench, "auto", NULL, false) != 0)
+        return -1;
+    if ((planners == PLANNERS_TOLERANCE || planners == PLANNERS_BOTH) &&
+        add_planner(bench, "auto", NULL, true) != 0)
+        return -1;
+    for (int i = 0; i < EFFECT_COUNT && planners == PLANNERS_DROPS; i++)
+        if (add_planner(bench, "auto", effects_names[i], false) != 0)
+            return -1;
+    return 0;
+}
+
+/* A planner's own view of a scene; the scene itself is shared. */
+static int run(struct planner *planner, const struct frame *scene)
+{
+    struct frame *frame = &planner->frame;
+    planted_begin();
+    arena_clear(&planner->arena);
+    *frame = *scene;
+    frame->arena = &planner->arena;
+    int64_t begin_ns = now_ns();
+    for (int i = 0; i < STEPS; i++)
+        if (runner_step(&planner->runners[i], frame) != 0)
+            return refuse(&planner->runners[i]);
+    planner->spent_ns += now_ns() - begin_ns;
+    planner->frames++;
+    return 0;
+}
+
+static void judge(const struct frame *all, int64_t number, struct planner *planner)
+{
+    struct diag diag = {0};
+    int found = planner->tolerant ? compare_within(all, &planner->frame, &planner->tolerance, &diag)
+                                  : compare_bits(all, &planner->frame, &diag);
+    if (found == 0)
+        return;
+    if (planner->violations < SHOWN) {
+        struct finding *finding = &planner->findings[planner->violations];
+        finding->frame = number;
+        snprintf(finding->what, sizeof finding->what, "%.*s", (int)sizeof finding->what - 1,
+                 diag.text);
+    }
+    planner->violations++;
+}
+
+/* Whatever a document may say of road, weather and other radars, each in some of the scenes. */
+static void draw_conditions(struct frame *frame, struct random_address address)
+{
+    struct conditions *conditions = &frame->conditions;
+    address.subject = UINT64_MAX;
+    struct draws draws = draws_at(address, RANDOM_TRAFFIC);
+    conditions->road = (enum road)draws_whole(&draws, ROAD_UNKNOWN, ROAD_CONCRETE);
+    if (draws_chance(&draws, 0.3))
+        conditions->rain_mmph = draws_between(&draws, 0, 60);
+    if (draws_chance(&draws, 0.2))
+        conditions->fog_gpm3 = draws_between(&draws, 0, 0.5);
+    bool interfered = draws_chance(&draws, 0.3);
+    for (size_t i = 1; i < frame->objects.count && interfered; i++)
+        if (draws_chance(&draws, 0.5))
+            *list_add(&conditions->interferers, frame->arena) = (struct interferer){
+                .object = frame->objects.items[i].id,
+                .eirp_dbm = draws_between(&draws, 0, 40),
+                .slope_hzps = draws_sign(&draws) * draws_between(&draws, 1e12, 5e13),
+                .hit_share = draws_between(&draws, 0, 0.3),
+            };
+}
+
+static bool lists(const char *names, const char *name)
+{
+    size_t length = strlen(name);
+    for (;; names++) {
+        size_t word = strcspn(names, ",");
+        if (word == length && memcmp(names, name, length) == 0)
+            return true;
+        names += word;
+        if (*names == '\0')
+            return false;
+    }
+}
+
+/* The ego's class does not count. */
+static bool wants(const struct soundness *wanted, const struct frame *scene)
+{
+    for (size_t i = 1; i < scene->objects.count && wanted->only != NULL; i++)
+        if (!lists(wanted->only, scene->objects.items[i].class))
+            return false;
+    return true;
+}
+
+static int print(struct bench *bench)
+{
+    struct text text = {0};
+    int result = frame_text_write(&bench->scene, &text, &bench->source.diag);
+    fwrite(text.bytes, 1, text.length, stdout);
+    text_free(&text);
+    return result == 0 ? 1 : refuse(&bench->source);
+}
+
+/* 1 after a scene, 0 if no planner needs another. */
+static int visit(struct bench *bench, int64_t number)
+{
+    int needed = 0;
+    struct planner *all = &bench->planners[0];
+    struct random_scene drawn = {.density = bench->wanted->density};
+    if (runner_next(&bench->source, &bench->scene) != 1)
+        return refuse(&bench->source);
+    draw_conditions(&bench->scene, random_scene_address(&drawn, bench->scene.seed, number));
+    if (!wants(bench->wanted, &bench->scene))
+        return 1;
+    if (bench->wanted->print)
+        return print(bench);
+    if (runner_step(&bench->extract, &bench->scene) != 0)
+        return refuse(&bench->extract);
+    if (run(all, &bench->scene) != 0)
+        return -1;
+    for (size_t i = 1; i < bench->count; i++) {
+        struct planner *planner = &bench->planners[i];
+        if (bench->wanted->until_caught && planner->violations > 0)
+            continue;
+        if (run(planner, &bench->scene) != 0)
+            return -1;
+        judge(&all->frame, number, planner);
+        needed = 1;
+    }
+    return needed;
+}
+
+static void tell_effects(struct text *text, const struct planner *planner)
+{
+    const char *comma = "";
+    text_add_word(text, ",\"effects\":{");
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        for (int j = 0; j < STEPS; j++) {
+            const struct effect_log *log = &planner->logs[j];
+            if (strcmp(effects_table[i].home, steps[j]) != 0)
+                continue;
+            text_format(text,
+                        "%s\"%s\":{\"scans\":%" PRId64 ",\"simulated\":%" PRId64
+                        ",\"left_out\":%" PRId64 "}",
+                        comma, effects_names[i], log->scans, log->scans_simulated[i],
+                        log->scans_left_out[i]);
+            comma = ",";
+        }
+    text_add_word(text, "}");
+}
+
+static void tell_planner(struct text *text, const struct planner *planner)
+{
+    text_format(text,
+                "{\"planned\":\"%s\",\"tolerance\":%s,\"frames\":%" PRId64 ",\"ns\":%" PRId64
+                ",\"violations\":%" PRId64 ",\"first_violations\":[",
+                planner->effects, planner->tolerant ? "true" : "false", planner->frames,
+                planner->spent_ns, planner->violations);
+    for (int64_t i = 0; i < planner->violations && i < SHOWN; i++) {
+        const struct finding *finding = &planner->findings[i];
+        text_format(text, "%s{\"frame\":%" PRId64 ",\"what\":", i > 0 ? "," : "", finding->frame);
+        text_add_json(text, finding->what, strlen(finding->what));
+        text_add_word(text, "}");
+    }
+    text_add_word(text, "]");
+    tell_effects(text, planner);
+    text_add_word(text, "}");
+}
+
+static void tell(const struct bench *bench)
+{
+    const struct soundness *wanted = bench->wanted;
+    struct text text = {0};
+    text_format(&text, "{\"density\":\"%s\",\"sensors\":", random_densities[wanted->density]);
+    text_add_json(&text, wanted->sensors, strlen(wanted->sensors));
+    text_format(&text, ",\"first\":%" PRId64 ",\"frames\":%" PRId64 ",\"planners\":[",
+                wanted->first, bench->planners[0].frames);
+    for (size_t i = 0; i < bench->count; i++) {
+        text_add_word(&text, i > 0 ? "," : "");
+        tell_planner(&text, &bench->planners[i]);
+    }
+    text_add_word(&text, "]}\n");
+    fwrite(text.bytes, 1, text.length, stdout);
+    text_free(&text);
+}
+
+static void free_planner(struct planner *planner)
+{
+    for (int i = 0; i < STEPS; i++)
+        runner_free(&planner->runners[i]);
+    arena_free(&planner->arena);
+}
+
+static void free_bench(struct bench *bench)
+{
+    for (size_t i = 0; i < bench->count; i++)
+        free_planner(&bench->planners[i]);
+    runner_free(&bench->source);
+    runner_free(&bench->extract);
+    arena_free(&bench->arena);
+    arena_free(&bench->documents);
+}
+
+/* The exit status. */
+static int prove(struct bench *bench)
+{
+    struct progress progress;
+    int64_t frames = bench->wanted->frames, violations = 0;
+    int more = start(bench) == 0 ? 1 : -1;
+    progress_begin(&progress, frames);
+    for (int64_t i = 0; i < frames && more == 1; i++) {
+        more = visit(bench, bench->wanted->first + i);
+        progress_step(&progress);
+    }
+    progress_end(&progress);
+    if (more < 0)
+        return DIAG_INTERNAL;
+    if (!bench->wanted->print)
+        tell(bench);
+    for (size_t i = 1; i < bench->count; i++)
+        violations += bench->planners[i].violations;
+    return violations > 0;
+}
+
+int main(int count, char **words)
+{
+    static struct bench bench;
+    struct soundness wanted;
+    struct runner own = {.stage = &stage_soundness};
+    int result = options_read(&stage_soundness, (size_t)count - 1, (const char *const *)words + 1,
+                              &wanted, &own.common, &own.arena, &own.diag);
+    bench.wanted = &wanted;
+    struct text help = {0};
+    if (result != 0)
+        refuse(&own);
+    else if (own.common.help)
+        options_help(&stage_soundness, &help);
+    fwrite(help.bytes, 1, help.length, stdout);
+    int status = result != 0 ? DIAG_USAGE : own.common.help ? 0 : prove(&bench);
+    text_free(&help);
+    free_bench(&bench);
+    runner_free(&own);
+    return status;
+}
