@@ -87,6 +87,11 @@ $(BUILD)/stages/%.o: stages/%.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(HOUSE_C) $(call flags_of,$*) $(CFLAGS) -c -o $@ $<
 
+# From which an executable takes the stages that its own one names.
+$(BUILD)/libstages.a: $(stage_objects)
+	$(Q)rm -f $@
+	$(Q)$(AR) rcs $@ $^
+
 # One main for every stage: glint-sensor-perfect is stages/sensor_perfect.c and this.
 .SECONDEXPANSION:
 $(BUILD)/main/%.o: stages/main.c
@@ -94,7 +99,8 @@ $(BUILD)/main/%.o: stages/main.c
 	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -DSTAGE=stage_$* -c -o $@ $<
 
 under = $(subst -,_,$(patsubst $(BUILD)/bin/glint-%,%,$(1)))
-$(BUILD)/bin/glint-%: $(BUILD)/stages/$$(subst -,_,$$*).o $(BUILD)/main/$$(subst -,_,$$*).o $(BUILD)/libglint.a
+$(BUILD)/bin/glint-%: $(BUILD)/stages/$$(subst -,_,$$*).o $(BUILD)/main/$$(subst -,_,$$*).o \
+    $(BUILD)/libstages.a $(BUILD)/libglint.a
 	@mkdir -p $(@D)
 	$(Q)$(LINK) -o $@ $^ $(LIBS)
 

@@ -169,11 +169,15 @@ static int run_frame(struct chain *chain)
     return result == 0 ? 1 : -1;
 }
 
-/* The stages after the rightmost failure see the end of the stream, as they would in a pipe. */
+/* The stages after the rightmost failure see the end of the stream, one after the other, as they
+ * would in a pipe. */
 static void finish(struct chain *chain)
 {
-    for (size_t i = chain->count; i > 0 && !failed(&chain->runners[i - 1]); i--)
-        runner_finish(&chain->runners[i - 1]);
+    size_t first = chain->count;
+    while (first > 0 && !failed(&chain->runners[first - 1]))
+        first--;
+    for (size_t i = first; i < chain->count; i++)
+        runner_finish(&chain->runners[i]);
 }
 
 /* A stage that has failed already, by its command line, is in the chain like one that fails now. */

@@ -34,6 +34,7 @@ enum effect {
     EFFECT_OCCLUSION,
     EFFECT_HEIGHT,
     EFFECT_DIFFRACTION,
+    EFFECT_GHOSTS,
     EFFECT_FLUCTUATION,
     EFFECT_RAIN,
     EFFECT_FOG,
@@ -111,6 +112,7 @@ static inline bool effects_must(const struct selection *selection, enum effect e
 static inline void effects_note(const struct selection *selection, enum effect effect,
                                 bool simulated)
 {
+    simulated = simulated && effects_may(selection, effect);
     if (selection->log != NULL)
         *(simulated ? &selection->log->simulated : &selection->log->left_out) |= EFFECT_BIT(effect);
 }

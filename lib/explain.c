@@ -41,11 +41,22 @@ static int append(const char *path, const struct text *text, struct diag *diag)
     int file = open(path, O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
     if (file < 0)
         return diag_fail(diag, DIAG_CANNOT_CREATE, "%s: %s", path, strerror(errno));
-    ssize_t written = write(file, text->bytes, text->length);
-    bool whole = written == (ssize_t)text->length;
-    if (close(file) != 0 || !whole)
-        return diag_fail(diag, DIAG_IO, "%s: %s", path, strerror(errno));
-    return 0;
+    size_t written = 0;
+    ssize_t more = 0;
+    while (written < text->length && more >= 0) {
+        more = write(file, text->bytes + written, text->length - written);
+        written += more > 0 ? (size_t)more : 0;
+    }
+    if (more < 0)
+        diag_fail(diag, DIAG_IO, "%s: %s", path, strerror(errno));
+    if (close(file) != 0)
+        diag_fail(diag, DIAG_IO, "%s: %s", path, strerror(errno));
+    return diag->code == DIAG_OK ? 0 : -1;
+}
+
+int explain_check(const char *path, struct diag *diag)
+{
+    return append(path, &(struct text){0}, diag);
 }
 
 int explain_append(const char *path, const char *stage, const struct effect_log *log,

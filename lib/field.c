@@ -228,6 +228,8 @@ static unsigned sections_of(const struct record *record, const void *base)
     return present;
 }
 
+static bool any_present(const struct record *record, const void *base);
+
 bool field_present(const struct record *record, const struct field *field, const void *base)
 {
     if (field->section != 0)
@@ -255,11 +257,22 @@ bool field_present(const struct record *record, const struct field *field, const
     case FIELD_LIST:
         return field_list(field, base).count > 0;
     case FIELD_RECORD:
-        return sections_of(field->record, member_of(field, base)) != 0;
+        return any_present(field->record, member_of(field, base));
     case FIELD_NOTES:
         return false;
     }
     return true;
+}
+
+/* Of sections only, which are told by one look at their bits, or of plain members only. */
+static bool any_present(const struct record *record, const void *base)
+{
+    if (record->fields[0].section != 0)
+        return sections_of(record, base) != 0;
+    for (const struct field *field = record->fields; field->name != NULL; field++)
+        if (field_present(record, field, base))
+            return true;
+    return false;
 }
 
 void field_mark_present(const struct record *record, const struct field *field, void *base)

@@ -24,8 +24,8 @@ enum field_kind {
     FIELD_SEED, /* uint64_t, in text a string of decimal digits: JSON readers lose 64-bit numbers */
     FIELD_SET,  /* uint64_t: bit i stands for choices[i]; in text an array of their names */
     FIELD_NAMES,  /* LIST_OF(const char *) */
-    FIELD_RECORD, /* an embedded struct; where optional, its members are sections, and it is absent
-                     while they all are */
+    FIELD_RECORD, /* an embedded struct; where optional, all or none of its members are sections,
+                     and it is absent while they all are */
     FIELD_LIST,   /* LIST_OF(a struct) */
     FIELD_RAW,    /* const char *: any JSON value, byte for byte, at most FIELD_RAW_SIZE */
     FIELD_NOTES,  /* no member: an object of strings, for people; documents only */

@@ -191,6 +191,10 @@ static const struct field echo_fields[] = {
     NAME(struct echo, sensor, "name in the suite"),
     ECHO_NAMES(struct echo),
     IDEAL_VALUES(struct echo),
+    {FIELD_REAL_IN(struct echo, departure_rad, -PI, PI,
+                   "azimuth of departure less that of arrival, of a ghost that goes one way by a "
+                   "mirror"),
+     FIELD_OPTIONAL},
     EFFECTS(struct echo, "that changed one of these values"),
     MARGINS(struct echo),
     EXTRA(struct echo),

@@ -103,8 +103,9 @@ struct echo {
     int64_t number;
     double range_m, azimuth_rad, range_rate_mps;
     double ercs;
-    double time_s;    /* of the measurement */
-    uint64_t effects; /* that changed one of these values */
+    double departure_rad; /* azimuth in which its wave left, less the one in which it came back */
+    double time_s;        /* of the measurement */
+    uint64_t effects;     /* that changed one of these values */
     struct margins margins;
     const char *extra;
 };

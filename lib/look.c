@@ -134,6 +134,43 @@ static bool passes_clear(const struct look_body *body, struct vec2 from, struct 
            along > vec2_dot(line, line) + reach;
 }
 
+static bool is_among(const struct look_body *body, const struct look_body *const *bodies,
+                     size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (bodies[i] == body)
+            return true;
+    return false;
+}
+
+bool look_blocked(const struct look *look, struct vec2 from, struct vec2 to,
+                  const struct look_body *const *but, size_t count)
+{
+    if (!effects_may(look->selection, EFFECT_OCCLUSION))
+        return false;
+    for (size_t i = 0; i < look->body_count; i++) {
+        const struct look_body *body = &look->bodies[i];
+        if (body->blocks && !passes_clear(body, from, to, 0) && !is_among(body, but, count) &&
+            occlusion_outline_blocks(body->corner, 4, from, to))
+            return true;
+    }
+    return false;
+}
+
+double look_clearance_m(const struct look *look, struct vec2 from, struct vec2 to,
+                        const struct look_body *const *but, size_t count)
+{
+    double nearest_m = (double)INFINITY;
+    if (!effects_may(look->selection, EFFECT_OCCLUSION))
+        return nearest_m;
+    for (size_t i = 0; i < look->body_count; i++) {
+        const struct look_body *body = &look->bodies[i];
+        if (body->blocks && !is_among(body, but, count))
+            nearest_m = fmin(nearest_m, clearance_outline_m(body->corner, 4, from, to));
+    }
+    return nearest_m;
+}
+
 /* A plane in the world. */
 struct side {
     struct vec2 from, to, along;
@@ -416,8 +453,7 @@ static double height_m(const struct look *look, const struct look_body *body, do
     return z > 0 ? z * body->object->height_m : look->height_m;
 }
 
-/* What latency has changed before a body is looked at. */
-static uint64_t aged(const struct look *look, const struct look_body *body)
+uint64_t look_aged(const struct look *look, const struct look_body *body)
 {
     return look->moved || body->moved ? EFFECT_BIT(EFFECT_LATENCY) : 0;
 }
@@ -444,7 +480,8 @@ static void look_at_point(struct look *look, const struct look_body *body,
                     .ercs = visible * point->ercs,
                     .under_vehicles = point->under_vehicles,
                     .margin_m = margin_m,
-                    .effects = aged(look, body) | (visible < 1 ? EFFECT_BIT(EFFECT_VISIBILITY) : 0),
+                    .effects =
+                        look_aged(look, body) | (visible < 1 ? EFFECT_BIT(EFFECT_VISIBILITY) : 0),
                 });
     else
         lose(look, body, point->name, LOSS_FACING_AWAY, NULL, margin_m);
@@ -487,7 +524,7 @@ static void look_at_plane(struct look *look, const struct look_body *body,
             .place = foot,
             .height_m = height_m(look, body, plane->z),
             .margin_m = margin_m,
-            .effects = aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
+            .effects = look_aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
         };
         double range_m = vec2_length(vec2_sub(foot, look->position_m));
         seen.ercs = plane_ercs(look, plane, range_m, &seen.effects);
@@ -504,6 +541,19 @@ static const char *post_name(struct arena *arena, const struct post_row *row, in
     return name;
 }
 
+struct point_reflector look_post(const struct look *look, const struct post_row *row, int64_t post)
+{
+    return (struct point_reflector){
+        .name = post_name(look->frame->arena, row, post),
+        .z = row->z,
+        .facing_rad = row->facing_rad,
+        .full_rad = row->full_rad,
+        .zero_rad = row->zero_rad,
+        .shape = row->shape,
+        .ercs = row->ercs,
+    };
+}
+
 static void look_along_row(struct look *look, const struct look_body *body,
                            const struct post_row *row)
 {
@@ -511,15 +561,7 @@ static void look_along_row(struct look *look, const struct look_body *body,
     reflectors_posts_within(&body->box, row, look->position_m, look->sensor->range_max_m, &first,
                             &end);
     for (int64_t number = first; number < end; number++) {
-        const struct point_reflector post = {
-            .name = post_name(look->frame->arena, row, number),
-            .z = row->z,
-            .facing_rad = row->facing_rad,
-            .full_rad = row->full_rad,
-            .zero_rad = row->zero_rad,
-            .shape = row->shape,
-            .ercs = row->ercs,
-        };
+        const struct point_reflector post = look_post(look, row, number);
         look_at_point(look, body, &post, reflectors_post_place(&body->box, row, number));
     }
 }

@@ -62,6 +62,22 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
 /* Every reflector of every object: adds echoes, losses and the sensor's count to the frame. */
 void look_around(struct look *look);
 
+/* Does a body that blocks touch the segment between two places (closed: occlusion.h)? The count
+ * bodies of but do not matter, of which any may be NULL; never, where occlusion is not selected. */
+bool look_blocked(const struct look *look, struct vec2 from, struct vec2 to,
+                  const struct look_body *const *but, size_t count);
+
+/* Of the bodies that could and do not: how near the nearest comes to the segment; infinite where
+ * there is none. */
+double look_clearance_m(const struct look *look, struct vec2 from, struct vec2 to,
+                        const struct look_body *const *but, size_t count);
+
+/* A post of a row as the point it is, under its name. */
+struct point_reflector look_post(const struct look *look, const struct post_row *row, int64_t post);
+
+/* EFFECT_BIT of latency if it changes how the sensor sees this body, else 0. */
+uint64_t look_aged(const struct look *look, const struct look_body *body);
+
 /* Azimuths from here on, to either side, are outside the sensor's view. */
 double look_border_rad(const struct sensor *sensor);
 

@@ -69,6 +69,23 @@ static const struct field plane_fields[] = {
     {0},
 };
 
+static const struct field mirror_fields[] = {
+    FRACTION(struct mirror_plane, from_x, "start; the outer face is to the right of from -> to"),
+    FRACTION(struct mirror_plane, from_y, "start"),
+    FRACTION(struct mirror_plane, to_x, "end"),
+    FRACTION(struct mirror_plane, to_y, "end"),
+    {FIELD_REAL_IN(struct mirror_plane, reflection, 0, 1,
+                   "part of an amplitude that is reflected")},
+    {0},
+};
+
+static const struct record mirror_record = {
+    .name = "mirror",
+    .help = "A flat side in which a radar sees other objects a second time.",
+    .size = sizeof(struct mirror_plane),
+    .fields = mirror_fields,
+};
+
 static const struct field row_fields[] = {
     {FIELD_NAME_OF(struct post_row, name, "post n of the row is called name_n")},
     FRACTION(struct post_row, from_x, "the first post"),
@@ -91,6 +108,8 @@ static const struct field reflector_set_fields[] = {
      FIELD_OPTIONAL},
     {FIELD_LIST_OF(struct reflector_set, planes, &plane_record, "flat sides"), FIELD_OPTIONAL},
     {FIELD_LIST_OF(struct reflector_set, rows, &row_record, "rows of posts"), FIELD_OPTIONAL},
+    {FIELD_LIST_OF(struct reflector_set, mirrors, &mirror_record, "flat sides that show ghosts"),
+     FIELD_OPTIONAL},
     {0},
 };
 

@@ -37,6 +37,13 @@ struct plane_reflector {
     double profile_radius_m, radius_m; /* of curvature, upright and in the plane; 0: none */
 };
 
+/* A flat side that mirrors what stands before its outer face, for sensors that see ghosts
+ * (ghosts.h). It is no reflector itself: a side that is both is described twice. */
+struct mirror_plane {
+    double from_x, from_y, to_x, to_y; /* as a plane_reflector's */
+    double reflection;                 /* amplitude reflection coefficient |Gamma| */
+};
+
 /* Equal points along a line: the posts of a guardrail, the first at from. Post n is called name_n.
  * Only the posts within a sensor's range are ever made. */
 struct post_row {
@@ -58,6 +65,7 @@ struct reflector_set {
     LIST_OF(struct point_reflector) points;
     LIST_OF(struct plane_reflector) planes;
     LIST_OF(struct post_row) rows;
+    LIST_OF(struct mirror_plane) mirrors;
 };
 
 extern const struct record point_record, plane_record, row_record;

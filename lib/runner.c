@@ -140,6 +140,14 @@ int runner_selection(struct runner *runner, const struct frame *frame,
     return 0;
 }
 
+static bool measured(const struct frame *frame, const char *sensor)
+{
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        if (strcmp(frame->sensors.list.items[i].name, sensor) == 0)
+            return frame->sensors.list.items[i].measured;
+    return false;
+}
+
 int runner_visit_sensors(struct runner *runner, struct frame *frame,
                          void (*visit)(struct frame *frame, const struct sensor *sensor,
                                        const struct selection *selection))
@@ -150,7 +158,9 @@ int runner_visit_sensors(struct runner *runner, struct frame *frame,
     if (suite == NULL || runner_selection(runner, frame, choice, &selection) != 0)
         return -1;
     for (size_t i = 0; i < suite->sensors.count; i++) {
-        visit(frame, &suite->sensors.items[i], &selection);
+        const struct sensor *sensor = &suite->sensors.items[i];
+        selection.log = measured(frame, sensor->name) ? runner->log : NULL;
+        visit(frame, sensor, &selection);
         effects_count_scan(&selection);
     }
     return 0;
@@ -187,6 +197,8 @@ int runner_prepare(struct runner *runner, const struct stage *stage, size_t coun
 
 void runner_free(struct runner *runner)
 {
+    for (size_t i = 0; i < runner->rehearsing.count; i++)
+        runner_free(runner->rehearsing.items[i]);
     arena_free(&runner->arena);
 }
 
@@ -258,6 +270,9 @@ static int told(struct runner *runner, int result)
 int runner_start(struct runner *runner)
 {
     const struct stage *stage = runner->stage;
+    if (runner->log != NULL && runner->common.explain != NULL &&
+        explain_check(runner->common.explain, &runner->diag) != 0)
+        return -1;
     return stage->start == NULL ? 0 : told(runner, stage->start(runner->state, runner));
 }
 
@@ -279,6 +294,33 @@ int runner_step(struct runner *runner, struct frame *frame)
         told(runner, runner->stage->step(runner->state, frame, runner)) != 0)
         return -1;
     return runner->stage->sink ? 0 : conclude(runner, frame);
+}
+
+static struct runner *rehearsing(struct runner *runner, const struct stage *stage,
+                                 const struct suite_choice *choice, struct effect_log *log)
+{
+    for (size_t i = 0; i < runner->rehearsing.count; i++)
+        if (runner->rehearsing.items[i]->stage == stage)
+            return runner->rehearsing.items[i];
+    struct runner *other = arena_get(&runner->arena, sizeof *other);
+    *list_add(&runner->rehearsing, &runner->arena) = other;
+    *other = (struct runner){.stage = stage, .log = log};
+    other->state = arena_get(&other->arena, stage->options->size);
+    field_clear(stage->options, other->state);
+    if (choice != NULL)
+        memcpy(other->state, choice, sizeof *choice);
+    runner_start(other);
+    return other;
+}
+
+int runner_rehearse(struct runner *runner, const struct stage *stage,
+                    const struct suite_choice *choice, struct effect_log *log, struct frame *frame)
+{
+    struct runner *other = rehearsing(runner, stage, choice, log);
+    if (other->diag.code == DIAG_OK && runner_step(other, frame) == 0)
+        return 0;
+    runner->diag = other->diag;
+    return diag_prefix(&runner->diag, "glint-%s: ", stage->name);
 }
 
 int runner_finish(struct runner *runner)

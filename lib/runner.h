@@ -25,6 +25,7 @@ struct runner {
     LIST_OF(struct scene_progress) scenes; /* followed only under --complete */
     int64_t expected_frames;               /* 0 if the source does not say */
     struct effect_log *log;                /* NULL unless --explain was given */
+    LIST_OF(struct runner *) rehearsing;   /* other stages, inside this one */
 };
 
 /* All return 0, or -1 after a message in runner->diag; runner_next returns 1 with a frame and 0 at

@@ -99,6 +99,13 @@ int runner_visit_sensors(struct runner *runner, struct frame *frame,
 /* The vehicle document of a class. NULL after a message. Loaded once. */
 const struct vehicle *runner_vehicle(struct runner *runner, const char *class);
 
+/* The step of another stage, for sinks that ask what it would do: with these options (NULL: its own
+ * for nothing given; only stages whose state begins with a suite_choice take others), its effects
+ * noted in a log that has a clock (or NULL), and all the checks of a run. Started at its first
+ * rehearsal and kept. A stage that rehearses others names them as they are defined, `extern`. */
+int runner_rehearse(struct runner *runner, const struct stage *stage,
+                    const struct suite_choice *choice, struct effect_log *log, struct frame *frame);
+
 /* A sink's way out. */
 int runner_write(struct runner *runner, const char *bytes, size_t length);
 

@@ -27,6 +27,7 @@ struct sensor {
     double elevation_half_width_rad;
     bool diffraction, curved_sides;
     double cycle_s, latency_s;
+    int64_t bounces; /* of the longest path, off objects and mirrors; below 2 only direct ones */
 
     enum polarization polarization;
     enum fluctuation_law fluctuation;

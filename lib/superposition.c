@@ -8,6 +8,17 @@
 #include "interference.h"
 #include "resolution.h"
 
+/* A ghost leaves in one direction and comes back from another: each way has the root of the
+ * antenna pattern (EFFECTS 7), and the pointers are those of its arrival. */
+static double departure_factor(const struct antenna *antenna, const struct echo *echo,
+                               double arrival_gain)
+{
+    if (echo->departure_rad == 0 || arrival_gain == 0)
+        return 1;
+    double gain = antenna_gain(antenna, echo->azimuth_rad + echo->departure_rad);
+    return sqrt(fmax(gain, 0) / arrival_gain);
+}
+
 struct ray superposition_ray(const struct sensor *sensor, const struct echo *echo, double phase_rad)
 {
     struct ray ray = {
@@ -18,8 +29,10 @@ struct ray superposition_ray(const struct sensor *sensor, const struct echo *ech
         .effects = echo->effects,
         .margins = &echo->margins,
     };
-    ray.strength = radar_reference_amplitude(&sensor->amplitude_law, echo->range_m) * echo->ercs;
-    ray.amplitude = ray.strength * antenna_gain(&sensor->antenna, echo->azimuth_rad);
+    double gain = antenna_gain(&sensor->antenna, echo->azimuth_rad);
+    ray.strength = radar_reference_amplitude(&sensor->amplitude_law, echo->range_m) * echo->ercs *
+                   departure_factor(&sensor->antenna, echo, gain);
+    ray.amplitude = ray.strength * gain;
     return ray;
 }
 

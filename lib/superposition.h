@@ -9,8 +9,8 @@
 /* An echo with what the antenna and the radar equation make of it. */
 struct ray {
     struct contributor echo;
-    double strength;                /* G = A_ref(R) ERCS: the amplitude before the antenna */
-    double amplitude;               /* A = G A_phi, equation (2) */
+    double strength;  /* G = A_ref(R) ERCS: the amplitude before the antenna of its arrival */
+    double amplitude; /* A = G A_phi, equation (2) */
     double range_m, range_rate_mps; /* as the radar reads them: the echo's, or folded */
     double phase_rad; /* relative to the other echoes of a cell; 0 in the paper's model */
     uint64_t effects; /* the echo's, and those of its amplitude and phase */

@@ -49,21 +49,29 @@ enum column {
     SCAN_FATES,
     SCAN_DETAILS,
     TARGET_UNDECIDED,
+    TARGET_EFFECTS,
     TARGET_CONTRIBUTORS,
     CONTRIBUTOR_OBJECT,
     CONTRIBUTOR_REFLECTOR,
     CONTRIBUTOR_PATH,
+    CONTRIBUTOR_MIRROR,
+    CONTRIBUTOR_NUMBER,
     FATE_OBJECT,
     FATE_PATTERN,
     DETAIL_OBJECT,
     DETAIL_REFLECTOR,
     DETAIL_PATH,
+    DETAIL_MIRROR,
+    DETAIL_NUMBER,
     DETAIL_BY,
     PATTERN_ITEMS,
     ITEM_REFLECTOR,
     ITEM_PATH,
+    ITEM_MIRROR,
+    ITEM_NUMBER,
     ITEM_STAGE,
     ITEM_REASON,
+    ITEM_EFFECT,
     COLUMNS
 };
 
@@ -108,26 +116,34 @@ static const char *const column_names[COLUMNS] = {
     [SCAN_FATES] = "scan_fates",
     [SCAN_DETAILS] = "scan_details",
     [TARGET_UNDECIDED] = "target_sign_undecided",
+    [TARGET_EFFECTS] = "target_effects",
     [TARGET_CONTRIBUTORS] = "target_contributors",
     [CONTRIBUTOR_OBJECT] = "contributor_object",
     [CONTRIBUTOR_REFLECTOR] = "contributor_reflector",
     [CONTRIBUTOR_PATH] = "contributor_path",
+    [CONTRIBUTOR_MIRROR] = "contributor_mirror",
+    [CONTRIBUTOR_NUMBER] = "contributor_number",
     [FATE_OBJECT] = "fate_object",
     [FATE_PATTERN] = "fate_pattern",
     [DETAIL_OBJECT] = "detail_object",
     [DETAIL_REFLECTOR] = "detail_reflector",
     [DETAIL_PATH] = "detail_path",
+    [DETAIL_MIRROR] = "detail_mirror",
+    [DETAIL_NUMBER] = "detail_number",
     [DETAIL_BY] = "detail_by",
     [PATTERN_ITEMS] = "pattern_items",
     [ITEM_REFLECTOR] = "item_reflector",
     [ITEM_PATH] = "item_path",
+    [ITEM_MIRROR] = "item_mirror",
+    [ITEM_NUMBER] = "item_number",
     [ITEM_STAGE] = "item_stage",
     [ITEM_REASON] = "item_reason",
+    [ITEM_EFFECT] = "item_effect",
 };
 
 /* A lost reflector as patterns hold it. */
 struct item {
-    uint32_t reflector, path, stage, reason;
+    uint32_t reflector, path, mirror, number, stage, reason, effect;
 };
 
 /* A lost echo on its way into its object's pattern. */
@@ -149,6 +165,12 @@ static void add_count(struct view_data *data, enum column column, uint32_t value
 static uint32_t name_of(struct view_data *data, const char *word)
 {
     return view_pool_word(&data->names, word, data->arena);
+}
+
+/* 0 stands for no name. */
+static uint32_t optional_name(struct view_data *data, const char *word)
+{
+    return word != NULL ? 1 + name_of(data, word) : 0;
 }
 
 void view_data_begin(struct view_data *data, struct arena *arena)
@@ -222,6 +244,8 @@ static void add_contributor(struct view_data *data, const struct contributor *fr
     add_count(data, CONTRIBUTOR_OBJECT, name_of(data, from->object));
     add_count(data, CONTRIBUTOR_REFLECTOR, name_of(data, from->reflector));
     add_count(data, CONTRIBUTOR_PATH, from->path);
+    add_count(data, CONTRIBUTOR_MIRROR, optional_name(data, from->mirror));
+    add_count(data, CONTRIBUTOR_NUMBER, (uint32_t)from->number);
 }
 
 static void add_target(struct view_data *data, const struct target *target)
@@ -235,6 +259,9 @@ static void add_target(struct view_data *data, const struct target *target)
     add_real(data, TARGET_CELL_RATE, target->cell_range_rate_mps);
     add_real(data, TARGET_CELL_AMPLITUDE, target->cell_amplitude);
     add_count(data, TARGET_UNDECIDED, target->sign_undecided);
+    add_count(data, TARGET_EFFECTS,
+              view_pool_number(&data->effect_sets, &target->effects, sizeof target->effects,
+                               data->arena));
     add_count(data, TARGET_CONTRIBUTORS, (uint32_t)target->contributors.count);
     for (size_t i = 0; i < target->contributors.count; i++)
         add_contributor(data, &target->contributors.items[i]);
@@ -258,7 +285,9 @@ static void add_detail(struct view_data *data, const struct loss_row *row,
     add_count(data, DETAIL_OBJECT, row->object);
     add_count(data, DETAIL_REFLECTOR, row->item.reflector);
     add_count(data, DETAIL_PATH, row->item.path);
-    add_count(data, DETAIL_BY, echo->by != NULL ? 1 + name_of(data, echo->by) : 0);
+    add_count(data, DETAIL_MIRROR, row->item.mirror);
+    add_count(data, DETAIL_NUMBER, row->item.number);
+    add_count(data, DETAIL_BY, optional_name(data, echo->by));
 }
 
 /* By object; within one, in any order that is the same for the same losses. */
@@ -267,7 +296,8 @@ static int compare_rows(const void *left, const void *right)
     const struct loss_row *a = left, *b = right;
     uint32_t keys[][2] = {
         {a->object, b->object},           {a->item.reflector, b->item.reflector},
-        {a->item.path, b->item.path},     {a->item.stage, b->item.stage},
+        {a->item.path, b->item.path},     {a->item.mirror, b->item.mirror},
+        {a->item.number, b->item.number}, {a->item.stage, b->item.stage},
         {a->item.reason, b->item.reason},
     };
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
@@ -288,7 +318,15 @@ static uint32_t collect_losses(struct view_data *data, const struct lost_group *
         const struct lost_echo *echo = &group->echoes.items[i];
         struct loss_row *row = list_add(&rows->list, scratch);
         row->object = name_of(data, echo->object);
-        row->item = (struct item){name_of(data, echo->reflector), echo->path, stage, group->reason};
+        row->item = (struct item){
+            .reflector = name_of(data, echo->reflector),
+            .path = echo->path,
+            .mirror = optional_name(data, echo->mirror),
+            .number = (uint32_t)echo->number,
+            .stage = stage,
+            .reason = group->reason,
+            .effect = group->effect,
+        };
         if (echo->by != NULL || echo->shortfall_db != 0) {
             add_detail(data, row, echo);
             details++;
@@ -313,8 +351,11 @@ static void add_fate(struct view_data *data, const struct loss_row *rows, size_t
     for (size_t i = 0; i < count; i++) {
         add_count(data, ITEM_REFLECTOR, items[i].reflector);
         add_count(data, ITEM_PATH, items[i].path);
+        add_count(data, ITEM_MIRROR, items[i].mirror);
+        add_count(data, ITEM_NUMBER, items[i].number);
         add_count(data, ITEM_STAGE, items[i].stage);
         add_count(data, ITEM_REASON, items[i].reason);
+        add_count(data, ITEM_EFFECT, items[i].effect);
     }
 }
 
@@ -439,6 +480,30 @@ static void write_names(const struct view_data *data, struct text *text)
     for (enum path path = 0; frame_path_name(path) != NULL; path++) {
         write_separator(text, path);
         write_word(text, frame_path_name(path));
+    }
+    text_add_word(text, "],\n");
+}
+
+/* The effects by name, and the sets that labels hold as lists of their numbers. */
+static void write_effects(const struct view_data *data, struct text *text)
+{
+    text_add_word(text, "\"effects\":[");
+    for (int i = 0; i < EFFECT_COUNT; i++) {
+        write_separator(text, (size_t)i);
+        write_word(text, effects_names[i]);
+    }
+    text_add_word(text, "],\n\"effect_sets\":[");
+    for (size_t i = 0; i < data->effect_sets.pieces.count; i++) {
+        uint64_t set;
+        memcpy(&set, data->effect_sets.pieces.items[i].bytes, sizeof set);
+        write_separator(text, i);
+        const char *separator = "[";
+        for (int effect = 0; effect < EFFECT_COUNT; effect++)
+            if ((set & EFFECT_BIT(effect)) != 0) {
+                text_format(text, "%s%d", separator, effect);
+                separator = ",";
+            }
+        text_add_word(text, set == 0 ? "[]" : "]");
     }
     text_add_word(text, "],\n");
 }
@@ -593,6 +658,7 @@ void view_data_write_head(const struct view_data *data, int64_t open_frame, stru
 {
     text_format(text, "{\"open_frame\":%" PRId64 ",\n", open_frame);
     write_names(data, text);
+    write_effects(data, text);
     write_scenes(data, text);
     write_sensors(data, text);
     write_classes(data, text);

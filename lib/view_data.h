@@ -35,7 +35,7 @@ struct view_scene {
 struct view_data {
     struct arena *arena;
     struct view_models models;
-    struct view_pool names, scene_names, patterns;
+    struct view_pool names, scene_names, patterns, effect_sets;
     LIST_OF(struct view_scene) scenes;
     LIST_OF(struct sensor_view) sensors;
     struct view_column columns[VIEW_COLUMN_LIMIT];

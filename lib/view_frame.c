@@ -58,7 +58,7 @@ struct box view_frame_box(const struct object *object, const struct vehicle *veh
 bool view_frame_loss_is_near(enum loss reason)
 {
     return reason != LOSS_FACING_AWAY && reason != LOSS_NO_SPECULAR &&
-           reason != LOSS_OUT_OF_RANGE && reason != LOSS_OUT_OF_VIEW;
+           reason != LOSS_OUT_OF_RANGE && reason != LOSS_OUT_OF_VIEW && reason != LOSS_SWITCHED_OFF;
 }
 
 const struct vehicle *view_frame_vehicle(struct view_models *models, const char *class)

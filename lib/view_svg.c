@@ -265,7 +265,8 @@ static void draw_lost(struct still *still, const struct lost_group *group)
 {
     for (size_t i = 0; i < group->echoes.count && view_frame_loss_is_near(group->reason); i++) {
         struct vec2 place;
-        if (!find_point(still, &group->echoes.items[i], &place))
+        if (group->echoes.items[i].path != PATH_DIRECT ||
+            !find_point(still, &group->echoes.items[i], &place))
             continue;
         struct vec2 at = to_pixels(still, place);
         if (in_picture(at, 0))

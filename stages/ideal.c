@@ -1,6 +1,7 @@
 /* The ideal target list: exact range, azimuth, range rate and cross section of every reflector that
  * a sensor sees (MODEL 2.2 to 2.5, 5). */
 #include "cycle.h"
+#include "ghosts.h"
 #include "look.h"
 #include "stage.h"
 
@@ -73,6 +74,7 @@ static int ideal_step(void *state, struct frame *frame, struct runner *runner)
                        runner_diag(runner)) != 0)
             return -1;
         look_around(&look);
+        ghosts_around(&look);
         effects_count_scan(&selection);
     }
     return 0;
@@ -99,7 +101,8 @@ const struct stage stage_ideal = {
     .details =
         "Computes, for each sensor of the suite that measures in the frame, the exact range,\n"
         "azimuth, range rate and cross section of all reflectors it can see: in range and\n"
-        "field of view, facing it, and with no other object in the way.",
+        "field of view, facing it, and with no other object in the way. Sensors that say so\n"
+        "see ghosts as well: what walls, guardrails and flat sides mirror.",
     .options = &ideal_record,
     .reads = SECTION_OBJECTS | SECTION_REFLECTORS,
     .writes = SECTION_SENSORS | SECTION_ECHOES | SECTION_LOST | SECTION_COUNTS,

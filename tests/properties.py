@@ -26,6 +26,7 @@ ENV = dict(os.environ, PATH=BIN + os.pathsep + os.environ["PATH"], GLINT_DATA=RO
 PIPELINES = sorted(glob.glob(ROOT + "/pipelines/*.sh"))
 SCHEMA = json.load(open(ROOT + "/schemas/frame.json"))
 SECTIONS = list(SCHEMA["properties"])
+PATHS = SCHEMA["properties"]["echoes"]["items"]["properties"]["path"]["enum"]
 REASONS = SCHEMA["properties"]["lost"]["items"]["properties"]["reason"]["enum"]
 SCENARIOS = sorted(name[:-5] for name in os.listdir(ROOT + "/data/scenarios"))
 TABLE = "highway --ego 1 --radius-m 250"
@@ -670,7 +671,8 @@ def text_key(*names):
 
 
 def echo_key(one):
-    return text_key(one["object"], one["reflector"]) + (one["path"],)
+    return (text_key(one["object"], one["reflector"]) + (PATHS.index(one["path"]),) +
+            text_key(one.get("mirror", "")) + (one.get("number", 0),))
 
 
 def check_order(frame):

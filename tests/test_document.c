@@ -147,7 +147,7 @@ static void faults_are_named_with_path_member_and_expectation(void **state)
         {"true", "1", "reflectors.blocks: a number; expected true or false"},
         {"\"blocks\": true", "\"worn_by\": []",
          "reflectors.worn_by: unknown key; expected one of blocks, raised, points, planes, "
-         "rows"},
+         "rows, mirrors"},
         {"[{", "[3, {", "reflectors.points[0]: a number; expected an object"},
         {"\"ercs\": 1", "\"ercs\": 1, \"shape\": \"flat\"",
          "reflectors.points[0].shape: \"flat\" is unknown; expected one of raised_cosine, hard, "

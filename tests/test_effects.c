@@ -55,6 +55,8 @@ static void every_effect_says_what_it_is(void **state)
         const struct effect_entry *entry = &effects_table[i];
         assert_non_null(effects_names[i]);
         assert_true(entry->summary && entry->home && entry->member && entry->bound && entry->cost);
+        assert_true(strcmp(entry->home, "ideal") == 0 || strcmp(entry->home, "sensor") == 0 ||
+                    strcmp(entry->home, "noise") == 0);
     }
     assert_null(effects_names[EFFECT_COUNT]);
 }

@@ -169,6 +169,29 @@ static void an_optional_record_is_there_with_any_of_its_members(void **state)
     assert_true(field_present(&record, &outer, things));
 }
 
+/* The lower half of 0.5 is all zeros. */
+static void an_optional_record_without_sections_is_there_with_any_member(void **state)
+{
+    (void)state;
+    static const struct field inner_fields[] = {
+        {FIELD_REAL_IN(struct thing, gain, 0, 1, "gain"), FIELD_OPTIONAL},
+        {FIELD_REAL_IN(struct thing, range_m, 0, 1, "range"), FIELD_OPTIONAL},
+        {0}};
+    static const struct record inner = {
+        .name = "inner", .size = sizeof(struct thing), .fields = inner_fields};
+    static const struct field outer = {.name = "inner",
+                                       .kind = FIELD_RECORD,
+                                       FIELD_OPTIONAL,
+                                       .offset = sizeof(struct thing),
+                                       .record = &inner};
+    struct thing things[2] = {{.gain = 0.5}, {.gain = 0}};
+    assert_false(field_present(&record, &outer, things));
+    things[1].gain = 0.5;
+    assert_true(field_present(&record, &outer, things));
+    things[1] = (struct thing){.range_m = 0.25};
+    assert_true(field_present(&record, &outer, things));
+}
+
 static void numbers_are_taken_between_their_bounds(void **state)
 {
     (void)state;
@@ -381,6 +404,7 @@ int main(void)
         cmocka_unit_test(members_are_found_by_their_whole_name),
         cmocka_unit_test(absence_has_its_value_and_is_noticed),
         cmocka_unit_test(an_optional_record_is_there_with_any_of_its_members),
+        cmocka_unit_test(an_optional_record_without_sections_is_there_with_any_member),
         cmocka_unit_test(numbers_are_taken_between_their_bounds),
         cmocka_unit_test(seeds_have_64_bits),
         cmocka_unit_test(names_and_choices_are_checked),

@@ -57,6 +57,40 @@ static void a_ray_is_reference_amplitude_times_cross_section_times_pattern(void 
     assert_near(superposition_ray(&sensor, &echo, 0).strength, 2.5 * 3600, 1e-12);
 }
 
+static void a_ghost_has_the_root_of_the_pattern_each_way(void **state)
+{
+    (void)state;
+    struct sensor sensor = paper_sensor(PHASE_CENTRE);
+    struct arena arena = {0};
+    for (double azimuth_rad = -1.4; azimuth_rad <= 1.4; azimuth_rad += 0.1) {
+        struct echo out = echo_at(15, azimuth_rad, 0, 0.5);
+        struct echo back = echo_at(15, 0.4, 0, 0.5);
+        out.departure_rad = 0.4 - azimuth_rad;
+        back.departure_rad = azimuth_rad - 0.4;
+        struct ray rays[] = {superposition_ray(&sensor, &out, 0),
+                             superposition_ray(&sensor, &back, 0)};
+        for (size_t i = 0; i < 2; i++) {
+            struct cell cell;
+            assert_near(rays[i].amplitude, 5 * sqrt(pattern(azimuth_rad) * pattern(0.4)), 1e-13);
+            assert_true(superposition_cell(&sensor, &rays[i], 1, true, &arena, &cell));
+            assert_close(cell.azimuth_rad, i == 0 ? azimuth_rad : 0.4, 1e-14);
+            assert_near(hypot(cell.sum_re, cell.sum_im), rays[i].amplitude, 1e-14);
+        }
+    }
+    /* Nothing leaves or comes back beyond the side of the array, be it by an ulp. */
+    struct echo echo = echo_at(15, 0.4, 0, 0.5);
+    echo.departure_rad = 0x1.921fb54442d19p0 - 0.4;
+    assert_true(superposition_ray(&sensor, &echo, 0).amplitude >= 0);
+    assert_true(superposition_ray(&sensor, &echo, 0).amplitude < 1e-15);
+    static const struct antenna_row rows[] = {{-0.5, 1, -1}, {0.5, 1, 1}};
+    sensor.antenna = (struct antenna){.pattern = ANTENNA_TABLE, .rows = rows, .row_count = 2};
+    assert_close(superposition_ray(&sensor, &echo, 0).amplitude, 0, 0);
+    echo.azimuth_rad = 0.6;
+    echo.departure_rad = -0.3;
+    assert_close(superposition_ray(&sensor, &echo, 0).amplitude, 0, 0);
+    arena_free(&arena);
+}
+
 static void one_echo_is_its_cell(void **state)
 {
     (void)state;
@@ -283,6 +317,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_ray_is_reference_amplitude_times_cross_section_times_pattern),
+        cmocka_unit_test(a_ghost_has_the_root_of_the_pattern_each_way),
         cmocka_unit_test(one_echo_is_its_cell),
         cmocka_unit_test(two_echoes_are_weighted_by_amplitude),
         cmocka_unit_test(pointers_add_up_as_in_equation_8),

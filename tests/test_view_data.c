@@ -154,6 +154,8 @@ static void what_goes_in_comes_out_of_the_columns(void **state)
         {"target_amplitude_db", 0, 12.5},
         {"target_cell_range_m", 0, 8.25},
         {"target_cell_amplitude", 0, 4},
+        {"target_effects", 0, 0},
+        {"target_effects", 1, 0},
         {"target_contributors", 0, 2},
         {"target_contributors", 1, 1},
         {"contributor_weight", 0, 0.75},
@@ -244,6 +246,60 @@ static void scenes_may_interleave_and_those_cut_short_are_known(void **state)
     release(&packed);
 }
 
+/* Two ghosts of one reflector, one in a target, one lost, beside a direct echo that was lost. */
+static void echoes_keep_their_mirror_and_number(void **state)
+{
+    (void)state;
+    struct packed packed;
+    begin(&packed);
+    add_line(&packed,
+             FRAME("x", "0", "4", "false",
+                   "\"targets\":[{\"sensor\":\"f\",\"range_m\":8,\"azimuth_rad\":0,"
+                   "\"range_rate_mps\":0,\"amplitude_db\":1,\"cell_range_m\":8,"
+                   "\"cell_azimuth_rad\":0,\"cell_range_rate_mps\":0,\"cell_amplitude\":4,"
+                   "\"effects\":[\"merging\",\"list_limit\"],\"contributors\":["
+                   "{\"object\":\"o\",\"reflector\":\"r\",\"path\":\"wall_object\","
+                   "\"mirror\":\"w\",\"number\":3,\"range_m\":8,\"azimuth_rad\":0,"
+                   "\"range_rate_mps\":0,\"ercs\":1,\"time_s\":4,\"weight\":1}]}],"
+                   "\"lost\":[{\"sensor\":\"f\",\"stage\":\"sensor\",\"reason\":"
+                   "\"below_threshold\",\"effect\":\"threshold\",\"echoes\":["
+                   "{\"object\":\"o\",\"reflector\":\"r\",\"path\":\"direct\",\"shortfall_db\":1},"
+                   "{\"object\":\"o\",\"reflector\":\"r\",\"path\":\"object_wall\","
+                   "\"mirror\":\"v\",\"number\":2,\"shortfall_db\":2}]}]"));
+    finish(&packed);
+    assert_string_equal(name_at(&packed, value_of(&packed, "contributor_mirror", 0) - 1), "w");
+    assert_true(value_of(&packed, "contributor_number", 0) == 3);
+    assert_true(value_of(&packed, "contributor_path", 0) == PATH_WALL_OBJECT);
+    assert_true(value_of(&packed, "item_mirror", 0) == 0 &&
+                value_of(&packed, "item_number", 0) == 0);
+    assert_string_equal(name_at(&packed, value_of(&packed, "item_mirror", 1) - 1), "v");
+    assert_true(value_of(&packed, "item_number", 1) == 2);
+    assert_true(value_of(&packed, "item_effect", 1) == EFFECT_THRESHOLD);
+    assert_true(value_of(&packed, "detail_number", 1) == 2);
+    assert_true(value_of(&packed, "detail_mirror", 0) == 0);
+    json_t *sets = json_object_get(packed.json, "effect_sets");
+    json_t *set = json_array_get(sets, (size_t)value_of(&packed, "target_effects", 0));
+    assert_int_equal(json_array_size(set), 2);
+    json_t *names = json_object_get(packed.json, "effects");
+    size_t second = (size_t)json_integer_value(json_array_get(set, 1));
+    assert_string_equal(json_string_value(json_array_get(names, second)), "list_limit");
+    release(&packed);
+}
+
+static void every_reason_and_path_has_its_name(void **state)
+{
+    (void)state;
+    struct packed packed;
+    begin(&packed);
+    finish(&packed);
+    json_t *reasons = json_object_get(packed.json, "reasons");
+    json_t *switched_off = json_array_get(reasons, LOSS_SWITCHED_OFF);
+    assert_string_equal(json_string_value(json_object_get(switched_off, "name")), "switched_off");
+    json_t *paths = json_object_get(packed.json, "paths");
+    assert_string_equal(json_string_value(json_array_get(paths, PATH_FALSE_ALARM)), "false_alarm");
+    release(&packed);
+}
+
 static void the_same_losses_share_a_pattern(void **state)
 {
     (void)state;
@@ -306,6 +362,8 @@ int main(void)
         cmocka_unit_test(a_sensor_stands_where_it_was_when_it_measured),
         cmocka_unit_test(no_name_can_end_the_script),
         cmocka_unit_test(scenes_may_interleave_and_those_cut_short_are_known),
+        cmocka_unit_test(echoes_keep_their_mirror_and_number),
+        cmocka_unit_test(every_reason_and_path_has_its_name),
         cmocka_unit_test(the_same_losses_share_a_pattern),
         cmocka_unit_test(a_column_is_as_wide_as_its_largest_number),
         cmocka_unit_test(an_empty_stream_has_a_head),

@@ -152,6 +152,18 @@ function objectOfTarget(target) {
     return column('contributor_object')[leaderOf(target)];
 }
 
+// The effects in a target's label, by number.
+function effectsOf(target) {
+    return head.effect_sets[column('target_effects')[target]];
+}
+
+// Ghosts come by way of a mirror: where they are seen, nothing is.
+const ghostPaths = head.paths.map(path => /wall|ego/.test(path));
+
+function isGhost(target) {
+    return ghostPaths[column('contributor_path')[leaderOf(target)]];
+}
+
 function detailsOf(scan) {
     const begin = starts('scan_details');
     return {begin: begin[scan], end: begin[scan + 1]};
@@ -160,11 +172,10 @@ function detailsOf(scan) {
 // Who blocked an echo, and how much it lacked.
 function detailFor(scan, object, item) {
     const objects = column('detail_object');
-    const reflectors = column('detail_reflector');
-    const paths = column('detail_path');
+    const keys = ['reflector', 'path', 'mirror', 'number'];
     const {begin, end} = detailsOf(scan);
     for (let i = begin; i < end; i++) {
-        if (objects[i] === object && reflectors[i] === item.reflector && paths[i] === item.path) {
+        if (objects[i] === object && keys.every(key => column('detail_' + key)[i] === item[key])) {
             const by = column('detail_by')[i];
             const shortfall = column('detail_shortfall_db')[i];
             return {by: by > 0 ? names[by - 1] : null, shortfall};
@@ -180,8 +191,11 @@ function patternItems(pattern) {
         items.push({
             reflector: column('item_reflector')[i],
             path: column('item_path')[i],
+            mirror: column('item_mirror')[i],
+            number: column('item_number')[i],
             stage: names[column('item_stage')[i]],
             reason: head.reasons[column('item_reason')[i]],
+            effect: head.effects[column('item_effect')[i]],
         });
     }
     return items;

@@ -44,7 +44,14 @@ function dotMark(colour) {
     });
 }
 
+const pathsSeen = [...new Set(column('contributor_path'))].sort((a, b) => a - b);
+
 function colourLines() {
+    if (state.effect >= 0) {
+        const effect = words(head.effects[state.effect]);
+        return [legendLine(dotMark(ink.palette[1]), `changed by ${effect}`),
+            legendLine(dotMark(ink.edge), 'not changed by it')];
+    }
     const gradient = (colours) => markCanvas(drawing => {
         colours.forEach((colour, i) => {
             drawing.fillStyle = colour;
@@ -70,18 +77,18 @@ function colourLines() {
         }), 'in the colour of its object')];
     }
     if (state.colour === 'path') {
-        const paths = Array.from(new Set(column('contributor_path'))).sort((a, b) => a - b);
-        return paths.map(i =>
-            legendLine(dotMark(ink.palette[i % ink.palette.length]), `path: ${head.paths[i]}`));
+        return pathsSeen.map(path => legendLine(dotMark(ink.palette[path % ink.palette.length]),
+            `path: ${words(head.paths[path])}`));
     }
     return [];
 }
 
 function showLegend() {
     const lines = sensorNames.map((name, i) => legendLine(
-        symbolCanvas(i, state.colour === 'sensor' ? ink.palette[i % ink.palette.length] : ink.soft, 18),
-        `target of ${name}`));
-    control('legend').replaceChildren(...lines, ...colourLines(),
+        symbolCanvas(i, sensorColour(i), 18), `target of ${name}`));
+    const ghosts = pathsSeen.some(path => ghostPaths[path])
+        ? [legendLine(symbolCanvas(0, ink.soft, 18, true), 'ghost: seen by way of a mirror')] : [];
+    control('legend').replaceChildren(...lines, ...ghosts, ...colourLines(),
         legendLine(strokeMark(ink.soft, 1.6, [[1, 8, 17, 8]]),
             state.rates === 'raw' ? 'its radial speed, 0.5 s long' : 'its radial speed over ground, 0.5 s long'),
         legendLine(strokeMark(ink.soft, 1.2, [[1, 8, 5, 8], [7, 8, 11, 8], [13, 8, 17, 8]]), 'field of view'),

@@ -227,7 +227,8 @@ function drawTarget(scan, target) {
     const at = toScreen(targetPlace(scan, target));
     const colour = colourOf(scan, target);
     drawRate(scan, target, colour);
-    drawSymbol(context, sensorStyle(scan), at.x, at.y, target === state.target ? 9.5 : 7, colour);
+    drawSymbol(context, sensorStyle(scan), at.x, at.y, target === state.target ? 9.5 : 7, colour,
+        isGhost(target));
     if (target === state.target) {
         context.beginPath();
         context.arc(at.x, at.y, 15, 0, 2 * Math.PI);
@@ -259,13 +260,31 @@ function drawParts(scan, target, strong) {
         context.globalAlpha = 1;
         drawDot(from, strong ? 5.5 : 4.5, ink.paper);
         drawDot(from, strong ? 4 : 3, colour);
+        if (strong) {
+            drawOriginal(scan, i);
+        }
     }
+}
+
+// From where a ghost is seen to what it is a ghost of.
+function drawOriginal(scan, i) {
+    const row = objectRow(state.frame, column('contributor_object')[i]);
+    const found = row < 0 ? null : reflectorPlace(row, names[column('contributor_reflector')[i]]);
+    if (!found || !ghostPaths[column('contributor_path')[i]]) {
+        return;
+    }
+    context.strokeStyle = ink.soft;
+    context.lineWidth = 1.2;
+    context.setLineDash([2, 4]);
+    line(toScreen(contributorPlace(scan, i)), toScreen(found.place));
+    context.setLineDash([]);
 }
 
 function labelPart(scan, i) {
     const from = toScreen(contributorPlace(scan, i));
     const weight = Math.round(100 * column('contributor_weight')[i]);
-    putLabel(`${names[column('contributor_reflector')[i]]} ${weight} %`, from, ink.ink);
+    const ghost = ghostPaths[column('contributor_path')[i]] ? 'ghost of ' : '';
+    putLabel(`${ghost}${names[column('contributor_reflector')[i]]} ${weight} %`, from, ink.ink);
 }
 
 function labelParts(target) {
@@ -276,12 +295,15 @@ function labelParts(target) {
     }
 }
 
-// Echoes of the chosen object that got lost, by reflection centre: what each sensor says of it.
+// Direct echoes of the chosen object that got lost, by reflection centre: what each sensor says of it.
 function lostReflectors() {
     const found = new Map();
     const {begin, end} = scansOf(state.frame);
     for (let scan = begin; scan < end; scan++) {
-        for (const loss of lossesOf(scan, state.object).filter(one => one.reason.near)) {
+        for (const loss of lossesOf(scan, state.object)) {
+            if (!loss.reason.near || head.paths[loss.path] !== 'direct') {
+                continue;
+            }
             const name = names[loss.reflector];
             const known = found.get(name) || [];
             found.set(name, known.concat(`${shortReason(loss)} for ${sensorOf(scan).name}`));

@@ -9,6 +9,7 @@ const state = {
     reflector: null,
     target: -1,
     colour: 'sensor',
+    effect: -1, // whose targets stand out instead
     rates: 'raw',
     up: 'right',
     follow: true,
@@ -211,6 +212,17 @@ function fillScenes() {
     choice.addEventListener('change', () => setScene(Number(choice.value)));
 }
 
+// The effects that changed any target of the stream.
+function fillEffects() {
+    const found = [...new Set(head.effect_sets.flat())].sort((a, b) => a - b);
+    for (const effect of found) {
+        const option = make('option', words(head.effects[effect]));
+        option.value = String(effect);
+        control('effect').append(option);
+    }
+    control('effect-choice').hidden = found.length === 0;
+}
+
 function setTheme(dark) {
     document.documentElement.classList.toggle('dark', dark);
     readInk();
@@ -236,6 +248,7 @@ function choice(id, apply) {
 
 function connectChoices() {
     choice('colour', value => { state.colour = value; });
+    choice('effect', value => { state.effect = Number(value); });
     choice('rates', setRates);
     choice('up', value => { state.up = value; fitView(); });
     control('follow').addEventListener('change', () => setFollow(control('follow').checked));
@@ -292,6 +305,7 @@ const keyActions = {
     'n': () => chooseNext(1),
     'b': () => chooseNext(-1),
     'c': () => cycle('colour'),
+    'e': () => cycle('effect'),
     'v': () => cycle('rates'),
     'x': () => cycle('up'),
     'f': () => toggle('follow'),
@@ -342,6 +356,7 @@ function start() {
         return;
     }
     fillScenes();
+    fillEffects();
     connectChoices();
     connectButtons();
     connectPointers();

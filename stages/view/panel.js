@@ -13,14 +13,14 @@ function make(tag, text, className) {
     return element;
 }
 
-function symbolCanvas(style, colour, size) {
+function symbolCanvas(style, colour, size, ghost) {
     const small = make('canvas');
     const ratio = window.devicePixelRatio || 1;
     small.width = small.height = Math.round(size * ratio);
     small.style.width = small.style.height = size + 'px';
     const drawing = small.getContext('2d');
     drawing.scale(ratio, ratio);
-    drawSymbol(drawing, style, size / 2, size / 2, size * 0.36, colour);
+    drawSymbol(drawing, style, size / 2, size / 2, size * 0.36, colour, ghost);
     return small;
 }
 
@@ -32,6 +32,36 @@ function plural(count, word) {
     return `${count} ${word}${count === 1 ? '' : 's'}`;
 }
 
+function words(name) {
+    return name.replace(/_/g, ' ');
+}
+
+const otherPaths = {
+    wheel: 'a point of a turning wheel',
+    limb: 'an arm or a leg',
+    clutter: 'the ground',
+    false_alarm: 'nothing but noise',
+};
+
+// The way of an echo: "direct", or a ghost's legs from the radar to it and back.
+function pathWords(path, mirror, number) {
+    const name = head.paths[path];
+    const stops = {wall: mirror > 0 ? names[mirror - 1] : 'a wall', object: 'it', ego: 'the ego'};
+    const way = ghostPaths[path]
+        ? `ghost: radar → ${name.split('_').map(stop => stops[stop]).join(' → ')} → radar`
+        : otherPaths[name] || words(name);
+    return number > 0 ? `${way}, no. ${number}` : way;
+}
+
+function contributorPath(i) {
+    return pathWords(column('contributor_path')[i], column('contributor_mirror')[i],
+        column('contributor_number')[i]);
+}
+
+function targetSymbol(scan, target) {
+    return symbolCanvas(sensorStyle(scan), colourOf(scan, target), 18, isGhost(target));
+}
+
 function shortReason(loss) {
     switch (loss.reason.name) {
     case 'below_threshold': return `${round(loss.shortfall, 1)} dB too weak`;
@@ -40,7 +70,7 @@ function shortReason(loss) {
     case 'list_limit': return 'the list was full';
     case 'no_angle': return 'no angle';
     case 'no_amplitude': return 'in a null of the antenna';
-    default: return loss.reason.name.replace(/_/g, ' ');
+    default: return words(loss.reason.name);
     }
 }
 
@@ -58,8 +88,13 @@ function longReason(loss) {
         return `After superposition and noise its cell is ${round(loss.shortfall, 2)} dB below the threshold.`;
     case 'no_angle': return 'Both channels of its cell are exactly zero, so there is no angle.';
     case 'list_limit': return 'The sensor reports no more targets than it did already.';
-    default: return loss.reason.name.replace(/_/g, ' ');
+    case 'switched_off': return 'The effect that would have made its echo is not selected.';
+    default: return words(loss.reason.name);
     }
+}
+
+function effectNote(effect) {
+    return effect ? ` (${words(effect)})` : '';
 }
 
 function button(className, onClick) {
@@ -83,7 +118,8 @@ function partsText(target, object) {
     const parts = [];
     for (let i = begin; i < end; i++) {
         const foreign = column('contributor_object')[i] !== object;
-        const reflector = names[column('contributor_reflector')[i]];
+        const ghost = ghostPaths[column('contributor_path')[i]] ? 'ghost of ' : '';
+        const reflector = ghost + names[column('contributor_reflector')[i]];
         parts.push({
             weight: column('contributor_weight')[i],
             text: foreign ? `${reflector} of ${names[column('contributor_object')[i]]}` : reflector,
@@ -94,7 +130,7 @@ function partsText(target, object) {
 }
 
 function targetRow(scan, target, number, object) {
-    const mark = symbolCanvas(sensorStyle(scan), colourOf(scan, target), 18);
+    const mark = targetSymbol(scan, target);
     const label = make('b', `${number} `);
     const level = `${round(column('target_amplitude_db')[target], 1)} dB`;
     return rowButton(mark, [label, partsText(target, object)], level, () => chooseTarget(target));
@@ -102,7 +138,9 @@ function targetRow(scan, target, number, object) {
 
 function lossRow(loss) {
     const name = names[loss.reflector];
-    const row = rowButton('✕', [make('b', name), ' ' + shortReason(loss)], '',
+    const way = head.paths[loss.path] === 'direct' ? '' : `, ${pathWords(loss.path, loss.mirror, loss.number)}:`;
+    const row = rowButton('✕', [make('b', name), `${way} ${shortReason(loss)}`],
+        loss.effect ? words(loss.effect) : '',
         () => chooseReflector(name));
     row.classList.add('lost');
     return row;
@@ -111,15 +149,15 @@ function lossRow(loss) {
 function farSection(losses) {
     const groups = new Map();
     for (const loss of losses) {
-        const known = groups.get(loss.reason.name) || [];
-        groups.set(loss.reason.name, known.concat(names[loss.reflector]));
+        const what = farWords(loss.reason.name) + effectNote(loss.effect);
+        groups.set(what, (groups.get(what) || []).concat(names[loss.reflector]));
     }
     const lines = [];
-    for (const [reason, reflectors] of groups) {
+    for (const [what, reflectors] of groups) {
         const line = make('p', null, 'soft');
         reflectors.sort();
         const more = reflectors.length > 12 ? ` and ${reflectors.length - 12} more` : '';
-        line.append(make('b', `${reflectors.length} ${farWords(reason)}: `),
+        line.append(make('b', `${reflectors.length} ${what}: `),
             reflectors.slice(0, 12).join(', ') + more);
         lines.push(line);
     }
@@ -127,35 +165,28 @@ function farSection(losses) {
 }
 
 function farWords(reason) {
-    const words = {
-        facing_away: 'facing away',
-        no_specular_point: 'mirroring past the sensor',
-        out_of_range: 'out of range',
-        out_of_view: 'out of view',
-    };
-    return words[reason] || reason.replace(/_/g, ' ');
+    return reason === 'no_specular_point' ? 'mirroring past the sensor' : words(reason);
 }
 
 function summary(scan, targets, near, far) {
     if (!column('scan_measured')[scan]) {
         return 'did not measure in this frame';
     }
-    const words = [plural(targets.length, 'target')];
+    const told = [plural(targets.length, 'target')];
     if (near.length > 0) {
-        words.push(near.length === 1 ? '1 echo lost' : `${near.length} echoes lost`);
+        told.push(near.length === 1 ? '1 echo lost' : `${near.length} echoes lost`);
     }
     if (far.length > 0) {
-        words.push(`${far.length} sent no echo`);
+        told.push(`${far.length} sent no echo`);
     }
-    return words.join(', ');
+    return told.join(', ');
 }
 
 function sensorTitle(scan, text) {
     const title = make('h3');
     const style = sensorStyle(scan);
-    const colour = state.colour === 'sensor' ? ink.palette[style % ink.palette.length] : ink.soft;
     const name = make('b', sensorOf(scan).name);
-    title.append(symbolCanvas(style, colour, 16), ' ', name, text ? `: ${text}` : '');
+    title.append(symbolCanvas(style, sensorColour(style), 16), ' ', name, text ? `: ${text}` : '');
     return title;
 }
 
@@ -268,7 +299,7 @@ function contributorRow(scan, target, i) {
     const object = value('object');
     const reflector = names[value('reflector')];
     const text = make('span');
-    text.append(make('b', reflector), ` of ${names[object]}, ${head.paths[value('path')]}`,
+    text.append(make('b', reflector), ` of ${names[object]}, ${contributorPath(i)}`,
         weightBar(value('weight'), colourOf(scan, target)),
         make('span', `${round(value('range_m'), 3)} m, ${round(value('azimuth_rad') * degrees, 2)}°, ` +
             `${round(value('range_rate_mps'), 3)} m/s, ERCS ${Number(value('ercs').toPrecision(3))}`, 'soft'));
@@ -287,8 +318,8 @@ function showTarget() {
     const {begin, end} = contributorsOf(state.target);
     const number = state.target - targetsOf(scan).begin + 1;
     const title = make('h2');
-    title.append(symbolCanvas(sensorStyle(scan), colourOf(scan, state.target), 18),
-        ` Target ${number} of ${sensorOf(scan).name}`);
+    title.append(targetSymbol(scan, state.target),
+        ` Target ${number} of ${sensorOf(scan).name}${isGhost(state.target) ? ', a ghost' : ''}`);
     const order = Array.from({length: end - begin}, (_, i) => begin + i);
     const weights = column('contributor_weight');
     order.sort((a, b) => weights[b] - weights[a]);
@@ -300,6 +331,10 @@ function showTarget() {
 
 function targetNotes(scan) {
     const notes = [];
+    const effects = effectsOf(state.target).map(effect => words(head.effects[effect]));
+    if (effects.length > 0) {
+        notes.push(make('p', `Effects that changed it: ${effects.join(', ')}.`, 'soft'));
+    }
     if (column('target_sign_undecided')[state.target]) {
         notes.push(make('p', 'Left or right is undecided: the phase did not tell.', 'soft'));
     }
@@ -319,8 +354,8 @@ function reflectorFates(scan) {
             if (column('contributor_object')[i] === state.object &&
                 names[column('contributor_reflector')[i]] === state.reflector) {
                 const weight = round(100 * column('contributor_weight')[i], 1);
-                fates.push(rowButton(symbolCanvas(sensorStyle(scan), colourOf(scan, target), 18),
-                    [`In target ${number}, with ${weight} % of its weight.`], '',
+                fates.push(rowButton(targetSymbol(scan, target),
+                    [`In target ${number}, with ${weight} % of its weight, ${contributorPath(i)}.`], '',
                     () => chooseTarget(target)));
             }
         }
@@ -328,7 +363,8 @@ function reflectorFates(scan) {
     for (const loss of lossesOf(scan, state.object)) {
         if (names[loss.reflector] === state.reflector) {
             const line = make('p');
-            line.append(make('b', `Lost in ${loss.stage}, ${head.paths[loss.path]}. `), longReason(loss));
+            line.append(make('b', `Lost in ${loss.stage}, ${pathWords(loss.path, loss.mirror, loss.number)}. `),
+                longReason(loss) + effectNote(loss.effect));
             fates.push(line);
         }
     }

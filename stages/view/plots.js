@@ -86,7 +86,8 @@ function plotTarget(plot, kind, drawing, size, axes, scan, target) {
         : rateOf(scan, target, compensated);
     const at = plotPlace(size, axes, x, column('target_range_m')[target]);
     const chosen = target === state.target;
-    drawSymbol(drawing, sensorStyle(scan), at.x, at.y, chosen ? 7.5 : 5, colourOf(scan, target));
+    drawSymbol(drawing, sensorStyle(scan), at.x, at.y, chosen ? 7.5 : 5, colourOf(scan, target),
+        isGhost(target));
     if (chosen) {
         drawing.beginPath();
         drawing.arc(at.x, at.y, 11, 0, 2 * Math.PI);

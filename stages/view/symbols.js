@@ -81,7 +81,16 @@ function objectColour(object) {
     return place === undefined ? ink.edge : ink.palette[place % ink.palette.length];
 }
 
+// Of a sensor's symbol where no target's colour counts.
+function sensorColour(style) {
+    const own = state.colour === 'sensor' && state.effect < 0;
+    return own ? ink.palette[style % ink.palette.length] : ink.soft;
+}
+
 function colourOf(scan, target) {
+    if (state.effect >= 0) {
+        return effectsOf(target).includes(state.effect) ? ink.palette[1] : ink.edge;
+    }
     switch (state.colour) {
     case 'object':
         return objectColour(objectOfTarget(target));
@@ -128,8 +137,23 @@ function drawRing(drawing, radius, colour) {
     drawing.stroke();
 }
 
-function drawSymbol(drawing, style, x, y, radius, colour) {
+// A ghost: hollow, with a broken outline.
+function drawGhost(drawing, colour) {
+    drawing.fillStyle = ink.paper;
+    drawing.fill();
+    drawing.lineWidth = 1.8;
+    drawing.strokeStyle = colour;
+    drawing.setLineDash([3, 2]);
+    drawing.stroke();
+    drawing.setLineDash([]);
+}
+
+function drawSymbol(drawing, style, x, y, radius, colour, ghost) {
     traceSymbol(drawing, style, x, y, radius);
+    if (ghost) {
+        drawGhost(drawing, colour);
+        return;
+    }
     if (symbols[style % symbols.length] === 'circle') {
         drawRing(drawing, radius, colour);
         return;

@@ -59,6 +59,14 @@ function targetOnMap(page, frame, target) {
     }), [ahead, left]);
 }
 
+async function pixelAt(page, at) {
+    return page.evaluate(({x, y}) => {
+        draw();
+        const ratio = window.devicePixelRatio;
+        return [...context.getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data];
+    }, at);
+}
+
 // A frame in which the left sensor's targets are well apart from everything else.
 function richFrame(frames) {
     return frames.find(frame => frame.targets.filter(one => one.sensor === 'left').length === 3);
@@ -275,13 +283,103 @@ const tests = {
         const frame = richFrame(corner);
         const target = frame.targets.filter(one => one.sensor === 'left')[2];
         await withPage(view(corner, '--frame', String(frame.frame)), async page => {
-            const at = await targetOnMap(page, frame, target);
-            const pixel = await page.evaluate(({x, y}) => {
-                draw();
-                const ratio = window.devicePixelRatio;
-                return [...context.getImageData(Math.round(x * ratio), Math.round(y * ratio), 1, 1).data];
-            }, at);
+            const pixel = await pixelAt(page, await targetOnMap(page, frame, target));
             assert.deepStrictEqual(pixel, [0x00, 0x72, 0xb2, 255]);
+        });
+    },
+
+    async 'the effects that changed targets are on the menu, and none of them at first'() {
+        const occurring = new Set(corner.flatMap(frame => frame.targets.flatMap(target => target.effects)));
+        const words = [...occurring].map(effect => effect.replace(/_/g, ' '));
+        assert.ok(words.length > 2);
+        await withPage(view(corner), async page => {
+            const options = await page.locator('#effect option').allInnerTexts();
+            assert.deepStrictEqual(options.slice(1).sort(), words.sort());
+            assert.strictEqual(await page.inputValue('#effect'), '-1');
+            for (let i = 0; i < options.length; i++) {
+                await page.keyboard.press('e');
+                await page.evaluate(() => draw());
+            }
+            assert.strictEqual(await page.inputValue('#effect'), '-1');
+        });
+    },
+
+    async 'targets that an effect changed stand out from those it did not'() {
+        const apart = frame => frame.targets.filter(one => one.sensor === 'left');
+        const frame = intersection.find(one => apart(one).some(target => target.effects.includes('merging')) &&
+            apart(one).some(target => !target.effects.includes('merging')));
+        await withPage(view(intersection, '--frame', String(frame.frame)), async page => {
+            await page.keyboard.press('Escape');
+            await page.keyboard.press('Escape');
+            await page.selectOption('#effect', {label: 'merging'});
+            assert.match(await page.innerText('#legend'), /changed by merging/);
+            for (const target of apart(frame)) {
+                const colour = await page.evaluate(number => colourOf(scanOfSensor(state.frame, 'left'),
+                    targetsOf(scanOfSensor(state.frame, 'left')).begin + number), apart(frame).indexOf(target));
+                assert.strictEqual(colour, target.effects.includes('merging') ? '#c74e00' : '#7b8490');
+            }
+        });
+    },
+
+    async 'a ghost is hollow and tells its way'() {
+        const frame = structuredClone(richFrame(corner));
+        const target = frame.targets.filter(one => one.sensor === 'left')[2];
+        const [leader] = target.contributors;
+        Object.assign(leader, {path: 'wall_object', mirror: 'house'});
+        target.effects = ['merging', 'list_limit'];
+        await withPage(view([{...frame, account: undefined, lost: undefined, counts: undefined, last: true}]),
+            async page => {
+                await page.keyboard.press('Escape');
+                await page.keyboard.press('Escape');
+                const at = await targetOnMap(page, frame, target);
+                assert.deepStrictEqual(await pixelAt(page, at), [255, 255, 255, 255]);
+                await clickMap(page, at);
+                const text = await panelText(page);
+                assert.match(text, /Target 3 of left, a ghost/);
+                assert.match(text, /Effects that changed it: merging, list limit\./);
+                assert.ok(text.includes(`${leader.reflector} of ${leader.object}, ` +
+                    'ghost: radar → house → it → radar'), text);
+                assert.match(await page.innerText('#legend'), /ghost: seen by way of a mirror/);
+            });
+        await withPage(view(corner), async page => {
+            assert.doesNotMatch(await page.innerText('#legend'), /ghost/);
+        });
+    },
+
+    async 'echoes of no object are targets like all others'() {
+        const frame = structuredClone(richFrame(corner));
+        frame.targets.forEach((target, i) => target.contributors.forEach((one, number) => Object.assign(one, {
+            object: i % 2 ? 'clutter' : 'noise', reflector: 'echo', number: number + 1,
+            path: i % 2 ? 'clutter' : 'false_alarm',
+        })));
+        await withPage(view([{...frame, account: undefined, lost: undefined, counts: undefined, last: true}]),
+            async page => {
+                for (const colour of ['sensor', 'object', 'rate', 'amplitude', 'path']) {
+                    await page.selectOption('#colour', colour);
+                    await page.evaluate(() => draw());
+                }
+                await page.focus('#map');
+                await page.keyboard.press('n');
+                assert.match(await panelText(page), /echo of noise, nothing but noise, no\. 1/);
+                await page.keyboard.press('n');
+                assert.match(await panelText(page), /echo of clutter, the ground, no\. 1/);
+                await page.click('#panel .row');
+                assert.match(await panelText(page), /echo of clutter \(not in this frame\)/);
+                await page.keyboard.press('Escape');
+                assert.match(await panelText(page), /clutter \(not in this frame\)/);
+            });
+        view([{...frame, account: undefined, lost: undefined, counts: undefined, last: true}], '--svg');
+    },
+
+    async 'what was lost names the effect that lost it'() {
+        const frame = intersection.find(one => one.lost.some(group => group.reason === 'blocked'));
+        const {object, reflector} = frame.lost.find(group => group.reason === 'blocked').echoes[0];
+        await withPage(view(intersection, '--frame', String(frame.frame)), async page => {
+            await page.evaluate(id => chooseObject(names.indexOf(id)), object);
+            assert.match(await panelText(page), /blocked by \S+\s+occlusion/);
+            assert.match(await panelText(page), /(facing away|mirroring past the sensor) \((visibility|plane reflection)\)/);
+            await page.evaluate(name => chooseReflector(name), reflector);
+            assert.match(await panelText(page), /stands in the way\. \(occlusion\)/);
         });
     },
 

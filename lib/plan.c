@@ -1,0 +1,182 @@
+#include "plan.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+#include "frame_text.h"
+
+const char *plan_request(uint64_t allowed, struct arena *arena)
+{
+    struct text text = {0};
+    text_add_word(&text, "auto");
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        if ((allowed & EFFECT_BIT(i)) == 0)
+            text_format(&text, ",-%s", effects_names[i]);
+    const char *request = arena_text(arena, text.bytes, text.length);
+    text_free(&text);
+    return request;
+}
+
+static bool same_bytes(const struct frame *a, const struct frame *b, unsigned section)
+{
+    struct frame one = *a, other = *b;
+    struct text one_text = {0}, other_text = {0};
+    struct diag unused = {0};
+    frame_drop(&one, ~section);
+    frame_drop(&other, ~section);
+    bool same = frame_text_write(&one, &one_text, &unused) == 0 &&
+                frame_text_write(&other, &other_text, &unused) == 0 &&
+                one_text.length == other_text.length &&
+                memcmp(one_text.bytes, other_text.bytes, one_text.length) == 0;
+    text_free(&one_text);
+    text_free(&other_text);
+    return same;
+}
+
+/* How far apart the azimuths of two lists of cells are, which then share those of the first. */
+static double align_azimuths(const struct frame *made, struct frame *other)
+{
+    double most_rad = 0;
+    for (size_t i = 0; i < made->cells.count && i < other->cells.count; i++) {
+        double azimuth_rad = made->cells.items[i].azimuth_rad;
+        most_rad = fmax(most_rad, fabs(other->cells.items[i].azimuth_rad - azimuth_rad));
+        other->cells.items[i].azimuth_rad = azimuth_rad;
+    }
+    return most_rad;
+}
+
+void plan_compare(struct plan_position *position, const struct frame *made,
+                  struct frame *stand_in_made, struct arena *arena)
+{
+    double off_rad = align_azimuths(made, stand_in_made);
+    if (same_bytes(made, stand_in_made, position->section)) {
+        position->azimuth_off_rad = fmax(position->azimuth_off_rad, off_rad);
+        return;
+    }
+    position->differs = true;
+    position->scene = arena_text(arena, made->scene, strlen(made->scene));
+    position->frame = made->frame;
+}
+
+bool plan_stands_in(const struct plan *plan, const struct plan_position *position)
+{
+    return position->stand_in != NULL && !position->differs &&
+           position->azimuth_off_rad <= plan->tolerance_azimuth_rad;
+}
+
+uint64_t plan_effects(const struct plan *plan)
+{
+    uint64_t effects = 0;
+    for (int at = 0; at < PLAN_POSITIONS; at++) {
+        const struct plan_position *position = &plan->positions[at];
+        for (int i = 0; i < EFFECT_COUNT && !plan_stands_in(plan, position); i++)
+            if (position->log.scans_simulated[i] > 0)
+                effects |= EFFECT_BIT(i);
+    }
+    return effects;
+}
+
+/* The log that says most of an effect: its home's, whose note the others lack. */
+static const struct effect_log *log_of(const struct plan *plan, int effect)
+{
+    const struct effect_log *best = &plan->positions[0].log;
+    for (int at = 1; at < PLAN_POSITIONS; at++) {
+        const struct effect_log *log = &plan->positions[at].log;
+        if (log->scans_simulated[effect] + log->scans_left_out[effect] >
+            best->scans_simulated[effect] + best->scans_left_out[effect])
+            best = log;
+    }
+    return best;
+}
+
+static void write_effect(const struct plan *plan, int effect, struct text *text)
+{
+    const struct effect_entry *entry = &effects_table[effect];
+    const struct effect_log *log = log_of(plan, effect);
+    text_format(text, "# %-17s ", effects_names[effect]);
+    if ((plan->allowed & EFFECT_BIT(effect)) == 0)
+        text_add_word(text, "off: not asked for\n");
+    else if (log->scans_simulated[effect] > 0)
+        text_format(text, "on in %" PRId64 " of %" PRId64 " scans: %s%s%s\n",
+                    log->scans_simulated[effect], log->scans, entry->member,
+                    log->scans_left_out[effect] > 0 ? "; else " : "",
+                    log->scans_left_out[effect] > 0 ? entry->bound : "");
+    else if (log->scans_left_out[effect] > 0)
+        text_format(text, "off: %s\n", entry->bound);
+    else
+        text_format(text, "off: nothing describes it (%s)\n", entry->member);
+}
+
+static void write_stage(const struct plan *plan, const struct plan_position *position,
+                        struct text *text)
+{
+    text_format(text, "# glint-%s ", position->stage);
+    if (position->stand_in == NULL) {
+        text_add_word(text, "stays: nothing stands in for it\n");
+        return;
+    }
+    bool replaced = plan_stands_in(plan, position);
+    text_format(text, "%s: glint-%s has ", replaced ? "goes" : "stays", position->stand_in);
+    if (position->differs) {
+        text_format(text, "other %s, first in frame %" PRId64 " of scene ",
+                    frame_section_name(position->section), position->frame);
+        text_add_json(text, position->scene, strlen(position->scene));
+    } else {
+        text_format(text, "the same %s", frame_section_name(position->section));
+        if (position->azimuth_off_rad > 0)
+            text_format(text, " but for azimuths, %.2g rad off at most", position->azimuth_off_rad);
+    }
+    text_add_word(text, "\n");
+}
+
+/* As bash and `glint FILE` read it back. */
+static void write_word(const char *word, struct text *text)
+{
+    static const char plain[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-";
+    if (word[strspn(word, plain)] == '\0') {
+        text_add_word(text, word);
+        return;
+    }
+    text_add_word(text, "'");
+    for (; *word != '\0'; word++)
+        text_add(text, *word == '\'' ? "'\\''" : word, *word == '\'' ? 4 : 1);
+    text_add_word(text, "'");
+}
+
+static void write_effects(uint64_t effects, struct text *text)
+{
+    const char *separator = " --effects ";
+    if (effects == 0)
+        text_add_word(text, " --effects none");
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        if ((effects & EFFECT_BIT(i)) != 0) {
+            text_format(text, "%s%s", separator, effects_names[i]);
+            separator = ",";
+        }
+}
+
+void plan_write(const struct plan *plan, struct text *text)
+{
+    if (plan->frames == 0)
+        return;
+    text_format(text, "# What %" PRId64 " frames call for.\n", plan->frames);
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        write_effect(plan, i, text);
+    text_add_word(text, "# glint-extract stays: nothing stands in for it\n");
+    for (int i = 0; i < PLAN_POSITIONS; i++)
+        write_stage(plan, &plan->positions[i], text);
+    text_add_word(text, "set -o pipefail\nglint-extract");
+    for (int i = 0; i < PLAN_POSITIONS; i++) {
+        const struct plan_position *position = &plan->positions[i];
+        bool replaced = plan_stands_in(plan, position);
+        text_format(text, " \\\n  | glint-%s", replaced ? position->stand_in : position->stage);
+        if (i != PLAN_IDEAL)
+            continue;
+        text_add_word(text, " --sensors ");
+        write_word(plan->sensors, text);
+        write_effects(plan_effects(plan), text);
+    }
+    text_add_word(text, "\n");
+}

@@ -1,0 +1,120 @@
+/* A plan: the pipeline that the frames call for. Rehearses the chain on every frame, the simpler
+ * stages beside those they may stand in for, and prints what was needed. */
+#include "plan.h"
+#include "stage.h"
+
+extern const struct stage stage_extract, stage_ideal, stage_sensor, stage_sensor_perfect,
+    stage_noise, stage_noise_none;
+
+static const struct {
+    const struct stage *stage, *stand_in;
+    enum section section;
+} chain[PLAN_POSITIONS] = {
+    [PLAN_IDEAL] = {&stage_ideal, NULL, SECTION_ECHOES},
+    [PLAN_SENSOR] = {&stage_sensor, &stage_sensor_perfect, SECTION_CELLS},
+    [PLAN_NOISE] = {&stage_noise, &stage_noise_none, SECTION_TARGETS},
+};
+
+struct plan_state {
+    struct suite_choice
+        choice; /* first: its options are the plan's, and ideal's at its rehearsal */
+    struct plan plan;
+};
+
+static int64_t no_clock(void)
+{
+    return 0;
+}
+
+static int plan_start(void *state, struct runner *runner)
+{
+    struct plan_state *own = state;
+    struct plan *plan = &own->plan;
+    struct sensors request;
+    struct selection selection;
+    const struct suite *suite =
+        catalogue_suite(own->choice.sensors, runner_arena(runner), runner_diag(runner));
+    if (suite == NULL || runner_request(runner, &own->choice, suite, &request) != 0 ||
+        effects_read(request.effects, &selection, runner_diag(runner)) != 0)
+        return -1;
+    own->choice.effects = plan_request(selection.allowed, runner_arena(runner));
+    plan->sensors = own->choice.sensors;
+    plan->allowed = selection.allowed;
+    plan->tolerance_azimuth_rad = request.tolerance.azimuth_rad;
+    for (int i = 0; i < PLAN_POSITIONS; i++)
+        plan->positions[i] = (struct plan_position){
+            .stage = chain[i].stage->name,
+            .stand_in = chain[i].stand_in != NULL ? chain[i].stand_in->name : NULL,
+            .section = chain[i].section,
+            .log.clock_ns = no_clock,
+        };
+    return 0;
+}
+
+static int rehearse(struct plan_state *own, int at, struct frame *frame, struct runner *runner)
+{
+    struct plan_position *position = &own->plan.positions[at];
+    struct frame copy = *frame;
+    frame_drop(&copy, SECTION_LOST | SECTION_COUNTS);
+    if (runner_rehearse(runner, chain[at].stage, at == PLAN_IDEAL ? &own->choice : NULL,
+                        &position->log, frame) != 0)
+        return -1;
+    if (position->stand_in == NULL || position->differs)
+        return 0;
+    if (runner_rehearse(runner, chain[at].stand_in, NULL, NULL, &copy) != 0)
+        return -1;
+    plan_compare(position, frame, &copy, runner_arena(runner));
+    return 0;
+}
+
+static int plan_step(void *state, struct frame *frame, struct runner *runner)
+{
+    struct plan_state *own = state;
+    own->plan.frames++;
+    frame_drop(frame, SECTION_SENSORS | SECTION_ECHOES | SECTION_CELLS | SECTION_TARGETS |
+                          SECTION_LOST | SECTION_COUNTS);
+    if ((frame->present & SECTION_REFLECTORS) == 0 &&
+        runner_rehearse(runner, &stage_extract, NULL, NULL, frame) != 0)
+        return -1;
+    for (int i = 0; i < PLAN_POSITIONS; i++)
+        if (rehearse(own, i, frame, runner) != 0)
+            return -1;
+    return 0;
+}
+
+static int plan_stop(void *state, struct runner *runner)
+{
+    const struct plan_state *own = state;
+    struct text text = {0};
+    plan_write(&own->plan, &text);
+    int result = runner_write(runner, text.bytes, text.length);
+    text_free(&text);
+    return result;
+}
+
+static const struct field plan_options[] = {
+    {FIELD_NAME_OF(struct suite_choice, sensors,
+                   "the sensor suite: a name in data/sensors/, or a path")},
+    SUITE_CHOICE_EFFECTS,
+    {0},
+};
+
+static const struct record plan_record = {
+    .name = "plan", .size = sizeof(struct plan_state), .fields = plan_options};
+
+const struct stage stage_plan = {
+    .name = "plan",
+    .summary = "Print the pipeline that the scenes call for, ready to paste.",
+    .details =
+        "Runs the chain on every frame, as auto would among the effects that are asked for,\n"
+        "and prints which of them were needed and why, which stages a simpler one can stand\n"
+        "in for, and the pipeline without the rest. On these scenes it gives the targets that\n"
+        "the whole chain gives, byte for byte, or within the tolerance if there is one. Only\n"
+        "the objects of the frames matter, and their reflectors if they are there.",
+    .options = &plan_record,
+    .sink = true,
+    .reads = SECTION_OBJECTS,
+    .start = plan_start,
+    .step = plan_step,
+    .stop = plan_stop,
+};
