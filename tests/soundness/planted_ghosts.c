@@ -1,4 +1,4 @@
-/* A heuristic: what a mirror shows of a body's centre stands for the whole body. */
+/* A heuristic: a mirror matters to a body if it shows the body's centre. */
 #include "mirror.h"
 #include "planted.h"
 
@@ -12,7 +12,7 @@ void planted_begin(void)
 bool __wrap_mirror_may_bounce(const struct mirror *mirror, struct vec2 sensor_m,
                               struct vec2 centre_m, double radius_m)
 {
-    struct vec2 bounce_m;
     (void)radius_m;
-    return mirror_bounce(mirror, sensor_m, centre_m, &bounce_m);
+    struct vec2 bounce;
+    return mirror_bounce(mirror, sensor_m, centre_m, &bounce);
 }
