@@ -142,13 +142,3 @@ struct ray reception_ray(const struct reception *reception, const struct echo *e
         fold(sensor, &ray);
     return ray;
 }
-
-double reception_gain_bound(const struct reception *reception, uint64_t effects, double range_m)
-{
-    double least = 1;
-    if ((effects & EFFECT_BIT(EFFECT_RAIN)) != 0)
-        least *= rain_amplitude_factor(reception->rain_dbpkm, range_m);
-    if ((effects & EFFECT_BIT(EFFECT_FOG)) != 0)
-        least *= rain_amplitude_factor(reception->fog_dbpkm, range_m);
-    return 1 / least;
-}

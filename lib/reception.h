@@ -27,8 +27,4 @@ struct reception reception_begin(const struct frame *frame, const struct sensor 
 /* The echo as it is received. */
 struct ray reception_ray(const struct reception *reception, const struct echo *echo);
 
-/* At most this factor, and at least its inverse, is what rain and fog, as far as they are in the
- * set, do to the amplitude of any echo up to range_m. */
-double reception_gain_bound(const struct reception *reception, uint64_t effects, double range_m);
-
 #endif

@@ -12,6 +12,7 @@
 
 #include "compare.h"
 #include "draws.h"
+#include "elementary.h"
 #include "frame_text.h"
 #include "fused.h"
 #include "options.h"
@@ -236,6 +237,12 @@ static void judge(const struct frame *all, int64_t number, struct planner *plann
     planner->violations++;
 }
 
+/* Of every order of size alike: what a tolerance lets go and what it does not. */
+static double draw_size(struct draws *draws, double least, double most)
+{
+    return least * elementary_pow(most / least, draws_next(draws));
+}
+
 /* Whatever a document may say of road, weather and other radars, each in some of the scenes. */
 static void draw_conditions(struct frame *frame, struct random_address address)
 {
@@ -243,10 +250,10 @@ static void draw_conditions(struct frame *frame, struct random_address address)
     address.subject = UINT64_MAX;
     struct draws draws = draws_at(address, RANDOM_TRAFFIC);
     conditions->road = (enum road)draws_whole(&draws, ROAD_UNKNOWN, ROAD_CONCRETE);
+    if (draws_chance(&draws, 0.4))
+        conditions->rain_mmph = draw_size(&draws, 0.01, 100);
     if (draws_chance(&draws, 0.3))
-        conditions->rain_mmph = draws_between(&draws, 0, 60);
-    if (draws_chance(&draws, 0.2))
-        conditions->fog_gpm3 = draws_between(&draws, 0, 0.5);
+        conditions->fog_gpm3 = draw_size(&draws, 0.001, 1);
     bool interfered = draws_chance(&draws, 0.3);
     for (size_t i = 1; i < frame->objects.count && interfered; i++)
         if (draws_chance(&draws, 0.5))
