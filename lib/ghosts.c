@@ -10,6 +10,9 @@
 
 enum { ONE_WAY = 2, BOTH_WAYS = 3 };
 
+/* Posts of a row that are asked for together. */
+enum { PIECE = 8 };
+
 /* A mirror in the world. */
 struct facet {
     const struct look_body *body;
@@ -294,19 +297,42 @@ static void add_points(struct look *look, const struct facet *facet, const struc
     }
 }
 
-/* No path is shorter than the direct one: posts out of its range have no ghost in range. */
+/* Can the mirror show any of the posts from first to last? */
+static bool may_show(const struct look *look, const struct facet *facet,
+                     const struct look_body *body, const struct post_row *row, int64_t first,
+                     int64_t last)
+{
+    struct vec2 from = reflectors_post_place(&body->box, row, first);
+    struct vec2 to = reflectors_post_place(&body->box, row, last);
+    struct vec2 centre = vec2_scale(0.5, vec2_add(from, to));
+    return mirror_may_bounce(&facet->mirror, look->position_m, centre,
+                             0.5 * vec2_length(vec2_sub(to, from)) + 1e-6);
+}
+
+static void add_post(struct look *look, const struct facet *facet, const struct look_body *body,
+                     const struct post_row *row, int64_t number)
+{
+    struct vec2 place = reflectors_post_place(&body->box, row, number), bounce;
+    if (!bounces(look, facet, place, &bounce))
+        return;
+    struct point_reflector post = look_post(look, row, number);
+    add_point(look, facet, body, &post, place, bounce);
+}
+
+/* No path is shorter than the direct one: posts out of its range have no ghost in range. A row is
+ * longer than most mirrors: of most of its pieces they can show nothing. */
 static void add_row(struct look *look, const struct facet *facet, const struct look_body *body,
                     const struct post_row *row)
 {
+    bool all = effects_must(look->selection, EFFECT_GHOSTS);
     int64_t first, end;
     reflectors_posts_within(&body->box, row, look->position_m, look->sensor->range_max_m, &first,
                             &end);
-    for (int64_t number = first; number < end; number++) {
-        struct vec2 place = reflectors_post_place(&body->box, row, number), bounce;
-        if (bounces(look, facet, place, &bounce)) {
-            struct point_reflector post = look_post(look, row, number);
-            add_point(look, facet, body, &post, place, bounce);
-        }
+    for (int64_t next; first < end; first = next) {
+        next = first + PIECE < end ? first + PIECE : end;
+        if (all || may_show(look, facet, body, row, first, next - 1))
+            for (int64_t number = first; number < next; number++)
+                add_post(look, facet, body, row, number);
     }
 }
 
