@@ -446,22 +446,30 @@ static int prove(struct bench *bench)
     return violations > 0;
 }
 
+static int help(void)
+{
+    struct text text = {0};
+    options_help(&stage_soundness, &text);
+    fwrite(text.bytes, 1, text.length, stdout);
+    text_free(&text);
+    return 0;
+}
+
+static int refuse_words(struct runner *own)
+{
+    refuse(own);
+    return DIAG_USAGE;
+}
+
 int main(int count, char **words)
 {
     static struct bench bench;
     struct soundness wanted;
     struct runner own = {.stage = &stage_soundness};
+    bench.wanted = &wanted;
     int result = options_read(&stage_soundness, (size_t)count - 1, (const char *const *)words + 1,
                               &wanted, &own.common, &own.arena, &own.diag);
-    bench.wanted = &wanted;
-    struct text help = {0};
-    if (result != 0)
-        refuse(&own);
-    else if (own.common.help)
-        options_help(&stage_soundness, &help);
-    fwrite(help.bytes, 1, help.length, stdout);
-    int status = result != 0 ? DIAG_USAGE : own.common.help ? 0 : prove(&bench);
-    text_free(&help);
+    int status = result != 0 ? refuse_words(&own) : own.common.help ? help() : prove(&bench);
     free_bench(&bench);
     runner_free(&own);
     return status;
