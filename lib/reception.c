@@ -82,6 +82,12 @@ struct reception reception_begin(const struct frame *frame, const struct sensor 
     return reception;
 }
 
+void reception_note(const struct reception *reception, const struct selection *selection)
+{
+    for (enum effect effect = EFFECT_FLUCTUATION; effect <= EFFECT_COHERENCE; effect++)
+        effects_note(selection, effect, simulates(reception, effect));
+}
+
 /* Drawn in each frame, or that of the path and of the reflector, which is drawn once for all
  * frames. */
 static double phase_of(const struct sensor *sensor, const struct echo *echo,

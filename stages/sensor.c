@@ -49,6 +49,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
                   const struct selection *selection)
 {
     struct scan scan = scan_make(frame, sensor, selection, 0);
+    reception_note(&scan.reception, selection);
     for (size_t i = 0; i < scan.silent_count; i++)
         frame_lose_subject(frame, "sensor", sensor->name, &scan.silent[i].echo, LOSS_NO_AMPLITUDE);
     for (size_t number = 0; number < scan.cells; number++)
