@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "clearance.h"
+#include "elementary.h"
 #include "elevation.h"
 #include "knife_edge.h"
 #include "occlusion.h"
@@ -329,6 +330,9 @@ struct glimpse {
     const struct side *side; /* that it is, or NULL for a point */
     struct vec2 place;
     double height_m;
+    double over_road_m, extent_m; /* its height if that is known, else 0; and how high it is */
+    enum moving_part moving_part;
+    double ground_rate_mps;
     double ercs;
     double under_vehicles;
     double margin_m;  /* by which it faces the sensor */
@@ -381,6 +385,7 @@ static struct sight sight_from_height(const struct look *look, struct glimpse *s
     if (half_width_rad > 0)
         gain = elevation_amplitude_factor(elevation, half_width_rad);
     seen->ercs *= gain;
+    seen->ground_rate_mps *= elevation.cosine;
     if (slant.range_m != sight.range_m || slant.azimuth_rad != sight.azimuth_rad ||
         slant.range_rate_mps != sight.range_rate_mps || gain != 1)
         seen->effects |= EFFECT_BIT(EFFECT_ELEVATION);
@@ -410,11 +415,21 @@ static bool in_reach(struct look *look, const struct look_body *body, struct gli
     return true;
 }
 
+static double heading_rad(const struct look *look, const struct look_body *body)
+{
+    return elementary_atan2(vec2_cross(look->boresight, body->box.heading),
+                            vec2_dot(look->boresight, body->box.heading));
+}
+
 /* An echo if it is in range, in view and not blocked. */
 static void look_at(struct look *look, const struct look_body *body, struct glimpse seen)
 {
     bool tell = look->frame->margins, under;
-    struct vec2 velocity = motion_velocity_at(&body->box.motion, seen.place);
+    struct vec2 velocity = motion_velocity_at(&body->box.motion, seen.place), ground = {0, 0};
+    if (seen.moving_part != MOVING_NONE)
+        seen.ground_rate_mps =
+            sight_of(look->position_m, ground, look->boresight, seen.place, velocity)
+                .range_rate_mps;
     struct sight sight = sight_from_height(
         look, &seen,
         sight_of(look->position_m, look->velocity_mps, look->boresight, seen.place, velocity));
@@ -441,6 +456,11 @@ static void look_at(struct look *look, const struct look_body *body, struct glim
         .azimuth_rad = sight.azimuth_rad,
         .range_rate_mps = sight.range_rate_mps,
         .ercs = way.factor * seen.ercs,
+        .height_m = seen.over_road_m,
+        .extent_m = seen.over_road_m > 0 ? seen.extent_m : 0,
+        .moving_part = seen.moving_part,
+        .ground_rate_mps = seen.ground_rate_mps,
+        .heading_rad = seen.moving_part != MOVING_NONE ? heading_rad(look, body) : 0,
         .time_s = look->time_s,
         .effects = seen.effects | way.effects,
         .margins = margins_of(look, seen.margin_m),
@@ -451,6 +471,12 @@ static void look_at(struct look *look, const struct look_body *body, struct glim
 static double height_m(const struct look *look, const struct look_body *body, double z)
 {
     return z > 0 ? z * body->object->height_m : look->height_m;
+}
+
+/* The same over the road; 0 in a flat world, and where it is not described. */
+static double over_road_m(const struct look *look, const struct look_body *body, double z)
+{
+    return look->height_m > 0 ? z * body->object->height_m : 0;
 }
 
 uint64_t look_aged(const struct look *look, const struct look_body *body)
@@ -477,6 +503,9 @@ static void look_at_point(struct look *look, const struct look_body *body,
                     .reflector = point->name,
                     .place = place,
                     .height_m = height_m(look, body, point->z),
+                    .over_road_m = over_road_m(look, body, point->z),
+                    .extent_m = point->extent * body->object->height_m,
+                    .moving_part = look->sensor->micro_motion ? point->moving_part : MOVING_NONE,
                     .ercs = visible * point->ercs,
                     .under_vehicles = point->under_vehicles,
                     .margin_m = margin_m,
@@ -523,6 +552,8 @@ static void look_at_plane(struct look *look, const struct look_body *body,
             .side = &side,
             .place = foot,
             .height_m = height_m(look, body, plane->z),
+            .over_road_m = over_road_m(look, body, plane->z),
+            .extent_m = plane->extent * body->object->height_m,
             .margin_m = margin_m,
             .effects = look_aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
         };
@@ -546,6 +577,7 @@ struct point_reflector look_post(const struct look *look, const struct post_row 
     return (struct point_reflector){
         .name = post_name(look->frame->arena, row, post),
         .z = row->z,
+        .extent = row->extent,
         .facing_rad = row->facing_rad,
         .full_rad = row->full_rad,
         .zero_rad = row->zero_rad,
