@@ -24,6 +24,14 @@ static const struct field condition_fields[] = {
     {FIELD_REAL_IN(struct conditions, rain_mmph, 0, 500, "rain"), FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct conditions, fog_gpm3, 0, 10, "fog, liquid water; dense fog has 0.5"),
      FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct conditions, clutter_per_m2, 0, 10,
+                   "points of the ground that echo, at most 1000 of them in a scan"),
+     FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct conditions, clutter_ercs, 0, 1e3, "of these, on average over power"),
+     FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct conditions, clutter_overdispersion, 0, 1e3,
+                   "variance of their number in a scan over its mean; absent: 1"),
+     FIELD_OPTIONAL},
     {FIELD_LIST_OF(struct conditions, interferers, &interferer_record, "other radars"),
      FIELD_OPTIONAL},
     {0},
@@ -44,6 +52,12 @@ void conditions_change(struct conditions *conditions, const struct conditions *c
         conditions->rain_mmph = changes->rain_mmph;
     if (changes->fog_gpm3 != 0)
         conditions->fog_gpm3 = changes->fog_gpm3;
+    if (changes->clutter_per_m2 != 0)
+        conditions->clutter_per_m2 = changes->clutter_per_m2;
+    if (changes->clutter_ercs != 0)
+        conditions->clutter_ercs = changes->clutter_ercs;
+    if (changes->clutter_overdispersion != 0)
+        conditions->clutter_overdispersion = changes->clutter_overdispersion;
     if (changes->interferers.count > 0)
         conditions->interferers = changes->interferers;
 }

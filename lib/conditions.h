@@ -19,7 +19,9 @@ struct interferer {
 struct conditions {
     enum road road;
     double rain_mmph;
-    double fog_gpm3; /* liquid water */
+    double fog_gpm3;                     /* liquid water */
+    double clutter_per_m2, clutter_ercs; /* points on the ground; there are none without both */
+    double clutter_overdispersion;       /* of their number (poisson.h); up to 1: Poisson */
     LIST_OF(struct interferer) interferers;
 };
 

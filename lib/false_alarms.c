@@ -1,7 +1,6 @@
 #include "false_alarms.h"
 
 #include "clutter.h"
-#include "cycle.h"
 #include "poisson.h"
 
 struct contributor false_alarms_contributor(int64_t number)
@@ -13,15 +12,6 @@ struct contributor false_alarms_contributor(int64_t number)
         .number = number,
         .weight = 1,
     };
-}
-
-/* Of what the sensor shows in this frame. */
-static double measured_s(const struct frame *frame, const struct sensor *sensor,
-                         const struct selection *selection)
-{
-    double instant_s = frame->time_s;
-    cycle_instant_s(sensor->cycle_s, frame->time_s, frame->interval_s, &instant_s);
-    return instant_s - (effects_may(selection, EFFECT_LATENCY) ? sensor->latency_s : 0);
 }
 
 static struct contributor draw_place(const struct sensor *sensor, int64_t number,
@@ -65,7 +55,8 @@ struct cell_span false_alarms_of(struct frame *frame, const struct sensor *senso
     for (size_t i = 0; i < count; i++) {
         random_uniform(scan, RANDOM_FALSE_ALARMS, (uint32_t)i + 1, uniform);
         struct contributor drawn = draw_place(sensor, (int64_t)i + 1, uniform);
-        drawn.time_s = measured_s(frame, sensor, selection);
+        drawn.time_s = suite_instant_s(sensor, frame->time_s, frame->interval_s,
+                                       effects_may(selection, EFFECT_LATENCY));
         cells[i] = make_cell(
             frame, sensor, &drawn,
             clutter_false_alarm_amplitude(sensor->threshold, sensor->pointer_sigma, uniform[3]));

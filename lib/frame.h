@@ -104,8 +104,12 @@ struct echo {
     double range_m, azimuth_rad, range_rate_mps;
     double ercs;
     double departure_rad; /* azimuth in which its wave left, less the one in which it came back */
-    double time_s;        /* of the measurement */
-    uint64_t effects;     /* that changed one of these values */
+    double height_m, extent_m; /* over the road, and upright; 0: not known, a point */
+    enum moving_part moving_part;
+    double ground_rate_mps; /* the part of its range rate that its own motion over ground makes */
+    double heading_rad;     /* of its object, from boresight */
+    double time_s;          /* of the measurement */
+    uint64_t effects;       /* that changed one of these values */
     struct margins margins;
     const char *extra;
 };

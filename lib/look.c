@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "clearance.h"
+#include "elementary.h"
 #include "elevation.h"
 #include "knife_edge.h"
 #include "occlusion.h"
@@ -328,6 +329,9 @@ struct glimpse {
     const struct side *side; /* that it is, or NULL for a point */
     struct vec2 place;
     double height_m;
+    double over_road_m, extent_m; /* its height if that is known, else 0; and how high it is */
+    enum moving_part moving_part;
+    double ground_rate_mps;
     double ercs;
     double under_vehicles;
     double margin_m;  /* by which it faces the sensor */
@@ -408,17 +412,27 @@ static bool in_reach(struct look *look, const struct look_body *body, struct gli
     return true;
 }
 
+static double heading_rad(const struct look *look, const struct look_body *body)
+{
+    return elementary_atan2(vec2_cross(look->boresight, body->box.heading),
+                            vec2_dot(look->boresight, body->box.heading));
+}
+
 /* An echo if it is in range, in view and not blocked. */
 static void look_at(struct look *look, const struct look_body *body, struct glimpse seen)
 {
     bool tell = look->frame->margins, under;
-    struct vec2 velocity = motion_velocity_at(&body->box.motion, seen.place);
+    struct vec2 velocity = motion_velocity_at(&body->box.motion, seen.place), ground = {0, 0};
+    struct sight level =
+        sight_of(look->position_m, look->velocity_mps, look->boresight, seen.place, velocity);
     double gain;
-    struct sight sight = look_lifted(
-        look, seen.height_m,
-        sight_of(look->position_m, look->velocity_mps, look->boresight, seen.place, velocity),
-        &gain, &seen.effects);
+    struct sight sight = look_lifted(look, seen.height_m, level, &gain, &seen.effects);
     seen.ercs *= gain;
+    if (seen.moving_part != MOVING_NONE)
+        seen.ground_rate_mps =
+            level.range_m / sight.range_m *
+            sight_of(look->position_m, ground, look->boresight, seen.place, velocity)
+                .range_rate_mps;
     if (!in_reach(look, body, &seen, &sight))
         return;
     const struct passage_line line = {look->position_m, seen.place, look->height_m, seen.height_m};
@@ -442,6 +456,11 @@ static void look_at(struct look *look, const struct look_body *body, struct glim
         .azimuth_rad = sight.azimuth_rad,
         .range_rate_mps = sight.range_rate_mps,
         .ercs = way.factor * seen.ercs,
+        .height_m = seen.over_road_m,
+        .extent_m = seen.over_road_m > 0 ? seen.extent_m : 0,
+        .moving_part = seen.moving_part,
+        .ground_rate_mps = seen.ground_rate_mps,
+        .heading_rad = seen.moving_part != MOVING_NONE ? heading_rad(look, body) : 0,
         .time_s = look->time_s,
         .effects = seen.effects | way.effects,
         .margins = margins_of(look, seen.margin_m),
@@ -451,6 +470,14 @@ static void look_at(struct look *look, const struct look_body *body, struct glim
 double look_height_m(const struct look *look, const struct look_body *body, double z)
 {
     return z > 0 ? z * body->object->height_m : look->height_m;
+}
+
+/* The same over the road, where that is known to mirror; 0 in a flat world, and where it is not
+ * described. */
+static double over_road_m(const struct look *look, const struct look_body *body, double z)
+{
+    bool mirrors = look->height_m > 0 && look->frame->conditions.road != ROAD_UNKNOWN;
+    return mirrors ? z * body->object->height_m : 0;
 }
 
 uint64_t look_aged(const struct look *look, const struct look_body *body)
@@ -477,6 +504,9 @@ static void look_at_point(struct look *look, const struct look_body *body,
                     .reflector = point->name,
                     .place = place,
                     .height_m = look_height_m(look, body, point->z),
+                    .over_road_m = over_road_m(look, body, point->z),
+                    .extent_m = point->extent * body->object->height_m,
+                    .moving_part = look->sensor->micro_motion ? point->moving_part : MOVING_NONE,
                     .ercs = visible * point->ercs,
                     .under_vehicles = point->under_vehicles,
                     .margin_m = margin_m,
@@ -522,6 +552,8 @@ static void look_at_plane(struct look *look, const struct look_body *body,
             .side = &side,
             .place = foot,
             .height_m = look_height_m(look, body, plane->z),
+            .over_road_m = over_road_m(look, body, plane->z),
+            .extent_m = plane->extent * body->object->height_m,
             .margin_m = margin_m,
             .effects = look_aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
         };
@@ -545,6 +577,7 @@ struct point_reflector look_post(const struct look *look, const struct post_row 
     return (struct point_reflector){
         .name = post_name(look->frame->arena, row, post),
         .z = row->z,
+        .extent = row->extent,
         .facing_rad = row->facing_rad,
         .full_rad = row->full_rad,
         .zero_rad = row->zero_rad,

@@ -8,12 +8,14 @@
 #include "elementary.h"
 #include "fluctuation.h"
 #include "interference.h"
+#include "two_ray.h"
 #include "units.h"
 
 #define FOG_C 10
 #define AT_HOME                                                                                    \
-    (EFFECT_BIT(EFFECT_FLUCTUATION) | EFFECT_BIT(EFFECT_RAIN) | EFFECT_BIT(EFFECT_FOG) |           \
-     EFFECT_BIT(EFFECT_AMBIGUITY) | EFFECT_BIT(EFFECT_INTERFERENCE) |                              \
+    (EFFECT_BIT(EFFECT_WHEELS) | EFFECT_BIT(EFFECT_LIMBS) | EFFECT_BIT(EFFECT_CLUTTER) |           \
+     EFFECT_BIT(EFFECT_TWO_RAY) | EFFECT_BIT(EFFECT_FLUCTUATION) | EFFECT_BIT(EFFECT_RAIN) |       \
+     EFFECT_BIT(EFFECT_FOG) | EFFECT_BIT(EFFECT_AMBIGUITY) | EFFECT_BIT(EFFECT_INTERFERENCE) |     \
      EFFECT_BIT(EFFECT_COHERENCE))
 
 static bool simulates(const struct reception *reception, enum effect effect)
@@ -21,11 +23,45 @@ static bool simulates(const struct reception *reception, enum effect effect)
     return (reception->effects & EFFECT_BIT(effect)) != 0;
 }
 
+bool reception_rolls(const struct echo *echo)
+{
+    return echo->moving_part == MOVING_WHEEL && echo->ground_rate_mps != 0;
+}
+
+bool reception_walks(const struct echo *echo)
+{
+    return echo->moving_part == MOVING_LIMBS && echo->ground_rate_mps != 0;
+}
+
+static uint64_t described_by_echoes(const struct frame *frame, const struct sensor *sensor)
+{
+    struct echo_span echoes = frame_echoes_of(frame, sensor->name);
+    bool mirrors = frame->conditions.road != ROAD_UNKNOWN && sensor->mount_z_m > 0;
+    uint64_t effects = 0;
+    for (size_t i = 0; i < echoes.count; i++) {
+        const struct echo *echo = &echoes.items[i];
+        effects |= (reception_rolls(echo) ? EFFECT_BIT(EFFECT_WHEELS) : 0) |
+                   (reception_walks(echo) ? EFFECT_BIT(EFFECT_LIMBS) : 0) |
+                   (mirrors && echo->height_m > 0 ? EFFECT_BIT(EFFECT_TWO_RAY) : 0);
+    }
+    return effects;
+}
+
+static bool has_clutter(const struct frame *frame, const struct sensor *sensor)
+{
+    const struct conditions *conditions = &frame->conditions;
+    const struct sensor_view *view = frame_view(frame, sensor->name);
+    return conditions->clutter_per_m2 > 0 && conditions->clutter_ercs > 0 && view != NULL &&
+           view->measured;
+}
+
 uint64_t reception_described(const struct frame *frame, const struct sensor *sensor)
 {
     const struct conditions *conditions = &frame->conditions;
     bool receiver = sensor->receiver_bandwidth_hz > 0;
-    return (sensor->fluctuation != FLUCTUATION_NONE ? EFFECT_BIT(EFFECT_FLUCTUATION) : 0) |
+    return described_by_echoes(frame, sensor) |
+           (has_clutter(frame, sensor) ? EFFECT_BIT(EFFECT_CLUTTER) : 0) |
+           (sensor->fluctuation != FLUCTUATION_NONE ? EFFECT_BIT(EFFECT_FLUCTUATION) : 0) |
            (conditions->rain_mmph > 0 ? EFFECT_BIT(EFFECT_RAIN) : 0) |
            (conditions->fog_gpm3 > 0 ? EFFECT_BIT(EFFECT_FOG) : 0) |
            (sensor->cell_phase != CELL_IN_PHASE ? EFFECT_BIT(EFFECT_COHERENCE) : 0) |
@@ -71,6 +107,8 @@ struct reception reception_begin(const struct frame *frame, const struct sensor 
     struct reception reception = {
         .frame = frame,
         .sensor = sensor,
+        .time_s = suite_instant_s(sensor, frame->time_s, frame->interval_s,
+                                  (effects & EFFECT_BIT(EFFECT_LATENCY)) != 0),
         .effects = effects & reception_described(frame, sensor),
     };
     if (simulates(&reception, EFFECT_RAIN))
@@ -116,6 +154,36 @@ static void scale(struct ray *ray, double factor, enum effect effect)
         ray->effects |= EFFECT_BIT(effect);
 }
 
+/* Asphalt is assumed, concrete ITU-R P.2040's. */
+static struct two_ray_road road_of(enum road road, double carrier_hz)
+{
+    if (road == ROAD_ASPHALT)
+        return (struct two_ray_road){5, 0.25, 1e-3};
+    double conductivity_spm = 0.0462 * elementary_pow(carrier_hz / 1e9, 0.7822);
+    return (struct two_ray_road){5.24, 17.98 * conductivity_spm / (carrier_hz / 1e9), 3e-4};
+}
+
+/* Along the road, of a range that elevation has made slant, or not. */
+static double distance_m(const struct sensor *sensor, const struct echo *echo)
+{
+    double up_m = fabs(echo->height_m - sensor->mount_z_m);
+    if ((echo->effects & EFFECT_BIT(EFFECT_ELEVATION)) == 0)
+        return echo->range_m;
+    return sqrt(fmax(echo->range_m - up_m, 0) * (echo->range_m + up_m));
+}
+
+static void mirror(const struct reception *reception, const struct echo *echo, struct ray *ray)
+{
+    const struct sensor *sensor = reception->sensor;
+    struct two_ray_road road = road_of(reception->frame->conditions.road, sensor->carrier_hz);
+    const struct two_ray_ends ends = {sensor->mount_z_m, echo->height_m, echo->extent_m,
+                                      distance_m(sensor, echo)};
+    scale(ray,
+          two_ray_amplitude_factor(&road, sensor->polarization,
+                                   units_wavelength_m(sensor->carrier_hz), &ends),
+          EFFECT_TWO_RAY);
+}
+
 static void fluctuate(const struct sensor *sensor, struct random_address address, struct ray *ray)
 {
     double uniform[4];
@@ -143,6 +211,8 @@ struct ray reception_ray(const struct reception *reception, const struct echo *e
     struct random_address address = address_of(reception->frame, sensor->name, SUBJECT_OF(echo));
     if (simulates(reception, EFFECT_COHERENCE))
         ray.phase_rad = phase_of(sensor, echo, address);
+    if (echo->height_m > 0 && simulates(reception, EFFECT_TWO_RAY))
+        mirror(reception, echo, &ray);
     if (simulates(reception, EFFECT_FLUCTUATION))
         fluctuate(sensor, address, &ray);
     if (simulates(reception, EFFECT_RAIN))

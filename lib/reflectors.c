@@ -12,6 +12,9 @@ static const char *const shapes[] = {
     NULL,
 };
 
+const char *const reflectors_moving_parts[] = {
+    [MOVING_NONE] = "none", [MOVING_WHEEL] = "wheel", [MOVING_LIMBS] = "limbs", NULL};
+
 /* Fractions reach a little beyond the box: mirrors, bumpers, loads. */
 #define FRACTION(owner, member, help)                                                              \
     {                                                                                              \
@@ -19,9 +22,13 @@ static const char *const shapes[] = {
     }
 
 #define HEIGHT(owner)                                                                              \
+    {FIELD_REAL_IN(owner, z, 1e-3, 2,                                                              \
+                   "height, as a fraction of the object's; absent: the sensor's"),                 \
+     FIELD_OPTIONAL},                                                                              \
     {                                                                                              \
-        FIELD_REAL_IN(owner, z, 1e-3, 2,                                                           \
-                      "height, as a fraction of the object's; absent: the sensor's"),              \
+        FIELD_REAL_IN(owner, extent, 0, 2,                                                         \
+                      "from its lowest to its highest part, as a fraction of the height; absent: " \
+                      "a point"),                                                                  \
             FIELD_OPTIONAL                                                                         \
     }
 
@@ -43,6 +50,9 @@ static const struct field point_fields[] = {
     {FIELD_REAL_IN(struct point_reflector, inset_m, 0, 10, "depth behind the place"),
      FIELD_OPTIONAL},
     SEEN_FROM(struct point_reflector),
+    {FIELD_CHOICE_OF(struct point_reflector, moving_part, reflectors_moving_parts,
+                     "what turns or swings there, for sensors with micro_motion"),
+     FIELD_OPTIONAL},
     {FIELD_REAL_IN(
          struct point_reflector, under_vehicles, 0, 1,
          "part of the cross section that is left when only raised vehicles are in the way"),

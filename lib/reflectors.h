@@ -11,16 +11,22 @@
 #include "motion.h"
 #include "visibility.h"
 
+/* What of an object moves on its own where a point is. */
+enum moving_part { MOVING_NONE, MOVING_WHEEL, MOVING_LIMBS };
+extern const char *const reflectors_moving_parts[]; /* their names, ending with NULL */
+
 /* A corner, a wheel house, a pole: seen from a range of angles around its facing. */
 struct point_reflector {
     const char *name;
     double x, y;
     double z;       /* 0: at the sensor's height */
+    double extent;  /* from its lowest to its highest part, as a fraction of the height */
     double inset_m; /* the point lies this far inside, against its facing */
     double facing_rad;
     double full_rad, zero_rad;
     enum visibility_shape shape;
     double ercs;
+    enum moving_part moving_part;
     double under_vehicles; /* the part of its ERCS that passes under a raised vehicle in the way */
 };
 
@@ -31,7 +37,7 @@ struct point_reflector {
 struct plane_reflector {
     const char *name;
     double from_x, from_y, to_x, to_y;
-    double z;
+    double z, extent;
     double margin_m;
     double ercs;
     double profile_radius_m, radius_m; /* of curvature, upright and in the plane; 0: none */
@@ -49,7 +55,7 @@ struct mirror_plane {
 struct post_row {
     const char *name;
     double from_x, from_y, to_x, to_y;
-    double z;
+    double z, extent;
     double spacing_m;
     double facing_rad;
     double full_rad, zero_rad;

@@ -7,17 +7,21 @@ static void receive(struct scan *scan)
 {
     const struct frame *frame = scan->reception.frame;
     struct echo_span echoes = frame_echoes_of(frame, scan->reception.sensor->name);
-    struct ray *rays = arena_get(frame->arena, (echoes.count + 1) * sizeof *rays);
-    size_t count = echoes.count;
-    for (size_t i = 0; i < count; i++)
+    struct echo_span scatterers = scatterers_of(&scan->reception);
+    size_t all = echoes.count + scatterers.count, count = all;
+    struct ray *rays = arena_get(frame->arena, (all + 1) * sizeof *rays);
+    for (size_t i = 0; i < echoes.count; i++)
         rays[i] = reception_ray(&scan->reception, &echoes.items[i]);
+    for (size_t i = 0; i < scatterers.count; i++)
+        rays[echoes.count + i] = reception_ray(&scan->reception, &scatterers.items[i]);
     sort_items(rays, count, sizeof *rays, superposition_compare, frame->arena);
     while (count > 0 && !(rays[count - 1].amplitude > 0))
         count--;
+    scan->scatterers = scatterers;
     scan->resolved.rays = rays;
     scan->resolved.count = count;
     scan->silent = rays + count;
-    scan->silent_count = echoes.count - count;
+    scan->silent_count = all - count;
 }
 
 static void resolve(struct scan *scan, const struct selection *selection)

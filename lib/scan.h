@@ -4,19 +4,20 @@
 #define SCAN_H
 
 #include "cell_margins.h"
-#include "reception.h"
+#include "scatterers.h"
 
 struct scan {
     struct reception reception;
+    struct echo_span scatterers; /* beyond the frame's echoes */
     struct clustered_rays resolved;
     size_t cells;             /* numbered in the order of their leaders */
     const struct ray *silent; /* without amplitude: they are in no cell */
     size_t silent_count;
 };
 
-/* Receives the sensor's echoes and resolves them. Under a selection, a scan is made with all of its
- * effects but those of without; merging may be left out where no two rays are close. Memory comes
- * from the frame's arena. */
+/* Receives the sensor's echoes and scatterers, and resolves them. Under a selection, a scan is made
+ * with all of its effects but those of without; merging may be left out where no two rays are
+ * close. Memory comes from the frame's arena. */
 struct scan scan_make(struct frame *frame, const struct sensor *sensor,
                       const struct selection *selection, uint64_t without);
 

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "cycle.h"
 #include "units.h"
 
 static const char *const extents[] = {
@@ -54,6 +55,9 @@ static const struct field sensor_fields[] = {
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct sensor, curved_sides,
                    "do planes with a profile_radius_m reflect as curved surfaces?"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct sensor, micro_motion,
+                   "do wheels and limbs show with rates of their own?"),
      FIELD_OPTIONAL},
     {REAL(cycle_s, 1e-4, 1e3, "from scan to scan; absent: a scan in every frame"), FIELD_OPTIONAL},
     {REAL(latency_s, 0, 10, "the scan shows the world this much earlier"), FIELD_OPTIONAL},
@@ -162,6 +166,13 @@ const struct sensor *suite_sensor(const struct suite *suite, const char *name)
         if (strcmp(suite->sensors.items[i].name, name) == 0)
             return &suite->sensors.items[i];
     return NULL;
+}
+
+double suite_instant_s(const struct sensor *sensor, double time_s, double interval_s, bool late)
+{
+    double instant_s = time_s;
+    cycle_instant_s(sensor->cycle_s, time_s, interval_s, &instant_s);
+    return instant_s - (late ? sensor->latency_s : 0);
 }
 
 void suite_derive(struct sensor *sensor)

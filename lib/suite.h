@@ -25,7 +25,7 @@ struct sensor {
     double range_min_m, range_max_m;
     double field_of_view_rad;
     double elevation_half_width_rad;
-    bool diffraction, curved_sides;
+    bool diffraction, curved_sides, micro_motion;
     double cycle_s, latency_s;
     int64_t bounces; /* of the longest path, off objects and mirrors; below 2 only direct ones */
 
@@ -81,6 +81,9 @@ extern const struct record sensor_record, suite_record;
 
 /* The sensor of that name, or NULL. */
 const struct sensor *suite_sensor(const struct suite *suite, const char *name);
+
+/* When the sensor measured what it shows in a frame of that time and interval. */
+double suite_instant_s(const struct sensor *sensor, double time_s, double interval_s, bool late);
 
 /* Works out a sensor's derived members from the document's; its tables, if it names any, must be
  * in place already. */

@@ -1,5 +1,6 @@
-/* The sensor before noise: amplitude of every echo (MODEL 4), resolution cells (6), threshold on
- * the summed amplitude, superposed sum and delta pointers of each cell (7, 8). */
+/* The sensor before noise: amplitude of every echo (MODEL 4), what moves on reflectors and what
+ * lies on the ground (14), resolution cells (6), threshold on the summed amplitude, superposed sum
+ * and delta pointers of each cell (7, 8). */
 #include "cell_margins.h"
 #include "escalation.h"
 #include "stage.h"
@@ -67,6 +68,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
     reception_note(&scan.reception, selection);
     effects_note(selection, EFFECT_SUPERPOSITION, false);
     effects_note(selection, EFFECT_THRESHOLD, true);
+    scatterers_count(frame, sensor->name, scan.scatterers);
     for (size_t i = 0; i < scan.silent_count; i++)
         frame_lose_subject(frame, "sensor", sensor->name, &scan.silent[i].echo, LOSS_NO_AMPLITUDE);
     for (size_t number = 0; number < scan.cells; number++)
@@ -82,7 +84,8 @@ static int sensor_step(void *state, struct frame *frame, struct runner *runner)
 const struct stage stage_sensor = {
     .name = "sensor",
     .summary = "Merge echoes into resolution cells and superpose their antenna pointers.",
-    .details = "Gives every echo its amplitude, lets echoes that the radar cannot resolve share a\n"
+    .details = "Gives every echo its amplitude, adds those of wheels, limbs and clutter, lets "
+               "echoes that the radar cannot resolve share a\n"
                "cell, drops cells whose summed amplitude is below the detection threshold, and\n"
                "writes what the sum and delta channels would show of the rest without noise.",
     .options = &suite_choice_record,

@@ -37,7 +37,8 @@ const struct stage stage_sensor_perfect = {
     .summary = "Make one exact cell of every echo.",
     .details =
         "Stands in for glint-sensor: nothing merges, no threshold is applied, range, azimuth\n"
-        "and range rate are exact. An echo of zero amplitude is lost.",
+        "and range rate are exact. An echo of zero amplitude is lost. There is nothing but\n"
+        "echoes and what they are: no wheels, limbs, clutter, road, weather, fluctuation.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_CELLS | SECTION_LOST,
