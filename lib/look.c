@@ -206,16 +206,14 @@ double look_top_m(const struct look *look, const struct look_body *body)
 static struct look_way past(const struct look *look, const struct look_body *body,
                             const struct passage_line *line)
 {
-    double top = look_top_m(look, body), wavelength_m = look->wavelength_m;
-    struct look_way way = {.factor = passage_factor(body->corner, 4, top, line, wavelength_m)};
-    if (way.factor == 0)
-        way.by = body;
-    if (wavelength_m > 0 && way.factor != passage_factor(body->corner, 4, top, line, 0))
-        way.effects |= EFFECT_BIT(EFFECT_DIFFRACTION);
-    if (top < (double)INFINITY &&
-        way.factor != passage_factor(body->corner, 4, (double)INFINITY, line, wavelength_m))
-        way.effects |= EFFECT_BIT(EFFECT_HEIGHT);
-    return way;
+    struct passage passage =
+        passage_of(body->corner, 4, look_top_m(look, body), line, look->wavelength_m);
+    return (struct look_way){
+        .factor = passage.factor,
+        .by = passage.factor == 0 ? body : NULL,
+        .effects = (passage.bent ? EFFECT_BIT(EFFECT_DIFFRACTION) : 0) |
+                   (passage.over ? EFFECT_BIT(EFFECT_HEIGHT) : 0),
+    };
 }
 
 /* What comes through to a place on the body that is looked at, on a side of it or not (NULL); only
