@@ -121,17 +121,31 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
     return mark_blockers(look, diag);
 }
 
-/* A sight line that stays clear of the circle around a body cannot touch its outline. The slack
- * covers the rounding of this test, so the exact one is only spared where it would say no. */
+/* Both ends of a line beyond the same side of a body. */
+static bool passes_beside(double from_m, double to_m, double reach_m)
+{
+    return fmin(from_m, to_m) > reach_m || fmax(from_m, to_m) < -reach_m;
+}
+
+/* A sight line that stays clear of the circle around a body, or has both ends beyond one of its
+ * sides, cannot touch its outline. The slack covers the rounding of this test, so the exact one is
+ * only spared where it would say no. */
 static bool passes_clear(const struct look_body *body, struct vec2 from, struct vec2 to,
                          double wavelength_m)
 {
     struct vec2 line = vec2_sub(to, from), centre = vec2_sub(body->box.motion.position_m, from);
     double length_m = vec2_length(line), along = vec2_dot(line, centre);
-    double radius_m = body->sector.radius_m + 1e-6 + knife_edge_reach_m(length_m, wavelength_m);
-    double reach = radius_m * (1 + 1e-9) * length_m;
-    return fabs(vec2_cross(line, centre)) > reach || along < -reach ||
-           along > vec2_dot(line, line) + reach;
+    double slack_m = 1e-6 + knife_edge_reach_m(length_m, wavelength_m);
+    double reach = (body->sector.radius_m + slack_m) * (1 + 1e-9) * length_m;
+    if (fabs(vec2_cross(line, centre)) > reach || along < -reach ||
+        along > vec2_dot(line, line) + reach)
+        return true;
+    struct vec2 ahead = body->box.heading, rest = vec2_sub(centre, line);
+    slack_m += 1e-9 * (length_m + body->sector.radius_m);
+    return passes_beside(vec2_cross(ahead, centre), vec2_cross(ahead, rest),
+                         0.5 * body->box.width_m + slack_m) ||
+           passes_beside(vec2_dot(ahead, centre), vec2_dot(ahead, rest),
+                         0.5 * body->box.length_m + slack_m);
 }
 
 /* A plane in the world. */
