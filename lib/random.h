@@ -19,6 +19,7 @@ enum random_purpose {
     RANDOM_REFLECTOR_PHASE = 7, /* what a reflector adds to the phase of its path */
     RANDOM_FLUCTUATION = 8,     /* an echo's strength in this scan */
     RANDOM_FALSE_ALARMS = 9,    /* of a scan: block 0 how many, block n where the n-th is */
+    RANDOM_CONDITIONS = 10,     /* road, weather and other radars of a random scene */
 };
 
 struct random_address {

@@ -3,7 +3,10 @@
  *
  * The factors apply in this order, each only where a document describes its cause: radar equation
  * and cross section (MODEL 4), fluctuation (EFFECTS 1), rain and fog (13). Range and rate are
- * folded after that (10), so amplitudes are those of the true range. */
+ * folded after that (10), so amplitudes are those of the true range.
+ *
+ * An interferer is heard where its object stands in this frame, if it is in view: one that has left
+ * the scene, or is the ego, is not heard (12). */
 #ifndef RECEPTION_H
 #define RECEPTION_H
 
@@ -23,6 +26,9 @@ uint64_t reception_described(const struct frame *frame, const struct sensor *sen
 
 struct reception reception_begin(const struct frame *frame, const struct sensor *sensor,
                                  uint64_t effects);
+
+/* Notes every effect that is at home here: all that is described and may be is simulated. */
+void reception_note(const struct reception *reception, const struct selection *selection);
 
 /* The echo as it is received. */
 struct ray reception_ray(const struct reception *reception, const struct echo *echo);
