@@ -50,7 +50,8 @@ struct antenna_pointers antenna_pointers(const struct antenna *antenna, double a
 /* |H_sum|: the antenna pattern A_phi of equation (2). */
 double antenna_gain(const struct antenna *antenna, double azimuth_rad);
 
-/* The least and the greatest antenna_gain between two azimuths, low <= high, both included. */
+/* The least and the greatest antenna_gain between two azimuths, low <= high, both included, but for
+ * rounding. */
 struct bounds antenna_gain_bounds(const struct antenna *antenna, double low_rad, double high_rad);
 
 /* The azimuth whose signed ratio delta : sum is the given pair (equation 7 inverted; sum >= 0,

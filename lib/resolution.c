@@ -27,6 +27,10 @@ bool resolution_close(const struct resolution_echo *echoes, size_t count, double
 {
     if (count == 0)
         return false;
+    /* Echoes of one thing are often next to each other as they come, and sorting is dear. */
+    for (size_t i = 1; i < count; i++)
+        if (shares_cell(&echoes[i - 1], &echoes[i], half_range_m, half_range_rate_mps))
+            return true;
     memcpy(by_range, echoes, count * sizeof *echoes);
     sort_items(by_range, count, sizeof *by_range, compare_ranges, arena);
     for (size_t i = 0; i < count; i++)

@@ -63,11 +63,13 @@ struct scan scan_make(struct frame *frame, const struct sensor *sensor,
 struct ray *scan_members(const struct scan *scan, size_t number, size_t *count)
 {
     const struct clustered_rays *all = &scan->resolved;
-    struct ray *members =
-        arena_get(scan->reception.frame->arena, (all->count + 1) * sizeof *members);
     *count = 0;
     for (size_t i = 0; i < all->count; i++)
+        *count += all->cell[i] == number;
+    struct ray *members = arena_get(scan->reception.frame->arena, *count * sizeof *members);
+    size_t next = 0;
+    for (size_t i = 0; next < *count; i++)
         if (all->cell[i] == number)
-            members[(*count)++] = all->rays[i];
+            members[next++] = all->rays[i];
     return members;
 }

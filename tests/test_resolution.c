@@ -117,6 +117,30 @@ static void every_echo_lies_in_the_first_cell_that_reaches_it(void **state)
     }
 }
 
+/* On a grid of half cells, so wide that many scenes have no pair. */
+static void echoes_are_close_exactly_if_a_pair_is(void **state)
+{
+    (void)state;
+    size_t close_scenes = 0;
+    struct arena arena = {0};
+    for (uint64_t scene = 0; scene < 5000; scene++) {
+        struct resolution_echo echoes[ECHO_MAX], by_range[ECHO_MAX];
+        size_t count = draw_echoes(scene, echoes);
+        bool close = false;
+        for (uint32_t i = 0; i < count; i++)
+            echoes[i].range_m = 0.125 * floor(150 * draw(scene, 100 + i));
+        for (size_t i = 0; i < count; i++)
+            for (size_t j = 0; j < i; j++)
+                close =
+                    close || (fabs(echoes[i].range_m - echoes[j].range_m) <= 0.125 &&
+                              fabs(echoes[i].range_rate_mps - echoes[j].range_rate_mps) <= 0.125);
+        assert_int_equal(resolution_close(echoes, count, 0.125, 0.125, by_range, &arena), close);
+        close_scenes += close;
+    }
+    arena_free(&arena);
+    assert_in_range(close_scenes, 1000, 4000);
+}
+
 /* NUMERICS 45. */
 static void sorted_echoes_cluster_alike_in_every_input_order(void **state)
 {
@@ -225,6 +249,7 @@ int main(void)
         cmocka_unit_test(the_border_is_decided_by_the_doubles),
         cmocka_unit_test(a_cell_does_not_grow_along_a_chain),
         cmocka_unit_test(every_echo_lies_in_the_first_cell_that_reaches_it),
+        cmocka_unit_test(echoes_are_close_exactly_if_a_pair_is),
         cmocka_unit_test(sorted_echoes_cluster_alike_in_every_input_order),
         cmocka_unit_test(three_equal_echoes_make_two_cells),
         cmocka_unit_test(the_mean_of_equal_values_is_that_value),

@@ -12,6 +12,7 @@
 
 #include "compare.h"
 #include "draws.h"
+#include "elementary.h"
 #include "frame_text.h"
 #include "fused.h"
 #include "options.h"
@@ -50,6 +51,7 @@ struct soundness {
     int64_t first, frames;
     enum planners planners;
     const char *without, *only;
+    double tolerance_scale;
     bool margins, until_caught, print;
 };
 
@@ -79,6 +81,8 @@ static const struct field soundness_options[] = {
     {FIELD_NAME_OF(struct soundness, only,
                    "only scenes in which every object is of one of these classes: car,van"),
      FIELD_OPTIONAL, .word = "LIST"},
+    {FIELD_REAL_IN(struct soundness, tolerance_scale, 1e-3, 1e3, "times the default tolerance"),
+     FIELD_OPTIONAL, .absent = 1},
     {FIELD_FLAG_OF(struct soundness, margins, "targets and lost tell margins too"), FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct soundness, until_caught,
                    "a planner with a violation needs no more scenes"),
@@ -152,23 +156,49 @@ static int start_scenes(struct bench *bench)
                : -1;
 }
 
-static int start_planner(struct planner *planner, const struct bench *bench, const char *effects,
-                         bool tolerant)
+static struct tolerance tolerance_of(const struct soundness *wanted)
 {
-    const struct soundness *wanted = bench->wanted;
-    const char *words[8] = {"--sensors", wanted->sensors, "--effects", effects, "--account"};
+    struct tolerance tolerance = tolerance_default;
+    tolerance.range_m *= wanted->tolerance_scale;
+    tolerance.azimuth_rad *= wanted->tolerance_scale;
+    tolerance.range_rate_mps *= wanted->tolerance_scale;
+    tolerance.amplitude_db *= wanted->tolerance_scale;
+    return tolerance;
+}
+
+/* What glint-ideal is told; the stages after it read it off the frame. */
+static int start_ideal(struct planner *planner, const struct soundness *wanted)
+{
+    char texts[4][24];
+    const double values[] = {planner->tolerance.range_m, planner->tolerance.azimuth_rad,
+                             planner->tolerance.range_rate_mps, planner->tolerance.amplitude_db};
+    static const char *const names[] = {"--tolerance-range-m", "--tolerance-azimuth-rad",
+                                        "--tolerance-range-rate-mps", "--tolerance-amplitude-db"};
+    const char *words[16] = {"--sensors", wanted->sensors, "--effects", planner->effects,
+                             "--account"};
     size_t count = 5;
     if (wanted->margins)
         words[count++] = "--margins";
-    if (tolerant)
-        words[count++] = "--tolerance";
-    *planner =
-        (struct planner){.effects = effects, .tolerance = tolerance_default, .tolerant = tolerant};
+    for (int i = 0; i < 4 && planner->tolerant; i++) {
+        snprintf(texts[i], sizeof texts[i], "%.17g", values[i]);
+        words[count++] = names[i];
+        words[count++] = texts[i];
+    }
+    return start_stage(&planner->runners[0], steps[0], words);
+}
+
+static int start_planner(struct planner *planner, const struct bench *bench, const char *effects,
+                         bool tolerant)
+{
+    static const char *const no_words[] = {NULL};
+    *planner = (struct planner){
+        .effects = effects, .tolerance = tolerance_of(bench->wanted), .tolerant = tolerant};
     for (int i = 0; i < STEPS; i++) {
-        planner->logs[i].clock_ns = no_clock_ns;
-        if (start_stage(&planner->runners[i], steps[i],
-                        i == 0 ? words : (const char *const[]){NULL}) != 0)
+        int result = i == 0 ? start_ideal(planner, bench->wanted)
+                            : start_stage(&planner->runners[i], steps[i], no_words);
+        if (result != 0)
             return -1;
+        planner->logs[i].clock_ns = no_clock_ns;
         planner->runners[i].log = &planner->logs[i];
         planner->runners[i].common.keep = i == STEPS - 1;
     }
@@ -236,6 +266,12 @@ static void judge(const struct frame *all, int64_t number, struct planner *plann
     planner->violations++;
 }
 
+/* Of every order of size alike: what a tolerance lets go and what it does not. */
+static double draw_size(struct draws *draws, double least, double most)
+{
+    return least * elementary_pow(most / least, draws_next(draws));
+}
+
 /* Whatever a document may say of road, weather and other radars, each in some of the scenes. */
 static void draw_conditions(struct frame *frame, struct random_address address)
 {
@@ -243,10 +279,10 @@ static void draw_conditions(struct frame *frame, struct random_address address)
     address.subject = UINT64_MAX;
     struct draws draws = draws_at(address, RANDOM_TRAFFIC);
     conditions->road = (enum road)draws_whole(&draws, ROAD_UNKNOWN, ROAD_CONCRETE);
+    if (draws_chance(&draws, 0.4))
+        conditions->rain_mmph = draw_size(&draws, 0.01, 100);
     if (draws_chance(&draws, 0.3))
-        conditions->rain_mmph = draws_between(&draws, 0, 60);
-    if (draws_chance(&draws, 0.2))
-        conditions->fog_gpm3 = draws_between(&draws, 0, 0.5);
+        conditions->fog_gpm3 = draw_size(&draws, 0.001, 1);
     bool interfered = draws_chance(&draws, 0.3);
     for (size_t i = 1; i < frame->objects.count && interfered; i++)
         if (draws_chance(&draws, 0.5))
@@ -256,6 +292,11 @@ static void draw_conditions(struct frame *frame, struct random_address address)
                 .slope_hzps = draws_sign(&draws) * draws_between(&draws, 1e12, 5e13),
                 .hit_share = draws_between(&draws, 0, 0.3),
             };
+    if (draws_chance(&draws, 0.2)) {
+        conditions->clutter_per_m2 = draw_size(&draws, 1e-5, 3e-3);
+        conditions->clutter_ercs = draw_size(&draws, 0.01, 1);
+        conditions->clutter_overdispersion = draws_between(&draws, 0, 4);
+    }
 }
 
 static bool lists(const char *names, const char *name)
@@ -410,22 +451,30 @@ static int prove(struct bench *bench)
     return violations > 0;
 }
 
+static int help(void)
+{
+    struct text text = {0};
+    options_help(&stage_soundness, &text);
+    fwrite(text.bytes, 1, text.length, stdout);
+    text_free(&text);
+    return 0;
+}
+
+static int refuse_words(struct runner *own)
+{
+    refuse(own);
+    return DIAG_USAGE;
+}
+
 int main(int count, char **words)
 {
     static struct bench bench;
     struct soundness wanted;
     struct runner own = {.stage = &stage_soundness};
+    bench.wanted = &wanted;
     int result = options_read(&stage_soundness, (size_t)count - 1, (const char *const *)words + 1,
                               &wanted, &own.common, &own.arena, &own.diag);
-    bench.wanted = &wanted;
-    struct text help = {0};
-    if (result != 0)
-        refuse(&own);
-    else if (own.common.help)
-        options_help(&stage_soundness, &help);
-    fwrite(help.bytes, 1, help.length, stdout);
-    int status = result != 0 ? DIAG_USAGE : own.common.help ? 0 : prove(&bench);
-    text_free(&help);
+    int status = result != 0 ? refuse_words(&own) : own.common.help ? help() : prove(&bench);
     free_bench(&bench);
     runner_free(&own);
     return status;
