@@ -341,9 +341,8 @@ struct glimpse {
     const struct side *side; /* that it is, or NULL for a point */
     struct vec2 place;
     double height_m;
-    double over_road_m, extent_m; /* its height if that is known, else 0; and how high it is */
+    double z, extent; /* as described */
     enum moving_part moving_part;
-    double ground_rate_mps;
     double ercs;
     double under_vehicles;
     double margin_m;  /* by which it faces the sensor */
@@ -424,27 +423,43 @@ static bool in_reach(struct look *look, const struct look_body *body, struct gli
     return true;
 }
 
-static double heading_rad(const struct look *look, const struct look_body *body)
+/* Its height over the road, where that is described, in a world that is not flat. */
+static void tell_height(const struct look *look, const struct look_body *body,
+                        const struct glimpse *seen, struct echo *echo)
 {
-    return elementary_atan2(vec2_cross(look->boresight, body->box.heading),
-                            vec2_dot(look->boresight, body->box.heading));
+    bool mirrors = look->frame->conditions.road != ROAD_UNKNOWN;
+    if (!(mirrors && look->height_m > 0 && seen->z > 0))
+        return;
+    echo->height_m = seen->height_m;
+    echo->extent_m = seen->extent * body->object->height_m;
+}
+
+/* How a part moves that turns or swings: its motion over ground has the same share of the range
+ * rate along the line on which it is seen as in the plane. */
+static void tell_motion(const struct look *look, const struct look_body *body,
+                        const struct glimpse *seen, struct vec2 velocity, struct echo *echo)
+{
+    struct vec2 still = {0, 0}, boresight = look->boresight, heading = body->box.heading;
+    if (!look->sensor->micro_motion || seen->moving_part == MOVING_NONE)
+        return;
+    struct sight ground = sight_of(look->position_m, still, boresight, seen->place, velocity);
+    echo->moving_part = seen->moving_part;
+    echo->ground_rate_mps = ground.range_rate_mps * (ground.range_m / echo->range_m);
+    echo->heading_rad =
+        elementary_atan2(vec2_cross(boresight, heading), vec2_dot(boresight, heading));
 }
 
 /* An echo if it is in range, in view and not blocked. */
 static void look_at(struct look *look, const struct look_body *body, struct glimpse seen)
 {
     bool tell = look->frame->margins, under;
-    struct vec2 velocity = motion_velocity_at(&body->box.motion, seen.place), ground = {0, 0};
-    struct sight level =
-        sight_of(look->position_m, look->velocity_mps, look->boresight, seen.place, velocity);
+    struct vec2 velocity = motion_velocity_at(&body->box.motion, seen.place);
     double gain;
-    struct sight sight = look_lifted(look, seen.height_m, level, &gain, &seen.effects);
+    struct sight sight = look_lifted(
+        look, seen.height_m,
+        sight_of(look->position_m, look->velocity_mps, look->boresight, seen.place, velocity),
+        &gain, &seen.effects);
     seen.ercs *= gain;
-    if (seen.moving_part != MOVING_NONE)
-        seen.ground_rate_mps =
-            level.range_m / sight.range_m *
-            sight_of(look->position_m, ground, look->boresight, seen.place, velocity)
-                .range_rate_mps;
     if (!in_reach(look, body, &seen, &sight))
         return;
     const struct passage_line line = {look->position_m, seen.place, look->height_m, seen.height_m};
@@ -459,7 +474,8 @@ static void look_at(struct look *look, const struct look_body *body, struct glim
     if (tell)
         seen.margin_m = fmin(seen.margin_m, sight_margin_m(look, body, &line, under));
     look->echoes++;
-    *list_add(&look->frame->echoes, look->frame->arena) = (struct echo){
+    struct echo *echo = list_add(&look->frame->echoes, look->frame->arena);
+    *echo = (struct echo){
         .sensor = look->sensor->name,
         .object = body->object->id,
         .reflector = seen.reflector,
@@ -468,28 +484,17 @@ static void look_at(struct look *look, const struct look_body *body, struct glim
         .azimuth_rad = sight.azimuth_rad,
         .range_rate_mps = sight.range_rate_mps,
         .ercs = way.factor * seen.ercs,
-        .height_m = seen.over_road_m,
-        .extent_m = seen.over_road_m > 0 ? seen.extent_m : 0,
-        .moving_part = seen.moving_part,
-        .ground_rate_mps = seen.ground_rate_mps,
-        .heading_rad = seen.moving_part != MOVING_NONE ? heading_rad(look, body) : 0,
         .time_s = look->time_s,
         .effects = seen.effects | way.effects,
         .margins = margins_of(look, seen.margin_m),
     };
+    tell_height(look, body, &seen, echo);
+    tell_motion(look, body, &seen, velocity, echo);
 }
 
 double look_height_m(const struct look *look, const struct look_body *body, double z)
 {
     return z > 0 ? z * body->object->height_m : look->height_m;
-}
-
-/* The same over the road, where that is known to mirror; 0 in a flat world, and where it is not
- * described. */
-static double over_road_m(const struct look *look, const struct look_body *body, double z)
-{
-    bool mirrors = look->height_m > 0 && look->frame->conditions.road != ROAD_UNKNOWN;
-    return mirrors ? z * body->object->height_m : 0;
 }
 
 uint64_t look_aged(const struct look *look, const struct look_body *body)
@@ -516,9 +521,9 @@ static void look_at_point(struct look *look, const struct look_body *body,
                     .reflector = point->name,
                     .place = place,
                     .height_m = look_height_m(look, body, point->z),
-                    .over_road_m = over_road_m(look, body, point->z),
-                    .extent_m = point->extent * body->object->height_m,
-                    .moving_part = look->sensor->micro_motion ? point->moving_part : MOVING_NONE,
+                    .z = point->z,
+                    .extent = point->extent,
+                    .moving_part = point->moving_part,
                     .ercs = visible * point->ercs,
                     .under_vehicles = point->under_vehicles,
                     .margin_m = margin_m,
@@ -564,8 +569,8 @@ static void look_at_plane(struct look *look, const struct look_body *body,
             .side = &side,
             .place = foot,
             .height_m = look_height_m(look, body, plane->z),
-            .over_road_m = over_road_m(look, body, plane->z),
-            .extent_m = plane->extent * body->object->height_m,
+            .z = plane->z,
+            .extent = plane->extent,
             .margin_m = margin_m,
             .effects = look_aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
         };
