@@ -46,7 +46,7 @@ const struct effect_entry effects_table[EFFECT_COUNT] = {
                                  "a foot per plane"},
     [EFFECT_CURVATURE] = {"a curved side reflects more from farther away", "ideal",
                           "curved_sides of a sensor, profile_radius_m of a plane",
-                          "for every plane without a radius", "a square root per plane"},
+                          "no plane has a radius", "a square root per plane"},
     [EFFECT_ROWS] = {"posts along a line, made only within range", "ideal", "rows of a vehicle",
                      "no object has rows", "the posts in range"},
     [EFFECT_ELEVATION] = {"what is higher or lower than the sensor is farther, slower, weaker and "
@@ -76,8 +76,8 @@ const struct effect_entry effects_table[EFFECT_COUNT] = {
                      "there is none; with a tolerance also where no decision and no value can "
                      "change by more",
                      "an exponential per echo"},
-    [EFFECT_FOG] = {"fog attenuates", "sensor", "fog_gpm3 of the conditions", "as rain",
-                    "an exponential per echo"},
+    [EFFECT_FOG] = {"fog attenuates", "sensor", "fog_gpm3 of the conditions",
+                    "there is none; with a tolerance as for rain", "an exponential per echo"},
     [EFFECT_AMBIGUITY] = {"ranges and range rates beyond what the waveform tells apart fold back",
                           "sensor", "unambiguous_range_m, unambiguous_rate_mps of a sensor",
                           "never: it costs as little", "two remainders per echo"},

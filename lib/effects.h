@@ -63,7 +63,8 @@ struct effect_entry {
     const char *summary;
     const char *home;   /* the stage */
     const char *member; /* of the document that describes its cause */
-    const char *bound;  /* when auto leaves it out */
+    const char *bound;  /* when auto leaves it out: "no object has rows"; "never: ..." if it does so
+                           only where nothing describes it */
     const char *cost;   /* of simulating it */
 };
 

@@ -1,4 +1,4 @@
-/* False alarms: targets that are nothing but noise above the threshold (EFFECTS 9, MODEL 14).
+/* False alarms: targets that are nothing but noise above the threshold (EFFECTS 9, MODEL 14.9).
  *
  * How many there are in a scan is a Poisson count; each is as likely in every resolution cell, so
  * even in range, azimuth and range rate, and as strong as noise is that has passed the threshold

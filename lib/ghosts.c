@@ -73,37 +73,50 @@ static struct facets facets_of(const struct look *look)
     return facets;
 }
 
+/* One of two ways between the sensor and a reflector: straight, or by the mirror. */
+struct course {
+    struct sight sight;
+    double factor; /* on amplitude, for there and back */
+    double margin_m;
+    uint64_t effects;
+};
+
 /* A reflector and how a mirror shows it. */
 struct reflex {
     const struct facet *facet;
     const struct look_body *body;
     const char *reflector;
     struct vec2 place, bounce;
-    struct sight direct, image;
+    double height_m;
     double ercs;
-    double visible_direct, visible_mirrored;
-    double margin_m, direct_margin_m; /* of what decides about it, and about its direct way */
-    uint64_t effects;
+    struct course direct, mirrored;
 };
 
+static struct course course_to(const struct look *look, struct vec2 place, struct vec2 velocity,
+                               double height_m)
+{
+    struct course course = {.margin_m = (double)INFINITY};
+    struct sight sight =
+        sight_of(look->position_m, look->velocity_mps, look->boresight, place, velocity);
+    course.sight = look_lifted(look, height_m, sight, &course.factor, &course.effects);
+    return course;
+}
+
 static struct reflex reflex_of(const struct look *look, const struct facet *facet,
-                               const struct look_body *body, struct vec2 place, struct vec2 bounce)
+                               const struct look_body *body, struct vec2 place, double z,
+                               struct vec2 bounce)
 {
     struct vec2 velocity = motion_velocity_at(&body->box.motion, place);
     struct mirror_image image = mirror_image(&facet->mirror, place, velocity);
+    double height_m = look_height_m(look, body, z);
     return (struct reflex){
         .facet = facet,
         .body = body,
         .place = place,
         .bounce = bounce,
-        .direct = sight_of(look->position_m, look->velocity_mps, look->boresight, place, velocity),
-        .image = sight_of(look->position_m, look->velocity_mps, look->boresight, image.place_m,
-                          image.velocity_mps),
-        .visible_direct = 1,
-        .visible_mirrored = 1,
-        .margin_m = (double)INFINITY,
-        .direct_margin_m = (double)INFINITY,
-        .effects = EFFECT_BIT(EFFECT_GHOSTS) | look_aged(look, body) | look_aged(look, facet->body),
+        .height_m = height_m,
+        .direct = course_to(look, place, velocity, height_m),
+        .mirrored = course_to(look, image.place_m, image.velocity_mps, height_m),
     };
 }
 
@@ -130,31 +143,43 @@ static double bounce_margin_m(const struct look *look, const struct reflex *refl
     return fmin(ends_m, line_m);
 }
 
-static bool mirrored_way_is_free(const struct look *look, struct reflex *reflex)
+/* Adds one leg to a course. */
+static void pass(const struct look *look, struct course *course, struct passage_line line,
+                 const struct look_body *const *but, size_t count)
+{
+    struct look_way way = look_along(look, &line, but, count);
+    course->factor *= way.factor;
+    course->effects |= way.effects;
+    if (look->frame->margins && way.factor > 0)
+        course->margin_m = fmin(course->margin_m, look_clearance_m(look, &line, but, count));
+}
+
+static void pass_directly(const struct look *look, struct reflex *reflex)
+{
+    struct passage_line line = {look->position_m, reflex->place, look->height_m, reflex->height_m};
+    pass(look, &reflex->direct, line, &reflex->body, 1);
+}
+
+static void pass_by_mirror(const struct look *look, struct reflex *reflex)
 {
     const struct facet *facet = reflex->facet;
     const struct look_body *touched[] = {facet->body, facet->before, facet->after, reflex->body};
-    if (look_blocked(look, look->position_m, reflex->bounce, touched, 3) ||
-        look_blocked(look, reflex->bounce, reflex->place, touched, 4))
-        return false;
-    if (look->frame->margins) {
-        double out_m = look_clearance_m(look, look->position_m, reflex->bounce, touched, 3);
-        double on_m = look_clearance_m(look, reflex->bounce, reflex->place, touched, 4);
-        reflex->margin_m =
-            fmin(fmin(reflex->margin_m, bounce_margin_m(look, reflex)), fmin(out_m, on_m));
-    }
-    return true;
-}
-
-static bool direct_way_is_free(const struct look *look, struct reflex *reflex)
-{
-    if (look_blocked(look, look->position_m, reflex->place, &reflex->body, 1))
-        return false;
+    double out_m = vec2_length(vec2_sub(reflex->bounce, look->position_m));
+    double on_m = vec2_length(vec2_sub(reflex->place, reflex->bounce));
+    double height_m =
+        look->height_m + (reflex->height_m - look->height_m) * (out_m / (out_m + on_m));
+    double below_m = look_top_m(look, facet->body) - height_m;
+    struct course *course = &reflex->mirrored;
+    if (!(below_m >= 0))
+        course->factor = 0;
+    pass(look, course,
+         (struct passage_line){look->position_m, reflex->bounce, look->height_m, height_m}, touched,
+         3);
+    pass(look, course,
+         (struct passage_line){reflex->bounce, reflex->place, height_m, reflex->height_m}, touched,
+         4);
     if (look->frame->margins)
-        reflex->direct_margin_m =
-            fmin(reflex->direct_margin_m,
-                 look_clearance_m(look, look->position_m, reflex->place, &reflex->body, 1));
-    return true;
+        course->margin_m = fmin(course->margin_m, fmin(bounce_margin_m(look, reflex), below_m));
 }
 
 static bool is_listed(const struct sensor *sensor, const struct sight *sight, double departure_rad)
@@ -172,18 +197,22 @@ static double limits_margin_m(const struct sensor *sensor, const struct sight *s
                 sight->range_m * view_rad);
 }
 
-static void add(struct look *look, const struct reflex *reflex, enum path path,
-                const struct ghost *ghost, double visible, double departure_rad)
+static struct margins margins_of(const struct look *look, const struct sight *sight,
+                                 const struct course *out, const struct course *back)
 {
-    if (!is_listed(look->sensor, &ghost->sight, departure_rad))
-        return;
     struct margins margins = {0};
-    double margin_m = path == PATH_WALL_OBJECT_WALL
-                          ? reflex->margin_m
-                          : fmin(reflex->margin_m, reflex->direct_margin_m);
+    double limits_m = limits_margin_m(look->sensor, sight, out->sight.azimuth_rad);
     if (look->frame->margins)
-        margins_note(&margins, MARGIN_SIGHT,
-                     fmin(margin_m, limits_margin_m(look->sensor, &ghost->sight, departure_rad)));
+        margins_note(&margins, MARGIN_SIGHT, fmin(limits_m, fmin(out->margin_m, back->margin_m)));
+    return margins;
+}
+
+static void add(struct look *look, const struct reflex *reflex, enum path path, struct ghost ghost,
+                const struct course *out, const struct course *back)
+{
+    double departure_rad = out->sight.azimuth_rad;
+    if (!is_listed(look->sensor, &ghost.sight, departure_rad))
+        return;
     frame_count_echoes(look->frame, look->sensor->name, path, 1);
     *list_add(&look->frame->echoes, look->frame->arena) = (struct echo){
         .sensor = look->sensor->name,
@@ -192,66 +221,67 @@ static void add(struct look *look, const struct reflex *reflex, enum path path,
         .path = path,
         .mirror = reflex->facet->body->object->id,
         .number = reflex->facet->number,
-        .range_m = ghost->sight.range_m,
-        .azimuth_rad = ghost->sight.azimuth_rad,
-        .range_rate_mps = ghost->sight.range_rate_mps,
-        .ercs = visible * reflex->ercs * ghost->ercs_factor,
-        .departure_rad = departure_rad - ghost->sight.azimuth_rad,
+        .range_m = ghost.sight.range_m,
+        .azimuth_rad = ghost.sight.azimuth_rad,
+        .range_rate_mps = ghost.sight.range_rate_mps,
+        .ercs = sqrt(out->factor * back->factor) * reflex->ercs * ghost.ercs_factor,
+        .departure_rad = departure_rad - ghost.sight.azimuth_rad,
         .time_s = look->time_s,
-        .effects = reflex->effects | (visible < 1 ? EFFECT_BIT(EFFECT_VISIBILITY) : 0),
-        .margins = margins,
+        .effects = EFFECT_BIT(EFFECT_GHOSTS) | out->effects | back->effects |
+                   look_aged(look, reflex->body) | look_aged(look, reflex->facet->body),
+        .margins = margins_of(look, &ghost.sight, out, back),
     };
 }
 
-static void add_one_way(struct look *look, struct reflex *reflex)
+/* Whatever of the reflector's paths there is. */
+static void add_paths(struct look *look, struct reflex *reflex, bool one_way)
 {
-    if (!(reflex->visible_direct > 0 && reflex->direct.range_m > 0) ||
-        !direct_way_is_free(look, reflex))
-        return;
     double reflection = reflex->facet->reflection;
-    double visible = sqrt(reflex->visible_direct * reflex->visible_mirrored);
-    struct ghost out = ghost_out(reflection, &reflex->direct, &reflex->image);
-    struct ghost back = ghost_back(reflection, &reflex->direct, &reflex->image);
-    add(look, reflex, PATH_WALL_OBJECT, &out, visible, reflex->image.azimuth_rad);
-    add(look, reflex, PATH_OBJECT_WALL, &back, visible, reflex->direct.azimuth_rad);
+    const struct course *direct = &reflex->direct, *mirrored = &reflex->mirrored;
+    if (mirrored->factor > 0)
+        pass_by_mirror(look, reflex);
+    if (!(mirrored->factor > 0))
+        return;
+    if (look->sensor->bounces >= BOTH_WAYS)
+        add(look, reflex, PATH_WALL_OBJECT_WALL, ghost_both(reflection, &mirrored->sight), mirrored,
+            mirrored);
+    if (!one_way || !(direct->factor > 0 && direct->sight.range_m > 0))
+        return;
+    pass_directly(look, reflex);
+    if (!(direct->factor > 0))
+        return;
+    add(look, reflex, PATH_WALL_OBJECT, ghost_out(reflection, &direct->sight, &mirrored->sight),
+        mirrored, direct);
+    add(look, reflex, PATH_OBJECT_WALL, ghost_back(reflection, &direct->sight, &mirrored->sight),
+        direct, mirrored);
 }
 
-static void add_both_ways(struct look *look, const struct reflex *reflex)
-{
-    struct ghost both = ghost_both(reflex->facet->reflection, &reflex->image);
-    add(look, reflex, PATH_WALL_OBJECT_WALL, &both, reflex->visible_mirrored,
-        reflex->image.azimuth_rad);
-}
-
-/* What a viewer at the sensor or the bounce sees of a point, and how near it is to losing it. */
-static double visible_from(const struct look *look, const struct reflex *reflex,
-                           const struct point_reflector *point, struct vec2 viewer,
-                           double *margin_m)
+/* What a viewer at the sensor or the bounce sees of a point. */
+static void show(const struct look *look, const struct reflex *reflex,
+                 const struct point_reflector *point, struct vec2 viewer, struct course *course)
 {
     const struct box *box = &reflex->body->box;
     if (!effects_may(look->selection, EFFECT_VISIBILITY))
-        return 1;
+        return;
+    double visible = reflectors_visibility(box, point->shape, point->facing_rad, point->full_rad,
+                                           point->zero_rad, reflex->place, viewer);
+    course->factor *= visible;
+    if (visible < 1)
+        course->effects |= EFFECT_BIT(EFFECT_VISIBILITY);
     if (look->frame->margins)
-        *margin_m = clearance_facing_m(box, point->shape, point->facing_rad, point->zero_rad,
-                                       reflex->place, viewer);
-    return reflectors_visibility(box, point->shape, point->facing_rad, point->full_rad,
-                                 point->zero_rad, reflex->place, viewer);
+        course->margin_m = clearance_facing_m(box, point->shape, point->facing_rad, point->zero_rad,
+                                              reflex->place, viewer);
 }
 
 static void add_point(struct look *look, const struct facet *facet, const struct look_body *body,
                       const struct point_reflector *point, struct vec2 place, struct vec2 bounce)
 {
-    struct reflex reflex = reflex_of(look, facet, body, place, bounce);
+    struct reflex reflex = reflex_of(look, facet, body, place, point->z, bounce);
     reflex.reflector = point->name;
     reflex.ercs = point->ercs;
-    reflex.visible_direct =
-        visible_from(look, &reflex, point, look->position_m, &reflex.direct_margin_m);
-    reflex.visible_mirrored = visible_from(look, &reflex, point, bounce, &reflex.margin_m);
-    if (!(reflex.visible_mirrored > 0) || !mirrored_way_is_free(look, &reflex))
-        return;
-    add_one_way(look, &reflex);
-    if (look->sensor->bounces >= BOTH_WAYS)
-        add_both_ways(look, &reflex);
+    show(look, &reflex, point, look->position_m, &reflex.direct);
+    show(look, &reflex, point, bounce, &reflex.mirrored);
+    add_paths(look, &reflex, true);
 }
 
 static void add_points(struct look *look, const struct facet *facet, const struct look_body *body)
@@ -290,14 +320,15 @@ static void add_plane(struct look *look, const struct facet *facet, const struct
     if (!reflection_foot(a, b, along, plane->margin_m, eye, &foot) ||
         !bounces(look, facet, foot, &bounce))
         return;
-    struct reflex reflex = reflex_of(look, facet, body, foot, bounce);
+    struct reflex reflex = reflex_of(look, facet, body, foot, plane->z, bounce);
+    struct course *course = &reflex.mirrored;
+    double range_m = vec2_length(vec2_sub(foot, eye));
     reflex.reflector = plane->name;
-    reflex.ercs = plane->ercs;
-    reflex.effects |= EFFECT_BIT(EFFECT_PLANE_REFLECTION);
+    reflex.ercs = look_plane_ercs(look, plane, range_m, &course->effects);
+    course->effects |= EFFECT_BIT(EFFECT_PLANE_REFLECTION);
     if (look->frame->margins)
-        reflex.margin_m = clearance_foot_m(a, b, along, plane->margin_m, eye);
-    if (mirrored_way_is_free(look, &reflex))
-        add_both_ways(look, &reflex);
+        course->margin_m = clearance_foot_m(a, b, along, plane->margin_m, eye);
+    add_paths(look, &reflex, false);
 }
 
 static void add_body(struct look *look, const struct facet *facet, const struct look_body *body)

@@ -20,6 +20,10 @@
  * reflector's, whose visibility decides. But the mirror's body can stand in a direct way, and the
  * reflector's between sensor and mirror. Nothing passes under vehicles.
  *
+ * Heights run straight along the unfolded path, and a bounce above the mirror's top is none. What a
+ * height, a beam or a soft shadow takes of a way there and back (look.h), a path that goes that way
+ * once loses the root of. Planes have the curvature of direct echoes, at the image's distance.
+ *
  * A ghost that is not seen is not made: it has no entry in lost. */
 #ifndef GHOSTS_H
 #define GHOSTS_H

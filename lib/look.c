@@ -134,43 +134,6 @@ static bool passes_clear(const struct look_body *body, struct vec2 from, struct 
            along > vec2_dot(line, line) + reach;
 }
 
-static bool is_among(const struct look_body *body, const struct look_body *const *bodies,
-                     size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        if (bodies[i] == body)
-            return true;
-    return false;
-}
-
-bool look_blocked(const struct look *look, struct vec2 from, struct vec2 to,
-                  const struct look_body *const *but, size_t count)
-{
-    if (!effects_may(look->selection, EFFECT_OCCLUSION))
-        return false;
-    for (size_t i = 0; i < look->body_count; i++) {
-        const struct look_body *body = &look->bodies[i];
-        if (body->blocks && !passes_clear(body, from, to, 0) && !is_among(body, but, count) &&
-            occlusion_outline_blocks(body->corner, 4, from, to))
-            return true;
-    }
-    return false;
-}
-
-double look_clearance_m(const struct look *look, struct vec2 from, struct vec2 to,
-                        const struct look_body *const *but, size_t count)
-{
-    double nearest_m = (double)INFINITY;
-    if (!effects_may(look->selection, EFFECT_OCCLUSION))
-        return nearest_m;
-    for (size_t i = 0; i < look->body_count; i++) {
-        const struct look_body *body = &look->bodies[i];
-        if (body->blocks && !is_among(body, but, count))
-            nearest_m = fmin(nearest_m, clearance_outline_m(body->corner, 4, from, to));
-    }
-    return nearest_m;
-}
-
 /* A plane in the world. */
 struct side {
     struct vec2 from, to, along;
@@ -234,8 +197,7 @@ static void find_blockers(struct look *look, const struct look_body *own,
     effects_end(selection, EFFECT_OCCLUSION, begin);
 }
 
-/* The height over which a body is looked. */
-static double top_m(const struct look *look, const struct look_body *body)
+double look_top_m(const struct look *look, const struct look_body *body)
 {
     return look->over && body->object->height_m > 0 ? body->object->height_m : (double)INFINITY;
 }
@@ -244,7 +206,7 @@ static double top_m(const struct look *look, const struct look_body *body)
 static struct look_way past(const struct look *look, const struct look_body *body,
                             const struct passage_line *line)
 {
-    double top = top_m(look, body), wavelength_m = look->wavelength_m;
+    double top = look_top_m(look, body), wavelength_m = look->wavelength_m;
     struct look_way way = {.factor = passage_factor(body->corner, 4, top, line, wavelength_m)};
     if (way.factor == 0)
         way.by = body;
@@ -278,11 +240,40 @@ static struct look_way way_along(const struct look *look, const struct side *sid
     return all;
 }
 
+static bool is_among(const struct look_body *body, const struct look_body *const *bodies,
+                     size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (bodies[i] == body)
+            return true;
+    return false;
+}
+
+struct look_way look_along(const struct look *look, const struct passage_line *line,
+                           const struct look_body *const *but, size_t count)
+{
+    struct look_way all = {.factor = 1};
+    for (size_t i = 0; i < look->body_count && effects_may(look->selection, EFFECT_OCCLUSION);
+         i++) {
+        const struct look_body *body = &look->bodies[i];
+        if (!body->blocks || passes_clear(body, line->from, line->to, look->wavelength_m) ||
+            is_among(body, but, count))
+            continue;
+        struct look_way way = past(look, body, line);
+        if (way.by != NULL)
+            return way;
+        all.factor *= way.factor;
+        all.effects |= way.effects;
+    }
+    return all;
+}
+
 /* Of all objects that can be in the way: how near the sight line comes to the nearest that lets it
  * pass, beside it or over it, or how deep it is in those in the way. Of a soft shadow nothing is
  * known but how deep the line lies in what is always dark. */
-static double blocking_margin_m(const struct look *look, const struct look_body *own,
-                                const struct passage_line *line, bool solid, bool blocked)
+static double blocking_margin_m(const struct look *look, const struct look_body *const *but,
+                                size_t count, const struct passage_line *line, bool solid,
+                                bool blocked)
 {
     double nearest_m = (double)INFINITY, deepest_m = 0;
     double length_m = vec2_length(vec2_sub(line->to, line->from));
@@ -290,19 +281,27 @@ static double blocking_margin_m(const struct look *look, const struct look_body 
     for (size_t i = 0; i < look->body_count; i++) {
         const struct look_body *body = &look->bodies[i];
         const struct vec2 *corner = body->corner, from = line->from, to = line->to;
-        if (body == own || !body->blocks || (solid && body->raised))
+        if (!body->blocks || (solid && body->raised) || is_among(body, but, count))
             continue;
         if (!occlusion_outline_blocks(corner, 4, from, to)) {
             nearest_m = fmin(nearest_m, clearance_outline_m(corner, 4, from, to));
             continue;
         }
-        double above_m = passage_above_m(corner, 4, top_m(look, body), line);
+        double above_m = passage_above_m(corner, 4, look_top_m(look, body), line);
         if (above_m > 0 || soft_m > 0)
             nearest_m = fmin(nearest_m, fmax(above_m, 0));
         double depth_m = fmin(clearance_depth_m(corner, 4, from, to), -above_m);
         deepest_m = fmax(deepest_m, depth_m - soft_m);
     }
     return blocked ? deepest_m : nearest_m;
+}
+
+double look_clearance_m(const struct look *look, const struct passage_line *line,
+                        const struct look_body *const *but, size_t count)
+{
+    return effects_may(look->selection, EFFECT_OCCLUSION)
+               ? blocking_margin_m(look, but, count, line, false, false)
+               : (double)INFINITY;
 }
 
 static struct margins margins_of(const struct look *look, double margin_m)
@@ -338,10 +337,10 @@ struct glimpse {
 static double sight_margin_m(const struct look *look, const struct look_body *body,
                              const struct passage_line *line, bool under)
 {
-    if (!effects_may(look->selection, EFFECT_OCCLUSION))
-        return (double)INFINITY;
-    double margin_m = blocking_margin_m(look, body, line, under, false);
-    return under ? fmin(margin_m, blocking_margin_m(look, body, line, false, true)) : margin_m;
+    if (!under)
+        return look_clearance_m(look, line, &body, 1);
+    return fmin(blocking_margin_m(look, &body, 1, line, true, false),
+                blocking_margin_m(look, &body, 1, line, false, true));
 }
 
 /* The way past what stands there, or under it where that lets more through. */
@@ -359,12 +358,12 @@ static struct look_way best_way(const struct look *look, const struct glimpse *s
     return *under ? below : way;
 }
 
-/* What the height makes of a reflector that is seen so in the plane. */
-static struct sight sight_from_height(const struct look *look, struct glimpse *seen,
-                                      struct sight sight)
+struct sight look_lifted(const struct look *look, double reflector_m, struct sight sight,
+                         double *gain, uint64_t *effects)
 {
     const struct selection *selection = look->selection;
-    double height_m = seen->height_m - look->height_m;
+    double height_m = reflector_m - look->height_m;
+    *gain = 1;
     bool lift = look->height_m > 0 && effects_may(selection, EFFECT_ELEVATION) &&
                 (effects_must(selection, EFFECT_ELEVATION) || height_m != 0);
     effects_note(selection, EFFECT_ELEVATION, lift);
@@ -377,13 +376,12 @@ static struct sight sight_from_height(const struct look *look, struct glimpse *s
         .azimuth_rad = elevation_azimuth_rad(elevation, sight.azimuth_rad),
         .range_rate_mps = elevation.cosine * sight.range_rate_mps,
     };
-    double gain = 1, half_width_rad = look->sensor->elevation_half_width_rad;
+    double half_width_rad = look->sensor->elevation_half_width_rad;
     if (half_width_rad > 0)
-        gain = elevation_amplitude_factor(elevation, half_width_rad);
-    seen->ercs *= gain;
+        *gain = elevation_amplitude_factor(elevation, half_width_rad);
     if (slant.range_m != sight.range_m || slant.azimuth_rad != sight.azimuth_rad ||
-        slant.range_rate_mps != sight.range_rate_mps || gain != 1)
-        seen->effects |= EFFECT_BIT(EFFECT_ELEVATION);
+        slant.range_rate_mps != sight.range_rate_mps || *gain != 1)
+        *effects |= EFFECT_BIT(EFFECT_ELEVATION);
     effects_end(selection, EFFECT_ELEVATION, begin);
     return slant;
 }
@@ -415,9 +413,12 @@ static void look_at(struct look *look, const struct look_body *body, struct glim
 {
     bool tell = look->frame->margins, under;
     struct vec2 velocity = motion_velocity_at(&body->box.motion, seen.place);
-    struct sight sight = sight_from_height(
-        look, &seen,
-        sight_of(look->position_m, look->velocity_mps, look->boresight, seen.place, velocity));
+    double gain;
+    struct sight sight = look_lifted(
+        look, seen.height_m,
+        sight_of(look->position_m, look->velocity_mps, look->boresight, seen.place, velocity),
+        &gain, &seen.effects);
+    seen.ercs *= gain;
     if (!in_reach(look, body, &seen, &sight))
         return;
     const struct passage_line line = {look->position_m, seen.place, look->height_m, seen.height_m};
@@ -426,7 +427,7 @@ static void look_at(struct look *look, const struct look_body *body, struct glim
     effects_end(look->selection, EFFECT_OCCLUSION, begin);
     if (way.by != NULL) {
         lose(look, body, seen.reflector, LOSS_BLOCKED, way.by,
-             tell ? blocking_margin_m(look, body, &line, seen.under_vehicles > 0, true) : 0);
+             tell ? blocking_margin_m(look, &body, 1, &line, seen.under_vehicles > 0, true) : 0);
         return;
     }
     if (tell)
@@ -447,8 +448,7 @@ static void look_at(struct look *look, const struct look_body *body, struct glim
     };
 }
 
-/* Of a reflector at a fraction of the object's height, or at the sensor's. */
-static double height_m(const struct look *look, const struct look_body *body, double z)
+double look_height_m(const struct look *look, const struct look_body *body, double z)
 {
     return z > 0 ? z * body->object->height_m : look->height_m;
 }
@@ -476,7 +476,7 @@ static void look_at_point(struct look *look, const struct look_body *body,
                 (struct glimpse){
                     .reflector = point->name,
                     .place = place,
-                    .height_m = height_m(look, body, point->z),
+                    .height_m = look_height_m(look, body, point->z),
                     .ercs = visible * point->ercs,
                     .under_vehicles = point->under_vehicles,
                     .margin_m = margin_m,
@@ -487,9 +487,8 @@ static void look_at_point(struct look *look, const struct look_body *body,
         lose(look, body, point->name, LOSS_FACING_AWAY, NULL, margin_m);
 }
 
-/* The cross section of a side at its specular point. */
-static double plane_ercs(const struct look *look, const struct plane_reflector *plane,
-                         double range_m, uint64_t *effects)
+double look_plane_ercs(const struct look *look, const struct plane_reflector *plane, double range_m,
+                       uint64_t *effects)
 {
     bool curved = look->sensor->curved_sides && plane->profile_radius_m > 0 &&
                   effects_may(look->selection, EFFECT_CURVATURE);
@@ -522,12 +521,12 @@ static void look_at_plane(struct look *look, const struct look_body *body,
             .reflector = plane->name,
             .side = &side,
             .place = foot,
-            .height_m = height_m(look, body, plane->z),
+            .height_m = look_height_m(look, body, plane->z),
             .margin_m = margin_m,
             .effects = look_aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
         };
         double range_m = vec2_length(vec2_sub(foot, look->position_m));
-        seen.ercs = plane_ercs(look, plane, range_m, &seen.effects);
+        seen.ercs = look_plane_ercs(look, plane, range_m, &seen.effects);
         look_at(look, body, seen);
     } else
         lose(look, body, plane->name, LOSS_NO_SPECULAR, NULL, margin_m);

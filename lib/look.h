@@ -17,6 +17,7 @@
 #include "frame.h"
 #include "passage.h"
 #include "sectors.h"
+#include "sight.h"
 #include "suite.h"
 
 struct look_body {
@@ -62,15 +63,31 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
 /* Every reflector of every object: adds echoes, losses and the sensor's count to the frame. */
 void look_around(struct look *look);
 
-/* Does a body that blocks touch the segment between two places (closed: occlusion.h)? The count
- * bodies of but do not matter, of which any may be NULL; never, where occlusion is not selected. */
-bool look_blocked(const struct look *look, struct vec2 from, struct vec2 to,
-                  const struct look_body *const *but, size_t count);
+/* What look_around asks for every echo, for what sees more than it (ghosts.h). */
 
-/* Of the bodies that could and do not: how near the nearest comes to the segment; infinite where
- * there is none. */
-double look_clearance_m(const struct look *look, struct vec2 from, struct vec2 to,
+/* What comes along a line past all bodies that block; of the count bodies of but, any of which may
+ * be NULL, none does. All of it where occlusion is not selected. */
+struct look_way look_along(const struct look *look, const struct passage_line *line,
+                           const struct look_body *const *but, size_t count);
+
+/* How near the line comes to what it passes; infinite where there is nothing. For margins. */
+double look_clearance_m(const struct look *look, const struct passage_line *line,
                         const struct look_body *const *but, size_t count);
+
+/* Of a reflector at a fraction of the object's height, or at the sensor's for z = 0. */
+double look_height_m(const struct look *look, const struct look_body *body, double z);
+
+/* The height over which a body is looked; INFINITY where nothing is. */
+double look_top_m(const struct look *look, const struct look_body *body);
+
+/* What a sensor reads of a reflector at that height which it would see so in the plane, with the
+ * factor on amplitude of its beam; adds to effects. */
+struct sight look_lifted(const struct look *look, double reflector_m, struct sight sight,
+                         double *gain, uint64_t *effects);
+
+/* The cross section of a side at its specular point, range_m away in the plane; adds to effects. */
+double look_plane_ercs(const struct look *look, const struct plane_reflector *plane, double range_m,
+                       uint64_t *effects);
 
 /* A post of a row as the point it is, under its name. */
 struct point_reflector look_post(const struct look *look, const struct post_row *row, int64_t post);

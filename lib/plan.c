@@ -102,7 +102,7 @@ static void write_effect(const struct plan *plan, int effect, struct text *text)
                     log->scans_simulated[effect], log->scans, entry->member,
                     log->scans_left_out[effect] > 0 ? "; else " : "",
                     log->scans_left_out[effect] > 0 ? entry->bound : "");
-    else if (log->scans_left_out[effect] > 0)
+    else if (log->scans_left_out[effect] > 0 && strncmp(entry->bound, "never", 5) != 0)
         text_format(text, "off: %s\n", entry->bound);
     else
         text_format(text, "off: nothing describes it (%s)\n", entry->member);

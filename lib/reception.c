@@ -11,10 +11,6 @@
 #include "units.h"
 
 #define FOG_C 10
-#define AT_HOME                                                                                    \
-    (EFFECT_BIT(EFFECT_FLUCTUATION) | EFFECT_BIT(EFFECT_RAIN) | EFFECT_BIT(EFFECT_FOG) |           \
-     EFFECT_BIT(EFFECT_AMBIGUITY) | EFFECT_BIT(EFFECT_INTERFERENCE) |                              \
-     EFFECT_BIT(EFFECT_COHERENCE))
 
 static bool simulates(const struct reception *reception, enum effect effect)
 {
@@ -86,13 +82,6 @@ struct reception reception_begin(const struct frame *frame, const struct sensor 
     return reception;
 }
 
-void reception_note(const struct reception *reception, const struct selection *selection)
-{
-    for (enum effect effect = 0; effect < EFFECT_COUNT; effect++)
-        if ((AT_HOME & EFFECT_BIT(effect)) != 0)
-            effects_note(selection, effect, simulates(reception, effect));
-}
-
 /* Drawn in each frame, or that of the path and of the reflector, which is drawn once for all
  * frames. */
 static double phase_of(const struct sensor *sensor, const struct echo *echo,
@@ -152,14 +141,4 @@ struct ray reception_ray(const struct reception *reception, const struct echo *e
     if (simulates(reception, EFFECT_AMBIGUITY))
         fold(sensor, &ray);
     return ray;
-}
-
-double reception_gain_bound(const struct reception *reception, uint64_t effects, double range_m)
-{
-    double least = 1;
-    if ((effects & EFFECT_BIT(EFFECT_RAIN)) != 0)
-        least *= rain_amplitude_factor(reception->rain_dbpkm, range_m);
-    if ((effects & EFFECT_BIT(EFFECT_FOG)) != 0)
-        least *= rain_amplitude_factor(reception->fog_dbpkm, range_m);
-    return 1 / least;
 }

@@ -27,14 +27,7 @@ uint64_t reception_described(const struct frame *frame, const struct sensor *sen
 struct reception reception_begin(const struct frame *frame, const struct sensor *sensor,
                                  uint64_t effects);
 
-/* Notes every effect that is at home here: all that is described and may be is simulated. */
-void reception_note(const struct reception *reception, const struct selection *selection);
-
 /* The echo as it is received. */
 struct ray reception_ray(const struct reception *reception, const struct echo *echo);
-
-/* At most this factor, and at least its inverse, is what rain and fog, as far as they are in the
- * set, do to the amplitude of any echo up to range_m. */
-double reception_gain_bound(const struct reception *reception, uint64_t effects, double range_m);
 
 #endif

@@ -1,7 +1,9 @@
 /* The sensor before noise: amplitude of every echo (MODEL 4), resolution cells (6), threshold on
  * the summed amplitude, superposed sum and delta pointers of each cell (7, 8). */
+#include <string.h>
+
 #include "cell_margins.h"
-#include "scan.h"
+#include "escalation.h"
 #include "stage.h"
 #include "units.h"
 
@@ -10,8 +12,10 @@ static bool superpose(const struct scan *scan, const struct selection *selection
                       const struct ray *members, size_t count, struct cell *cell)
 {
     const struct sensor *sensor = scan->reception.sensor;
-    bool superposed = effects_must(selection, EFFECT_SUPERPOSITION) ||
-                      (effects_may(selection, EFFECT_SUPERPOSITION) && count > 1);
+    bool superposed =
+        effects_must(selection, EFFECT_SUPERPOSITION) ||
+        (effects_may(selection, EFFECT_SUPERPOSITION) && count > 1 &&
+         !escalation_spares_superposition(sensor, members, count, &selection->tolerance));
     int64_t begin = effects_begin(selection);
     bool has_angle =
         superposition_cell(sensor, members, count, superposed, scan->reception.frame->arena, cell);
@@ -45,15 +49,37 @@ static void report(struct frame *frame, const struct scan *scan, const struct se
         *list_add(&frame->cells, frame->arena) = cell;
 }
 
+/* The scan with all that it calls for: under a tolerance, first without what may be spared. */
+static struct scan receive(struct frame *frame, const struct sensor *sensor,
+                           const struct selection *selection)
+{
+    struct reception whole = reception_begin(frame, sensor, selection->allowed);
+    uint64_t spared = escalation_spared(&whole, selection);
+    struct scan scan = scan_make(frame, sensor, selection, spared);
+    if (spared != 0 &&
+        !escalation_holds(&scan, escalation_weakening(&whole), &selection->tolerance))
+        scan = scan_make(frame, sensor, selection, 0);
+    return scan;
+}
+
+/* What is at home here and was simulated by nobody was left out. */
+static void note(const struct reception *reception, const struct selection *selection)
+{
+    for (int i = 0; i < EFFECT_COUNT && selection->log != NULL; i++)
+        if (strcmp(effects_table[i].home, "sensor") == 0)
+            effects_note(selection, (enum effect)i, (reception->effects & EFFECT_BIT(i)) != 0);
+    effects_note(selection, EFFECT_THRESHOLD, true);
+}
+
 static void sense(struct frame *frame, const struct sensor *sensor,
                   const struct selection *selection)
 {
-    struct scan scan = scan_make(frame, sensor, selection, 0);
-    reception_note(&scan.reception, selection);
+    struct scan scan = receive(frame, sensor, selection);
     for (size_t i = 0; i < scan.silent_count; i++)
         frame_lose_subject(frame, "sensor", sensor->name, &scan.silent[i].echo, LOSS_NO_AMPLITUDE);
     for (size_t number = 0; number < scan.cells; number++)
         report(frame, &scan, selection, number);
+    note(&scan.reception, selection);
 }
 
 static int sensor_step(void *state, struct frame *frame, struct runner *runner)

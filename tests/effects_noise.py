@@ -6,6 +6,7 @@ Exit status 1 if any check fails. Statistics are of fixed seeds, held to five st
 three per cent.
 """
 
+import itertools
 import json
 import math
 import subprocess
@@ -76,6 +77,14 @@ def check_even(bench, values, what):
     count = len(values)
     gap = max(max((i + 1) / count - value, value - i / count) for i, value in enumerate(sorted(values)))
     bench.check(gap < 2.2 / math.sqrt(count), f"{what}: not even, {gap:.4f} off over {count}")
+    bench.check(min(values) < 12 / count and max(values) > 1 - 12 / count,
+                f"{what}: from {min(values)} to {max(values)} only")
+
+
+def check_unrelated(bench, one, other, what):
+    means = sum(one) / len(one), sum(other) / len(other)
+    products = [(x - means[0]) * (y - means[1]) for x, y in zip(one, other)]
+    bench.check(abs(sum(products)) < 5 * rms(products) * math.sqrt(len(products)), f"{what} go together")
 
 
 # ---- range and rate ---------------------------------------------------------------------------
@@ -108,32 +117,40 @@ def accuracy_by_snr(bench):
         bench.check(all({"accuracy", "range_noise"} <= set(one["effects"]) for one in targets), "not in the label")
 
 
+def check_scaled(bench, targets, plain, key, sigma, what):
+    """The errors are those of sigma 1, times sigma."""
+    bench.check(len(targets) == len(plain) > 0, f"{what}: {len(targets)} targets")
+    for one, other in zip(targets, plain):
+        error, drawn = one[key] - one["cell_" + key], other[key] - other["cell_" + key]
+        bench.check(abs(error - sigma * drawn) < 1e-12, f"{what}: {key}: {error / drawn}, expected {sigma}")
+
+
 def accuracy_to_the_last_digit(bench):
     """The same draws under sigmas of 1 say what every sigma is."""
-    cell, factor, snr = 0.299792458, 0.389848401, 10 ** 2
+    floor = {"range_sigma_m": 0.05, "range_rate_sigma_mps": 0.05}
     cases = {
-        "bound": (snr_sensor("bound", 20), factor * cell / math.sqrt(snr)),
-        "hann": (snr_sensor("hann", 20), 0.68 * cell / math.sqrt(snr)),
-        "floor": (snr_sensor("floor", 20, range_sigma_m=0.05), math.hypot(factor * cell / math.sqrt(snr), 0.05)),
-        "drowned": (snr_sensor("drowned", -20), cell / math.sqrt(12)),
-        "quiet": (snr_sensor("quiet", 20, pointer_sigma=0, range_sigma_m=0.05), 0.05),
-        "fixed": (snr_sensor("fixed", 20, sigma_law="fixed", range_sigma_m=0.05), 0.05),
-        "amplitude": (snr_sensor("amplitude", 20, sigma_law="by_amplitude", range_sigma_m=0.05), 0.05 / 4),
+        "bound": (20, {}, lambda cell: 0.0389848401 * cell),
+        "default": (20, {"window_factor": None}, lambda cell: 0.068 * cell),
+        "floor": (20, floor, lambda cell: math.hypot(0.0389848401 * cell, 0.05)),
+        "drowned": (-20, floor, lambda cell: cell / math.sqrt(12)),
+        "quiet": (20, {"pointer_sigma": 0, **floor}, lambda cell: 0.05),
+        "fixed": (20, {"sigma_law": "fixed", **floor}, lambda cell: 0.05),
+        "amplitude": (20, {"sigma_law": "by_amplitude", **floor}, lambda cell: 0.05 / 4),
     }
-    del cases["hann"][0]["window_factor"]
+    sensors = [snr_sensor(name, snr_db, **members) for name, (snr_db, members, _) in cases.items()]
+    sensors = [{key: value for key, value in one.items() if value is not None} for one in sensors]
     frames = frames_of([pole()], 200)
-    sensors = [one for one, _ in cases.values()]
     out = listen(bench, frames, sensors)
-    plain = listen(bench, frames, [{**one, "sigma_law": "fixed", "range_sigma_m": 1} for one in sensors])
-    for name, (_, sigma) in cases.items():
-        for one, draw in zip(targets_of(out, name), targets_of(plain, name)):
-            error, drawn = one["range_m"] - one["cell_range_m"], draw["range_m"] - draw["cell_range_m"]
-            bench.check(abs(error - sigma * drawn) < 1e-12, f"{name}: {error / drawn}, expected {sigma}")
-            bench.check(("accuracy" in one["effects"]) == (name not in ("fixed", "quiet")), f"{name}: {one['effects']}")
+    ones = {"sigma_law": "fixed", "range_sigma_m": 1, "range_rate_sigma_mps": 1}
+    plain = listen(bench, frames, [{**one, **ones} for one in sensors])
+    for name, (_, _, sigma) in cases.items():
+        targets = targets_of(out, name)
+        check_scaled(bench, targets, targets_of(plain, name), "range_m", sigma(0.299792458), name)
+        check_scaled(bench, targets, targets_of(plain, name), "range_rate_mps", sigma(0.5), name)
+        marked = name not in ("fixed", "quiet")
+        bench.check(all(("accuracy" in one["effects"]) == marked for one in targets), f"{name}: labels")
     without = check_switch(bench, frames, sensors, "accuracy", out)
-    for one, draw in zip(targets_of(without, "floor"), targets_of(plain, "floor")):
-        error, drawn = one["range_m"] - one["cell_range_m"], draw["range_m"] - draw["cell_range_m"]
-        bench.check(abs(error - 0.05 * drawn) < 1e-12, f"accuracy is off: {error / drawn}, expected 0.05")
+    check_scaled(bench, targets_of(without, "floor"), targets_of(plain, "floor"), "range_m", 0.05, "accuracy is off")
 
 
 def range_noise(bench):
@@ -243,10 +260,8 @@ def false_alarm_counts(bench):
         error = math.sqrt(mean / DRAWS)
         found = sum(counts[name]) / DRAWS
         bench.check(abs(found - mean) < 5 * error, f"{name}: {found} false alarms a scan, expected {mean}")
-    for first, second, what in ((counts["a"], counts["b"], "two sensors"),
-                                (counts["a"], counts["a"][1:], "two scans")):
-        shared = sum((x - 0.64) * (y - 0.64) for x, y in zip(first, second)) / 0.64 / DRAWS
-        bench.check(abs(shared) < 5 / math.sqrt(DRAWS), f"{what} are correlated: {shared}")
+    check_unrelated(bench, counts["a"], counts["b"], "counts of two sensors")
+    check_unrelated(bench, counts["a"][1:], counts["a"][:-1], "counts of two scans")
     made = sum(path["echoes"] for frame in out for count in frame["counts"] for path in count["paths"]
                if path["path"] == "false_alarm")
     bench.check(made == sum(map(sum, counts.values())), f"{made} counted")
@@ -256,16 +271,26 @@ def false_alarm_counts(bench):
 
 def false_alarm_values(bench):
     """Even over all cells; in power without memory above the threshold."""
-    alarms = [one for frame in listen(bench, frames_of([], 4000), [alarm_sensor("s", 5)])
-              for one in alarms_of(frame, "s")]
-    check_even(bench, [(one["range_m"] - 0.2) / 29.8 for one in alarms], "range")
-    check_even(bench, [one["azimuth_rad"] / 2 + 0.5 for one in alarms], "azimuth")
-    check_even(bench, [one["range_rate_mps"] / 80 + 0.5 for one in alarms], "range rate")
+    scans = [alarms_of(frame, "s") for frame in listen(bench, frames_of([], 4000), [alarm_sensor("s", 5)])]
+    alarms = [one for scan in scans for one in scan]
     excess = [(10 ** (one["amplitude_db"] / 10) - THRESHOLD ** 2) / 0.25 for one in alarms]
     bench.check(min(excess) > -1e-9, "a false alarm below the threshold")
-    check_even(bench, [1 - math.exp(-value) for value in excess], "power above the threshold")
-    pairs = [(one["range_m"] / 29.8 - 0.5) * one["azimuth_rad"] for one in alarms]
-    bench.check(abs(sum(pairs)) / len(pairs) < 5 * rms(pairs) / math.sqrt(len(pairs)), "range and azimuth correlate")
+    shares = {
+        "range": [(one["range_m"] - 0.2) / 29.8 for one in alarms],
+        "azimuth": [one["azimuth_rad"] / 2 + 0.5 for one in alarms],
+        "range rate": [one["range_rate_mps"] / 80 + 0.5 for one in alarms],
+        "power above the threshold": [1 - math.exp(-value) for value in excess],
+    }
+    for what, values in shares.items():
+        check_even(bench, values, what)
+    for one, other in itertools.combinations(shares, 2):
+        check_unrelated(bench, shares[one], shares[other], f"{one} and {other}")
+    numbers = {one["contributors"][0]["number"]: one for scan in scans for one in scan}
+    bench.check(min(numbers) == 1 and len(numbers) == max(numbers), f"numbers {sorted(numbers)}")
+    for number in (1, 2):
+        found = [[one for one in scan if one["contributors"][0]["number"] == number] for scan in scans]
+        pairs = [(len(scan), one["range_m"]) for scan, listed in zip(scans, found) for one in listed]
+        check_unrelated(bench, *zip(*pairs), f"the count and the range of number {number}")
 
 
 def false_alarm_labels(bench):

@@ -372,6 +372,18 @@ static void planes_are_seen_by_their_foot_from_the_image(void **state)
     assert_near(ghost->ercs, 0.81 * 0.7, 1e-12);
     assert_true(ghost->effects ==
                 (EFFECT_BIT(EFFECT_GHOSTS) | EFFECT_BIT(EFFECT_PLANE_REFLECTION)));
+    /* With a rail's profile, and at half of 6 m, 2.5 m above the sensor. */
+    struct plane_reflector *front = set->planes.items;
+    scene->sensor.curved_sides = true;
+    front->profile_radius_m = 0.04;
+    ghosts_at(scene, 10);
+    assert_near(ghost->ercs, 0.81 * sqrt(PI * 0.04 * 400 / 20.04 / 10), 1e-12);
+    assert_true((ghost->effects & EFFECT_BIT(EFFECT_CURVATURE)) != 0);
+    scene->sensor.mount_z_m = 0.5;
+    front->z = 0.5;
+    scene->frame.objects.items[2].height_m = 6;
+    ghosts_at(scene, 10);
+    assert_close(ghost->range_m, hypot(20, 2.5), 1e-12);
     scene->selection.allowed &= ~EFFECT_BIT(EFFECT_PLANE_REFLECTION);
     assert_int_equal(paths_of(scene), 0);
     scene->selection.allowed = EVERYTHING;
@@ -570,6 +582,100 @@ static void a_late_look_says_so_where_the_wall_has_moved(void **state)
     assert_close(both->range_rate_mps, 2 * 8 / sqrt(900 + 64), 1e-12);
 }
 
+/* Sensor and wall as before; what is h above the sensor is that much farther on every way. */
+static void heights_count_on_every_way(void **state)
+{
+    struct scene *scene = *state;
+    add_standard_pole(scene);
+    add_wall(scene, "w", -10, 50, 4);
+    scene->sensor.mount_z_m = 0.5;
+    scene->sensor.elevation_half_width_rad = 0.1;
+    struct object *pole = &scene->frame.objects.items[1], *wall = pole + 1;
+    pole->height_m = 4;
+    wall->height_m = 2;
+    scene->frame.reflectors.items[0].points.items->z = 0.875;
+    /* 3.5 m is 3 m up: the way by the wall is at 0.5 + 3 * 0.4 there, below its top. */
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    double direct_m = sqrt(904 + 9), image_m = sqrt(1000 + 9);
+    double direct_rad = atan2(3, sqrt(904)), image_rad = atan2(3, sqrt(1000));
+    double direct = exp2(-100 * direct_rad * direct_rad);
+    double image = exp2(-100 * image_rad * image_rad);
+    const struct echo *out = ghost_of(scene, PATH_WALL_OBJECT);
+    const struct echo *both = ghost_of(scene, PATH_WALL_OBJECT_WALL);
+    assert_near(out->range_m, (direct_m + image_m) / 2, 1e-15);
+    assert_near(out->range_rate_mps, (-150 / direct_m - 150 / image_m) / 2, 1e-14);
+    assert_near(both->range_m, image_m, 1e-15);
+    assert_near(sin(both->azimuth_rad), 10 / image_m, 1e-14);
+    assert_near(sin(out->azimuth_rad), -2 / direct_m, 1e-14);
+    assert_near(both->ercs, 0.81 * image, 1e-12);
+    assert_near(out->ercs,
+                0.9 * sqrt(direct * image) * out->range_m * out->range_m / (direct_m * image_m),
+                1e-12);
+    assert_true((out->effects & EFFECT_BIT(EFFECT_ELEVATION)) != 0);
+    wall->height_m = 1.7 + 1e-9;
+    scene->frame.margins = true;
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    assert_close(ghost_of(scene, PATH_OBJECT_WALL)->margins.sight_m, 1e-9, 1e-15);
+    wall->height_m = 1.7 - 1e-9;
+    assert_int_equal(paths_of(scene), 0);
+    wall->height_m = 0;
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    /* Over what is low: the direct way is at 2 m half way, the other one at 1.1 m before the wall.
+     */
+    struct object *box = add_object(scene, "b", 15, -1, 0.4, 0.4);
+    add_set(scene, "b", true);
+    box->height_m = 1.9;
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    box->height_m = 2.1;
+    assert_int_equal(paths_of(scene), BOTH);
+    box->x_m = 6;
+    box->y_m = 2;
+    box->height_m = 1;
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    assert_true((ghost_of(scene, PATH_OBJECT_WALL)->effects & EFFECT_BIT(EFFECT_HEIGHT)) != 0);
+    scene->selection.allowed &= ~EFFECT_BIT(EFFECT_HEIGHT);
+    assert_int_equal(paths_of(scene), 0);
+}
+
+/* Knife edges count once on a way that is taken once. */
+static void soft_shadows_count_once_for_every_leg(void **state)
+{
+    struct scene *scene = *state;
+    static const struct {
+        double x_m, y_m;
+        struct passage_line leg;
+        double one_way, both; /* exponents of the leg's factor */
+    } cases[] = {
+        {15, -1.2, {{0, 0}, {30, -2}, 0, 0}, 0.5, 0},
+        {6, 1.75, {{0, 0}, {12, 4}, 0, 0}, 0.5, 1},
+        {21, 0.75, {{12, 4}, {30, -2}, 0, 0}, 0.5, 1},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        double ercs[2][2];
+        for (int soft = 0; soft < 2; soft++) {
+            clear_scene(scene);
+            scene->sensor.carrier_hz = 77e9;
+            scene->sensor.diffraction = soft == 1;
+            add_standard_pole(scene);
+            add_wall(scene, "w", -10, 50, 4);
+            add_object(scene, "b", cases[i].x_m, cases[i].y_m, 0.3, 0.3);
+            add_set(scene, "b", soft == 1);
+            assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+            ercs[soft][0] = ghost_of(scene, PATH_OBJECT_WALL)->ercs;
+            ercs[soft][1] = ghost_of(scene, PATH_WALL_OBJECT_WALL)->ercs;
+        }
+        struct vec2 corner[4];
+        struct box box = {.length_m = 0.3, .width_m = 0.3, .heading = {1, 0}};
+        box.motion.position_m = (struct vec2){cases[i].x_m, cases[i].y_m};
+        reflectors_outline(&box, corner);
+        double factor =
+            passage_factor(corner, 4, (double)INFINITY, &cases[i].leg, units_wavelength_m(77e9));
+        assert_true(factor > 0.01 && factor < 0.99);
+        assert_near(ercs[1][0] / ercs[0][0], pow(factor, cases[i].one_way), 1e-9);
+        assert_near(ercs[1][1] / ercs[0][1], pow(factor, cases[i].both), 1e-9);
+    }
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, make_scene, remove_scene)
 
 int main(void)
@@ -589,6 +695,8 @@ int main(void)
         TEST(auto_leaves_out_no_ghost),
         TEST(margins_tell_how_near_a_ghost_is_to_vanishing),
         TEST(a_late_look_says_so_where_the_wall_has_moved),
+        TEST(heights_count_on_every_way),
+        TEST(soft_shadows_count_once_for_every_leg),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

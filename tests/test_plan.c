@@ -58,6 +58,7 @@ static void an_effect_is_asked_for_if_any_scan_needed_it(void **state)
     plan.positions[PLAN_IDEAL].log.scans_simulated[EFFECT_OCCLUSION] = 1;
     plan.positions[PLAN_IDEAL].log.scans_left_out[EFFECT_OCCLUSION] = 8;
     plan.positions[PLAN_IDEAL].log.scans_left_out[EFFECT_ROWS] = 9;
+    plan.positions[PLAN_SENSOR].log.scans_left_out[EFFECT_THRESHOLD] = 9;
     plan.positions[PLAN_SENSOR].differs = plan.positions[PLAN_NOISE].differs = true;
     plan.positions[PLAN_SENSOR].scene = plan.positions[PLAN_NOISE].scene = "a";
     assert_int_equal(plan_effects(&plan), EFFECT_BIT(EFFECT_OCCLUSION));
@@ -65,6 +66,7 @@ static void an_effect_is_asked_for_if_any_scan_needed_it(void **state)
     assert_writes(&plan, "occlusion         on in 1 of 9 scans", true);
     assert_writes(&plan, "rows              off: no object has rows\n", true);
     assert_writes(&plan, "merging           off: nothing describes it", true);
+    assert_writes(&plan, "threshold         off: nothing describes it", true);
 }
 
 static void without_effects_none_is_asked_for(void **state)
