@@ -124,6 +124,13 @@ struct reception reception_begin(const struct frame *frame, const struct sensor 
     return reception;
 }
 
+void reception_note(const struct reception *reception, const struct selection *selection)
+{
+    for (enum effect effect = 0; effect < EFFECT_COUNT; effect++)
+        if ((AT_HOME & EFFECT_BIT(effect)) != 0)
+            effects_note(selection, effect, simulates(reception, effect));
+}
+
 /* Drawn in each frame, or that of the path and of the reflector, which is drawn once for all
  * frames. */
 static double phase_of(const struct sensor *sensor, const struct echo *echo,
