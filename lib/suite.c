@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "cycle.h"
 #include "units.h"
 
 static const char *const extents[] = {
@@ -162,6 +163,13 @@ const struct sensor *suite_sensor(const struct suite *suite, const char *name)
         if (strcmp(suite->sensors.items[i].name, name) == 0)
             return &suite->sensors.items[i];
     return NULL;
+}
+
+double suite_instant_s(const struct sensor *sensor, double time_s, double interval_s, bool late)
+{
+    double instant_s = time_s;
+    cycle_instant_s(sensor->cycle_s, time_s, interval_s, &instant_s);
+    return instant_s - (late ? sensor->latency_s : 0);
 }
 
 void suite_derive(struct sensor *sensor)

@@ -82,6 +82,9 @@ extern const struct record sensor_record, suite_record;
 /* The sensor of that name, or NULL. */
 const struct sensor *suite_sensor(const struct suite *suite, const char *name);
 
+/* When the sensor measured what it shows in a frame of that time and interval. */
+double suite_instant_s(const struct sensor *sensor, double time_s, double interval_s, bool late);
+
 /* Works out a sensor's derived members from the document's; its tables, if it names any, must be
  * in place already. */
 void suite_derive(struct sensor *sensor);
