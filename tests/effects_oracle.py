@@ -2,13 +2,14 @@
 
 Usage: python3 tests/effects_oracle.py BIN_DIR [FRAMES]
 
-FRAMES (12) of every density with every suite below; half of them with rain, fog and other radars. Exit status 1 if
+FRAMES (8) of every density with every suite below; half of them with rain, fog and other radars. Exit status 1 if
 any check fails.
 """
 
 import csv
 import json
 import math
+import random
 import sys
 import tempfile
 from pathlib import Path
@@ -66,7 +67,16 @@ def rows_of(sensor):
         return [tuple(float(row[name]) for name in ("azimuth_rad", "sum", "delta")) for row in csv.DictReader(file)]
 
 
+def shaken(item, draw):
+    """Low and high things, some of which turn."""
+    objects = [dict(thing, height_m=draw.choice([0, 0, draw.uniform(0.3, 1.2), draw.uniform(0.3, 4)]),
+                    yaw_rate_radps=draw.choice([0, draw.uniform(-1, 1)])) for thing in item["objects"]]
+    return dict(item, objects=objects)
+
+
 def with_conditions(item, number):
+    if number % 3:
+        item = shaken(item, random.Random(number))
     if number % 2 == 0:
         return item
     others = [thing["id"] for thing in item["objects"] if thing["id"] != item["ego"]][:3]
@@ -146,7 +156,7 @@ def compare_dark(bench, where, answer, name, made):
     dark = {key: 20 * math.log10(made.threshold / cell.amplitude) for cell in made.dark for key in cell.keys}
     if compare_set(bench, where, told, dark, set(), "below the threshold"):
         for key, short in dark.items():
-            bench.check(near(told[key], short, 1e-6), f"{where} {key} short of {told[key]!r} dB, oracle {short!r}")
+            bench.check(short > 150 or near(told[key], short, 1e-6), f"{where} {key} short of {told[key]!r} dB, oracle {short!r}")
 
 
 def compare_targets(bench, where, answer, name, made):
@@ -212,9 +222,9 @@ def answers(bench, items, suite, effects):
     return [json.loads(line) for line in text.splitlines()]
 
 
-def check_suite(bench, title, document, density, frames, off, tally):
-    suite = bench.write_suite(document)
-    words = random_scenes.source(density, suite, frames, first=1000)
+def check_suite(bench, title, document, density, frames, turn, tally):
+    suite, off = bench.write_suite(document), EFFECTS_OFF[turn]
+    words = random_scenes.source(density, suite, frames, first=1000 * (1 + turn))
     items = [with_conditions(json.loads(line), n) for n, line in enumerate(bench.stage(words, "").splitlines())]
     effects = ",".join(["all", *("-" + name for name in [*QUIET, *off])])
     done = answers(bench, items, suite, effects)
@@ -229,15 +239,16 @@ def check_suite(bench, title, document, density, frames, off, tally):
 def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
-    frames = int(sys.argv[2]) if len(sys.argv) == 3 else 12
+    frames = int(sys.argv[2]) if len(sys.argv) == 3 else 8
     with tempfile.TemporaryDirectory() as scratch:
         bench = model.Bench(sys.argv[1], scratch)
         for title, document in suites():
             for density in random_scenes.DENSITIES:
                 tally = Tally()
-                for off in EFFECTS_OFF:
-                    check_suite(bench, title, document, density, frames, off, tally)
-                bench.check(tally.get("scans skipped", 0) <= 0.1 * tally["scans"], f"{tally}")
+                for turn in range(len(EFFECTS_OFF)):
+                    check_suite(bench, title, document, density, frames, turn, tally)
+                most = 0.25 if density == "adversarial" else 0.01
+                bench.check(tally.get("scans skipped", 0) <= most * tally["scans"], f"skipped too many: {tally}")
                 bench.end_group(f"effects against an independent computation, {title}, {density}", f", {tally}")
     sys.exit(bench.failures > 0)
 

@@ -79,6 +79,12 @@ class Body(oracle.Body):
 
 def stretch(corners, a, b, wider):
     """Where a to b runs inside the convex outline, grown by so much, as shares of its length; or None."""
+    low, high = crossings(corners, a, b, wider)
+    return (low, high) if low <= high else None
+
+
+def crossings(corners, a, b, wider=0.0):
+    """Where the line is inside of the last side and still inside of the first; the other way round beside the body."""
     low, high, way = 0.0, 1.0, minus(b, a)
     for n, corner in enumerate(corners):
         inward = unit(minus(corners[(n + 1) % len(corners)], corner))
@@ -89,8 +95,8 @@ def stretch(corners, a, b, wider):
         elif slope < 0:
             high = min(high, -start / slope)
         elif start < 0:
-            return None
-    return (low, high) if low <= high else None
+            return 1.0, 0.0
+    return low, high
 
 
 def touches(corners, a, b, wider):
@@ -125,30 +131,34 @@ class Line:
         return self.heights[0] + share * (self.heights[1] - self.heights[0])
 
 
+def over_the_top(body, line, length, wavelength, ends):
+    """nu of the way over, and how far the line stays above the top."""
+    ends = [min(max(share, 0.0), 1.0) for share in ends]
+    depths = [body.height - line.height(share) for share in ends]
+    ways = [edge(depth, share * length, (1 - share) * length, wavelength) for depth, share in zip(depths, ends)]
+    return max(ways), -max(depths)
+
+
 def passage(body, line, wavelength, wider):
-    """(the factor of one body on the line, by nu of its easiest way round or None)."""
+    """(the factor of one body on the line, nu of its easiest way round or None)."""
     inside = touches(body.corners, line.a, line.b, wider)
-    over = None
-    if inside and line.heights and body.height > 0:
-        heights = [line.height(share) for share in inside]
-        # Reading: the edge is where the line is lowest over the body; of a level line, where it enters.
-        share = inside[heights.index(min(heights))]
-        over = min(heights) - body.height - wider
-    if not wavelength:
-        return (1.0 if not inside or (over is not None and over > 0) else 0.0), None
+    tall = line.heights is None or body.height == 0
     length = math.hypot(*minus(line.b, line.a))
-    if length == 0:
+    if not wavelength or length == 0:
+        over = not tall and inside and over_the_top(body, line, length, 1.0, inside)[1] > wider
+        return (0.0 if inside and not over else 1.0), None
+    if not inside and stretch(body.corners, line.a, line.b, -wider) == (0.0, 1.0):
         return 1.0, None
     towards = unit(minus(line.b, line.a))
     feet = [(dot(minus(c, line.a), towards), cross(towards, minus(c, line.a))) for c in body.corners]
-    # Reading (passage.h): beside a body only corners between both ends count, across it all do.
     if not inside:
         feet = [foot for foot in feet if -wider < foot[0] < length + wider]
-    if not feet or stretch(body.corners, line.a, line.b, -wider) == (0.0, 1.0):
+    if not feet:
         return 1.0, None
+    feet = [(min(max(along, 0.0), length), aside) for along, aside in feet]
     ways = [max(edge(sign * aside, along, length - along, wavelength) for along, aside in feet) for sign in (1, -1)]
-    if over is not None:
-        ways.append(edge(-over - wider, share * length, (1 - share) * length, wavelength))
+    if not tall:
+        ways.append(over_the_top(body, line, length, wavelength, inside or crossings(body.corners, line.a, line.b))[0])
     return loss_factor(min(ways)), min(ways)
 
 
@@ -293,6 +303,7 @@ def side_ercs(scene, plane, distance):
     radius = plane.get("profile_radius_m", 0)
     if not (radius and scene.sensor.get("curved_sides") and "curvature" in scene.effects):
         return plane["ercs"]
+    distance = max(distance, 0.0)
     area = math.pi * radius * distance ** 2 / (radius + distance)
     if plane.get("radius_m"):
         area *= plane["radius_m"] / (plane["radius_m"] + distance)
