@@ -31,13 +31,7 @@ double look_border_rad(const struct sensor *sensor)
 
 static struct box box_at(const struct object *object, double age_s)
 {
-    struct motion now = {
-        .position_m = {object->x_m, object->y_m},
-        .velocity_mps = {object->vx_mps, object->vy_mps},
-        .yaw_rad = object->yaw_rad,
-        .yaw_rate_radps = object->yaw_rate_radps,
-    };
-    struct motion then = age_s == 0 ? now : motion_after(now, -age_s);
+    struct motion then = frame_motion(object, age_s);
     return (struct box){then, vec2_heading(then.yaw_rad), object->length_m, object->width_m};
 }
 
