@@ -59,8 +59,10 @@ struct scan scan_make(struct frame *frame, const struct sensor *sensor,
 struct ray *scan_members(const struct scan *scan, size_t number, size_t *count)
 {
     const struct clustered_rays *all = &scan->resolved;
-    struct ray *members =
-        arena_get(scan->reception.frame->arena, (all->count + 1) * sizeof *members);
+    size_t found = 0;
+    for (size_t i = 0; i < all->count; i++)
+        found += all->cell[i] == number;
+    struct ray *members = arena_get(scan->reception.frame->arena, found * sizeof *members);
     *count = 0;
     for (size_t i = 0; i < all->count; i++)
         if (all->cell[i] == number)
