@@ -18,16 +18,32 @@ static const struct record interferer_record = {
     .fields = interferer_fields,
 };
 
+#define ROAD(absent_)                                                                              \
+    {                                                                                              \
+        FIELD_CHOICE_OF(struct conditions, road, roads, "what the road is made of: it mirrors"),   \
+            FIELD_OPTIONAL, .absent = (absent_)                                                    \
+    }
+#define RAIN(absent_)                                                                              \
+    {                                                                                              \
+        FIELD_REAL_IN(struct conditions, rain_mmph, 0, 500, "rain"), FIELD_OPTIONAL,               \
+            .absent = (absent_)                                                                    \
+    }
+#define FOG(absent_)                                                                               \
+    {                                                                                              \
+        FIELD_REAL_IN(struct conditions, fog_gpm3, 0, 10, "fog, liquid water; dense fog has 0.5"), \
+            FIELD_OPTIONAL, .absent = (absent_)                                                    \
+    }
+
 static const struct field condition_fields[] = {
-    {FIELD_CHOICE_OF(struct conditions, road, roads, "what the road is made of: it mirrors"),
-     FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct conditions, rain_mmph, 0, 500, "rain"), FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct conditions, fog_gpm3, 0, 10, "fog, liquid water; dense fog has 0.5"),
-     FIELD_OPTIONAL},
+    ROAD(ROAD_UNKNOWN),
+    RAIN(0),
+    FOG(0),
     {FIELD_LIST_OF(struct conditions, interferers, &interferer_record, "other radars"),
      FIELD_OPTIONAL},
     {0},
 };
+
+static const struct field change_fields[] = {ROAD(ROAD_UNSAID), RAIN(-1), FOG(-1), {0}};
 
 const struct record conditions_record = {
     .name = "conditions",
@@ -36,14 +52,19 @@ const struct record conditions_record = {
     .fields = condition_fields,
 };
 
+const struct record conditions_changes_record = {
+    .name = "changes of conditions",
+    .help = "Road and weather; what is not said stays.",
+    .size = sizeof(struct conditions),
+    .fields = change_fields,
+};
+
 void conditions_change(struct conditions *conditions, const struct conditions *changes)
 {
-    if (changes->road != ROAD_UNKNOWN)
+    if (changes->road != ROAD_UNSAID)
         conditions->road = changes->road;
-    if (changes->rain_mmph != 0)
+    if (changes->rain_mmph >= 0)
         conditions->rain_mmph = changes->rain_mmph;
-    if (changes->fog_gpm3 != 0)
+    if (changes->fog_gpm3 >= 0)
         conditions->fog_gpm3 = changes->fog_gpm3;
-    if (changes->interferers.count > 0)
-        conditions->interferers = changes->interferers;
 }
