@@ -67,7 +67,7 @@ static void note(const struct reception *reception, const struct selection *sele
 {
     for (int i = 0; i < EFFECT_COUNT && selection->log != NULL; i++)
         if (strcmp(effects_table[i].home, "sensor") == 0)
-            effects_note(selection, i, (reception->effects & EFFECT_BIT(i)) != 0);
+            effects_note(selection, (enum effect)i, (reception->effects & EFFECT_BIT(i)) != 0);
     effects_note(selection, EFFECT_THRESHOLD, true);
 }
 
