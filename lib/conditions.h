@@ -5,7 +5,7 @@
 
 #include "field.h"
 
-enum road { ROAD_UNKNOWN, ROAD_ASPHALT, ROAD_CONCRETE };
+enum road { ROAD_UNSAID = -1, ROAD_UNKNOWN, ROAD_ASPHALT, ROAD_CONCRETE };
 
 /* An object that carries a radar of its own, of another kind or out of step. One that is not in the
  * frame has left and is not heard, nor is the ego; a scenario must know it, though. */
@@ -27,7 +27,10 @@ struct conditions {
 
 extern const struct record conditions_record;
 
-/* Puts what is said in changes in place of what conditions say. */
+/* The same struct for changes: what is not said is -1. They leave other radars as they are. */
+extern const struct record conditions_changes_record;
+
+/* Puts what is said in changes, 0 too, in place of what conditions say. */
 void conditions_change(struct conditions *conditions, const struct conditions *changes);
 
 #endif

@@ -47,7 +47,8 @@ static const enum effect losing_effects[] = {
     [LOSS_SWITCHED_OFF] = EFFECT_PLANE_REFLECTION,
 };
 
-/* 1e7 m is farther than any local frame reaches; 1e6 m is farther than any radar. */
+/* 1e7 m is farther than any local frame reaches; 1e6 m is farther than any radar, and what noise
+ * and steps make of that stays within ten times as much. */
 #define PLACE(owner, member, help)                                                                 \
     {                                                                                              \
         FIELD_REAL_IN(owner, member, -1e7, 1e7, help)                                              \
@@ -87,6 +88,14 @@ static const enum effect losing_effects[] = {
 #define RATE(owner, member, help)                                                                  \
     {                                                                                              \
         FIELD_REAL_IN(owner, member, -1e5, 1e5, help)                                              \
+    }
+#define REPORTED_RANGE(owner, member)                                                              \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, member, 0, 1e7, "as reported")                                        \
+    }
+#define REPORTED_RATE(owner, member)                                                               \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, member, -1e6, 1e6, "as reported")                                     \
     }
 #define NAME(owner, member, help)                                                                  \
     {                                                                                              \
@@ -156,8 +165,8 @@ static const struct field sensor_view_fields[] = {
     ANGLE(struct sensor_view, mount_yaw_rad, "boresight, from the ego's heading"),
     {FIELD_REAL_IN(struct sensor_view, field_of_view_rad, 0, 2 * PI, "full width")},
     RANGE(struct sensor_view, range_max_m, "greatest range"),
-    RANGE(struct sensor_view, cell_range_m, "resolution cell, full width"),
-    RATE(struct sensor_view, cell_range_rate_mps, "resolution cell, full width"),
+    {FIELD_REAL_IN(struct sensor_view, cell_range_m, 0, 2e6, "resolution cell, full width")},
+    {FIELD_REAL_IN(struct sensor_view, cell_range_rate_mps, 0, 2e5, "resolution cell, full width")},
     {FIELD_REAL_IN(struct sensor_view, cycle_s, 0, 1e6, "from scan to scan; absent: every frame"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct sensor_view, measured, "is there a scan in this frame?")},
@@ -262,9 +271,9 @@ static const struct record cell_record = {
 
 static const struct field target_fields[] = {
     NAME(struct target, sensor, "name in the suite"),
-    RANGE(struct target, range_m, "as reported"),
+    REPORTED_RANGE(struct target, range_m),
     AZIMUTH(struct target, azimuth_rad, "as reported"),
-    RATE(struct target, range_rate_mps, "as reported"),
+    REPORTED_RATE(struct target, range_rate_mps),
     {FIELD_REAL_IN(struct target, amplitude_db, -1e4, 1e4, "as reported, 20 log10")},
     UNDECIDED(struct target),
     RANGE(struct target, cell_range_m, "without noise"),

@@ -192,6 +192,16 @@ static int check_required(const struct reading_options *options)
     return 0;
 }
 
+/* The output takes its name in the end, and what was appended to that would be gone. */
+static int check_explain(const struct common_options *common, struct diag *diag)
+{
+    if (common->explain == NULL || common->output == NULL ||
+        strcmp(common->explain, common->output) != 0)
+        return 0;
+    return diag_fail(diag, DIAG_USAGE, "--explain: %s is the output; expected another file",
+                     common->explain);
+}
+
 int options_read(const struct stage *stage, size_t count, const char *const *words, void *state,
                  struct common_options *common, struct arena *arena, struct diag *diag)
 {
@@ -214,6 +224,8 @@ int options_read(const struct stage *stage, size_t count, const char *const *wor
     common->seed_given = (options.common_seen >> seed & 1) != 0;
     if (result == 0 && !common->help && !common->version)
         result = check_required(&options);
+    if (result == 0)
+        result = check_explain(common, diag);
     if (result != 0)
         diag->code = DIAG_USAGE;
     return result;

@@ -42,8 +42,8 @@ static char *copy(const char *text)
 /* What a symbolic link stands for is written, not the link replaced. */
 static char *target(const char *path)
 {
-    char *resolved = realpath(path, NULL);
-    return resolved != NULL && strcmp(path, "-") != 0 ? resolved : copy(path);
+    char *resolved = strcmp(path, "-") != 0 ? realpath(path, NULL) : NULL;
+    return resolved != NULL ? resolved : copy(path);
 }
 
 static bool is_special(const char *path)

@@ -7,6 +7,9 @@
 #include "sort.h"
 #include "units.h"
 
+/* Doubles from here on are whole, and infinity is among them: there is nothing to round. */
+#define WHOLE_STEPS 0x1p52
+
 struct reading reading_of(const struct cell *cell)
 {
     return (struct reading){
@@ -23,7 +26,8 @@ struct reading reading_of(const struct cell *cell)
 
 double reading_step(double value, double step)
 {
-    return step > 0 ? step * round(value / step) : value;
+    double steps = step > 0 ? value / step : (double)INFINITY;
+    return fabs(steps) < WHOLE_STEPS ? step * round(steps) : value;
 }
 
 static int compare_leaders(const struct reading *a, const struct reading *b)

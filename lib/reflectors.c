@@ -169,6 +169,24 @@ static const char *name_at(const struct reflector_set *set, size_t index)
                         : set->rows.items[index - rows].name;
 }
 
+/* Is it what a post of the row may be called? */
+static bool names_post(const char *name, const char *row)
+{
+    size_t length = strlen(row), digits = 0;
+    if (strncmp(name, row, length) == 0 && name[length] == '_')
+        digits = strspn(name + length + 1, "0123456789");
+    return digits > 0 && name[length + 1 + digits] == '\0';
+}
+
+static const char *name_of_post(const struct reflector_set *set)
+{
+    for (size_t i = 0; i < set->points.count + set->planes.count; i++)
+        for (size_t j = 0; j < set->rows.count; j++)
+            if (names_post(name_at(set, i), set->rows.items[j].name))
+                return name_at(set, i);
+    return NULL;
+}
+
 const char *reflectors_name_twice(const struct reflector_set *set)
 {
     size_t count = set->points.count + set->planes.count + set->rows.count;
@@ -176,7 +194,7 @@ const char *reflectors_name_twice(const struct reflector_set *set)
         for (size_t j = 0; j < i; j++)
             if (strcmp(name_at(set, i), name_at(set, j)) == 0)
                 return name_at(set, i);
-    return NULL;
+    return name_of_post(set);
 }
 
 static double farthest(double least, double x, double y)

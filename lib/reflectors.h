@@ -78,7 +78,8 @@ extern const struct record point_record, plane_record, row_record;
 extern const struct record reflector_set_record;   /* with who wears it: the frame's */
 extern const struct record reflector_model_record; /* without: the vehicle document's */
 
-/* The first name that two reflectors of the set share, or NULL. */
+/* The first name that two reflectors of the set share, or NULL. Beside a row "a" no point or plane
+ * may be called a_1, as posts are. */
 const char *reflectors_name_twice(const struct reflector_set *set);
 
 /* How far the set's reflectors may lie from the centre of an object's box: within radius_m, half of

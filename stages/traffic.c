@@ -69,7 +69,8 @@ static const struct field traffic_options[] = {
      FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct traffic, radius_m, 0, 1e6, "leave out what is farther from the ego"),
      FIELD_OPTIONAL},
-    {FIELD_RECORD_OF(struct traffic, conditions, &conditions_record, "over what the scenario says"),
+    {FIELD_RECORD_OF(struct traffic, conditions, &conditions_changes_record,
+                     "over what the scenario says"),
      FIELD_OPTIONAL},
     {0},
 };

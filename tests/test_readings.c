@@ -200,7 +200,9 @@ static void steps_round_to_the_nearest_multiple(void **state)
                                       {12.4, 0.25, 12.5},    {-12.4, 0.25, -12.5},
                                       {0.125, 0.25, 0.25},   {-0.125, 0.25, -0.25},
                                       {0.1, 0.25, 0},        {7, 2, 8},
-                                      {1e6, 1000, 1e6},      {3, 1, 3}};
+                                      {1e6, 1000, 1e6},      {3, 1, 3},
+                                      {1e6, 5e-324, 1e6},    {-0.3, 1e-320, -0.3},
+                                      {0, 5e-324, 0},        {5e-324, 1e3, 0}};
     for (size_t i = 0; i < COUNT(cases); i++)
         assert_close(reading_step(cases[i][0], cases[i][1]), cases[i][2], 0);
 }
