@@ -2,7 +2,7 @@
 
 Usage: python3 tests/effects_oracle.py BIN_DIR [FRAMES]
 
-FRAMES (8) of every density with every suite below; half of them with rain, fog and other radars. Exit status 1 if
+FRAMES (6) of every density with every suite below; half of them with a road, rain, fog and other radars. Exit status 1 if
 any check fails.
 """
 
@@ -20,11 +20,11 @@ import oracle  # noqa: E402
 import oracle_effects  # noqa: E402
 import random_scenes  # noqa: E402
 
-QUIET = ["angle_noise", "range_noise", "false_alarms", "fluctuation"]
-OURS = ["latency", "curvature", "elevation", "occlusion", "height", "diffraction", "ghosts", "rain", "fog", "ambiguity",
+QUIET = ["angle_noise", "range_noise", "false_alarms", "fluctuation", "wheels", "limbs", "clutter", "coherence"]
+OURS = ["latency", "curvature", "elevation", "occlusion", "height", "diffraction", "ghosts", "two_ray", "rain", "fog", "ambiguity",
         "interference", "misalignment", "list_limit", "quantisation"]
 EFFECTS_OFF = [[], ["diffraction"], ["elevation"], ["height", "curvature"], ["ghosts", "latency"],
-               ["ambiguity", "interference", "quantisation"], ["diffraction", "misalignment", "rain"]]
+               ["ambiguity", "interference", "quantisation", "two_ray"], ["diffraction", "misalignment", "rain"]]
 RELATIVE, ABSOLUTE, FAINT = 1e-9, 1e-9, 1e-11
 # Where a shadow is deep or a point nearly out of sight, its cross section hangs on the last digits of its place.
 STEEP = 1e-7
@@ -54,8 +54,8 @@ def suites():
     left, right = wide["sensors"]
     left.update(antenna_pattern="dipole_pair", field_of_view_rad=3.0, mount_yaw_rad=0.4, calibration_range_m=60)
     left.pop("antenna_table")
-    right.update(carrier_hz=24.125e9, mount_z_m=0.3, mount_yaw_rad=-2.2, list_order="strongest", list_limit=8,
-                 cell_range_m=1.5, cell_range_rate_mps=0.5, bounces=2)
+    right.update(carrier_hz=24.125e9, polarization="horizontal", mount_z_m=0.3, mount_yaw_rad=-2.2, list_order="strongest", list_limit=8,
+                 cell_range_m=1.5, cell_range_rate_mps=0.5, bounces=2, cycle_s=0.07)
     right.pop("unambiguous_range_m")
     return [("lrr77-full", full), ("all members, wide", wide)]
 
@@ -71,7 +71,37 @@ def shaken(item, draw):
     """Low and high things, some of which turn."""
     objects = [dict(thing, height_m=draw.choice([0, 0, draw.uniform(0.3, 1.2), draw.uniform(0.3, 4)]),
                     yaw_rate_radps=draw.choice([0, draw.uniform(-1, 1)])) for thing in item["objects"]]
-    return dict(item, objects=objects)
+    return dict(item, objects=objects, time_s=draw.randrange(1000) * item["interval_s"])
+
+
+def walled(draw, number):
+    """A road along walls, rails and lorries, some in line, some on the move; other things between them."""
+    yaw = draw.uniform(-3, 3)
+
+    def put(name, kind, x, y, turn, speed, length=0.0):
+        c, s = math.cos(yaw), math.sin(yaw)
+        return model.thing(name, kind, 100 + c * x - s * y, -40 + s * x + c * y, yaw + turn, model.ahead(speed, yaw),
+                           length=length)
+
+    objects = [put("ego", "car", 0, 0, draw.uniform(-0.2, 0.2), draw.uniform(-30, 30))]
+    for n in range(draw.randint(2, 5)):
+        kind, side = draw.choice(["wall", "guardrail", "wall", "truck", "articulated_truck", "bus"]), draw.choice([-1, 1])
+        place, speed = (draw.uniform(-30, 90), side * draw.uniform(2.5, 12)), draw.choice([0, draw.uniform(-25, 25)])
+        turn, length = draw.choice([0, 0, math.pi, draw.uniform(-0.3, 0.3)]), draw.uniform(5, 80)
+        objects.append(put(f"m{n}", kind, *place, turn, speed, length if kind in ("wall", "guardrail") else 0))
+        if kind == "wall" and turn == 0:
+            objects.append(put(f"m{n}_next", kind, place[0] + length / 2 + 5, place[1], 0, speed))
+    for n in range(draw.randint(2, 7)):
+        kind = draw.choice(["car", "van", "pedestrian", "post", "bicycle", "motorcycle", "truck", "wall"])
+        objects.append(put(f"o{n}", kind, draw.uniform(-20, 100), draw.uniform(-9, 9), draw.uniform(-3, 3), draw.uniform(-30, 30)))
+    return dict(model.frame(objects, scene=f"walled-{number}"), interval_s=0.05)
+
+
+def scenes(bench, density, suite, frames, first):
+    if density == "walled":
+        return [walled(random.Random(f"{first} {n}"), n) for n in range(frames)]
+    text = bench.stage(random_scenes.source(density, suite, frames, first=first), "")
+    return [json.loads(line) for line in text.splitlines()]
 
 
 def with_conditions(item, number):
@@ -82,7 +112,7 @@ def with_conditions(item, number):
     others = [thing["id"] for thing in item["objects"] if thing["id"] != item["ego"]][:3]
     radars = [{"object": name, "eirp_dbm": 20 + 3 * n, "slope_hzps": (-7.5e12, 7.6e12, 7.5e12)[n], "hit_share": 0.05 * n + 0.01}
               for n, name in enumerate(others if number % 4 == 1 else [])]
-    return dict(item, conditions={"rain_mmph": (2.5, 40)[number % 3 == 0], "fog_gpm3": 0.3 * (number % 5), "interferers": radars})
+    return dict(item, conditions={"road": ("asphalt", "concrete", "unknown")[number % 3], "rain_mmph": (2.5, 40)[number % 3 == 0], "fog_gpm3": 0.3 * (number % 5), "interferers": radars})
 
 
 # ---- the comparison ----------------------------------------------------------------------------------
@@ -224,13 +254,17 @@ def answers(bench, items, suite, effects):
 
 def check_suite(bench, title, document, density, frames, turn, tally):
     suite, off = bench.write_suite(document), EFFECTS_OFF[turn]
-    words = random_scenes.source(density, suite, frames, first=1000 * (1 + turn))
-    items = [with_conditions(json.loads(line), n) for n, line in enumerate(bench.stage(words, "").splitlines())]
+    items = scenes(bench, density, suite, frames, first=1000 * (1 + turn))
+    items = [with_conditions(item, n) for n, item in enumerate(items)]
     effects = ",".join(["all", *("-" + name for name in [*QUIET, *off])])
     done = answers(bench, items, suite, effects)
     bench.check(len(done) == len(items), f"{len(items)} frames in, {len(done)} out")
     for item, answer in zip(items, done):
-        for sensor in document["sensors"]:
+        for sensor, view in zip(document["sensors"], answer["sensors"]["list"]):
+            measured = oracle_effects.instant(sensor, item) is not None
+            bench.check(view["measured"] == measured, f"{title} {item['scene']} {sensor['name']}: measured")
+            if not measured:
+                continue
             made = oracle_effects.scan(item, bench.vehicles, sensor, set(OURS) - set(off), rows_of(sensor))
             compare(bench, f"{title} {item['scene']} {sensor['name']} without {off}", answer, sensor["name"], made, tally)
             tally.add("scans")
@@ -239,11 +273,11 @@ def check_suite(bench, title, document, density, frames, turn, tally):
 def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
-    frames = int(sys.argv[2]) if len(sys.argv) == 3 else 8
+    frames = int(sys.argv[2]) if len(sys.argv) == 3 else 6
     with tempfile.TemporaryDirectory() as scratch:
         bench = model.Bench(sys.argv[1], scratch)
         for title, document in suites():
-            for density in random_scenes.DENSITIES:
+            for density in [*random_scenes.DENSITIES, "walled"]:
                 tally = Tally()
                 for turn in range(len(EFFECTS_OFF)):
                     check_suite(bench, title, document, density, frames, turn, tally)

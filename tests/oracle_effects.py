@@ -1,13 +1,14 @@
-"""The effects beyond the paper (MODEL 14, EFFECTS 10, 12 and 13), computed a second time and independently.
+"""The effects beyond the paper (MODEL 14), computed a second time and independently.
 
 scan(frame, vehicles, document, sensor, effects) gives what one sensor makes of a frame with `objects`: a Scan
 with echoes, losses, cells and targets before any draw. Plain formulas in doubles, decisions within NEAR of their
 border are doubtful: another order of rounding may rightly decide the other way. `effects` is the set of names that
-are simulated. What depends on draws (fluctuation, noise, false alarms, phases of the path) is not here.
+are simulated. What depends on draws (fluctuation, wheels, limbs, clutter, noise, false alarms, phases) is not here.
 
 Readings taken where MODEL leaves room are marked "Reading:".
 """
 
+import cmath
 import math
 
 import oracle
@@ -58,6 +59,14 @@ def carried(item, seconds):
     moved["vx_mps"] = math.cos(turn) * vx - math.sin(turn) * vy
     moved["vy_mps"] = math.sin(turn) * vx + math.cos(turn) * vy
     return moved
+
+
+def instant(sensor, frame):
+    """Of the scan that falls into (time_s - interval_s, time_s], or None."""
+    if not sensor.get("cycle_s"):
+        return frame["time_s"]
+    last = math.floor(frame["time_s"] / sensor["cycle_s"] + NEAR) * sensor["cycle_s"]
+    return last if last > frame["time_s"] - frame["interval_s"] + NEAR else None
 
 
 class Body(oracle.Body):
@@ -222,8 +231,8 @@ class Scene:
 
     def __init__(self, frame, vehicles, sensor, effects):
         self.sensor, self.effects = sensor, effects
-        back = sensor.get("latency_s", 0) if "latency" in effects else 0
-        self.time = frame["time_s"] - back
+        self.time = instant(sensor, frame) - (sensor.get("latency_s", 0) if "latency" in effects else 0)
+        back = frame["time_s"] - self.time
         bodies = [Body(carried(item, -back), vehicles[item["class"]]) for item in frame["objects"]]
         ego = next(body for body in bodies if body.id == frame["ego"])
         self.bodies = [body for body in bodies if body is not ego]
@@ -318,9 +327,10 @@ def rate_along(scene, body, place):
 class Direct:
     """One reflector, its direct way, and what the ghosts need of it."""
 
-    def __init__(self, scene, body, name, place, rise):
-        self.body, self.name, self.place, self.rise = body, name, place, rise
-        self.leg = Leg(scene, place, rate_along(scene, body, place), rise)
+    def __init__(self, scene, body, item, place):
+        self.body, self.name, self.place, self.rise = body, item["name"], place, scene.rise(body, item)
+        self.heights = (item["z"] * body.height, item.get("extent", 0) * body.height) if item.get("z") else None
+        self.leg = Leg(scene, place, rate_along(scene, body, place), self.rise)
         self.reason, self.doubtful, self.by = None, False, set()
         self.way = None
 
@@ -349,13 +359,13 @@ def note(scene, scan, direct, ercs, reason, doubtful, post=False, free=()):
         scan.lost[key] = (reason, by)
     else:
         scan.echoes[key] = Echo(key, range=leg.range, azimuth=leg.azimuth, rate=leg.rate, departure=0.0,
-                                ercs=ercs * leg.gain * way.factor)
+                                ercs=ercs * leg.gain * way.factor, along=leg.plane_m, heights=direct.heights)
 
 
 def see_point(scene, scan, body, point, local, doubtful, post):
     place = body.world(local)
     seen, doubt = seen_from(body, point, place, scene.place)
-    direct = Direct(scene, body, point["name"], place, scene.rise(body, point))
+    direct = Direct(scene, body, point, place)
     note(scene, scan, direct, point["ercs"] * seen, None if seen > 0 else "facing_away", doubtful or doubt, post)
     for mirror in mirrors_for(scene, body):
         ghosts_of_point(scene, scan, mirror, direct, point, seen, doubtful or doubt)
@@ -364,7 +374,7 @@ def see_point(scene, scan, body, point, local, doubtful, post):
 def see_plane(scene, scan, body, plane):
     side = body.segment(plane)
     foot, height, there, doubtful = foot_of(side, plane.get("margin_m", 0), scene.place)
-    direct = Direct(scene, body, plane["name"], foot, scene.rise(body, plane))
+    direct = Direct(scene, body, plane, foot)
     free = [other for other in scene.blockers if any(joined(side, mine) for mine in other.sides)]
     note(scene, scan, direct, side_ercs(scene, plane, height), None if there else "no_specular_point", doubtful,
          free=free)
@@ -461,7 +471,7 @@ def enter_ghost(scene, scan, mirror, body, name, path, legs, ercs, reach, doubtf
     if limit or not out.front or not reach or ercs <= 0:
         return
     scan.echoes[key] = Echo(key, range=distance, azimuth=back.azimuth, rate=(out.rate + back.rate) / 2,
-                            departure=out.azimuth - back.azimuth, ercs=ercs)
+                            departure=out.azimuth - back.azimuth, ercs=ercs, along=0.0, heights=None)
 
 
 def ghosts_of_point(scene, scan, mirror, direct, point, seen, doubtful):
@@ -508,7 +518,36 @@ def ghost_of_plane(scene, scan, mirror, body, plane, side):
                 there and bent.there, doubtful or sight or bent.doubtful)
 
 
-# ---- rain, fog, ambiguity, interference (EFFECTS 10, 12, 13) -----------------------------------------
+# ---- the road as a mirror (MODEL 14.10) ----------------------------------------------------------------
+
+
+def road_of(scene, frame):
+    """(complex permittivity, roughness in m), or None."""
+    road, f = frame.get("conditions", {}).get("road"), scene.sensor["carrier_hz"] / 1e9
+    if not scene.height or "two_ray" not in scene.effects:
+        return None
+    concrete = 5.24 - 17.98j * 0.0462 * f ** 0.7822 / f
+    return {"asphalt": (5 - 0.25j, 1e-3), "concrete": (concrete, 3e-4)}.get(road)
+
+
+def road_factor(scene, road, along, heights):
+    """(F squared, is it doubtful whether the reflector is compact)."""
+    own, (high, extent) = scene.height, heights
+    wavelength = LIGHT_MPS / scene.sensor["carrier_hz"]
+    near_m, far_m = math.hypot(along, own - high), math.hypot(along, own + high)
+    sine = (own + high) / far_m
+    bent = cmath.sqrt(road[0] - (along / far_m) ** 2)
+    steep = sine * (1 if scene.sensor.get("polarization") == "horizontal" else road[0])
+    g = (steep - bent) / (steep + bent) * math.exp(-8 * (math.pi * road[1] * sine / wavelength) ** 2) * near_m / far_m
+    half_lobe = wavelength * near_m / (4 * own)
+    if extent >= half_lobe:
+        value = math.sqrt(1 + 4 * abs(g) ** 2 + abs(g) ** 4)
+    else:
+        value = abs(1 + g * cmath.exp(-2j * math.pi * 4 * own * high / (near_m + far_m) / wavelength)) ** 2
+    return value, near(extent, half_lobe)
+
+
+# ---- rain, fog, ambiguity, interference (MODEL 14.15 to 14.17) ------------------------------------------
 
 RAIN_K = {"horizontal": ([(-5.33980, -0.10008, 1.13098), (-0.35351, 1.26970, 0.45400), (-0.23789, 0.86036, 0.15354),
                           (-0.94158, 0.64552, 0.16817)], -0.18961, 0.71147),
@@ -550,7 +589,6 @@ def folded(value, low, width):
 
 
 def interference(scene, frame, antenna):
-    """Reading: of a radar's object in view the centre counts, nothing hides it; the antenna's gain is that of one way."""
     sensor = scene.sensor
     bandwidth = sensor.get("receiver_bandwidth_hz", 0)
     if not bandwidth or "interference" not in scene.effects:
@@ -610,7 +648,7 @@ class Antenna:
 class Ray:
     def __init__(self, sensor, antenna, echo, weather, effects):
         self.echo, self.key = echo, echo.key
-        self.strength = oracle.reference_amplitude(sensor, echo.range) * echo.ercs
+        self.strength = oracle.reference_amplitude(sensor, echo.range) * echo.ercs * echo.road
         self.strength *= 10 ** (-2 * weather * echo.range / 1000 / 20)
         h_s, h_d = antenna.pointers(echo.azimuth)
         if echo.departure != 0:
@@ -721,6 +759,12 @@ def scan(frame, vehicles, sensor, effects, rows=None):
     conditions = frame.get("conditions", {})
     weather = rain_dbpkm(sensor, conditions.get("rain_mmph", 0)) if "rain" in effects else 0.0
     weather += fog_dbpkm(sensor, conditions.get("fog_gpm3", 0)) if "fog" in effects else 0.0
+    road = road_of(scene, frame)
+    for echo in made.echoes.values():
+        echo.road = 1.0
+        if road and echo.heights:
+            echo.road, doubtful = road_factor(scene, road, echo.along, echo.heights)
+            made.doubtful_cells |= doubtful
     rays = [Ray(sensor, antenna, echo, weather, effects) for echo in made.echoes.values()]
     made.no_amplitude = {ray.key for ray in rays if ray.amplitude == 0}
     made.doubtful_cells |= fold_doubtful(sensor, rays, effects)
