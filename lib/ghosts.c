@@ -7,6 +7,7 @@
 #include "orientation.h"
 #include "reflection.h"
 #include "units.h"
+#include "ways.h"
 
 enum { ONE_WAY = 2, BOTH_WAYS = 3 };
 
@@ -150,11 +151,11 @@ static double bounce_margin_m(const struct look *look, const struct reflex *refl
 static bool pass(const struct look *look, struct course *course, struct passage_line line,
                  const struct look_body *const *but, size_t count)
 {
-    struct look_way way = look_along(look, &line, but, count);
+    struct way way = ways_along(look, &line, but, count);
     course->factor *= way.factor;
     course->effects |= way.effects;
     if (look->frame->margins && way.factor > 0)
-        course->margin_m = fmin(course->margin_m, look_clearance_m(look, &line, but, count));
+        course->margin_m = fmin(course->margin_m, ways_clearance_m(look, &line, but, count));
     return course->factor > 0;
 }
 

@@ -1,12 +1,9 @@
-/* One sensor's look at a scene: which reflectors it sees, and as what (MODEL 2.3 to 2.5, 5).
+/* One sensor's look at a scene: where it stands, what is there, and what a sensor at that place
+ * reads of it (MODEL 2.4).
  *
  * A look stands at the instant of the measurement: the ego and all objects are moved there in
- * closed form, the sensor's place and speed follow from its mount on the moving, turning ego. Every
- * reflector of an object then either becomes an echo in the frame or is written down as lost, with
- * the first reason that applies: it faces away or mirrors past the sensor, it is out of range, out
- * of view, or blocked. Two sides in line, where the beginning of one is the end of the other as
- * doubles, are one wall: the second mirrors what is exactly before their joint, and the object of
- * neither hides a foot on the other, though it may touch the sight line there.
+ * closed form, the sensor's place and speed follow from its mount on the moving, turning ego. What
+ * lies in the way is in ways.h, what echoes in direct.h and ghosts.h.
  *
  * With mount_z_m reflectors that have a height are seen from the sensor's: their slant range, the
  * angle that a linear array reads, and the rate along the slant decide and are reported (EFFECTS
@@ -15,7 +12,6 @@
 #define LOOK_H
 
 #include "frame.h"
-#include "passage.h"
 #include "sectors.h"
 #include "sight.h"
 #include "suite.h"
@@ -48,31 +44,13 @@ struct look {
     int64_t pairs, echoes;
 };
 
-/* What comes through to a place and back, there along a straight line. */
-struct look_way {
-    double factor;              /* on amplitude; 0 if it is blocked */
-    const struct look_body *by; /* by the first of these by id; NULL if it is not */
-    uint64_t effects;           /* that changed the factor */
-};
-
 /* The frame must have objects (the ego among them) and reflectors. Refuses a set that is worn by an
  * object that is not there. */
 int look_begin(struct look *look, struct frame *frame, const struct sensor *sensor,
                const struct selection *selection, double time_s, struct diag *diag);
 
-/* Every reflector of every object: adds echoes, losses and the sensor's count to the frame. */
-void look_around(struct look *look);
-
-/* What look_around asks for every echo, for what sees more than it (ghosts.h). */
-
-/* What comes along a line past all bodies that block; of the count bodies of but, any of which may
- * be NULL, none does. All of it where occlusion is not selected. */
-struct look_way look_along(const struct look *look, const struct passage_line *line,
-                           const struct look_body *const *but, size_t count);
-
-/* How near the line comes to what it passes; infinite where there is nothing. For margins. */
-double look_clearance_m(const struct look *look, const struct passage_line *line,
-                        const struct look_body *const *but, size_t count);
+/* The body of that object, or NULL. */
+struct look_body *look_body_of(const struct look *look, const char *id);
 
 /* Of a reflector at a fraction of the object's height, or at the sensor's for z = 0. */
 double look_height_m(const struct look *look, const struct look_body *body, double z);

@@ -1,6 +1,7 @@
 /* The ideal target list: exact range, azimuth, range rate and cross section of every reflector that
  * a sensor sees (MODEL 2.2 to 2.5, 5). */
 #include "cycle.h"
+#include "direct.h"
 #include "ghosts.h"
 #include "look.h"
 #include "stage.h"
@@ -73,7 +74,7 @@ static int ideal_step(void *state, struct frame *frame, struct runner *runner)
         if (look_begin(&look, frame, sensor, &selection, instant_s - latency_s(sensor, &selection),
                        runner_diag(runner)) != 0)
             return -1;
-        look_around(&look);
+        direct_look(&look);
         ghosts_around(&look);
         effects_count_scan(&selection);
     }

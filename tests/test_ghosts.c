@@ -3,8 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "direct.h"
 #include "frame_order.h"
 #include "ghosts.h"
+#include "passage.h"
 #include "sample.h"
 #include "sort.h"
 #include "units.h"

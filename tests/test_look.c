@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "look.h"
+#include "direct.h"
 #include "sample.h"
 #include "units.h"
 
@@ -70,7 +70,7 @@ static struct look look_around_at(struct scene *scene, double time_s)
     struct diag diag = {0};
     if (look_begin(&look, &scene->frame, &scene->sensor, &everything, time_s, &diag) != 0)
         fail_msg("%s", diag.text);
-    look_around(&look);
+    direct_look(&look);
     return look;
 }
 

@@ -3,7 +3,7 @@
 
 #include <stdbool.h>
 
-#include "look.h"
+#include "direct.h"
 #include "occlusion.h"
 #include "orientation.h"
 #include "reflection.h"
@@ -332,7 +332,7 @@ static void look(struct scene *scene)
     struct diag diag = {0};
     if (look_begin(&seen, &scene->frame, &scene->sensor, &everything, 0, &diag) != 0)
         fail_msg("%s", diag.text);
-    look_around(&seen);
+    direct_look(&seen);
 }
 
 static size_t lost_for(const struct scene *scene, enum loss reason)

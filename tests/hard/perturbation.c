@@ -11,11 +11,11 @@
 #include <string.h>
 
 #include "catalogue.h"
+#include "direct.h"
 #include "frame_order.h"
 #include "fused.h"
 #include "hard_cases.h"
 #include "hash.h"
-#include "look.h"
 #include "runner.h"
 #include "sort.h"
 #include "units.h"
@@ -232,7 +232,7 @@ static void see(struct frame *frame, const struct suite *suite)
         struct diag diag = {0};
         if (look_begin(&look, frame, sensor, &everything, frame->time_s, &diag) != 0)
             fail_msg("%s", diag.text);
-        look_around(&look);
+        direct_look(&look);
     }
     frame->present |= SECTION_SENSORS | SECTION_ECHOES | SECTION_LOST | SECTION_COUNTS;
     frame_order(frame);

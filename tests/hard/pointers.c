@@ -7,11 +7,11 @@
 #include <string.h>
 
 #include "carrier.h"
+#include "direct.h"
 #include "elementary.h"
 #include "frame_order.h"
 #include "frame_text.h"
 #include "hash.h"
-#include "look.h"
 #include "runner.h"
 #include "superposition.h"
 #include "units.h"
@@ -156,7 +156,7 @@ static struct look look_at_pole(struct bench *bench, struct vec2 ego, struct vec
     static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
     if (look_begin(&look, frame, &bench->sensor, &everything, 0, &diag) != 0)
         fail_msg("%s", diag.text);
-    look_around(&look);
+    direct_look(&look);
     return look;
 }
 

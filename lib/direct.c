@@ -1,0 +1,265 @@
+#include "direct.h"
+
+#include <math.h>
+
+#include "clearance.h"
+#include "elementary.h"
+#include "reflection.h"
+#include "ways.h"
+
+/* Losses name the stage whose work this is. */
+static const char stage_name[] = "ideal";
+
+static struct margins margins_of(const struct look *look, double margin_m)
+{
+    struct margins margins = {0};
+    if (look->frame->margins)
+        margins_note(&margins, MARGIN_SIGHT, margin_m);
+    return margins;
+}
+
+static void lose(struct look *look, const struct look_body *body, const char *reflector,
+                 enum loss reason, const struct look_body *by, double margin_m)
+{
+    frame_lose(look->frame, stage_name, look->sensor->name, reason,
+               &(struct lost_echo){.object = body->object->id,
+                                   .reflector = reflector,
+                                   .by = by != NULL ? by->object->id : NULL,
+                                   .margins = margins_of(look, margin_m)});
+}
+
+/* One reflector that faces the sensor. */
+struct glimpse {
+    const char *reflector;
+    const struct side *side; /* that it is, or NULL for a point */
+    struct vec2 place;
+    double height_m;
+    double z, extent; /* as described */
+    enum moving_part moving_part;
+    double ercs;
+    double under_vehicles;
+    double margin_m;  /* by which it faces the sensor */
+    uint64_t effects; /* that changed something so far */
+};
+
+static double sight_margin_m(const struct look *look, const struct look_body *body,
+                             const struct passage_line *line, bool under)
+{
+    if (!under)
+        return ways_clearance_m(look, line, &body, 1);
+    return fmin(ways_margin_m(look, &body, 1, line, true, false),
+                ways_margin_m(look, &body, 1, line, false, true));
+}
+
+/* The way past what stands there, or under it where that lets more through. */
+static struct way best_way(const struct look *look, const struct glimpse *seen,
+                           const struct passage_line *line, bool *under)
+{
+    *under = false;
+    struct way way = ways_past_blockers(look, seen->side, line, false);
+    if (seen->under_vehicles == 0 || way.factor == 1)
+        return way;
+    struct way below = ways_past_blockers(look, seen->side, line, true);
+    below.factor *= seen->under_vehicles;
+    below.effects |= EFFECT_BIT(EFFECT_OCCLUSION);
+    *under = below.factor > way.factor;
+    return *under ? below : way;
+}
+
+/* Is it in range and in view? If not, it is lost. */
+static bool in_reach(struct look *look, const struct look_body *body, struct glimpse *seen,
+                     const struct sight *sight)
+{
+    const struct sensor *sensor = look->sensor;
+    double azimuth = fabs(sight->azimuth_rad);
+    double reach_m =
+        fabs(fmin(sight->range_m - sensor->range_min_m, sensor->range_max_m - sight->range_m));
+    double view_m = sight->range_m * fabs(look_border_rad(sensor) - azimuth);
+    if (!(sight->range_m > 0 && sight->range_m >= sensor->range_min_m &&
+          sight->range_m <= sensor->range_max_m)) {
+        lose(look, body, seen->reflector, LOSS_OUT_OF_RANGE, NULL, reach_m);
+        return false;
+    }
+    if (!(azimuth < look_border_rad(sensor))) {
+        lose(look, body, seen->reflector, LOSS_OUT_OF_VIEW, NULL, view_m);
+        return false;
+    }
+    seen->margin_m = fmin(seen->margin_m, fmin(reach_m, view_m));
+    return true;
+}
+
+/* Its height over the road, where that is described, in a world that is not flat. */
+static void tell_height(const struct look *look, const struct look_body *body,
+                        const struct glimpse *seen, struct echo *echo)
+{
+    bool mirrors = look->frame->conditions.road != ROAD_UNKNOWN;
+    if (!(mirrors && look->height_m > 0 && seen->z > 0))
+        return;
+    echo->height_m = seen->height_m;
+    echo->extent_m = seen->extent * body->object->height_m;
+}
+
+/* How a part moves that turns or swings: its motion over ground has the same share of the range
+ * rate along the line on which it is seen as in the plane. */
+static void tell_motion(const struct look *look, const struct look_body *body,
+                        const struct glimpse *seen, struct vec2 velocity, struct echo *echo)
+{
+    struct vec2 still = {0, 0}, boresight = look->boresight, heading = body->box.heading;
+    if (!look->sensor->micro_motion || seen->moving_part == MOVING_NONE)
+        return;
+    struct sight ground = sight_of(look->position_m, still, boresight, seen->place, velocity);
+    echo->moving_part = seen->moving_part;
+    echo->ground_rate_mps = ground.range_rate_mps * (ground.range_m / echo->range_m);
+    echo->heading_rad =
+        elementary_atan2(vec2_cross(boresight, heading), vec2_dot(boresight, heading));
+}
+
+/* An echo if it is in range, in view and not blocked. */
+static void look_at(struct look *look, const struct look_body *body, struct glimpse seen)
+{
+    bool tell = look->frame->margins, under;
+    struct vec2 velocity = motion_velocity_at(&body->box.motion, seen.place);
+    double gain;
+    struct sight sight = look_lifted(
+        look, seen.height_m,
+        sight_of(look->position_m, look->velocity_mps, look->boresight, seen.place, velocity),
+        &gain, &seen.effects);
+    seen.ercs *= gain;
+    if (!in_reach(look, body, &seen, &sight))
+        return;
+    const struct passage_line line = {look->position_m, seen.place, look->height_m, seen.height_m};
+    int64_t begin = effects_begin(look->selection);
+    struct way way = best_way(look, &seen, &line, &under);
+    effects_end(look->selection, EFFECT_OCCLUSION, begin);
+    if (way.by != NULL) {
+        lose(look, body, seen.reflector, LOSS_BLOCKED, way.by,
+             tell ? ways_margin_m(look, &body, 1, &line, seen.under_vehicles > 0, true) : 0);
+        return;
+    }
+    if (tell)
+        seen.margin_m = fmin(seen.margin_m, sight_margin_m(look, body, &line, under));
+    look->echoes++;
+    struct echo *echo = list_add(&look->frame->echoes, look->frame->arena);
+    *echo = (struct echo){
+        .sensor = look->sensor->name,
+        .object = body->object->id,
+        .reflector = seen.reflector,
+        .path = PATH_DIRECT,
+        .range_m = sight.range_m,
+        .azimuth_rad = sight.azimuth_rad,
+        .range_rate_mps = sight.range_rate_mps,
+        .ercs = way.factor * seen.ercs,
+        .time_s = look->time_s,
+        .effects = seen.effects | way.effects,
+        .margins = margins_of(look, seen.margin_m),
+    };
+    tell_height(look, body, &seen, echo);
+    tell_motion(look, body, &seen, velocity, echo);
+}
+
+static void look_at_point(struct look *look, const struct look_body *body,
+                          const struct point_reflector *point, struct vec2 place)
+{
+    look->pairs++;
+    bool selective = effects_may(look->selection, EFFECT_VISIBILITY);
+    double visible =
+        selective ? reflectors_visibility(&body->box, point->shape, point->facing_rad,
+                                          point->full_rad, point->zero_rad, place, look->position_m)
+                  : 1;
+    double margin_m = (double)INFINITY;
+    if (look->frame->margins && selective)
+        margin_m = clearance_facing_m(&body->box, point->shape, point->facing_rad, point->zero_rad,
+                                      place, look->position_m);
+    if (visible > 0)
+        look_at(look, body,
+                (struct glimpse){
+                    .reflector = point->name,
+                    .place = place,
+                    .height_m = look_height_m(look, body, point->z),
+                    .z = point->z,
+                    .extent = point->extent,
+                    .moving_part = point->moving_part,
+                    .ercs = visible * point->ercs,
+                    .under_vehicles = point->under_vehicles,
+                    .margin_m = margin_m,
+                    .effects =
+                        look_aged(look, body) | (visible < 1 ? EFFECT_BIT(EFFECT_VISIBILITY) : 0),
+                });
+    else
+        lose(look, body, point->name, LOSS_FACING_AWAY, NULL, margin_m);
+}
+
+static void look_at_plane(struct look *look, const struct look_body *body,
+                          const struct plane_reflector *plane)
+{
+    look->pairs++;
+    if (!effects_may(look->selection, EFFECT_PLANE_REFLECTION)) {
+        lose(look, body, plane->name, LOSS_SWITCHED_OFF, NULL, (double)INFINITY);
+        return;
+    }
+    struct side side = ways_side(body, plane);
+    struct vec2 foot;
+    double margin_m = look->frame->margins ? clearance_foot_m(side.from, side.to, side.along,
+                                                              plane->margin_m, look->position_m)
+                                           : 0;
+    if (reflection_foot(side.from, side.to, side.along, plane->margin_m, look->position_m, &foot) &&
+        !ways_next_side_has_foot(look, &side)) {
+        struct glimpse seen = {
+            .reflector = plane->name,
+            .side = &side,
+            .place = foot,
+            .height_m = look_height_m(look, body, plane->z),
+            .z = plane->z,
+            .extent = plane->extent,
+            .margin_m = margin_m,
+            .effects = look_aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
+        };
+        double range_m = vec2_length(vec2_sub(foot, look->position_m));
+        seen.ercs = look_plane_ercs(look, plane, range_m, &seen.effects);
+        look_at(look, body, seen);
+    } else
+        lose(look, body, plane->name, LOSS_NO_SPECULAR, NULL, margin_m);
+}
+
+static void look_along_row(struct look *look, const struct look_body *body,
+                           const struct post_row *row)
+{
+    int64_t first, end;
+    reflectors_posts_within(&body->box, row, look->position_m, look->sensor->range_max_m, &first,
+                            &end);
+    for (int64_t number = first; number < end; number++) {
+        const struct point_reflector post = look_post(look, row, number);
+        look_at_point(look, body, &post, reflectors_post_place(&body->box, row, number));
+    }
+}
+
+static void look_at_body(struct look *look, const struct look_body *body,
+                         const struct reflector_set *set)
+{
+    const struct selection *selection = look->selection;
+    ways_find_blockers(look, body, set);
+    effects_note(selection, EFFECT_VISIBILITY, set->points.count + set->rows.count > 0);
+    effects_note(selection, EFFECT_PLANE_REFLECTION, set->planes.count > 0);
+    effects_note(selection, EFFECT_ROWS, set->rows.count > 0);
+    for (size_t i = 0; i < set->points.count; i++) {
+        const struct point_reflector *point = &set->points.items[i];
+        look_at_point(look, body, point, reflectors_point_place(&body->box, point));
+    }
+    for (size_t i = 0; i < set->planes.count; i++)
+        look_at_plane(look, body, &set->planes.items[i]);
+    for (size_t i = 0; i < set->rows.count && effects_may(selection, EFFECT_ROWS); i++)
+        look_along_row(look, body, &set->rows.items[i]);
+}
+
+void direct_look(struct look *look)
+{
+    struct frame *frame = look->frame;
+    look->blockers = arena_get(frame->arena, (look->body_count + 1) * sizeof(*look->blockers));
+    for (size_t i = 0; i < frame->reflectors.count; i++) {
+        const struct reflector_set *set = &frame->reflectors.items[i];
+        for (size_t j = 0; j < set->worn_by.count; j++)
+            look_at_body(look, look_body_of(look, set->worn_by.items[j]), set);
+    }
+    frame_count_pairs(frame, look->sensor->name, look->pairs);
+    frame_count_echoes(frame, look->sensor->name, PATH_DIRECT, look->echoes);
+}

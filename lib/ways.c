@@ -1,0 +1,185 @@
+#include "ways.h"
+
+#include <math.h>
+
+#include "clearance.h"
+#include "knife_edge.h"
+#include "occlusion.h"
+#include "orientation.h"
+
+/* Both ends of a line beyond the same side of a body. */
+static bool passes_beside(double from_m, double to_m, double reach_m)
+{
+    return fmin(from_m, to_m) > reach_m || fmax(from_m, to_m) < -reach_m;
+}
+
+/* A sight line that stays clear of the circle around a body, or has both ends beyond one of its
+ * sides, cannot touch its outline. The slack covers the rounding of this test, so the exact one is
+ * only spared where it would say no. */
+static bool passes_clear(const struct look_body *body, struct vec2 from, struct vec2 to,
+                         double wavelength_m)
+{
+    struct vec2 line = vec2_sub(to, from), centre = vec2_sub(body->box.motion.position_m, from);
+    double length_m = vec2_length(line), along = vec2_dot(line, centre);
+    double slack_m = 1e-6 + knife_edge_reach_m(length_m, wavelength_m);
+    double reach = (body->sector.radius_m + slack_m) * (1 + 1e-9) * length_m;
+    if (fabs(vec2_cross(line, centre)) > reach || along < -reach ||
+        along > vec2_dot(line, line) + reach)
+        return true;
+    struct vec2 ahead = body->box.heading, rest = vec2_sub(centre, line);
+    slack_m += 1e-9 * (length_m + body->sector.radius_m);
+    return passes_beside(vec2_cross(ahead, centre), vec2_cross(ahead, rest),
+                         0.5 * body->box.width_m + slack_m) ||
+           passes_beside(vec2_dot(ahead, centre), vec2_dot(ahead, rest),
+                         0.5 * body->box.length_m + slack_m);
+}
+
+struct side ways_side(const struct look_body *body, const struct plane_reflector *plane)
+{
+    return (struct side){.from = reflectors_place(&body->box, plane->from_x, plane->from_y),
+                         .to = reflectors_place(&body->box, plane->to_x, plane->to_y),
+                         .along = reflectors_along(&body->box, plane)};
+}
+
+/* Has the body a side in line with this one that begins where it ends (or ends where it begins)? */
+static bool joins(const struct look_body *body, const struct side *side, bool begins)
+{
+    for (size_t i = 0; body->set != NULL && i < body->set->planes.count; i++) {
+        const struct plane_reflector *plane = &body->set->planes.items[i];
+        struct side other = ways_side(body, plane);
+        if (plane->margin_m == 0 && vec2_same(other.along, side->along) &&
+            (begins ? vec2_same(other.from, side->to) : vec2_same(other.to, side->from)))
+            return true;
+    }
+    return false;
+}
+
+bool ways_next_side_has_foot(const struct look *look, const struct side *side)
+{
+    if (orientation_along(side->to, look->position_m, side->along) != 0)
+        return false;
+    for (size_t i = 0; i < look->body_count; i++)
+        if (joins(&look->bodies[i], side, true))
+            return true;
+    return false;
+}
+
+void ways_find_blockers(struct look *look, const struct look_body *own,
+                        const struct reflector_set *set)
+{
+    const struct selection *selection = look->selection;
+    int64_t begin = effects_begin(selection);
+    struct sector wanted = own->sector;
+    wanted.radius_m = reflectors_radius_m(set, own->sector.radius_m);
+    look->blocker_count = 0;
+    if (!effects_may(selection, EFFECT_OCCLUSION))
+        return;
+    bool all = effects_must(selection, EFFECT_OCCLUSION);
+    double reach_m = knife_edge_reach_m(wanted.distance_m + wanted.radius_m, look->wavelength_m);
+    for (size_t i = 0; i < look->body_count; i++) {
+        const struct look_body *body = &look->bodies[i];
+        struct sector shadow = body->sector;
+        shadow.radius_m += reach_m;
+        if (body != own && body->blocks && (all || sectors_overlap(&shadow, &wanted)))
+            look->blockers[look->blocker_count++] = body;
+    }
+    bool some = all || look->blocker_count > 0;
+    effects_note(selection, EFFECT_OCCLUSION, some);
+    effects_note(selection, EFFECT_HEIGHT, look->over && some);
+    effects_note(selection, EFFECT_DIFFRACTION, look->wavelength_m > 0 && some);
+    effects_end(selection, EFFECT_OCCLUSION, begin);
+}
+
+/* What one body lets through, and which effects beside occlusion matter to it. */
+static struct way past(const struct look *look, const struct look_body *body,
+                       const struct passage_line *line)
+{
+    struct passage passage =
+        passage_of(body->corner, 4, look_top_m(look, body), line, look->wavelength_m);
+    return (struct way){
+        .factor = passage.factor,
+        .by = passage.factor == 0 ? body : NULL,
+        .effects = (passage.bent ? EFFECT_BIT(EFFECT_DIFFRACTION) : 0) |
+                   (passage.over ? EFFECT_BIT(EFFECT_HEIGHT) : 0),
+    };
+}
+
+struct way ways_past_blockers(const struct look *look, const struct side *side,
+                              const struct passage_line *line, bool solid)
+{
+    struct way all = {.factor = 1};
+    for (size_t i = 0; i < look->blocker_count; i++) {
+        const struct look_body *body = look->blockers[i];
+        if ((solid && body->raised) || passes_clear(body, line->from, line->to, look->wavelength_m))
+            continue;
+        struct way way = past(look, body, line);
+        if ((way.factor == 1 && way.effects == 0) ||
+            (side != NULL && (joins(body, side, true) || joins(body, side, false))))
+            continue;
+        if (way.by != NULL)
+            return way;
+        all.factor *= way.factor;
+        all.effects |= way.effects;
+    }
+    return all;
+}
+
+static bool is_among(const struct look_body *body, const struct look_body *const *bodies,
+                     size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (bodies[i] == body)
+            return true;
+    return false;
+}
+
+struct way ways_along(const struct look *look, const struct passage_line *line,
+                      const struct look_body *const *but, size_t count)
+{
+    struct way all = {.factor = 1};
+    for (size_t i = 0; i < look->body_count && effects_may(look->selection, EFFECT_OCCLUSION);
+         i++) {
+        const struct look_body *body = &look->bodies[i];
+        if (!body->blocks || passes_clear(body, line->from, line->to, look->wavelength_m) ||
+            is_among(body, but, count))
+            continue;
+        struct way way = past(look, body, line);
+        if (way.by != NULL)
+            return way;
+        all.factor *= way.factor;
+        all.effects |= way.effects;
+    }
+    return all;
+}
+
+double ways_margin_m(const struct look *look, const struct look_body *const *but, size_t count,
+                     const struct passage_line *line, bool solid, bool blocked)
+{
+    double nearest_m = (double)INFINITY, deepest_m = 0;
+    double length_m = vec2_length(vec2_sub(line->to, line->from));
+    double soft_m = 2 * knife_edge_reach_m(length_m, look->wavelength_m);
+    for (size_t i = 0; i < look->body_count; i++) {
+        const struct look_body *body = &look->bodies[i];
+        const struct vec2 *corner = body->corner, from = line->from, to = line->to;
+        if (!body->blocks || (solid && body->raised) || is_among(body, but, count))
+            continue;
+        if (!occlusion_outline_blocks(corner, 4, from, to)) {
+            nearest_m = fmin(nearest_m, clearance_outline_m(corner, 4, from, to));
+            continue;
+        }
+        double above_m = passage_above_m(corner, 4, look_top_m(look, body), line);
+        if (above_m > 0 || soft_m > 0)
+            nearest_m = fmin(nearest_m, fmax(above_m, 0));
+        double depth_m = fmin(clearance_depth_m(corner, 4, from, to), -above_m);
+        deepest_m = fmax(deepest_m, depth_m - soft_m);
+    }
+    return blocked ? deepest_m : nearest_m;
+}
+
+double ways_clearance_m(const struct look *look, const struct passage_line *line,
+                        const struct look_body *const *but, size_t count)
+{
+    return effects_may(look->selection, EFFECT_OCCLUSION)
+               ? ways_margin_m(look, but, count, line, false, false)
+               : (double)INFINITY;
+}
