@@ -7,7 +7,8 @@
 
 enum road { ROAD_UNKNOWN, ROAD_ASPHALT, ROAD_CONCRETE };
 
-/* An object that carries a radar of its own, of another kind or out of step. */
+/* An object that carries a radar of its own, of another kind or out of step. One that is not in the
+ * frame has left and is not heard, nor is the ego; a scenario must know it, though. */
 struct interferer {
     const char *object;
     double eirp_dbm;

@@ -19,9 +19,10 @@ enum random_purpose {
     RANDOM_REFLECTOR_PHASE = 7, /* what a reflector adds to the phase of its path */
     RANDOM_FLUCTUATION = 8,     /* an echo's strength in this scan */
     RANDOM_FALSE_ALARMS = 9,    /* of a scan: block 0 how many, block n where the n-th is */
-    RANDOM_WHEELS = 10,         /* of a wheel house: the same of points on its wheel */
-    RANDOM_LIMBS = 11,          /* of a person: the same of arms and legs */
-    RANDOM_CLUTTER = 12,        /* of a scan: the same of points on the ground */
+    RANDOM_CONDITIONS = 10,     /* road, weather and other radars of a random scene */
+    RANDOM_WHEELS = 11,         /* of a wheel house: the same of points on its wheel */
+    RANDOM_LIMBS = 12,          /* of a person: the same of arms and legs */
+    RANDOM_CLUTTER = 13,        /* of a scan: the same of points on the ground */
 };
 
 struct random_address {

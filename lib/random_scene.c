@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "elementary.h"
 #include "hash.h"
 #include "units.h"
 
@@ -232,4 +233,51 @@ void random_scene_fill(const struct random_scene *scene, int64_t number, struct 
     int64_t count = draws_whole(&draws, regime->least, regime->most);
     for (int64_t i = 1; i <= count; i++)
         add_object(scene, i, address, frame);
+}
+
+static struct interferer draw_interferer(struct draws *draws, const struct object *object)
+{
+    return (struct interferer){
+        .object = object->id,
+        .eirp_dbm = draws_between(draws, 0, 40),
+        .slope_hzps = draws_sign(draws) * draws_between(draws, 1e12, 5e13),
+        .hit_share = draws_between(draws, 0, 0.3),
+    };
+}
+
+/* The second is one of the others after the first, in a circle. */
+static void draw_interferers(struct draws *draws, struct frame *frame)
+{
+    int64_t others = (int64_t)frame->objects.count - 1;
+    int64_t count = draws_whole(draws, 1, 2);
+    int64_t place = draws_whole(draws, 0, others > 0 ? others - 1 : 0);
+    for (int64_t i = 0; i < count && i < others; i++) {
+        *list_add(&frame->conditions.interferers, frame->arena) =
+            draw_interferer(draws, &frame->objects.items[1 + place]);
+        place = (place + draws_whole(draws, 1, others > 1 ? others - 1 : 1)) % others;
+    }
+}
+
+static void draw_clutter(struct draws *draws, struct conditions *conditions)
+{
+    conditions->clutter_per_m2 = 1e-5 * elementary_pow(300, draws_next(draws));
+    conditions->clutter_ercs = 0.01 * elementary_pow(100, draws_next(draws));
+    conditions->clutter_overdispersion = draws_between(draws, 1, 4);
+}
+
+void random_scene_conditions(const struct random_scene *scene, int64_t number, struct frame *frame)
+{
+    struct conditions *conditions = &frame->conditions;
+    struct random_address address = random_scene_address(scene, frame->seed, number);
+    struct draws draws = draws_at(address, RANDOM_CONDITIONS);
+    if (draws_chance(&draws, 0.4))
+        conditions->rain_mmph = 0.05 * elementary_pow(2000, draws_next(&draws));
+    if (draws_chance(&draws, 0.15))
+        conditions->fog_gpm3 = 0.005 * elementary_pow(200, draws_next(&draws));
+    if (draws_chance(&draws, 0.5))
+        conditions->road = draws_chance(&draws, 0.5) ? ROAD_ASPHALT : ROAD_CONCRETE;
+    if (draws_chance(&draws, 0.2))
+        draw_interferers(&draws, frame);
+    if (draws_chance(&draws, 0.2))
+        draw_clutter(&draws, conditions);
 }

@@ -12,6 +12,11 @@
 #include "units.h"
 
 #define FOG_C 10
+#define AT_HOME                                                                                    \
+    (EFFECT_BIT(EFFECT_WHEELS) | EFFECT_BIT(EFFECT_LIMBS) | EFFECT_BIT(EFFECT_CLUTTER) |           \
+     EFFECT_BIT(EFFECT_TWO_RAY) | EFFECT_BIT(EFFECT_FLUCTUATION) | EFFECT_BIT(EFFECT_RAIN) |       \
+     EFFECT_BIT(EFFECT_FOG) | EFFECT_BIT(EFFECT_AMBIGUITY) | EFFECT_BIT(EFFECT_INTERFERENCE) |     \
+     EFFECT_BIT(EFFECT_COHERENCE))
 
 static bool simulates(const struct reception *reception, enum effect effect)
 {
@@ -117,6 +122,13 @@ struct reception reception_begin(const struct frame *frame, const struct sensor 
             reception.interference +=
                 interference_of(frame, sensor, &frame->conditions.interferers.items[i]);
     return reception;
+}
+
+void reception_note(const struct reception *reception, const struct selection *selection)
+{
+    for (enum effect effect = 0; effect < EFFECT_COUNT; effect++)
+        if ((AT_HOME & EFFECT_BIT(effect)) != 0)
+            effects_note(selection, effect, simulates(reception, effect));
 }
 
 /* Drawn in each frame, or that of the path and of the reflector, which is drawn once for all

@@ -7,7 +7,10 @@
  *
  * The road counts for echoes with a known height: direct ones and what moves on their reflectors.
  * Ghosts and clutter have none. What sees effects begin here also says what has them: the parts
- * that move and the clutter that are at home in scatterers.h. */
+ * that move and the clutter that are at home in scatterers.h.
+ *
+ * An interferer is heard where its object stands in this frame, if it is in view: one that has left
+ * the scene, or is the ego, is not heard (12). */
 #ifndef RECEPTION_H
 #define RECEPTION_H
 
@@ -28,6 +31,9 @@ uint64_t reception_described(const struct frame *frame, const struct sensor *sen
 
 struct reception reception_begin(const struct frame *frame, const struct sensor *sensor,
                                  uint64_t effects);
+
+/* Notes every effect that is at home here: all that is described and may be is simulated. */
+void reception_note(const struct reception *reception, const struct selection *selection);
 
 /* Has this echo a wheel that turns, or limbs that swing, along the sight line? */
 bool reception_rolls(const struct echo *echo);

@@ -118,17 +118,30 @@ static int check_actor(const struct scenario *scenario, size_t index, struct dia
     return actors[index].waypoints.count > 0 ? check_waypoints(&actors[index], diag) : 0;
 }
 
+static bool has_actor(const struct scenario *scenario, const char *id)
+{
+    for (size_t i = 0; i < scenario->objects.count; i++)
+        if (strcmp(scenario->objects.items[i].id, id) == 0)
+            return true;
+    return false;
+}
+
 int scenario_check(const struct scenario *scenario, struct diag *diag)
 {
-    bool ego_found = false;
-    for (size_t i = 0; i < scenario->objects.count; i++) {
+    for (size_t i = 0; i < scenario->objects.count; i++)
         if (check_actor(scenario, i, diag) != 0)
             return diag_prefix(diag, "objects[%zu].", i);
-        ego_found = ego_found || strcmp(scenario->objects.items[i].id, scenario->ego) == 0;
+    for (size_t i = 0; i < scenario->conditions.interferers.count; i++) {
+        const char *id = scenario->conditions.interferers.items[i].object;
+        if (!has_actor(scenario, id))
+            return diag_fail(
+                diag, DIAG_CONFIG,
+                "conditions.interferers[%zu].object: \"%s\" is not the id of an object", i, id);
     }
-    return ego_found ? 0
-                     : diag_fail(diag, DIAG_CONFIG, "ego: \"%s\" is not the id of an object",
-                                 scenario->ego);
+    return has_actor(scenario, scenario->ego)
+               ? 0
+               : diag_fail(diag, DIAG_CONFIG, "ego: \"%s\" is not the id of an object",
+                           scenario->ego);
 }
 
 static void shift_actor(struct actor *actor, struct vec2 origin_m)

@@ -46,8 +46,8 @@ struct scenario {
 
 extern const struct record scenario_record;
 
-/* Refuses scenarios that no table of fields can: an unknown ego, an id that stands twice, segments
- * or a start together with waypoints, waypoints whose times do not ascend. */
+/* Refuses scenarios that no table of fields can: an unknown ego or interferer, an id that stands
+ * twice, segments or a start together with waypoints, waypoints whose times do not ascend. */
 int scenario_check(const struct scenario *scenario, struct diag *diag);
 
 /* Moves every place by -origin: done once, before anything is computed, so that large coordinates

@@ -85,9 +85,9 @@ static struct antenna_pointers add_pointers(const struct sensor *sensor, const s
     struct channel sum = {{0, 0}, {0, 0}}, delta = sum;
     for (size_t i = 0; i < count; i++) {
         struct antenna_pointers one = antenna_pointers(&sensor->antenna, rays[i].echo.azimuth_rad);
-        struct elementary_sincos phase = elementary_sincos(rays[i].phase_rad);
+        struct elementary_sincos phase = elementary_sincos(rays[i].phase_rad - rays[0].phase_rad);
         double _Complex turn = phase.cos + phase.sin * (double _Complex)I;
-        bool turned = rays[i].phase_rad != 0;
+        bool turned = rays[i].phase_rad != rays[0].phase_rad;
         add_pointer(&sum, rays[i].strength * (turned ? turn * one.sum : one.sum));
         add_pointer(&delta, rays[i].strength * (turned ? turn * one.delta : one.delta));
     }

@@ -12,7 +12,7 @@ struct ray {
     double strength;  /* G = A_ref(R) ERCS: the amplitude before the antenna of its arrival */
     double amplitude; /* A = G A_phi, equation (2) */
     double range_m, range_rate_mps; /* as the radar reads them: the echo's, or folded */
-    double phase_rad; /* relative to the other echoes of a cell; 0 in the paper's model */
+    double phase_rad; /* counts relative to the leader of the cell; 0 in the paper's model */
     uint64_t effects; /* the echo's, and those of its amplitude and phase */
     const struct margins *margins; /* the echo's */
 };

@@ -1,8 +1,6 @@
 /* The sensor before noise: amplitude of every echo (MODEL 4), what moves on reflectors and what
  * lies on the ground (14), resolution cells (6), threshold on the summed amplitude, superposed sum
  * and delta pointers of each cell (7, 8). */
-#include <string.h>
-
 #include "cell_margins.h"
 #include "escalation.h"
 #include "stage.h"
@@ -63,25 +61,18 @@ static struct scan receive(struct frame *frame, const struct sensor *sensor,
     return scan;
 }
 
-/* What is at home here and was simulated by nobody was left out. */
-static void note(const struct reception *reception, const struct selection *selection)
-{
-    for (int i = 0; i < EFFECT_COUNT && selection->log != NULL; i++)
-        if (strcmp(effects_table[i].home, "sensor") == 0)
-            effects_note(selection, (enum effect)i, (reception->effects & EFFECT_BIT(i)) != 0);
-    effects_note(selection, EFFECT_THRESHOLD, true);
-}
-
 static void sense(struct frame *frame, const struct sensor *sensor,
                   const struct selection *selection)
 {
     struct scan scan = receive(frame, sensor, selection);
+    reception_note(&scan.reception, selection);
+    effects_note(selection, EFFECT_SUPERPOSITION, false);
+    effects_note(selection, EFFECT_THRESHOLD, true);
     scatterers_count(frame, sensor->name, scan.scatterers);
     for (size_t i = 0; i < scan.silent_count; i++)
         frame_lose_subject(frame, "sensor", sensor->name, &scan.silent[i].echo, LOSS_NO_AMPLITUDE);
     for (size_t number = 0; number < scan.cells; number++)
         report(frame, &scan, selection, number);
-    note(&scan.reception, selection);
 }
 
 static int sensor_step(void *state, struct frame *frame, struct runner *runner)

@@ -11,6 +11,7 @@ struct traffic_random {
     enum random_density density;
     int64_t frames, first;
     double rate_hz;
+    bool conditions;
     const char *sensors;
     const struct suite *suite;
     struct random_scene scene;
@@ -63,6 +64,8 @@ static int traffic_random_next(void *state, struct frame *frame, struct runner *
     random_scene_fill(&traffic->scene, number, frame);
     if (traffic->suite != NULL)
         hard_cases_add(&traffic->scene, traffic->suite, number, frame);
+    if (traffic->conditions)
+        random_scene_conditions(&traffic->scene, number, frame);
     return 1;
 }
 
@@ -77,6 +80,8 @@ static const struct field traffic_random_options[] = {
     {FIELD_REAL_IN(struct traffic_random, rate_hz, 1, 1e4,
                    "frame number n is at n/rate; absent: 20"),
      FIELD_OPTIONAL, .absent = 20},
+    {FIELD_FLAG_OF(struct traffic_random, conditions, "draw road, rain, fog and other radars too"),
+     FIELD_OPTIONAL},
     {FIELD_NAME_OF(struct traffic_random, sensors,
                    "the suite whose decisions adversarial scenes are built around"),
      FIELD_OPTIONAL},

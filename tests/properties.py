@@ -282,7 +282,8 @@ def compare_lists(left, right, sign=1, rename=plain):
 
 
 def noise_free(suite, data):
-    return parse(fused(chain(suite, noise="glint-noise-none"), data))
+    """Without clutter too, whose places are drawn."""
+    return parse(fused(chain(f"{suite} --effects=-clutter", noise="glint-noise-none"), data))
 
 
 # Mirrors

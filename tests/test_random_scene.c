@@ -218,6 +218,81 @@ static void seed_number_and_density_each_make_another_snapshot(void **state)
     assert_true(fabs(snapshot(*state, RANDOM_MEDIUM, 5, 13)->objects.items[0].x_m - x_m) > 0);
 }
 
+static const struct frame *in_conditions(struct bench *bench, enum random_density density,
+                                         int64_t number)
+{
+    snapshot(bench, density, 1, number);
+    random_scene_conditions(&bench->scene, number, &bench->frame);
+    return &bench->frame;
+}
+
+static void check_interferers(const struct frame *frame)
+{
+    const struct interferer *interferers = frame->conditions.interferers.items;
+    size_t count = frame->conditions.interferers.count;
+    assert_true(count <= 2 && count < frame->objects.count);
+    for (size_t i = 0; i < count; i++) {
+        assert_non_null(frame_object(frame, interferers[i].object));
+        assert_string_not_equal(interferers[i].object, frame->ego);
+        assert_true(interferers[i].eirp_dbm > 0 && interferers[i].eirp_dbm < 40);
+        assert_true(fabs(interferers[i].slope_hzps) > 1e12);
+        assert_true(fabs(interferers[i].slope_hzps) < 5e13);
+        assert_true(interferers[i].hit_share > 0 && interferers[i].hit_share < 0.3);
+    }
+    if (count == 2)
+        assert_string_not_equal(interferers[0].object, interferers[1].object);
+}
+
+static void conditions_come_in_their_shares(void **state)
+{
+    enum { FRAMES = 20000, RAIN, HEAVY, FOG, ASPHALT, CONCRETE, ONE, TWO, KINDS };
+    static const double shares[KINDS] = {
+        [RAIN] = 0.4,      [HEAVY] = 0.2,   [FOG] = 0.15,   [ASPHALT] = 0.25,
+        [CONCRETE] = 0.25, [ONE] = 0.2 / 2, [TWO] = 0.2 / 2};
+    int hits[KINDS] = {0};
+    for (int64_t number = 0; number < FRAMES; number++) {
+        const struct frame *frame = in_conditions(*state, RANDOM_DENSE, number);
+        const struct conditions *drawn = &frame->conditions;
+        hits[RAIN] += drawn->rain_mmph > 0;
+        hits[HEAVY] += drawn->rain_mmph > sqrt(0.05 * 100); /* half way in the logarithm */
+        hits[FOG] += drawn->fog_gpm3 > 0;
+        hits[ASPHALT] += drawn->road == ROAD_ASPHALT;
+        hits[CONCRETE] += drawn->road == ROAD_CONCRETE;
+        hits[ONE] += drawn->interferers.count == 1;
+        hits[TWO] += drawn->interferers.count == 2;
+        assert_true(drawn->rain_mmph == 0 || (drawn->rain_mmph > 0.05 && drawn->rain_mmph < 100));
+        assert_true(drawn->fog_gpm3 == 0 || (drawn->fog_gpm3 > 0.005 && drawn->fog_gpm3 < 1));
+        check_interferers(frame);
+    }
+    for (int kind = RAIN; kind < KINDS; kind++)
+        assert_close((double)hits[kind] / FRAMES, shares[kind],
+                     5 * sqrt(shares[kind] * (1 - shares[kind]) / FRAMES));
+}
+
+static void conditions_of_few_objects_have_few_interferers(void **state)
+{
+    int64_t alone = 0, single = 0;
+    for (int64_t number = 0; number < 3000; number++) {
+        const struct frame *frame = in_conditions(*state, RANDOM_SPARSE, number);
+        check_interferers(frame);
+        alone += frame->objects.count == 1;
+        single += frame->objects.count == 2 && frame->conditions.interferers.count == 1;
+    }
+    assert_true(alone > 0 && single > 0);
+}
+
+static void conditions_are_drawn_by_number_and_move_nothing_else(void **state)
+{
+    for (int64_t number = 0; number < 50; number++) {
+        double x_m = snapshot(*state, RANDOM_DENSE, 1, number)->objects.items[1].x_m;
+        double rain_mmph = in_conditions(*state, RANDOM_DENSE, number)->conditions.rain_mmph;
+        in_conditions(*state, RANDOM_DENSE, number + 1);
+        const struct frame *again = in_conditions(*state, RANDOM_DENSE, number);
+        assert_close(again->objects.items[1].x_m, x_m, 0);
+        assert_close(again->conditions.rain_mmph, rain_mmph, 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -228,6 +303,9 @@ int main(void)
         cmocka_unit_test(overlaps_happen_but_rarely),
         cmocka_unit_test(a_snapshot_is_drawn_by_its_number_alone),
         cmocka_unit_test(seed_number_and_density_each_make_another_snapshot),
+        cmocka_unit_test(conditions_come_in_their_shares),
+        cmocka_unit_test(conditions_of_few_objects_have_few_interferers),
+        cmocka_unit_test(conditions_are_drawn_by_number_and_move_nothing_else),
     };
     return cmocka_run_group_tests(tests, make_bench, remove_bench);
 }

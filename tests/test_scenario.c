@@ -468,6 +468,22 @@ static void impossible_scenarios_are_refused(void **state)
     }
 }
 
+static void a_scenario_knows_its_interferers(void **state)
+{
+    (void)state;
+    struct actor actors[] = {driver(NULL, 0)};
+    struct interferer interferers[] = {{.object = "a"}, {.object = "nobody"}};
+    struct scenario scenario = scenario_of(actors, 1);
+    struct diag diag = {0};
+    scenario.conditions.interferers.items = interferers;
+    scenario.conditions.interferers.count = 1;
+    assert_int_equal(scenario_check(&scenario, &diag), 0);
+    scenario.conditions.interferers.count = 2;
+    assert_int_equal(scenario_check(&scenario, &diag), -1);
+    assert_string_equal(diag.text,
+                        "conditions.interferers[1].object: \"nobody\" is not the id of an object");
+}
+
 static void values_outside_their_bounds_are_refused(void **state)
 {
     (void)state;
@@ -507,6 +523,7 @@ int main(void)
         cmocka_unit_test(a_million_frames_drift_nowhere),
         cmocka_unit_test(frames_are_counted_despite_rounding),
         cmocka_unit_test(impossible_scenarios_are_refused),
+        cmocka_unit_test(a_scenario_knows_its_interferers),
         cmocka_unit_test(values_outside_their_bounds_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,8 +1,8 @@
 /* Is choosing effects from the scene sound? Random scenes, each seen with every effect and with
  * those that a planner chose, in this process and without text.
  *
- * Frame number n is that of glint-traffic-random --first n --frames 1 with the same options, in
- * drawn conditions; --first n --frames 1 --print writes it, for the chain to read. The answer is
+ * Frame number n is that of glint-traffic-random --conditions --first n --frames 1 with the same
+ * options; --first n --frames 1 --print writes it, for the chain to read. The answer is
  * one JSON line: per planner the violations, the first of them, how often each effect was simulated
  * and left out, and the time. Exit status 1 if there is a violation. */
 #include <inttypes.h>
@@ -11,8 +11,6 @@
 #include <time.h>
 
 #include "compare.h"
-#include "draws.h"
-#include "elementary.h"
 #include "frame_text.h"
 #include "fused.h"
 #include "options.h"
@@ -150,8 +148,8 @@ static int start_scenes(struct bench *bench)
     bench->scene.arena = &bench->arena;
     return start_stage(&bench->source, "traffic-random",
                        (const char *const[]){"--density", random_densities[wanted->density],
-                                             "--first", first, "--frames", frames, around,
-                                             wanted->sensors, NULL}) == 0
+                                             "--first", first, "--frames", frames, "--conditions",
+                                             around, wanted->sensors, NULL}) == 0
                ? start_stage(&bench->extract, "extract", (const char *const[]){NULL})
                : -1;
 }
@@ -266,39 +264,6 @@ static void judge(const struct frame *all, int64_t number, struct planner *plann
     planner->violations++;
 }
 
-/* Of every order of size alike: what a tolerance lets go and what it does not. */
-static double draw_size(struct draws *draws, double least, double most)
-{
-    return least * elementary_pow(most / least, draws_next(draws));
-}
-
-/* Whatever a document may say of road, weather and other radars, each in some of the scenes. */
-static void draw_conditions(struct frame *frame, struct random_address address)
-{
-    struct conditions *conditions = &frame->conditions;
-    address.subject = UINT64_MAX;
-    struct draws draws = draws_at(address, RANDOM_TRAFFIC);
-    conditions->road = (enum road)draws_whole(&draws, ROAD_UNKNOWN, ROAD_CONCRETE);
-    if (draws_chance(&draws, 0.4))
-        conditions->rain_mmph = draw_size(&draws, 0.01, 100);
-    if (draws_chance(&draws, 0.3))
-        conditions->fog_gpm3 = draw_size(&draws, 0.001, 1);
-    bool interfered = draws_chance(&draws, 0.3);
-    for (size_t i = 1; i < frame->objects.count && interfered; i++)
-        if (draws_chance(&draws, 0.5))
-            *list_add(&conditions->interferers, frame->arena) = (struct interferer){
-                .object = frame->objects.items[i].id,
-                .eirp_dbm = draws_between(&draws, 0, 40),
-                .slope_hzps = draws_sign(&draws) * draws_between(&draws, 1e12, 5e13),
-                .hit_share = draws_between(&draws, 0, 0.3),
-            };
-    if (draws_chance(&draws, 0.2)) {
-        conditions->clutter_per_m2 = draw_size(&draws, 1e-5, 3e-3);
-        conditions->clutter_ercs = draw_size(&draws, 0.01, 1);
-        conditions->clutter_overdispersion = draws_between(&draws, 0, 4);
-    }
-}
-
 static bool lists(const char *names, const char *name)
 {
     size_t length = strlen(name);
@@ -335,10 +300,8 @@ static int visit(struct bench *bench, int64_t number)
 {
     int needed = 0;
     struct planner *all = &bench->planners[0];
-    struct random_scene drawn = {.density = bench->wanted->density};
     if (runner_next(&bench->source, &bench->scene) != 1)
         return refuse(&bench->source);
-    draw_conditions(&bench->scene, random_scene_address(&drawn, bench->scene.seed, number));
     if (!wants(bench->wanted, &bench->scene))
         return 1;
     if (bench->wanted->print)

@@ -1,0 +1,64 @@
+#include "check.h"
+
+#include "conditions.h"
+
+static void what_is_said_replaces_and_what_is_not_stays(void **state)
+{
+    (void)state;
+    struct interferer one[] = {{.object = "a"}}, two[] = {{.object = "b"}, {.object = "c"}};
+    struct conditions before = {ROAD_ASPHALT, 5, 0.1, {one, 1, 0}};
+    static const struct {
+        struct conditions changes;
+        enum road road;
+        double rain_mmph, fog_gpm3;
+    } cases[] = {
+        {{ROAD_UNKNOWN, 0, 0, {NULL, 0, 0}}, ROAD_ASPHALT, 5, 0.1},
+        {{ROAD_CONCRETE, 0, 0, {NULL, 0, 0}}, ROAD_CONCRETE, 5, 0.1},
+        {{ROAD_UNKNOWN, 7, 0, {NULL, 0, 0}}, ROAD_ASPHALT, 7, 0.1},
+        {{ROAD_UNKNOWN, 0, 0.4, {NULL, 0, 0}}, ROAD_ASPHALT, 5, 0.4},
+        {{ROAD_CONCRETE, 1, 0.2, {NULL, 0, 0}}, ROAD_CONCRETE, 1, 0.2},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct conditions changed = before;
+        conditions_change(&changed, &cases[i].changes);
+        assert_int_equal(changed.road, cases[i].road);
+        assert_close(changed.rain_mmph, cases[i].rain_mmph, 0);
+        assert_close(changed.fog_gpm3, cases[i].fog_gpm3, 0);
+        assert_int_equal(changed.interferers.count, 1);
+        assert_ptr_equal(changed.interferers.items, one);
+    }
+    struct conditions others = {.interferers = {two, 2, 0}};
+    conditions_change(&before, &others);
+    assert_ptr_equal(before.interferers.items, two);
+    assert_int_equal(before.interferers.count, 2);
+    assert_close(before.rain_mmph, 5, 0);
+}
+
+static void impossible_conditions_are_refused(void **state)
+{
+    (void)state;
+    static const struct conditions bad[] = {
+        {.rain_mmph = -1}, {.rain_mmph = 501}, {.fog_gpm3 = -0.1}, {.fog_gpm3 = 11}};
+    static const struct interferer worse[] = {{.object = "a", .eirp_dbm = 101},
+                                              {.object = "a", .slope_hzps = 2e15},
+                                              {.object = "a", .hit_share = 1.1},
+                                              {.object = "a", .hit_share = -0.1}};
+    struct diag diag = {0};
+    struct interferer good = {.object = "a", .eirp_dbm = 33, .hit_share = 1};
+    struct conditions conditions = {ROAD_CONCRETE, 500, 10, {&good, 1, 0}};
+    assert_int_equal(field_check(&conditions_record, &conditions, &diag), 0);
+    for (size_t i = 0; i < 4; i++) {
+        assert_int_equal(field_check(&conditions_record, &bad[i], &diag), -1);
+        good = worse[i];
+        assert_int_equal(field_check(&conditions_record, &conditions, &diag), -1);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_said_replaces_and_what_is_not_stays),
+        cmocka_unit_test(impossible_conditions_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

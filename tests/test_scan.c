@@ -1,0 +1,173 @@
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "scan.h"
+#include "units.h"
+
+#define EVERYTHING (EFFECT_BIT(EFFECT_COUNT) - 1)
+
+/* A radar whose cells are 1 m by 1 m/s, and echoes on boresight as strong as their cross section
+ * at 10 m. */
+struct bench {
+    struct arena arena;
+    struct frame frame;
+    struct sensor sensor;
+    struct selection selection;
+    struct effect_log log;
+};
+
+static int64_t no_clock_ns(void)
+{
+    return 0;
+}
+
+static int make_bench(void **state)
+{
+    struct bench *bench = calloc(1, sizeof *bench);
+    assert_non_null(bench);
+    bench->frame = (struct frame){.scene = "s", .ego = "ego", .arena = &bench->arena};
+    bench->sensor = (struct sensor){.name = "radar",
+                                    .carrier_hz = 76.5e9,
+                                    .field_of_view_rad = PI,
+                                    .calibration_ercs = 1,
+                                    .calibration_range_m = 10,
+                                    .exponent = 2,
+                                    .range_floor_m = 0.5,
+                                    .cell_range_m = 1,
+                                    .cell_range_rate_mps = 1,
+                                    .cell_extent = CELL_WIDTH};
+    suite_derive(&bench->sensor);
+    bench->log.clock_ns = no_clock_ns;
+    bench->selection = (struct selection){.allowed = EVERYTHING, .log = &bench->log};
+    *state = bench;
+    return 0;
+}
+
+static int remove_bench(void **state)
+{
+    struct bench *bench = *state;
+    arena_free(&bench->arena);
+    free(bench);
+    return 0;
+}
+
+/* Its amplitude is that of the echo at 10 m, whatever the range. */
+static void add_echo(struct bench *bench, const char *sensor, const char *object, double range_m,
+                     double range_rate_mps, double amplitude)
+{
+    *list_add(&bench->frame.echoes, &bench->arena) =
+        (struct echo){.sensor = sensor,
+                      .object = object,
+                      .reflector = "r",
+                      .range_m = range_m,
+                      .range_rate_mps = range_rate_mps,
+                      .ercs = amplitude * range_m * range_m / 100};
+}
+
+static void check_cell(const struct scan *scan, size_t number, const char *names)
+{
+    size_t count;
+    const struct ray *members = scan_members(scan, number, &count);
+    assert_int_equal(count, strlen(names));
+    for (size_t i = 0; i < count; i++)
+        assert_int_equal(members[i].echo.object[0], names[i]);
+}
+
+static void cells_are_numbered_by_their_leaders_strongest_first(void **state)
+{
+    struct bench *bench = *state;
+    add_echo(bench, "another", "z", 20, 0, 99);
+    add_echo(bench, "radar", "a", 20.4, 0, 1);
+    add_echo(bench, "radar", "b", 30, 0, 5);
+    add_echo(bench, "radar", "c", 20, 0, 4);
+    add_echo(bench, "radar", "d", 30, 0.6, 3);
+    add_echo(bench, "radar", "e", 29.6, 0.4, 2);
+    add_echo(bench, "radar", "f", 19.9, 0.5, 3.5);
+    struct scan scan = scan_make(&bench->frame, &bench->sensor, &bench->selection, 0);
+    assert_int_equal(scan.cells, 3);
+    assert_int_equal(scan.silent_count, 0);
+    check_cell(&scan, 0, "be");
+    check_cell(&scan, 1, "cfa");
+    check_cell(&scan, 2, "d");
+    assert_true(bench->log.simulated == EFFECT_BIT(EFFECT_MERGING));
+}
+
+/* On the end of the array, and without cross section. */
+static void rays_without_amplitude_are_silent_and_in_no_cell(void **state)
+{
+    struct bench *bench = *state;
+    add_echo(bench, "radar", "a", 20, 0, 1);
+    add_echo(bench, "radar", "b", 20, 0, 0);
+    add_echo(bench, "radar", "c", 25, 0, 2);
+    add_echo(bench, "radar", "d", 25, 0, 0);
+    struct scan scan = scan_make(&bench->frame, &bench->sensor, &bench->selection, 0);
+    assert_int_equal(scan.cells, 2);
+    check_cell(&scan, 0, "c");
+    check_cell(&scan, 1, "a");
+    assert_int_equal(scan.silent_count, 2);
+    assert_string_equal(scan.silent[0].echo.object, "b");
+    assert_string_equal(scan.silent[1].echo.object, "d");
+}
+
+static void a_scan_of_nothing_has_no_cells(void **state)
+{
+    struct bench *bench = *state;
+    struct scan scan = scan_make(&bench->frame, &bench->sensor, &bench->selection, 0);
+    assert_int_equal(scan.cells, 0);
+    assert_int_equal(scan.silent_count, 0);
+}
+
+static void merging_is_left_out_where_nothing_is_close(void **state)
+{
+    struct bench *bench = *state;
+    bench->selection.automatic = true;
+    add_echo(bench, "radar", "a", 20, 0, 1);
+    add_echo(bench, "radar", "b", 20.6, 0, 2);
+    struct scan scan = scan_make(&bench->frame, &bench->sensor, &bench->selection, 0);
+    assert_int_equal(scan.cells, 2);
+    check_cell(&scan, 0, "b");
+    check_cell(&scan, 1, "a");
+    assert_true(bench->log.left_out == EFFECT_BIT(EFFECT_MERGING));
+    assert_true(bench->log.simulated == 0);
+    add_echo(bench, "radar", "c", 20.3, 0, 0.5);
+    scan = scan_make(&bench->frame, &bench->sensor, &bench->selection, 0);
+    assert_int_equal(scan.cells, 2);
+    check_cell(&scan, 0, "bc");
+    assert_true(bench->log.simulated == EFFECT_BIT(EFFECT_MERGING));
+    bench->selection.allowed = EVERYTHING & ~EFFECT_BIT(EFFECT_MERGING);
+    scan = scan_make(&bench->frame, &bench->sensor, &bench->selection, 0);
+    assert_int_equal(scan.cells, 3);
+}
+
+/* Ranges fold at 15 m: a and b share a cell, unless the scan is made without folding. */
+static void a_scan_can_be_made_without_an_effect(void **state)
+{
+    struct bench *bench = *state;
+    bench->sensor.unambiguous_range_m = 15;
+    add_echo(bench, "radar", "a", 20, 0, 1);
+    add_echo(bench, "radar", "b", 5.25, 0, 2);
+    struct scan scan = scan_make(&bench->frame, &bench->sensor, &bench->selection, 0);
+    assert_int_equal(scan.cells, 1);
+    check_cell(&scan, 0, "ba");
+    scan =
+        scan_make(&bench->frame, &bench->sensor, &bench->selection, EFFECT_BIT(EFFECT_AMBIGUITY));
+    assert_int_equal(scan.cells, 2);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(cells_are_numbered_by_their_leaders_strongest_first,
+                                        make_bench, remove_bench),
+        cmocka_unit_test_setup_teardown(rays_without_amplitude_are_silent_and_in_no_cell,
+                                        make_bench, remove_bench),
+        cmocka_unit_test_setup_teardown(a_scan_of_nothing_has_no_cells, make_bench, remove_bench),
+        cmocka_unit_test_setup_teardown(merging_is_left_out_where_nothing_is_close, make_bench,
+                                        remove_bench),
+        cmocka_unit_test_setup_teardown(a_scan_can_be_made_without_an_effect, make_bench,
+                                        remove_bench),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
