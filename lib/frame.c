@@ -441,6 +441,17 @@ struct object *frame_object(const struct frame *frame, const char *id)
     return NULL;
 }
 
+struct motion frame_motion(const struct object *object, double age_s)
+{
+    struct motion now = {
+        .position_m = {object->x_m, object->y_m},
+        .velocity_mps = {object->vx_mps, object->vy_mps},
+        .yaw_rad = object->yaw_rad,
+        .yaw_rate_radps = object->yaw_rate_radps,
+    };
+    return age_s == 0 ? now : motion_after(now, -age_s);
+}
+
 const struct sensor_view *frame_view(const struct frame *frame, const char *sensor)
 {
     for (size_t i = 0; i < frame->sensors.list.count; i++)

@@ -246,6 +246,10 @@ void frame_drop(struct frame *frame, unsigned sections);
 /* The object of that id, or NULL. */
 struct object *frame_object(const struct frame *frame, const char *id);
 
+/* Where the object was age_s before the frame's time, at constant speed and turn rate (MODEL 2.4).
+ */
+struct motion frame_motion(const struct object *object, double age_s);
+
 /* The sensor of that name as the frame knows it, or NULL. */
 const struct sensor_view *frame_view(const struct frame *frame, const char *sensor);
 

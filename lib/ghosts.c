@@ -146,8 +146,8 @@ static double bounce_margin_m(const struct look *look, const struct reflex *refl
     return fmin(ends_m, line_m);
 }
 
-/* Adds one leg to a course. */
-static void pass(const struct look *look, struct course *course, struct passage_line line,
+/* Adds one leg to a course. False if nothing comes through. */
+static bool pass(const struct look *look, struct course *course, struct passage_line line,
                  const struct look_body *const *but, size_t count)
 {
     struct look_way way = look_along(look, &line, but, count);
@@ -155,15 +155,16 @@ static void pass(const struct look *look, struct course *course, struct passage_
     course->effects |= way.effects;
     if (look->frame->margins && way.factor > 0)
         course->margin_m = fmin(course->margin_m, look_clearance_m(look, &line, but, count));
+    return course->factor > 0;
 }
 
-static void pass_directly(const struct look *look, struct reflex *reflex)
+static bool pass_directly(const struct look *look, struct reflex *reflex)
 {
     struct passage_line line = {look->position_m, reflex->place, look->height_m, reflex->height_m};
-    pass(look, &reflex->direct, line, &reflex->body, 1);
+    return pass(look, &reflex->direct, line, &reflex->body, 1);
 }
 
-static void pass_by_mirror(const struct look *look, struct reflex *reflex)
+static bool pass_by_mirror(const struct look *look, struct reflex *reflex)
 {
     const struct facet *facet = reflex->facet;
     const struct look_body *touched[] = {facet->body, facet->before, facet->after, reflex->body};
@@ -173,16 +174,14 @@ static void pass_by_mirror(const struct look *look, struct reflex *reflex)
         look->height_m + (reflex->height_m - look->height_m) * (out_m / (out_m + on_m));
     double below_m = look_top_m(look, facet->body) - height_m;
     struct course *course = &reflex->mirrored;
-    if (!(below_m >= 0))
-        course->factor = 0;
-    pass(look, course,
-         (struct passage_line){look->position_m, reflex->bounce, look->height_m, height_m}, touched,
-         3);
-    pass(look, course,
-         (struct passage_line){reflex->bounce, reflex->place, height_m, reflex->height_m}, touched,
-         4);
+    struct passage_line out = {look->position_m, reflex->bounce, look->height_m, height_m};
+    struct passage_line on = {reflex->bounce, reflex->place, height_m, reflex->height_m};
+    if (!(course->factor > 0 && below_m >= 0) || !pass(look, course, out, touched, 3) ||
+        !pass(look, course, on, touched, 4))
+        return false;
     if (look->frame->margins)
         course->margin_m = fmin(course->margin_m, fmin(bounce_margin_m(look, reflex), below_m));
+    return true;
 }
 
 static bool is_listed(const struct sensor *sensor, const struct sight *sight, double departure_rad)
@@ -214,8 +213,6 @@ static void add(struct look *look, const struct reflex *reflex, enum path path, 
                 const struct course *out, const struct course *back)
 {
     double departure_rad = out->sight.azimuth_rad;
-    if (!is_listed(look->sensor, &ghost.sight, departure_rad))
-        return;
     frame_count_echoes(look->frame, look->sensor->name, path, 1);
     *list_add(&look->frame->echoes, look->frame->arena) = (struct echo){
         .sensor = look->sensor->name,
@@ -236,27 +233,34 @@ static void add(struct look *look, const struct reflex *reflex, enum path path, 
     };
 }
 
-/* Whatever of the reflector's paths there is. */
+/* Whatever of the reflector's paths there is. What stands in their way is only asked where the
+ * sensor would list one. */
 static void add_paths(struct look *look, struct reflex *reflex, bool one_way)
 {
-    double reflection = reflex->facet->reflection;
+    const struct sensor *sensor = look->sensor;
     const struct course *direct = &reflex->direct, *mirrored = &reflex->mirrored;
-    if (mirrored->factor > 0)
-        pass_by_mirror(look, reflex);
-    if (!(mirrored->factor > 0))
+    const struct sight *straight = &direct->sight, *image = &mirrored->sight;
+    double reflection = reflex->facet->reflection;
+    struct ghost both = ghost_both(reflection, image), out = both, back = both;
+    one_way = one_way && direct->factor > 0 && straight->range_m > 0;
+    if (one_way) {
+        out = ghost_out(reflection, straight, image);
+        back = ghost_back(reflection, straight, image);
+    }
+    bool has_both =
+        sensor->bounces >= BOTH_WAYS && is_listed(sensor, &both.sight, image->azimuth_rad);
+    bool has_out = one_way && is_listed(sensor, &out.sight, image->azimuth_rad);
+    bool has_back = one_way && is_listed(sensor, &back.sight, straight->azimuth_rad);
+    if (!(has_both || has_out || has_back) || !pass_by_mirror(look, reflex))
         return;
-    if (look->sensor->bounces >= BOTH_WAYS)
-        add(look, reflex, PATH_WALL_OBJECT_WALL, ghost_both(reflection, &mirrored->sight), mirrored,
-            mirrored);
-    if (!one_way || !(direct->factor > 0 && direct->sight.range_m > 0))
+    if (has_both)
+        add(look, reflex, PATH_WALL_OBJECT_WALL, both, mirrored, mirrored);
+    if (!(has_out || has_back) || !pass_directly(look, reflex))
         return;
-    pass_directly(look, reflex);
-    if (!(direct->factor > 0))
-        return;
-    add(look, reflex, PATH_WALL_OBJECT, ghost_out(reflection, &direct->sight, &mirrored->sight),
-        mirrored, direct);
-    add(look, reflex, PATH_OBJECT_WALL, ghost_back(reflection, &direct->sight, &mirrored->sight),
-        direct, mirrored);
+    if (has_out)
+        add(look, reflex, PATH_WALL_OBJECT, out, mirrored, direct);
+    if (has_back)
+        add(look, reflex, PATH_OBJECT_WALL, back, direct, mirrored);
 }
 
 /* What a viewer at the sensor or the bounce sees of a point. */

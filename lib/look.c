@@ -31,13 +31,7 @@ double look_border_rad(const struct sensor *sensor)
 
 static struct box box_at(const struct object *object, double age_s)
 {
-    struct motion now = {
-        .position_m = {object->x_m, object->y_m},
-        .velocity_mps = {object->vx_mps, object->vy_mps},
-        .yaw_rad = object->yaw_rad,
-        .yaw_rate_radps = object->yaw_rate_radps,
-    };
-    struct motion then = age_s == 0 ? now : motion_after(now, -age_s);
+    struct motion then = frame_motion(object, age_s);
     return (struct box){then, vec2_heading(then.yaw_rad), object->length_m, object->width_m};
 }
 
@@ -122,17 +116,31 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
     return mark_blockers(look, diag);
 }
 
-/* A sight line that stays clear of the circle around a body cannot touch its outline. The slack
- * covers the rounding of this test, so the exact one is only spared where it would say no. */
+/* Both ends of a line beyond the same side of a body. */
+static bool passes_beside(double from_m, double to_m, double reach_m)
+{
+    return fmin(from_m, to_m) > reach_m || fmax(from_m, to_m) < -reach_m;
+}
+
+/* A sight line that stays clear of the circle around a body, or has both ends beyond one of its
+ * sides, cannot touch its outline. The slack covers the rounding of this test, so the exact one is
+ * only spared where it would say no. */
 static bool passes_clear(const struct look_body *body, struct vec2 from, struct vec2 to,
                          double wavelength_m)
 {
     struct vec2 line = vec2_sub(to, from), centre = vec2_sub(body->box.motion.position_m, from);
     double length_m = vec2_length(line), along = vec2_dot(line, centre);
-    double radius_m = body->sector.radius_m + 1e-6 + knife_edge_reach_m(length_m, wavelength_m);
-    double reach = radius_m * (1 + 1e-9) * length_m;
-    return fabs(vec2_cross(line, centre)) > reach || along < -reach ||
-           along > vec2_dot(line, line) + reach;
+    double slack_m = 1e-6 + knife_edge_reach_m(length_m, wavelength_m);
+    double reach = (body->sector.radius_m + slack_m) * (1 + 1e-9) * length_m;
+    if (fabs(vec2_cross(line, centre)) > reach || along < -reach ||
+        along > vec2_dot(line, line) + reach)
+        return true;
+    struct vec2 ahead = body->box.heading, rest = vec2_sub(centre, line);
+    slack_m += 1e-9 * (length_m + body->sector.radius_m);
+    return passes_beside(vec2_cross(ahead, centre), vec2_cross(ahead, rest),
+                         0.5 * body->box.width_m + slack_m) ||
+           passes_beside(vec2_dot(ahead, centre), vec2_dot(ahead, rest),
+                         0.5 * body->box.length_m + slack_m);
 }
 
 /* A plane in the world. */
@@ -207,16 +215,14 @@ double look_top_m(const struct look *look, const struct look_body *body)
 static struct look_way past(const struct look *look, const struct look_body *body,
                             const struct passage_line *line)
 {
-    double top = look_top_m(look, body), wavelength_m = look->wavelength_m;
-    struct look_way way = {.factor = passage_factor(body->corner, 4, top, line, wavelength_m)};
-    if (way.factor == 0)
-        way.by = body;
-    if (wavelength_m > 0 && way.factor != passage_factor(body->corner, 4, top, line, 0))
-        way.effects |= EFFECT_BIT(EFFECT_DIFFRACTION);
-    if (top < (double)INFINITY &&
-        way.factor != passage_factor(body->corner, 4, (double)INFINITY, line, wavelength_m))
-        way.effects |= EFFECT_BIT(EFFECT_HEIGHT);
-    return way;
+    struct passage passage =
+        passage_of(body->corner, 4, look_top_m(look, body), line, look->wavelength_m);
+    return (struct look_way){
+        .factor = passage.factor,
+        .by = passage.factor == 0 ? body : NULL,
+        .effects = (passage.bent ? EFFECT_BIT(EFFECT_DIFFRACTION) : 0) |
+                   (passage.over ? EFFECT_BIT(EFFECT_HEIGHT) : 0),
+    };
 }
 
 /* What comes through to a place on the body that is looked at, on a side of it or not (NULL); only
@@ -415,7 +421,8 @@ static bool in_reach(struct look *look, const struct look_body *body, struct gli
 static void tell_height(const struct look *look, const struct look_body *body,
                         const struct glimpse *seen, struct echo *echo)
 {
-    if (!(look->height_m > 0 && seen->z > 0))
+    bool mirrors = look->frame->conditions.road != ROAD_UNKNOWN;
+    if (!(mirrors && look->height_m > 0 && seen->z > 0))
         return;
     echo->height_m = seen->height_m;
     echo->extent_m = seen->extent * body->object->height_m;

@@ -32,19 +32,24 @@ static double height_m(const struct passage_line *line, double share)
     return line->from_height_m + share * (line->to_height_m - line->from_height_m);
 }
 
-double passage_above_m(const struct vec2 *corners, size_t count, double top_m,
-                       const struct passage_line *line)
+/* Of a line with that stretch inside. */
+static double above_m(const struct passage_line *line, struct stretch inside, double top_m)
 {
-    struct stretch inside = stretch_of(corners, count, line);
     return fmin(height_m(line, inside.begin), height_m(line, inside.end)) - top_m;
 }
 
-/* nu of the way round to one side: 1 is left, -1 right. */
+double passage_above_m(const struct vec2 *corners, size_t count, double top_m,
+                       const struct passage_line *line)
+{
+    return above_m(line, stretch_of(corners, count, line), top_m);
+}
+
+/* nu of the easier way round, to the left or to the right. */
 static double beside(const struct vec2 *corners, size_t count, const struct passage_line *line,
-                     double side, bool touched, double wavelength_m)
+                     bool touched, double wavelength_m)
 {
     struct vec2 way = vec2_sub(line->to, line->from);
-    double length_m = vec2_length(way), deepest = -(double)INFINITY;
+    double length_m = vec2_length(way), left = -(double)INFINITY, right = left;
     struct vec2 along = vec2_scale(1 / length_m, way);
     for (size_t i = 0; i < count; i++) {
         struct vec2 offset = vec2_sub(corners[i], line->from);
@@ -52,10 +57,12 @@ static double beside(const struct vec2 *corners, size_t count, const struct pass
         if (!touched && !(foot_m > 0 && foot_m < length_m))
             continue;
         double before_m = fmin(fmax(foot_m, 0), length_m);
-        deepest = fmax(deepest, knife_edge_parameter(side * vec2_cross(along, offset), before_m,
-                                                     length_m - before_m, wavelength_m));
+        double parameter = knife_edge_parameter(vec2_cross(along, offset), before_m,
+                                                length_m - before_m, wavelength_m);
+        left = fmax(left, parameter);
+        right = fmax(right, -parameter);
     }
-    return deepest;
+    return fmin(left, right);
 }
 
 /* nu of the way over the top. */
@@ -71,17 +78,25 @@ static double above(const struct passage_line *line, struct stretch inside, doub
     return fmax(front, back);
 }
 
-double passage_factor(const struct vec2 *corners, size_t count, double top_m,
-                      const struct passage_line *line, double wavelength_m)
+static double factor_at(double parameter)
+{
+    return parameter < DEEPEST ? knife_edge_amplitude_factor(parameter) : 0;
+}
+
+struct passage passage_of(const struct vec2 *corners, size_t count, double top_m,
+                          const struct passage_line *line, double wavelength_m)
 {
     bool touched = occlusion_outline_blocks(corners, count, line->from, line->to);
-    if (wavelength_m == 0 || vec2_same(line->from, line->to))
-        return touched && passage_above_m(corners, count, top_m, line) <= 0 ? 0 : 1;
+    if (!touched && wavelength_m == 0)
+        return (struct passage){.factor = 1};
     struct stretch inside = stretch_of(corners, count, line);
+    double straight = touched && above_m(line, inside, top_m) <= 0 ? 0 : 1;
+    if (wavelength_m == 0 || vec2_same(line->from, line->to))
+        return (struct passage){.factor = straight, .over = touched && straight == 1};
     if (!touched && inside.end - inside.begin == 1)
-        return 1;
-    double left = beside(corners, count, line, 1, touched, wavelength_m);
-    double right = beside(corners, count, line, -1, touched, wavelength_m);
-    double parameter = fmin(fmin(left, right), above(line, inside, top_m, wavelength_m));
-    return parameter < DEEPEST ? knife_edge_amplitude_factor(parameter) : 0;
+        return (struct passage){.factor = 1};
+    double round = beside(corners, count, line, touched, wavelength_m);
+    double factor = factor_at(fmin(round, above(line, inside, top_m, wavelength_m)));
+    return (struct passage){
+        .factor = factor, .bent = factor != straight, .over = factor != factor_at(round)};
 }

@@ -9,6 +9,7 @@
 #ifndef PASSAGE_H
 #define PASSAGE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "vec2.h"
@@ -24,7 +25,13 @@ struct passage_line {
 double passage_above_m(const struct vec2 *corners, size_t count, double top_m,
                        const struct passage_line *line);
 
-/* The factor on amplitude, there and back, in [0, 1].
+struct passage {
+    double factor; /* on amplitude, there and back, in [0, 1] */
+    bool bent;     /* without diffraction it would be another */
+    bool over;     /* beside a body without a top it would be another */
+};
+
+/* What comes through.
  *
  * Without diffraction (wavelength_m 0) the body blocks, 0, a line that touches its outline and is
  * not above its top somewhere in it; otherwise the factor is 1. The test is closed, as in the flat
@@ -35,7 +42,7 @@ double passage_above_m(const struct vec2 *corners, size_t count, double top_m,
  * farthest into the line, as counted by nu (knife_edge.h) with the distances of the corner's foot
  * on the line from both ends; beside a body only corners between both ends count. From two Fresnel
  * radii inside the shadow on, nu >= 2 sqrt(2), nothing is left. */
-double passage_factor(const struct vec2 *corners, size_t count, double top_m,
-                      const struct passage_line *line, double wavelength_m);
+struct passage passage_of(const struct vec2 *corners, size_t count, double top_m,
+                          const struct passage_line *line, double wavelength_m);
 
 #endif

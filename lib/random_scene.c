@@ -258,11 +258,10 @@ static void draw_interferers(struct draws *draws, struct frame *frame)
     }
 }
 
-static void draw_clutter(struct draws *draws, struct conditions *conditions)
+/* Evenly in the logarithm. */
+static double draw_size(struct draws *draws, double least, double most)
 {
-    conditions->clutter_per_m2 = 1e-5 * elementary_pow(300, draws_next(draws));
-    conditions->clutter_ercs = 0.01 * elementary_pow(100, draws_next(draws));
-    conditions->clutter_overdispersion = draws_between(draws, 1, 4);
+    return least * elementary_pow(most / least, draws_next(draws));
 }
 
 void random_scene_conditions(const struct random_scene *scene, int64_t number, struct frame *frame)
@@ -271,13 +270,16 @@ void random_scene_conditions(const struct random_scene *scene, int64_t number, s
     struct random_address address = random_scene_address(scene, frame->seed, number);
     struct draws draws = draws_at(address, RANDOM_CONDITIONS);
     if (draws_chance(&draws, 0.4))
-        conditions->rain_mmph = 0.05 * elementary_pow(2000, draws_next(&draws));
+        conditions->rain_mmph = draw_size(&draws, 0.05, 100);
     if (draws_chance(&draws, 0.15))
-        conditions->fog_gpm3 = 0.005 * elementary_pow(200, draws_next(&draws));
+        conditions->fog_gpm3 = draw_size(&draws, 0.005, 1);
     if (draws_chance(&draws, 0.5))
         conditions->road = draws_chance(&draws, 0.5) ? ROAD_ASPHALT : ROAD_CONCRETE;
     if (draws_chance(&draws, 0.2))
         draw_interferers(&draws, frame);
-    if (draws_chance(&draws, 0.2))
-        draw_clutter(&draws, conditions);
+    if (draws_chance(&draws, 0.2)) {
+        conditions->clutter_per_m2 = draw_size(&draws, 1e-5, 3e-3);
+        conditions->clutter_ercs = draw_size(&draws, 0.01, 1);
+        conditions->clutter_overdispersion = draws_between(&draws, 0, 4);
+    }
 }

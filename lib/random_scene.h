@@ -58,10 +58,10 @@ void random_scene_fill(const struct random_scene *scene, int64_t number, struct 
 
 /* Draws the road and weather of snapshot number, and who in the frame carries a radar, by an
  * address of their own: rain in 40 % of the snapshots (0.05 to 100 mm/h, evenly in the logarithm),
- * fog in 15 % (0.005 to 1 g/m^3, likewise), asphalt or concrete in 50 %, one or two interferers in
- * 20 % (fewer where there are not that many objects beside the ego; 0 to 40 dBm, 1 to 50 MHz/us up
- * or down, up to 30 % of the chirps hit), clutter in 20 % (1e-5 to 3e-3 per m^2 of cross sections
- * from 0.01 to 1, both evenly in the logarithm, overdispersed up to 4 times). */
+ * fog in 15 % (0.005 to 1 g/m^3, likewise), asphalt or concrete in 50 %, clutter in 20 % (1e-5 to
+ * 3e-3 points per m^2 of 0.01 to 1 ERCS, likewise, up to four times overdispersed), one or two
+ * interferers in 20 % (fewer where there are not that many objects beside the ego; 0 to 40 dBm, 1
+ * to 50 MHz/us up or down, up to 30 % of the chirps hit). */
 void random_scene_conditions(const struct random_scene *scene, int64_t number, struct frame *frame);
 
 #endif

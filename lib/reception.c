@@ -74,16 +74,17 @@ uint64_t reception_described(const struct frame *frame, const struct sensor *sen
 /* The antenna's one-way gain is the root of its pattern in amplitude, that is, the pattern itself
  * in power. */
 static double interference_of(const struct frame *frame, const struct sensor *sensor,
-                              const struct interferer *other)
+                              const struct interferer *other, double age_s)
 {
     const struct object *ego = frame_object(frame, frame->ego);
     const struct object *carrier = frame_object(frame, other->object);
     if (carrier == NULL || carrier == ego)
         return 0;
-    struct vec2 heading = vec2_heading(ego->yaw_rad);
+    struct motion here = frame_motion(ego, age_s), there = frame_motion(carrier, age_s);
+    struct vec2 heading = vec2_heading(here.yaw_rad);
     struct vec2 mount = vec2_turn((struct vec2){sensor->mount_x_m, sensor->mount_y_m}, heading);
     struct vec2 boresight = vec2_turn(vec2_heading(sensor->mount_yaw_rad), heading);
-    struct vec2 sight = {carrier->x_m - ego->x_m - mount.x, carrier->y_m - ego->y_m - mount.y};
+    struct vec2 sight = vec2_sub(vec2_sub(there.position_m, here.position_m), mount);
     double range_m = vec2_length(sight);
     double azimuth_rad = elementary_atan2(vec2_cross(boresight, sight), vec2_dot(boresight, sight));
     if (!(range_m > 0) || !(fabs(azimuth_rad) < sensor->field_of_view_rad / 2))
@@ -104,6 +105,8 @@ static double interference_of(const struct frame *frame, const struct sensor *se
 struct reception reception_begin(const struct frame *frame, const struct sensor *sensor,
                                  uint64_t effects)
 {
+    bool late = (effects & EFFECT_BIT(EFFECT_LATENCY)) != 0;
+    double age_s = frame->time_s - suite_instant_s(sensor, frame->time_s, frame->interval_s, late);
     struct reception reception = {
         .frame = frame,
         .sensor = sensor,
@@ -120,7 +123,7 @@ struct reception reception_begin(const struct frame *frame, const struct sensor 
     if (simulates(&reception, EFFECT_INTERFERENCE))
         for (size_t i = 0; i < frame->conditions.interferers.count; i++)
             reception.interference +=
-                interference_of(frame, sensor, &frame->conditions.interferers.items[i]);
+                interference_of(frame, sensor, &frame->conditions.interferers.items[i], age_s);
     return reception;
 }
 

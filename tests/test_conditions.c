@@ -6,17 +6,33 @@ static void what_is_said_replaces_and_what_is_not_stays(void **state)
 {
     (void)state;
     struct interferer one[] = {{.object = "a"}}, two[] = {{.object = "b"}, {.object = "c"}};
-    struct conditions before = {ROAD_ASPHALT, 5, 0.1, {one, 1, 0}};
+    struct conditions before = {
+        .road = ROAD_ASPHALT, .rain_mmph = 5, .fog_gpm3 = 0.1, .interferers = {one, 1, 0}};
     static const struct {
         struct conditions changes;
         enum road road;
         double rain_mmph, fog_gpm3;
     } cases[] = {
-        {{ROAD_UNKNOWN, 0, 0, {NULL, 0, 0}}, ROAD_ASPHALT, 5, 0.1},
-        {{ROAD_CONCRETE, 0, 0, {NULL, 0, 0}}, ROAD_CONCRETE, 5, 0.1},
-        {{ROAD_UNKNOWN, 7, 0, {NULL, 0, 0}}, ROAD_ASPHALT, 7, 0.1},
-        {{ROAD_UNKNOWN, 0, 0.4, {NULL, 0, 0}}, ROAD_ASPHALT, 5, 0.4},
-        {{ROAD_CONCRETE, 1, 0.2, {NULL, 0, 0}}, ROAD_CONCRETE, 1, 0.2},
+        {{.road = ROAD_UNKNOWN, .rain_mmph = 0, .fog_gpm3 = 0, .interferers = {NULL, 0, 0}},
+         ROAD_ASPHALT,
+         5,
+         0.1},
+        {{.road = ROAD_CONCRETE, .rain_mmph = 0, .fog_gpm3 = 0, .interferers = {NULL, 0, 0}},
+         ROAD_CONCRETE,
+         5,
+         0.1},
+        {{.road = ROAD_UNKNOWN, .rain_mmph = 7, .fog_gpm3 = 0, .interferers = {NULL, 0, 0}},
+         ROAD_ASPHALT,
+         7,
+         0.1},
+        {{.road = ROAD_UNKNOWN, .rain_mmph = 0, .fog_gpm3 = 0.4, .interferers = {NULL, 0, 0}},
+         ROAD_ASPHALT,
+         5,
+         0.4},
+        {{.road = ROAD_CONCRETE, .rain_mmph = 1, .fog_gpm3 = 0.2, .interferers = {NULL, 0, 0}},
+         ROAD_CONCRETE,
+         1,
+         0.2},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct conditions changed = before;
@@ -45,7 +61,8 @@ static void impossible_conditions_are_refused(void **state)
                                               {.object = "a", .hit_share = -0.1}};
     struct diag diag = {0};
     struct interferer good = {.object = "a", .eirp_dbm = 33, .hit_share = 1};
-    struct conditions conditions = {ROAD_CONCRETE, 500, 10, {&good, 1, 0}};
+    struct conditions conditions = {
+        .road = ROAD_CONCRETE, .rain_mmph = 500, .fog_gpm3 = 10, .interferers = {&good, 1, 0}};
     assert_int_equal(field_check(&conditions_record, &conditions, &diag), 0);
     for (size_t i = 0; i < 4; i++) {
         assert_int_equal(field_check(&conditions_record, &bad[i], &diag), -1);

@@ -41,7 +41,7 @@ static void a_flat_world_knows_only_outlines(void **state)
         struct passage_line line = random_case(&random, corners);
         bool touches = occlusion_outline_blocks(corners, 4, line.from, line.to);
         blocked += touches;
-        assert_close(passage_factor(corners, 4, HIGH, &line, 0), touches ? 0 : 1, 0);
+        assert_close(passage_of(corners, 4, HIGH, &line, 0).factor, touches ? 0 : 1, 0);
     }
     assert_true(blocked > 10000);
 }
@@ -66,7 +66,7 @@ static void what_is_above_the_top_all_along_is_seen(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         assert_close(passage_above_m(car, 4, cases[i].top_m, &cases[i].line), cases[i].above_m,
                      1e-14);
-        assert_close(passage_factor(car, 4, cases[i].top_m, &cases[i].line, 0),
+        assert_close(passage_of(car, 4, cases[i].top_m, &cases[i].line, 0).factor,
                      cases[i].above_m > 0 ? 1 : 0, 0);
     }
 }
@@ -111,8 +111,8 @@ static void a_line_inside_from_end_to_end_is_free(void **state)
 {
     (void)state;
     const struct passage_line line = {{9, 0.5}, {11, -0.9}, 1, 1};
-    assert_close(passage_factor(car, 4, HIGH, &line, 0), 1, 0);
-    assert_close(passage_factor(car, 4, HIGH, &line, WAVELENGTH_M), 1, 0);
+    assert_close(passage_of(car, 4, HIGH, &line, 0).factor, 1, 0);
+    assert_close(passage_of(car, 4, HIGH, &line, WAVELENGTH_M).factor, 1, 0);
 }
 
 static void soft_shadows_begin_where_hard_ones_do(void **state)
@@ -125,13 +125,35 @@ static void soft_shadows_begin_where_hard_ones_do(void **state)
         struct vec2 corners[4];
         struct passage_line line = random_case(&random, corners);
         double top_m = i % 2 ? HIGH : sample_between(&random, 0, 3);
-        double hard = passage_factor(corners, 4, top_m, &line, 0);
-        double factor = passage_factor(corners, 4, top_m, &line, WAVELENGTH_M);
+        double hard = passage_of(corners, 4, top_m, &line, 0).factor;
+        double factor = passage_of(corners, 4, top_m, &line, WAVELENGTH_M).factor;
         assert_true(factor >= 0 && factor <= 1);
         assert_true(hard == 1 ? factor > edge - 1e-6 : factor < edge + 1e-6);
         soft += factor > 0 && factor < 1;
     }
     assert_true(soft > 3000);
+}
+
+/* Without the one, or without an end of the body: asked apart. */
+static void what_diffraction_and_height_change_is_told(void **state)
+{
+    (void)state;
+    uint64_t random = 6;
+    int bent = 0, over = 0;
+    for (int i = 0; i < 100000; i++) {
+        struct vec2 corners[4];
+        struct passage_line line = random_case(&random, corners);
+        double top_m = i % 4 == 0 ? HIGH : sample_between(&random, 0, 3);
+        double wavelength_m = i % 3 == 0 ? 0 : WAVELENGTH_M;
+        struct passage passage = passage_of(corners, 4, top_m, &line, wavelength_m);
+        double hard = passage_of(corners, 4, top_m, &line, 0).factor;
+        double endless = passage_of(corners, 4, HIGH, &line, wavelength_m).factor;
+        assert_int_equal(passage.bent, passage.factor != hard);
+        assert_int_equal(passage.over, passage.factor != endless);
+        bent += passage.bent;
+        over += passage.over;
+    }
+    assert_true(bent > 500 && over > 500);
 }
 
 /* Sideways past a pole, and upwards over a wall: no step is larger than the steepest slope. */
@@ -148,7 +170,7 @@ static void shadows_change_without_jumps(void **state)
             if (!upwards)
                 line.from.y = line.to.y = shift_m;
             double top_m = upwards ? 1 - shift_m : HIGH;
-            double factor = passage_factor(upwards ? car : pole, 4, top_m, &line, WAVELENGTH_M);
+            double factor = passage_of(upwards ? car : pole, 4, top_m, &line, WAVELENGTH_M).factor;
             assert_true(fabs(factor - before) < 0.005 || (before < 1.01 * last && factor == 0) ||
                         (factor < 1.01 * last && before == 0));
             before = factor;
@@ -176,7 +198,7 @@ static void edges_out_of_reach_change_nothing(void **state)
             occlusion_outline_blocks(corners, 4, line.from, line.to))
             continue;
         clear++;
-        assert_close(passage_factor(corners, 4, HIGH, &line, WAVELENGTH_M), 1, 0);
+        assert_close(passage_of(corners, 4, HIGH, &line, WAVELENGTH_M).factor, 1, 0);
     }
     assert_true(clear > 100000);
 }
@@ -185,8 +207,8 @@ static void no_way_at_all_is_as_hard_as_it_was(void **state)
 {
     (void)state;
     const struct passage_line inside = {{10, 0}, {10, 0}, 1, 1}, corner = {{8, 1}, {8, 1}, 1, 1};
-    assert_close(passage_factor(car, 4, HIGH, &inside, WAVELENGTH_M), 1, 0);
-    assert_close(passage_factor(car, 4, HIGH, &corner, WAVELENGTH_M), 0, 0);
+    assert_close(passage_of(car, 4, HIGH, &inside, WAVELENGTH_M).factor, 1, 0);
+    assert_close(passage_of(car, 4, HIGH, &corner, WAVELENGTH_M).factor, 0, 0);
 }
 
 int main(void)
@@ -197,6 +219,7 @@ int main(void)
         cmocka_unit_test(the_lowest_place_over_a_body_counts),
         cmocka_unit_test(a_line_inside_from_end_to_end_is_free),
         cmocka_unit_test(soft_shadows_begin_where_hard_ones_do),
+        cmocka_unit_test(what_diffraction_and_height_change_is_told),
         cmocka_unit_test(shadows_change_without_jumps),
         cmocka_unit_test(edges_out_of_reach_change_nothing),
         cmocka_unit_test(no_way_at_all_is_as_hard_as_it_was),

@@ -245,10 +245,10 @@ static void check_interferers(const struct frame *frame)
 
 static void conditions_come_in_their_shares(void **state)
 {
-    enum { FRAMES = 20000, RAIN, HEAVY, FOG, ASPHALT, CONCRETE, ONE, TWO, KINDS };
+    enum { FRAMES = 20000, RAIN, HEAVY, FOG, ASPHALT, CONCRETE, ONE, TWO, CLUTTER, KINDS };
     static const double shares[KINDS] = {
-        [RAIN] = 0.4,      [HEAVY] = 0.2,   [FOG] = 0.15,   [ASPHALT] = 0.25,
-        [CONCRETE] = 0.25, [ONE] = 0.2 / 2, [TWO] = 0.2 / 2};
+        [RAIN] = 0.4,      [HEAVY] = 0.2,   [FOG] = 0.15,    [ASPHALT] = 0.25,
+        [CONCRETE] = 0.25, [ONE] = 0.2 / 2, [TWO] = 0.2 / 2, [CLUTTER] = 0.2};
     int hits[KINDS] = {0};
     for (int64_t number = 0; number < FRAMES; number++) {
         const struct frame *frame = in_conditions(*state, RANDOM_DENSE, number);
@@ -259,6 +259,7 @@ static void conditions_come_in_their_shares(void **state)
         hits[ASPHALT] += drawn->road == ROAD_ASPHALT;
         hits[CONCRETE] += drawn->road == ROAD_CONCRETE;
         hits[ONE] += drawn->interferers.count == 1;
+        hits[CLUTTER] += drawn->clutter_per_m2 > 0 && drawn->clutter_ercs > 0;
         hits[TWO] += drawn->interferers.count == 2;
         assert_true(drawn->rain_mmph == 0 || (drawn->rain_mmph > 0.05 && drawn->rain_mmph < 100));
         assert_true(drawn->fog_gpm3 == 0 || (drawn->fog_gpm3 > 0.005 && drawn->fog_gpm3 < 1));

@@ -1,8 +1,8 @@
 /* Is choosing effects from the scene sound? Random scenes, each seen with every effect and with
  * those that a planner chose, in this process and without text.
  *
- * Frame number n is that of glint-traffic-random --conditions --first n --frames 1 with the same
- * options; --first n --frames 1 --print writes it, for the chain to read. The answer is
+ * Frame number n is that of glint-traffic-random --first n --frames 1 with the same options, in
+ * drawn conditions; --first n --frames 1 --print writes it, for the chain to read. The answer is
  * one JSON line: per planner the violations, the first of them, how often each effect was simulated
  * and left out, and the time. Exit status 1 if there is a violation. */
 #include <inttypes.h>
@@ -148,8 +148,8 @@ static int start_scenes(struct bench *bench)
     bench->scene.arena = &bench->arena;
     return start_stage(&bench->source, "traffic-random",
                        (const char *const[]){"--density", random_densities[wanted->density],
-                                             "--first", first, "--frames", frames, "--conditions",
-                                             around, wanted->sensors, NULL}) == 0
+                                             "--first", first, "--frames", frames, around,
+                                             wanted->sensors, NULL}) == 0
                ? start_stage(&bench->extract, "extract", (const char *const[]){NULL})
                : -1;
 }
@@ -300,8 +300,10 @@ static int visit(struct bench *bench, int64_t number)
 {
     int needed = 0;
     struct planner *all = &bench->planners[0];
+    struct random_scene drawn = {.density = bench->wanted->density};
     if (runner_next(&bench->source, &bench->scene) != 1)
         return refuse(&bench->source);
+    draw_conditions(&bench->scene, random_scene_address(&drawn, bench->scene.seed, number));
     if (!wants(bench->wanted, &bench->scene))
         return 1;
     if (bench->wanted->print)
