@@ -98,15 +98,22 @@ def the_beam_is_down_by_half_at_its_half_width(bench):
     near(bench, look(bench, place, suite)[0]["a", "p"]["ercs"], 0.25, 1e-13, "gain both ways")
 
 
+def without_heights(seen):
+    """What a flat world would show: echoes without the height that only the road asks for."""
+    echoes, lost = seen
+    return {names: {key: echo[key] for key in echo if key not in ("height_m", "extent_m")}
+            for names, echo in echoes.items()}, lost
+
+
 def equal_heights_change_no_bit(bench):
     flat, high = suite_of(wide()), suite_of(wide(mount_z_m=0.7, elevation_half_width_rad=0.1))
     things = [body("a", "high", 7.3, 2.1, 0.7, velocity=(3, 1)), body("b", "flat", 11.7, -4.4, 3, velocity=(1, 2))]
     plain = look(bench, things, flat)
     for effects in "auto", "all":
-        bench.check(look(bench, things, high, effects) == plain, f"equal heights, {effects}")
+        bench.check(without_heights(look(bench, things, high, effects)) == plain, f"equal heights, {effects}")
     raised = [body("a", "high", 7.3, 2.1, 1.7), body("b", "flat", 11.7, -4.4, 3)]
     for effects in "none", "-elevation":
-        bench.check(look(bench, raised, high, effects) == look(bench, raised, flat, effects), f"off by {effects}")
+        bench.check(without_heights(look(bench, raised, high, effects)) == look(bench, raised, flat, effects), f"off by {effects}")
 
 
 # ---- height --------------------------------------------------------------------------------------

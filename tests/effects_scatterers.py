@@ -331,6 +331,9 @@ def clutter_lies_on_the_ground(bench):
     check_mean(bench, [not count for count in counts], math.exp(-3), math.sqrt(math.exp(-3)), "scans without")
     for values, what in ((places, "area"), (angles, "azimuth"), (powers, "power")):
         check_even(bench, values, what)
+    for one, other, what in ((places, angles, "area and azimuth"), (angles, powers, "azimuth and power"),
+                             (places, powers, "area and power")):
+        check_mean(bench, [(a - 0.5) * (b - 0.5) for a, b in zip(one, other)], 0, 1 / 12, what)
 
 
 def clutter_counts(bench):
