@@ -155,14 +155,17 @@ static struct side side_of(const struct look_body *body, const struct plane_refl
                          .along = reflectors_along(&body->box, plane)};
 }
 
-/* Has the body a side in line with this one that begins where it ends (or ends where it begins)? */
-static bool joins(const struct look_body *body, const struct side *side, bool begins)
+/* Has the body a side in line with this one that begins where it ends (or ends where it begins),
+ * but for so much? */
+static bool joins(const struct look_body *body, const struct side *side, bool begins,
+                  double within_m)
 {
     for (size_t i = 0; body->set != NULL && i < body->set->planes.count; i++) {
         const struct plane_reflector *plane = &body->set->planes.items[i];
         struct side other = side_of(body, plane);
+        struct vec2 gap = begins ? vec2_sub(other.from, side->to) : vec2_sub(other.to, side->from);
         if (plane->margin_m == 0 && vec2_same(other.along, side->along) &&
-            (begins ? vec2_same(other.from, side->to) : vec2_same(other.to, side->from)))
+            vec2_length(gap) <= within_m)
             return true;
     }
     return false;
@@ -174,7 +177,7 @@ static bool next_side_has_foot(const struct look *look, const struct side *side)
     if (orientation_along(side->to, look->position_m, side->along) != 0)
         return false;
     for (size_t i = 0; i < look->body_count; i++)
-        if (joins(&look->bodies[i], side, true))
+        if (joins(&look->bodies[i], side, true, 0))
             return true;
     return false;
 }
@@ -237,7 +240,8 @@ static struct look_way way_along(const struct look *look, const struct side *sid
             continue;
         struct look_way way = past(look, body, line);
         if ((way.factor == 1 && way.effects == 0) ||
-            (side != NULL && (joins(body, side, true) || joins(body, side, false))))
+            (side != NULL &&
+             (joins(body, side, true, LOOK_JOINT_M) || joins(body, side, false, LOOK_JOINT_M))))
             continue;
         if (way.by != NULL)
             return way;

@@ -20,6 +20,10 @@
 #include "sight.h"
 #include "suite.h"
 
+/* Two sides in line are one wall if no more than this is between them: places of objects that meet
+ * are not the same to the last bit, and no edge stands there to hide or bend anything. */
+#define LOOK_JOINT_M 1e-6
+
 struct look_body {
     const struct object *object;
     const struct reflector_set *set; /* NULL: it wears none */
