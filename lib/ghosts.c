@@ -22,6 +22,7 @@ struct facet {
     struct vec2 along;
     double reflection;
     const struct look_body *before, *after; /* with a mirror in line that meets this one there */
+    bool shares_end;                        /* bit by bit, with the mirror of after */
 };
 
 struct facets {
@@ -55,10 +56,11 @@ static void join(struct facets *facets)
     for (size_t i = 0; i < facets->count; i++)
         for (size_t j = 0; j < facets->count; j++) {
             struct facet *first = &facets->items[i], *second = &facets->items[j];
-            if (vec2_same(first->mirror.b, second->mirror.a) &&
-                vec2_same(first->along, second->along)) {
+            struct vec2 gap = vec2_sub(second->mirror.a, first->mirror.b);
+            if (vec2_length(gap) <= WAYS_JOINT_M && vec2_same(first->along, second->along)) {
                 first->after = second->body;
                 second->before = first->body;
+                first->shares_end |= vec2_same(first->mirror.b, second->mirror.a);
             }
         }
 }
@@ -129,7 +131,7 @@ static bool bounces(const struct look *look, const struct facet *facet, struct v
 {
     if (!mirror_bounce(&facet->mirror, look->position_m, place, bounce))
         return false;
-    if (facet->after == NULL)
+    if (!facet->shares_end)
         return true;
     struct vec2 image = mirror_image(&facet->mirror, place, (struct vec2){0, 0}).place_m;
     return orientation_sign(look->position_m, image, facet->mirror.b) != 0;

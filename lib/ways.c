@@ -41,14 +41,17 @@ struct side ways_side(const struct look_body *body, const struct plane_reflector
                          .along = reflectors_along(&body->box, plane)};
 }
 
-/* Has the body a side in line with this one that begins where it ends (or ends where it begins)? */
-static bool joins(const struct look_body *body, const struct side *side, bool begins)
+/* Has the body a side in line with this one that begins where it ends (or ends where it begins),
+ * but for so much? */
+static bool joins(const struct look_body *body, const struct side *side, bool begins,
+                  double within_m)
 {
     for (size_t i = 0; body->set != NULL && i < body->set->planes.count; i++) {
         const struct plane_reflector *plane = &body->set->planes.items[i];
         struct side other = ways_side(body, plane);
+        struct vec2 gap = begins ? vec2_sub(other.from, side->to) : vec2_sub(other.to, side->from);
         if (plane->margin_m == 0 && vec2_same(other.along, side->along) &&
-            (begins ? vec2_same(other.from, side->to) : vec2_same(other.to, side->from)))
+            vec2_length(gap) <= within_m)
             return true;
     }
     return false;
@@ -59,7 +62,7 @@ bool ways_next_side_has_foot(const struct look *look, const struct side *side)
     if (orientation_along(side->to, look->position_m, side->along) != 0)
         return false;
     for (size_t i = 0; i < look->body_count; i++)
-        if (joins(&look->bodies[i], side, true))
+        if (joins(&look->bodies[i], side, true, 0))
             return true;
     return false;
 }
@@ -114,7 +117,8 @@ struct way ways_past_blockers(const struct look *look, const struct side *side,
             continue;
         struct way way = past(look, body, line);
         if ((way.factor == 1 && way.effects == 0) ||
-            (side != NULL && (joins(body, side, true) || joins(body, side, false))))
+            (side != NULL &&
+             (joins(body, side, true, WAYS_JOINT_M) || joins(body, side, false, WAYS_JOINT_M))))
             continue;
         if (way.by != NULL)
             return way;

@@ -1,14 +1,18 @@
 /* What comes through between two places of a look, past everything that blocks (MODEL 2.5, 14.3,
  * 14.4).
  *
- * Two sides in line, where the beginning of one is the end of the other as doubles, are one wall:
- * the second mirrors what is exactly before their joint, and the object of neither hides a foot on
- * the other, though it may touch the sight line there. */
+ * Two sides in line, where one begins as the other ends, are one wall: the object of neither hides
+ * a foot on the other, though it may touch the sight line there, and where they share that vertex
+ * as doubles, the second mirrors what is exactly before it. */
 #ifndef WAYS_H
 #define WAYS_H
 
 #include "look.h"
 #include "passage.h"
+
+/* Two sides in line are one wall if no more than this is between them: places of objects that meet
+ * are not the same to the last bit, and no edge stands there to hide or bend anything. */
+#define WAYS_JOINT_M 1e-6
 
 /* What comes through to a place and back, there along a straight line. */
 struct way {

@@ -270,6 +270,30 @@ def check_suite(bench, title, document, density, frames, turn, tally):
             tally.add("scans")
 
 
+def jointed(yaw, aside):
+    """Two walls in line, and a post that is seen so far beside their joint; how they meet depends on rounding."""
+    def put(name, kind, x, y, length=0):
+        c, s = math.cos(yaw), math.sin(yaw)
+        return model.thing(name, kind, c * x - s * y, s * x + c * y, yaw, length=length)
+
+    things = [put("ego", "car", 0, 0), put("post", "post", 22.1 + 2 * aside, 0.75), put("w1", "wall", 7.1, 4.1, 10),
+              put("w2", "wall", 17.1, 4.1, 10)]
+    return dict(model.frame(things, scene=f"joint of walls turned by {yaw}, {aside} m aside"), interval_s=0.05)
+
+
+def check_joints(bench):
+    tally, document = Tally(), suites()[1][1]
+    document["sensors"] = document["sensors"][:1]
+    items = [jointed(yaw, aside) for yaw in (0, 0.3, 0.7, 2.0) for aside in (-0.05, -0.02, 0.02, 0.05)]
+    done = answers(bench, items, bench.write_suite(document), ",".join(["all", *("-" + name for name in QUIET)]))
+    for item, answer in zip(items, done):
+        [sensor] = document["sensors"]
+        made = oracle_effects.scan(item, bench.vehicles, sensor, set(OURS), rows_of(sensor))
+        compare(bench, item["scene"], answer, sensor["name"], made, tally)
+    bench.check(tally["ghosts"] >= len(items), f"ghosts beside joints: {tally}")
+    bench.end_group("ghosts beside the joint of two walls", f", {tally}")
+
+
 def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
@@ -284,6 +308,7 @@ def main():
                 most = 0.25 if density == "adversarial" else 0.01
                 bench.check(tally.get("scans skipped", 0) <= most * tally["scans"], f"skipped too many: {tally}")
                 bench.end_group(f"effects against an independent computation, {title}, {density}", f", {tally}")
+        check_joints(bench)
     sys.exit(bench.failures > 0)
 
 

@@ -193,7 +193,7 @@ class Way:
 
 
 def joined(one, other):
-    """Two sides in line that meet at an end."""
+    """Two sides in line that meet at an end, but for rounding."""
     if abs(cross(unit(minus(*one)), unit(minus(*other)))) > NEAR:
         return False
     return any(math.hypot(*minus(p, q)) <= NEAR for p, q in ((one[0], other[1]), (one[1], other[0])))
