@@ -280,6 +280,7 @@ int main(void)
         TEST(only_what_a_document_describes_is_received),
         TEST(factors_multiply_in_their_order_and_ranges_fold_last),
         TEST(what_changes_nothing_has_no_label),
+        TEST(the_gain_bound_holds_and_is_reached),
         TEST(an_interferer_is_heard_where_it_stands),
         TEST(the_antenna_counts_one_way),
         TEST(who_is_not_in_view_is_not_heard),
