@@ -491,7 +491,7 @@ static void the_order_of_echoes_does_not_change_a_byte(void **state)
     struct bench bench;
     bench_open(&bench, PHASE_ELEMENT, MONOPULSE_MAGNITUDE);
     bench.sensor.cell_phase = CELL_RANDOM_PHASE;
-    char names[CROWD][8];
+    char names[CROWD][16];
     int order[CROWD], naive = 0, ours = 0, count = hard_points(ORDERS);
     uint64_t sample = 14, *plain = calloc(ORDERS, sizeof *plain), *lines = calloc(ORDERS, 8);
     double terms[CROWD];
