@@ -2,7 +2,6 @@
 
 #include <string.h>
 
-#include "address.h"
 #include "audit.h"
 #include "explain.h"
 #include "frame_check.h"
@@ -175,12 +174,6 @@ const struct vehicle *runner_vehicle(struct runner *runner, const char *class)
     if (vehicle != NULL)
         *list_add(&runner->vehicles, &runner->arena) = vehicle;
     return vehicle;
-}
-
-struct random_address runner_address(const struct frame *frame, const char *sensor,
-                                     const struct contributor *echo)
-{
-    return address_of(frame, sensor, SUBJECT_OF(echo));
 }
 
 int runner_prepare(struct runner *runner, const struct stage *stage, size_t count,

@@ -109,10 +109,6 @@ int runner_rehearse(struct runner *runner, const struct stage *stage,
 /* A sink's way out. */
 int runner_write(struct runner *runner, const char *bytes, size_t length);
 
-/* The address of draws that concern one echo; a cell draws by its leader. */
-struct random_address runner_address(const struct frame *frame, const char *sensor,
-                                     const struct contributor *echo);
-
 /* For the progress bar of a source: how many frames there will be. */
 void runner_expect(struct runner *runner, int64_t frames);
 

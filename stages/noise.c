@@ -3,6 +3,7 @@
  * the list (10, 11), and the rounding of what is reported. */
 #include <complex.h>
 
+#include "address.h"
 #include "cell_margins.h"
 #include "disturbance.h"
 #include "elementary.h"
@@ -16,7 +17,8 @@ static bool measure(const struct frame *frame, const struct disturbance *by,
                     const struct cell *cell, struct reading *reading)
 {
     const struct sensor *sensor = by->sensor;
-    struct random_address address = runner_address(frame, sensor->name, &cell->members.items[0]);
+    struct random_address address =
+        address_of(frame, sensor->name, SUBJECT_OF(&cell->members.items[0]));
     struct antenna_pointers pointers = disturbance_pointers(by, &address, cell);
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
@@ -61,7 +63,7 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
 {
     struct disturbance by = disturbance_of(sensor, selection);
     struct contributor noise = false_alarms_contributor(0);
-    struct random_address scan = runner_address(frame, sensor->name, &noise);
+    struct random_address scan = address_of(frame, sensor->name, SUBJECT_OF(&noise));
     struct cell_span alarms = false_alarms_of(frame, sensor, selection, by.false_alarms, &scan);
     struct cell_span cells = frame_cells_of(frame, sensor->name);
     struct reading *readings =

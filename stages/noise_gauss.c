@@ -1,6 +1,7 @@
 /* The textbook sensor: independent Gaussian noise on range, azimuth and range rate. */
 #include <math.h>
 
+#include "address.h"
 #include "random.h"
 #include "readings.h"
 #include "stage.h"
@@ -9,7 +10,8 @@
 static struct reading measure(const struct frame *frame, const struct sensor *sensor,
                               const struct cell *cell)
 {
-    struct random_address address = runner_address(frame, sensor->name, &cell->members.items[0]);
+    struct random_address address =
+        address_of(frame, sensor->name, SUBJECT_OF(&cell->members.items[0]));
     double straight[4], across[4];
     random_gaussian(&address, RANDOM_RANGE_RATE, 0, straight);
     random_gaussian(&address, RANDOM_AZIMUTH, 0, across);
