@@ -51,10 +51,11 @@ static void resolve(struct scan *scan, const struct selection *selection)
     effects_end(selection, EFFECT_MERGING, begin);
 }
 
-struct scan scan_make(struct frame *frame, const struct sensor *sensor,
-                      const struct selection *selection, uint64_t without)
+struct scan scan_make(const struct reception *reception, const struct selection *selection,
+                      uint64_t without)
 {
-    struct scan scan = {.reception = reception_begin(frame, sensor, selection->allowed & ~without)};
+    struct scan scan = {.reception = *reception};
+    scan.reception.effects &= ~without;
     receive(&scan);
     resolve(&scan, selection);
     return scan;

@@ -15,11 +15,10 @@ struct scan {
     size_t silent_count;
 };
 
-/* Receives the sensor's echoes and scatterers, and resolves them. Under a selection, a scan is made
- * with all of its effects but those of without; merging may be left out where no two rays are
- * close. Memory comes from the frame's arena. */
-struct scan scan_make(struct frame *frame, const struct sensor *sensor,
-                      const struct selection *selection, uint64_t without);
+/* Receives the echoes and resolves them, with all effects of the reception but those of without;
+ * merging may be left out where no two rays are close. Memory comes from the frame's arena. */
+struct scan scan_make(const struct reception *reception, const struct selection *selection,
+                      uint64_t without);
 
 /* The rays of one cell, the leader first: copies, count of them. */
 struct ray *scan_members(const struct scan *scan, size_t number, size_t *count);

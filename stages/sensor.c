@@ -54,10 +54,10 @@ static struct scan receive(struct frame *frame, const struct sensor *sensor,
 {
     struct reception whole = reception_begin(frame, sensor, selection->allowed);
     uint64_t spared = escalation_spared(&whole, selection);
-    struct scan scan = scan_make(frame, sensor, selection, spared);
+    struct scan scan = scan_make(&whole, selection, spared);
     if (spared != 0 &&
         !escalation_holds(&scan, escalation_weakening(&whole), &selection->tolerance))
-        scan = scan_make(frame, sensor, selection, 0);
+        scan = scan_make(&whole, selection, 0);
     return scan;
 }
 

@@ -75,6 +75,14 @@ static void check_cell(const struct scan *scan, size_t number, const char *names
         assert_int_equal(members[i].echo.object[0], names[i]);
 }
 
+/* What the sensor receives under the selection but for some effects. */
+static struct scan scan_without(struct bench *bench, uint64_t without)
+{
+    struct reception reception =
+        reception_begin(&bench->frame, &bench->sensor, bench->selection.allowed);
+    return scan_make(&reception, &bench->selection, without);
+}
+
 static void cells_are_numbered_by_their_leaders_strongest_first(void **state)
 {
     struct bench *bench = *state;
@@ -85,7 +93,7 @@ static void cells_are_numbered_by_their_leaders_strongest_first(void **state)
     add_echo(bench, "radar", "d", 30, 0.6, 3);
     add_echo(bench, "radar", "e", 29.6, 0.4, 2);
     add_echo(bench, "radar", "f", 19.9, 0.5, 3.5);
-    struct scan scan = scan_make(&bench->frame, &bench->sensor, &bench->selection, 0);
+    struct scan scan = scan_without(bench, 0);
     assert_int_equal(scan.cells, 3);
     assert_int_equal(scan.silent_count, 0);
     check_cell(&scan, 0, "be");
@@ -102,7 +110,7 @@ static void rays_without_amplitude_are_silent_and_in_no_cell(void **state)
     add_echo(bench, "radar", "b", 20, 0, 0);
     add_echo(bench, "radar", "c", 25, 0, 2);
     add_echo(bench, "radar", "d", 25, 0, 0);
-    struct scan scan = scan_make(&bench->frame, &bench->sensor, &bench->selection, 0);
+    struct scan scan = scan_without(bench, 0);
     assert_int_equal(scan.cells, 2);
     check_cell(&scan, 0, "c");
     check_cell(&scan, 1, "a");
@@ -114,7 +122,7 @@ static void rays_without_amplitude_are_silent_and_in_no_cell(void **state)
 static void a_scan_of_nothing_has_no_cells(void **state)
 {
     struct bench *bench = *state;
-    struct scan scan = scan_make(&bench->frame, &bench->sensor, &bench->selection, 0);
+    struct scan scan = scan_without(bench, 0);
     assert_int_equal(scan.cells, 0);
     assert_int_equal(scan.silent_count, 0);
 }
@@ -125,19 +133,19 @@ static void merging_is_left_out_where_nothing_is_close(void **state)
     bench->selection.automatic = true;
     add_echo(bench, "radar", "a", 20, 0, 1);
     add_echo(bench, "radar", "b", 20.6, 0, 2);
-    struct scan scan = scan_make(&bench->frame, &bench->sensor, &bench->selection, 0);
+    struct scan scan = scan_without(bench, 0);
     assert_int_equal(scan.cells, 2);
     check_cell(&scan, 0, "b");
     check_cell(&scan, 1, "a");
     assert_true(bench->log.left_out == EFFECT_BIT(EFFECT_MERGING));
     assert_true(bench->log.simulated == 0);
     add_echo(bench, "radar", "c", 20.3, 0, 0.5);
-    scan = scan_make(&bench->frame, &bench->sensor, &bench->selection, 0);
+    scan = scan_without(bench, 0);
     assert_int_equal(scan.cells, 2);
     check_cell(&scan, 0, "bc");
     assert_true(bench->log.simulated == EFFECT_BIT(EFFECT_MERGING));
     bench->selection.allowed = EVERYTHING & ~EFFECT_BIT(EFFECT_MERGING);
-    scan = scan_make(&bench->frame, &bench->sensor, &bench->selection, 0);
+    scan = scan_without(bench, 0);
     assert_int_equal(scan.cells, 3);
 }
 
@@ -148,11 +156,10 @@ static void a_scan_can_be_made_without_an_effect(void **state)
     bench->sensor.unambiguous_range_m = 15;
     add_echo(bench, "radar", "a", 20, 0, 1);
     add_echo(bench, "radar", "b", 5.25, 0, 2);
-    struct scan scan = scan_make(&bench->frame, &bench->sensor, &bench->selection, 0);
+    struct scan scan = scan_without(bench, 0);
     assert_int_equal(scan.cells, 1);
     check_cell(&scan, 0, "ba");
-    scan =
-        scan_make(&bench->frame, &bench->sensor, &bench->selection, EFFECT_BIT(EFFECT_AMBIGUITY));
+    scan = scan_without(bench, EFFECT_BIT(EFFECT_AMBIGUITY));
     assert_int_equal(scan.cells, 2);
 }
 
