@@ -231,19 +231,20 @@ static int follow_scene(struct runner *runner, const struct frame *frame)
     return 0;
 }
 
-/* What follows every step: sections that were used up go, the rest is ordered and checked, so that
- * the stage that makes nonsense fails, not its neighbour. */
+/* What follows every step: sections that were used up go, what the stage wrote is ordered and
+ * checked, so that the stage that makes nonsense fails, not its neighbour. The rest was checked
+ * before, by the reader or after an earlier stage. */
 static int conclude(struct runner *runner, struct frame *frame)
 {
     const struct stage *stage = runner->stage;
+    const struct part written = {stage->writes, stage->name};
     if (!runner->common.keep)
         frame_drop(frame, stage->reads & ~stage->writes & SECTIONS_CONSUMED);
     frame->present |= stage->writes & ~(unsigned)SECTION_LOST;
     if (frame->account && (stage->writes & SECTION_LOST) != 0)
         frame->present |= SECTION_LOST;
-    frame_order(frame);
-    if (field_check(&frame_record, frame, &runner->diag) != 0 ||
-        frame_check(frame, &runner->diag) != 0) {
+    frame_order_part(frame, written);
+    if (frame_check_part(frame, written, &runner->diag) != 0) {
         runner->diag.code = DIAG_INTERNAL;
         return diag_prefix(&runner->diag, "made nonsense: ");
     }
