@@ -5,18 +5,17 @@
 #define COMPLETENESS_H
 
 #include "frame.h"
+#include "pool.h"
 
 struct scene_progress {
-    const char *name;
     int64_t frame; /* the last one seen */
     bool closed;
 };
 
 /* Zeroed, it has seen nothing. */
 struct completeness {
-    LIST_OF(struct scene_progress) scenes; /* in the order in which they came */
-    size_t *slots;                         /* by hash of the name: number in scenes + 1, or 0 */
-    size_t slot_count;                     /* 0 or a power of two, at least twice the scenes */
+    struct pool names;
+    LIST_OF(struct scene_progress) scenes; /* by number of the name */
 };
 
 /* Both return 0, or -1 after a message (DIAG_DATA). The arena keeps the names. */
