@@ -72,18 +72,17 @@ struct sensors {
     LIST_OF(struct sensor_view) list;
 };
 
-/* The way an echo took, and what sent it back. A ghost's last leg is where the radar sees it. */
+/* The way an echo took, and what sent it back. A ghost's last leg is where the radar sees it. Draws
+ * are addressed by these numbers: new paths go to the end. */
 enum path {
-    PATH_DIRECT,             /* sensor, object, sensor */
-    PATH_WALL_OBJECT,        /* sensor, wall, object, sensor */
-    PATH_OBJECT_WALL,        /* sensor, object, wall, sensor */
-    PATH_WALL_OBJECT_WALL,   /* sensor, wall, object, wall, sensor */
-    PATH_OBJECT_WALL_OBJECT, /* sensor, object, wall, object, sensor */
-    PATH_OBJECT_EGO_OBJECT,  /* sensor, object, ego, object, sensor */
-    PATH_WHEEL,              /* a point on a turning wheel */
-    PATH_LIMB,               /* an arm or a leg */
-    PATH_CLUTTER,            /* the ground and what stands on it */
-    PATH_FALSE_ALARM,        /* nothing: noise */
+    PATH_DIRECT,           /* sensor, object, sensor */
+    PATH_WALL_OBJECT,      /* sensor, wall, object, sensor */
+    PATH_OBJECT_WALL,      /* sensor, object, wall, sensor */
+    PATH_WALL_OBJECT_WALL, /* sensor, wall, object, wall, sensor */
+    PATH_WHEEL,            /* a point on a turning wheel */
+    PATH_LIMB,             /* an arm or a leg */
+    PATH_CLUTTER,          /* the ground and what stands on it */
+    PATH_FALSE_ALARM,      /* nothing: noise */
 };
 
 /* What an echo is of, in one sensor's view. */
