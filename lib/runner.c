@@ -68,6 +68,24 @@ const struct suite *runner_suite(struct runner *runner, const struct frame *fram
     return !seen || check_views(runner, frame, suite) == 0 ? suite : NULL;
 }
 
+static bool reads_standard_input(const struct runner *runner)
+{
+    for (size_t i = 0; i < runner->common.files.count; i++)
+        if (strcmp(runner->common.files.items[i], "-") == 0)
+            return true;
+    return runner->common.files.count == 0;
+}
+
+struct counterpart *runner_counterpart(struct runner *runner, const char *path, bool partial)
+{
+    if (strcmp(path, "-") == 0 && reads_standard_input(runner))
+        diag_fail(&runner->diag, DIAG_USAGE,
+                  "\"-\" is standard input, where the frames come from; name their file");
+    else if (runner->counterpart == NULL)
+        runner->counterpart = counterpart_open(path, partial, &runner->diag);
+    return runner->counterpart;
+}
+
 /* Members of a choice that were not given are -1. */
 static bool chose_tolerance(const struct suite_choice *choice)
 {
@@ -192,6 +210,7 @@ void runner_free(struct runner *runner)
 {
     for (size_t i = 0; i < runner->rehearsing.count; i++)
         runner_free(runner->rehearsing.items[i]);
+    counterpart_close(runner->counterpart);
     arena_free(&runner->arena);
 }
 
