@@ -82,6 +82,6 @@ const struct stage stage_sensor_smear = {
         "with --effects=-merging every echo is a cell of its own.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_ECHOES,
-    .writes = SECTION_CELLS | SECTION_LOST,
+    .writes = SECTION_CELLS | SECTION_LOST | SECTION_COUNTS,
     .step = sensor_smear_step,
 };
