@@ -210,27 +210,6 @@ static int check_sections(struct runner *runner, const struct frame *frame)
     return 0;
 }
 
-/* --complete: scenes ascend without gaps and end with their last frame. */
-static int follow_scene(struct runner *runner, const struct frame *frame)
-{
-    struct scene_progress *scene = NULL;
-    for (size_t i = 0; i < runner->scenes.count && scene == NULL; i++)
-        if (strcmp(runner->scenes.items[i].name, frame->scene) == 0)
-            scene = &runner->scenes.items[i];
-    if (scene == NULL) {
-        scene = list_add(&runner->scenes, &runner->arena);
-        scene->name = arena_text(&runner->arena, frame->scene, strlen(frame->scene));
-        scene->frame = -1;
-    }
-    if (scene->closed || frame->frame != scene->frame + 1)
-        return diag_fail(&runner->diag, DIAG_DATA, "frame: %lld of scene \"%s\" %s",
-                         (long long)frame->frame, frame->scene,
-                         scene->closed ? "comes after its last one" : "is out of order");
-    scene->frame = frame->frame;
-    scene->closed = frame->last;
-    return 0;
-}
-
 /* What follows every step: sections that were used up go, the rest is ordered and checked, so that
  * the stage that makes nonsense fails, not its neighbour. */
 static int conclude(struct runner *runner, struct frame *frame)
@@ -283,7 +262,8 @@ int runner_step(struct runner *runner, struct frame *frame)
     if (runner->common.seed_given)
         frame->seed = runner->common.seed;
     if (check_sections(runner, frame) != 0 ||
-        (runner->common.complete && follow_scene(runner, frame) != 0) ||
+        (runner->common.complete &&
+         completeness_follow(&runner->completeness, frame, &runner->arena, &runner->diag) != 0) ||
         told(runner, runner->stage->step(runner->state, frame, runner)) != 0)
         return -1;
     return runner->stage->sink ? 0 : conclude(runner, frame);
@@ -318,10 +298,8 @@ int runner_rehearse(struct runner *runner, const struct stage *stage,
 
 int runner_finish(struct runner *runner)
 {
-    for (size_t i = 0; i < runner->scenes.count; i++)
-        if (!runner->scenes.items[i].closed)
-            return diag_fail(&runner->diag, DIAG_DATA, "scene \"%s\" ends before its last frame",
-                             runner->scenes.items[i].name);
+    if (completeness_end(&runner->completeness, &runner->diag) != 0)
+        return -1;
     const struct stage *stage = runner->stage;
     if (stage->stop != NULL && told(runner, stage->stop(runner->state, runner)) != 0)
         return -1;
