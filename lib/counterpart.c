@@ -64,7 +64,7 @@ void counterpart_close(struct counterpart *counterpart)
     free(counterpart);
 }
 
-int counterpart_prefix(const struct counterpart *counterpart, struct diag *diag)
+static int place(const struct counterpart *counterpart, struct diag *diag)
 {
     return diag_prefix(diag, "%s:%zu: ", input_name(counterpart->input), counterpart->found);
 }
@@ -153,9 +153,9 @@ static int leave(struct counterpart *counterpart, size_t number, const char *sce
     if (counterpart->partial)
         return 0;
     counterpart->found = number;
-    diag_fail(diag, DIAG_DATA, "frame %lld of scene \"%s\" is not in the stream that is scored",
-              (long long)frame, scene);
-    return counterpart_prefix(counterpart, diag);
+    diag_fail(diag, DIAG_DATA, "frame %lld of scene \"%s\" is not in the stream", (long long)frame,
+              scene);
+    return place(counterpart, diag);
 }
 
 /* Takes a line out of those that wait: it goes with the next call. */
@@ -202,7 +202,7 @@ static int read_next(struct counterpart *counterpart, const char *scene, int64_t
     counterpart->ended = more == 0;
     counterpart->found = counterpart->number;
     if (more < 0 || (more > 0 && read_key(counterpart, *line, *length, &key, diag) != 0))
-        return counterpart_prefix(counterpart, diag);
+        return place(counterpart, diag);
     if (more == 0)
         return 2;
     bool same = scene != NULL && strcmp(key.scene, scene) == 0;
@@ -214,8 +214,9 @@ static int read_next(struct counterpart *counterpart, const char *scene, int64_t
     return same ? 2 : 0;
 }
 
-int counterpart_line(struct counterpart *counterpart, const char *scene, int64_t frame,
-                     const char **line, size_t *length, struct diag *diag)
+/* The line for a scene and frame, valid until the next call: 1, 0 if there is none, -1. */
+static int find(struct counterpart *counterpart, const char *scene, int64_t frame,
+                const char **line, size_t *length, struct diag *diag)
 {
     int found = look(counterpart, scene, frame, diag);
     if (found == 1) {
@@ -233,13 +234,15 @@ int counterpart_line(struct counterpart *counterpart, const char *scene, int64_t
                      input_name(counterpart->input), (long long)frame, scene);
 }
 
-int counterpart_check_time(const struct frame *frame, double time_s, struct diag *diag)
+/* Refuses streams of other scenes under the same names. */
+static int check_time(const struct frame *frame, double time_s, struct diag *diag)
 {
     if (fabs(time_s - frame->time_s) <= same_time_s)
         return 0;
-    return diag_fail(diag, DIAG_DATA,
-                     "time_s: %.9g; the frame that is scored is of %.9g: other scenes?", time_s,
-                     frame->time_s);
+    return diag_fail(
+        diag, DIAG_DATA,
+        "time_s: %.9g; that frame of the stream is at %.9g s: are these the same scenes?", time_s,
+        frame->time_s);
 }
 
 int counterpart_frame(struct counterpart *counterpart, const struct frame *frame, unsigned sections,
@@ -247,21 +250,36 @@ int counterpart_frame(struct counterpart *counterpart, const struct frame *frame
 {
     const char *line;
     size_t length;
-    int found = counterpart_line(counterpart, frame->scene, frame->frame, &line, &length, diag);
+    int found = find(counterpart, frame->scene, frame->frame, &line, &length, diag);
     if (found <= 0)
         return found;
     struct frame *own = &counterpart->frame;
     if (frame_text_read(line, length, own, diag) != 0)
-        return counterpart_prefix(counterpart, diag);
+        return place(counterpart, diag);
     frame_order(own);
     unsigned missing = sections & ~own->present;
     if (missing != 0)
         diag_fail(diag, DIAG_DATA, "%s: missing; there is nothing to compare with",
                   frame_section_name(missing & -missing));
-    if (missing != 0 || frame_check(own, diag) != 0 ||
-        counterpart_check_time(frame, own->time_s, diag) != 0)
-        return counterpart_prefix(counterpart, diag);
+    if (missing != 0 || frame_check(own, diag) != 0 || check_time(frame, own->time_s, diag) != 0)
+        return place(counterpart, diag);
     *other = own;
+    return 1;
+}
+
+int counterpart_tracks(struct counterpart *counterpart, const struct frame *frame,
+                       struct track_list *tracks, struct diag *diag)
+{
+    const char *line;
+    size_t length;
+    int found = find(counterpart, frame->scene, frame->frame, &line, &length, diag);
+    if (found <= 0)
+        return found;
+    field_clear(&track_list_record, tracks);
+    if (frame_text_read_record(line, length, &track_list_record, tracks, frame->arena, diag) != 0 ||
+        track_order(tracks, frame->arena, diag) != 0 ||
+        ((tracks->told & TRACK_TIME) != 0 && check_time(frame, tracks->time_s, diag) != 0))
+        return place(counterpart, diag);
     return 1;
 }
 

@@ -7,6 +7,7 @@
 #define COUNTERPART_H
 
 #include "frame.h"
+#include "track.h"
 
 struct counterpart;
 
@@ -15,20 +16,15 @@ struct counterpart;
 struct counterpart *counterpart_open(const char *path, bool partial, struct diag *diag);
 void counterpart_close(struct counterpart *counterpart);
 
-/* The line for a scene and frame, valid until the next call: 1, 0 if there is none, -1. */
-int counterpart_line(struct counterpart *counterpart, const char *scene, int64_t frame,
-                     const char **line, size_t *length, struct diag *diag);
-
-/* That line as a frame, in canonical order and checked, which has these sections and is of the same
- * time. It belongs to the counterpart and stays until the next call. */
+/* The line for this frame's scene and number, read as a frame that has these sections and the same
+ * time, in canonical order and checked. It belongs to the counterpart and stays until the next
+ * call. 1, 0 if there is none, -1. */
 int counterpart_frame(struct counterpart *counterpart, const struct frame *frame, unsigned sections,
                       const struct frame **other, struct diag *diag);
 
-/* Puts the place of the line last found in front of a message: -1. */
-int counterpart_prefix(const struct counterpart *counterpart, struct diag *diag);
-
-/* Refuses a time that is not the frame's: streams of other scenes under the same names. */
-int counterpart_check_time(const struct frame *frame, double time_s, struct diag *diag);
+/* The same, read as tracks, in the order of their ids; all lies in the frame's arena. */
+int counterpart_tracks(struct counterpart *counterpart, const struct frame *frame,
+                       struct track_list *tracks, struct diag *diag);
 
 /* Reads on to the end. Without partial, refuses lines that nobody asked for. */
 int counterpart_finish(struct counterpart *counterpart, struct diag *diag);

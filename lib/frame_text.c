@@ -166,21 +166,34 @@ static int read_record(struct json_scan *scan, const struct record *record, void
     return field_require(record, seen, scan->diag);
 }
 
-int frame_text_read(const char *line, size_t length, struct frame *frame, struct diag *diag)
+static int no_record(struct json_scan *scan, const struct record *record)
 {
-    frame_clear(frame);
-    struct json_scan scan = {line, line + length, frame->arena, diag};
-    char first = json_scan_peek(&scan);
-    if (first != '{')
-        return scan.at == scan.end ? diag_fail(diag, DIAG_DATA, "an empty line; expected a frame")
-                                   : json_scan_unexpected(&scan, "a frame");
-    if (read_record(&scan, &frame_record, frame) != 0) {
+    char expected[64];
+    snprintf(expected, sizeof expected, "a %s", record->name);
+    return scan->at == scan->end
+               ? diag_fail(scan->diag, DIAG_DATA, "an empty line; expected %s", expected)
+               : json_scan_unexpected(scan, expected);
+}
+
+int frame_text_read_record(const char *line, size_t length, const struct record *record, void *base,
+                           struct arena *arena, struct diag *diag)
+{
+    struct json_scan scan = {line, line + length, arena, diag};
+    if (json_scan_peek(&scan) != '{')
+        return no_record(&scan, record);
+    if (read_record(&scan, record, base) != 0) {
         if (diag->text[0] == ':')
             memmove(diag->text, diag->text + 2, sizeof diag->text - 2);
         return -1;
     }
     json_scan_peek(&scan);
     return scan.at == scan.end ? 0 : json_scan_unexpected(&scan, "the end of the line");
+}
+
+int frame_text_read(const char *line, size_t length, struct frame *frame, struct diag *diag)
+{
+    frame_clear(frame);
+    return frame_text_read_record(line, length, &frame_record, frame, frame->arena, diag);
 }
 
 /* The writer's place in a text: at runs ahead of the text's length, which is set in the end. */

@@ -6,6 +6,7 @@
 #include "explain.h"
 #include "frame_check.h"
 #include "frame_order.h"
+#include "frame_text.h"
 
 struct arena *runner_arena(struct runner *runner)
 {
@@ -25,6 +26,15 @@ void runner_expect(struct runner *runner, int64_t frames)
 int runner_write(struct runner *runner, const char *bytes, size_t length)
 {
     return output_write(runner->output, bytes, length, &runner->diag);
+}
+
+int runner_write_record(struct runner *runner, const struct record *record, const void *base)
+{
+    struct text text = {0};
+    frame_text_write_record(record, base, &text);
+    int result = runner_write(runner, text.bytes, text.length);
+    text_free(&text);
+    return result;
 }
 
 /* A sensor that only the frame knows would lose its echoes without a word. */

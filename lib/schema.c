@@ -5,14 +5,21 @@
 #include "catalogue.h"
 #include "frame.h"
 #include "score.h"
+#include "track.h"
 
 static const struct {
     const char *name;
     const struct record *record;
 } schemas[] = {
-    {"frame", &frame_record},      {"scenario", &scenario_record},
-    {"score", &score_line_record}, {"score-summary", &score_summary_record},
-    {"sensors", &suite_record},    {"vehicle", &vehicle_record},
+    {"frame", &frame_record},
+    {"scenario", &scenario_record},
+    {"score", &score_line_record},
+    {"score-summary", &score_summary_record},
+    {"score-tracks", &score_track_line_record},
+    {"score-tracks-summary", &score_track_summary_record},
+    {"sensors", &suite_record},
+    {"tracks", &track_list_record},
+    {"vehicle", &vehicle_record},
 };
 
 enum { SCHEMAS = sizeof schemas / sizeof schemas[0] };

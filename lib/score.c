@@ -1,8 +1,10 @@
 #include "score.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "deviations.h"
+#include "sort.h"
 
 #define COUNT(owner, member, help)                                                                 \
     {                                                                                              \
@@ -44,37 +46,49 @@ static const struct record differences_record = {
 
 static const struct field score_fields[] = {
     {FIELD_NAME_OF(struct score, sensor, "absent: all of them"), FIELD_OPTIONAL},
-    COUNT(struct score, scans, "pairs of lists"),
+    COUNT(struct score, scans, "pairs of lists: a sensor's in one frame, or the tracks of one"),
     COUNT(struct score, true_count, "items of the truth"),
     COUNT(struct score, listed_count, "items of the stream"),
     COUNT(struct score, pair_count, "pairs closer than the cut-off"),
     COUNT(struct score, missed_count, "of the truth, without a pair"),
     COUNT(struct score, false_count, "of the stream, without a pair"),
-    MEASURE(gospa, "mean over the scans, in cells"),
+    MEASURE(gospa, "mean over the scans"),
     MEASURE(gospa_rms, "root mean square over the scans: its square is the sum of the parts"),
     MEASURE(gospa_max, "of one scan"),
     MEASURE(gospa_localisation, "mean over the scans of the pairs' squared distances"),
     MEASURE(gospa_missed, "mean over the scans of half the squared cut-off for each missed one"),
     MEASURE(gospa_false, "mean over the scans of half the squared cut-off for each false one"),
-    MEASURE(ospa, "mean over the scans, in cells"),
+    MEASURE(ospa, "mean over the scans"),
     COMPONENT("range_m", SCORE_RANGE, "differences in range"),
     COMPONENT("azimuth_rad", SCORE_AZIMUTH, "differences in azimuth"),
     COMPONENT("range_rate_mps", SCORE_RANGE_RATE, "differences in range rate"),
     COMPONENT("amplitude_db", SCORE_AMPLITUDE, "differences in amplitude"),
+    COMPONENT("position_m", SCORE_POSITION, "distances of tracks and objects"),
+    COMPONENT("velocity_mps", SCORE_VELOCITY, "sizes of their differences in velocity"),
     {0},
 };
 
-static const struct record score_record = {
+const struct record score_record = {
     .name = "score",
-    .help = "How a sensor's lists differ from the truth.",
+    .help =
+        "How lists differ from the truth; GOSPA and OSPA are in cells for targets, in metres for "
+        "tracks.",
     .size = sizeof(struct score),
     .fields = score_fields,
 };
 
+#define LINE_HEAD(owner)                                                                           \
+    {FIELD_NAME_OF(owner, scene, "of the frame")}, COUNT(owner, frame, "number in the scene"),     \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, time_s, -1e10, 1e10, "of the frame")                                  \
+    }
+#define SUMMARY_HEAD(owner)                                                                        \
+    COUNT(owner, frames, "on both sides: scored"),                                                 \
+        COUNT(owner, true_frames, "of the truth alone"),                                           \
+        COUNT(owner, listed_frames, "of what is scored alone")
+
 static const struct field line_fields[] = {
-    {FIELD_NAME_OF(struct score_line, scene, "of the frame")},
-    COUNT(struct score_line, frame, "number in the scene"),
-    {FIELD_REAL_IN(struct score_line, time_s, -1e10, 1e10, "of the frame")},
+    LINE_HEAD(struct score_line),
     {FIELD_LIST_OF(struct score_line, sensors, &score_record, "that measured, by name")},
     {0},
 };
@@ -87,9 +101,7 @@ const struct record score_line_record = {
 };
 
 static const struct field summary_fields[] = {
-    COUNT(struct score_summary, frames, "on both sides"),
-    COUNT(struct score_summary, true_frames, "of the truth alone: not scored"),
-    COUNT(struct score_summary, listed_frames, "of the stream alone: not scored"),
+    SUMMARY_HEAD(struct score_summary),
     {FIELD_REAL_IN(struct score_summary, cutoff, 0, 1e6, "in cells")},
     {FIELD_REAL_IN(struct score_summary, azimuth_cell_rad, 0, 10, "taken for one cell")},
     {FIELD_RECORD_OF(struct score_summary, all, &score_record, "over all sensors")},
@@ -102,6 +114,35 @@ const struct record score_summary_record = {
     .help = "What glint-score --summary writes.",
     .size = sizeof(struct score_summary),
     .fields = summary_fields,
+};
+
+static const struct field track_line_fields[] = {
+    LINE_HEAD(struct score_track_line),
+    COUNT(struct score_track_line, id_switches, "objects paired with another track than last"),
+    {FIELD_RECORD_OF(struct score_track_line, all, &score_record, "over all tracks")},
+    {0},
+};
+
+const struct record score_track_line_record = {
+    .name = "score_track_line",
+    .help = "What glint-score-tracks writes of one frame.",
+    .size = sizeof(struct score_track_line),
+    .fields = track_line_fields,
+};
+
+static const struct field track_summary_fields[] = {
+    SUMMARY_HEAD(struct score_track_summary),
+    {FIELD_REAL_IN(struct score_track_summary, cutoff_m, 0, 1e6, "tracks as far off are no pair")},
+    COUNT(struct score_track_summary, id_switches, "objects paired with another track than last"),
+    {FIELD_RECORD_OF(struct score_track_summary, all, &score_record, "over all frames")},
+    {0},
+};
+
+const struct record score_track_summary_record = {
+    .name = "score_track_summary",
+    .help = "What glint-score-tracks --summary writes.",
+    .size = sizeof(struct score_track_summary),
+    .fields = track_summary_fields,
 };
 
 void score_count(struct score_tally *tally, double squares, size_t pairs, size_t truths,
@@ -191,4 +232,34 @@ struct score score_of(const struct score_tally *tally, struct arena *arena)
     for (int i = 0; i < SCORE_COMPONENTS; i++)
         score.differences[i] = differences_of(tally, i, arena);
     return score;
+}
+
+void score_keep(struct score_tallies *tallies, const struct score_tally *scan, struct arena *arena)
+{
+    for (size_t i = 0; i < tallies->list.count; i++)
+        if (strcmp(tallies->list.items[i].sensor, scan->sensor) == 0) {
+            score_merge(&tallies->list.items[i], scan, arena);
+            return;
+        }
+    struct score_tally *tally = list_add(&tallies->list, arena);
+    tally->sensor = arena_text(arena, scan->sensor, strlen(scan->sensor));
+    score_merge(tally, scan, arena);
+}
+
+static int compare_sensors(const void *left, const void *right)
+{
+    return strcmp(((const struct score_tally *)left)->sensor,
+                  ((const struct score_tally *)right)->sensor);
+}
+
+void score_summarize(struct score_tallies *tallies, struct score_summary *summary,
+                     struct arena *arena)
+{
+    struct score_tally all = {0};
+    sort_list(&tallies->list, compare_sensors, arena);
+    for (size_t i = 0; i < tallies->list.count; i++) {
+        *list_add(&summary->sensors, arena) = score_of(&tallies->list.items[i], arena);
+        score_merge(&all, &tallies->list.items[i], arena);
+    }
+    summary->all = score_of(&all, arena);
 }

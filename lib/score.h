@@ -12,7 +12,9 @@ enum score_component {
     SCORE_RANGE,
     SCORE_AZIMUTH,
     SCORE_RANGE_RATE,
-    SCORE_AMPLITUDE,
+    SCORE_AMPLITUDE, /* of targets, up to here */
+    SCORE_POSITION,  /* how far apart, and how different in velocity, tracks are */
+    SCORE_VELOCITY,
     SCORE_COMPONENTS,
 };
 
@@ -27,7 +29,7 @@ struct score_differences {
 
 struct score {
     const char *sensor; /* NULL: all of them */
-    int64_t scans;      /* pairs of lists */
+    int64_t scans;      /* pairs of lists: a sensor's in one frame, or the tracks of one */
     int64_t true_count, listed_count, pair_count, missed_count, false_count;
     /* Over the scans: mean, root mean square and maximum of GOSPA, the parts of its mean square,
      * and the mean of OSPA. */
@@ -37,7 +39,7 @@ struct score {
     struct score_differences differences[SCORE_COMPONENTS];
 };
 
-/* The scores of one frame, and of a stream. */
+/* The scores of one frame, and of a stream: of targets, and of tracks. */
 struct score_line {
     const char *scene;
     int64_t frame;
@@ -52,7 +54,24 @@ struct score_summary {
     LIST_OF(struct score) sensors;
 };
 
+struct score_track_line {
+    const char *scene;
+    int64_t frame;
+    double time_s;
+    int64_t id_switches;
+    struct score all;
+};
+
+struct score_track_summary {
+    int64_t frames, true_frames, listed_frames;
+    double cutoff_m;
+    int64_t id_switches;
+    struct score all;
+};
+
+extern const struct record score_record;
 extern const struct record score_line_record, score_summary_record;
+extern const struct record score_track_line_record, score_track_summary_record;
 
 struct score_values {
     LIST_OF(double) list;
@@ -67,6 +86,11 @@ struct score_tally {
     struct score_values truth[SCORE_COMPONENTS], list[SCORE_COMPONENTS];
 };
 
+/* By sensor, in the order in which they first come. */
+struct score_tallies {
+    LIST_OF(struct score_tally) list;
+};
+
 /* Counts one pair of lists. squares is the sum of d^2 over its pairs. */
 void score_count(struct score_tally *tally, double squares, size_t pairs, size_t truths,
                  size_t listed, double cutoff);
@@ -76,7 +100,14 @@ void score_add(struct score_values *values, double value, struct arena *arena);
 /* Adds all that the other tally holds. */
 void score_merge(struct score_tally *tally, const struct score_tally *other, struct arena *arena);
 
-/* What a tally of at least one scan amounts to. */
+/* Merges a tally into that of its sensor. */
+void score_keep(struct score_tallies *tallies, const struct score_tally *scan, struct arena *arena);
+
+/* What a tally amounts to. Without any scan all is 0. */
 struct score score_of(const struct score_tally *tally, struct arena *arena);
+
+/* Fills in the scores, by the names of sensors. */
+void score_summarize(struct score_tallies *tallies, struct score_summary *summary,
+                     struct arena *arena);
 
 #endif

@@ -111,6 +111,9 @@ int runner_rehearse(struct runner *runner, const struct stage *stage,
 /* A sink's way out. */
 int runner_write(struct runner *runner, const char *bytes, size_t length);
 
+/* The same for a line of JSON, as the record says. */
+int runner_write_record(struct runner *runner, const struct record *record, const void *base);
+
 /* Another stream beside the one that is read, for sinks that compare: opened once, closed at the
  * end.
  * "-" is standard input where the frames come from files. NULL after a message. */

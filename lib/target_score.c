@@ -7,6 +7,8 @@
 #include "sort.h"
 #include "units.h"
 
+enum { COMPONENTS = SCORE_AMPLITUDE + 1 };
+
 struct target_list {
     LIST_OF(const struct target *) list;
 };
@@ -18,6 +20,28 @@ double target_score_distance(const struct target *a, const struct target *b,
     double rate = (a->range_rate_mps - b->range_rate_mps) / cell->range_rate_mps;
     double azimuth = units_wrap_rad(a->azimuth_rad - b->azimuth_rad) / cell->azimuth_rad;
     return sqrt(range * range + rate * rate + azimuth * azimuth);
+}
+
+int target_score_check(const struct frame *truth, const struct frame *listed, struct diag *diag)
+{
+    size_t sensors = truth->sensors.list.count;
+    if (listed->sensors.list.count != sensors)
+        return diag_fail(diag, DIAG_DATA, "sensors.list: %zu sensors; the truth has %zu",
+                         listed->sensors.list.count, sensors);
+    for (size_t i = 0; i < sensors; i++) {
+        const struct sensor_view *view = &truth->sensors.list.items[i];
+        const char *name = listed->sensors.list.items[i].name;
+        if (strcmp(view->name, name) != 0)
+            return diag_fail(diag, DIAG_DATA,
+                             "sensors.list[%zu].name: \"%s\"; the truth has \"%s\"", i, name,
+                             view->name);
+        if (!(view->cell_range_m > 0 && view->cell_range_rate_mps > 0))
+            return diag_fail(diag, DIAG_DATA,
+                             "sensors.list[%zu]: the truth's \"%s\" has cells of %g m by %g m/s; "
+                             "distances in cells need more than 0",
+                             i, name, view->cell_range_m, view->cell_range_rate_mps);
+    }
+    return 0;
 }
 
 /* Ties between pairs go by this order, not by the one in which a model happens to list. */
@@ -62,7 +86,7 @@ static double component(const struct target *target, enum score_component which)
 static void add_values(struct score_values *values, const struct target_list *targets,
                        struct arena *arena)
 {
-    for (int which = 0; which < SCORE_COMPONENTS; which++)
+    for (int which = 0; which < COMPONENTS; which++)
         for (size_t i = 0; i < targets->list.count; i++)
             score_add(&values[which], component(targets->list.items[i], which), arena);
 }
@@ -70,7 +94,7 @@ static void add_values(struct score_values *values, const struct target_list *ta
 static void add_pair(struct score_tally *tally, const struct target *truth,
                      const struct target *listed, struct arena *arena)
 {
-    for (int which = 0; which < SCORE_COMPONENTS; which++) {
+    for (int which = 0; which < COMPONENTS; which++) {
         double apart = component(listed, which) - component(truth, which);
         if (which == SCORE_AZIMUTH)
             apart = units_wrap_rad(apart);
@@ -78,12 +102,12 @@ static void add_pair(struct score_tally *tally, const struct target *truth,
     }
 }
 
-void target_score_scan(struct score_tally *tally, const char *sensor, const struct frame *truth,
+void target_score_scan(struct score_tally *tally, const struct frame *truth,
                        const struct frame *listed, const struct target_cell *cell,
                        struct arena *arena)
 {
-    struct target_list true_list = targets_of(truth, sensor, arena);
-    struct target_list list = targets_of(listed, sensor, arena);
+    struct target_list true_list = targets_of(truth, tally->sensor, arena);
+    struct target_list list = targets_of(listed, tally->sensor, arena);
     size_t rows = true_list.list.count, columns = list.list.count;
     double *distance = arena_get(arena, rows * columns * sizeof *distance);
     size_t *item_of = arena_get(arena, rows * sizeof *item_of);

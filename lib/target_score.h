@@ -19,9 +19,13 @@ struct target_cell {
 double target_score_distance(const struct target *a, const struct target *b,
                              const struct target_cell *cell);
 
-/* Adds one scan to the tally: this sensor's targets of both frames. The order of targets in either
+/* Can these frames be compared? Suites may differ, for models are what is compared, but not in what
+ * their sensors are called; and the truth's cells need a width. Refuses with DIAG_DATA. */
+int target_score_check(const struct frame *truth, const struct frame *listed, struct diag *diag);
+
+/* Adds one scan to the tally: its sensor's targets of both frames. The order of targets in either
  * changes no bit. */
-void target_score_scan(struct score_tally *tally, const char *sensor, const struct frame *truth,
+void target_score_scan(struct score_tally *tally, const struct frame *truth,
                        const struct frame *listed, const struct target_cell *cell,
                        struct arena *arena);
 

@@ -1,106 +1,58 @@
 /* Scores: how far the targets of this stream are from those of another one, frame by frame. */
-#include <string.h>
-
-#include "frame_text.h"
+#include "score_table.h"
 #include "stage.h"
 #include "target_score.h"
 
 struct score_state {
     const char *truth;
     double cutoff, azimuth_cell_rad;
-    bool partial, summary;
+    bool partial, summary, table;
     struct counterpart *other;
     int64_t frames;
-    LIST_OF(struct score_tally) sensors; /* by name; for the summary */
+    struct score_tallies sensors; /* for the summary */
 };
 
 static int score_start(void *state, struct runner *runner)
 {
     struct score_state *own = state;
+    own->summary = own->summary || own->table;
     own->other = runner_counterpart(runner, own->truth, own->partial);
     return own->other != NULL ? 0 : -1;
-}
-
-/* Suites may differ, for models are what is compared, but not in what their sensors are called. */
-static int check_sensors(const struct sensors *truth, const struct sensors *listed,
-                         struct diag *diag)
-{
-    if (truth->list.count != listed->list.count)
-        return diag_fail(diag, DIAG_DATA, "sensors.list: %zu sensors; the truth has %zu",
-                         listed->list.count, truth->list.count);
-    for (size_t i = 0; i < truth->list.count; i++) {
-        const struct sensor_view *view = &truth->list.items[i];
-        if (strcmp(view->name, listed->list.items[i].name) != 0)
-            return diag_fail(diag, DIAG_DATA, "sensors.list: \"%s\"; the truth has \"%s\"",
-                             listed->list.items[i].name, view->name);
-        if (!(view->cell_range_m > 0 && view->cell_range_rate_mps > 0))
-            return diag_fail(diag, DIAG_DATA,
-                             "sensors.list: the truth's \"%s\" has cells of %g m by %g m/s; "
-                             "distances need more than 0",
-                             view->name, view->cell_range_m, view->cell_range_rate_mps);
-    }
-    return 0;
-}
-
-static struct score_tally *tally_of(struct score_state *own, const char *sensor,
-                                    struct arena *arena)
-{
-    for (size_t i = 0; i < own->sensors.count; i++)
-        if (strcmp(own->sensors.items[i].sensor, sensor) == 0)
-            return &own->sensors.items[i];
-    struct score_tally *tally = list_add(&own->sensors, arena);
-    tally->sensor = arena_text(arena, sensor, strlen(sensor));
-    return tally;
-}
-
-static int write_line(struct runner *runner, const struct record *record, const void *line)
-{
-    struct text text = {0};
-    frame_text_write_record(record, line, &text);
-    int result = runner_write(runner, text.bytes, text.length);
-    text_free(&text);
-    return result;
 }
 
 static int score_step(void *state, struct frame *frame, struct runner *runner)
 {
     struct score_state *own = state;
-    struct arena *arena = frame->arena;
     const struct frame *truth;
     int found = counterpart_frame(own->other, frame, SECTION_SENSORS | SECTION_TARGETS, &truth,
                                   runner_diag(runner));
     if (found <= 0)
         return found;
-    if (check_sensors(&truth->sensors, &frame->sensors, runner_diag(runner)) != 0)
+    if (target_score_check(truth, frame, runner_diag(runner)) != 0)
         return -1;
     own->frames++;
-    struct score_line line = {
-        .scene = frame->scene, .frame = frame->frame, .time_s = frame->time_s};
-    for (size_t i = 0; i < frame->sensors.list.count; i++) {
+    struct score_line line = {frame->scene, frame->frame, frame->time_s, {0}};
+    for (size_t i = 0; i < truth->sensors.list.count; i++) {
         const struct sensor_view *view = &truth->sensors.list.items[i];
         if (!view->measured && !frame->sensors.list.items[i].measured)
             continue;
         struct target_cell cell = {view->cell_range_m, own->azimuth_cell_rad,
                                    view->cell_range_rate_mps, own->cutoff};
         struct score_tally scan = {.sensor = view->name};
-        target_score_scan(&scan, view->name, truth, frame, &cell, arena);
+        target_score_scan(&scan, truth, frame, &cell, frame->arena);
         if (own->summary)
-            score_merge(tally_of(own, view->name, runner_arena(runner)), &scan,
-                        runner_arena(runner));
+            score_keep(&own->sensors, &scan, runner_arena(runner));
         else
-            *list_add(&line.sensors, arena) = score_of(&scan, arena);
+            *list_add(&line.sensors, frame->arena) = score_of(&scan, frame->arena);
     }
-    return own->summary ? 0 : write_line(runner, &score_line_record, &line);
+    return own->summary ? 0 : runner_write_record(runner, &score_line_record, &line);
 }
 
 static int score_stop(void *state, struct runner *runner)
 {
     struct score_state *own = state;
-    struct arena *arena = runner_arena(runner);
     if (counterpart_finish(own->other, runner_diag(runner)) != 0)
         return -1;
-    if (!own->summary)
-        return 0;
     struct score_summary summary = {
         .frames = own->frames,
         .true_frames = counterpart_left(own->other),
@@ -108,13 +60,16 @@ static int score_stop(void *state, struct runner *runner)
         .cutoff = own->cutoff,
         .azimuth_cell_rad = own->azimuth_cell_rad,
     };
-    struct score_tally all = {0};
-    for (size_t i = 0; i < own->sensors.count; i++) {
-        *list_add(&summary.sensors, arena) = score_of(&own->sensors.items[i], arena);
-        score_merge(&all, &own->sensors.items[i], arena);
-    }
-    summary.all = score_of(&all, arena);
-    return write_line(runner, &score_summary_record, &summary);
+    if (!own->summary)
+        return 0;
+    score_summarize(&own->sensors, &summary, runner_arena(runner));
+    if (!own->table)
+        return runner_write_record(runner, &score_summary_record, &summary);
+    struct text text = {0};
+    score_table_summary(&summary, &text, runner_arena(runner));
+    int result = runner_write(runner, text.bytes, text.length);
+    text_free(&text);
+    return result;
 }
 
 static const struct field score_options[] = {
@@ -131,10 +86,11 @@ static const struct field score_options[] = {
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct score_state, summary, "write one line for the whole stream"),
      FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct score_state, table, "write that as a table for people"), FIELD_OPTIONAL},
     {0},
 };
 
-static const struct record score_record = {
+static const struct record score_state_record = {
     .name = "stage", .size = sizeof(struct score_state), .fields = score_options};
 
 const struct stage stage_score = {
@@ -150,7 +106,7 @@ const struct stage stage_score = {
         "(azimuth / azimuth_cell_rad)^2, with the cells of the truth's sensors. Frames that one\n"
         "side lacks are errors unless --partial is given. For the summary every value is kept,\n"
         "about 100 bytes for each target.",
-    .options = &score_record,
+    .options = &score_state_record,
     .sink = true,
     .reads = SECTION_SENSORS | SECTION_TARGETS,
     .start = score_start,
