@@ -192,6 +192,8 @@ void runner_free(struct runner *runner)
 {
     for (size_t i = 0; i < runner->rehearsing.count; i++)
         runner_free(runner->rehearsing.items[i]);
+    if (runner->stage != NULL && runner->stage->release != NULL)
+        runner->stage->release(runner->state);
     arena_free(&runner->arena);
 }
 
