@@ -102,7 +102,7 @@ under = $(subst -,_,$(patsubst $(BUILD)/bin/glint-%,%,$(1)))
 $(BUILD)/bin/glint-%: $(BUILD)/stages/$$(subst -,_,$$*).o $(BUILD)/main/$$(subst -,_,$$*).o \
     $(BUILD)/libstages.a $(BUILD)/libglint.a
 	@mkdir -p $(@D)
-	$(Q)$(LINK) -o $@ $^ $(LIBS)
+	$(Q)$(LINK) -o $@ $^ $(call libs_of,$(call under,$@)) $(LIBS)
 
 # The folder is the registry; the file is rewritten only when the list has changed.
 registry = { for s in $(stages); do echo "extern const struct stage stage_$$s;"; done; \

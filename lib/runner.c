@@ -221,6 +221,8 @@ void runner_free(struct runner *runner)
     for (size_t i = 0; i < runner->rehearsing.count; i++)
         runner_free(runner->rehearsing.items[i]);
     counterpart_close(runner->counterpart);
+    if (runner->stage != NULL && runner->stage->release != NULL)
+        runner->stage->release(runner->state);
     arena_free(&runner->arena);
 }
 

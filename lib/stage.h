@@ -38,6 +38,8 @@ struct stage {
     int (*next)(void *state, struct frame *frame, struct runner *runner);
     int (*step)(void *state, struct frame *frame, struct runner *runner);
     int (*stop)(void *state, struct runner *runner); /* after the last frame; NULL: nothing */
+    /* Frees what a library made for the state, after a failure too; NULL: nothing. */
+    void (*release)(void *state);
 };
 
 /* For stages without options and without state. (These two records are in options.c.) */

@@ -41,7 +41,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
                   const struct selection *selection)
 {
     struct reception reception = reception_begin(frame, sensor, selection->allowed);
-    struct scan scan = scan_receive(&reception, 0);
+    struct scan scan = scan_receive(&reception);
     bool merge = effects_may(selection, EFFECT_MERGING);
     size_t count = scan.resolved.count, together = merge ? count : 1;
     reception_note(&reception, selection);
