@@ -310,3 +310,9 @@ int frame_text_write(const struct frame *frame, struct text *text, struct diag *
     }
     return 0;
 }
+
+void frame_text_write_record(const struct record *record, const void *base, struct text *text)
+{
+    write_record(record, base, text);
+    text_add(text, "\n", 1);
+}

@@ -4,15 +4,15 @@
 
 #include "catalogue.h"
 #include "frame.h"
+#include "score.h"
 
 static const struct {
     const char *name;
     const struct record *record;
 } schemas[] = {
-    {"frame", &frame_record},
-    {"scenario", &scenario_record},
-    {"sensors", &suite_record},
-    {"vehicle", &vehicle_record},
+    {"frame", &frame_record},      {"scenario", &scenario_record},
+    {"score", &score_line_record}, {"score-summary", &score_summary_record},
+    {"sensors", &suite_record},    {"vehicle", &vehicle_record},
 };
 
 enum { SCHEMAS = sizeof schemas / sizeof schemas[0] };
