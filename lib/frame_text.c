@@ -340,13 +340,18 @@ static void write_record(const struct record *record, const void *base, struct w
     *writer->at++ = '}';
 }
 
+void frame_text_write_record(const struct record *record, const void *base, struct text *text)
+{
+    struct writer writer = {text, text_room(text, MEMBER_ROOM)};
+    write_record(record, base, &writer);
+    *writer.at++ = '\n';
+    text->length = (size_t)(writer.at - text->bytes);
+}
+
 int frame_text_write(const struct frame *frame, struct text *text, struct diag *diag)
 {
     size_t begin = text->length;
-    struct writer writer = {text, text_room(text, MEMBER_ROOM)};
-    write_record(&frame_record, frame, &writer);
-    *writer.at++ = '\n';
-    text->length = (size_t)(writer.at - text->bytes);
+    frame_text_write_record(&frame_record, frame, text);
     size_t length = text->length - begin;
     if (length > FRAME_TEXT_SIZE) {
         text->length = begin;
@@ -354,10 +359,4 @@ int frame_text_write(const struct frame *frame, struct text *text, struct diag *
                          FRAME_TEXT_SIZE);
     }
     return 0;
-}
-
-void frame_text_write_record(const struct record *record, const void *base, struct text *text)
-{
-    write_record(record, base, text);
-    text_add(text, "\n", 1);
 }
