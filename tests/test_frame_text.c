@@ -158,6 +158,21 @@ static void keys_may_come_in_any_order_with_any_white_space(void **state)
     arena_free(&arena[1]);
 }
 
+/* Every use of an id points to the same place, so that comparing them is cheap. */
+static void equal_names_of_a_frame_are_one_pointer(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena};
+    struct diag diag;
+    assert_int_equal(read_line(rich, &frame, &diag), 0);
+    assert_true(frame.ego == frame.objects.items->id);
+    assert_true(frame.ego == frame.cells.items->members.items->object);
+    assert_true(frame.ego == frame.lost.items->echoes.items->by);
+    assert_true(frame.sensors.list.items->name == frame.echoes.items->sensor);
+    arena_free(&arena);
+}
+
 /* rich with its first `from` replaced. In memory of its own. */
 static char *with(const char *from, const char *to)
 {
@@ -405,6 +420,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_rich_frame_comes_back_byte_for_byte),
         cmocka_unit_test(keys_may_come_in_any_order_with_any_white_space),
+        cmocka_unit_test(equal_names_of_a_frame_are_one_pointer),
         cmocka_unit_test(a_number_may_be_spelled_in_any_way),
         cmocka_unit_test(what_is_absent_stays_absent),
         cmocka_unit_test(faults_are_named_with_their_path_value_and_expectation),
