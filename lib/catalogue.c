@@ -24,6 +24,9 @@ static const struct field vehicle_fields[] = {
     {FIELD_REAL_IN(struct vehicle, height_m, 0.01, 1e3, "where an object of the class gives none")},
     {FIELD_RECORD_OF(struct vehicle, reflectors, &reflector_model_record,
                      "reflection centres of the class")},
+    {FIELD_CHOICE_OF(struct vehicle, sensing_target, sensing_target_names,
+                     "what 3GPP TR 38.901 would call it, for glint-extract-3gpp"),
+     FIELD_OPTIONAL},
     {0},
 };
 

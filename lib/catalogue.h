@@ -5,6 +5,7 @@
 
 #include "reflectors.h"
 #include "scenario.h"
+#include "sensing_target.h"
 #include "suite.h"
 
 /* One class of road users or things (data/vehicles/). */
@@ -12,6 +13,7 @@ struct vehicle {
     const char *origin;
     double length_m, width_m, height_m; /* where an object of the class gives none */
     struct reflector_set reflectors;    /* worn_by is empty */
+    enum sensing_target sensing_target; /* for glint-extract-3gpp */
 };
 
 extern const struct record vehicle_record;

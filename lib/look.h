@@ -67,6 +67,11 @@ struct sight look_lifted(const struct look *look, double reflector_m, struct sig
 double look_plane_ercs(const struct look *look, const struct plane_reflector *plane, double range_m,
                        uint64_t *effects);
 
+/* How much of a point is seen from the viewer, the sensor itself or a bounce on the way to it: its
+ * visibility, and its lobe at the sensor's elevation. 1 without the effect visibility. */
+double look_visibility(const struct look *look, const struct look_body *body,
+                       const struct point_reflector *point, struct vec2 place, struct vec2 viewer);
+
 /* A post of a row as the point it is, under its name. */
 struct point_reflector look_post(const struct look *look, const struct post_row *row, int64_t post);
 
