@@ -3,6 +3,7 @@
 #ifndef CATALOGUE_H
 #define CATALOGUE_H
 
+#include "contour.h"
 #include "reflectors.h"
 #include "scenario.h"
 #include "sensing_target.h"
@@ -14,6 +15,7 @@ struct vehicle {
     double length_m, width_m, height_m; /* where an object of the class gives none */
     struct reflector_set reflectors;    /* worn_by is empty */
     enum sensing_target sensing_target; /* for glint-extract-3gpp */
+    struct contour contour;             /* for glint-extract-contour */
 };
 
 extern const struct record vehicle_record;
