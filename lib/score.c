@@ -103,7 +103,9 @@ const struct record score_line_record = {
 static const struct field summary_fields[] = {
     SUMMARY_HEAD(struct score_summary),
     {FIELD_REAL_IN(struct score_summary, cutoff, 0, 1e6, "in cells")},
-    {FIELD_REAL_IN(struct score_summary, azimuth_cell_rad, 0, 10, "taken for one cell")},
+    {FIELD_REAL_IN(struct score_summary, azimuth_cell_rad, 0, 10,
+                   "taken for one cell; absent: a twentieth of each field of view"),
+     FIELD_OPTIONAL},
     {FIELD_RECORD_OF(struct score_summary, all, &score_record, "over all sensors")},
     {FIELD_LIST_OF(struct score_summary, sensors, &score_record, "that measured, by name")},
     {0},

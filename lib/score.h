@@ -49,7 +49,7 @@ struct score_line {
 
 struct score_summary {
     int64_t frames, true_frames, listed_frames; /* on both sides, on one alone */
-    double cutoff, azimuth_cell_rad;
+    double cutoff, azimuth_cell_rad;            /* 0: by the fields of view */
     struct score all;
     LIST_OF(struct score) sensors;
 };

@@ -36,8 +36,7 @@ static int score_step(void *state, struct frame *frame, struct runner *runner)
         const struct sensor_view *view = &truth->sensors.list.items[i];
         if (!view->measured && !frame->sensors.list.items[i].measured)
             continue;
-        struct target_cell cell = {view->cell_range_m, own->azimuth_cell_rad,
-                                   view->cell_range_rate_mps, own->cutoff};
+        struct target_cell cell = target_score_cell(view, own->azimuth_cell_rad, own->cutoff);
         struct score_tally scan = {.sensor = view->name};
         target_score_scan(&scan, truth, frame, &cell, frame->arena);
         if (own->summary)
@@ -79,8 +78,8 @@ static const struct field score_options[] = {
                    "targets this many cells apart are no pair (absent: 2)"),
      FIELD_OPTIONAL, .absent = 2},
     {FIELD_REAL_IN(struct score_state, azimuth_cell_rad, 1e-6, 2 * PI,
-                   "what counts as one cell in azimuth (absent: 0.035, which is 2 degrees)"),
-     FIELD_OPTIONAL, .absent = 0.035},
+                   "what counts as one cell in azimuth (absent: a twentieth of the field of view)"),
+     FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct score_state, partial,
                    "count frames that only one side has instead of refusing them"),
      FIELD_OPTIONAL},

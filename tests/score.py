@@ -156,10 +156,12 @@ def turn(angle):
 
 
 def scan_targets(truth, listed, view, cutoff, azimuth_cell):
+    width = azimuth_cell or view["field_of_view_rad"] / 20
+
     def apart(a, b):
         return math.hypot((a["range_m"] - b["range_m"]) / view["cell_range_m"],
                           (a["range_rate_mps"] - b["range_rate_mps"]) / view["cell_range_rate_mps"],
-                          turn(a["azimuth_rad"] - b["azimuth_rad"]) / azimuth_cell)
+                          turn(a["azimuth_rad"] - b["azimuth_rad"]) / width)
 
     tally = Tally()
     pairs = tally.scan([[apart(a, b) for b in listed] for a in truth], truth, listed, cutoff)
@@ -210,7 +212,9 @@ def check_targets(bench, rng, source, suite, cutoff, azimuth_cell):
     rng.shuffle(shuffled)
     shuffled.sort(key=lambda frame: frame["frame"])
     bench.write("list.jsonl", shuffled)
-    command = f"glint-score --truth truth.jsonl list.jsonl --cutoff {cutoff} --azimuth-cell-rad {azimuth_cell}"
+    command = f"glint-score --truth truth.jsonl list.jsonl --cutoff {cutoff}"
+    if azimuth_cell is not None:
+        command += f" --azimuth-cell-rad {azimuth_cell}"
     lines = {(line["scene"], line["frame"]): line for line in bench.run(command)}
     check(len(lines) == len(truth), f"{source}: {len(lines)} lines for {len(truth)} frames")
     sensors = {}
@@ -319,7 +323,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="glint-score.") as folder:
         bench = Bench(sys.argv[1], folder)
         for source, suite, cutoff, azimuth_cell in (
-                ("glint-traffic-random --density medium --frames 60", "srr24-pair-every-frame", 2, 0.035),
+                ("glint-traffic-random --density medium --frames 60", "srr24-pair-every-frame", 2, None),
                 ("glint-traffic-random --density dense --frames 40 --seed 3", "corner77-every-frame", 20, 0.1),
                 ("glint-traffic cut-in", "corner77", 1, 0.02)):
             check_targets(bench, rng, source, suite, cutoff, azimuth_cell)
