@@ -111,7 +111,7 @@ static void add_pair(struct score_tally *tally, const struct target *truth,
         double apart = component(listed, which) - component(truth, which);
         if (which == SCORE_AZIMUTH)
             apart = units_wrap_rad(apart);
-        score_add(&tally->apart[which], apart, arena);
+        score_add(&tally->values[SCORE_APART][which], apart, arena);
     }
 }
 
@@ -138,6 +138,6 @@ void target_score_scan(struct score_tally *tally, const struct frame *truth,
         add_pair(tally, true_list.list.items[i], list.list.items[item_of[i]], arena);
     }
     score_count(tally, squares, pairs, rows, columns, cell->cutoff);
-    add_values(tally->truth, &true_list, arena);
-    add_values(tally->list, &list, arena);
+    add_values(tally->values[SCORE_TRUTH], &true_list, arena);
+    add_values(tally->values[SCORE_LISTED], &list, arena);
 }

@@ -42,7 +42,7 @@ static int score_step(void *state, struct frame *frame, struct runner *runner)
         if (own->summary)
             score_keep(&own->sensors, &scan, runner_arena(runner));
         else
-            *list_add(&line.sensors, frame->arena) = score_of(&scan, frame->arena);
+            *list_add(&line.sensors, frame->arena) = score_of(&scan, 1, frame->arena);
     }
     return own->summary ? 0 : runner_write_record(runner, &score_line_record, &line);
 }
@@ -104,7 +104,7 @@ const struct stage stage_score = {
         "is in cells, d^2 = (range / cell_range_m)^2 + (range rate / cell_range_rate_mps)^2 +\n"
         "(azimuth / azimuth_cell_rad)^2, with the cells of the truth's sensors. Frames that one\n"
         "side lacks are errors unless --partial is given. For the summary every value is kept,\n"
-        "about 100 bytes for each target.",
+        "half a kilobyte for each target. glint-score-tracks scores trackers.",
     .options = &score_state_record,
     .sink = true,
     .reads = SECTION_SENSORS | SECTION_TARGETS,

@@ -48,7 +48,7 @@ static struct score score_scan(const struct scene *truth, const struct scene *li
 {
     struct score_tally tally = {.sensor = "front"};
     target_score_scan(&tally, &truth->frame, &listed->frame, &cell, arena);
-    return score_of(&tally, arena);
+    return score_of(&tally, 1, arena);
 }
 
 static void assert_same_text(const struct score *one, const struct score *other)
@@ -188,7 +188,7 @@ static void tallies_add_up(void **state)
     target_score_scan(&far, &truth.frame, &one.frame, &cell, &arena);
     score_merge(&both, &near, &arena);
     score_merge(&both, &far, &arena);
-    struct score score = score_of(&both, &arena);
+    struct score score = score_of(&both, 1, &arena);
     assert_int_equal(score.scans, 2);
     assert_int_equal(score.true_count, 2);
     assert_int_equal(score.missed_count, 1);

@@ -125,12 +125,12 @@ static void a_track_three_and_four_metres_off_is_five_off(void **state)
     struct track_memory memory = {0};
     struct score_tally tally = {0};
     track_score_frame(&tally, &frame, &list, TRACK_TRUTH_IN_VIEW, NULL, 6, &memory, &arena);
-    struct score score = score_of(&tally, &arena);
+    struct score score = score_of(&tally, 1, &arena);
     assert_close(score.gospa, 5, 0);
     assert_close(score.differences[SCORE_POSITION].max, 5, 0);
     assert_close(score.differences[SCORE_VELOCITY].max, 2, 0);
     track_score_frame(&tally, &frame, &list, TRACK_TRUTH_IN_VIEW, NULL, 4, &memory, &arena);
-    score = score_of(&tally, &arena);
+    score = score_of(&tally, 1, &arena);
     assert_int_equal(score.pair_count, 1);
     assert_int_equal(score.missed_count, 1);
     assert_int_equal(score.false_count, 1);
