@@ -87,8 +87,8 @@ static void what_is_exactly_at_the_cutoff_is_no_pair(void **state)
     assert_close(answer.gospa.false_part, 2, 0);
 }
 
-/* Ten targets with a cut-off of 2: one moved by 1, one missing, one false, one of each, five missing;
- * and none, with one and ten false. */
+/* Ten targets with a cut-off of 2: one moved by 1, one missing, one false, one of each, five
+ * missing; and none, with one and ten false. */
 static void ten_targets_give_the_figures_of_the_definitions(void **state)
 {
     (void)state;
