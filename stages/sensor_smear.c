@@ -41,7 +41,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
                   const struct selection *selection)
 {
     struct reception reception = reception_begin(frame, sensor, selection->allowed);
-    struct scan scan = scan_receive(&reception, 0);
+    struct scan scan = scan_receive(&reception);
     bool merge = effects_may(selection, EFFECT_MERGING);
     size_t count = scan.resolved.count, together = merge ? count : 1;
     reception_note(&reception, selection);
@@ -82,6 +82,6 @@ const struct stage stage_sensor_smear = {
         "with --effects=-merging every echo is a cell of its own.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_ECHOES,
-    .writes = SECTION_CELLS | SECTION_LOST,
+    .writes = SECTION_CELLS | SECTION_LOST | SECTION_COUNTS,
     .step = sensor_smear_step,
 };
