@@ -16,7 +16,8 @@
     }
 #define DIFFERENCE(member, low, bit, help)                                                         \
     {                                                                                              \
-        FIELD_REAL_IN(struct score_differences, member, low, 1e300, help), .section = (bit)        \
+        FIELD_REAL_IN(struct score_differences, member, low, 1e300, help), FIELD_OPTIONAL,         \
+            .section = (bit)                                                                       \
     }
 
 static const struct field differences_fields[] = {
@@ -38,10 +39,10 @@ static const struct record differences_record = {
 
 #define COMPONENT(name_, which, help_)                                                             \
     {                                                                                              \
-        .name = (name_), .kind = FIELD_RECORD, .optional = true, .record = &differences_record,    \
-        .offset =                                                                                  \
-            offsetof(struct score, differences) + (which) * sizeof(struct score_differences),      \
-        .help = (help_)                                                                            \
+        FIELD_NAMED(name_), .kind = FIELD_RECORD, .optional = true, .record = &differences_record, \
+                            .offset = offsetof(struct score, differences) +                        \
+                                      (which) * sizeof(struct score_differences),                  \
+                            .help = (help_)                                                        \
     }
 
 static const struct field score_fields[] = {
@@ -59,12 +60,12 @@ static const struct field score_fields[] = {
     MEASURE(gospa_missed, "mean over the scans of half the squared cut-off for each missed one"),
     MEASURE(gospa_false, "mean over the scans of half the squared cut-off for each false one"),
     MEASURE(ospa, "mean over the scans"),
-    COMPONENT("range_m", SCORE_RANGE, "differences in range"),
-    COMPONENT("azimuth_rad", SCORE_AZIMUTH, "differences in azimuth"),
-    COMPONENT("range_rate_mps", SCORE_RANGE_RATE, "differences in range rate"),
-    COMPONENT("amplitude_db", SCORE_AMPLITUDE, "differences in amplitude"),
-    COMPONENT("position_m", SCORE_POSITION, "distances of tracks and objects"),
-    COMPONENT("velocity_mps", SCORE_VELOCITY, "sizes of their differences in velocity"),
+    COMPONENT(range_m, SCORE_RANGE, "differences in range"),
+    COMPONENT(azimuth_rad, SCORE_AZIMUTH, "differences in azimuth"),
+    COMPONENT(range_rate_mps, SCORE_RANGE_RATE, "differences in range rate"),
+    COMPONENT(amplitude_db, SCORE_AMPLITUDE, "differences in amplitude"),
+    COMPONENT(position_m, SCORE_POSITION, "distances of tracks and objects"),
+    COMPONENT(velocity_mps, SCORE_VELOCITY, "sizes of their differences in velocity"),
     {0},
 };
 

@@ -31,12 +31,15 @@ struct stage {
     const char *operand;
     bool sink;
     /* enum section. What a stage reads must be there; what it writes must not be there yet, unless
-     * it reads it too: then it changes it in place. */
+     * it reads it too: then it changes it in place. lost and counts are added to. Only what a stage
+     * writes is ordered and checked after its step, so it changes nothing else (test_runner). */
     unsigned reads, writes;
     int (*start)(void *state, struct runner *runner);
     int (*next)(void *state, struct frame *frame, struct runner *runner);
     int (*step)(void *state, struct frame *frame, struct runner *runner);
     int (*stop)(void *state, struct runner *runner); /* after the last frame; NULL: nothing */
+    /* Frees what a library made for the state, after a failure too; NULL: nothing. */
+    void (*release)(void *state);
 };
 
 /* For stages without options and without state. (These two records are in options.c.) */
