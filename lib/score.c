@@ -16,7 +16,8 @@
     }
 #define DIFFERENCE(member, low, bit, help)                                                         \
     {                                                                                              \
-        FIELD_REAL_IN(struct score_differences, member, low, 1e300, help), .section = (bit)        \
+        FIELD_REAL_IN(struct score_differences, member, low, 1e300, help), FIELD_OPTIONAL,         \
+            .section = (bit)                                                                       \
     }
 
 static const struct field differences_fields[] = {
