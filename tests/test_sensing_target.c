@@ -20,8 +20,8 @@ static double cross_section_dbsm(enum sensing_target target, double azimuth, dou
     sensing_target_describe(target, &set, &arena);
     for (size_t i = 0; i < set.points.count; i++) {
         const struct point_reflector *point = &set.points.items[i];
-        double factor = reflectors_visibility(&box, point->shape, point->facing_rad,
-                                              point->full_rad, point->zero_rad, middle, direction);
+        double factor =
+            reflectors_visibility(&box, point, vec2_heading(point->facing_rad), middle, direction);
         factor *= reflectors_lobe(&box, point, middle, direction, zenith * DEGREE);
         total_m2 += radar_cross_section_m2(factor * point->ercs);
     }
