@@ -28,6 +28,7 @@ static const char *const losses[] = {
     [LOSS_NO_ANGLE] = "no_angle",
     [LOSS_LIST_LIMIT] = "list_limit",
     [LOSS_SWITCHED_OFF] = "switched_off",
+    [LOSS_MASKED] = "masked",
     NULL,
 };
 
@@ -43,6 +44,7 @@ static const enum effect losing_effects[] = {
     [LOSS_NO_ANGLE] = EFFECT_SUPERPOSITION,
     [LOSS_LIST_LIMIT] = EFFECT_LIST_LIMIT,
     [LOSS_SWITCHED_OFF] = EFFECT_PLANE_REFLECTION,
+    [LOSS_MASKED] = EFFECT_MERGING,
 };
 
 /* 1e7 m is farther than any local frame reaches; 1e6 m is farther than any radar, and what noise

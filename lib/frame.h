@@ -173,6 +173,7 @@ enum loss {
     LOSS_NO_ANGLE,        /* both channels are exactly zero */
     LOSS_LIST_LIMIT,      /* the sensor reports no more targets than this */
     LOSS_SWITCHED_OFF,    /* the effect that would have made it is not selected */
+    LOSS_MASKED,          /* beside stronger ones it is no peak of the signal's spectrum */
 };
 
 struct lost_echo {

@@ -6,6 +6,7 @@
 #include "explain.h"
 #include "frame_check.h"
 #include "frame_order.h"
+#include "frame_text.h"
 
 struct arena *runner_arena(struct runner *runner)
 {
@@ -25,6 +26,15 @@ void runner_expect(struct runner *runner, int64_t frames)
 int runner_write(struct runner *runner, const char *bytes, size_t length)
 {
     return output_write(runner->output, bytes, length, &runner->diag);
+}
+
+int runner_write_record(struct runner *runner, const struct record *record, const void *base)
+{
+    struct text text = {0};
+    frame_text_write_record(record, base, &text);
+    int result = runner_write(runner, text.bytes, text.length);
+    text_free(&text);
+    return result;
 }
 
 /* A sensor that only the frame knows would lose its echoes without a word. */
@@ -66,6 +76,24 @@ const struct suite *runner_suite(struct runner *runner, const struct frame *fram
         return NULL;
     }
     return !seen || check_views(runner, frame, suite) == 0 ? suite : NULL;
+}
+
+static bool reads_standard_input(const struct runner *runner)
+{
+    for (size_t i = 0; i < runner->common.files.count; i++)
+        if (strcmp(runner->common.files.items[i], "-") == 0)
+            return true;
+    return runner->common.files.count == 0;
+}
+
+struct counterpart *runner_counterpart(struct runner *runner, const char *path, bool partial)
+{
+    if (strcmp(path, "-") == 0 && reads_standard_input(runner))
+        diag_fail(&runner->diag, DIAG_USAGE,
+                  "\"-\" is standard input, where the frames come from; name their file");
+    else if (runner->counterpart == NULL)
+        runner->counterpart = counterpart_open(path, partial, &runner->diag);
+    return runner->counterpart;
 }
 
 /* Members of a choice that were not given are -1. */
@@ -192,6 +220,9 @@ void runner_free(struct runner *runner)
 {
     for (size_t i = 0; i < runner->rehearsing.count; i++)
         runner_free(runner->rehearsing.items[i]);
+    counterpart_close(runner->counterpart);
+    if (runner->stage != NULL && runner->stage->release != NULL)
+        runner->stage->release(runner->state);
     arena_free(&runner->arena);
 }
 

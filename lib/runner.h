@@ -21,6 +21,7 @@ struct runner {
     int64_t expected_frames;             /* 0 if the source does not say */
     struct effect_log *log;              /* NULL unless --explain was given */
     LIST_OF(struct runner *) rehearsing; /* other stages, inside this one */
+    struct counterpart *counterpart;     /* NULL: none was asked for */
 };
 
 /* All return 0, or -1 after a message in runner->diag; runner_next returns 1 with a frame and 0 at
