@@ -448,8 +448,9 @@ static bool records_good(const struct record *record, const struct items *items,
                          struct field_names *names);
 
 static bool reals_good(const struct record *record, const struct field *field,
-                       const struct items *items)
+                       const struct items *items, struct field_names *names)
 {
+    (void)names;
     const char *item = items->first;
     const double low = field->low, high = field->high;
     for (size_t i = 0; i < items->count; i++, item += items->size) {
@@ -461,8 +462,9 @@ static bool reals_good(const struct record *record, const struct field *field,
 }
 
 static bool integers_good(const struct record *record, const struct field *field,
-                          const struct items *items)
+                          const struct items *items, struct field_names *names)
 {
+    (void)names;
     const char *item = items->first;
     for (size_t i = 0; i < items->count; i++, item += items->size) {
         double value = (double)LOAD(int64_t, field, item);
@@ -481,9 +483,10 @@ static bool is_name(const char *text)
     return check_name(&(struct field){0}, text, length, &ignored) == 0;
 }
 
-static bool names_good(const struct field *field, const struct items *items,
-                       struct field_names *names)
+static bool names_good(const struct record *record, const struct field *field,
+                       const struct items *items, struct field_names *names)
 {
+    (void)record;
     const char *item = items->first;
     for (size_t i = 0; i < items->count; i++, item += items->size) {
         const char *name = LOAD(const char *, field, item);
@@ -496,8 +499,8 @@ static bool names_good(const struct field *field, const struct items *items,
     return true;
 }
 
-static bool lists_good(const struct field *field, const struct items *items,
-                       struct field_names *names)
+static bool lists_good(const struct record *record, const struct field *field,
+                       const struct items *items, struct field_names *names)
 {
     static const struct field name = {.kind = FIELD_NAME};
     const char *item = items->first;
@@ -507,33 +510,31 @@ static bool lists_good(const struct field *field, const struct items *items,
         if (field->kind == FIELD_LIST)
             own.size = field->record->size;
         if (list.count > 0 &&
-            !(field->kind == FIELD_NAMES ? names_good(&name, &own, names)
+            !(field->kind == FIELD_NAMES ? names_good(record, &name, &own, names)
                                          : records_good(field->record, &own, ~0U, names)))
             return false;
     }
     return true;
 }
 
+static bool embedded_good(const struct record *record, const struct field *field,
+                          const struct items *items, struct field_names *names)
+{
+    (void)record;
+    const struct items embedded = {items->first + field->offset, items->size, items->count};
+    return records_good(field->record, &embedded, ~0U, names);
+}
+
 static bool members_good(const struct record *record, const struct field *field,
                          const struct items *items, struct field_names *names)
 {
-    switch (field->kind) {
-    case FIELD_REAL:
-        return reals_good(record, field, items);
-    case FIELD_INTEGER:
-        return integers_good(record, field, items);
-    case FIELD_NAME:
-        return names_good(field, items, names);
-    case FIELD_NAMES:
-    case FIELD_LIST:
-        return lists_good(field, items, names);
-    case FIELD_RECORD:
-        return records_good(
-            field->record, &(struct items){items->first + field->offset, items->size, items->count},
-            ~0U, names);
-    default:
-        return true;
-    }
+    static bool (*const looks[])(const struct record *, const struct field *, const struct items *,
+                                 struct field_names *) = {
+        [FIELD_REAL] = reals_good,  [FIELD_INTEGER] = integers_good, [FIELD_NAME] = names_good,
+        [FIELD_NAMES] = lists_good, [FIELD_RECORD] = embedded_good,  [FIELD_LIST] = lists_good,
+        [FIELD_NOTES] = NULL,
+    };
+    return looks[field->kind] == NULL || looks[field->kind](record, field, items, names);
 }
 
 /* Of a section only the items that have it. */
