@@ -44,7 +44,7 @@ static void add_block(struct arena *arena, size_t size)
     arena->used = 0;
 }
 
-void *arena_get(struct arena *arena, size_t size)
+void *arena_room(struct arena *arena, size_t size)
 {
     if (size > SIZE_MAX / 4)
         grant(NULL, size);
@@ -53,14 +53,20 @@ void *arena_get(struct arena *arena, size_t size)
         add_block(arena, size > BLOCK_SIZE ? size : BLOCK_SIZE);
     char *memory = (char *)(arena->blocks + 1) + arena->used;
     arena->used += size;
-    return memset(memory, 0, size);
+    return memory;
+}
+
+void *arena_get(struct arena *arena, size_t size)
+{
+    return memset(arena_room(arena, size), 0, size);
 }
 
 char *arena_text(struct arena *arena, const char *text, size_t length)
 {
-    char *copy = arena_get(arena, length + 1);
+    char *copy = arena_room(arena, length + 1);
     if (length > 0)
         memcpy(copy, text, length);
+    copy[length] = '\0';
     return copy;
 }
 
@@ -88,11 +94,13 @@ void arena_free(struct arena *arena)
 
 void *list_room(struct arena *arena, void *items, size_t count, size_t *room, size_t size)
 {
-    if (count < *room)
-        return items;
-    *room = count < 4 ? 8 : 2 * count;
-    void *larger = arena_get(arena, *room * size);
-    if (count > 0)
-        memcpy(larger, items, count * size);
-    return larger;
+    if (count == *room) {
+        *room = count < 4 ? 8 : 2 * count;
+        void *larger = arena_room(arena, *room * size);
+        if (count > 0)
+            memcpy(larger, items, count * size);
+        items = larger;
+    }
+    memset((char *)items + count * size, 0, size);
+    return items;
 }

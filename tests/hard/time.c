@@ -451,11 +451,13 @@ static void shuffle_echoes(uint64_t *random, struct frame *frame)
     }
 }
 
-/* The echoes, cells and targets that stages from to the last make of the chain's frame. */
+/* What stages from to the last make of the chain's frame: cells, targets, and echoes if not given.
+ */
 static void find_targets(struct hard_chain *chain, size_t from, struct text *text)
 {
     hard_chain_step(chain, from, CHAIN_STAGES - 1);
-    frame_drop(&chain->frame, SECTION_OBJECTS | SECTION_REFLECTORS);
+    frame_drop(&chain->frame,
+               SECTION_OBJECTS | SECTION_REFLECTORS | (from > 2 ? SECTION_ECHOES : 0));
     text->length = 0;
     hard_chain_write(chain, text);
 }
