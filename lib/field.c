@@ -60,9 +60,20 @@ static const void *member_of(const struct field *field, const void *base)
 #define STORE(type, field, base, value)                                                            \
     memcpy(member((field), (base)), &(type){(value)}, sizeof(type))
 
+static void set_all_absent(const struct record *record, void *base)
+{
+    for (const struct field *field = record->fields; field->name != NULL; field++)
+        if (field->absent != 0 || field->kind == FIELD_RECORD)
+            field_set_absent(field, base);
+}
+
 void field_set_absent(const struct field *field, void *base)
 {
-    if (field->kind == FIELD_REAL)
+    if (field->kind == FIELD_RECORD)
+        set_all_absent(field->record, member(field, base));
+    else if (field->absent == 0)
+        return;
+    else if (field->kind == FIELD_REAL)
         STORE(double, field, base, field->absent);
     else if (field->kind == FIELD_INTEGER)
         STORE(int64_t, field, base, (int64_t)field->absent);
@@ -70,15 +81,12 @@ void field_set_absent(const struct field *field, void *base)
         STORE(uint64_t, field, base, (uint64_t)field->absent);
     else if (field->kind == FIELD_CHOICE)
         STORE(int, field, base, (int)field->absent);
-    else if (field->kind == FIELD_RECORD)
-        field_clear(field->record, member(field, base));
 }
 
 void field_clear(const struct record *record, void *base)
 {
     memset(base, 0, record->size);
-    for (const struct field *field = record->fields; field->name != NULL; field++)
-        field_set_absent(field, base);
+    set_all_absent(record, base);
 }
 
 /* "1e6" for 1e+06; whole numbers in full. */

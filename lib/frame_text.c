@@ -288,10 +288,10 @@ int frame_text_read(const char *line, size_t length, struct frame *frame, struct
     return scan->at == scan->end ? 0 : json_scan_unexpected(scan, "the end of the line");
 }
 
-/* The writer's place in a text: at runs ahead of the text's length, which is set in the end. */
+/* The writer's place in a text, whose length is set in the end. */
 struct writer {
     struct text *text;
-    char *at;
+    char *at, *end;
 };
 
 /* A key, a number and the brackets around them. */
@@ -299,10 +299,12 @@ enum { MEMBER_ROOM = FIELD_KEY_SIZE + NUMBER_SIZE + 8 };
 
 static void make_room(struct writer *writer, size_t size)
 {
+    if ((size_t)(writer->end - writer->at) >= size)
+        return;
     struct text *text = writer->text;
     text->length = (size_t)(writer->at - text->bytes);
-    if (text->room - text->length < size)
-        writer->at = text_room(text, size);
+    writer->at = text_room(text, size);
+    writer->end = text->bytes + text->room;
 }
 
 static void write_record(const struct record *record, const void *base, struct writer *writer);
@@ -433,7 +435,8 @@ static void write_record(const struct record *record, const void *base, struct w
 int frame_text_write(const struct frame *frame, struct text *text, struct diag *diag)
 {
     size_t begin = text->length;
-    struct writer writer = {text, text_room(text, MEMBER_ROOM)};
+    char *at = text_room(text, MEMBER_ROOM);
+    struct writer writer = {text, at, text->bytes + text->room};
     write_record(&frame_record, frame, &writer);
     *writer.at++ = '\n';
     text->length = (size_t)(writer.at - text->bytes);
