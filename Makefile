@@ -102,7 +102,7 @@ under = $(subst -,_,$(patsubst $(BUILD)/bin/glint-%,%,$(1)))
 $(BUILD)/bin/glint-%: $(BUILD)/stages/$$(subst -,_,$$*).o $(BUILD)/main/$$(subst -,_,$$*).o \
     $(BUILD)/libstages.a $(BUILD)/libglint.a
 	@mkdir -p $(@D)
-	$(Q)$(LINK) -o $@ $^ $(LIBS)
+	$(Q)$(LINK) -o $@ $^ $(call libs_of,$(call under,$@)) $(LIBS)
 
 # The folder is the registry; the file is rewritten only when the list has changed.
 registry = { for s in $(stages); do echo "extern const struct stage stage_$$s;"; done; \
@@ -141,9 +141,13 @@ $(BUILD)/tests/soundness/planted_%: $(BUILD)/tests/soundness/planted_%.o $(sound
     $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
 	$(Q)$(LINK) $(call wraps,tests/soundness/planted_$*.c) -o $@ $^ $(stage_libs) $(LIBS)
 
-# For scripts/bench --functions: our functions beside libm's.
+# For scripts/bench: our functions beside libm's, the machine's floors, what a command spends.
 $(BUILD)/tests/speed/%: $(BUILD)/tests/speed/%.o $(BUILD)/libglint.a
-	$(Q)$(LINK) -o $@ $^ -lm
+	$(Q)$(LINK) -o $@ $^ -lz -lm
+$(BUILD)/tests/speed/floors: $(BUILD)/tests/speed/plain.o
+$(BUILD)/tests/speed/same_heap.so: tests/speed/same_heap.c
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -shared -fPIC -o $@ $< -ljansson
 
 $(BUILD)/tests/test_compare: $(BUILD)/tests/soundness/compare.o
 

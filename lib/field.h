@@ -158,6 +158,19 @@ int field_twice(const struct field *field, struct diag *diag);
 /* Everything in bounds, all the way down: what the reader would say to this struct. */
 int field_check(const struct record *record, const void *base, struct diag *diag);
 
+/* The same for several structs in a row, and of a record's own sections only for these. Names that
+ * were good are kept, by their addresses, and not looked at again: most of a frame's names are few
+ * pointers. */
+enum { FIELD_NAMES_KEPT = 128 };
+
+struct field_checking {
+    struct diag *diag;
+    const char *good[FIELD_NAMES_KEPT];
+};
+
+int field_check_sections(const struct record *record, const void *base, unsigned sections,
+                         struct field_checking *checking);
+
 /* A LIST_OF anything, seen without its type. */
 struct field_list {
     void *items;

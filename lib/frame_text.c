@@ -269,23 +269,36 @@ static int read_record(struct reader *reader, const struct record *record, void 
     }
 }
 
-int frame_text_read(const char *line, size_t length, struct frame *frame, struct diag *diag)
+static int no_record(struct json_scan *scan, const struct record *record)
 {
-    frame_clear(frame);
-    struct reader reader = {{line, line + length, frame->arena, diag},
-                            names_begin(frame->arena, length / BYTES_PER_NAME)};
+    char expected[64];
+    snprintf(expected, sizeof expected, "a %s", record->name);
+    return scan->at == scan->end
+               ? diag_fail(scan->diag, DIAG_DATA, "an empty line; expected %s", expected)
+               : json_scan_unexpected(scan, expected);
+}
+
+int frame_text_read_record(const char *line, size_t length, const struct record *record, void *base,
+                           struct arena *arena, struct diag *diag)
+{
+    struct reader reader = {{line, line + length, arena, diag},
+                            names_begin(arena, length / BYTES_PER_NAME)};
     struct json_scan *scan = &reader.scan;
-    char first = json_scan_peek(scan);
-    if (first != '{')
-        return scan->at == scan->end ? diag_fail(diag, DIAG_DATA, "an empty line; expected a frame")
-                                     : json_scan_unexpected(scan, "a frame");
-    if (read_record(&reader, &frame_record, frame) != 0) {
+    if (json_scan_peek(scan) != '{')
+        return no_record(scan, record);
+    if (read_record(&reader, record, base) != 0) {
         if (diag->text[0] == ':')
             memmove(diag->text, diag->text + 2, sizeof diag->text - 2);
         return -1;
     }
     json_scan_peek(scan);
     return scan->at == scan->end ? 0 : json_scan_unexpected(scan, "the end of the line");
+}
+
+int frame_text_read(const char *line, size_t length, struct frame *frame, struct diag *diag)
+{
+    frame_clear(frame);
+    return frame_text_read_record(line, length, &frame_record, frame, frame->arena, diag);
 }
 
 /* The writer's place in a text, whose length is set in the end. */
@@ -432,14 +445,19 @@ static void write_record(const struct record *record, const void *base, struct w
     *writer->at++ = '}';
 }
 
+void frame_text_write_record(const struct record *record, const void *base, struct text *text)
+{
+    char *at = text_room(text, MEMBER_ROOM);
+    struct writer writer = {text, at, text->bytes + text->room};
+    write_record(record, base, &writer);
+    *writer.at++ = '\n';
+    text->length = (size_t)(writer.at - text->bytes);
+}
+
 int frame_text_write(const struct frame *frame, struct text *text, struct diag *diag)
 {
     size_t begin = text->length;
-    char *at = text_room(text, MEMBER_ROOM);
-    struct writer writer = {text, at, text->bytes + text->room};
-    write_record(&frame_record, frame, &writer);
-    *writer.at++ = '\n';
-    text->length = (size_t)(writer.at - text->bytes);
+    frame_text_write_record(&frame_record, frame, text);
     size_t length = text->length - begin;
     if (length > FRAME_TEXT_SIZE) {
         text->length = begin;

@@ -23,6 +23,7 @@ enum random_purpose {
     RANDOM_WHEELS = 11,         /* of a wheel house: the same of points on its wheel */
     RANDOM_LIMBS = 12,          /* of a person: the same of arms and legs */
     RANDOM_CLUTTER = 13,        /* of a scan: the same of points on the ground */
+    RANDOM_SIGNAL = 14,         /* of a scan: noise on two samples of its signal */
 };
 
 struct random_address {

@@ -3,25 +3,27 @@
 #include "resolution.h"
 #include "sort.h"
 
-static void receive(struct scan *scan)
+struct scan scan_receive(const struct reception *reception)
 {
-    const struct frame *frame = scan->reception.frame;
-    struct echo_span echoes = frame_echoes_of(frame, scan->reception.sensor->name);
-    struct echo_span scatterers = scatterers_of(&scan->reception);
+    struct scan scan = {.reception = *reception};
+    const struct frame *frame = reception->frame;
+    struct echo_span echoes = frame_echoes_of(frame, reception->sensor->name);
+    struct echo_span scatterers = scatterers_of(reception);
     size_t all = echoes.count + scatterers.count, count = all;
     struct ray *rays = arena_get(frame->arena, (all + 1) * sizeof *rays);
     for (size_t i = 0; i < echoes.count; i++)
-        rays[i] = reception_ray(&scan->reception, &echoes.items[i]);
+        rays[i] = reception_ray(reception, &echoes.items[i]);
     for (size_t i = 0; i < scatterers.count; i++)
-        rays[echoes.count + i] = reception_ray(&scan->reception, &scatterers.items[i]);
+        rays[echoes.count + i] = reception_ray(reception, &scatterers.items[i]);
     sort_items(rays, count, sizeof *rays, superposition_compare, frame->arena);
     while (count > 0 && !(rays[count - 1].amplitude > 0))
         count--;
-    scan->scatterers = scatterers;
-    scan->resolved.rays = rays;
-    scan->resolved.count = count;
-    scan->silent = rays + count;
-    scan->silent_count = all - count;
+    scan.scatterers = scatterers;
+    scan.resolved.rays = rays;
+    scan.resolved.count = count;
+    scan.silent = rays + count;
+    scan.silent_count = all - count;
+    return scan;
 }
 
 static void resolve(struct scan *scan, const struct selection *selection)
@@ -54,9 +56,9 @@ static void resolve(struct scan *scan, const struct selection *selection)
 struct scan scan_make(const struct reception *reception, const struct selection *selection,
                       uint64_t without)
 {
-    struct scan scan = {.reception = *reception};
-    scan.reception.effects &= ~without;
-    receive(&scan);
+    struct reception part = *reception;
+    part.effects &= ~without;
+    struct scan scan = scan_receive(&part);
     resolve(&scan, selection);
     return scan;
 }

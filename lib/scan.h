@@ -15,6 +15,9 @@ struct scan {
     size_t silent_count;
 };
 
+/* Receives the echoes, and resolves none of them. Memory comes from the frame's arena. */
+struct scan scan_receive(const struct reception *reception);
+
 /* Receives the echoes and resolves them, with all effects of the reception but those of without;
  * merging may be left out where no two rays are close. Memory comes from the frame's arena. */
 struct scan scan_make(const struct reception *reception, const struct selection *selection,

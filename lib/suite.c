@@ -128,6 +128,9 @@ static const struct field sensor_fields[] = {
     {REAL(azimuth_step_rad, 0, PI, "reported in multiples of this; 0: exactly"), FIELD_OPTIONAL},
     {CHOICE(list_order, orders, "which targets come first, and stay if there are too many")},
     {FIELD_INTEGER_IN(struct sensor, list_limit, 0, 1e6, "most targets in a list; 0: all")},
+    {FIELD_RECORD_OF(struct sensor, waveform, &waveform_record,
+                     "its signal, for glint-sensor-signal"),
+     FIELD_OPTIONAL},
     {.name = "sources",
      .kind = FIELD_NOTES,
      .optional = true,
@@ -212,5 +215,9 @@ int suite_check(const struct sensor *sensor, struct diag *diag)
         return diag_fail(diag, DIAG_CONFIG, "radome_period_rad: missing; radome_bias_rad needs it");
     if (sensor->elevation_half_width_rad > 0 && !(sensor->mount_z_m > 0))
         return diag_fail(diag, DIAG_CONFIG, "elevation_half_width_rad: goes with mount_z_m");
+    const char *fault =
+        waveform_fault(&sensor->waveform, sensor->cell_range_m, sensor->range_max_m);
+    if (fault != NULL)
+        return diag_fail(diag, DIAG_CONFIG, "waveform.%s", fault);
     return 0;
 }

@@ -12,6 +12,7 @@
 #include "monopulse.h"
 #include "polarization.h"
 #include "radar_equation.h"
+#include "waveform.h"
 
 enum cell_extent { CELL_WIDTH, CELL_HALF_WIDTH };
 enum cell_phase { CELL_IN_PHASE, CELL_RANDOM_PHASE, CELL_PHASE_BY_PATH };
@@ -61,6 +62,7 @@ struct sensor {
     double range_step_m, range_rate_step_mps, azimuth_step_rad;
     enum list_order list_order;
     int64_t list_limit;
+    struct waveform waveform;
 
     struct radar_equation amplitude_law;
     struct antenna antenna;

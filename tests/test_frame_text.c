@@ -272,7 +272,7 @@ static void faults_are_named_with_their_path_value_and_expectation(void **state)
          "seed: a number; expected a string of digits"},
         {"\"path\":\"direct\"", "\"path\":\"bounce\"",
          "echoes[0].path: \"bounce\" is unknown; expected one of direct, "
-         "wall_object, object_wall, wall_object_wall, object_wall_object, object_ego_object, "
+         "wall_object, object_wall, wall_object_wall, "
          "wheel, limb, clutter, false_alarm"},
         {"\"shape\":\"linear\"", "\"shape\":\"flat\"",
          "reflectors[0].points[0].shape: \"flat\" is unknown; expected one of raised_cosine, "
@@ -290,7 +290,7 @@ static void faults_are_named_with_their_path_value_and_expectation(void **state)
         {"\"reason\":\"blocked\"", "\"reason\":[]",
          "lost[0].reason: an array; expected one of facing_away, no_specular_point, "
          "out_of_range, out_of_view, blocked, no_amplitude, below_threshold, "
-         "below_final_threshold, no_angle, list_limit, switched_off"},
+         "below_final_threshold, no_angle, list_limit, switched_off, masked"},
         {"\"counts\":[{", "\"counts\":[7,{", "counts[0]: a number; expected an object"},
         {"\"sensors\":{", "\"sensors\":[{", "sensors: an array; expected an object"},
         {"\"objects\":[", "\"objects\":{", "objects: an object; expected an array of objects"},

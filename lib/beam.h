@@ -1,0 +1,34 @@
+/* Directions from a uniform line of receiving elements (EFFECTS 11): the beam that is formed for
+ * the sine s of an azimuth is B(s) = |sum over elements of x_a exp(-j 2 pi spacing (a - middle) s)|
+ * divided by their number, so that one echo of amplitude A has a peak of A where it stands. */
+#ifndef BEAM_H
+#define BEAM_H
+
+#include "kernel.h"
+
+enum { BEAM_MOST_ELEMENTS = 64, BEAM_MOST_PEAKS = 16 };
+
+struct beam_array {
+    size_t elements; /* at most BEAM_MOST_ELEMENTS */
+    double spacing;  /* in wavelengths */
+};
+
+struct beam_peak {
+    double sine, amplitude;
+};
+
+/* What the element receives of an echo of amplitude 1 and phase 0 in the array's middle. */
+struct phasor beam_response(const struct beam_array *array, double sine, size_t element);
+
+/* |sin(N x)/(N sin x)|, x = pi spacing times the distance of two sines: how much of an echo a beam
+ * beside it shows. */
+double beam_kernel(const struct beam_array *array, double distance);
+
+/* The peaks of B between sines of -limit and limit, strongest first, that are at least `least` in
+ * amplitude and less than 10 dB below the strongest: side lobes are 13 dB below. The elements'
+ * samples are stride apart. Returns how many there are, at most BEAM_MOST_PEAKS; where B only falls
+ * or rises there is none. */
+size_t beam_peaks(const struct beam_array *array, const struct phasor *samples, size_t stride,
+                  double limit, double least, struct beam_peak *peaks);
+
+#endif

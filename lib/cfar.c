@@ -1,0 +1,67 @@
+#include "cfar.h"
+
+#include <math.h>
+
+#include "elementary.h"
+
+static double ordered_false_alarm(size_t cells, size_t rank, double factor)
+{
+    double probability = 1;
+    for (size_t i = 0; i < rank; i++) {
+        double rest = (double)(cells - i);
+        probability *= rest / (rest + factor);
+    }
+    return probability;
+}
+
+static double ordered_factor(size_t cells, size_t rank, double false_alarm)
+{
+    double low = 0, high = 1;
+    while (ordered_false_alarm(cells, rank, high) > false_alarm)
+        high *= 2;
+    for (double middle = high / 2; middle > low && middle < high; middle = low + (high - low) / 2)
+        *(ordered_false_alarm(cells, rank, middle) > false_alarm ? &low : &high) = middle;
+    return high;
+}
+
+double cfar_factor(enum cfar_kind kind, size_t cells, size_t rank, double false_alarm)
+{
+    if (kind == CFAR_ORDERED)
+        return ordered_factor(cells, rank, false_alarm);
+    return (double)cells * (elementary_pow(false_alarm, -1 / (double)cells) - 1);
+}
+
+/* Cells in ascending order, by insertion: they are few. */
+static double smallest(double *values, size_t count, size_t rank)
+{
+    for (size_t i = 1; i < count; i++) {
+        double value = values[i];
+        size_t place = i;
+        for (; place > 0 && values[place - 1] > value; place--)
+            values[place] = values[place - 1];
+        values[place] = value;
+    }
+    return values[rank - 1];
+}
+
+static double mean(const double *values, size_t count)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += values[i];
+    return sum / (double)count;
+}
+
+double cfar_threshold(const struct cfar *cfar, const double *power, size_t count, size_t stride,
+                      size_t at)
+{
+    double window[CFAR_MOST_CELLS];
+    for (size_t i = 0; i < cfar->cells / 2; i++) {
+        size_t away = cfar->guard + 1 + i;
+        window[2 * i] = power[(at + count - away) % count * stride];
+        window[2 * i + 1] = power[(at + away) % count * stride];
+    }
+    double noise = cfar->kind == CFAR_ORDERED ? smallest(window, cfar->cells, cfar->rank)
+                                              : mean(window, cfar->cells);
+    return cfar->factor * noise;
+}

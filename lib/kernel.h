@@ -1,0 +1,44 @@
+/* What one echo looks like along one axis of a signal's spectrum: its amplitude over the distance
+ * from it, in bins, 1 at the echo itself (EFFECTS 4b, 11).
+ *
+ * KERNEL_HANN and KERNEL_RECTANGULAR come out of a Fourier transform of as many samples as there
+ * are bins, weighted by that window; with their phases counted from the middle sample, kernels are
+ * real and change sign from bin to bin. KERNEL_PULSE is sampled as it is received: a Gaussian whose
+ * amplitude has its half at two bins to both sides. */
+#ifndef KERNEL_H
+#define KERNEL_H
+
+#include <stddef.h>
+
+enum kernel { KERNEL_HANN, KERNEL_RECTANGULAR, KERNEL_PULSE };
+
+/* A complex number as libraries for transforms have them. */
+struct phasor {
+    double re, im;
+};
+
+/* The window's weight of sample n of count, periodic; all together they sum to 1. Not for
+ * KERNEL_PULSE. */
+double kernel_weight(enum kernel kernel, size_t n, size_t count);
+
+/* RMS of a bin for independent samples of RMS 1: sqrt(ENBW / count), ENBW 1.5 for Hann, 1 else. */
+double kernel_noise(enum kernel kernel, size_t count);
+
+/* sinc d, sinc d / (1 - d^2) or 2^-(d/2)^2, for every d. */
+double kernel_value(enum kernel kernel, double bins);
+
+/* A bound on the size of kernel_value that falls with |bins| and is 1 within the main lobe. */
+double kernel_envelope(enum kernel kernel, double bins);
+
+/* Where the kernel is down to a half. */
+double kernel_half_width(enum kernel kernel);
+
+/* How far from bin `at` an echo stands, from that bin and the two beside it, of channels that see
+ * the same echo, `stride` samples apart. Exact for one echo alone: d = Re (B - A)/(2 X - A - B) for
+ * neighbours B before and A after, twice that for Hann, and the vertex of a parabola through
+ * logarithms for pulses. Within [-3/4, 3/4]: an echo beyond has a greater bin next to it. 0 where
+ * nothing is received. */
+double kernel_offset(enum kernel kernel, const struct phasor *before, const struct phasor *at,
+                     const struct phasor *after, size_t channels, size_t stride);
+
+#endif

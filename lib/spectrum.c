@@ -1,0 +1,146 @@
+#include "spectrum.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+#include "sort.h"
+
+/* How far noise and other echoes may lift a side lobe. */
+#define SIDE_LOBE_MARGIN 2
+
+struct peak_list {
+    LIST_OF(struct spectrum_peak) list;
+};
+
+void spectrum_power(struct spectrum *spectrum, struct arena *arena)
+{
+    size_t bins = spectrum->range_bins * spectrum->rate_bins;
+    spectrum->power = arena_get(arena, bins * sizeof *spectrum->power);
+    for (size_t channel = 0; channel < spectrum->detecting; channel++) {
+        const struct phasor *samples = spectrum->samples + channel * bins;
+        for (size_t i = 0; i < bins; i++)
+            spectrum->power[i] += samples[i].re * samples[i].re + samples[i].im * samples[i].im;
+    }
+    for (size_t i = 0; i < bins; i++)
+        spectrum->power[i] /= (double)spectrum->detecting;
+}
+
+/* Of neighbours with the very same power the first one is the peak. */
+static bool is_summit(const struct spectrum *spectrum, size_t rate_bin, size_t range_bin)
+{
+    size_t width = spectrum->range_bins, height = spectrum->rate_bins;
+    double power = spectrum->power[rate_bin * width + range_bin];
+    for (size_t down = 0; down < 3; down++)
+        for (size_t along = 0; along < 3; along++) {
+            size_t row = (rate_bin + height + down - 1) % height;
+            size_t column = (range_bin + width + along - 1) % width;
+            double other = spectrum->power[row * width + column];
+            bool before = down * 3 + along < 4;
+            if (other > power || (other == power && before))
+                return false;
+        }
+    return true;
+}
+
+static double signed_bin(size_t bin, size_t bins)
+{
+    return bin < bins / 2 ? (double)bin : (double)bin - (double)bins;
+}
+
+static struct spectrum_peak peak_at(const struct spectrum *spectrum, size_t rate_bin,
+                                    size_t range_bin)
+{
+    size_t width = spectrum->range_bins, height = spectrum->rate_bins, stride = width * height;
+    const struct phasor *row = spectrum->samples + rate_bin * width;
+    const struct phasor *at = row + range_bin;
+    double range = kernel_offset(spectrum->range_kernel, row + (range_bin + width - 1) % width, at,
+                                 row + (range_bin + 1) % width, spectrum->detecting, stride);
+    const struct phasor *column = spectrum->samples + range_bin;
+    double rate =
+        kernel_offset(spectrum->rate_kernel, column + (rate_bin + height - 1) % height * width, at,
+                      column + (rate_bin + 1) % height * width, spectrum->detecting, stride);
+    double gain =
+        kernel_value(spectrum->range_kernel, range) * kernel_value(spectrum->rate_kernel, rate);
+    return (struct spectrum_peak){
+        .range_bin = range_bin,
+        .rate_bin = rate_bin,
+        .range = (double)range_bin + range,
+        .rate = signed_bin(rate_bin, height) + rate,
+        .gain = gain,
+        .amplitude = sqrt(spectrum->power[rate_bin * width + range_bin]) / gain,
+    };
+}
+
+static int compare_peaks(const void *left, const void *right)
+{
+    const struct spectrum_peak *a = left, *b = right;
+    if (a->amplitude != b->amplitude)
+        return a->amplitude > b->amplitude ? -1 : 1;
+    if (a->range_bin != b->range_bin)
+        return a->range_bin < b->range_bin ? -1 : 1;
+    return (a->rate_bin > b->rate_bin) - (a->rate_bin < b->rate_bin);
+}
+
+double spectrum_distance(double to, double from, size_t bins)
+{
+    return remainder(to - from, (double)bins);
+}
+
+static bool is_side_lobe(const struct spectrum *spectrum, const struct spectrum_peak *peak,
+                         const struct spectrum_peak *stronger)
+{
+    double range = spectrum_distance(peak->range, stronger->range, spectrum->range_bins);
+    double rate = spectrum_distance(peak->rate, stronger->rate, spectrum->rate_bins);
+    double most = stronger->amplitude * kernel_envelope(spectrum->range_kernel, range) *
+                  kernel_envelope(spectrum->rate_kernel, rate);
+    return peak->amplitude < SIDE_LOBE_MARGIN * most;
+}
+
+static size_t drop_side_lobes(const struct spectrum *spectrum, struct spectrum_peak *peaks,
+                              size_t count)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++) {
+        bool hidden = false;
+        for (size_t j = 0; j < kept && !hidden; j++)
+            hidden = is_side_lobe(spectrum, &peaks[i], &peaks[j]);
+        if (!hidden)
+            peaks[kept++] = peaks[i];
+    }
+    return kept;
+}
+
+size_t spectrum_peaks(const struct spectrum *spectrum, const struct cfar *cfar, double threshold,
+                      struct arena *arena, struct spectrum_peak **peaks)
+{
+    size_t width = spectrum->range_bins;
+    struct peak_list found = {{NULL, 0, 0}};
+    /* No bin is farther from its peak than half a bin on both axes, but for noise. */
+    double loss = kernel_value(spectrum->range_kernel, 0.5) *
+                  kernel_value(spectrum->rate_kernel, 0.5) / SIDE_LOBE_MARGIN;
+    double least = threshold * threshold * loss * loss;
+    for (size_t row = 0; row < spectrum->rate_bins; row++) {
+        const double *power = spectrum->power + row * width;
+        for (size_t column = 0; column < width; column++) {
+            if (!(power[column] >= least) || !is_summit(spectrum, row, column) ||
+                power[column] <
+                    cfar_threshold(cfar, spectrum->power + column, spectrum->rate_bins, width, row))
+                continue;
+            struct spectrum_peak peak = peak_at(spectrum, row, column);
+            if (peak.amplitude >= threshold)
+                *list_add(&found.list, arena) = peak;
+        }
+    }
+    sort_items(found.list.items, found.list.count, sizeof *found.list.items, compare_peaks, arena);
+    *peaks = found.list.items;
+    return drop_side_lobes(spectrum, found.list.items, found.list.count);
+}
+
+double spectrum_amplitude(const struct spectrum *spectrum, double range, double rate)
+{
+    size_t width = spectrum->range_bins, height = spectrum->rate_bins;
+    double column = round(range), row = round(rate);
+    column -= (double)width * floor(column / (double)width);
+    row -= (double)height * floor(row / (double)height);
+    return sqrt(spectrum->power[(size_t)row * width + (size_t)column]);
+}

@@ -1,0 +1,73 @@
+#include "waveform.h"
+
+static const char *const kinds[] = {[WAVEFORM_CHIRP] = "chirp", [WAVEFORM_PULSE] = "pulse", NULL};
+static const char *const windows[] = {
+    [KERNEL_HANN] = "hann", [KERNEL_RECTANGULAR] = "rectangular", NULL};
+static const char *const cfars[] = {[CFAR_ORDERED] = "ordered", [CFAR_MEAN] = "mean", NULL};
+
+#define INTEGER(member, low, high, help) FIELD_INTEGER_IN(struct waveform, member, low, high, help)
+#define REAL(member, low, high, help) FIELD_REAL_IN(struct waveform, member, low, high, help)
+#define CHOICE(member, choices, help) FIELD_CHOICE_OF(struct waveform, member, choices, help)
+
+static const struct field waveform_fields[] = {
+    {CHOICE(kind, kinds, "a chirp that is mixed with itself, or a pulse")},
+    {INTEGER(samples, 16, 4096,
+             "of one chirp, as many as range cells; of one pulse, four to a range cell")},
+    {INTEGER(repetitions, 16, 4096, "chirps or pulses of a scan, as many as range rate cells")},
+    {INTEGER(elements, 2, 64, "receivers in a row; absent: the antenna's sum and delta channel"),
+     FIELD_OPTIONAL},
+    {REAL(spacing, 0.1, 100, "of the elements, in wavelengths"), FIELD_OPTIONAL, .absent = 0.5},
+    {CHOICE(window, windows, "before the transforms"), FIELD_OPTIONAL},
+    {CHOICE(cfar, cfars, "noise around a cell is the mean of its neighbours, or one by its rank"),
+     FIELD_OPTIONAL},
+    {INTEGER(cfar_cells, 2, CFAR_MOST_CELLS, "neighbours in range rate, half of them on each side"),
+     FIELD_OPTIONAL, .absent = 16},
+    {INTEGER(cfar_guard, 0, 64, "cells between them and the cell, on each side"), FIELD_OPTIONAL,
+     .absent = 2},
+    {INTEGER(cfar_rank, 1, CFAR_MOST_CELLS, "for the rank: from 1, the weakest neighbour"),
+     FIELD_OPTIONAL, .absent = 12},
+    {REAL(cfar_false_alarm, 1e-12, 0.5, "probability that noise alone stands out that far"),
+     FIELD_OPTIONAL, .absent = 1e-4},
+    {0},
+};
+
+const struct record waveform_record = {
+    .name = "waveform",
+    .help = "How the signal is made and searched.",
+    .size = sizeof(struct waveform),
+    .fields = waveform_fields,
+};
+
+double waveform_range_step_m(const struct waveform *waveform, double cell_range_m)
+{
+    return waveform->kind == WAVEFORM_PULSE ? cell_range_m / 4 : cell_range_m;
+}
+
+const char *waveform_fault(const struct waveform *waveform, double cell_range_m, double range_max_m)
+{
+    double reach_m = (double)waveform->samples * waveform_range_step_m(waveform, cell_range_m);
+    if (waveform->samples == 0)
+        return NULL;
+    if (reach_m < range_max_m)
+        return "samples: too few for range_max_m; it needs one per cell_range_m of a chirp, four "
+               "of a pulse";
+    if (waveform->cfar_cells % 2 != 0)
+        return "cfar_cells: expected an even number";
+    if (waveform->cfar == CFAR_ORDERED && waveform->cfar_rank > waveform->cfar_cells)
+        return "cfar_rank: above cfar_cells";
+    if (waveform->cfar_cells + 2 * waveform->cfar_guard >= waveform->repetitions)
+        return "cfar_cells: more neighbours than repetitions";
+    return NULL;
+}
+
+struct cfar waveform_cfar(const struct waveform *waveform)
+{
+    size_t cells = (size_t)waveform->cfar_cells, rank = (size_t)waveform->cfar_rank;
+    return (struct cfar){
+        .kind = waveform->cfar,
+        .cells = cells,
+        .guard = (size_t)waveform->cfar_guard,
+        .rank = rank,
+        .factor = cfar_factor(waveform->cfar, cells, rank, waveform->cfar_false_alarm),
+    };
+}

@@ -1,0 +1,37 @@
+/* How a radar makes its signal, for glint-sensor-signal: the member `waveform` of a sensor's
+ * document. Its resolution is that of the document's cells: chirps of bandwidth c/(2 cell_range_m),
+ * or pulses that are cell_range_m wide at half their amplitude, over a time of wavelength/(2
+ * cell_range_rate_mps). */
+#ifndef WAVEFORM_H
+#define WAVEFORM_H
+
+#include "cfar.h"
+#include "field.h"
+#include "kernel.h"
+
+enum waveform_kind { WAVEFORM_CHIRP, WAVEFORM_PULSE };
+
+struct waveform {
+    enum waveform_kind kind;
+    int64_t samples;     /* 0: no waveform is described */
+    int64_t repetitions; /* of the chirp, or of the pulse */
+    int64_t elements;    /* 0: the sum and delta channels of the antenna */
+    double spacing;
+    enum kernel window;
+    enum cfar_kind cfar;
+    int64_t cfar_cells, cfar_guard, cfar_rank;
+    double cfar_false_alarm;
+};
+
+extern const struct record waveform_record;
+
+/* How far apart its range bins are. */
+double waveform_range_step_m(const struct waveform *waveform, double cell_range_m);
+
+/* What stands wrong together, as "member: why", or NULL, also if there is no waveform. */
+const char *waveform_fault(const struct waveform *waveform, double cell_range_m,
+                           double range_max_m);
+
+struct cfar waveform_cfar(const struct waveform *waveform);
+
+#endif

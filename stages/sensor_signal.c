@@ -1,0 +1,166 @@
+/* The signal itself instead of a model of its cells: samples of every receiver, transformed and
+ * searched for peaks as a radar does it (MODEL 11.2; EFFECTS 11). */
+/* needs: fftw3 */
+#include <fftw3.h>
+
+#include "address.h"
+#include "disturbance.h"
+#include "false_alarms.h"
+#include "interference.h"
+#include "scan.h"
+#include "sightings.h"
+#include "stage.h"
+
+/* A transform of one sensor's channels, in place, with a positive exponent. */
+struct transform {
+    struct signal signal;
+    fftw_plan plan;
+};
+
+struct sensor_signal {
+    struct suite_choice choice; /* first: its options are the stage's */
+    LIST_OF(struct transform) transforms;
+};
+
+/* Over both axes of chirps, over repetitions alone of pulses. FFTW_UNALIGNED leaves the plan no
+ * choice that depends on addresses or on the CPU's vectors. */
+static fftw_plan plan_of(const struct signal *signal)
+{
+    bool pulses = signal->sensor->waveform.kind == WAVEFORM_PULSE;
+    int bins[] = {(int)signal->repetitions, (int)signal->samples};
+    fftw_complex *cube = (fftw_complex *)signal->cube;
+    return fftw_plan_many_dft(pulses ? 1 : 2, bins, pulses ? bins[1] : 1, cube, NULL,
+                              pulses ? bins[1] : 1, 1, cube, NULL, pulses ? bins[1] : 1, 1,
+                              FFTW_BACKWARD, FFTW_ESTIMATE | FFTW_UNALIGNED);
+}
+
+static struct transform *transform_of(struct sensor_signal *own, const struct sensor *sensor,
+                                      struct runner *runner)
+{
+    for (size_t i = 0; i < own->transforms.count; i++)
+        if (own->transforms.items[i].signal.sensor == sensor)
+            return &own->transforms.items[i];
+    struct arena *arena = runner_arena(runner);
+    struct signal signal = signal_of(sensor);
+    signal.cube = arena_get(arena, signal_size(&signal) * sizeof *signal.cube);
+    signal.row = arena_get(arena, signal.samples * sizeof *signal.row);
+    struct transform *transform = list_add(&own->transforms, arena);
+    *transform = (struct transform){signal, plan_of(&signal)};
+    return transform;
+}
+
+/* The signal of a scan, and its spectrum in its place. */
+static void synthesise(const struct transform *transform, const struct scan *scan, double sigma)
+{
+    const struct signal *signal = &transform->signal;
+    const struct reception *reception = &scan->reception;
+    struct contributor noise = false_alarms_contributor(0);
+    struct random_address address =
+        address_of(reception->frame, reception->sensor->name, SUBJECT_OF(&noise));
+    signal_clear(signal);
+    for (size_t i = 0; i < scan->resolved.count; i++)
+        signal_add(signal, &scan->resolved.rays[i]);
+    if (sigma > 0)
+        signal_add_noise(signal, &address, sigma);
+    signal_weigh(signal);
+    for (size_t channel = 0; channel < signal->channels; channel++) {
+        struct phasor *samples = signal->cube + channel * signal->samples * signal->repetitions;
+        fftw_execute_dft(transform->plan, (fftw_complex *)samples, (fftw_complex *)samples);
+    }
+}
+
+static void list_targets(struct frame *frame, const struct disturbance *by,
+                         const struct sightings *sightings)
+{
+    size_t first = frame->targets.count, count = sightings->list.count;
+    struct reading *readings = arena_get(frame->arena, (count + 1) * sizeof *readings);
+    for (size_t i = 0; i < count; i++) {
+        readings[i] = sightings_reading(&sightings->list.items[i]);
+        disturbance_azimuth(by, &readings[i]);
+    }
+    readings_list(frame, "sensor-signal", by->sensor, readings, count, by->list_limit);
+    for (size_t i = first; i < frame->targets.count && by->steps; i++)
+        readings_round(&frame->targets.items[i], by->sensor);
+}
+
+static void sense(struct frame *frame, const struct transform *transform,
+                  const struct selection *selection)
+{
+    const struct sensor *sensor = transform->signal.sensor;
+    struct reception reception = reception_begin(frame, sensor, selection->allowed);
+    struct disturbance by = disturbance_of(sensor, selection);
+    struct scan scan = scan_receive(&reception);
+    double rise = interference_noise_factor(reception.interference);
+    reception_note(&reception, selection);
+    scatterers_count(frame, sensor->name, scan.scatterers);
+    for (size_t i = 0; i < scan.silent_count; i++)
+        frame_lose_subject(frame, "sensor-signal", sensor->name, &scan.silent[i].echo,
+                           LOSS_NO_AMPLITUDE);
+    synthesise(transform, &scan, by.pointers ? sensor->pointer_sigma * rise : 0);
+    struct spectrum spectrum = signal_spectrum(&transform->signal);
+    spectrum_power(&spectrum, frame->arena);
+    struct sightings sightings =
+        sightings_of(&transform->signal, &spectrum, sensor->threshold * rise, frame->arena);
+    sightings_label(&sightings, frame, "sensor-signal", scan.resolved.rays, scan.resolved.count,
+                    reception.time_s);
+    list_targets(frame, &by, &sightings);
+    effects_count_scan(selection);
+}
+
+static int sensor_signal_step(void *state, struct frame *frame, struct runner *runner)
+{
+    struct sensor_signal *own = state;
+    struct selection selection;
+    const struct suite *suite = runner_suite(runner, frame, own->choice.sensors);
+    if (suite == NULL || runner_selection(runner, frame, &own->choice, &selection) != 0)
+        return -1;
+    for (size_t i = 0; i < suite->sensors.count; i++) {
+        const struct sensor *sensor = &suite->sensors.items[i];
+        if (sensor->waveform.samples == 0)
+            return diag_fail(runner_diag(runner), DIAG_CONFIG,
+                             "sensor \"%s\" of \"%s\" has no waveform, which its signal needs",
+                             sensor->name, suite->name);
+        if (frame_view(frame, sensor->name)->measured)
+            sense(frame, transform_of(own, sensor, runner), &selection);
+    }
+    return 0;
+}
+
+static void sensor_signal_release(void *state)
+{
+    struct sensor_signal *own = state;
+    for (size_t i = 0; i < own->transforms.count; i++)
+        fftw_destroy_plan(own->transforms.items[i].plan);
+}
+
+static const struct field sensor_signal_fields[] = {
+    {FIELD_NAME_OF(struct suite_choice, sensors, "sensor suite: a name in sensors/, or a path"),
+     FIELD_OPTIONAL},
+    SUITE_CHOICE_EFFECTS,
+    {0},
+};
+
+static const struct record sensor_signal_options = {
+    .name = "options",
+    .size = sizeof(struct sensor_signal),
+    .fields = sensor_signal_fields,
+};
+
+const struct stage stage_sensor_signal = {
+    .name = "sensor-signal",
+    .summary = "Simulate the signal, transform it, and list its peaks as targets.",
+    .details =
+        "Stands in for glint-sensor and glint-noise, accurate and slow: chirps or pulses as the\n"
+        "sensor's waveform says, every echo with its phase, sum and delta channel or a row of\n"
+        "elements, thermal noise, windows, range-Doppler transform, CFAR, peaks between the bins,\n"
+        "angle. Noise, threshold and amplitudes are those that the two stages would have.\n"
+        "\n"
+        "The transforms are the FFTW library's. One build of it gives the same bytes on every\n"
+        "machine, fused or piped; another version or another kind of CPU may differ in the last\n"
+        "digits, which no other stage does.",
+    .options = &sensor_signal_options,
+    .reads = SECTION_SENSORS | SECTION_ECHOES,
+    .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS,
+    .step = sensor_signal_step,
+    .release = sensor_signal_release,
+};
