@@ -60,9 +60,20 @@ static const void *member_of(const struct field *field, const void *base)
 #define STORE(type, field, base, value)                                                            \
     memcpy(member((field), (base)), &(type){(value)}, sizeof(type))
 
+static void set_all_absent(const struct record *record, void *base)
+{
+    for (const struct field *field = record->fields; field->name != NULL; field++)
+        if (field->absent != 0 || field->kind == FIELD_RECORD)
+            field_set_absent(field, base);
+}
+
 void field_set_absent(const struct field *field, void *base)
 {
-    if (field->kind == FIELD_REAL)
+    if (field->kind == FIELD_RECORD)
+        set_all_absent(field->record, member(field, base));
+    else if (field->absent == 0)
+        return;
+    else if (field->kind == FIELD_REAL)
         STORE(double, field, base, field->absent);
     else if (field->kind == FIELD_INTEGER)
         STORE(int64_t, field, base, (int64_t)field->absent);
@@ -70,15 +81,12 @@ void field_set_absent(const struct field *field, void *base)
         STORE(uint64_t, field, base, (uint64_t)field->absent);
     else if (field->kind == FIELD_CHOICE)
         STORE(int, field, base, (int)field->absent);
-    else if (field->kind == FIELD_RECORD)
-        field_clear(field->record, member(field, base));
 }
 
 void field_clear(const struct record *record, void *base)
 {
     memset(base, 0, record->size);
-    for (const struct field *field = record->fields; field->name != NULL; field++)
-        field_set_absent(field, base);
+    set_all_absent(record, base);
 }
 
 /* "1e6" for 1e+06; whole numbers in full. */
@@ -178,31 +186,12 @@ static int set_seed(const struct field *field, void *base, const char *text, siz
     return 0;
 }
 
-/* Printable ASCII, eight bytes at a time: no byte below a space, none from DEL on. */
-static bool is_plain(const char *text, size_t length)
-{
-    const uint64_t ones = UINT64_C(0x0101010101010101);
-    uint64_t odd = 0, word = 0x20 * ones;
-    size_t whole = length / sizeof word * sizeof word;
-    for (size_t i = 0; i < whole; i += sizeof word) {
-        memcpy(&word, text + i, sizeof word);
-        odd |= word | (word - 0x20 * ones) | (word + ones);
-    }
-    /* The rest once more with bytes before it, or beside spaces. */
-    if (whole > 0)
-        memcpy(&word, text + length - sizeof word, sizeof word);
-    else
-        memcpy(&word, text, length);
-    odd |= word | (word - 0x20 * ones) | (word + ones);
-    return (odd & 0x80 * ones) == 0;
-}
-
 static int check_name(const struct field *field, const char *text, size_t length, struct diag *diag)
 {
     if (length == 0 || length > FIELD_NAME_SIZE)
         return diag_fail(diag, DIAG_DATA, "%s: a name of %zu bytes; expected 1 to %d", field->name,
                          length, FIELD_NAME_SIZE);
-    if (is_plain(text, length))
+    if (text_plain(text, length) == length)
         return 0;
     for (size_t i = 0; i < length;) {
         unsigned char byte = (unsigned char)text[i];

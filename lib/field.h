@@ -120,8 +120,10 @@ const char *field_unit(const char *name);
 const struct field *field_find(const struct record *record, const char *name, size_t length,
                                size_t hint);
 
-/* Sets every member, or one of them, to what its absence stands for. */
+/* Sets every member to what its absence stands for. */
 void field_clear(const struct record *record, void *base);
+
+/* The same for one member of a zeroed struct. */
 void field_set_absent(const struct field *field, void *base);
 
 /* Each sets the member of the struct at base, or refuses with "name: value is outside [..] unit",

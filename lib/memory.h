@@ -50,7 +50,8 @@ void arena_free(struct arena *arena);
          list_room((arena), (list)->items, (list)->count, &(list)->room, sizeof *(list)->items),   \
      &(list)->items[(list)->count++])
 
-/* Makes room for one more item and zeroes it: the array itself, or a copy of twice the size. */
+/* Makes room for one more item and zeroes it: the array itself, which may have grown, or a copy of
+ * twice the size. */
 void *list_room(struct arena *arena, void *items, size_t count, size_t *room, size_t size);
 
 #endif
