@@ -87,7 +87,8 @@ def read_dump(path):
 def instructions(binary, job):
     """Per frame, from frame FIRST to the last but one: {"all": ...} and every part. Callgrind is
     made to dump wherever a frame begins."""
-    begins = "runner_next" if job[1] == os.devnull else "runner_step"
+    name = job[0].split()[0][len("glint-"):].replace("-", "_")
+    begins = f"{name}_next" if job[1] == os.devnull else f"{name}_step"
     with tempfile.TemporaryDirectory() as folder:
         profile = os.path.join(folder, "callgrind")
         run("callgrind", binary, job, f"--callgrind-out-file={profile}", f"--dump-before={begins}")
