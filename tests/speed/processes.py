@@ -3,7 +3,6 @@ whether a long stream costs the same at its end as at its beginning."""
 import os
 import statistics
 import subprocess
-import sys
 
 import scenes
 import timing
@@ -91,20 +90,13 @@ def seen(processes):
     return cpu_ns, resident_kB
 
 
-def show(title, done, frames):
-    if sys.stderr.isatty():
-        filled = 40 * done // frames
-        sys.stderr.write(f"\r{title:6} [{'#' * filled:40}] {100 * done // frames:3} %")
-        sys.stderr.write("\n" if done >= frames else "")
-
-
 def follow(title, processes, frames):
     """Reads what the last process writes; (CPU, memory) at the end of every tenth but the last,
     after which there may be no process to ask."""
     found, done = [(0, 0)], 0
     while chunk := os.read(processes[-1].stdout.fileno(), 1 << 20):
         done += chunk.count(b"\n")
-        show(title, done, frames)
+        timing.show(title, done, frames)
         if len(found) < TENTHS and done >= len(found) * frames // TENTHS:
             found.append(seen(processes))
     if done != frames or any(process.wait() != 0 for process in processes):
