@@ -59,13 +59,14 @@ struct sightings sightings_of(const struct signal *signal, const struct spectrum
     struct sightings sightings = {signal, spectrum, threshold, {NULL, 0, 0}};
     struct cfar cfar = waveform_cfar(&signal->sensor->waveform);
     struct spectrum_peak *peaks;
-    size_t count = spectrum_peaks(spectrum, &cfar, threshold, arena, &peaks);
+    bool array = signal->array.elements > 0;
+    size_t count = spectrum_peaks(
+        spectrum, &cfar, array ? SIGNAL_BETWEEN_BEAMS * threshold : threshold, arena, &peaks);
     size_t stride = spectrum->range_bins * spectrum->rate_bins;
     for (size_t i = 0; i < count; i++) {
         const struct phasor *at =
             spectrum->samples + peaks[i].rate_bin * spectrum->range_bins + peaks[i].range_bin;
-        (signal->array.elements > 0 ? add_beams : add_monopulse)(&sightings, &peaks[i], at, stride,
-                                                                 arena);
+        (array ? add_beams : add_monopulse)(&sightings, &peaks[i], at, stride, arena);
     }
     return sightings;
 }

@@ -96,8 +96,7 @@ static void sense(struct frame *frame, const struct transform *transform,
         frame_lose_subject(frame, "sensor-signal", sensor->name, &scan.silent[i].echo,
                            LOSS_NO_AMPLITUDE);
     synthesise(transform, &scan, by.pointers ? sensor->pointer_sigma * rise : 0);
-    struct spectrum spectrum = signal_spectrum(&transform->signal);
-    spectrum_power(&spectrum, frame->arena);
+    struct spectrum spectrum = signal_spectrum(&transform->signal, frame->arena);
     struct sightings sightings =
         sightings_of(&transform->signal, &spectrum, sensor->threshold * rise, frame->arena);
     sightings_label(&sightings, frame, "sensor-signal", scan.resolved.rays, scan.resolved.count,
