@@ -141,9 +141,13 @@ $(BUILD)/tests/soundness/planted_%: $(BUILD)/tests/soundness/planted_%.o $(sound
     $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
 	$(Q)$(LINK) $(call wraps,tests/soundness/planted_$*.c) -o $@ $^ $(stage_libs) $(LIBS)
 
-# For scripts/bench --functions: our functions beside libm's.
+# For scripts/bench: our functions beside libm's, the machine's floors, what a command spends.
 $(BUILD)/tests/speed/%: $(BUILD)/tests/speed/%.o $(BUILD)/libglint.a
-	$(Q)$(LINK) -o $@ $^ -lm
+	$(Q)$(LINK) -o $@ $^ -lz -lm
+$(BUILD)/tests/speed/floors: $(BUILD)/tests/speed/plain.o
+$(BUILD)/tests/speed/same_heap.so: tests/speed/same_heap.c
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -shared -fPIC -o $@ $< -ljansson
 
 $(BUILD)/tests/test_compare: $(BUILD)/tests/soundness/compare.o
 

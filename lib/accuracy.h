@@ -16,11 +16,4 @@ struct accuracy {
  * and step^2 / 12 for the rounding on top. Defined for snr = 0 and infinity. */
 double accuracy_sigma(const struct accuracy *accuracy, double snr);
 
-/* Of the azimuth that the dipole pair reads (antenna.h), snr that of the sum channel there, equal
- * noise on both channels:
- *     sigma = (2/pi) cos((pi/2) sin azimuth) / (cos azimuth sqrt(2 snr)),
- * at most pi / sqrt(12), anywhere in the half plane. No 0/0 at the side. First order in the noise:
- * the magnitude rule folds near boresight (MODEL 7.3). */
-double accuracy_dipole_pair_rad(double azimuth_rad, double snr);
-
 #endif

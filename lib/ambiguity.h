@@ -7,9 +7,6 @@
 #ifndef AMBIGUITY_H
 #define AMBIGUITY_H
 
-double ambiguity_unambiguous_mps(double wavelength_m, double repetition_s);
-double ambiguity_unambiguous_m(double repetition_hz);
-
 /* In [-unambiguous, unambiguous); unambiguous > 0, and infinity folds nothing. */
 double ambiguity_range_rate_mps(double range_rate_mps, double unambiguous_mps);
 

@@ -2,14 +2,6 @@
 
 #include "elementary.h"
 
-double clutter_false_alarm_probability(double threshold, double noise_sigma)
-{
-    if (noise_sigma == 0)
-        return 0;
-    double ratio = threshold / noise_sigma;
-    return elementary_exp(-ratio * ratio);
-}
-
 double clutter_false_alarm_amplitude(double threshold, double noise_sigma, double uniform)
 {
     return elementary_hypot(threshold, noise_sigma * sqrt(-elementary_log(uniform)));

@@ -6,10 +6,6 @@
 
 #include "vec2.h"
 
-/* That noise alone passes the threshold in one cell and one look: exp(-(threshold / sigma)^2).
- * 0 without noise. */
-double clutter_false_alarm_probability(double threshold, double noise_sigma);
-
 /* The amplitude of noise that has passed the threshold. Its power is without memory,
  * threshold^2 + sigma^2 Exp(1), so this is threshold itself without noise. */
 double clutter_false_alarm_amplitude(double threshold, double noise_sigma, double uniform);

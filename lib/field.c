@@ -170,11 +170,32 @@ static int set_seed(const struct field *field, void *base, const char *text, siz
     return 0;
 }
 
+/* Printable ASCII, eight bytes at a time: no byte below a space, none from DEL on. */
+static bool is_plain(const char *text, size_t length)
+{
+    const uint64_t ones = UINT64_C(0x0101010101010101);
+    uint64_t odd = 0, word = 0x20 * ones;
+    size_t whole = length / sizeof word * sizeof word;
+    for (size_t i = 0; i < whole; i += sizeof word) {
+        memcpy(&word, text + i, sizeof word);
+        odd |= word | (word - 0x20 * ones) | (word + ones);
+    }
+    /* The rest once more with bytes before it, or beside spaces. */
+    if (whole > 0)
+        memcpy(&word, text + length - sizeof word, sizeof word);
+    else
+        memcpy(&word, text, length);
+    odd |= word | (word - 0x20 * ones) | (word + ones);
+    return (odd & 0x80 * ones) == 0;
+}
+
 static int check_name(const struct field *field, const char *text, size_t length, struct diag *diag)
 {
     if (length == 0 || length > FIELD_NAME_SIZE)
         return diag_fail(diag, DIAG_DATA, "%s: a name of %zu bytes; expected 1 to %d", field->name,
                          length, FIELD_NAME_SIZE);
+    if (is_plain(text, length))
+        return 0;
     for (size_t i = 0; i < length;) {
         unsigned char byte = (unsigned char)text[i];
         if (byte < 0x20 || byte == 0x7f)
@@ -353,65 +374,96 @@ int field_twice(const struct field *field, struct diag *diag)
     return diag_fail(diag, DIAG_DATA, "%s: the key stands twice", field->name);
 }
 
-static int check_list(const struct field *field, const void *base, struct diag *diag)
+static int check_text(const struct field *field, const char *name, struct field_checking *checking)
+{
+    uintptr_t address = (uintptr_t)name;
+    const char **good = &checking->good[(address >> 4 ^ address >> 11) % FIELD_NAMES_KEPT];
+    if (*good == name)
+        return 0;
+    if (check_name(field, name, strlen(name), checking->diag) != 0)
+        return -1;
+    *good = name;
+    return 0;
+}
+
+static int check_list(const struct field *field, const void *base, struct field_checking *checking)
 {
     struct field_list list = field_list(field, base);
     for (size_t i = 0; i < list.count; i++) {
         const void *item = (const char *)list.items + i * field->record->size;
-        if (field_check(field->record, item, diag) != 0)
-            return diag_prefix(diag, "%s[%zu].", field->name, i);
+        if (field_check_sections(field->record, item, ~0U, checking) != 0)
+            return diag_prefix(checking->diag, "%s[%zu].", field->name, i);
     }
     return 0;
 }
 
-static int check_names(const struct field *field, const void *base, struct diag *diag)
+static int check_names(const struct field *field, const void *base, struct field_checking *checking)
 {
     struct field_list list = field_list(field, base);
     const char *const *names = list.items;
-    for (size_t i = 0; i < list.count; i++) {
-        char path[FIELD_PATH_SIZE];
-        snprintf(path, sizeof path, "%s[%zu]", field->name, i);
-        const struct field item = {.name = path};
-        if (check_name(&item, names[i], strlen(names[i]), diag) != 0)
-            return -1;
-    }
+    const struct field item = {.name = ""};
+    for (size_t i = 0; i < list.count; i++)
+        if (check_text(&item, names[i], checking) != 0)
+            return diag_prefix(checking->diag, "%s[%zu]", field->name, i);
     return 0;
 }
 
-static int check_member(const struct field *field, const void *base, struct diag *diag)
+static int check_number(const struct record *record, const struct field *field, const void *base,
+                        struct diag *diag)
 {
-    double value;
+    double value =
+        field->kind == FIELD_REAL ? LOAD(double, field, base) : (double)LOAD(int64_t, field, base);
+    if (value >= field->low && value <= field->high)
+        return 0;
+    /* What absence stands for may lie outside. */
+    return field_present(record, field, base) ? out_of_bounds(field, value, diag) : 0;
+}
+
+static int check_member(const struct record *record, const struct field *field, const void *base,
+                        struct field_checking *checking)
+{
     const char *name;
     switch (field->kind) {
     case FIELD_REAL:
-        value = LOAD(double, field, base);
-        return value >= field->low && value <= field->high ? 0 : out_of_bounds(field, value, diag);
     case FIELD_INTEGER:
-        value = (double)LOAD(int64_t, field, base);
-        return value >= field->low && value <= field->high ? 0 : out_of_bounds(field, value, diag);
+        return check_number(record, field, base, checking->diag);
     case FIELD_NAME:
         name = LOAD(const char *, field, base);
-        return name != NULL ? check_name(field, name, strlen(name), diag)
-                            : diag_fail(diag, DIAG_DATA, "%s: missing", field->name);
+        if (name == NULL && !field->optional)
+            return diag_fail(checking->diag, DIAG_DATA, "%s: missing", field->name);
+        return name == NULL ? 0 : check_text(field, name, checking);
     case FIELD_NAMES:
-        return check_names(field, base, diag);
+        return check_names(field, base, checking);
     case FIELD_RECORD:
-        if (field_check(field->record, member_of(field, base), diag) != 0)
-            return diag_prefix(diag, "%s.", field->name);
+        if (field_check_sections(field->record, member_of(field, base), ~0U, checking) != 0)
+            return diag_prefix(checking->diag, "%s.", field->name);
         return 0;
     case FIELD_LIST:
-        return check_list(field, base, diag);
+        return check_list(field, base, checking);
     default:
         return 0;
     }
 }
 
+int field_check_sections(const struct record *record, const void *base, unsigned sections,
+                         struct field_checking *checking)
+{
+    bool only_sections = record->fields[0].section != 0;
+    if (only_sections && sections_of(record, base) == 0)
+        return 0;
+    for (const struct field *field = record->fields; field->name != NULL; field++) {
+        if (field->section != 0 && (field->section & sections & sections_of(record, base)) == 0)
+            continue;
+        if (check_member(record, field, base, checking) != 0)
+            return -1;
+    }
+    return 0;
+}
+
 int field_check(const struct record *record, const void *base, struct diag *diag)
 {
-    for (const struct field *field = record->fields; field->name != NULL; field++)
-        if (field_present(record, field, base) && check_member(field, base, diag) != 0)
-            return -1;
-    return 0;
+    struct field_checking checking = {.diag = diag};
+    return field_check_sections(record, base, ~0U, &checking);
 }
 
 /* The layout of every LIST_OF, whatever its items. */

@@ -31,14 +31,21 @@ enum field_kind {
     FIELD_NOTES,  /* no member: an object of strings, for people; documents only */
 };
 
-enum { FIELD_NAME_SIZE = 1024, FIELD_RAW_SIZE = 64 * 1024, FIELD_PATH_SIZE = 128 };
+enum {
+    FIELD_NAME_SIZE = 1024,
+    FIELD_RAW_SIZE = 64 * 1024,
+    FIELD_PATH_SIZE = 128,
+    FIELD_KEY_SIZE = 32
+};
 
 struct record;
 
 struct field {
     const char *name;
-    enum field_kind kind;
+    char key[FIELD_KEY_SIZE]; /* as lines have it behind another member: ,"range_m": */
+    unsigned char key_length;
     bool optional; /* may be absent; then, and only then, it is not written either */
+    enum field_kind kind;
     size_t offset;
     double low, high;
     double absent; /* the number, or the choice, that absence stands for */
@@ -67,37 +74,41 @@ extern const struct field field_none[];
 #define FIELD_AT(type, owner, member)                                                              \
     (offsetof(owner, member) + 0 * sizeof((type *[]){&((owner *)0)->member}))
 
+#define FIELD_NAMED(member)                                                                        \
+    .name = #member, .key = ",\"" #member "\":", .key_length = sizeof ",\"" #member "\":" - 1
+
 #define FIELD_REAL_IN(owner, member, low_, high_, help_)                                           \
-    .name = #member, .kind = FIELD_REAL, .offset = FIELD_AT(double, owner, member), .low = (low_), \
-    .high = (high_), .help = (help_)
+    FIELD_NAMED(member), .kind = FIELD_REAL, .offset = FIELD_AT(double, owner, member),            \
+                         .low = (low_), .high = (high_), .help = (help_)
 #define FIELD_INTEGER_IN(owner, member, low_, high_, help_)                                        \
-    .name = #member, .kind = FIELD_INTEGER, .offset = FIELD_AT(int64_t, owner, member),            \
-    .low = (low_), .high = (high_), .help = (help_)
+    FIELD_NAMED(member), .kind = FIELD_INTEGER, .offset = FIELD_AT(int64_t, owner, member),        \
+                         .low = (low_), .high = (high_), .help = (help_)
 #define FIELD_FLAG_OF(owner, member, help_)                                                        \
-    .name = #member, .kind = FIELD_FLAG, .offset = FIELD_AT(bool, owner, member), .help = (help_)
+    FIELD_NAMED(member), .kind = FIELD_FLAG, .offset = FIELD_AT(bool, owner, member),              \
+                         .help = (help_)
 #define FIELD_NAME_OF(owner, member, help_)                                                        \
-    .name = #member, .kind = FIELD_NAME, .offset = FIELD_AT(const char *, owner, member),          \
-    .help = (help_)
+    FIELD_NAMED(member), .kind = FIELD_NAME, .offset = FIELD_AT(const char *, owner, member),      \
+                         .help = (help_)
 #define FIELD_CHOICE_OF(owner, member, choices_, help_)                                            \
-    .name = #member, .kind = FIELD_CHOICE, .offset = offsetof(owner, member),                      \
-    .choices = (choices_), .help = (help_)
+    FIELD_NAMED(member), .kind = FIELD_CHOICE, .offset = offsetof(owner, member),                  \
+                         .choices = (choices_), .help = (help_)
 #define FIELD_SEED_OF(owner, member, help_)                                                        \
-    .name = #member, .kind = FIELD_SEED, .offset = FIELD_AT(uint64_t, owner, member),              \
-    .help = (help_)
+    FIELD_NAMED(member), .kind = FIELD_SEED, .offset = FIELD_AT(uint64_t, owner, member),          \
+                         .help = (help_)
 #define FIELD_SET_OF(owner, member, choices_, help_)                                               \
-    .name = #member, .kind = FIELD_SET, .offset = FIELD_AT(uint64_t, owner, member),               \
-    .choices = (choices_), .help = (help_)
+    FIELD_NAMED(member), .kind = FIELD_SET, .offset = FIELD_AT(uint64_t, owner, member),           \
+                         .choices = (choices_), .help = (help_)
 #define FIELD_NAMES_OF(owner, member, help_)                                                       \
-    .name = #member, .kind = FIELD_NAMES, .offset = offsetof(owner, member), .help = (help_)
+    FIELD_NAMED(member), .kind = FIELD_NAMES, .offset = offsetof(owner, member), .help = (help_)
 #define FIELD_RECORD_OF(owner, member, record_, help_)                                             \
-    .name = #member, .kind = FIELD_RECORD, .offset = offsetof(owner, member), .record = (record_), \
-    .help = (help_)
+    FIELD_NAMED(member), .kind = FIELD_RECORD, .offset = offsetof(owner, member),                  \
+                         .record = (record_), .help = (help_)
 #define FIELD_LIST_OF(owner, member, record_, help_)                                               \
-    .name = #member, .kind = FIELD_LIST, .offset = offsetof(owner, member), .record = (record_),   \
-    .help = (help_)
+    FIELD_NAMED(member), .kind = FIELD_LIST, .offset = offsetof(owner, member),                    \
+                         .record = (record_), .help = (help_)
 #define FIELD_RAW_OF(owner, member, help_)                                                         \
-    .name = #member, .kind = FIELD_RAW, .offset = FIELD_AT(const char *, owner, member),           \
-    .optional = true, .help = (help_)
+    FIELD_NAMED(member), .kind = FIELD_RAW, .offset = FIELD_AT(const char *, owner, member),       \
+                         .optional = true, .help = (help_)
 #define FIELD_OPTIONAL .optional = true
 
 /* What the name's ending says about the unit, for messages and help: "m" for range_m, "" if the
@@ -143,6 +154,19 @@ int field_twice(const struct field *field, struct diag *diag);
 
 /* Everything in bounds, all the way down: what the reader would say to this struct. */
 int field_check(const struct record *record, const void *base, struct diag *diag);
+
+/* The same for several structs in a row, and of a record's own sections only for these. Names that
+ * were good are kept, by their addresses, and not looked at again: most of a frame's names are few
+ * pointers. */
+enum { FIELD_NAMES_KEPT = 128 };
+
+struct field_checking {
+    struct diag *diag;
+    const char *good[FIELD_NAMES_KEPT];
+};
+
+int field_check_sections(const struct record *record, const void *base, unsigned sections,
+                         struct field_checking *checking);
 
 /* A LIST_OF anything, seen without its type. */
 struct field_list {

@@ -36,14 +36,3 @@ double fluctuation_amplitude_factor(enum fluctuation_law law, double sigma_db,
     }
     return 1;
 }
-
-struct bounds fluctuation_bounds(enum fluctuation_law law, double sigma_db)
-{
-    static const double strongest[4] = {RANDOM_LEAST, RANDOM_LEAST};
-    static const double weakest[4] = {RANDOM_MOST, RANDOM_MOST};
-    /* The largest radius, pointing down. */
-    static const double weakest_gaussian[4] = {RANDOM_LEAST, 0.5};
-    const double *weak = law == FLUCTUATION_LOG_NORMAL ? weakest_gaussian : weakest;
-    return (struct bounds){fluctuation_amplitude_factor(law, sigma_db, weak),
-                           fluctuation_amplitude_factor(law, sigma_db, strongest)};
-}

@@ -12,8 +12,6 @@
 #ifndef FLUCTUATION_H
 #define FLUCTUATION_H
 
-#include "bounds.h"
-
 enum fluctuation_law {
     FLUCTUATION_NONE,
     FLUCTUATION_SWERLING_1,
@@ -25,8 +23,5 @@ enum fluctuation_law {
  * without fluctuation and for a log-normal of 0 dB. */
 double fluctuation_amplitude_factor(enum fluctuation_law law, double sigma_db,
                                     const double uniform[4]);
-
-/* The factors at the extreme draws of random.h: 1.05e-8 and 6.06 for both Swerling laws. */
-struct bounds fluctuation_bounds(enum fluctuation_law law, double sigma_db);
 
 #endif

@@ -9,8 +9,6 @@ static const char *const paths[] = {
     [PATH_WALL_OBJECT] = "wall_object",
     [PATH_OBJECT_WALL] = "object_wall",
     [PATH_WALL_OBJECT_WALL] = "wall_object_wall",
-    [PATH_OBJECT_WALL_OBJECT] = "object_wall_object",
-    [PATH_OBJECT_EGO_OBJECT] = "object_ego_object",
     [PATH_WHEEL] = "wheel",
     [PATH_LIMB] = "limb",
     [PATH_CLUTTER] = "clutter",
@@ -322,7 +320,7 @@ static const struct field lost_group_fields[] = {
     {0},
 };
 
-static const struct record lost_group_record = {
+const struct record lost_group_record = {
     .name = "group of lost echoes",
     .help = "Echoes that one stage lost for one reason.",
     .size = sizeof(struct lost_group),
@@ -406,6 +404,11 @@ const struct record frame_record = {
     .present_offset = offsetof(struct frame, present),
 };
 
+bool frame_same_name(const char *a, const char *b)
+{
+    return a == b || strcmp(a, b) == 0;
+}
+
 void frame_clear(struct frame *frame)
 {
     struct arena *arena = frame->arena;
@@ -447,7 +450,7 @@ void frame_drop(struct frame *frame, unsigned sections)
 struct object *frame_object(const struct frame *frame, const char *id)
 {
     for (size_t i = 0; i < frame->objects.count; i++)
-        if (strcmp(frame->objects.items[i].id, id) == 0)
+        if (frame_same_name(frame->objects.items[i].id, id))
             return &frame->objects.items[i];
     return NULL;
 }
@@ -466,7 +469,7 @@ struct motion frame_motion(const struct object *object, double age_s)
 const struct sensor_view *frame_view(const struct frame *frame, const char *sensor)
 {
     for (size_t i = 0; i < frame->sensors.list.count; i++)
-        if (strcmp(frame->sensors.list.items[i].name, sensor) == 0)
+        if (frame_same_name(frame->sensors.list.items[i].name, sensor))
             return &frame->sensors.list.items[i];
     return NULL;
 }
@@ -474,10 +477,11 @@ const struct sensor_view *frame_view(const struct frame *frame, const char *sens
 struct echo_span frame_echoes_of(const struct frame *frame, const char *sensor)
 {
     size_t first = 0, end;
-    while (first < frame->echoes.count && strcmp(frame->echoes.items[first].sensor, sensor) != 0)
+    while (first < frame->echoes.count &&
+           !frame_same_name(frame->echoes.items[first].sensor, sensor))
         first++;
     for (end = first; end < frame->echoes.count; end++)
-        if (strcmp(frame->echoes.items[end].sensor, sensor) != 0)
+        if (!frame_same_name(frame->echoes.items[end].sensor, sensor))
             break;
     return (struct echo_span){frame->echoes.items + first, end - first};
 }
@@ -485,10 +489,10 @@ struct echo_span frame_echoes_of(const struct frame *frame, const char *sensor)
 struct cell_span frame_cells_of(const struct frame *frame, const char *sensor)
 {
     size_t first = 0, end;
-    while (first < frame->cells.count && strcmp(frame->cells.items[first].sensor, sensor) != 0)
+    while (first < frame->cells.count && !frame_same_name(frame->cells.items[first].sensor, sensor))
         first++;
     for (end = first; end < frame->cells.count; end++)
-        if (strcmp(frame->cells.items[end].sensor, sensor) != 0)
+        if (!frame_same_name(frame->cells.items[end].sensor, sensor))
             break;
     return (struct cell_span){frame->cells.items + first, end - first};
 }
@@ -528,8 +532,8 @@ void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum
     struct lost_group *group = NULL;
     for (size_t i = 0; i < frame->lost.count && group == NULL; i++) {
         struct lost_group *candidate = &frame->lost.items[i];
-        if (candidate->reason == reason && strcmp(candidate->stage, stage) == 0 &&
-            strcmp(candidate->sensor, sensor) == 0)
+        if (candidate->reason == reason && frame_same_name(candidate->stage, stage) &&
+            frame_same_name(candidate->sensor, sensor))
             group = candidate;
     }
     if (group == NULL) {
@@ -570,7 +574,7 @@ void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *
 static struct count *count_of(struct frame *frame, const char *sensor)
 {
     for (size_t i = 0; i < frame->counts.count; i++)
-        if (strcmp(frame->counts.items[i].sensor, sensor) == 0)
+        if (frame_same_name(frame->counts.items[i].sensor, sensor))
             return &frame->counts.items[i];
     struct count *count = list_add(&frame->counts, frame->arena);
     count->sensor = sensor;

@@ -35,6 +35,12 @@ enum section {
 /* These are used up by the stage that reads them, unless it is told to --keep them. */
 enum { SECTIONS_CONSUMED = SECTION_REFLECTORS | SECTION_ECHOES | SECTION_CELLS };
 
+/* What one stage wrote into a frame: these sections, and of lost only what it lost itself. */
+struct part {
+    unsigned sections;
+    const char *stage; /* NULL: all of lost */
+};
+
 /* Truth. A length, width or height of 0 stands for the default of the class (glint-extract fills
  * it in). Velocity is that of the box centre and need not point along the yaw. */
 struct object {
@@ -66,18 +72,17 @@ struct sensors {
     LIST_OF(struct sensor_view) list;
 };
 
-/* The way an echo took, and what sent it back. A ghost's last leg is where the radar sees it. */
+/* The way an echo took, and what sent it back. A ghost's last leg is where the radar sees it. Draws
+ * are addressed by these numbers: new paths go to the end. */
 enum path {
-    PATH_DIRECT,             /* sensor, object, sensor */
-    PATH_WALL_OBJECT,        /* sensor, wall, object, sensor */
-    PATH_OBJECT_WALL,        /* sensor, object, wall, sensor */
-    PATH_WALL_OBJECT_WALL,   /* sensor, wall, object, wall, sensor */
-    PATH_OBJECT_WALL_OBJECT, /* sensor, object, wall, object, sensor */
-    PATH_OBJECT_EGO_OBJECT,  /* sensor, object, ego, object, sensor */
-    PATH_WHEEL,              /* a point on a turning wheel */
-    PATH_LIMB,               /* an arm or a leg */
-    PATH_CLUTTER,            /* the ground and what stands on it */
-    PATH_FALSE_ALARM,        /* nothing: noise */
+    PATH_DIRECT,           /* sensor, object, sensor */
+    PATH_WALL_OBJECT,      /* sensor, wall, object, sensor */
+    PATH_OBJECT_WALL,      /* sensor, object, wall, sensor */
+    PATH_WALL_OBJECT_WALL, /* sensor, wall, object, wall, sensor */
+    PATH_WHEEL,            /* a point on a turning wheel */
+    PATH_LIMB,             /* an arm or a leg */
+    PATH_CLUTTER,          /* the ground and what stands on it */
+    PATH_FALSE_ALARM,      /* nothing: noise */
 };
 
 /* What an echo is of, in one sensor's view. */
@@ -230,6 +235,10 @@ struct frame {
 
 extern const struct record frame_record;
 extern const struct record object_record;
+extern const struct record lost_group_record;
+
+/* Is this the same name? Names are mostly one pointer each: documents', objects'. */
+bool frame_same_name(const char *a, const char *b);
 
 /* Back to an empty frame that keeps its arena's room. */
 void frame_clear(struct frame *frame);

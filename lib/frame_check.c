@@ -13,7 +13,7 @@ static int check_objects(const struct frame *frame, struct diag *diag)
         ids[i] = frame->objects.items[i].id;
     sort_items(ids, count, sizeof(*ids), frame_order_names, frame->arena);
     for (size_t i = 1; i < count; i++)
-        if (strcmp(ids[i - 1], ids[i]) == 0)
+        if (frame_same_name(ids[i - 1], ids[i]))
             return diag_fail(diag, DIAG_DATA, "objects: the id \"%s\" stands twice", ids[i]);
     if (frame_object(frame, frame->ego) == NULL)
         return diag_fail(diag, DIAG_DATA, "ego: \"%s\" is not among the objects", frame->ego);
@@ -26,7 +26,7 @@ static int check_sets(const struct frame *frame, struct diag *diag)
         const struct reflector_set *set = &frame->reflectors.items[i];
         const char *twice = reflectors_name_twice(set);
         for (size_t j = 1; j < set->worn_by.count && twice == NULL; j++)
-            if (strcmp(set->worn_by.items[j - 1], set->worn_by.items[j]) == 0)
+            if (frame_same_name(set->worn_by.items[j - 1], set->worn_by.items[j]))
                 twice = set->worn_by.items[j];
         if (twice != NULL)
             return diag_fail(diag, DIAG_DATA, "reflectors[%zu]: \"%s\" stands twice", i, twice);
@@ -38,7 +38,7 @@ static int check_views(const struct frame *frame, struct diag *diag)
 {
     const struct sensor_view *view = frame->sensors.list.items;
     for (size_t i = 1; i < frame->sensors.list.count; i++)
-        if (strcmp(view[i - 1].name, view[i].name) == 0)
+        if (frame_same_name(view[i - 1].name, view[i].name))
             return diag_fail(diag, DIAG_DATA, "sensors.list: \"%s\" stands twice", view[i].name);
     return 0;
 }
@@ -46,9 +46,8 @@ static int check_views(const struct frame *frame, struct diag *diag)
 static int check_listed(const struct frame *frame, const char *section, size_t index,
                         const char *sensor, struct diag *diag)
 {
-    for (size_t i = 0; i < frame->sensors.list.count; i++)
-        if (strcmp(frame->sensors.list.items[i].name, sensor) == 0)
-            return 0;
+    if (frame_view(frame, sensor) != NULL)
+        return 0;
     return diag_fail(diag, DIAG_DATA, "%s[%zu].sensor: \"%s\" is not in sensors.list", section,
                      index, sensor);
 }
@@ -97,12 +96,44 @@ static int check_targets(const struct frame *frame, struct diag *diag)
     return 0;
 }
 
+/* Echoes, cells and targets name sensors: with new sensors they are looked at again. */
+static int check_sections(const struct frame *frame, unsigned sections, struct diag *diag)
+{
+    if ((sections & SECTION_SENSORS) != 0)
+        sections |= SECTION_ECHOES | SECTION_CELLS | SECTION_TARGETS;
+    if ((sections & frame->present & SECTION_OBJECTS) != 0 && check_objects(frame, diag) != 0)
+        return -1;
+    bool good = ((sections & SECTION_REFLECTORS) == 0 || check_sets(frame, diag) == 0) &&
+                ((sections & SECTION_SENSORS) == 0 || check_views(frame, diag) == 0) &&
+                ((sections & SECTION_ECHOES) == 0 || check_echoes(frame, diag) == 0) &&
+                ((sections & SECTION_CELLS) == 0 || check_cells(frame, diag) == 0) &&
+                ((sections & SECTION_TARGETS) == 0 || check_targets(frame, diag) == 0);
+    return good ? 0 : -1;
+}
+
 int frame_check(const struct frame *frame, struct diag *diag)
 {
-    if ((frame->present & SECTION_OBJECTS) != 0 && check_objects(frame, diag) != 0)
+    return check_sections(frame, ~0U, diag);
+}
+
+static int check_lost(const struct frame *frame, const char *stage, struct field_checking *checking)
+{
+    for (size_t i = 0; i < frame->lost.count; i++) {
+        const struct lost_group *group = &frame->lost.items[i];
+        if ((stage == NULL || frame_same_name(group->stage, stage)) &&
+            field_check_sections(&lost_group_record, group, ~0U, checking) != 0)
+            return diag_prefix(checking->diag, "lost[%zu].", i);
+    }
+    return 0;
+}
+
+int frame_check_part(const struct frame *frame, struct part part, struct diag *diag)
+{
+    struct field_checking checking = {.diag = diag};
+    unsigned others = part.sections & ~(unsigned)SECTION_LOST;
+    if (field_check_sections(&frame_record, frame, others, &checking) != 0)
         return -1;
-    if (check_sets(frame, diag) != 0 || check_views(frame, diag) != 0 ||
-        check_echoes(frame, diag) != 0 || check_cells(frame, diag) != 0)
+    if ((part.sections & SECTION_LOST) != 0 && check_lost(frame, part.stage, &checking) != 0)
         return -1;
-    return check_targets(frame, diag);
+    return check_sections(frame, part.sections, diag);
 }

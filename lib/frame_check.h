@@ -9,4 +9,7 @@
  * contributors. Refuses with DIAG_DATA. */
 int frame_check(const struct frame *frame, struct diag *diag);
 
+/* All that a reader would refuse of a part: its members out of bounds, and the above. */
+int frame_check_part(const struct frame *frame, struct part part, struct diag *diag);
+
 #endif

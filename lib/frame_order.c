@@ -4,20 +4,23 @@
 
 #include "sort.h"
 
-static const char *text_of(const char *name)
+/* strcmp, spared for names that are one pointer; NULL comes first. */
+static int compare_names(const char *a, const char *b)
 {
-    return name != NULL ? name : "";
+    if (a == b)
+        return 0;
+    return a == NULL ? -1 : b == NULL ? 1 : strcmp(a, b);
 }
 
 int frame_order_subjects(struct subject a, struct subject b)
 {
-    int order = strcmp(a.object, b.object);
+    int order = compare_names(a.object, b.object);
     if (order == 0)
-        order = strcmp(a.reflector, b.reflector);
+        order = compare_names(a.reflector, b.reflector);
     if (order == 0)
         order = (a.path > b.path) - (a.path < b.path);
     if (order == 0)
-        order = strcmp(text_of(a.mirror), text_of(b.mirror));
+        order = compare_names(a.mirror, b.mirror);
     return order != 0 ? order : (a.number > b.number) - (a.number < b.number);
 }
 
@@ -29,7 +32,7 @@ static int compare_contributors(const void *left, const void *right)
 
 int frame_order_names(const void *left, const void *right)
 {
-    return strcmp(*(const char *const *)left, *(const char *const *)right);
+    return compare_names(*(const char *const *)left, *(const char *const *)right);
 }
 
 static int compare_sets(const void *left, const void *right)
@@ -47,14 +50,14 @@ static int compare_views(const void *left, const void *right)
 int frame_order_echoes(const void *left, const void *right)
 {
     const struct echo *a = left, *b = right;
-    int order = strcmp(a->sensor, b->sensor);
+    int order = compare_names(a->sensor, b->sensor);
     return order != 0 ? order : frame_order_subjects(SUBJECT_OF(a), SUBJECT_OF(b));
 }
 
 int frame_order_cells(const void *left, const void *right)
 {
     const struct cell *a = left, *b = right;
-    int order = strcmp(a->sensor, b->sensor);
+    int order = compare_names(a->sensor, b->sensor);
     return order != 0 || a->members.count == 0 || b->members.count == 0
                ? order
                : compare_contributors(a->members.items, b->members.items);
@@ -69,9 +72,9 @@ static int compare_lost_echoes(const void *left, const void *right)
 static int compare_lost_groups(const void *left, const void *right)
 {
     const struct lost_group *a = left, *b = right;
-    int order = strcmp(a->sensor, b->sensor);
+    int order = compare_names(a->sensor, b->sensor);
     if (order == 0)
-        order = strcmp(a->stage, b->stage);
+        order = compare_names(a->stage, b->stage);
     return order != 0 ? order : (a->reason > b->reason) - (a->reason < b->reason);
 }
 
@@ -89,31 +92,66 @@ static int compare_paths(const void *left, const void *right)
 /* A stable sort leaves targets in the order of their sensor's list. */
 static int compare_targets(const void *left, const void *right)
 {
-    return strcmp(((const struct target *)left)->sensor, ((const struct target *)right)->sensor);
+    return compare_names(((const struct target *)left)->sensor,
+                         ((const struct target *)right)->sensor);
 }
 
-void frame_order(struct frame *frame)
+static void order_sets(struct frame *frame)
 {
-    struct arena *arena = frame->arena;
-    sort_list(&frame->reflectors, compare_sets, arena);
+    sort_list(&frame->reflectors, compare_sets, frame->arena);
     for (size_t i = 0; i < frame->reflectors.count; i++)
-        sort_list(&frame->reflectors.items[i].worn_by, frame_order_names, arena);
-    sort_list(&frame->sensors.list, compare_views, arena);
-    sort_list(&frame->echoes, frame_order_echoes, arena);
+        sort_list(&frame->reflectors.items[i].worn_by, frame_order_names, frame->arena);
+}
+
+static void order_cells(struct frame *frame)
+{
     for (size_t i = 0; i < frame->cells.count; i++) {
         struct cell *cell = &frame->cells.items[i];
         if (cell->members.count > 2)
             sort_items(cell->members.items + 1, cell->members.count - 1,
-                       sizeof *cell->members.items, compare_contributors, arena);
+                       sizeof *cell->members.items, compare_contributors, frame->arena);
     }
-    sort_list(&frame->cells, frame_order_cells, arena);
-    sort_list(&frame->targets, compare_targets, arena);
-    sort_list(&frame->lost, compare_lost_groups, arena);
-    for (size_t i = 0; i < frame->lost.count; i++)
-        sort_list(&frame->lost.items[i].echoes, compare_lost_echoes, arena);
-    sort_list(&frame->counts, compare_counts, arena);
+    sort_list(&frame->cells, frame_order_cells, frame->arena);
+}
+
+static void order_lost(struct frame *frame, const char *stage)
+{
+    sort_list(&frame->lost, compare_lost_groups, frame->arena);
+    for (size_t i = 0; i < frame->lost.count; i++) {
+        struct lost_group *group = &frame->lost.items[i];
+        if (stage == NULL || frame_same_name(group->stage, stage))
+            sort_list(&group->echoes, compare_lost_echoes, frame->arena);
+    }
+}
+
+static void order_counts(struct frame *frame)
+{
+    sort_list(&frame->counts, compare_counts, frame->arena);
     for (size_t i = 0; i < frame->counts.count; i++)
-        sort_list(&frame->counts.items[i].paths, compare_paths, arena);
+        sort_list(&frame->counts.items[i].paths, compare_paths, frame->arena);
+}
+
+void frame_order_part(struct frame *frame, struct part part)
+{
+    if ((part.sections & SECTION_REFLECTORS) != 0)
+        order_sets(frame);
+    if ((part.sections & SECTION_SENSORS) != 0)
+        sort_list(&frame->sensors.list, compare_views, frame->arena);
+    if ((part.sections & SECTION_ECHOES) != 0)
+        sort_list(&frame->echoes, frame_order_echoes, frame->arena);
+    if ((part.sections & SECTION_CELLS) != 0)
+        order_cells(frame);
+    if ((part.sections & SECTION_TARGETS) != 0)
+        sort_list(&frame->targets, compare_targets, frame->arena);
+    if ((part.sections & SECTION_LOST) != 0)
+        order_lost(frame, part.stage);
+    if ((part.sections & SECTION_COUNTS) != 0)
+        order_counts(frame);
+}
+
+void frame_order(struct frame *frame)
+{
+    frame_order_part(frame, (struct part){~0U, NULL});
 }
 
 int frame_order_tied(const struct contributor *a, const struct contributor *b)

@@ -1,6 +1,5 @@
 #include "frame_text.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -167,15 +166,22 @@ static int read_record(struct json_scan *scan, const struct record *record, void
     return field_require(record, seen, scan->diag);
 }
 
-int frame_text_read(const char *line, size_t length, struct frame *frame, struct diag *diag)
+static int no_record(struct json_scan *scan, const struct record *record)
 {
-    frame_clear(frame);
-    struct json_scan scan = {line, line + length, frame->arena, diag};
-    char first = json_scan_peek(&scan);
-    if (first != '{')
-        return scan.at == scan.end ? diag_fail(diag, DIAG_DATA, "an empty line; expected a frame")
-                                   : json_scan_unexpected(&scan, "a frame");
-    if (read_record(&scan, &frame_record, frame) != 0) {
+    char expected[64];
+    snprintf(expected, sizeof expected, "a %s", record->name);
+    return scan->at == scan->end
+               ? diag_fail(scan->diag, DIAG_DATA, "an empty line; expected %s", expected)
+               : json_scan_unexpected(scan, expected);
+}
+
+int frame_text_read_record(const char *line, size_t length, const struct record *record, void *base,
+                           struct arena *arena, struct diag *diag)
+{
+    struct json_scan scan = {line, line + length, arena, diag};
+    if (json_scan_peek(&scan) != '{')
+        return no_record(&scan, record);
+    if (read_record(&scan, record, base) != 0) {
         if (diag->text[0] == ':')
             memmove(diag->text, diag->text + 2, sizeof diag->text - 2);
         return -1;
@@ -184,124 +190,168 @@ int frame_text_read(const char *line, size_t length, struct frame *frame, struct
     return scan.at == scan.end ? 0 : json_scan_unexpected(&scan, "the end of the line");
 }
 
-static void write_record(const struct record *record, const void *base, struct text *text);
-
-static void write_real(double value, struct text *text)
+int frame_text_read(const char *line, size_t length, struct frame *frame, struct diag *diag)
 {
-    text->length += number_write(value, text_room(text, NUMBER_SIZE));
+    frame_clear(frame);
+    return frame_text_read_record(line, length, &frame_record, frame, frame->arena, diag);
 }
 
-static void write_list(const struct field *field, const void *base, struct text *text)
+/* The writer's place in a text: at runs ahead of the text's length, which is set in the end. */
+struct writer {
+    struct text *text;
+    char *at;
+};
+
+/* A key, a number and the brackets around them. */
+enum { MEMBER_ROOM = FIELD_KEY_SIZE + NUMBER_SIZE + 8 };
+
+static void make_room(struct writer *writer, size_t size)
+{
+    struct text *text = writer->text;
+    text->length = (size_t)(writer->at - text->bytes);
+    if (text->room - text->length < size)
+        writer->at = text_room(text, size);
+}
+
+static void write_record(const struct record *record, const void *base, struct writer *writer);
+
+static void write_word(const char *word, struct writer *writer)
+{
+    size_t length = strlen(word);
+    make_room(writer, length + MEMBER_ROOM);
+    memcpy(writer->at, word, length);
+    writer->at += length;
+}
+
+static void write_name(const char *name, struct writer *writer)
+{
+    size_t length = strlen(name);
+    make_room(writer, text_json_size(length) + MEMBER_ROOM);
+    writer->at = text_put_json(writer->at, name, length);
+}
+
+static void write_choice(const char *choice, struct writer *writer)
+{
+    *writer->at++ = '"';
+    write_word(choice, writer);
+    *writer->at++ = '"';
+}
+
+static void write_list(const struct field *field, const void *base, struct writer *writer)
 {
     struct field_list list = field_list(field, base);
-    text_add(text, "[", 1);
+    *writer->at++ = '[';
     for (size_t i = 0; i < list.count; i++) {
         if (i > 0)
-            text_add(text, ",", 1);
-        if (field->kind == FIELD_LIST) {
-            write_record(field->record, (const char *)list.items + i * field->record->size, text);
-        } else {
-            const char *name = ((const char *const *)list.items)[i];
-            text_add_json(text, name, strlen(name));
-        }
+            *writer->at++ = ',';
+        if (field->kind == FIELD_LIST)
+            write_record(field->record, (const char *)list.items + i * field->record->size, writer);
+        else
+            write_name(((const char *const *)list.items)[i], writer);
     }
-    text_add(text, "]", 1);
+    *writer->at++ = ']';
 }
 
-static void write_set(const struct field *field, uint64_t set, struct text *text)
+static void write_set(const struct field *field, uint64_t set, struct writer *writer)
 {
-    char separator = '[';
-    for (int i = 0; field->choices[i] != NULL; i++) {
+    *writer->at++ = '[';
+    for (int i = 0; set >> i != 0; i++) {
         if ((set >> i & 1) == 0)
             continue;
-        text_add(text, &separator, 1);
-        text_add_json(text, field->choices[i], strlen(field->choices[i]));
-        separator = ',';
+        write_choice(field->choices[i], writer);
+        *writer->at++ = ',';
     }
-    text_add_word(text, separator == '[' ? "[]" : "]");
+    writer->at -= set != 0; /* the last comma */
+    *writer->at++ = ']';
 }
 
-static void write_member(const struct field *field, const void *base, struct text *text)
+static void write_whole(int64_t value, struct writer *writer)
+{
+    *writer->at = '-';
+    writer->at += value < 0;
+    writer->at += number_write_whole(value < 0 ? 0 - (uint64_t)value : (uint64_t)value, writer->at);
+}
+
+static void write_seed(uint64_t seed, struct writer *writer)
+{
+    *writer->at++ = '"';
+    writer->at += number_write_whole(seed, writer->at);
+    *writer->at++ = '"';
+}
+
+#define LOAD(type, member) (*(type *)memcpy(&(type){0}, (member), sizeof(type)))
+
+static void write_member(const struct field *field, const void *base, struct writer *writer)
 {
     const void *member = (const char *)base + field->offset;
-    union {
-        double real;
-        int64_t integer;
-        uint64_t seed;
-        const char *words;
-        int choice;
-        bool flag;
-    } value;
     switch (field->kind) {
     case FIELD_REAL:
-        memcpy(&value.real, member, sizeof value.real);
-        write_real(value.real, text);
+        writer->at += number_write(LOAD(double, member), writer->at);
         break;
     case FIELD_INTEGER:
-        memcpy(&value.integer, member, sizeof value.integer);
-        text_format(text, "%" PRId64, value.integer);
+        write_whole(LOAD(int64_t, member), writer);
         break;
     case FIELD_SEED:
-        memcpy(&value.seed, member, sizeof value.seed);
-        text_format(text, "\"%" PRIu64 "\"", value.seed);
+        write_seed(LOAD(uint64_t, member), writer);
         break;
     case FIELD_SET:
-        memcpy(&value.seed, member, sizeof value.seed);
-        write_set(field, value.seed, text);
+        write_set(field, LOAD(uint64_t, member), writer);
         break;
     case FIELD_FLAG:
-        memcpy(&value.flag, member, sizeof value.flag);
-        text_add_word(text, value.flag ? "true" : "false");
+        write_word(LOAD(bool, member) ? "true" : "false", writer);
         break;
     case FIELD_NAME:
-        memcpy(&value.words, member, sizeof value.words);
-        text_add_json(text, value.words, strlen(value.words));
+        write_name(LOAD(const char *, member), writer);
         break;
     case FIELD_RAW:
-        memcpy(&value.words, member, sizeof value.words);
-        text_add_word(text, value.words);
+        write_word(LOAD(const char *, member), writer);
         break;
     case FIELD_CHOICE:
-        memcpy(&value.choice, member, sizeof value.choice);
-        text_add_json(text, field->choices[value.choice], strlen(field->choices[value.choice]));
+        write_choice(field->choices[LOAD(int, member)], writer);
         break;
     case FIELD_RECORD:
-        write_record(field->record, member, text);
+        write_record(field->record, member, writer);
         break;
     case FIELD_LIST:
     case FIELD_NAMES:
-        write_list(field, base, text);
+        write_list(field, base, writer);
         break;
     case FIELD_NOTES:
         break;
     }
 }
 
-static void write_record(const struct record *record, const void *base, struct text *text)
+static void write_record(const struct record *record, const void *base, struct writer *writer)
 {
     char separator = '{';
     for (const struct field *field = record->fields; field->name != NULL; field++) {
-        if (!field_present(record, field, base))
+        if (field->optional && !field_present(record, field, base))
             continue;
-        size_t length = strlen(field->name);
-        char *key = text_room(text, length + 4);
-        key[0] = separator;
-        key[1] = '"';
-        memcpy(key + 2, field->name, length);
-        key[length + 2] = '"';
-        key[length + 3] = ':';
-        text->length += length + 4;
-        write_member(field, base, text);
+        make_room(writer, MEMBER_ROOM);
+        memcpy(writer->at, field->key, FIELD_KEY_SIZE);
+        *writer->at = separator;
+        writer->at += field->key_length;
+        write_member(field, base, writer);
         separator = ',';
     }
-    text_add_word(text, separator == '{' ? "{}" : "}");
+    make_room(writer, MEMBER_ROOM);
+    if (separator == '{')
+        *writer->at++ = '{';
+    *writer->at++ = '}';
+}
+
+void frame_text_write_record(const struct record *record, const void *base, struct text *text)
+{
+    struct writer writer = {text, text_room(text, MEMBER_ROOM)};
+    write_record(record, base, &writer);
+    *writer.at++ = '\n';
+    text->length = (size_t)(writer.at - text->bytes);
 }
 
 int frame_text_write(const struct frame *frame, struct text *text, struct diag *diag)
 {
     size_t begin = text->length;
-    write_record(&frame_record, frame, text);
-    text_add(text, "\n", 1);
+    frame_text_write_record(&frame_record, frame, text);
     size_t length = text->length - begin;
     if (length > FRAME_TEXT_SIZE) {
         text->length = begin;

@@ -19,4 +19,10 @@ int frame_text_read(const char *line, size_t length, struct frame *frame, struct
  * line longer than FRAME_TEXT_SIZE. */
 int frame_text_write(const struct frame *frame, struct text *text, struct diag *diag);
 
+/* The same for what is no frame: one line of any record. The struct must have been cleared; all it
+ * holds lies in the arena. */
+int frame_text_read_record(const char *line, size_t length, const struct record *record, void *base,
+                           struct arena *arena, struct diag *diag);
+void frame_text_write_record(const struct record *record, const void *base, struct text *text);
+
 #endif

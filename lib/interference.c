@@ -33,8 +33,3 @@ double interference_noise_factor(double ratio)
 {
     return sqrt(1 + ratio);
 }
-
-double interference_noise_rise_db(double ratio)
-{
-    return units_amplitude_db(interference_noise_factor(ratio));
-}

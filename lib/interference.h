@@ -21,8 +21,7 @@ double interference_overlap(double bandwidth_hz, double slope_difference_hzps, d
  * chirps that are crossed at all. */
 double interference_ratio(double power_dbm, double noise_dbm, double overlap, double hit_share);
 
-/* What the noise's amplitude is multiplied by, sqrt(1 + INR), and the same in dB. */
+/* What the noise's amplitude is multiplied by, sqrt(1 + INR). */
 double interference_noise_factor(double ratio);
-double interference_noise_rise_db(double ratio);
 
 #endif

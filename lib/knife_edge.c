@@ -28,11 +28,6 @@ double knife_edge_parameter(double depth_m, double sensor_side_m, double reflect
     return depth_m * sqrt(2 / wavelength_m / reduced_distance_m(sensor_side_m, reflector_side_m));
 }
 
-double knife_edge_loss_db(double parameter)
-{
-    return parameter > LIT ? 6.9 + units_amplitude_db(steepness(parameter)) : 0;
-}
-
 double knife_edge_amplitude_factor(double parameter)
 {
     if (!(parameter > LIT))
@@ -40,21 +35,8 @@ double knife_edge_amplitude_factor(double parameter)
     return TEN_TO_MINUS_069 / steepness(parameter) / steepness(parameter);
 }
 
-double knife_edge_fresnel_radius_m(double sensor_side_m, double reflector_side_m,
-                                   double wavelength_m)
-{
-    return sqrt(wavelength_m * reduced_distance_m(sensor_side_m, reflector_side_m));
-}
-
 /* d1 d2/(d1 + d2) is largest half way, and the two may have grown by a tenth of a metre each. */
 double knife_edge_reach_m(double range_m, double wavelength_m)
 {
     return sqrt(wavelength_m * (range_m + 0.2) / 4);
-}
-
-double knife_edge_ray_height_m(double sensor_height_m, double reflector_height_m,
-                               double sensor_side_m, double reflector_side_m)
-{
-    double way = sensor_side_m / (sensor_side_m + reflector_side_m);
-    return sensor_height_m + (reflector_height_m - sensor_height_m) * way;
 }

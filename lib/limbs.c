@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "poisson.h"
-#include "random.h"
 
 #define SLOWEST (-1.0)
 #define FASTEST 1.5
@@ -11,11 +10,6 @@
 int64_t limbs_count(double uniform)
 {
     return poisson_count(LIMBS_MEAN_COUNT, uniform);
-}
-
-int64_t limbs_most_count(void)
-{
-    return poisson_count(LIMBS_MEAN_COUNT, RANDOM_MOST);
 }
 
 /* The triangular law by inversion, from the end that the draw is near. */
@@ -35,10 +29,4 @@ struct limb limbs_limb(const double uniform[2])
 double limbs_range_rate_mps(double torso_mps, double walking_mps, struct limb limb)
 {
     return torso_mps + walking_mps * limb.swing;
-}
-
-struct bounds limbs_bounds_mps(double torso_mps, double walking_mps)
-{
-    double slow = torso_mps + SLOWEST * walking_mps, fast = torso_mps + FASTEST * walking_mps;
-    return (struct bounds){fmin(slow, fast), fmax(slow, fast)};
 }

@@ -8,8 +8,6 @@
 
 #include <stdint.h>
 
-#include "bounds.h"
-
 /* Of detections on one person, per scan; and their amplitude over the torso's, -6 dB. */
 #define LIMBS_MEAN_COUNT 0.5
 #define LIMBS_AMPLITUDE_FACTOR 0.501187233627272285002
@@ -22,9 +20,8 @@ struct limb {
     double offset_m; /* along the person's heading */
 };
 
-/* Poisson; at most limbs_most_count. */
+/* Poisson. */
 int64_t limbs_count(double uniform);
-int64_t limbs_most_count(void);
 
 /* x by the first draw, the offset evenly by the second. */
 struct limb limbs_limb(const double uniform[2]);
@@ -32,8 +29,5 @@ struct limb limbs_limb(const double uniform[2]);
 /* walking_mps is the part of the torso's range rate that its motion over ground makes: velocity
  * over ground along the sight line from the sensor. */
 double limbs_range_rate_mps(double torso_mps, double walking_mps, struct limb limb);
-
-/* Of all limbs: for rates of either sign. */
-struct bounds limbs_bounds_mps(double torso_mps, double walking_mps);
 
 #endif

@@ -21,6 +21,10 @@
  * boresight lies at 90 degrees but for its rounding. */
 #define BORDER_RAD 1e-9
 
+/* In ranges of the sensor, of all ways that are asked for: by a mirror and straight back, a thing
+ * in range is at most twice as far by the mirror. */
+#define LONGEST_WAY 2
+
 double look_border_rad(const struct sensor *sensor)
 {
     return sensor->field_of_view_rad / 2 - BORDER_RAD;
@@ -32,17 +36,23 @@ static struct box box_at(const struct object *object, double age_s)
     return (struct box){then, vec2_heading(then.yaw_rad), object->length_m, object->width_m};
 }
 
-static int compare_bodies(const void *left, const void *right)
+static int compare_objects(const void *left, const void *right)
 {
-    return strcmp(((const struct look_body *)left)->object->id,
-                  ((const struct look_body *)right)->object->id);
+    return strcmp((*(const struct object *const *)left)->id,
+                  (*(const struct object *const *)right)->id);
 }
 
 struct look_body *look_body_of(const struct look *look, const char *id)
 {
-    const struct object wanted = {.id = id};
-    const struct look_body key = {.object = &wanted};
-    return bsearch(&key, look->bodies, look->body_count, sizeof key, compare_bodies);
+    size_t low = 0, high = look->body_count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        int order = strcmp(id, look->bodies[middle].object->id);
+        if (order == 0)
+            return &look->bodies[middle];
+        *(order < 0 ? &high : &low) = order < 0 ? middle : middle + 1;
+    }
+    return NULL;
 }
 
 static bool moves(const struct object *object, const struct motion *then)
@@ -51,24 +61,29 @@ static bool moves(const struct object *object, const struct motion *then)
            object->yaw_rad != then->yaw_rad;
 }
 
+static struct look_body body_of(const struct look *look, const struct object *object, double age_s)
+{
+    struct look_body body = {.object = object, .box = box_at(object, age_s)};
+    body.moved = age_s != 0 && moves(object, &body.box.motion);
+    body.sector = sector_of(vec2_sub(body.box.motion.position_m, look->position_m),
+                            0.5 * vec2_length((struct vec2){object->length_m, object->width_m}));
+    reflectors_outline(&body.box, body.corner);
+    return body;
+}
+
 static void place_bodies(struct look *look, double age_s)
 {
     const struct frame *frame = look->frame;
-    look->bodies = arena_get(frame->arena, frame->objects.count * sizeof *look->bodies);
-    for (size_t i = 0; i < frame->objects.count; i++) {
-        const struct object *object = &frame->objects.items[i];
-        if (strcmp(object->id, frame->ego) == 0)
-            continue;
-        struct look_body *body = &look->bodies[look->body_count++];
-        body->object = object;
-        body->box = box_at(object, age_s);
-        body->moved = age_s != 0 && moves(object, &body->box.motion);
-        body->sector =
-            sector_of(vec2_sub(body->box.motion.position_m, look->position_m),
-                      0.5 * vec2_length((struct vec2){object->length_m, object->width_m}));
-        reflectors_outline(&body->box, body->corner);
-    }
-    sort_items(look->bodies, look->body_count, sizeof *look->bodies, compare_bodies, frame->arena);
+    size_t count = 0;
+    const struct object **others = arena_get(frame->arena, frame->objects.count * sizeof(*others));
+    for (size_t i = 0; i < frame->objects.count; i++)
+        if (strcmp(frame->objects.items[i].id, frame->ego) != 0)
+            others[count++] = &frame->objects.items[i];
+    sort_items(others, count, sizeof(*others), compare_objects, frame->arena);
+    look->bodies = arena_get(frame->arena, count * sizeof *look->bodies);
+    for (size_t i = 0; i < count; i++)
+        look->bodies[i] = body_of(look, others[i], age_s);
+    look->body_count = count;
 }
 
 static int mark_blockers(struct look *look, struct diag *diag)
@@ -92,6 +107,17 @@ static int mark_blockers(struct look *look, struct diag *diag)
     return 0;
 }
 
+static void enter_blockers(struct look *look)
+{
+    look->bearings = bearings_begin(look->body_count, look->frame->arena);
+    for (size_t i = 0; i < look->body_count; i++) {
+        struct sector shadow = look->bodies[i].sector;
+        shadow.radius_m += look->bend_m;
+        if (look->bodies[i].blocks)
+            bearings_enter(&look->bearings, i, bearings_of(&shadow));
+    }
+}
+
 int look_begin(struct look *look, struct frame *frame, const struct sensor *sensor,
                const struct selection *selection, double time_s, struct diag *diag)
 {
@@ -109,8 +135,12 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
     look->over = look->height_m > 0 && effects_may(selection, EFFECT_HEIGHT);
     if (sensor->diffraction && effects_may(selection, EFFECT_DIFFRACTION))
         look->wavelength_m = units_wavelength_m(sensor->carrier_hz);
+    look->bend_m = knife_edge_reach_m(LONGEST_WAY * sensor->range_max_m, look->wavelength_m);
     place_bodies(look, age_s);
-    return mark_blockers(look, diag);
+    if (mark_blockers(look, diag) != 0)
+        return -1;
+    enter_blockers(look);
+    return 0;
 }
 
 double look_top_m(const struct look *look, const struct look_body *body)

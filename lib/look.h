@@ -11,8 +11,8 @@
 #ifndef LOOK_H
 #define LOOK_H
 
+#include "bearings.h"
 #include "frame.h"
-#include "sectors.h"
 #include "sight.h"
 #include "suite.h"
 
@@ -36,9 +36,11 @@ struct look {
     double height_m;          /* 0: in a flat world */
     bool over;                /* is something seen over what is low? */
     double wavelength_m;      /* that bends around edges; 0: none does */
+    double bend_m;            /* how far beside a body it may matter that it does */
     bool moved;               /* the ego, since then */
     struct look_body *bodies; /* all objects but the ego, by id */
     size_t body_count;
+    struct bearings bearings;          /* of the bodies that block, as they are numbered here */
     const struct look_body **blockers; /* of the body that is looked at, by id */
     size_t blocker_count;
     int64_t pairs, echoes;

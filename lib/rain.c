@@ -88,19 +88,3 @@ double rain_amplitude_factor(double attenuation_dbpkm, double range_m)
 {
     return units_amplitude_from_db(-2 * attenuation_dbpkm * range_m / 1000);
 }
-
-double rain_reflectivity(double carrier_hz, double rate_mmph)
-{
-    if (carrier_hz >= 50e9)
-        return 4.2e-5 * elementary_pow(rate_mmph, 1.1);
-    double wave_numbers = PI / units_wavelength_m(carrier_hz);
-    double fourth = wave_numbers * wave_numbers * wave_numbers * wave_numbers;
-    return PI * fourth * 0.93 * 200e-18 * elementary_pow(rate_mmph, 1.6);
-}
-
-double rain_cross_section_m2(double reflectivity, double cell_range_m, double range_m,
-                             double azimuth_width_rad, double elevation_width_rad)
-{
-    double beam_m2 = range_m * range_m * azimuth_width_rad * elevation_width_rad * PI / (8 * LN_2);
-    return reflectivity * cell_range_m * beam_m2;
-}

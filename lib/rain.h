@@ -24,14 +24,4 @@ double rain_fog_attenuation_dbpkm(double carrier_hz, double temperature_c, doubl
 /* There and back through both together: 10^(-2 gamma R/(1000 · 20)). Exactly 1 without either. */
 double rain_amplitude_factor(double attenuation_dbpkm, double range_m);
 
-/* What a cubic metre of rain sends back, in m^2/m^3 [A]. Below 50 GHz the Rayleigh bound for 200
- * R^1.6 mm^6/m^3, pi^5 · 0.93 · 200e-18 R^1.6/lambda^4. From there on drops are no longer small,
- * and the fit for 70 GHz holds, 4.2e-5 R^1.1; for 1 mm/h the two meet within 5 %. */
-double rain_reflectivity(double carrier_hz, double rate_mmph);
-
-/* Of the rain in one resolution cell, where the beam has the given full widths at half power (two
- * ways Gaussian: pi/(8 ln 2)). */
-double rain_cross_section_m2(double reflectivity, double cell_range_m, double range_m,
-                             double azimuth_width_rad, double elevation_width_rad);
-
 #endif

@@ -6,6 +6,7 @@
 #include "explain.h"
 #include "frame_check.h"
 #include "frame_order.h"
+#include "frame_text.h"
 
 struct arena *runner_arena(struct runner *runner)
 {
@@ -25,6 +26,15 @@ void runner_expect(struct runner *runner, int64_t frames)
 int runner_write(struct runner *runner, const char *bytes, size_t length)
 {
     return output_write(runner->output, bytes, length, &runner->diag);
+}
+
+int runner_write_record(struct runner *runner, const struct record *record, const void *base)
+{
+    struct text text = {0};
+    frame_text_write_record(record, base, &text);
+    int result = runner_write(runner, text.bytes, text.length);
+    text_free(&text);
+    return result;
 }
 
 /* A sensor that only the frame knows would lose its echoes without a word. */
@@ -66,6 +76,24 @@ const struct suite *runner_suite(struct runner *runner, const struct frame *fram
         return NULL;
     }
     return !seen || check_views(runner, frame, suite) == 0 ? suite : NULL;
+}
+
+static bool reads_standard_input(const struct runner *runner)
+{
+    for (size_t i = 0; i < runner->common.files.count; i++)
+        if (strcmp(runner->common.files.items[i], "-") == 0)
+            return true;
+    return runner->common.files.count == 0;
+}
+
+struct counterpart *runner_counterpart(struct runner *runner, const char *path, bool partial)
+{
+    if (strcmp(path, "-") == 0 && reads_standard_input(runner))
+        diag_fail(&runner->diag, DIAG_USAGE,
+                  "\"-\" is standard input, where the frames come from; name their file");
+    else if (runner->counterpart == NULL)
+        runner->counterpart = counterpart_open(path, partial, &runner->diag);
+    return runner->counterpart;
 }
 
 /* Members of a choice that were not given are -1. */
@@ -192,6 +220,7 @@ void runner_free(struct runner *runner)
 {
     for (size_t i = 0; i < runner->rehearsing.count; i++)
         runner_free(runner->rehearsing.items[i]);
+    counterpart_close(runner->counterpart);
     if (runner->stage != NULL && runner->stage->release != NULL)
         runner->stage->release(runner->state);
     arena_free(&runner->arena);
@@ -212,40 +241,20 @@ static int check_sections(struct runner *runner, const struct frame *frame)
     return 0;
 }
 
-/* --complete: scenes ascend without gaps and end with their last frame. */
-static int follow_scene(struct runner *runner, const struct frame *frame)
-{
-    struct scene_progress *scene = NULL;
-    for (size_t i = 0; i < runner->scenes.count && scene == NULL; i++)
-        if (strcmp(runner->scenes.items[i].name, frame->scene) == 0)
-            scene = &runner->scenes.items[i];
-    if (scene == NULL) {
-        scene = list_add(&runner->scenes, &runner->arena);
-        scene->name = arena_text(&runner->arena, frame->scene, strlen(frame->scene));
-        scene->frame = -1;
-    }
-    if (scene->closed || frame->frame != scene->frame + 1)
-        return diag_fail(&runner->diag, DIAG_DATA, "frame: %lld of scene \"%s\" %s",
-                         (long long)frame->frame, frame->scene,
-                         scene->closed ? "comes after its last one" : "is out of order");
-    scene->frame = frame->frame;
-    scene->closed = frame->last;
-    return 0;
-}
-
-/* What follows every step: sections that were used up go, the rest is ordered and checked, so that
- * the stage that makes nonsense fails, not its neighbour. */
+/* What follows every step: sections that were used up go, what the stage wrote is ordered and
+ * checked, so that the stage that makes nonsense fails, not its neighbour. The rest was checked
+ * before, by the reader or after an earlier stage. */
 static int conclude(struct runner *runner, struct frame *frame)
 {
     const struct stage *stage = runner->stage;
+    const struct part written = {stage->writes, stage->name};
     if (!runner->common.keep)
         frame_drop(frame, stage->reads & ~stage->writes & SECTIONS_CONSUMED);
     frame->present |= stage->writes & ~(unsigned)SECTION_LOST;
     if (frame->account && (stage->writes & SECTION_LOST) != 0)
         frame->present |= SECTION_LOST;
-    frame_order(frame);
-    if (field_check(&frame_record, frame, &runner->diag) != 0 ||
-        frame_check(frame, &runner->diag) != 0) {
+    frame_order_part(frame, written);
+    if (frame_check_part(frame, written, &runner->diag) != 0) {
         runner->diag.code = DIAG_INTERNAL;
         return diag_prefix(&runner->diag, "made nonsense: ");
     }
@@ -285,7 +294,8 @@ int runner_step(struct runner *runner, struct frame *frame)
     if (runner->common.seed_given)
         frame->seed = runner->common.seed;
     if (check_sections(runner, frame) != 0 ||
-        (runner->common.complete && follow_scene(runner, frame) != 0) ||
+        (runner->common.complete &&
+         completeness_follow(&runner->completeness, frame, &runner->arena, &runner->diag) != 0) ||
         told(runner, runner->stage->step(runner->state, frame, runner)) != 0)
         return -1;
     return runner->stage->sink ? 0 : conclude(runner, frame);
@@ -320,10 +330,8 @@ int runner_rehearse(struct runner *runner, const struct stage *stage,
 
 int runner_finish(struct runner *runner)
 {
-    for (size_t i = 0; i < runner->scenes.count; i++)
-        if (!runner->scenes.items[i].closed)
-            return diag_fail(&runner->diag, DIAG_DATA, "scene \"%s\" ends before its last frame",
-                             runner->scenes.items[i].name);
+    if (completeness_end(&runner->completeness, &runner->diag) != 0)
+        return -1;
     const struct stage *stage = runner->stage;
     if (stage->stop != NULL && told(runner, stage->stop(runner->state, runner)) != 0)
         return -1;

@@ -3,15 +3,10 @@
 #ifndef RUNNER_H
 #define RUNNER_H
 
+#include "completeness.h"
 #include "options.h"
 #include "output.h"
 #include "stage.h"
-
-struct scene_progress {
-    const char *name;
-    int64_t frame; /* the last one seen */
-    bool closed;
-};
 
 struct runner {
     const struct stage *stage;
@@ -22,10 +17,11 @@ struct runner {
     struct output *output; /* of the last stage in a chain, else NULL */
     LIST_OF(const struct suite *) suites;
     LIST_OF(const struct vehicle *) vehicles;
-    LIST_OF(struct scene_progress) scenes; /* followed only under --complete */
-    int64_t expected_frames;               /* 0 if the source does not say */
-    struct effect_log *log;                /* NULL unless --explain was given */
-    LIST_OF(struct runner *) rehearsing;   /* other stages, inside this one */
+    struct completeness completeness;    /* followed only under --complete */
+    int64_t expected_frames;             /* 0 if the source does not say */
+    struct effect_log *log;              /* NULL unless --explain was given */
+    LIST_OF(struct runner *) rehearsing; /* other stages, inside this one */
+    struct counterpart *counterpart;     /* NULL: none was asked for */
 };
 
 /* All return 0, or -1 after a message in runner->diag; runner_next returns 1 with a frame and 0 at

@@ -4,6 +4,8 @@
 
 #include "catalogue.h"
 #include "frame.h"
+#include "score.h"
+#include "track.h"
 
 static const struct {
     const char *name;
@@ -11,7 +13,12 @@ static const struct {
 } schemas[] = {
     {"frame", &frame_record},
     {"scenario", &scenario_record},
+    {"score", &score_line_record},
+    {"score-summary", &score_summary_record},
+    {"score-tracks", &score_track_line_record},
+    {"score-tracks-summary", &score_track_summary_record},
     {"sensors", &suite_record},
+    {"tracks", &track_list_record},
     {"vehicle", &vehicle_record},
 };
 

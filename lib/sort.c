@@ -3,50 +3,78 @@
 #include <stdbool.h>
 #include <string.h>
 
+/* Addresses of items as they are merged, and where each run of items in order ends. */
 struct sorting {
-    size_t size;
     int (*compare)(const void *, const void *);
+    const char **from, **to;
+    size_t *end;
+    size_t runs;
 };
 
-static bool is_sorted(const struct sorting *sorting, const char *items, size_t count)
+static void find_runs(struct sorting *sorting, const char *items, size_t count, size_t size)
+{
+    for (size_t i = 0; i < count; i++) {
+        sorting->from[i] = items + i * size;
+        if (i > 0 && sorting->compare(sorting->from[i - 1], sorting->from[i]) > 0)
+            sorting->end[sorting->runs++] = i;
+    }
+    sorting->end[sorting->runs++] = count;
+}
+
+/* Two runs side by side become one. */
+static void merge(const struct sorting *sorting, size_t begin, size_t middle, size_t end)
+{
+    const char **left = sorting->from + begin, **right = sorting->from + middle,
+               **to = sorting->to + begin;
+    const char *const *left_end = right, *const *right_end = sorting->from + end;
+    while (left < left_end && right < right_end)
+        *to++ = sorting->compare(*left, *right) <= 0 ? *left++ : *right++;
+    while (left < left_end)
+        *to++ = *left++;
+    while (right < right_end)
+        *to++ = *right++;
+}
+
+static void merge_neighbours(struct sorting *sorting)
+{
+    size_t begin = 0, merged = 0;
+    for (size_t run = 0; run < sorting->runs; run += 2) {
+        size_t middle = sorting->end[run];
+        size_t end = run + 1 < sorting->runs ? sorting->end[run + 1] : middle;
+        merge(sorting, begin, middle, end);
+        sorting->end[merged++] = end;
+        begin = end;
+    }
+    sorting->runs = merged;
+    const char **merged_at = sorting->to;
+    sorting->to = sorting->from;
+    sorting->from = merged_at;
+}
+
+static bool is_sorted(const char *items, size_t count, size_t size,
+                      int (*compare)(const void *, const void *))
 {
     for (size_t i = 1; i < count; i++)
-        if (sorting->compare(items + (i - 1) * sorting->size, items + i * sorting->size) > 0)
+        if (compare(items + (i - 1) * size, items + i * size) > 0)
             return false;
     return true;
-}
-
-/* Merges the sorted left and right halves of from into to. */
-static void merge(const struct sorting *sorting, const char *from, size_t count, char *to)
-{
-    size_t size = sorting->size;
-    const char *left = from, *middle = from + count / 2 * size, *right = middle,
-               *end = from + count * size;
-    for (; left < middle || right < end; to += size) {
-        bool take_left = right == end || (left < middle && sorting->compare(left, right) <= 0);
-        memcpy(to, take_left ? left : right, size);
-        *(take_left ? &left : &right) += size;
-    }
-}
-
-/* Sorts count items into to; from holds the same items and is used as scratch. */
-static void sort_into(const struct sorting *sorting, char *from, size_t count, char *to)
-{
-    if (count < 2)
-        return;
-    size_t left = count / 2;
-    sort_into(sorting, to, left, from);
-    sort_into(sorting, to + left * sorting->size, count - left, from + left * sorting->size);
-    merge(sorting, from, count, to);
 }
 
 void sort_items(void *items, size_t count, size_t size, int (*compare)(const void *, const void *),
                 struct arena *arena)
 {
-    const struct sorting sorting = {size, compare};
-    if (is_sorted(&sorting, items, count))
+    if (is_sorted(items, count, size, compare))
         return;
-    char *scratch = arena_get(arena, count * size);
-    memcpy(scratch, items, count * size);
-    sort_into(&sorting, scratch, count, items);
+    struct sorting sorting = {
+        .compare = compare,
+        .from = arena_get(arena, count * sizeof(const char *)),
+        .to = arena_get(arena, count * sizeof(const char *)),
+        .end = arena_get(arena, count * sizeof(size_t)),
+    };
+    find_runs(&sorting, items, count, size);
+    while (sorting.runs > 1)
+        merge_neighbours(&sorting);
+    char *place = items, *copy = memcpy(arena_get(arena, count * size), items, count * size);
+    for (size_t i = 0; i < count; i++)
+        memcpy(place + i * size, copy + (sorting.from[i] - place), size);
 }

@@ -15,6 +15,7 @@
 #define STAGE_H
 
 #include "catalogue.h"
+#include "counterpart.h"
 #include "frame.h"
 #include "units.h"
 
@@ -30,7 +31,8 @@ struct stage {
     const char *operand;
     bool sink;
     /* enum section. What a stage reads must be there; what it writes must not be there yet, unless
-     * it reads it too: then it changes it in place. */
+     * it reads it too: then it changes it in place. lost and counts are added to. Only what a stage
+     * writes is ordered and checked after its step, so it changes nothing else (test_runner). */
     unsigned reads, writes;
     int (*start)(void *state, struct runner *runner);
     int (*next)(void *state, struct frame *frame, struct runner *runner);
@@ -110,6 +112,14 @@ int runner_rehearse(struct runner *runner, const struct stage *stage,
 
 /* A sink's way out. */
 int runner_write(struct runner *runner, const char *bytes, size_t length);
+
+/* The same for a line of JSON, as the record says. */
+int runner_write_record(struct runner *runner, const struct record *record, const void *base);
+
+/* Another stream beside the one that is read, for sinks that compare: opened once, closed at the
+ * end.
+ * "-" is standard input where the frames come from files. NULL after a message. */
+struct counterpart *runner_counterpart(struct runner *runner, const char *path, bool partial);
 
 /* For the progress bar of a source: how many frames there will be. */
 void runner_expect(struct runner *runner, int64_t frames);

@@ -64,22 +64,75 @@ size_t text_utf8(const char *bytes, size_t room)
     return overlong || surrogate || beyond ? 0 : length;
 }
 
+static bool is_plain(unsigned char byte)
+{
+    return byte >= 0x20 && byte < 0x7f && byte != '"' && byte != '\\';
+}
+
+/* The high bit of the first byte that is not plain; bits of later bytes mean nothing. */
+static uint64_t not_plain(uint64_t word)
+{
+    const uint64_t ones = UINT64_C(0x0101010101010101);
+    uint64_t beyond = word | (word + ones), control = word - 0x20 * ones;
+    uint64_t quote = (word ^ '"' * ones) - ones, backslash = (word ^ '\\' * ones) - ones;
+    return (beyond | control | quote | backslash) & 0x80 * ones;
+}
+
+size_t text_plain(const char *bytes, size_t length)
+{
+    size_t i = 0;
+    for (; length - i >= 8; i += 8) {
+        uint64_t stops = not_plain(text_word(bytes + i));
+        if (stops != 0)
+            return i + (size_t)__builtin_ctzll(stops) / 8;
+    }
+    while (i < length && is_plain((unsigned char)bytes[i]))
+        i++;
+    return i;
+}
+
+size_t text_json_size(size_t length)
+{
+    return 6 * length + 2;
+}
+
+static char *put_escaped(char *at, unsigned char byte)
+{
+    static const char digits[] = "0123456789abcdef";
+    if (byte == '"' || byte == '\\')
+        *at++ = '\\';
+    if (byte >= 0x20) {
+        *at++ = (char)byte;
+        return at;
+    }
+    at[0] = '\\';
+    at[1] = 'u';
+    at[2] = at[3] = '0';
+    at[4] = digits[byte >> 4];
+    at[5] = digits[byte & 15];
+    return at + 6;
+}
+
+char *text_put_json(char *at, const char *bytes, size_t length)
+{
+    *at++ = '"';
+    for (size_t i = 0;; i++) {
+        size_t plain = text_plain(bytes + i, length - i);
+        memcpy(at, bytes + i, plain);
+        at += plain;
+        i += plain;
+        if (i == length)
+            break;
+        at = put_escaped(at, (unsigned char)bytes[i]);
+    }
+    *at++ = '"';
+    return at;
+}
+
 void text_add_json(struct text *text, const char *bytes, size_t length)
 {
-    text_add(text, "\"", 1);
-    for (size_t i = 0, plain = 0; i <= length; i++) {
-        bool special =
-            i == length || (unsigned char)bytes[i] < 0x20 || bytes[i] == '"' || bytes[i] == '\\';
-        if (!special)
-            continue;
-        text_add(text, bytes + plain, i - plain);
-        plain = i + 1;
-        if (i < length && (unsigned char)bytes[i] >= 0x20)
-            text_format(text, "\\%c", bytes[i]);
-        else if (i < length)
-            text_format(text, "\\u%04x", (unsigned)bytes[i]);
-    }
-    text_add(text, "\"", 1);
+    const char *end = text_put_json(text_room(text, text_json_size(length)), bytes, length);
+    text->length = (size_t)(end - text->bytes);
 }
 
 void text_free(struct text *text)

@@ -3,6 +3,7 @@
 #define TEXT_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 struct text {
     char *bytes;
@@ -20,8 +21,25 @@ void text_format(struct text *text, const char *format, ...) __attribute__((form
  * (cut short, overlong, a surrogate, beyond U+10FFFF). */
 size_t text_utf8(const char *bytes, size_t room);
 
+/* How many bytes of the first length are printable ASCII, and neither '"' nor '\\', up to the first
+ * that is not: they stand for themselves in names and in JSON strings. */
+size_t text_plain(const char *bytes, size_t length);
+
 /* A JSON string with its quotes and escapes; length bytes of valid UTF-8. */
 void text_add_json(struct text *text, const char *bytes, size_t length);
+
+/* The same into room of text_json_size(length) bytes; where it ends. */
+char *text_put_json(char *at, const char *bytes, size_t length);
+size_t text_json_size(size_t length);
+
+/* Eight bytes as a number, the first one lowest, on every machine. */
+static inline uint64_t text_word(const char *bytes)
+{
+    const unsigned char *byte = (const unsigned char *)bytes;
+    return (uint64_t)byte[0] | (uint64_t)byte[1] << 8 | (uint64_t)byte[2] << 16 |
+           (uint64_t)byte[3] << 24 | (uint64_t)byte[4] << 32 | (uint64_t)byte[5] << 40 |
+           (uint64_t)byte[6] << 48 | (uint64_t)byte[7] << 56;
+}
 
 void text_free(struct text *text);
 

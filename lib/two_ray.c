@@ -93,9 +93,3 @@ double two_ray_amplitude_factor(const struct two_ray_road *road, enum polarizati
                                    elementary_hypot(creal(reflection), cimag(reflection)));
     return two_ray_point_factor(&paths, reflection, wavelength_m);
 }
-
-struct bounds two_ray_bounds(double reflection)
-{
-    return (struct bounds){(1 - reflection) * (1 - reflection),
-                           (1 + reflection) * (1 + reflection)};
-}

@@ -16,7 +16,6 @@
 
 #include <complex.h>
 
-#include "bounds.h"
 #include "polarization.h"
 
 /* Dry asphalt is about 5 - j 0.25 with 1 mm; concrete 5.24 - j 0.42 at 24 and 5.24 - j 0.32 at
@@ -60,9 +59,5 @@ double two_ray_mean_factor(double reflection);
  */
 double two_ray_amplitude_factor(const struct two_ray_road *road, enum polarization polarization,
                                 double wavelength_m, const struct two_ray_ends *ends);
-
-/* (1 - g)^2 and (1 + g)^2, which no phase exceeds, nor does the mean; reflection >= |g| R1/R2, in
- * [0, 1]. */
-struct bounds two_ray_bounds(double reflection);
 
 #endif

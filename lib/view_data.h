@@ -11,18 +11,9 @@
 #define VIEW_DATA_H
 
 #include "frame.h"
-#include "text.h"
+#include "pool.h"
+#include "view_columns.h"
 #include "view_frame.h"
-#include "view_pool.h"
-
-/* One column: real numbers in single precision, or whole numbers that are written as narrowly as
- * the largest allows. */
-struct view_column {
-    LIST_OF(float) reals;
-    LIST_OF(uint32_t) counts;
-};
-
-enum { VIEW_COLUMN_LIMIT = 64 };
 
 struct view_scene {
     uint32_t name, ego, suite; /* names */
@@ -35,10 +26,10 @@ struct view_scene {
 struct view_data {
     struct arena *arena;
     struct view_models models;
-    struct view_pool names, scene_names, patterns, effect_sets;
+    struct pool names, scene_names, patterns, effect_sets;
     LIST_OF(struct view_scene) scenes;
     LIST_OF(struct sensor_view) sensors;
-    struct view_column columns[VIEW_COLUMN_LIMIT];
+    struct view_columns columns;
 };
 
 /* All memory is the arena's. */
@@ -46,13 +37,5 @@ void view_data_begin(struct view_data *data, struct arena *arena);
 
 /* Takes a frame in canonical order, of any scene; uses its arena for what it need not keep. */
 void view_data_add(struct view_data *data, const struct frame *frame);
-
-/* JSON without any `<`, so that no name can end the script element that it stands in: names,
- * scenes, sensors, classes, and where each column lies. open_frame is where the page is to start;
- * -1 leaves it to the page. */
-void view_data_write_head(const struct view_data *data, int64_t open_frame, struct text *text);
-
-/* The columns in base64, each beginning at a multiple of 16 characters. */
-void view_data_write_columns(const struct view_data *data, struct text *text);
 
 #endif

@@ -78,12 +78,13 @@ void ways_find_blockers(struct look *look, const struct look_body *own,
     if (!effects_may(selection, EFFECT_OCCLUSION))
         return;
     bool all = effects_must(selection, EFFECT_OCCLUSION);
-    double reach_m = knife_edge_reach_m(wanted.distance_m + wanted.radius_m, look->wavelength_m);
-    for (size_t i = 0; i < look->body_count; i++) {
-        const struct look_body *body = &look->bodies[i];
+    struct bearings_span span = all ? bearings_everywhere : bearings_of(&wanted);
+    size_t count = bearings_find(&look->bearings, span);
+    for (size_t i = 0; i < count; i++) {
+        const struct look_body *body = &look->bodies[look->bearings.found[i]];
         struct sector shadow = body->sector;
-        shadow.radius_m += reach_m;
-        if (body != own && body->blocks && (all || sectors_overlap(&shadow, &wanted)))
+        shadow.radius_m += look->bend_m;
+        if (body != own && (all || sectors_overlap(&shadow, &wanted)))
             look->blockers[look->blocker_count++] = body;
     }
     bool some = all || look->blocker_count > 0;
@@ -141,10 +142,16 @@ struct way ways_along(const struct look *look, const struct passage_line *line,
                       const struct look_body *const *but, size_t count)
 {
     struct way all = {.factor = 1};
-    for (size_t i = 0; i < look->body_count && effects_may(look->selection, EFFECT_OCCLUSION);
-         i++) {
-        const struct look_body *body = &look->bodies[i];
-        if (!body->blocks || passes_clear(body, line->from, line->to, look->wavelength_m) ||
+    if (!effects_may(look->selection, EFFECT_OCCLUSION))
+        return all;
+    struct bearings_span span = effects_must(look->selection, EFFECT_OCCLUSION)
+                                    ? bearings_everywhere
+                                    : bearings_between(vec2_sub(line->from, look->position_m),
+                                                       vec2_sub(line->to, look->position_m));
+    size_t near = bearings_find(&look->bearings, span);
+    for (size_t i = 0; i < near; i++) {
+        const struct look_body *body = &look->bodies[look->bearings.found[i]];
+        if (passes_clear(body, line->from, line->to, look->wavelength_m) ||
             is_among(body, but, count))
             continue;
         struct way way = past(look, body, line);

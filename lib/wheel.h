@@ -9,8 +9,6 @@
 
 #include <stdint.h>
 
-#include "bounds.h"
-
 /* Of detections on one wheel that is in sight, per scan; and their amplitude over that of a corner
  * of the body, -10 dB [A]. */
 #define WHEEL_MEAN_COUNT 1.5
@@ -21,9 +19,8 @@ struct wheel_point {
     double angle_rad; /* psi, 0 at the top */
 };
 
-/* Poisson; at most wheel_most_count. */
+/* Poisson. */
 int64_t wheel_count(double uniform);
-int64_t wheel_most_count(void);
 
 /* rho evenly from 0.3 to 1 by the first draw, psi evenly around the wheel by the second [A]. */
 struct wheel_point wheel_point(const double uniform[2]);
@@ -31,8 +28,5 @@ struct wheel_point wheel_point(const double uniform[2]);
 /* hub_mps is the hub's range rate, rolling_mps the part of it that its motion over ground makes:
  * ground velocity of the hub along the sight line from the sensor, v cos alpha. */
 double wheel_range_rate_mps(double hub_mps, double rolling_mps, struct wheel_point point);
-
-/* Of all points: from the contact point's rate to that of the top. */
-struct bounds wheel_bounds_mps(double hub_mps, double rolling_mps);
 
 #endif

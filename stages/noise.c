@@ -93,6 +93,6 @@ const struct stage stage_noise = {
         "order up to its limit, rounded to its steps, each with its exact label.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_CELLS,
-    .writes = SECTION_TARGETS | SECTION_LOST,
+    .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS,
     .step = noise_step,
 };

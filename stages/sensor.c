@@ -90,6 +90,6 @@ const struct stage stage_sensor = {
                "writes what the sum and delta channels would show of the rest without noise.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_ECHOES,
-    .writes = SECTION_CELLS | SECTION_LOST,
+    .writes = SECTION_CELLS | SECTION_LOST | SECTION_COUNTS,
     .step = sensor_step,
 };

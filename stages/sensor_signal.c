@@ -158,7 +158,7 @@ const struct stage stage_sensor_signal = {
         "digits, which no other stage does.",
     .options = &sensor_signal_options,
     .reads = SECTION_SENSORS | SECTION_ECHOES,
-    .writes = SECTION_TARGETS | SECTION_LOST,
+    .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS,
     .step = sensor_signal_step,
     .release = sensor_signal_release,
 };

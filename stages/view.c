@@ -4,6 +4,7 @@
 
 #include "stage.h"
 #include "view_data.h"
+#include "view_head.h"
 #include "view_page.h"
 #include "view_svg.h"
 
@@ -73,9 +74,9 @@ static void write_page(const struct view *view, struct text *text)
 {
     const char *from = view_page;
     add_page(text, &from, VIEW_PAGE_HEAD_MARK);
-    view_data_write_head(&view->data, view->frame, text);
+    view_head_write(&view->data, view->frame, text);
     add_page(text, &from, VIEW_PAGE_COLUMNS_MARK);
-    view_data_write_columns(&view->data, text);
+    view_columns_write(&view->data.columns, text);
     text_add_word(text, from);
 }
 

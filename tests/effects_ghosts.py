@@ -10,7 +10,6 @@ import math
 import random
 import subprocess
 import sys
-import tempfile
 
 sys.dont_write_bytecode = True
 import model  # noqa: E402
@@ -195,19 +194,12 @@ CHECKS = [
 ]
 
 
-def main(bin_dir):
-    with tempfile.TemporaryDirectory(prefix="glint-effects-") as scratch:
-        bench = model.Bench(bin_dir, scratch)
-        for name in bench.vehicles:
-            bench.add_vehicle(name, bench.vehicles[name])
-        bench.add_vehicle("dot", DOT)
-        bench.add_vehicle("mirror", WALL)
-        (bench.scratch / "flat.csv").write_text(FLAT)
-        for sentence, prove in CHECKS:
-            prove(bench)
-            bench.end_group(sentence)
-        return 1 if bench.failures else 0
+def prepare(bench):
+    model.add_shipped_vehicles(bench)
+    bench.add_vehicle("dot", DOT)
+    bench.add_vehicle("mirror", WALL)
+    (bench.scratch / "flat.csv").write_text(FLAT)
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]) if len(sys.argv) == 2 else __doc__)
+    model.run(__doc__, prepare, CHECKS)

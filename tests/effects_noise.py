@@ -11,7 +11,6 @@ import json
 import math
 import subprocess
 import sys
-import tempfile
 
 sys.dont_write_bytecode = True
 import model  # noqa: E402
@@ -420,16 +419,5 @@ CHECKS = [
 ]
 
 
-def main(bin_dir):
-    with tempfile.TemporaryDirectory(prefix="glint-effects-") as scratch:
-        bench = model.Bench(bin_dir, scratch)
-        for name in bench.vehicles:
-            bench.add_vehicle(name, bench.vehicles[name])
-        for sentence, prove in CHECKS:
-            prove(bench)
-            bench.end_group(sentence)
-        return 1 if bench.failures else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]) if len(sys.argv) == 2 else __doc__)
+    model.run(__doc__, model.add_shipped_vehicles, CHECKS)

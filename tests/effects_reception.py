@@ -10,7 +10,6 @@ import json
 import math
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -403,17 +402,10 @@ CHECKS = [
 ]
 
 
-def main(bin_dir):
-    with tempfile.TemporaryDirectory(prefix="glint-effects-") as scratch:
-        bench = model.Bench(bin_dir, scratch)
-        for name in bench.vehicles:
-            bench.add_vehicle(name, bench.vehicles[name])
-        model.add_vehicles(bench)
-        for sentence, prove in CHECKS:
-            prove(bench)
-            bench.end_group(sentence)
-        return 1 if bench.failures else 0
+def prepare(bench):
+    model.add_shipped_vehicles(bench)
+    model.add_vehicles(bench)
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]) if len(sys.argv) == 2 else __doc__)
+    model.run(__doc__, prepare, CHECKS)

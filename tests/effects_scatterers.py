@@ -10,7 +10,6 @@ import json
 import math
 import subprocess
 import sys
-import tempfile
 
 sys.dont_write_bytecode = True
 import model  # noqa: E402
@@ -453,15 +452,5 @@ CHECKS = [
 ]
 
 
-def main(bin_dir):
-    with tempfile.TemporaryDirectory(prefix="glint-scatterers-") as scratch:
-        bench = model.Bench(bin_dir, scratch)
-        add_vehicles(bench)
-        for sentence, prove in CHECKS:
-            prove(bench)
-            bench.end_group(sentence)
-        return 1 if bench.failures else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]) if len(sys.argv) == 2 else __doc__)
+    model.run(__doc__, add_vehicles, CHECKS)

@@ -89,6 +89,24 @@ class Bench:
         self.group_failures = self.group_checks = 0
 
 
+def run(doc, prepare, checks):
+    """A program of sentences: proves each on one bench, and exits with 1 if any is false."""
+    if len(sys.argv) != 2:
+        sys.exit(doc)
+    with tempfile.TemporaryDirectory(prefix="glint-") as scratch:
+        bench = Bench(sys.argv[1], scratch)
+        prepare(bench)
+        for sentence, prove in checks:
+            prove(bench)
+            bench.end_group(sentence)
+    sys.exit(bench.failures > 0)
+
+
+def add_shipped_vehicles(bench):
+    for name in list(bench.vehicles):
+        bench.add_vehicle(name, bench.vehicles[name])
+
+
 # ---- documents and frames ----------------------------------------------------------------------
 
 

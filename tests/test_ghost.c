@@ -1,8 +1,6 @@
 #include "check.h"
 
 #include "ghost.h"
-#include "radar_equation.h"
-#include "reflection.h"
 #include "sample.h"
 #include "units.h"
 
@@ -51,8 +49,6 @@ static void effects_7_has_its_ghosts(void **state)
         {ghost_out(0.9, &direct, &mirrored), 30.844685, -3.814075, -4.866171, -1.353466},
         {ghost_back(0.9, &direct, &mirrored), 30.844685, 18.434949, -4.866171, -1.353466},
         {ghost_both(0.9, &mirrored), 31.622777, 18.434949, -4.743416, -2.706931},
-        {ghost_double(1, 1, &direct), 60.133186, -3.814075, -9.977852,
-         20 * log10(10 / (4 * PI * 904))},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         const struct sight *seen = &cases[i].ghost.sight;
@@ -61,68 +57,6 @@ static void effects_7_has_its_ghosts(void **state)
         assert_close(seen->range_rate_mps, cases[i].range_rate_mps, 1.1e-6);
         assert_close(power_db(&cases[i].ghost, &direct), cases[i].power_db, 5e-7);
     }
-    struct ghost behind = ghost_behind(0.9, 1, &direct, &STANDARD.object, &image);
-    assert_close(behind.sight.range_m, 36.066593, 5e-7);
-    assert_close(behind.sight.azimuth_rad / DEGREE, -3.814075, 5e-7);
-    assert_close(behind.sight.range_rate_mps, -4.988926, 5e-7);
-}
-
-static void the_bistatic_loss_is_that_of_effects_7(void **state)
-{
-    (void)state;
-    struct vec2 sensor = {0, 0}, bounce = {12, 4};
-    double factor = ghost_bistatic_factor(sensor, bounce, STANDARD.object.place_m);
-    assert_close(20 * log10(factor), -1.271566, 5e-7);
-    struct mirror_image image = image_in(&STANDARD);
-    struct sight direct = look_at(&STANDARD, &STANDARD.object);
-    struct sight mirrored = look_at(&STANDARD, &image);
-    struct ghost ghost = ghost_out(0.9, &direct, &mirrored);
-    ghost.ercs_factor *= factor;
-    assert_close(power_db(&ghost, &direct), -2.625032, 1e-6);
-    /* Straight back there is no loss; straight through nothing comes. */
-    assert_close(ghost_bistatic_factor(sensor, sensor, (struct vec2){3, 4}), 1, 0);
-    assert_close(ghost_bistatic_factor(sensor, (struct vec2){6, 8}, (struct vec2){3, 4}), 0, 1e-4);
-    assert_close(ghost_bistatic_factor(sensor, sensor, sensor), 1, 0);
-    /* 14.620874 deg, from either leg and on either side */
-    struct vec2 left = vec2_heading(14.620874 * DEGREE), right = {left.x, -left.y};
-    struct vec2 ahead = {7, 0};
-    assert_close(ghost_bistatic_factor(ahead, left, sensor), factor, 1e-7);
-    assert_close(ghost_bistatic_factor(right, ahead, sensor), factor, 1e-7);
-}
-
-static void two_bodies_light_each_other_as_effects_7_has_it(void **state)
-{
-    (void)state;
-    static const struct {
-        double cross_section_m2, ego_m2, range_m, power_db;
-    } cases[] = {
-        {10, 10, 5, -29.942997},    {10, 10, 10, -41.984197},       {5, 20, 10, -41.984197},
-        {1e9, 1e9, 10, -12.041200}, {1000, 1000, 1e-3, -12.041200},
-    };
-    for (size_t i = 0; i < COUNT(cases); i++) {
-        struct sight direct = {.range_m = cases[i].range_m, .range_rate_mps = 3};
-        struct ghost ghost = ghost_double(radar_ercs(cases[i].cross_section_m2),
-                                          radar_ercs(cases[i].ego_m2), &direct);
-        assert_close(power_db(&ghost, &direct), cases[i].power_db, 5e-7);
-        assert_close(ghost.sight.range_m, 2 * cases[i].range_m, 0);
-        assert_close(ghost.sight.range_rate_mps, 6, 0);
-    }
-}
-
-/* sigma / (4 pi (2 d)^2) of the power, at most all of it. */
-static void an_object_lights_its_image_less_from_farther_away(void **state)
-{
-    (void)state;
-    static const double cases[][2] = {{6, -22.575724}, {0.6, -2.575724}, {0.1, 0}, {0, 0}};
-    for (size_t i = 0; i < COUNT(cases); i++) {
-        struct mirror_image object = {{30, 0}, {0, 0}}, image = {{30, 2 * cases[i][0]}, {0, 0}};
-        struct sight direct = {.range_m = 30};
-        struct ghost ghost = ghost_behind(1, 1, &direct, &object, &image);
-        assert_close(power_db(&ghost, &direct), cases[i][1], 5e-7);
-        ghost = ghost_behind(0.5, 1, &direct, &object, &image);
-        assert_close(power_db(&ghost, &direct), cases[i][1] - 6.020600, 1e-6);
-        assert_close(ghost.sight.range_m, 30 + cases[i][0], 0);
-    }
 }
 
 static void what_reflects_nothing_is_zero_and_never_nan(void **state)
@@ -130,24 +64,14 @@ static void what_reflects_nothing_is_zero_and_never_nan(void **state)
     (void)state;
     struct mirror_image image = image_in(&STANDARD);
     struct sight direct = look_at(&STANDARD, &STANDARD.object);
-    struct sight mirrored = look_at(&STANDARD, &image), here = {0};
+    struct sight mirrored = look_at(&STANDARD, &image);
     const double factors[] = {
         ghost_out(0, &direct, &mirrored).ercs_factor,
         ghost_back(0, &direct, &mirrored).ercs_factor,
         ghost_both(0, &mirrored).ercs_factor,
-        ghost_behind(0, 1, &direct, &STANDARD.object, &image).ercs_factor,
-        ghost_behind(0.9, 0, &direct, &STANDARD.object, &image).ercs_factor,
-        ghost_behind(0.9, 0, &direct, &STANDARD.object, &STANDARD.object).ercs_factor,
-        ghost_behind(0.9, 1, &here, &STANDARD.object, &STANDARD.object).ercs_factor,
-        ghost_double(0, 1, &direct).ercs_factor,
-        ghost_double(1, 0, &direct).ercs_factor,
-        ghost_double(0, 0, &here).ercs_factor,
     };
     for (size_t i = 0; i < COUNT(factors); i++)
         assert_close(factors[i], 0, 0);
-    assert_close(ghost_double(1, 1, &here).ercs_factor, 1, 0);
-    struct ghost touching = ghost_behind(0.9, 1, &direct, &STANDARD.object, &STANDARD.object);
-    assert_close(touching.sight.range_rate_mps, direct.range_rate_mps, 0);
 }
 
 static struct vec2 random_place(uint64_t *sample, double bound)
@@ -193,23 +117,18 @@ static double leg_m(struct vec2 from, struct vec2 to)
     return vec2_length(vec2_sub(to, from));
 }
 
-enum { OUT, BOTH, BEHIND, PATHS };
+enum { OUT, BOTH, PATHS };
 
 /* Half the way, leg by leg. False if a path does not exist or is ill-conditioned. */
 static bool measure(const struct scene *scene, double range_m[PATHS])
 {
-    struct vec2 sensor = scene->sensor.position_m, object = scene->object.place_m, bounce, foot;
+    struct vec2 sensor = scene->sensor.position_m, object = scene->object.place_m, bounce;
     if (leg_m(scene->mirror.a, scene->mirror.b) < 5 ||
-        !mirror_bounce(&scene->mirror, sensor, object, &bounce) ||
-        !reflection_foot(scene->mirror.a, scene->mirror.b,
-                         vec2_scale(1 / vec2_length(vec2_sub(scene->mirror.b, scene->mirror.a)),
-                                    vec2_sub(scene->mirror.b, scene->mirror.a)),
-                         0, object, &foot) ||
-        leg_m(sensor, object) < 2 || leg_m(object, foot) < 1 || leg_m(sensor, bounce) < 1)
+        !mirror_bounce(&scene->mirror, sensor, object, &bounce) || leg_m(sensor, object) < 2 ||
+        leg_m(object, bounce) < 1 || leg_m(sensor, bounce) < 1)
         return false;
     range_m[OUT] = (leg_m(sensor, bounce) + leg_m(bounce, object) + leg_m(object, sensor)) / 2;
     range_m[BOTH] = leg_m(sensor, bounce) + leg_m(bounce, object);
-    range_m[BEHIND] = leg_m(sensor, object) + leg_m(object, foot);
     return true;
 }
 
@@ -228,8 +147,7 @@ static void ranges_are_half_the_legs_and_rates_their_derivatives(void **state)
         struct mirror_image image = image_in(&scene);
         struct sight direct = look_at(&scene, &scene.object), mirrored = look_at(&scene, &image);
         struct sight seen[PATHS] = {ghost_out(1, &direct, &mirrored).sight,
-                                    ghost_both(1, &mirrored).sight,
-                                    ghost_behind(1, 1, &direct, &scene.object, &image).sight};
+                                    ghost_both(1, &mirrored).sight};
         for (int path = 0; path < PATHS; path++)
             assert_near(seen[path].range_m, range_m[path], 1e-13);
         for (size_t k = 0; k < COUNT(steps_s); k++) {
@@ -251,9 +169,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(effects_7_has_its_ghosts),
-        cmocka_unit_test(the_bistatic_loss_is_that_of_effects_7),
-        cmocka_unit_test(two_bodies_light_each_other_as_effects_7_has_it),
-        cmocka_unit_test(an_object_lights_its_image_less_from_farther_away),
         cmocka_unit_test(what_reflects_nothing_is_zero_and_never_nan),
         cmocka_unit_test(ranges_are_half_the_legs_and_rates_their_derivatives),
     };

@@ -3,6 +3,12 @@
 #include "knife_edge.h"
 #include "units.h"
 
+/* J of EFFECTS 16, one way. */
+static double loss_db(double parameter)
+{
+    return -units_amplitude_db(knife_edge_amplitude_factor(parameter)) / 2;
+}
+
 /* Fresnel's integrals behind an edge: -20 lg(|1 - C - S + j (C - S)|/2), by Simpson's rule. */
 static double exact_loss_db(double parameter)
 {
@@ -25,7 +31,7 @@ static void losses_are_as_published(void **state)
         double parameter, loss_db, exact_db;
     } rows[] = {{0, 6.032852, 6.020600}, {1, 13.925729, 13.864105}, {2, 19.042860, 19.090962}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        assert_close(knife_edge_loss_db(rows[i].parameter), rows[i].loss_db, 5.1e-7);
+        assert_close(loss_db(rows[i].parameter), rows[i].loss_db, 5.1e-7);
         assert_close(exact_loss_db(rows[i].parameter), rows[i].exact_db, 5.1e-7);
     }
 }
@@ -34,16 +40,7 @@ static void losses_are_fresnels_at_the_edge_and_behind(void **state)
 {
     (void)state;
     for (double parameter = -0.77; parameter < 12; parameter += 0.01)
-        assert_close(knife_edge_loss_db(parameter), exact_loss_db(parameter), 0.15);
-}
-
-/* EFFECTS 16: half way over 30 m. */
-static void fresnel_zones_are_as_wide_as_published(void **state)
-{
-    (void)state;
-    assert_close(knife_edge_fresnel_radius_m(15, 15, units_wavelength_m(24.125e9)), 0.3053, 5.1e-5);
-    assert_close(knife_edge_fresnel_radius_m(15, 15, units_wavelength_m(76.5e9)), 0.1714, 5.1e-5);
-    assert_near(knife_edge_fresnel_radius_m(3, 12, 0.01), sqrt(0.01 * 3 * 12 / 15), 1e-15);
+        assert_close(loss_db(parameter), exact_loss_db(parameter), 0.15);
 }
 
 /* EFFECTS 16: 0.3 m inside the shadow half way over 30 m. */
@@ -61,14 +58,6 @@ static void shadows_are_as_deep_as_published(void **state)
     }
 }
 
-static void the_factor_is_the_loss_both_ways(void **state)
-{
-    (void)state;
-    for (double parameter = -3; parameter < 40; parameter += 0.01)
-        assert_near(knife_edge_amplitude_factor(parameter),
-                    pow(10, -knife_edge_loss_db(parameter) / 10), 1e-14);
-}
-
 static void deeper_is_darker(void **state)
 {
     (void)state;
@@ -84,11 +73,10 @@ static void outside_the_shadow_all_is_seen(void **state)
 {
     (void)state;
     assert_close(knife_edge_amplitude_factor(-0.78), 1, 0);
-    assert_close(knife_edge_loss_db(-0.78), 0, 0);
     assert_close(knife_edge_amplitude_factor(-1e300), 1, 0);
     assert_close(knife_edge_amplitude_factor((double)-INFINITY), 1, 0);
     double wavelength_m = 0.0039;
-    double radius_m = knife_edge_fresnel_radius_m(4, 9, wavelength_m);
+    double radius_m = sqrt(wavelength_m * 4 * 9 / 13);
     assert_close(knife_edge_parameter(-radius_m, 4, 9, wavelength_m), -sqrt(2), 1e-15);
     assert_close(
         knife_edge_amplitude_factor(knife_edge_parameter(-0.5516 * radius_m, 4, 9, wavelength_m)),
@@ -115,38 +103,16 @@ static void ends_at_the_edge_count_as_a_tenth_of_a_metre(void **state)
     assert_close(knife_edge_parameter(0, 0, 0, 0.004), 0, 0);
 }
 
-/* A car of 1.5 m hides a car behind it from a radar at 0.5 m, but not the top of a truck. */
-static void a_car_does_not_hide_a_truck(void **state)
-{
-    (void)state;
-    assert_true(knife_edge_ray_height_m(0.5, 1.2, 20, 10) < 1.5);
-    assert_true(knife_edge_ray_height_m(0.5, 3.5, 20, 10) > 1.5);
-    static const struct {
-        double sensor_m, reflector_m, before_m, behind_m, ray_m;
-    } rows[] = {{0.5, 3.5, 20, 10, 2.5},
-                {0.5, 3.5, 0, 10, 0.5},
-                {0.5, 3.5, 10, 0, 3.5},
-                {0.4, 0.4, 7, 3, 0.4},
-                {2, 1, 1, 3, 1.75}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        assert_close(knife_edge_ray_height_m(rows[i].sensor_m, rows[i].reflector_m,
-                                             rows[i].before_m, rows[i].behind_m),
-                     rows[i].ray_m, 5e-16);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(losses_are_as_published),
         cmocka_unit_test(losses_are_fresnels_at_the_edge_and_behind),
-        cmocka_unit_test(fresnel_zones_are_as_wide_as_published),
         cmocka_unit_test(shadows_are_as_deep_as_published),
-        cmocka_unit_test(the_factor_is_the_loss_both_ways),
         cmocka_unit_test(deeper_is_darker),
         cmocka_unit_test(outside_the_shadow_all_is_seen),
         cmocka_unit_test(far_inside_nothing_is_left),
         cmocka_unit_test(ends_at_the_edge_count_as_a_tenth_of_a_metre),
-        cmocka_unit_test(a_car_does_not_hide_a_truck),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

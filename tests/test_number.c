@@ -82,6 +82,52 @@ static void no_shorter_decimal_would_do(void **state)
     }
 }
 
+/* C's printf rounds exactly, ties to even: its shortest that reads back, in fixed notation. */
+static const char *by_trial(double value, char *plain, size_t size)
+{
+    char digits[64];
+    int precision = 0;
+    do
+        snprintf(digits, sizeof digits, "%.*e", precision++, value);
+    while (strtod(digits, NULL) != value);
+    int exponent = atoi(strchr(digits, 'e') + 1), places = precision - 1 - exponent;
+    snprintf(plain, size, "%.*f", places > 0 ? places : 0, value);
+    return plain;
+}
+
+static double usual_number(uint64_t *random, int kind)
+{
+    switch (kind) {
+    case 0:
+        return sample_between(random, 1e-3, 1) * (double)(1 + sample_bits(random) % 99999);
+    case 1:
+        return (double)sample_integer(random, 999999999) / 1e4;
+    case 2: /* few bits: many lie midway between two decimals of 17 digits */
+        return 65536 + (double)(sample_bits(random) % (1 << 24)) * 0x1p-12;
+    case 3: /* beside the powers of two, where the doubles' spacing changes */
+        return from_bits((uint64_t)(1014 + sample_bits(random) % 25) << 52) *
+               (1 + (double)sample_integer(random, 3) * 0x1p-52);
+    default:
+        return from_bits((uint64_t)(1014 + sample_bits(random) % 25) << 52 |
+                         (sample_bits(random) << 4 & UINT64_MAX << sample_bits(random) % 52 &
+                          UINT64_C(0x000fffffffffffff)));
+    }
+}
+
+static void of_the_shortest_decimals_the_nearest_is_written(void **state)
+{
+    (void)state;
+    uint64_t random = 4;
+    for (int i = 0; i < 300000; i++) {
+        double value = usual_number(&random, i % 5);
+        char text[NUMBER_SIZE + 1], plain[64];
+        if (fabs(value) < 1e-3 || fabs(value) >= 1e5)
+            continue;
+        assert_string_equal(text_of(value, text), by_trial(value, plain, sizeof plain));
+        assert_string_equal(text_of(-value, text) + (value < 0 ? 0 : 1), plain + (value < 0));
+    }
+}
+
 static void numbers_look_as_people_write_them(void **state)
 {
     (void)state;
@@ -97,6 +143,14 @@ static void numbers_look_as_people_write_them(void **state)
                  {0.1 + 0.2, "0.30000000000000004"},
                  {1e22, "1e+22"},
                  {123456, "123456"},
+                 {99999, "99999"},
+                 {100000, "1e+05"},
+                 {99999.99999999999, "99999.99999999999"},
+                 {0.001, "0.001"},
+                 {0.0009, "9e-04"},
+                 {-0.0625, "-0.0625"},
+                 {65536.000244140625, "65536.00024414062"},
+                 {65536.000732421875, "65536.00073242188"},
                  {1e-7, "1e-07"},
                  {5e-324, "5e-324"},
                  {DBL_MIN, "2.2250738585072014e-308"},
@@ -196,6 +250,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_million_bit_patterns_come_back),
         cmocka_unit_test(no_shorter_decimal_would_do),
+        cmocka_unit_test(of_the_shortest_decimals_the_nearest_is_written),
         cmocka_unit_test(numbers_look_as_people_write_them),
         cmocka_unit_test(subnormals_and_the_ends_of_the_range_come_back),
         cmocka_unit_test(too_large_is_refused_and_too_small_is_zero),

@@ -7,6 +7,7 @@
 
 #include "frame_text.h"
 #include "view_data.h"
+#include "view_head.h"
 
 /* The ego at (10, 20) heads north at 5 m/s and turns; its sensor sits 2 m ahead and 1 m left. */
 #define EGO                                                                                        \
@@ -63,8 +64,8 @@ static void add_line(struct packed *packed, const char *line)
 static void finish(struct packed *packed)
 {
     json_error_t error;
-    view_data_write_head(&packed->data, -1, &packed->head);
-    view_data_write_columns(&packed->data, &packed->columns);
+    view_head_write(&packed->data, -1, &packed->head);
+    view_columns_write(&packed->data.columns, &packed->columns);
     packed->json = json_loadb(packed->head.bytes, packed->head.length, 0, &error);
     if (packed->json == NULL)
         fail_msg("the head is not JSON: %s", error.text);
@@ -343,14 +344,14 @@ static void a_pool_numbers_pieces_as_they_come(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct view_pool pool = {0};
+    struct pool pool = {0};
     char word[16];
     for (int round = 0; round < 2; round++)
         for (unsigned i = 0; i < 5000; i++) {
             snprintf(word, sizeof word, "w%u", i);
-            assert_int_equal(view_pool_word(&pool, word, &arena), i);
+            assert_int_equal(pool_word(&pool, word, &arena), i);
         }
-    assert_int_equal(view_pool_number(&pool, "w1\0x", 4, &arena), 5000);
+    assert_int_equal(pool_number(&pool, "w1\0x", 4, &arena), 5000);
     arena_free(&arena);
 }
 

@@ -1,36 +1,34 @@
-#include "view_pool.h"
+#include "pool.h"
 
 #include <string.h>
 
 #include "hash.h"
 
 /* The slot that holds these bytes, or the free one where they belong. */
-static uint32_t *slot_of(const struct view_pool *pool, const void *bytes, size_t length,
-                         uint64_t hash)
+static uint32_t *slot_of(const struct pool *pool, const void *bytes, size_t length, uint64_t hash)
 {
     for (size_t at = hash % pool->slot_count;; at = (at + 1) % pool->slot_count) {
         uint32_t *slot = &pool->slots[at];
         if (*slot == 0)
             return slot;
-        const struct view_piece *piece = &pool->pieces.items[*slot - 1];
+        const struct pool_piece *piece = &pool->pieces.items[*slot - 1];
         if (piece->hash == hash && piece->length == length &&
             memcmp(piece->bytes, bytes, length) == 0)
             return slot;
     }
 }
 
-static void grow(struct view_pool *pool, struct arena *arena)
+static void grow(struct pool *pool, struct arena *arena)
 {
     pool->slot_count = pool->slot_count == 0 ? 64 : 2 * pool->slot_count;
     pool->slots = arena_get(arena, pool->slot_count * sizeof *pool->slots);
     for (size_t i = 0; i < pool->pieces.count; i++) {
-        const struct view_piece *piece = &pool->pieces.items[i];
+        const struct pool_piece *piece = &pool->pieces.items[i];
         *slot_of(pool, piece->bytes, piece->length, piece->hash) = (uint32_t)i + 1;
     }
 }
 
-uint32_t view_pool_number(struct view_pool *pool, const void *bytes, size_t length,
-                          struct arena *arena)
+uint32_t pool_number(struct pool *pool, const void *bytes, size_t length, struct arena *arena)
 {
     if (2 * pool->pieces.count >= pool->slot_count)
         grow(pool, arena);
@@ -38,13 +36,13 @@ uint32_t view_pool_number(struct view_pool *pool, const void *bytes, size_t leng
     uint32_t *slot = slot_of(pool, bytes, length, hash);
     if (*slot == 0) {
         *list_add(&pool->pieces, arena) =
-            (struct view_piece){arena_text(arena, bytes, length), length, hash};
+            (struct pool_piece){arena_text(arena, bytes, length), length, hash};
         *slot = (uint32_t)pool->pieces.count;
     }
     return *slot - 1;
 }
 
-uint32_t view_pool_word(struct view_pool *pool, const char *word, struct arena *arena)
+uint32_t pool_word(struct pool *pool, const char *word, struct arena *arena)
 {
-    return view_pool_number(pool, word, strlen(word), arena);
+    return pool_number(pool, word, strlen(word), arena);
 }

@@ -1,0 +1,123 @@
+#include "assignment.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+/* No more rows than columns. Costs less the prices of their row and column are never negative, and
+ * 0 where a row has its column. */
+struct pairing {
+    const double *cost;
+    size_t columns;
+    double *row_price, *column_price;
+    size_t *column_of, *row_of;
+    /* Of the row that is being added: how cheaply each column is reached, from which row, and
+     * whether that is settled. */
+    double *reach;
+    size_t *from;
+    bool *settled;
+};
+
+/* Is it reached for less, or for the same without moving a row? */
+static bool is_nearer(const struct pairing *pairing, size_t column, size_t than)
+{
+    double reach = pairing->reach[column], least = pairing->reach[than];
+    bool frees =
+        pairing->row_of[column] == ASSIGNMENT_NONE && pairing->row_of[than] != ASSIGNMENT_NONE;
+    return reach < least || (reach <= least && frees);
+}
+
+/* Looks on from a row that is reached for `spent`, and settles the nearest column. */
+static size_t settle_next(struct pairing *pairing, size_t row, double spent)
+{
+    size_t next = ASSIGNMENT_NONE;
+    for (size_t column = 0; column < pairing->columns; column++) {
+        if (pairing->settled[column])
+            continue;
+        double reach = spent + (pairing->cost[row * pairing->columns + column] -
+                                pairing->row_price[row] - pairing->column_price[column]);
+        if (reach < pairing->reach[column]) {
+            pairing->reach[column] = reach;
+            pairing->from[column] = row;
+        }
+        if (next == ASSIGNMENT_NONE || is_nearer(pairing, column, next))
+            next = column;
+    }
+    pairing->settled[next] = true;
+    return next;
+}
+
+static void change_prices(struct pairing *pairing, size_t row, double spent)
+{
+    pairing->row_price[row] += spent;
+    for (size_t column = 0; column < pairing->columns; column++) {
+        if (!pairing->settled[column])
+            continue;
+        double saved = spent - pairing->reach[column];
+        pairing->column_price[column] -= saved;
+        if (pairing->row_of[column] != ASSIGNMENT_NONE)
+            pairing->row_price[pairing->row_of[column]] += saved;
+    }
+}
+
+/* Gives a row a column, at the least extra cost; rows on the way to a free column move on. */
+static void add_row(struct pairing *pairing, size_t row)
+{
+    for (size_t column = 0; column < pairing->columns; column++) {
+        pairing->reach[column] = INFINITY;
+        pairing->settled[column] = false;
+    }
+    size_t at = row, column;
+    double spent = 0;
+    for (;;) {
+        column = settle_next(pairing, at, spent);
+        spent = pairing->reach[column];
+        if (pairing->row_of[column] == ASSIGNMENT_NONE)
+            break;
+        at = pairing->row_of[column];
+    }
+    change_prices(pairing, row, spent);
+    do {
+        at = pairing->from[column];
+        pairing->row_of[column] = at;
+        size_t before = pairing->column_of[at];
+        pairing->column_of[at] = column;
+        column = before;
+    } while (at != row);
+}
+
+static void solve(const double *cost, size_t rows, size_t columns, size_t *column_of,
+                  size_t *row_of, struct arena *arena)
+{
+    struct pairing pairing = {
+        .cost = cost,
+        .columns = columns,
+        .row_price = arena_get(arena, rows * sizeof(double)),
+        .column_price = arena_get(arena, columns * sizeof(double)),
+        .column_of = column_of,
+        .row_of = row_of,
+        .reach = arena_get(arena, columns * sizeof(double)),
+        .from = arena_get(arena, columns * sizeof(size_t)),
+        .settled = arena_get(arena, columns * sizeof(bool)),
+    };
+    for (size_t row = 0; row < rows; row++)
+        column_of[row] = ASSIGNMENT_NONE;
+    for (size_t column = 0; column < columns; column++)
+        row_of[column] = ASSIGNMENT_NONE;
+    for (size_t row = 0; row < rows; row++)
+        add_row(&pairing, row);
+}
+
+void assignment_least(const double *cost, size_t rows, size_t columns, size_t *column_of,
+                      struct arena *arena)
+{
+    size_t *row_of = arena_get(arena, columns * sizeof *row_of);
+    if (rows <= columns) {
+        solve(cost, rows, columns, column_of, row_of, arena);
+        return;
+    }
+    double *turned = arena_get(arena, rows * columns * sizeof *turned);
+    for (size_t row = 0; row < rows; row++)
+        for (size_t column = 0; column < columns; column++)
+            turned[column * rows + row] = cost[row * columns + column];
+    solve(turned, columns, rows, row_of, column_of, arena);
+}

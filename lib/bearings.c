@@ -1,0 +1,88 @@
+#include "bearings.h"
+
+#include <math.h>
+
+enum { SLICES = 256 };
+
+#define NEAR_M 1e-6
+#define NEAR_SINE 1e-4
+
+const struct bearings_span bearings_everywhere = {0, SLICES};
+
+/* By the place on a square around the sensor, which ascends with the angle and costs no arctangent.
+ */
+static unsigned slice_of(struct vec2 place_m)
+{
+    double size_m = fabs(place_m.x) + fabs(place_m.y);
+    if (size_m == 0)
+        return 0;
+    double up = place_m.y / size_m;
+    return (unsigned)((place_m.x < 0 ? 3 - up : 1 + up) * (SLICES / 4)) % SLICES;
+}
+
+/* Of directions less than half a turn apart. */
+static struct bearings_span span_of(struct vec2 right, struct vec2 left)
+{
+    unsigned first = slice_of(right), last = slice_of(left);
+    return (struct bearings_span){first, (last + SLICES - first) % SLICES + 1};
+}
+
+struct bearings_span bearings_of(const struct sector *sector)
+{
+    double sine = (sector->radius_m + NEAR_M) / sector->distance_m + NEAR_SINE;
+    if (!(sine < 1))
+        return bearings_everywhere;
+    struct vec2 ahead = vec2_scale(sqrt((1 - sine) * (1 + sine)), sector->centre_m);
+    struct vec2 aside = vec2_scale(sine, vec2_left(sector->centre_m));
+    return span_of(vec2_sub(ahead, aside), vec2_add(ahead, aside));
+}
+
+struct bearings_span bearings_between(struct vec2 from_m, struct vec2 to_m)
+{
+    static const struct vec2 here = {0, 0};
+    double cross = vec2_cross(from_m, to_m), dot = vec2_dot(from_m, to_m);
+    if (vec2_same(from_m, here) || vec2_same(to_m, here))
+        return vec2_same(from_m, here) ? span_of(to_m, to_m) : span_of(from_m, from_m);
+    if (fabs(cross) <= -NEAR_SINE * dot)
+        return bearings_everywhere;
+    return cross < 0 ? span_of(to_m, from_m) : span_of(from_m, to_m);
+}
+
+struct bearings bearings_begin(size_t count, struct arena *arena)
+{
+    size_t words = count / 64 + 1;
+    return (struct bearings){
+        .words = words,
+        .slices = arena_get(arena, SLICES * words * sizeof(uint64_t)),
+        .found = arena_get(arena, (count + 1) * sizeof(size_t)),
+    };
+}
+
+static uint64_t *set_of(const struct bearings *bearings, struct bearings_span span, unsigned i)
+{
+    return bearings->slices + (span.first + i) % SLICES * bearings->words;
+}
+
+void bearings_enter(struct bearings *bearings, size_t number, struct bearings_span span)
+{
+    for (unsigned i = 0; i < span.count; i++)
+        set_of(bearings, span, i)[number / 64] |= UINT64_C(1) << number % 64;
+}
+
+/* Numbers of a whole word, in that word of every set of the span. */
+static uint64_t word_of(const struct bearings *bearings, struct bearings_span span, size_t word)
+{
+    uint64_t bits = 0;
+    for (unsigned i = 0; i < span.count; i++)
+        bits |= set_of(bearings, span, i)[word];
+    return bits;
+}
+
+size_t bearings_find(const struct bearings *bearings, struct bearings_span span)
+{
+    size_t count = 0;
+    for (size_t word = 0; word < bearings->words; word++)
+        for (uint64_t bits = word_of(bearings, span, word); bits != 0; bits &= bits - 1)
+            bearings->found[count++] = 64 * word + (size_t)__builtin_ctzll(bits);
+    return count;
+}

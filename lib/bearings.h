@@ -1,0 +1,44 @@
+/* Who may stand in which direction, so that a question about one direction asks few of many.
+ *
+ * The horizon around a sensor is cut into slices. Each holds the set of those, by number, whose
+ * circles may reach into it; what a question gets is every number whose circle comes anywhere near
+ * the slices it is about, and some more. Sets are bits, 64 to a word: they join in one step a word
+ * and come out in ascending order. */
+#ifndef BEARINGS_H
+#define BEARINGS_H
+
+#include <stdint.h>
+
+#include "memory.h"
+#include "sectors.h"
+
+struct bearings {
+    size_t words;     /* of a set */
+    uint64_t *slices; /* a set for each */
+    size_t *found;    /* numbers, ascending: the answer to the last question */
+};
+
+/* Slices, counter-clockwise from the first. */
+struct bearings_span {
+    unsigned first, count;
+};
+
+extern const struct bearings_span bearings_everywhere;
+
+/* Every slice that a line from the sensor which comes near the circle can run in; all of them if
+ * the sensor is in the circle or near it. Near is 1e-6 m and 1e-4 of the distance and 1e-4 rad,
+ * thousands of times more than rounding or the slack of sectors_overlap. */
+struct bearings_span bearings_of(const struct sector *sector);
+
+/* Every slice in which a straight line between two places runs, as seen from the sensor. */
+struct bearings_span bearings_between(struct vec2 from_m, struct vec2 to_m);
+
+/* Empty sets of numbers below count. */
+struct bearings bearings_begin(size_t count, struct arena *arena);
+
+void bearings_enter(struct bearings *bearings, size_t number, struct bearings_span span);
+
+/* Finds all that were entered into any slice of the span, and says how many. */
+size_t bearings_find(const struct bearings *bearings, struct bearings_span span);
+
+#endif

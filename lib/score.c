@@ -1,0 +1,265 @@
+#include "score.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "deviations.h"
+#include "sort.h"
+
+#define COUNT(owner, member, help)                                                                 \
+    {                                                                                              \
+        FIELD_INTEGER_IN(owner, member, 0, 0x1p53, help)                                           \
+    }
+#define MEASURE(member, help)                                                                      \
+    {                                                                                              \
+        FIELD_REAL_IN(struct score, member, 0, 1e300, help)                                        \
+    }
+#define DIFFERENCE(member, low, bit, help)                                                         \
+    {                                                                                              \
+        FIELD_REAL_IN(struct score_differences, member, low, 1e300, help), .section = (bit)        \
+    }
+
+static const struct field differences_fields[] = {
+    DIFFERENCE(mean, -1e300, SCORE_PAIRS, "of the pairs' differences, listed less true"),
+    DIFFERENCE(rms, 0, SCORE_PAIRS, "their root mean square"),
+    DIFFERENCE(p95, 0, SCORE_PAIRS, "95 % of them are no larger"),
+    DIFFERENCE(max, 0, SCORE_PAIRS, "the largest"),
+    DIFFERENCE(wasserstein, 0, SCORE_LISTS, "Wasserstein-1 distance of the two lists, unpaired"),
+    {0},
+};
+
+static const struct record differences_record = {
+    .name = "differences",
+    .help = "In the component's unit; absent where there are no pairs, or a list is empty.",
+    .size = sizeof(struct score_differences),
+    .fields = differences_fields,
+    .present_offset = offsetof(struct score_differences, told),
+};
+
+#define COMPONENT(name_, which, help_)                                                             \
+    {                                                                                              \
+        FIELD_NAMED(name_), .kind = FIELD_RECORD, .optional = true, .record = &differences_record, \
+                            .offset = offsetof(struct score, differences) +                        \
+                                      (which) * sizeof(struct score_differences),                  \
+                            .help = (help_)                                                        \
+    }
+
+static const struct field score_fields[] = {
+    {FIELD_NAME_OF(struct score, sensor, "absent: all of them"), FIELD_OPTIONAL},
+    COUNT(struct score, scans, "pairs of lists: a sensor's in one frame, or the tracks of one"),
+    COUNT(struct score, true_count, "items of the truth"),
+    COUNT(struct score, listed_count, "items of the stream"),
+    COUNT(struct score, pair_count, "pairs closer than the cut-off"),
+    COUNT(struct score, missed_count, "of the truth, without a pair"),
+    COUNT(struct score, false_count, "of the stream, without a pair"),
+    MEASURE(gospa, "mean over the scans"),
+    MEASURE(gospa_rms, "root mean square over the scans: its square is the sum of the parts"),
+    MEASURE(gospa_max, "of one scan"),
+    MEASURE(gospa_localisation, "mean over the scans of the pairs' squared distances"),
+    MEASURE(gospa_missed, "mean over the scans of half the squared cut-off for each missed one"),
+    MEASURE(gospa_false, "mean over the scans of half the squared cut-off for each false one"),
+    MEASURE(ospa, "mean over the scans"),
+    COMPONENT(range_m, SCORE_RANGE, "differences in range"),
+    COMPONENT(azimuth_rad, SCORE_AZIMUTH, "differences in azimuth"),
+    COMPONENT(range_rate_mps, SCORE_RANGE_RATE, "differences in range rate"),
+    COMPONENT(amplitude_db, SCORE_AMPLITUDE, "differences in amplitude"),
+    COMPONENT(position_m, SCORE_POSITION, "distances of tracks and objects"),
+    COMPONENT(velocity_mps, SCORE_VELOCITY, "sizes of their differences in velocity"),
+    {0},
+};
+
+const struct record score_record = {
+    .name = "score",
+    .help =
+        "How lists differ from the truth; GOSPA and OSPA are in cells for targets, in metres for "
+        "tracks.",
+    .size = sizeof(struct score),
+    .fields = score_fields,
+};
+
+#define LINE_HEAD(owner)                                                                           \
+    {FIELD_NAME_OF(owner, scene, "of the frame")}, COUNT(owner, frame, "number in the scene"),     \
+    {                                                                                              \
+        FIELD_REAL_IN(owner, time_s, -1e10, 1e10, "of the frame")                                  \
+    }
+#define SUMMARY_HEAD(owner)                                                                        \
+    COUNT(owner, frames, "on both sides: scored"),                                                 \
+        COUNT(owner, true_frames, "of the truth alone"),                                           \
+        COUNT(owner, listed_frames, "of what is scored alone")
+
+static const struct field line_fields[] = {
+    LINE_HEAD(struct score_line),
+    {FIELD_LIST_OF(struct score_line, sensors, &score_record, "that measured, by name")},
+    {0},
+};
+
+const struct record score_line_record = {
+    .name = "score_line",
+    .help = "What glint-score writes of one frame.",
+    .size = sizeof(struct score_line),
+    .fields = line_fields,
+};
+
+static const struct field summary_fields[] = {
+    SUMMARY_HEAD(struct score_summary),
+    {FIELD_REAL_IN(struct score_summary, cutoff, 0, 1e6, "in cells")},
+    {FIELD_REAL_IN(struct score_summary, azimuth_cell_rad, 0, 10, "taken for one cell")},
+    {FIELD_RECORD_OF(struct score_summary, all, &score_record, "over all sensors")},
+    {FIELD_LIST_OF(struct score_summary, sensors, &score_record, "that measured, by name")},
+    {0},
+};
+
+const struct record score_summary_record = {
+    .name = "score_summary",
+    .help = "What glint-score --summary writes.",
+    .size = sizeof(struct score_summary),
+    .fields = summary_fields,
+};
+
+static const struct field track_line_fields[] = {
+    LINE_HEAD(struct score_track_line),
+    COUNT(struct score_track_line, id_switches, "objects paired with another track than last"),
+    {FIELD_RECORD_OF(struct score_track_line, all, &score_record, "over all tracks")},
+    {0},
+};
+
+const struct record score_track_line_record = {
+    .name = "score_track_line",
+    .help = "What glint-score-tracks writes of one frame.",
+    .size = sizeof(struct score_track_line),
+    .fields = track_line_fields,
+};
+
+static const struct field track_summary_fields[] = {
+    SUMMARY_HEAD(struct score_track_summary),
+    {FIELD_REAL_IN(struct score_track_summary, cutoff_m, 0, 1e6, "tracks as far off are no pair")},
+    COUNT(struct score_track_summary, id_switches, "objects paired with another track than last"),
+    {FIELD_RECORD_OF(struct score_track_summary, all, &score_record, "over all frames")},
+    {0},
+};
+
+const struct record score_track_summary_record = {
+    .name = "score_track_summary",
+    .help = "What glint-score-tracks --summary writes.",
+    .size = sizeof(struct score_track_summary),
+    .fields = track_summary_fields,
+};
+
+void score_count(struct score_tally *tally, double squares, size_t pairs, size_t truths,
+                 size_t listed, double cutoff)
+{
+    struct gospa gospa = gospa_of(squares, pairs, truths, listed, cutoff);
+    tally->scans++;
+    tally->truths += (int64_t)truths;
+    tally->listed += (int64_t)listed;
+    tally->pairs += (int64_t)pairs;
+    tally->gospa_sum += gospa.value;
+    tally->gospa_max = fmax(tally->gospa_max, gospa.value);
+    tally->localisation += gospa.localisation;
+    tally->missed_part += gospa.missed_part;
+    tally->false_part += gospa.false_part;
+    tally->ospa_sum += gospa_ospa(squares, pairs, truths, listed, cutoff);
+}
+
+void score_add(struct score_values *values, double value, struct arena *arena)
+{
+    *list_add(&values->list, arena) = value;
+}
+
+static void append(struct score_values *values, const struct score_values *more,
+                   struct arena *arena)
+{
+    for (size_t i = 0; i < more->list.count; i++)
+        score_add(values, more->list.items[i], arena);
+}
+
+void score_merge(struct score_tally *tally, const struct score_tally *other, struct arena *arena)
+{
+    tally->scans += other->scans;
+    tally->truths += other->truths;
+    tally->listed += other->listed;
+    tally->pairs += other->pairs;
+    tally->gospa_sum += other->gospa_sum;
+    tally->gospa_max = fmax(tally->gospa_max, other->gospa_max);
+    tally->localisation += other->localisation;
+    tally->missed_part += other->missed_part;
+    tally->false_part += other->false_part;
+    tally->ospa_sum += other->ospa_sum;
+    for (int i = 0; i < SCORE_COMPONENTS; i++) {
+        append(&tally->apart[i], &other->apart[i], arena);
+        append(&tally->truth[i], &other->truth[i], arena);
+        append(&tally->list[i], &other->list[i], arena);
+    }
+}
+
+static struct score_differences differences_of(const struct score_tally *tally, int component,
+                                               struct arena *arena)
+{
+    const struct score_values *apart = &tally->apart[component], *truth = &tally->truth[component],
+                              *list = &tally->list[component];
+    struct score_differences differences = {0};
+    if (apart->list.count > 0) {
+        struct deviations of = deviations_of(apart->list.items, apart->list.count, arena);
+        differences = (struct score_differences){of.mean, of.rms, of.p95, of.max, 0, SCORE_PAIRS};
+    }
+    if (truth->list.count > 0 && list->list.count > 0) {
+        differences.wasserstein = deviations_wasserstein(truth->list.items, truth->list.count,
+                                                         list->list.items, list->list.count, arena);
+        differences.told |= SCORE_LISTS;
+    }
+    return differences;
+}
+
+struct score score_of(const struct score_tally *tally, struct arena *arena)
+{
+    double scans = tally->scans > 0 ? (double)tally->scans : 1;
+    struct score score = {
+        .sensor = tally->sensor,
+        .scans = tally->scans,
+        .true_count = tally->truths,
+        .listed_count = tally->listed,
+        .pair_count = tally->pairs,
+        .missed_count = tally->truths - tally->pairs,
+        .false_count = tally->listed - tally->pairs,
+        .gospa = tally->gospa_sum / scans,
+        .gospa_max = tally->gospa_max,
+        .gospa_localisation = tally->localisation / scans,
+        .gospa_missed = tally->missed_part / scans,
+        .gospa_false = tally->false_part / scans,
+        .ospa = tally->ospa_sum / scans,
+    };
+    score.gospa_rms = sqrt(score.gospa_localisation + score.gospa_missed + score.gospa_false);
+    for (int i = 0; i < SCORE_COMPONENTS; i++)
+        score.differences[i] = differences_of(tally, i, arena);
+    return score;
+}
+
+void score_keep(struct score_tallies *tallies, const struct score_tally *scan, struct arena *arena)
+{
+    for (size_t i = 0; i < tallies->list.count; i++)
+        if (strcmp(tallies->list.items[i].sensor, scan->sensor) == 0) {
+            score_merge(&tallies->list.items[i], scan, arena);
+            return;
+        }
+    struct score_tally *tally = list_add(&tallies->list, arena);
+    tally->sensor = arena_text(arena, scan->sensor, strlen(scan->sensor));
+    score_merge(tally, scan, arena);
+}
+
+static int compare_sensors(const void *left, const void *right)
+{
+    return strcmp(((const struct score_tally *)left)->sensor,
+                  ((const struct score_tally *)right)->sensor);
+}
+
+void score_summarize(struct score_tallies *tallies, struct score_summary *summary,
+                     struct arena *arena)
+{
+    struct score_tally all = {0};
+    sort_list(&tallies->list, compare_sensors, arena);
+    for (size_t i = 0; i < tallies->list.count; i++) {
+        *list_add(&summary->sensors, arena) = score_of(&tallies->list.items[i], arena);
+        score_merge(&all, &tallies->list.items[i], arena);
+    }
+    summary->all = score_of(&all, arena);
+}

@@ -1,0 +1,113 @@
+/* Scores: how lists differ from the truth, over one pair of lists or many.
+ *
+ * A tally takes in pairs of lists, one after the other, and keeps every value, so that quantiles
+ * and distributions over all of them are exact; a score is what is read off it. */
+#ifndef SCORE_H
+#define SCORE_H
+
+#include "field.h"
+#include "gospa.h"
+
+enum score_component {
+    SCORE_RANGE,
+    SCORE_AZIMUTH,
+    SCORE_RANGE_RATE,
+    SCORE_AMPLITUDE, /* of targets, up to here */
+    SCORE_POSITION,  /* how far apart, and how different in velocity, tracks are */
+    SCORE_VELOCITY,
+    SCORE_COMPONENTS,
+};
+
+enum { SCORE_PAIRS = 1 << 0, SCORE_LISTS = 1 << 1 };
+
+/* Of one component, in its unit. */
+struct score_differences {
+    double mean, rms, p95, max; /* listed less true, over the pairs */
+    double wasserstein;         /* of the two lists, unpaired */
+    unsigned told;              /* SCORE_PAIRS, SCORE_LISTS: there were any */
+};
+
+struct score {
+    const char *sensor; /* NULL: all of them */
+    int64_t scans;      /* pairs of lists: a sensor's in one frame, or the tracks of one */
+    int64_t true_count, listed_count, pair_count, missed_count, false_count;
+    /* Over the scans: mean, root mean square and maximum of GOSPA, the parts of its mean square,
+     * and the mean of OSPA. */
+    double gospa, gospa_rms, gospa_max;
+    double gospa_localisation, gospa_missed, gospa_false;
+    double ospa;
+    struct score_differences differences[SCORE_COMPONENTS];
+};
+
+/* The scores of one frame, and of a stream: of targets, and of tracks. */
+struct score_line {
+    const char *scene;
+    int64_t frame;
+    double time_s;
+    LIST_OF(struct score) sensors;
+};
+
+struct score_summary {
+    int64_t frames, true_frames, listed_frames; /* on both sides, on one alone */
+    double cutoff, azimuth_cell_rad;
+    struct score all;
+    LIST_OF(struct score) sensors;
+};
+
+struct score_track_line {
+    const char *scene;
+    int64_t frame;
+    double time_s;
+    int64_t id_switches;
+    struct score all;
+};
+
+struct score_track_summary {
+    int64_t frames, true_frames, listed_frames;
+    double cutoff_m;
+    int64_t id_switches;
+    struct score all;
+};
+
+extern const struct record score_record;
+extern const struct record score_line_record, score_summary_record;
+extern const struct record score_track_line_record, score_track_summary_record;
+
+struct score_values {
+    LIST_OF(double) list;
+};
+
+struct score_tally {
+    const char *sensor;
+    int64_t scans, truths, listed, pairs;
+    double gospa_sum, gospa_max, ospa_sum;
+    double localisation, missed_part, false_part; /* sums */
+    struct score_values apart[SCORE_COMPONENTS];  /* of pairs */
+    struct score_values truth[SCORE_COMPONENTS], list[SCORE_COMPONENTS];
+};
+
+/* By sensor, in the order in which they first come. */
+struct score_tallies {
+    LIST_OF(struct score_tally) list;
+};
+
+/* Counts one pair of lists. squares is the sum of d^2 over its pairs. */
+void score_count(struct score_tally *tally, double squares, size_t pairs, size_t truths,
+                 size_t listed, double cutoff);
+
+void score_add(struct score_values *values, double value, struct arena *arena);
+
+/* Adds all that the other tally holds. */
+void score_merge(struct score_tally *tally, const struct score_tally *other, struct arena *arena);
+
+/* Merges a tally into that of its sensor. */
+void score_keep(struct score_tallies *tallies, const struct score_tally *scan, struct arena *arena);
+
+/* What a tally amounts to. Without any scan all is 0. */
+struct score score_of(const struct score_tally *tally, struct arena *arena);
+
+/* Fills in the scores, by the names of sensors. */
+void score_summarize(struct score_tallies *tallies, struct score_summary *summary,
+                     struct arena *arena);
+
+#endif

@@ -1,0 +1,91 @@
+#include "score_table.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+enum { NAME_WIDTH = 28, COLUMN_WIDTH = 12 };
+
+static void write_cell(const struct record *record, const struct field *field, const void *base,
+                       struct text *text)
+{
+    const void *member = (const char *)base + field->offset;
+    int64_t integer;
+    double real;
+    if (!field_present(record, field, base)) {
+        text_format(text, "%*s", COLUMN_WIDTH, "-");
+    } else if (field->kind == FIELD_INTEGER) {
+        memcpy(&integer, member, sizeof integer);
+        text_format(text, "%*" PRId64, COLUMN_WIDTH, integer);
+    } else {
+        memcpy(&real, member, sizeof real);
+        text_format(text, "%*.4g", COLUMN_WIDTH, real);
+    }
+}
+
+/* The rows of a record that lies at this place in each score. */
+static void write_rows(const struct record *record, const char *prefix, const struct score *scores,
+                       size_t offset, size_t count, struct text *text)
+{
+    for (const struct field *field = record->fields; field->name != NULL; field++) {
+        bool any = false;
+        for (size_t i = 0; i < count; i++)
+            any = any || field_present(record, field, (const char *)&scores[i] + offset);
+        if (any && field->kind == FIELD_RECORD)
+            write_rows(field->record, field->name, scores, offset + field->offset, count, text);
+        if (!any || (field->kind != FIELD_INTEGER && field->kind != FIELD_REAL))
+            continue;
+        size_t before = text->length;
+        text_format(text, "%s%s%s", prefix, prefix[0] != '\0' ? " " : "", field->name);
+        text_format(text, "%*s", NAME_WIDTH - (int)(text->length - before), "");
+        for (size_t i = 0; i < count; i++)
+            write_cell(record, field, (const char *)&scores[i] + offset, text);
+        text_add_word(text, "\n");
+    }
+}
+
+void score_table_write(const struct score *scores, const char *const *heads, size_t count,
+                       struct text *text)
+{
+    text_format(text, "%*s", NAME_WIDTH, "");
+    for (size_t i = 0; i < count; i++)
+        text_format(text, " %*s", COLUMN_WIDTH - 1, heads[i]);
+    text_add_word(text, "\n");
+    write_rows(&score_record, "", scores, 0, count, text);
+}
+
+static void write_frames(int64_t frames, int64_t only_true, int64_t only_listed, struct text *text)
+{
+    text_format(text, "%" PRId64 " frames", frames);
+    if (only_true + only_listed > 0)
+        text_format(text,
+                    " on both sides, %" PRId64 " of the truth alone, %" PRId64
+                    " of what is scored alone",
+                    only_true, only_listed);
+}
+
+void score_table_summary(const struct score_summary *summary, struct text *text,
+                         struct arena *arena)
+{
+    size_t sensors = summary->sensors.count;
+    struct score *scores = arena_get(arena, (sensors + 1) * sizeof *scores);
+    const char **heads = arena_get(arena, (sensors + 1) * sizeof *heads);
+    for (size_t i = 0; i < sensors; i++) {
+        scores[i] = summary->sensors.items[i];
+        heads[i] = scores[i].sensor;
+    }
+    scores[sensors] = summary->all;
+    heads[sensors] = "all";
+    write_frames(summary->frames, summary->true_frames, summary->listed_frames, text);
+    text_format(text, "; distances in cells, %g rad for one in azimuth, cut off at %g\n",
+                summary->azimuth_cell_rad, summary->cutoff);
+    bool single = sensors == 1;
+    score_table_write(scores, heads, single ? 1 : sensors + 1, text);
+}
+
+void score_table_track_summary(const struct score_track_summary *summary, struct text *text)
+{
+    write_frames(summary->frames, summary->true_frames, summary->listed_frames, text);
+    text_format(text, "; distances in metres, cut off at %g; %" PRId64 " identity switches\n",
+                summary->cutoff_m, summary->id_switches);
+    score_table_write(&summary->all, (const char *const[]){"all"}, 1, text);
+}

@@ -1,0 +1,16 @@
+/* Scores as a table for people: a column each, a row for every figure that any of them has. */
+#ifndef SCORE_TABLE_H
+#define SCORE_TABLE_H
+
+#include "score.h"
+#include "text.h"
+
+/* The heads are printed above the columns; as many as there are scores. */
+void score_table_write(const struct score *scores, const char *const *heads, size_t count,
+                       struct text *text);
+
+void score_table_summary(const struct score_summary *summary, struct text *text,
+                         struct arena *arena);
+void score_table_track_summary(const struct score_track_summary *summary, struct text *text);
+
+#endif

@@ -1,0 +1,130 @@
+#include "target_score.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "assignment.h"
+#include "sort.h"
+#include "units.h"
+
+enum { COMPONENTS = SCORE_AMPLITUDE + 1 };
+
+struct target_list {
+    LIST_OF(const struct target *) list;
+};
+
+double target_score_distance(const struct target *a, const struct target *b,
+                             const struct target_cell *cell)
+{
+    double range = (a->range_m - b->range_m) / cell->range_m;
+    double rate = (a->range_rate_mps - b->range_rate_mps) / cell->range_rate_mps;
+    double azimuth = units_wrap_rad(a->azimuth_rad - b->azimuth_rad) / cell->azimuth_rad;
+    return sqrt(range * range + rate * rate + azimuth * azimuth);
+}
+
+int target_score_check(const struct frame *truth, const struct frame *listed, struct diag *diag)
+{
+    size_t sensors = truth->sensors.list.count;
+    if (listed->sensors.list.count != sensors)
+        return diag_fail(diag, DIAG_DATA, "sensors.list: %zu sensors; the truth has %zu",
+                         listed->sensors.list.count, sensors);
+    for (size_t i = 0; i < sensors; i++) {
+        const struct sensor_view *view = &truth->sensors.list.items[i];
+        const char *name = listed->sensors.list.items[i].name;
+        if (strcmp(view->name, name) != 0)
+            return diag_fail(diag, DIAG_DATA,
+                             "sensors.list[%zu].name: \"%s\"; the truth has \"%s\"", i, name,
+                             view->name);
+        if (!(view->cell_range_m > 0 && view->cell_range_rate_mps > 0))
+            return diag_fail(diag, DIAG_DATA,
+                             "sensors.list[%zu]: the truth's \"%s\" has cells of %g m by %g m/s; "
+                             "distances in cells need more than 0",
+                             i, name, view->cell_range_m, view->cell_range_rate_mps);
+    }
+    return 0;
+}
+
+/* Ties between pairs go by this order, not by the one in which a model happens to list. */
+static int compare(const void *left, const void *right)
+{
+    const struct target *a = *(const struct target *const *)left;
+    const struct target *b = *(const struct target *const *)right;
+    if (a->range_m != b->range_m)
+        return a->range_m < b->range_m ? -1 : 1;
+    if (a->range_rate_mps != b->range_rate_mps)
+        return a->range_rate_mps < b->range_rate_mps ? -1 : 1;
+    if (a->azimuth_rad != b->azimuth_rad)
+        return a->azimuth_rad < b->azimuth_rad ? -1 : 1;
+    return (a->amplitude_db > b->amplitude_db) - (a->amplitude_db < b->amplitude_db);
+}
+
+static struct target_list targets_of(const struct frame *frame, const char *sensor,
+                                     struct arena *arena)
+{
+    struct target_list targets = {0};
+    for (size_t i = 0; i < frame->targets.count; i++)
+        if (strcmp(frame->targets.items[i].sensor, sensor) == 0)
+            *list_add(&targets.list, arena) = &frame->targets.items[i];
+    sort_list(&targets.list, compare, arena);
+    return targets;
+}
+
+static double component(const struct target *target, enum score_component which)
+{
+    switch (which) {
+    case SCORE_RANGE:
+        return target->range_m;
+    case SCORE_AZIMUTH:
+        return target->azimuth_rad;
+    case SCORE_RANGE_RATE:
+        return target->range_rate_mps;
+    default:
+        return target->amplitude_db;
+    }
+}
+
+static void add_values(struct score_values *values, const struct target_list *targets,
+                       struct arena *arena)
+{
+    for (int which = 0; which < COMPONENTS; which++)
+        for (size_t i = 0; i < targets->list.count; i++)
+            score_add(&values[which], component(targets->list.items[i], which), arena);
+}
+
+static void add_pair(struct score_tally *tally, const struct target *truth,
+                     const struct target *listed, struct arena *arena)
+{
+    for (int which = 0; which < COMPONENTS; which++) {
+        double apart = component(listed, which) - component(truth, which);
+        if (which == SCORE_AZIMUTH)
+            apart = units_wrap_rad(apart);
+        score_add(&tally->apart[which], apart, arena);
+    }
+}
+
+void target_score_scan(struct score_tally *tally, const struct frame *truth,
+                       const struct frame *listed, const struct target_cell *cell,
+                       struct arena *arena)
+{
+    struct target_list true_list = targets_of(truth, tally->sensor, arena);
+    struct target_list list = targets_of(listed, tally->sensor, arena);
+    size_t rows = true_list.list.count, columns = list.list.count;
+    double *distance = arena_get(arena, rows * columns * sizeof *distance);
+    size_t *item_of = arena_get(arena, rows * sizeof *item_of);
+    for (size_t i = 0; i < rows; i++)
+        for (size_t j = 0; j < columns; j++)
+            distance[i * columns + j] =
+                target_score_distance(true_list.list.items[i], list.list.items[j], cell);
+    size_t pairs = gospa_pair(distance, rows, columns, cell->cutoff, item_of, arena);
+    double squares = 0;
+    for (size_t i = 0; i < rows; i++) {
+        if (item_of[i] == ASSIGNMENT_NONE)
+            continue;
+        double apart = distance[i * columns + item_of[i]];
+        squares += apart * apart;
+        add_pair(tally, true_list.list.items[i], list.list.items[item_of[i]], arena);
+    }
+    score_count(tally, squares, pairs, rows, columns, cell->cutoff);
+    add_values(tally->truth, &true_list, arena);
+    add_values(tally->list, &list, arena);
+}

@@ -1,0 +1,160 @@
+#include "track_score.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "assignment.h"
+#include "sort.h"
+#include "units.h"
+#include "vec2.h"
+
+const char *const track_truths[] = {[TRACK_TRUTH_IN_VIEW] = "in_view",
+                                    [TRACK_TRUTH_DETECTED] = "detected",
+                                    [TRACK_TRUTH_ALL] = "all",
+                                    NULL};
+
+struct object_list {
+    LIST_OF(const struct object *) list;
+};
+
+int track_score_check(const struct frame *frame, enum track_truth truth, struct diag *diag)
+{
+    unsigned needed = truth == TRACK_TRUTH_IN_VIEW    ? SECTION_SENSORS
+                      : truth == TRACK_TRUTH_DETECTED ? SECTION_TARGETS
+                                                      : 0;
+    if ((needed & ~frame->present) == 0)
+        return 0;
+    return diag_fail(diag, DIAG_DATA, "%s: missing; --objects=%s needs it",
+                     frame_section_name(needed), track_truths[truth]);
+}
+
+static bool is_named(const char *names, const char *name)
+{
+    size_t length = strlen(name);
+    for (const char *at = names;; at++) {
+        size_t word = strcspn(at, ",");
+        if (word == length && memcmp(at, name, length) == 0)
+            return true;
+        at += word;
+        if (*at == '\0')
+            return false;
+    }
+}
+
+static bool sees(const struct sensor_view *view, const struct object *ego,
+                 const struct object *object)
+{
+    struct vec2 heading = vec2_heading(ego->yaw_rad);
+    struct vec2 mount = vec2_turn((struct vec2){view->mount_x_m, view->mount_y_m}, heading);
+    struct vec2 line = {object->x_m - ego->x_m - mount.x, object->y_m - ego->y_m - mount.y};
+    double azimuth =
+        units_wrap_rad(elementary_atan2(line.y, line.x) - (ego->yaw_rad + view->mount_yaw_rad));
+    return vec2_length(line) <= view->range_max_m && fabs(azimuth) <= view->field_of_view_rad / 2;
+}
+
+static bool in_view(const struct frame *frame, const struct object *object)
+{
+    const struct object *ego = frame_object(frame, frame->ego);
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        if (sees(&frame->sensors.list.items[i], ego, object))
+            return true;
+    return false;
+}
+
+static bool detected(const struct frame *frame, const struct object *object)
+{
+    for (size_t i = 0; i < frame->targets.count; i++) {
+        const struct target *target = &frame->targets.items[i];
+        for (size_t j = 0; j < target->contributors.count; j++)
+            if (strcmp(target->contributors.items[j].object, object->id) == 0)
+                return true;
+    }
+    return false;
+}
+
+bool track_score_counts(const struct frame *frame, const struct object *object,
+                        enum track_truth truth, const char *classes)
+{
+    return strcmp(object->id, frame->ego) != 0 &&
+           (classes == NULL || is_named(classes, object->class)) &&
+           (truth == TRACK_TRUTH_ALL || (truth == TRACK_TRUTH_IN_VIEW && in_view(frame, object)) ||
+            (truth == TRACK_TRUTH_DETECTED && detected(frame, object)));
+}
+
+bool track_score_switches(struct track_memory *memory, const char *scene, const char *object,
+                          const char *track, struct arena *arena)
+{
+    for (size_t i = 0; i < memory->pairings.count; i++) {
+        struct track_pairing *last = &memory->pairings.items[i];
+        if (strcmp(last->object, object) != 0 || strcmp(last->scene, scene) != 0)
+            continue;
+        if (strcmp(last->track, track) == 0)
+            return false;
+        last->track = arena_text(arena, track, strlen(track));
+        return true;
+    }
+    *list_add(&memory->pairings, arena) = (struct track_pairing){
+        arena_text(arena, scene, strlen(scene)), arena_text(arena, object, strlen(object)),
+        arena_text(arena, track, strlen(track))};
+    return false;
+}
+
+void track_score_forget(struct track_memory *memory, const char *scene)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < memory->pairings.count; i++)
+        if (strcmp(memory->pairings.items[i].scene, scene) != 0)
+            memory->pairings.items[kept++] = memory->pairings.items[i];
+    memory->pairings.count = kept;
+}
+
+static int compare(const void *left, const void *right)
+{
+    return strcmp((*(const struct object *const *)left)->id,
+                  (*(const struct object *const *)right)->id);
+}
+
+static struct object_list truths_of(const struct frame *frame, enum track_truth truth,
+                                    const char *classes)
+{
+    struct object_list objects = {0};
+    for (size_t i = 0; i < frame->objects.count; i++)
+        if (track_score_counts(frame, &frame->objects.items[i], truth, classes))
+            *list_add(&objects.list, frame->arena) = &frame->objects.items[i];
+    sort_list(&objects.list, compare, frame->arena);
+    return objects;
+}
+
+int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
+                          const struct track_list *list, enum track_truth truth,
+                          const char *classes, double cutoff_m, struct track_memory *memory,
+                          struct arena *lasting)
+{
+    struct object_list objects = truths_of(frame, truth, classes);
+    size_t rows = objects.list.count, columns = list->tracks.count;
+    double *distance = arena_get(frame->arena, rows * columns * sizeof *distance);
+    size_t *track_of = arena_get(frame->arena, rows * sizeof *track_of);
+    for (size_t i = 0; i < rows; i++)
+        for (size_t j = 0; j < columns; j++)
+            distance[i * columns + j] =
+                elementary_hypot(objects.list.items[i]->x_m - list->tracks.items[j].x_m,
+                                 objects.list.items[i]->y_m - list->tracks.items[j].y_m);
+    size_t pairs = gospa_pair(distance, rows, columns, cutoff_m, track_of, frame->arena);
+    double squares = 0;
+    int64_t switches = 0;
+    for (size_t i = 0; i < rows; i++) {
+        if (track_of[i] == ASSIGNMENT_NONE)
+            continue;
+        const struct object *object = objects.list.items[i];
+        const struct track *track = &list->tracks.items[track_of[i]];
+        double apart_m = distance[i * columns + track_of[i]];
+        squares += apart_m * apart_m;
+        score_add(&tally->apart[SCORE_POSITION], apart_m, frame->arena);
+        score_add(&tally->apart[SCORE_VELOCITY],
+                  elementary_hypot(object->vx_mps - track->vx_mps, object->vy_mps - track->vy_mps),
+                  frame->arena);
+        switches += track_score_switches(memory, frame->scene, object->id, track->id, lasting);
+    }
+    score_count(tally, squares, pairs, rows, columns, cutoff_m);
+    return switches;
+}

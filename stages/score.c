@@ -1,0 +1,115 @@
+/* Scores: how far the targets of this stream are from those of another one, frame by frame. */
+#include "score_table.h"
+#include "stage.h"
+#include "target_score.h"
+
+struct score_state {
+    const char *truth;
+    double cutoff, azimuth_cell_rad;
+    bool partial, summary, table;
+    struct counterpart *other;
+    int64_t frames;
+    struct score_tallies sensors; /* for the summary */
+};
+
+static int score_start(void *state, struct runner *runner)
+{
+    struct score_state *own = state;
+    own->summary = own->summary || own->table;
+    own->other = runner_counterpart(runner, own->truth, own->partial);
+    return own->other != NULL ? 0 : -1;
+}
+
+static int score_step(void *state, struct frame *frame, struct runner *runner)
+{
+    struct score_state *own = state;
+    const struct frame *truth;
+    int found = counterpart_frame(own->other, frame, SECTION_SENSORS | SECTION_TARGETS, &truth,
+                                  runner_diag(runner));
+    if (found <= 0)
+        return found;
+    if (target_score_check(truth, frame, runner_diag(runner)) != 0)
+        return -1;
+    own->frames++;
+    struct score_line line = {frame->scene, frame->frame, frame->time_s, {0}};
+    for (size_t i = 0; i < truth->sensors.list.count; i++) {
+        const struct sensor_view *view = &truth->sensors.list.items[i];
+        if (!view->measured && !frame->sensors.list.items[i].measured)
+            continue;
+        struct target_cell cell = {view->cell_range_m, own->azimuth_cell_rad,
+                                   view->cell_range_rate_mps, own->cutoff};
+        struct score_tally scan = {.sensor = view->name};
+        target_score_scan(&scan, truth, frame, &cell, frame->arena);
+        if (own->summary)
+            score_keep(&own->sensors, &scan, runner_arena(runner));
+        else
+            *list_add(&line.sensors, frame->arena) = score_of(&scan, frame->arena);
+    }
+    return own->summary ? 0 : runner_write_record(runner, &score_line_record, &line);
+}
+
+static int score_stop(void *state, struct runner *runner)
+{
+    struct score_state *own = state;
+    if (counterpart_finish(own->other, runner_diag(runner)) != 0)
+        return -1;
+    struct score_summary summary = {
+        .frames = own->frames,
+        .true_frames = counterpart_left(own->other),
+        .listed_frames = counterpart_absent(own->other),
+        .cutoff = own->cutoff,
+        .azimuth_cell_rad = own->azimuth_cell_rad,
+    };
+    if (!own->summary)
+        return 0;
+    score_summarize(&own->sensors, &summary, runner_arena(runner));
+    if (!own->table)
+        return runner_write_record(runner, &score_summary_record, &summary);
+    struct text text = {0};
+    score_table_summary(&summary, &text, runner_arena(runner));
+    int result = runner_write(runner, text.bytes, text.length);
+    text_free(&text);
+    return result;
+}
+
+static const struct field score_options[] = {
+    {FIELD_NAME_OF(struct score_state, truth, "frames with targets to compare with"),
+     .word = "FILE"},
+    {FIELD_REAL_IN(struct score_state, cutoff, 1e-6, 1e6,
+                   "targets this many cells apart are no pair (absent: 2)"),
+     FIELD_OPTIONAL, .absent = 2},
+    {FIELD_REAL_IN(struct score_state, azimuth_cell_rad, 1e-6, 2 * PI,
+                   "what counts as one cell in azimuth (absent: 0.035, which is 2 degrees)"),
+     FIELD_OPTIONAL, .absent = 0.035},
+    {FIELD_FLAG_OF(struct score_state, partial,
+                   "count frames that only one side has instead of refusing them"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct score_state, summary, "write one line for the whole stream"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct score_state, table, "write that as a table for people"), FIELD_OPTIONAL},
+    {0},
+};
+
+static const struct record score_state_record = {
+    .name = "stage", .size = sizeof(struct score_state), .fields = score_options};
+
+const struct stage stage_score = {
+    .name = "score",
+    .summary = "Score targets against those of another stream, frame by frame.",
+    .details =
+        "Both streams must be of the same scenes and frames, ascending within a scene; scenes\n"
+        "may interleave differently. Suites may differ, but not the names of their sensors.\n"
+        "Writes a JSON line for each frame, with a score for each sensor that measured on\n"
+        "either side: GOSPA (order 2, alpha 2) with its parts, OSPA, counts, differences of the\n"
+        "pairs, and the Wasserstein-1 distance of each component. The distance of two targets\n"
+        "is in cells, d^2 = (range / cell_range_m)^2 + (range rate / cell_range_rate_mps)^2 +\n"
+        "(azimuth / azimuth_cell_rad)^2, with the cells of the truth's sensors. Frames that one\n"
+        "side lacks are errors unless --partial is given. For the summary every value is kept,\n"
+        "about 100 bytes for each target.",
+    .options = &score_state_record,
+    .sink = true,
+    .reads = SECTION_SENSORS | SECTION_TARGETS,
+    .start = score_start,
+    .step = score_step,
+    .stop = score_stop,
+};

@@ -1,0 +1,119 @@
+/* Scores of a tracker: how far its tracks are from the objects that are there, frame by frame. */
+#include "score_table.h"
+#include "stage.h"
+#include "track_score.h"
+
+struct score_tracks {
+    const char *tracks, *classes;
+    enum track_truth objects;
+    double cutoff_m;
+    bool partial, summary, table;
+    struct counterpart *other;
+    int64_t frames, id_switches;
+    struct score_tally tally; /* for the summary */
+    struct track_memory memory;
+};
+
+static int score_tracks_start(void *state, struct runner *runner)
+{
+    struct score_tracks *own = state;
+    own->summary = own->summary || own->table;
+    own->other = runner_counterpart(runner, own->tracks, own->partial);
+    return own->other != NULL ? 0 : -1;
+}
+
+static int score_tracks_step(void *state, struct frame *frame, struct runner *runner)
+{
+    struct score_tracks *own = state;
+    struct arena *lasting = runner_arena(runner);
+    struct track_list tracks;
+    if (track_score_check(frame, own->objects, runner_diag(runner)) != 0)
+        return -1;
+    int found = counterpart_tracks(own->other, frame, &tracks, runner_diag(runner));
+    if (found <= 0)
+        return found;
+    struct score_tally tally = {0};
+    int64_t switches = track_score_frame(&tally, frame, &tracks, own->objects, own->classes,
+                                         own->cutoff_m, &own->memory, lasting);
+    if (frame->last)
+        track_score_forget(&own->memory, frame->scene);
+    own->frames++;
+    own->id_switches += switches;
+    if (own->summary) {
+        score_merge(&own->tally, &tally, lasting);
+        return 0;
+    }
+    struct score_track_line line = {
+        frame->scene, frame->frame, frame->time_s, switches, score_of(&tally, frame->arena),
+    };
+    return runner_write_record(runner, &score_track_line_record, &line);
+}
+
+static int score_tracks_stop(void *state, struct runner *runner)
+{
+    struct score_tracks *own = state;
+    if (counterpart_finish(own->other, runner_diag(runner)) != 0)
+        return -1;
+    if (!own->summary)
+        return 0;
+    struct score_track_summary summary = {
+        .frames = own->frames,
+        .true_frames = counterpart_absent(own->other),
+        .listed_frames = counterpart_left(own->other),
+        .cutoff_m = own->cutoff_m,
+        .id_switches = own->id_switches,
+        .all = score_of(&own->tally, runner_arena(runner)),
+    };
+    if (!own->table)
+        return runner_write_record(runner, &score_track_summary_record, &summary);
+    struct text text = {0};
+    score_table_track_summary(&summary, &text);
+    int result = runner_write(runner, text.bytes, text.length);
+    text_free(&text);
+    return result;
+}
+
+static const struct field score_tracks_options[] = {
+    {FIELD_NAME_OF(struct score_tracks, tracks,
+                   "what the tracker says, as schemas/tracks.json has it"),
+     .word = "FILE"},
+    {FIELD_CHOICE_OF(struct score_tracks, objects, track_truths,
+                     "which objects a tracker should have (absent: in_view)"),
+     FIELD_OPTIONAL},
+    {FIELD_NAME_OF(struct score_tracks, classes, "only objects of these classes: car,truck"),
+     FIELD_OPTIONAL, .word = "LIST"},
+    {FIELD_REAL_IN(struct score_tracks, cutoff_m, 1e-6, 1e6,
+                   "a track that far from an object is none of it (absent: 5)"),
+     FIELD_OPTIONAL, .absent = 5},
+    {FIELD_FLAG_OF(struct score_tracks, partial,
+                   "count frames that only one side has instead of refusing them"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct score_tracks, summary, "write one line for the whole stream"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct score_tracks, table, "write that as a table for people"), FIELD_OPTIONAL},
+    {0},
+};
+
+static const struct record score_tracks_record = {
+    .name = "stage", .size = sizeof(struct score_tracks), .fields = score_tracks_options};
+
+const struct stage stage_score_tracks = {
+    .name = "score-tracks",
+    .summary = "Score a tracker's tracks against the objects of the frames.",
+    .details =
+        "The frames that are read are the truth; the tracks are JSON lines, one for each frame,\n"
+        "in the frames' coordinates. In a pipe: tracker <list.jsonl | glint-score-tracks\n"
+        "--tracks - list.jsonl. Writes a JSON line for each frame: GOSPA (order 2, alpha 2) over\n"
+        "the distances of centres in metres, with its parts, OSPA, counts, distances and\n"
+        "differences in velocity of the pairs, and how many objects are paired with another\n"
+        "track than last time. Objects that count are, by --objects: in_view, those whose centre\n"
+        "is within the range and field of view of a sensor; detected, those with an echo in a\n"
+        "target of the frame; all. The ego never counts. Frames that one side lacks are errors\n"
+        "unless --partial is given.",
+    .options = &score_tracks_record,
+    .sink = true,
+    .reads = SECTION_OBJECTS,
+    .start = score_tracks_start,
+    .step = score_tracks_step,
+    .stop = score_tracks_stop,
+};

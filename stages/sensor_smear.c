@@ -1,0 +1,87 @@
+/* The sensor as a windowed range-Doppler transform shows it: every echo smeared over the bins
+ * around it by the window's kernel, cells where the sum of all has its peaks (EFFECTS 4). */
+#include "cell_margins.h"
+#include "scan.h"
+#include "smear.h"
+#include "stage.h"
+#include "units.h"
+
+/* Sight of the members, and how far the threshold and the sign were from the other side. */
+static struct margins margins_of(const struct smear *smear, size_t number, struct cell *cell)
+{
+    for (size_t i = 0; i < smear->count; i++)
+        if (smear->cell[i] == number)
+            margins_merge(&cell->margins, smear->rays[i].margins);
+    cell_margins_add(smear->sensor, cell);
+    return cell->margins;
+}
+
+static void report(struct frame *frame, const struct selection *selection,
+                   const struct smear *smear, size_t number, double interference)
+{
+    struct cell cell;
+    bool has_angle = smear_cell(smear, number, frame->arena, &cell);
+    cell.interference = interference;
+    if (interference > 0)
+        cell.effects |= EFFECT_BIT(EFFECT_INTERFERENCE);
+    double threshold = superposition_threshold(smear->sensor, &cell);
+    if (frame->margins)
+        cell.margins = margins_of(smear, number, &cell);
+    if (effects_may(selection, EFFECT_THRESHOLD) && cell.amplitude < threshold)
+        frame_lose_cell(frame, "sensor-smear", &cell, LOSS_BELOW_THRESHOLD,
+                        units_shortfall_db(threshold, cell.amplitude), &cell.margins);
+    else if (!has_angle)
+        frame_lose_cell(frame, "sensor-smear", &cell, LOSS_NO_ANGLE, 0, &cell.margins);
+    else
+        *list_add(&frame->cells, frame->arena) = cell;
+}
+
+/* Without merging every ray has a transform of its own. */
+static void sense(struct frame *frame, const struct sensor *sensor,
+                  const struct selection *selection)
+{
+    struct reception reception = reception_begin(frame, sensor, selection->allowed);
+    struct scan scan = scan_receive(&reception);
+    bool merge = effects_may(selection, EFFECT_MERGING);
+    size_t count = scan.resolved.count, together = merge ? count : 1;
+    reception_note(&reception, selection);
+    effects_note(selection, EFFECT_MERGING, merge);
+    effects_note(selection, EFFECT_SUPERPOSITION, merge);
+    effects_note(selection, EFFECT_THRESHOLD, true);
+    scatterers_count(frame, sensor->name, scan.scatterers);
+    for (size_t i = 0; i < scan.silent_count; i++)
+        frame_lose_subject(frame, "sensor-smear", sensor->name, &scan.silent[i].echo,
+                           LOSS_NO_AMPLITUDE);
+    for (size_t first = 0; first < count; first += together) {
+        int64_t begin = effects_begin(selection);
+        struct smear smear = smear_make(sensor, &scan.resolved.rays[first], together, frame->arena);
+        effects_end(selection, EFFECT_MERGING, begin);
+        for (size_t number = 0; number < smear.cells; number++)
+            report(frame, selection, &smear, number, reception.interference);
+    }
+}
+
+static int sensor_smear_step(void *state, struct frame *frame, struct runner *runner)
+{
+    (void)state;
+    return runner_visit_sensors(runner, frame, sense);
+}
+
+const struct stage stage_sensor_smear = {
+    .name = "sensor-smear",
+    .summary = "Smear echoes over range and Doppler bins and make cells of the peaks.",
+    .details =
+        "Stands in for glint-sensor: instead of sorting echoes into cells, it shows what a\n"
+        "transform with a Hann window would, bins as wide as the sensor's cells. Every echo\n"
+        "is spread over the bins around it with its phase, amplitude and antenna pointers;\n"
+        "where the sum has a peak that echoes lead up to there is a cell, its range, rate and\n"
+        "amplitude interpolated between bins, its angle from sum and delta channel. A peak\n"
+        "below the detection threshold is lost. So echoes merge by degrees, bend each other\n"
+        "and, out of phase, repel each other; cell_phase says how their phases differ. Peaks\n"
+        "of side lobes alone are not listed. Merging and superposition are one effect here:\n"
+        "with --effects=-merging every echo is a cell of its own.",
+    .options = &suite_choice_record,
+    .reads = SECTION_SENSORS | SECTION_ECHOES,
+    .writes = SECTION_CELLS | SECTION_LOST | SECTION_COUNTS,
+    .step = sensor_smear_step,
+};

@@ -1,0 +1,120 @@
+"""The scenes that scripts/bench runs: documents written to build/bench, the same everywhere.
+
+A scene has 2, 20, 100 or 1,000 objects beside the ego. The highway of 20 is highway-straight
+without its guardrails, the intersection of 20 a crossing on four arms; larger ones are copies of
+it side by side and one after the other, so the density stays the same and the scene grows. A radar
+reaches 250 m and four corner radars 100 m, so what they have in view grows less: that is "highway"
+and "intersection". Where everything is in view whatever the number, a radar with 120 degrees and
+3 km of reach looks at a highway that lies ahead: "in-view", where vehicles hide each other, the more
+so the more they are, and "unhidden", the same places with motorcycles, which hide nothing.
+"""
+import json
+import math
+import os
+
+FOLDER = os.path.join("build", "bench")
+COUNTS = [2, 20, 100, 1000]
+SUITES = {1: "lrr77-every-frame", 4: "corner77-four"}
+DURATION_S = {"highway": 10, "intersection": 4, "in-view": 10, "unhidden": 10, "platoon": 100}
+
+NORTH, WEST, SOUTH = math.pi / 2, math.pi, -math.pi / 2
+# class, x, y, yaw, speed: across, everyone drives; up and down, everyone waits.
+CROSSING = [
+    ("van", 0, -1.75, 0, 10), ("car", 12, 1.75, WEST, 10),
+    ("car", 24, -1.75, 0, 10), ("truck", 45, -1.75, 0, 10), ("car", -48, -1.75, 0, 10),
+    ("car", -40, 1.75, WEST, 10), ("bus", -12, 1.75, WEST, 10),
+    ("motorcycle", 30, 1.75, WEST, 10), ("car", 45, 1.75, WEST, 10),
+    ("car", 1.75, -12, NORTH, 0), ("van", 1.75, -20, NORTH, 0),
+    ("truck", 1.75, -29, NORTH, 0), ("car", 1.75, -39, NORTH, 0),
+    ("car", -1.75, 12, SOUTH, 0), ("car", -1.75, 19, SOUTH, 0),
+    ("articulated_truck", -1.75, 34, SOUTH, 0),
+    ("bicycle", -20, -4.5, 0, 4.5), ("bicycle", 18, 4.5, WEST, 4.5),
+    ("pedestrian", 7, -12, SOUTH, 1.4), ("pedestrian", -7, 12, NORTH, 1.4),
+]
+
+
+def actor(name, kind, x, y, yaw, speed, segments=()):
+    document = {"id": name, "class": kind, "x_m": x, "y_m": y, "yaw_rad": yaw, "speed_mps": speed}
+    return document | ({"segments": list(segments)} if segments else {})
+
+
+def crossing():
+    ego = actor("ego", "car", -25, -1.75, 0, 10)
+    return ego, [actor(f"u{i:02}", *user) for i, user in enumerate(CROSSING)]
+
+
+def highway():
+    """The ego and the 20 vehicles; the two that a scene of two has come first."""
+    with open("data/scenarios/highway-straight.json") as file:
+        ego, *others = json.load(file)["objects"]
+    others = [other for other in others if other["class"] != "guardrail"]
+    return ego, sorted(others, key=lambda other: other["id"] not in ("middle_3", "right_4"))
+
+
+def copies(count, block, tile_m, ahead):
+    """The block at as many places of a grid as it takes: around the ego, or all ahead of it."""
+    places = [(i, j) for i in range(0 if ahead else -8, 9) for j in range(-8, 9)]
+    places.sort(key=lambda place: (max(map(abs, place)), -place[0], abs(place[1]), place[1]))
+    objects = []
+    for number, (i, j) in enumerate(places[:math.ceil(count / len(block))]):
+        for other in block:
+            name = f"{other['id']}_{number}" if number > 0 else other["id"]
+            objects.append(other | {"id": name,
+                                    "x_m": round(other["x_m"] + i * tile_m[0], 6),
+                                    "y_m": round(other["y_m"] + j * tile_m[1], 6)})
+    return objects[:count]
+
+
+def objects_of(kind, count):
+    if kind == "intersection":
+        ego, block = crossing()
+        return [ego] + copies(count, block, (120, 120), False)
+    ego, block = highway()
+    if kind == "platoon":
+        block = [{key: other[key] for key in ("id", "class", "x_m", "y_m")} | {"speed_mps": 30}
+                 for other in block]
+    if kind in ("in-view", "unhidden"):
+        block = [other | {"x_m": other["x_m"] + 200} for other in block]
+    if kind == "unhidden":
+        block = [other | {"class": "motorcycle"} for other in block]
+    return [ego] + copies(count, block, (300, 15), kind in ("in-view", "unhidden"))
+
+
+def write(name, document):
+    """To build/bench, whole or not at all; returns the path."""
+    os.makedirs(FOLDER, exist_ok=True)
+    path = os.path.join(FOLDER, name + ".json")
+    with open(f"{path}.{os.getpid()}", "w") as out:
+        json.dump(document, out, indent=1)
+    os.replace(out.name, path)
+    return path
+
+
+def write_scene(kind, count, frames):
+    """A scenario with this many frames, spread evenly over its time; returns its path."""
+    duration_s = DURATION_S[kind]
+    return write(f"{kind}-{count}-{frames}", {
+        "origin": "Made by tests/speed/scenes.py.", "ego": "ego",
+        "rate_hz": max(frames - 1, 1) / duration_s, "duration_s": duration_s if frames > 1 else 0,
+        "objects": objects_of(kind, count)})
+
+
+def suite_of(kind, sensors):
+    """A name in data/sensors/, or the path of the suite that sees all that is ahead."""
+    if kind not in ("in-view", "unhidden"):
+        return SUITES[sensors]
+    with open("data/sensors/lrr77-every-frame.json") as file:
+        sensor = json.load(file)["sensors"][0]
+    sensor |= {"range_max_m": 3000, "calibration_range_m": 3000, "list_limit": 100000,
+               "field_of_view_rad": 2 * math.pi / 3,
+               "antenna_table": "../../data/antennas/corner77.csv"}
+    del sensor["sources"]
+    return write("all-ahead", {"origin": "Made by tests/speed/scenes.py.", "sensors": [sensor]})
+
+
+def commands(kind, count, sensors, frames, labels):
+    """The five stages of the chain. labels: "default" or "account"."""
+    account = " --account" if labels == "account" else ""
+    return [f"glint-traffic {write_scene(kind, count, frames)}", "glint-extract",
+            f"glint-ideal --sensors {suite_of(kind, sensors)}{account}", "glint-sensor",
+            "glint-noise"]

@@ -1,0 +1,201 @@
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "frame_text.h"
+#include "fused.h"
+#include "runner.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+static void begin(struct runner *runner, const struct stage *stage, size_t count,
+                  const char *const *words)
+{
+    if (runner_prepare(runner, stage, count, words) != 0 || runner_start(runner) != 0)
+        fail_msg("%s: %s", stage->name, runner->diag.text);
+}
+
+static const struct stage *stage_of(const char *name)
+{
+    size_t i = 0;
+    while (strcmp(stages[i]->name, name) != 0)
+        i++;
+    return stages[i];
+}
+
+/* The frame as text, without the part that the stage may change. */
+static void write_rest(const struct frame *frame, unsigned present, const struct stage *stage,
+                       struct text *text)
+{
+    struct arena arena = {0};
+    struct diag diag = {0};
+    struct frame rest = *frame;
+    memset(&rest.lost, 0, sizeof rest.lost);
+    for (size_t i = 0; i < frame->lost.count; i++)
+        if (strcmp(frame->lost.items[i].stage, stage->name) != 0)
+            *list_add(&rest.lost, &arena) = frame->lost.items[i];
+    rest.present = present & ~(stage->writes & ~(unsigned)SECTION_LOST);
+    if ((stage->writes & SECTION_SENSORS) != 0)
+        rest.account = rest.margins = false;
+    text->length = 0;
+    if (frame_text_write(&rest, text, &diag) != 0)
+        fail_msg("%s", diag.text);
+    text_add(text, "", 1);
+    arena_free(&arena);
+}
+
+/* Steps and says whether the stage kept to what it declares. */
+static bool keeps_to_its_part(struct runner *runner, struct frame *frame)
+{
+    const struct stage *stage = runner->stage;
+    struct text before = {0}, after = {0};
+    frame_drop(frame, stage->writes & ~stage->reads & ~(unsigned)(SECTION_LOST | SECTION_COUNTS));
+    unsigned present = frame->present;
+    write_rest(frame, present, stage, &before);
+    if (runner_step(runner, frame) != 0)
+        fail_msg("%s: %s", stage->name, runner->diag.text);
+    write_rest(frame, present, stage, &after);
+    bool same = strcmp(before.bytes, after.bytes) == 0;
+    text_free(&before);
+    text_free(&after);
+    return same;
+}
+
+static bool is_filter(const struct stage *stage)
+{
+    return stage->next == NULL && !stage->sink;
+}
+
+/* The signal is simulated only for sensors that have a waveform. */
+static bool fits(const struct stage *stage, const char *suite)
+{
+    return strcmp(stage->name, "sensor-signal") != 0 || strstr(suite, "-signal") != NULL;
+}
+
+/* The chain itself, then every other filter in place of what wrote its sections: frames then have
+ * what a later stage needs. */
+static size_t order_filters(const char *suite, const struct stage **filters)
+{
+    static const char *const chain[] = {"extract", "ideal", "sensor", "noise"};
+    size_t count = 0;
+    for (; count < COUNT(chain); count++)
+        filters[count] = stage_of(chain[count]);
+    for (size_t i = 0; stages[i] != NULL; i++) {
+        bool known = !is_filter(stages[i]) || !fits(stages[i], suite);
+        for (size_t j = 0; j < COUNT(chain) && !known; j++)
+            known = stages[i] == filters[j];
+        if (!known)
+            filters[count++] = stages[i];
+    }
+    return count;
+}
+
+static void run_filters(const char *suite, const char *density)
+{
+    struct runner source, runners[64];
+    const struct stage *filters[64];
+    size_t count = order_filters(suite, filters);
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena};
+    begin(&source, stage_of("traffic-random"), 5,
+          (const char *[]){"--density", density, "--conditions", "--frames", "20"});
+    for (size_t i = 0; i < count; i++)
+        begin(&runners[i], filters[i], strcmp(filters[i]->name, "ideal") == 0 ? 5 : 1,
+              (const char *[]){"--keep", "--sensors", suite, "--account", "--margins"});
+    while (runner_next(&source, &frame) == 1)
+        for (size_t i = 0; i < count; i++) {
+            /* What stands in takes from what it replaces the echoes that it accounts for. */
+            if (i >= 4)
+                frame.account = false;
+            if (!keeps_to_its_part(&runners[i], &frame))
+                fail_msg("glint-%s changed what it does not declare", filters[i]->name);
+        }
+    for (size_t i = 0; i < count; i++)
+        runner_free(&runners[i]);
+    runner_free(&source);
+    arena_free(&arena);
+}
+
+static void no_stage_changes_what_it_does_not_declare(void **state)
+{
+    (void)state;
+    static const char *const suites[] = {"corner77-every-frame", "lrr77-full", "lrr77-coherent",
+                                         "lrr77-signal-small"};
+    for (size_t i = 0; i < COUNT(suites); i++) {
+        run_filters(suites[i], "dense");
+        run_filters(suites[i], "medium");
+    }
+}
+
+/* Objects move behind the back of whoever reads `writes`. */
+static int meddle(void *state, struct frame *frame, struct runner *runner)
+{
+    (void)state;
+    (void)runner;
+    frame->objects.items[0].x_m += 1;
+    return 0;
+}
+
+static int make_nonsense(void *state, struct frame *frame, struct runner *runner)
+{
+    (void)state;
+    (void)runner;
+    frame->objects.items[1].length_m = -1;
+    return 0;
+}
+
+static void begin_frame(struct frame *frame)
+{
+    struct runner source;
+    begin(&source, stage_of("traffic-random"), 2, (const char *[]){"--density", "dense"});
+    assert_int_equal(runner_next(&source, frame), 1);
+    runner_free(&source);
+}
+
+static void a_change_that_is_not_declared_is_found(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena};
+    struct stage stage = {.name = "meddle", .options = &stage_no_options, .step = meddle};
+    struct runner runner;
+    begin_frame(&frame);
+    begin(&runner, &stage, 0, NULL);
+    assert_false(keeps_to_its_part(&runner, &frame));
+    stage.reads = stage.writes = SECTION_OBJECTS;
+    assert_true(keeps_to_its_part(&runner, &frame));
+    runner_free(&runner);
+    arena_free(&arena);
+}
+
+static void a_stage_that_makes_nonsense_fails_itself(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena};
+    const struct stage stage = {.name = "nonsense",
+                                .options = &stage_no_options,
+                                .reads = SECTION_OBJECTS,
+                                .writes = SECTION_OBJECTS,
+                                .step = make_nonsense};
+    struct runner runner;
+    begin_frame(&frame);
+    begin(&runner, &stage, 0, NULL);
+    assert_int_equal(runner_step(&runner, &frame), -1);
+    assert_int_equal(runner.diag.code, DIAG_INTERNAL);
+    assert_string_equal(runner.diag.text,
+                        "made nonsense: objects[1].length_m: -1 is outside [0, 1e6] m");
+    runner_free(&runner);
+    arena_free(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_stage_changes_what_it_does_not_declare),
+        cmocka_unit_test(a_change_that_is_not_declared_is_found),
+        cmocka_unit_test(a_stage_that_makes_nonsense_fails_itself),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,287 @@
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "sample.h"
+#include "smear.h"
+#include "sort.h"
+#include "units.h"
+
+enum { MOST = 8 };
+
+static struct sensor test_sensor(void)
+{
+    struct sensor sensor = {.name = "s",
+                            .threshold_db = 6,
+                            .calibration_ercs = 0.8,
+                            .calibration_range_m = 30,
+                            .exponent = 2,
+                            .range_floor_m = 0.5,
+                            .cell_range_m = 0.5,
+                            .cell_range_rate_mps = 0.25,
+                            .angle_estimator = MONOPULSE_RATIO};
+    suite_derive(&sensor);
+    return sensor;
+}
+
+/* Rays by places in bins, with amplitudes on boresight. */
+struct scene {
+    struct arena arena;
+    struct sensor sensor;
+    struct ray rays[MOST];
+    size_t count;
+    struct smear smear;
+    struct cell cells[MOST];
+};
+
+static const char *const names[MOST] = {"a", "b", "c", "d", "e", "f", "g", "h"};
+
+static int make_scene(void **state)
+{
+    struct scene *scene = calloc(1, sizeof *scene);
+    assert_non_null(scene);
+    scene->sensor = test_sensor();
+    *state = scene;
+    return 0;
+}
+
+static int remove_scene(void **state)
+{
+    struct scene *scene = *state;
+    arena_free(&scene->arena);
+    free(scene);
+    return 0;
+}
+
+static void start(struct scene *scene)
+{
+    arena_clear(&scene->arena);
+    scene->count = 0;
+}
+
+static struct ray *add(struct scene *scene, double range_bins, double rate_bins, double amplitude,
+                       double phase_rad)
+{
+    struct ray *ray = &scene->rays[scene->count];
+    *ray = (struct ray){.echo = {.object = "o", .reflector = names[scene->count]},
+                        .strength = amplitude,
+                        .amplitude = amplitude,
+                        .range_m = 0.5 * range_bins,
+                        .range_rate_mps = 0.25 * rate_bins,
+                        .phase_rad = phase_rad};
+    ray->echo.range_m = ray->range_m;
+    ray->echo.range_rate_mps = ray->range_rate_mps;
+    scene->count++;
+    return ray;
+}
+
+static size_t cells_of(struct scene *scene)
+{
+    sort_items(scene->rays, scene->count, sizeof *scene->rays, superposition_compare,
+               &scene->arena);
+    scene->smear = smear_make(&scene->sensor, scene->rays, scene->count, &scene->arena);
+    for (size_t i = 0; i < scene->smear.cells; i++)
+        assert_true(smear_cell(&scene->smear, i, &scene->arena, &scene->cells[i]));
+    return scene->smear.cells;
+}
+
+static void assert_same_cell(const struct cell *cell, const struct cell *expected)
+{
+    assert_close(cell->range_m, expected->range_m, 1e-13 * (1 + expected->range_m));
+    assert_close(cell->range_rate_mps, expected->range_rate_mps,
+                 1e-13 * (1 + fabs(expected->range_rate_mps)));
+    assert_close(cell->azimuth_rad, expected->azimuth_rad, 1e-14);
+    assert_near(cell->amplitude, expected->amplitude, 1e-14);
+    assert_close(cell->sum_re, expected->sum_re, 1e-14 * expected->amplitude);
+    assert_close(cell->sum_im, expected->sum_im, 1e-14 * expected->amplitude);
+    assert_close(cell->delta_re, expected->delta_re, 1e-14 * expected->amplitude);
+    assert_close(cell->delta_im, expected->delta_im, 1e-14 * expected->amplitude);
+    assert_int_equal(cell->members.count, 1);
+    assert_true(cell->members.items[0].weight == 1);
+    assert_true(cell->effects == expected->effects);
+}
+
+static void one_echo_alone_is_the_cell_that_it_always_is(void **state)
+{
+    struct scene *scene = *state;
+    uint64_t sample = 1;
+    for (int i = 0; i < 2000; i++) {
+        start(scene);
+        const struct echo echo = {.sensor = "s",
+                                  .object = "o",
+                                  .reflector = "r",
+                                  .range_m = sample_between(&sample, 0.3, 200),
+                                  .azimuth_rad = sample_between(&sample, -1, 1),
+                                  .range_rate_mps = sample_between(&sample, -60, 60),
+                                  .ercs = sample_between(&sample, 0.01, 5),
+                                  .effects = EFFECT_BIT(EFFECT_RAIN)};
+        struct ray ray = superposition_ray(&scene->sensor, &echo, sample_between(&sample, -7, 7));
+        struct smear smear = smear_make(&scene->sensor, &ray, 1, &scene->arena);
+        struct cell cell, expected;
+        assert_int_equal(smear.cells, 1);
+        assert_true(smear_cell(&smear, 0, &scene->arena, &cell));
+        assert_true(superposition_cell(&scene->sensor, &ray, 1, true, &scene->arena, &expected));
+        assert_same_cell(&cell, &expected);
+    }
+}
+
+static void echoes_that_are_far_apart_do_not_touch(void **state)
+{
+    struct scene *scene = *state;
+    start(scene);
+    add(scene, 100.3, 2, 7, 1);
+    add(scene, 106.8, 2, 3, 2);
+    add(scene, 100.3, -5.1, 2, 3);
+    assert_int_equal(cells_of(scene), 3);
+    for (size_t i = 0; i < 3; i++) {
+        struct cell expected;
+        superposition_cell(&scene->sensor, &scene->rays[i], 1, true, &scene->arena, &expected);
+        assert_same_cell(&scene->cells[i], &expected);
+    }
+}
+
+/* Two echoes of amplitude 1 whose middle is at a place on the bins, along range or along rate. */
+static size_t pair(struct scene *scene, double middle, double spacing, double phase_rad,
+                   bool along_range)
+{
+    start(scene);
+    for (int side = -1; side <= 1; side += 2) {
+        double place = middle + side * spacing / 2;
+        add(scene, along_range ? place : 40, along_range ? 3 : place, 1, side * phase_rad / 2);
+    }
+    return cells_of(scene);
+}
+
+static double place_of(const struct cell *cell, bool along_range)
+{
+    return along_range ? cell->range_m / 0.5 : cell->range_rate_mps / 0.25;
+}
+
+static void two_echoes_a_bin_apart_merge_unless_they_are_opposite(void **state)
+{
+    struct scene *scene = *state;
+    for (int axis = 0; axis < 2; axis++) {
+        const struct cell *cell = scene->cells;
+        assert_int_equal(pair(scene, 20, 1, 0, axis), 1);
+        assert_close(place_of(cell, axis), 20, 1e-12);
+        assert_close(units_amplitude_db(cell->amplitude), 4.60, 5e-3);
+        assert_int_equal(cell->members.count, 2);
+        assert_int_equal(pair(scene, 20, 1, PI / 2, axis), 1);
+        assert_close(place_of(cell, axis), 20, 1e-12);
+        assert_close(units_amplitude_db(cell->amplitude), 1.59, 5e-3);
+        assert_int_equal(pair(scene, 20, 1, PI, axis), 2);
+        assert_close(place_of(&cell[0], axis), 20 - 0.5 - 0.47, 0.25);
+        assert_close(place_of(&cell[1], axis), 20 + 0.5 + 0.47, 0.25);
+    }
+}
+
+static void two_echoes_part_by_their_distance_and_phase(void **state)
+{
+    struct scene *scene = *state;
+    for (double middle = 20; middle < 21; middle += 0.03) {
+        for (int axis = 0; axis < 2; axis++) {
+            assert_int_equal(pair(scene, middle, 1.5, 0, axis), 1);
+            assert_int_equal(pair(scene, middle, 1.5, PI / 2, axis), 2);
+            assert_int_equal(pair(scene, middle, 1.5, PI, axis), 2);
+            for (double phase_rad = 0; phase_rad < 3.2; phase_rad += 0.2)
+                assert_int_equal(pair(scene, middle, 2, phase_rad, axis), 2);
+        }
+    }
+}
+
+static void merged_echoes_read_at_the_angle_between_them(void **state)
+{
+    struct scene *scene = *state;
+    start(scene);
+    add(scene, 19.9, 0.1, 1, 0)->echo.azimuth_rad = 0.1;
+    add(scene, 20.1, -0.1, 1, 0)->echo.azimuth_rad = -0.1;
+    assert_int_equal(cells_of(scene), 1);
+    assert_close(scene->cells[0].azimuth_rad, 0, 1e-15);
+    assert_true((scene->cells[0].effects & EFFECT_BIT(EFFECT_MERGING)) != 0);
+    assert_true((scene->cells[0].effects & EFFECT_BIT(EFFECT_COHERENCE)) == 0);
+}
+
+static void an_echo_beside_a_strong_one_is_in_its_cell(void **state)
+{
+    struct scene *scene = *state;
+    start(scene);
+    add(scene, 20, 0, 1000, 0);
+    add(scene, 21.3, 0.4, 1, 2);
+    add(scene, 30, 0, 1, 0);
+    assert_int_equal(cells_of(scene), 2);
+    assert_int_equal(scene->cells[0].members.count, 2);
+    assert_string_equal(scene->cells[0].members.items[0].reflector, "a");
+    assert_string_equal(scene->cells[0].members.items[1].reflector, "b");
+    assert_close(scene->cells[0].members.items[1].weight, 1.0 / 1001, 1e-15);
+    assert_true((scene->cells[0].effects & EFFECT_BIT(EFFECT_COHERENCE)) != 0);
+    assert_int_equal(scene->cells[1].members.count, 1);
+}
+
+static void side_lobes_alone_are_no_cells(void **state)
+{
+    struct scene *scene = *state;
+    start(scene);
+    add(scene, 20.4, 0.3, 1e6, 0);
+    assert_int_equal(cells_of(scene), 1);
+}
+
+static void echoes_that_cancel_have_no_amplitude(void **state)
+{
+    struct scene *scene = *state;
+    start(scene);
+    add(scene, 20, 0, 1, 0);
+    add(scene, 20, 0, 1, 0)->strength = -1;
+    scene->smear = smear_make(&scene->sensor, scene->rays, 2, &scene->arena);
+    assert_int_equal(scene->smear.cells, 1);
+    assert_false(smear_cell(&scene->smear, 0, &scene->arena, scene->cells));
+    assert_true(scene->cells[0].amplitude == 0);
+    assert_int_equal(scene->cells[0].members.count, 2);
+}
+
+static void every_echo_is_in_one_cell_and_weights_add_up(void **state)
+{
+    struct scene *scene = *state;
+    uint64_t sample = 5;
+    for (int i = 0; i < 2000; i++) {
+        start(scene);
+        for (int j = 0; j < MOST; j++)
+            add(scene, sample_between(&sample, 0, 8), sample_between(&sample, -3, 3),
+                exp(sample_between(&sample, -5, 5)), sample_between(&sample, 0, 6.3));
+        size_t cells = cells_of(scene), members = 0;
+        for (size_t j = 0; j < cells; j++) {
+            const struct cell *cell = &scene->cells[j];
+            double total = 0;
+            for (size_t k = 0; k < cell->members.count; k++)
+                total += cell->members.items[k].weight;
+            members += cell->members.count;
+            assert_close(total, 1, 1e-15 * MOST);
+            assert_true(cell->range_m >= 0);
+        }
+        assert_int_equal(members, MOST);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(one_echo_alone_is_the_cell_that_it_always_is, make_scene,
+                                        remove_scene),
+        cmocka_unit_test_setup_teardown(echoes_that_are_far_apart_do_not_touch, make_scene,
+                                        remove_scene),
+        cmocka_unit_test_setup_teardown(two_echoes_a_bin_apart_merge_unless_they_are_opposite,
+                                        make_scene, remove_scene),
+        cmocka_unit_test_setup_teardown(two_echoes_part_by_their_distance_and_phase, make_scene,
+                                        remove_scene),
+        cmocka_unit_test_setup_teardown(merged_echoes_read_at_the_angle_between_them, make_scene,
+                                        remove_scene),
+        cmocka_unit_test_setup_teardown(an_echo_beside_a_strong_one_is_in_its_cell, make_scene,
+                                        remove_scene),
+        cmocka_unit_test_setup_teardown(side_lobes_alone_are_no_cells, make_scene, remove_scene),
+        cmocka_unit_test_setup_teardown(echoes_that_cancel_have_no_amplitude, make_scene,
+                                        remove_scene),
+        cmocka_unit_test_setup_teardown(every_echo_is_in_one_cell_and_weights_add_up, make_scene,
+                                        remove_scene),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

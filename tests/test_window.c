@@ -1,0 +1,166 @@
+#include "check.h"
+
+#include "sample.h"
+#include "units.h"
+#include "window.h"
+
+static void the_kernel_has_its_published_values(void **state)
+{
+    (void)state;
+    assert_true(window_hann(0) == 1);
+    assert_true(window_hann(1) == 0.5);
+    assert_close(window_hann(0.5), 0.848826, 5e-7);
+    assert_close(window_hann(1.5), 0.169765, 5e-7);
+    assert_close(window_hann(2.5), -0.024252, 5e-7);
+}
+
+static void the_kernel_is_even_and_vanishes_at_whole_bins(void **state)
+{
+    (void)state;
+    uint64_t sample = 1;
+    for (int i = 0; i < 1000; i++) {
+        double d = sample_between(&sample, 0, 10);
+        assert_true(window_hann(d) == window_hann(-d));
+    }
+    for (int d = 2; d < 100; d++)
+        assert_true(window_hann(d) == 0);
+}
+
+/* The sum of three shifted kernels of no window, in extended precision. */
+static long double three_lines(long double d)
+{
+    const long double pi = 3.14159265358979323846264338327950288L;
+    long double sum = 0;
+    for (int line = -1; line <= 1; line++) {
+        long double x = d - (long double)line;
+        sum += (line == 0 ? 1 : 0.5L) * (x == 0 ? 1 : sinl(pi * x) / (pi * x));
+    }
+    return sum;
+}
+
+static void the_kernel_is_that_of_a_raised_cosine(void **state)
+{
+    (void)state;
+    uint64_t sample = 2;
+    for (int i = 0; i < 10000; i++) {
+        double d = sample_between(&sample, -6, 6);
+        assert_close(window_hann(d), (double)three_lines((long double)d), 1e-15);
+    }
+}
+
+/* Where the plain formula is 0/0. */
+static void the_kernel_is_smooth_at_its_gaps(void **state)
+{
+    (void)state;
+    for (double step = 1e-3; step > 1e-16; step /= 7) {
+        assert_close(window_hann(step), 1, step + 5e-16);
+        assert_close(window_hann(1 + step), 0.5, step + 5e-16);
+        double expected = (double)three_lines((long double)(1 - step));
+        assert_near(window_hann(1 - step), expected, 1e-15);
+    }
+}
+
+static void its_highest_side_lobe_is_31_db_down(void **state)
+{
+    (void)state;
+    double highest = 0;
+    for (double d = 2; d < 20; d += 1e-3)
+        highest = fmax(highest, fabs(window_hann(d)));
+    assert_close(units_amplitude_db(highest), -31.47, 5e-3);
+}
+
+static void one_echo_is_found_exactly_where_it_is(void **state)
+{
+    (void)state;
+    uint64_t sample = 3;
+    for (int i = 0; i < 10000; i++) {
+        double d = sample_between(&sample, -0.5, 0.5);
+        assert_close(
+            window_hann_offset(3 * window_hann(-1 - d), 3 * window_hann(d), 3 * window_hann(1 - d)),
+            d, 1e-15);
+    }
+    assert_close(window_hann_offset(0.5, 1, 0.5), 0, 0);
+    assert_close(window_hann_offset(1, 1, 0.2), -0.5, 0);
+    assert_close(window_hann_offset(0.2, 1, 1), 0.5, 0);
+}
+
+static void a_peak_narrower_than_one_echo_is_left_on_its_bin(void **state)
+{
+    (void)state;
+    assert_true(window_hann_offset(0.3, 1, 0.49) == 0);
+    assert_true(window_hann_offset(0, 1, 0) == 0);
+}
+
+/* The envelope of two equal echoes, the second `spacing` bins behind and turned by the phase. */
+static double envelope(double d, double spacing, double phase_rad)
+{
+    double first = window_hann(d), second = window_hann(d - spacing);
+    return hypot(first + second * cos(phase_rad), second * sin(phase_rad));
+}
+
+static void equal_echoes_a_bin_apart_read_as_one_between_them(void **state)
+{
+    (void)state;
+    for (double phase_rad = 0; phase_rad < 2; phase_rad += 0.5) {
+        double before = envelope(-1, 1, phase_rad), at = envelope(0, 1, phase_rad);
+        assert_close(window_hann_offset(before, at, envelope(1, 1, phase_rad)), 0.5, 1e-15);
+    }
+}
+
+static int peaks_of(double spacing, double phase_rad, double place[], double height_db[])
+{
+    const double step = 1e-3;
+    int count = 0;
+    for (double d = -1.9; d < spacing + 1.9; d += step) {
+        double here = envelope(d, spacing, phase_rad);
+        if (here < 0.1 || here < envelope(d - step, spacing, phase_rad) ||
+            here <= envelope(d + step, spacing, phase_rad))
+            continue;
+        place[count] = d;
+        height_db[count++] = units_amplitude_db(here);
+    }
+    return count;
+}
+
+static void two_echoes_a_bin_apart_merge_or_flee_by_their_phase(void **state)
+{
+    (void)state;
+    double place[9], height_db[9];
+    assert_int_equal(peaks_of(1, 0, place, height_db), 1);
+    assert_close(place[0], 0.5, 2e-3);
+    assert_close(height_db[0], 4.60, 5e-3);
+    assert_int_equal(peaks_of(1, PI / 2, place, height_db), 1);
+    assert_close(place[0], 0.5, 2e-3);
+    assert_close(height_db[0], 1.59, 5e-3);
+    assert_int_equal(peaks_of(1, PI, place, height_db), 2);
+    assert_close(place[0], -0.47, 5e-3);
+    assert_close(place[1], 1.47, 5e-3);
+}
+
+static void two_echoes_two_bins_apart_are_always_two(void **state)
+{
+    (void)state;
+    double place[9], height_db[9];
+    assert_int_equal(peaks_of(1.5, 0, place, height_db), 1);
+    assert_int_equal(peaks_of(1.5, PI / 2, place, height_db), 2);
+    assert_int_equal(peaks_of(1.5, PI, place, height_db), 2);
+    for (double phase_rad = 0; phase_rad <= PI; phase_rad += PI / 16)
+        assert_int_equal(peaks_of(2, phase_rad, place, height_db), 2);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_kernel_has_its_published_values),
+        cmocka_unit_test(the_kernel_is_even_and_vanishes_at_whole_bins),
+        cmocka_unit_test(the_kernel_is_that_of_a_raised_cosine),
+        cmocka_unit_test(the_kernel_is_smooth_at_its_gaps),
+        cmocka_unit_test(its_highest_side_lobe_is_31_db_down),
+        cmocka_unit_test(one_echo_is_found_exactly_where_it_is),
+        cmocka_unit_test(a_peak_narrower_than_one_echo_is_left_on_its_bin),
+        cmocka_unit_test(equal_echoes_a_bin_apart_read_as_one_between_them),
+        cmocka_unit_test(two_echoes_a_bin_apart_merge_or_flee_by_their_phase),
+        cmocka_unit_test(two_echoes_two_bins_apart_are_always_two),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
