@@ -4,7 +4,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "address.h"
 #include "elementary.h"
+#include "false_alarms.h"
+#include "interference.h"
 #include "units.h"
 
 /* Beyond so many bins a pulse is below 2^-36 of itself. */
@@ -205,6 +208,21 @@ void signal_weigh(const struct signal *signal)
             samples[n].im *= slow * signal->row[n].re;
         }
     }
+}
+
+void signal_receive(const struct signal *signal, const struct scan *scan, bool noisy)
+{
+    const struct reception *reception = &scan->reception;
+    struct contributor noise = false_alarms_contributor(0);
+    struct random_address address =
+        address_of(reception->frame, reception->sensor->name, SUBJECT_OF(&noise));
+    signal_clear(signal);
+    signal_add(signal, scan->resolved.rays, scan->resolved.count, reception->frame->arena);
+    if (noisy)
+        signal_add_noise(signal, &address,
+                         signal->sensor->pointer_sigma *
+                             interference_noise_factor(reception->interference));
+    signal_weigh(signal);
 }
 
 /* One row of a beam's power, where it is above that of other beams. */

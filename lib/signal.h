@@ -18,8 +18,8 @@
 
 #include "beam.h"
 #include "random.h"
+#include "scan.h"
 #include "spectrum.h"
-#include "superposition.h"
 
 struct signal {
     const struct sensor *sensor;
@@ -49,6 +49,9 @@ void signal_add_noise(const struct signal *signal, const struct random_address *
 
 /* Applies the windows. */
 void signal_weigh(const struct signal *signal);
+
+/* All of it, for what a scan received: ready for the transforms. */
+void signal_receive(const struct signal *signal, const struct scan *scan, bool noisy);
 
 /* What the transformed cube is. Its power is that of the sum channel, or of the strongest of beams
  * that cover the field of view half a beam's width apart. Memory comes from the arena. */
