@@ -36,7 +36,7 @@ enum section {
 enum { SECTIONS_CONSUMED = SECTION_REFLECTORS | SECTION_ECHOES | SECTION_CELLS };
 
 /* What one stage wrote into a frame: these sections, and of lost only what it lost itself. */
-struct part {
+struct frame_part {
     unsigned sections;
     const char *stage; /* NULL: all of lost */
 };

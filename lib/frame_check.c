@@ -116,7 +116,7 @@ int frame_check(const struct frame *frame, struct diag *diag)
     return check_sections(frame, ~0U, diag);
 }
 
-static bool members_good(struct frame *frame, struct part part)
+static bool members_good(struct frame *frame, struct frame_part part)
 {
     struct field_names *names = frame_names(frame);
     bool lost = (part.sections & SECTION_LOST) != 0;
@@ -131,7 +131,7 @@ static bool members_good(struct frame *frame, struct part part)
     return true;
 }
 
-int frame_check_part(struct frame *frame, struct part part, struct diag *diag)
+int frame_check_part(struct frame *frame, struct frame_part part, struct diag *diag)
 {
     if (!members_good(frame, part) && field_check(&frame_record, frame, diag) != 0)
         return -1;

@@ -138,7 +138,7 @@ static void order_counts(struct frame *frame)
         sort_list(&frame->counts.items[i].paths, compare_paths, frame->arena);
 }
 
-void frame_order_part(struct frame *frame, struct part part)
+void frame_order_part(struct frame *frame, struct frame_part part)
 {
     if ((part.sections & SECTION_REFLECTORS) != 0)
         order_sets(frame);
@@ -158,7 +158,7 @@ void frame_order_part(struct frame *frame, struct part part)
 
 void frame_order(struct frame *frame)
 {
-    frame_order_part(frame, (struct part){~0U, NULL});
+    frame_order_part(frame, (struct frame_part){~0U, NULL});
 }
 
 int frame_order_tied(const struct contributor *a, const struct contributor *b)
