@@ -6,7 +6,7 @@
 static struct reflector_set *set_of(struct frame *frame, const struct vehicle *vehicle)
 {
     for (size_t i = 0; i < frame->reflectors.count; i++)
-        if (strcmp(frame->reflectors.items[i].model, vehicle->reflectors.model) == 0)
+        if (frame->reflectors.items[i].model == vehicle->reflectors.model)
             return &frame->reflectors.items[i];
     struct reflector_set *set = list_add(&frame->reflectors, frame->arena);
     *set = vehicle->reflectors;
