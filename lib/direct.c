@@ -165,8 +165,7 @@ static void look_at_point(struct look *look, const struct look_body *body,
 {
     look->pairs++;
     bool selective = effects_may(look->selection, EFFECT_VISIBILITY);
-    double visible =
-        selective ? reflectors_visibility(&body->box, point, facing, place, look->position_m) : 1;
+    double visible = look_visibility(look, body, point, facing, place, look->position_m);
     double margin_m = (double)INFINITY;
     if (look->frame->margins && selective)
         margin_m = clearance_facing_m(&body->box, point->shape, point->facing_rad, point->zero_rad,

@@ -274,7 +274,7 @@ static void show(const struct look *look, const struct reflex *reflex,
     const struct box *box = &reflex->body->box;
     if (!effects_may(look->selection, EFFECT_VISIBILITY))
         return;
-    double visible = reflectors_visibility(box, point, facing, reflex->place, viewer);
+    double visible = look_visibility(look, reflex->body, point, facing, reflex->place, viewer);
     course->factor *= visible;
     if (visible < 1)
         course->effects |= EFFECT_BIT(EFFECT_VISIBILITY);

@@ -4,6 +4,7 @@
 
 #include "elementary.h"
 #include "units.h"
+#include "window.h"
 
 #define FARTHEST 0.75
 
@@ -20,12 +21,6 @@ double kernel_noise(enum kernel kernel, size_t count)
     return sqrt((kernel == KERNEL_HANN ? 1.5 : 1) / (double)count);
 }
 
-/* sin(pi d)/(pi d (1 - d^2)), from the nearer of its poles. */
-static double hann(double d)
-{
-    return d < 0.5 ? units_si(PI * d) / (1 - d * d) : units_si(PI * (1 - d)) / (d * (1 + d));
-}
-
 static double gaussian(double d)
 {
     return elementary_exp(-0.25 * d * d * elementary_log(2));
@@ -36,7 +31,7 @@ double kernel_value(enum kernel kernel, double bins)
     double d = fabs(bins);
     if (kernel == KERNEL_PULSE)
         return gaussian(d);
-    return kernel == KERNEL_HANN ? hann(d) : units_si(PI * d);
+    return kernel == KERNEL_HANN ? window_hann(d) : units_si(PI * d);
 }
 
 double kernel_envelope(enum kernel kernel, double bins)

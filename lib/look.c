@@ -238,6 +238,23 @@ double look_plane_ercs(const struct look *look, const struct plane_reflector *pl
     return ercs;
 }
 
+double look_visibility(const struct look *look, const struct look_body *body,
+                       const struct point_reflector *point, struct vec2 facing, struct vec2 place,
+                       struct vec2 viewer)
+{
+    const struct box *box = &body->box;
+    if (!effects_may(look->selection, EFFECT_VISIBILITY))
+        return 1;
+    double visible = reflectors_visibility(box, point, facing, place, viewer);
+    if (point->lobe.depth_db == 0 || visible == 0)
+        return visible;
+    bool level = !(look->height_m > 0 && effects_may(look->selection, EFFECT_ELEVATION));
+    double range_m =
+        vec2_length(vec2_sub(viewer, place)) + vec2_length(vec2_sub(look->position_m, viewer));
+    double rise_m = level ? 0 : look->height_m - look_height_m(look, body, point->z);
+    return visible * reflectors_lobe(box, point, place, viewer, elementary_atan2(range_m, rise_m));
+}
+
 static const char *post_name(struct arena *arena, const struct post_row *row, int64_t post)
 {
     char digits[20];

@@ -83,6 +83,12 @@ struct sector look_reflectors_sector(const struct look_body *body, const struct 
 bool look_misses(const struct look *look, const struct look_body *body,
                  const struct sector *sector);
 
+/* How much of a point is seen from the viewer, the sensor itself or a bounce on the way to it: its
+ * visibility, and its lobe at the sensor's elevation. 1 without the effect visibility. */
+double look_visibility(const struct look *look, const struct look_body *body,
+                       const struct point_reflector *point, struct vec2 facing, struct vec2 place,
+                       struct vec2 viewer);
+
 /* A post of a row as the point it is, under its name. */
 struct point_reflector look_post(const struct look *look, const struct post_row *row, int64_t post);
 

@@ -42,6 +42,26 @@ const char *const reflectors_moving_parts[] = {
         FIELD_REAL_IN(owner, ercs, 0, 1e3, "equivalent radar cross section, a linear amplitude")   \
     }
 
+static const struct field lobe_fields[] = {
+    {FIELD_REAL_IN(struct lobe, width_rad, 0, 4 * PI,
+                   "in azimuth around the facing, 3 dB down at both ends; absent: all around"),
+     FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct lobe, zenith_rad, 0, PI, "its middle, from straight up"), FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct lobe, zenith_width_rad, 0, 4 * PI,
+                   "the same upright; absent: at every height"),
+     FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct lobe, depth_db, 0, 100, "the most that it is below its middle"),
+     FIELD_OPTIONAL},
+    {0},
+};
+
+static const struct record lobe_record = {
+    .name = "lobe",
+    .help = "Where a point returns most: a parabola in decibels, with a floor.",
+    .size = sizeof(struct lobe),
+    .fields = lobe_fields,
+};
+
 static const struct field point_fields[] = {
     {FIELD_NAME_OF(struct point_reflector, name, "unique in its set")},
     FRACTION(struct point_reflector, x, "place, as a fraction of the length from the centre"),
@@ -56,6 +76,8 @@ static const struct field point_fields[] = {
     {FIELD_REAL_IN(
          struct point_reflector, under_vehicles, 0, 1,
          "part of the cross section that is left when only raised vehicles are in the way"),
+     FIELD_OPTIONAL},
+    {FIELD_RECORD_OF(struct point_reflector, lobe, &lobe_record, "of ercs; absent: none"),
      FIELD_OPTIONAL},
     {0},
 };
@@ -258,6 +280,14 @@ double reflectors_visibility(const struct box *box, const struct point_reflector
 {
     return visibility_along(point->shape, point->full_rad, point->zero_rad,
                             vec2_turn(facing, box->heading), vec2_sub(sensor, place));
+}
+
+double reflectors_lobe(const struct box *box, const struct point_reflector *point,
+                       struct vec2 place, struct vec2 sensor, double zenith_rad)
+{
+    struct vec2 facing = vec2_turn(vec2_heading(point->facing_rad), box->heading);
+    double off_rad = visibility_angle_rad(facing, vec2_sub(sensor, place));
+    return lobe_amplitude_factor(&point->lobe, off_rad, zenith_rad);
 }
 
 static struct vec2 row_vector(const struct box *box, const struct post_row *row)

@@ -8,6 +8,7 @@
 #define REFLECTORS_H
 
 #include "field.h"
+#include "lobe.h"
 #include "motion.h"
 #include "visibility.h"
 
@@ -28,6 +29,7 @@ struct point_reflector {
     double ercs;
     enum moving_part moving_part;
     double under_vehicles; /* the part of its ERCS that passes under a raised vehicle in the way */
+    struct lobe lobe;      /* of what it returns, besides where it is seen from */
 };
 
 /* A flat side: mirrors the radar from the foot of the perpendicular, with constant ERCS, or, of a
@@ -114,6 +116,11 @@ struct vec2 reflectors_along(const struct box *box, const struct plane_reflector
  * point's facing_rad, in the object's frame. */
 double reflectors_visibility(const struct box *box, const struct point_reflector *point,
                              struct vec2 facing, struct vec2 place, struct vec2 sensor);
+
+/* The factor on amplitude of a point's lobe; 1 without one. zenith_rad is the sensor's as the point
+ * sees it. */
+double reflectors_lobe(const struct box *box, const struct point_reflector *point,
+                       struct vec2 place, struct vec2 sensor, double zenith_rad);
 
 /* The numbers [first, end) of a row's posts that may lie within range_m of the sensor: none is
  * missed, and at most two too many are named. Place of post n by reflectors_post_place. */

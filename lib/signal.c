@@ -52,27 +52,52 @@ static struct phasor times(struct phasor a, struct phasor b)
     return (struct phasor){a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
 }
 
-static struct phasor channel_weight(const struct signal *signal, const struct ray *ray,
-                                    size_t channel)
+/* An echo as the channels have it, and where it stands in bins. */
+struct source {
+    struct phasor weight[BEAM_MOST_ELEMENTS];
+    double turns, range, rate, walk;
+};
+
+static void weigh_channels(const struct signal *signal, const struct ray *ray,
+                           struct phasor *weight)
 {
     struct antenna_pointers pointers =
         antenna_pointers(&signal->sensor->antenna, ray->echo.azimuth_rad);
     double sine = elementary_sin(ray->echo.azimuth_rad);
-    if (signal->array.elements > 0) {
-        struct phasor response = beam_response(&signal->array, sine, channel);
-        return (struct phasor){ray->amplitude * response.re, ray->amplitude * response.im};
+    weight[0] =
+        (struct phasor){ray->strength * creal(pointers.sum), ray->strength * cimag(pointers.sum)};
+    weight[1] = (struct phasor){ray->strength * creal(pointers.delta),
+                                ray->strength * cimag(pointers.delta)};
+    for (size_t element = 0; element < signal->array.elements; element++) {
+        struct phasor response = beam_response(&signal->array, sine, element);
+        weight[element] =
+            (struct phasor){ray->amplitude * response.re, ray->amplitude * response.im};
     }
-    double _Complex pointer = channel == 0 ? pointers.sum : pointers.delta;
-    return (struct phasor){ray->strength * creal(pointer), ray->strength * cimag(pointer)};
 }
 
-/* The samples of one repetition: a tone by rotation, which n steps leave within n ulp. */
+static struct source source_of(const struct signal *signal, const struct ray *ray)
+{
+    double scan_s = units_wavelength_m(signal->sensor->carrier_hz) / (2 * signal->rate_step_mps);
+    struct source source = {
+        .turns = ray->phase_rad / (2 * PI),
+        .range = ray->range_m / signal->range_step_m,
+        .rate = ray->range_rate_mps / signal->rate_step_mps,
+        .walk = ray->range_rate_mps * scan_s / signal->range_step_m,
+    };
+    weigh_channels(signal, ray, source.weight);
+    return source;
+}
+
+/* The samples of one repetition: a tone by rotation, CHAINS at a time, as each waits for the one it
+ * comes from. n turns leave an error of at most n/CHAINS ulp. */
 static void chirp(struct phasor *tone, size_t count, double cells, struct phasor first)
 {
-    struct phasor step = turn(1, -cells / (double)count);
-    tone[0] = times(first, turn(1, cells / 2));
-    for (size_t n = 1; n < count; n++)
-        tone[n] = times(tone[n - 1], step);
+    enum { CHAINS = 4 };
+    double turns = -cells / (double)count;
+    struct phasor step = turn(1, CHAINS * turns);
+    for (size_t n = 0; n < count; n++)
+        tone[n] = n < CHAINS ? times(first, turn(1, cells / 2 + (double)n * turns))
+                             : times(tone[n - CHAINS], step);
 }
 
 static void pulse(struct phasor *tone, size_t count, double bins, struct phasor first)
@@ -85,32 +110,43 @@ static void pulse(struct phasor *tone, size_t count, double bins, struct phasor 
     }
 }
 
+/* Both parts of a number at once: most of the time goes here. Each lane rounds as it would alone.
+ */
+typedef double lanes __attribute__((vector_size(2 * sizeof(double))));
+
 static void add(struct phasor *row, const struct phasor *tone, size_t count, struct phasor weight)
 {
+    const lanes along = {weight.re, weight.im}, across = {-weight.im, weight.re};
     for (size_t n = 0; n < count; n++) {
-        row[n].re += tone[n].re * weight.re - tone[n].im * weight.im;
-        row[n].im += tone[n].re * weight.im + tone[n].im * weight.re;
+        lanes sum;
+        memcpy(&sum, &row[n], sizeof sum);
+        sum += tone[n].re * along + tone[n].im * across;
+        memcpy(&row[n], &sum, sizeof sum);
     }
 }
 
-void signal_add(const struct signal *signal, const struct ray *ray)
+static void add_source(const struct signal *signal, const struct source *source, size_t m)
 {
     size_t size = signal->repetitions * signal->samples;
-    struct phasor weight[BEAM_MOST_ELEMENTS];
+    double part = (double)m / (double)signal->repetitions - 0.5;
+    (pulsed(signal) ? pulse : chirp)(signal->row, signal->samples,
+                                     source->range + source->walk * part,
+                                     turn(1, source->turns - source->rate * part));
     for (size_t channel = 0; channel < signal->channels; channel++)
-        weight[channel] = channel_weight(signal, ray, channel);
-    double walk_m = ray->range_rate_mps * units_wavelength_m(signal->sensor->carrier_hz) /
-                    (2 * signal->rate_step_mps);
-    for (size_t m = 0; m < signal->repetitions; m++) {
-        double part = (double)m / (double)signal->repetitions - 0.5;
-        struct phasor first =
-            turn(1, ray->phase_rad / (2 * PI) - ray->range_rate_mps / signal->rate_step_mps * part);
-        double bins = (ray->range_m + walk_m * part) / signal->range_step_m;
-        (pulsed(signal) ? pulse : chirp)(signal->row, signal->samples, bins, first);
-        for (size_t channel = 0; channel < signal->channels; channel++)
-            add(signal->cube + channel * size + m * signal->samples, signal->row, signal->samples,
-                weight[channel]);
-    }
+        add(signal->cube + channel * size + m * signal->samples, signal->row, signal->samples,
+            source->weight[channel]);
+}
+
+/* One repetition after the other: its samples stay in the cache. */
+void signal_add(const struct signal *signal, const struct ray *rays, size_t count,
+                struct arena *arena)
+{
+    struct source *sources = arena_get(arena, (count + 1) * sizeof *sources);
+    for (size_t i = 0; i < count; i++)
+        sources[i] = source_of(signal, &rays[i]);
+    for (size_t m = 0; m < signal->repetitions; m++)
+        for (size_t i = 0; i < count; i++)
+            add_source(signal, &sources[i], m);
 }
 
 /* Through the receiver's filter, round the row, with the RMS that it had. */

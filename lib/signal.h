@@ -37,7 +37,9 @@ size_t signal_size(const struct signal *signal);
 /* A silent signal. */
 void signal_clear(const struct signal *signal);
 
-void signal_add(const struct signal *signal, const struct ray *ray);
+/* Adds echoes. Memory comes from the arena. */
+void signal_add(const struct signal *signal, const struct ray *rays, size_t count,
+                struct arena *arena);
 
 /* Adds noise that leaves cells with this RMS in the sum and delta channel, or beams of all
  * elements. */

@@ -22,8 +22,8 @@ struct sensor_signal {
     LIST_OF(struct transform) transforms;
 };
 
-/* Over both axes of chirps, over repetitions alone of pulses. FFTW_UNALIGNED leaves the plan no
- * choice that depends on addresses or on the CPU's vectors. */
+/* Over both axes of chirps, over repetitions alone of pulses. Such a plan depends on its sizes
+ * alone: not on time, on addresses, or on which vectors the CPU has. */
 static fftw_plan plan_of(const struct signal *signal)
 {
     bool pulses = signal->sensor->waveform.kind == WAVEFORM_PULSE;
@@ -31,7 +31,7 @@ static fftw_plan plan_of(const struct signal *signal)
     fftw_complex *cube = (fftw_complex *)signal->cube;
     return fftw_plan_many_dft(pulses ? 1 : 2, bins, pulses ? bins[1] : 1, cube, NULL,
                               pulses ? bins[1] : 1, 1, cube, NULL, pulses ? bins[1] : 1, 1,
-                              FFTW_BACKWARD, FFTW_ESTIMATE | FFTW_UNALIGNED);
+                              FFTW_BACKWARD, FFTW_ESTIMATE | FFTW_UNALIGNED | FFTW_NO_SIMD);
 }
 
 static struct transform *transform_of(struct sensor_signal *own, const struct sensor *sensor,
@@ -58,8 +58,7 @@ static void synthesise(const struct transform *transform, const struct scan *sca
     struct random_address address =
         address_of(reception->frame, reception->sensor->name, SUBJECT_OF(&noise));
     signal_clear(signal);
-    for (size_t i = 0; i < scan->resolved.count; i++)
-        signal_add(signal, &scan->resolved.rays[i]);
+    signal_add(signal, scan->resolved.rays, scan->resolved.count, reception->frame->arena);
     if (sigma > 0)
         signal_add_noise(signal, &address, sigma);
     signal_weigh(signal);

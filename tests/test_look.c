@@ -275,6 +275,38 @@ static void the_joint_of_two_walls_mirrors_once(void **state)
     }
 }
 
+/* Level at its middle, 60 degrees wide there and 40 upright, at most 20 dB deep. */
+static double lobe_of(double off_degrees, double below_degrees)
+{
+    double across_db = 12 * (off_degrees / 60) * (off_degrees / 60);
+    double upright_db = 12 * (below_degrees / 40) * (below_degrees / 40);
+    return pow(10, -fmin(across_db + upright_db, 20) / 20);
+}
+
+static void a_lobe_is_seen_from_where_the_sensor_stands_and_how_high(void **state)
+{
+    struct scene *scene = *state;
+    struct object *object = add_object(scene, "o", 10, 0);
+    struct point_reflector *point = add_point(scene, add_set(scene, "o"));
+    point->z = 1;
+    point->lobe = (struct lobe){60 * PI / 180, PI / 2, 40 * PI / 180, 20};
+    static const double turned[] = {180, 165, 200, 0};
+    for (size_t i = 0; i < 4; i++) {
+        scene->frame.echoes.count = 0;
+        object->yaw_rad = turned[i] * PI / 180;
+        look_around_at(scene, 10);
+        const struct echo *echo = scene->frame.echoes.items;
+        assert_near(echo->ercs, 0.5 * lobe_of(turned[i] - 180, 0), 1e-12);
+        assert_true(((echo->effects & EFFECT_BIT(EFFECT_VISIBILITY)) != 0) == (turned[i] != 180));
+    }
+    object->yaw_rad = PI;
+    object->height_m = 0.5;
+    scene->sensor.mount_z_m = 0.5 + 10 * tan(10 * PI / 180);
+    scene->frame.echoes.count = 0;
+    look_around_at(scene, 10);
+    assert_near(scene->frame.echoes.items->ercs, 0.5 * lobe_of(0, 10), 1e-12);
+}
+
 static void rows_are_expanded_in_range_and_no_post_is_missed(void **state)
 {
     (void)state;
@@ -546,6 +578,7 @@ int main(void)
         TEST(every_loss_has_its_reason),
         TEST(planes_mirror_from_the_foot_of_the_perpendicular),
         TEST(the_joint_of_two_walls_mirrors_once),
+        TEST(a_lobe_is_seen_from_where_the_sensor_stands_and_how_high),
         TEST(rows_are_expanded_in_range_and_no_post_is_missed),
         TEST(posts_become_echoes_with_their_numbers),
         TEST(a_reflector_tells_how_near_it_was_to_another_answer),
