@@ -63,15 +63,16 @@ static int take_name(struct reader *reader, const struct field *field,
 static int read_name(struct reader *reader, const struct field *field, void *base, size_t index)
 {
     struct json_scan *scan = &reader->scan;
-    char path[FIELD_PATH_SIZE];
-    snprintf(path, sizeof path, "%s[%zu]", field->name, index);
-    const struct field item = {.name = path, .kind = FIELD_NAME};
+    const struct field item = {.name = "", .kind = FIELD_NAME};
     struct json_string name;
+    int result;
     if (json_scan_peek(scan) != '"')
-        return field_wrong_kind(&item, json_scan_kind(scan), scan->diag);
-    if (json_scan_string(scan, &name) != 0)
-        return diag_prefix(scan->diag, "%s: ", path);
-    return take_name(reader, &item, &name, field_list_extend(field, base, scan->arena));
+        result = field_wrong_kind(&item, json_scan_kind(scan), scan->diag);
+    else if (json_scan_string(scan, &name) != 0)
+        result = diag_prefix(scan->diag, ": ");
+    else
+        result = take_name(reader, &item, &name, field_list_extend(field, base, scan->arena));
+    return result == 0 ? 0 : diag_prefix(scan->diag, "%s[%zu]", field->name, index);
 }
 
 static int read_choice(struct json_scan *scan, const struct field *field, void *base, size_t index)
@@ -152,6 +153,9 @@ static int read_member(struct reader *reader, const struct field *field, void *b
 {
     struct json_scan *scan = &reader->scan;
     char first = json_scan_peek(scan);
+    bool is_number = first == '-' || (first >= '0' && first <= '9');
+    if (is_number && field->kind == FIELD_REAL)
+        return read_number(scan, field, base);
     if (first == '\0') {
         json_scan_unexpected(scan, "a value");
         return diag_prefix(scan->diag, "%s: ", field->name);
@@ -169,7 +173,7 @@ static int read_member(struct reader *reader, const struct field *field, void *b
     }
     if (first == '"')
         return read_text(reader, field, base);
-    if (first == '-' || (first >= '0' && first <= '9'))
+    if (is_number)
         return read_number(scan, field, base);
     if (field->kind == FIELD_FLAG && (first == 't' || first == 'f'))
         return read_flag(scan, field, base);
@@ -246,7 +250,8 @@ static int read_members(struct reader *reader, const struct record *record, void
         next = field + 1;
         if (read_member(reader, field, base) != 0)
             return -1;
-        field_mark_present(record, field, base);
+        if (field->section != 0)
+            field_mark_present(record, field, base);
     } while (json_scan_take(scan, ','));
     return json_scan_take(scan, '}') ? 0 : unexpected(scan, "',' or '}'");
 }

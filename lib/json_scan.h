@@ -31,6 +31,8 @@ struct json_string {
 static inline char json_scan_peek(struct json_scan *scan)
 {
     const char *at = scan->at, *end = scan->end;
+    if (at<end && * at> ' ')
+        return *at;
     while (at < end && (*at == ' ' || *at == '\t' || *at == '\r'))
         at++;
     scan->at = at;

@@ -85,7 +85,7 @@ void arena_clear(struct arena *arena)
     for (struct arena_block *block = arena->blocks; block != NULL; block = block->older)
         whole += block->size;
     arena_free(arena);
-    add_block(arena, whole);
+    add_block(arena, whole + whole / 2);
 }
 
 void arena_free(struct arena *arena)

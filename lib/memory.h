@@ -31,8 +31,9 @@ void *arena_room(struct arena *arena, size_t size);
 /* A NUL-terminated copy of the first length bytes of text. */
 char *arena_text(struct arena *arena, const char *text, size_t length);
 
-/* Forgets everything in the arena but keeps its room, joined into one block, so that a loop that
- * clears its arena each round allocates nothing after the largest round. */
+/* Forgets everything in the arena but keeps its room, joined into one block with half as much
+ * again, so that a loop that clears its arena each round allocates nothing once a round was nearly
+ * as large as they get. */
 void arena_clear(struct arena *arena);
 
 void arena_free(struct arena *arena);
