@@ -26,15 +26,19 @@ const char *field_unit(const char *name)
     return "";
 }
 
+static bool is_called(const struct field *field, const char *name, size_t length)
+{
+    return strncmp(field->name, name, length) == 0 && field->name[length] == '\0';
+}
+
 const struct field *field_find(const struct record *record, const char *name, size_t length,
                                size_t hint)
 {
     const struct field *fields = record->fields;
-    if (fields[hint].name != NULL && strncmp(fields[hint].name, name, length) == 0 &&
-        fields[hint].name[length] == '\0')
+    if (fields[hint].name != NULL && is_called(&fields[hint], name, length))
         return &fields[hint];
     for (const struct field *field = fields; field->name != NULL; field++)
-        if (strncmp(field->name, name, length) == 0 && field->name[length] == '\0')
+        if (is_called(field, name, length))
             return field;
     return NULL;
 }
@@ -56,21 +60,25 @@ static const void *member_of(const struct field *field, const void *base)
 #define STORE(type, field, base, value)                                                            \
     memcpy(member((field), (base)), &(type){(value)}, sizeof(type))
 
+void field_set_absent(const struct field *field, void *base)
+{
+    if (field->kind == FIELD_REAL)
+        STORE(double, field, base, field->absent);
+    else if (field->kind == FIELD_INTEGER)
+        STORE(int64_t, field, base, (int64_t)field->absent);
+    else if (field->kind == FIELD_SEED || field->kind == FIELD_SET)
+        STORE(uint64_t, field, base, (uint64_t)field->absent);
+    else if (field->kind == FIELD_CHOICE)
+        STORE(int, field, base, (int)field->absent);
+    else if (field->kind == FIELD_RECORD)
+        field_clear(field->record, member(field, base));
+}
+
 void field_clear(const struct record *record, void *base)
 {
     memset(base, 0, record->size);
-    for (const struct field *field = record->fields; field->name != NULL; field++) {
-        if (field->kind == FIELD_REAL)
-            STORE(double, field, base, field->absent);
-        else if (field->kind == FIELD_INTEGER)
-            STORE(int64_t, field, base, (int64_t)field->absent);
-        else if (field->kind == FIELD_SEED || field->kind == FIELD_SET)
-            STORE(uint64_t, field, base, (uint64_t)field->absent);
-        else if (field->kind == FIELD_CHOICE)
-            STORE(int, field, base, (int)field->absent);
-        else if (field->kind == FIELD_RECORD)
-            field_clear(field->record, member(field, base));
-    }
+    for (const struct field *field = record->fields; field->name != NULL; field++)
+        field_set_absent(field, base);
 }
 
 /* "1e6" for 1e+06; whole numbers in full. */
@@ -120,7 +128,7 @@ int field_set_number(const struct field *field, void *base, double value, struct
 static int choice_of(const struct field *field, const char *text, size_t length, struct diag *diag)
 {
     for (int i = 0; field->choices[i] != NULL; i++)
-        if (strlen(field->choices[i]) == length && memcmp(field->choices[i], text, length) == 0)
+        if (strncmp(field->choices[i], text, length) == 0 && field->choices[i][length] == '\0')
             return i;
     char expected[1024];
     field_expectation(field, expected, sizeof expected);
@@ -478,7 +486,7 @@ struct field_list field_list(const struct field *field, const void *base)
     return (struct field_list){list.items, list.count};
 }
 
-void *field_list_add(const struct field *field, void *base, struct arena *arena)
+void *field_list_extend(const struct field *field, void *base, struct arena *arena)
 {
     size_t size = field->kind == FIELD_NAMES ? sizeof(const char *) : field->record->size;
     struct untyped_list list = LOAD(struct untyped_list, field, base);
@@ -486,6 +494,12 @@ void *field_list_add(const struct field *field, void *base, struct arena *arena)
     char *item = (char *)list.items + list.count * size;
     list.count++;
     memcpy(member(field, base), &list, sizeof list);
+    return item;
+}
+
+void *field_list_add(const struct field *field, void *base, struct arena *arena)
+{
+    void *item = field_list_extend(field, base, arena);
     if (field->kind == FIELD_LIST)
         field_clear(field->record, item);
     return item;

@@ -120,8 +120,9 @@ const char *field_unit(const char *name);
 const struct field *field_find(const struct record *record, const char *name, size_t length,
                                size_t hint);
 
-/* Sets every member to what its absence stands for. */
+/* Sets every member, or one of them, to what its absence stands for. */
 void field_clear(const struct record *record, void *base);
+void field_set_absent(const struct field *field, void *base);
 
 /* Each sets the member of the struct at base, or refuses with "name: value is outside [..] unit",
  * "name: unknown choice ..." and the like. Text is copied into the arena. */
@@ -179,5 +180,8 @@ struct field_list field_list(const struct field *field, const void *base);
 /* Appends one cleared item to the list member and returns its address. For FIELD_NAMES the item is
  * a const char *. */
 void *field_list_add(const struct field *field, void *base, struct arena *arena);
+
+/* The same, but zeroed. */
+void *field_list_extend(const struct field *field, void *base, struct arena *arena);
 
 #endif

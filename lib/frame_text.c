@@ -4,9 +4,21 @@
 #include <string.h>
 
 #include "json_scan.h"
+#include "names.h"
 #include "number.h"
 
-static int read_record(struct json_scan *scan, const struct record *record, void *base);
+#define LOAD(type, member) (*(type *)memcpy(&(type){0}, (member), sizeof(type)))
+#define STORE(type, member, value) memcpy((member), &(type){(value)}, sizeof(type))
+
+/* An object takes more in a line. */
+enum { BYTES_PER_NAME = 128 };
+
+struct reader {
+    struct json_scan scan;
+    struct names names;
+};
+
+static int read_record(struct reader *reader, const struct record *record, void *base);
 
 /* A message begins with a member's name, or with ": " if it is about the text between members. */
 static int put_before(struct diag *diag, const char *name, size_t index)
@@ -20,13 +32,13 @@ static int unexpected(struct json_scan *scan, const char *what)
     return diag_prefix(scan->diag, ": ");
 }
 
-static int read_item(struct json_scan *scan, const struct field *field, void *base, size_t index)
+static int read_item(struct reader *reader, const struct field *field, void *base, size_t index)
 {
+    struct json_scan *scan = &reader->scan;
     char first = json_scan_peek(scan);
-    void *item = field_list_add(field, base, scan->arena);
     int result;
     if (first == '{')
-        result = read_record(scan, field->record, item);
+        result = read_record(reader, field->record, field_list_extend(field, base, scan->arena));
     else if (first != '\0' && strchr("\"[tfn-0123456789", first) != NULL)
         result = diag_fail(scan->diag, DIAG_DATA, ": %s; expected an object", json_scan_kind(scan));
     else
@@ -34,8 +46,23 @@ static int read_item(struct json_scan *scan, const struct field *field, void *ba
     return result == 0 ? 0 : put_before(scan->diag, field->name, index);
 }
 
-static int read_name(struct json_scan *scan, const struct field *field, void *base, size_t index)
+/* Names of plain characters need no second look. */
+static int take_name(struct reader *reader, const struct field *field,
+                     const struct json_string *name, void *base)
 {
+    struct json_scan *scan = &reader->scan;
+    bool good = name->plain && name->length > 0 && name->length <= FIELD_NAME_SIZE;
+    if (!good &&
+        field_set_text(field, base, name->text, name->length, scan->arena, scan->diag) != 0)
+        return -1;
+    const char *kept = names_keep(&reader->names, name->text, name->length);
+    STORE(const char *, (char *)base + field->offset, kept);
+    return 0;
+}
+
+static int read_name(struct reader *reader, const struct field *field, void *base, size_t index)
+{
+    struct json_scan *scan = &reader->scan;
     char path[FIELD_PATH_SIZE];
     snprintf(path, sizeof path, "%s[%zu]", field->name, index);
     const struct field item = {.name = path, .kind = FIELD_NAME};
@@ -44,8 +71,7 @@ static int read_name(struct json_scan *scan, const struct field *field, void *ba
         return field_wrong_kind(&item, json_scan_kind(scan), scan->diag);
     if (json_scan_string(scan, &name) != 0)
         return diag_prefix(scan->diag, "%s: ", path);
-    return field_set_text(&item, field_list_add(field, base, scan->arena), name.text, name.length,
-                          scan->arena, scan->diag);
+    return take_name(reader, &item, &name, field_list_extend(field, base, scan->arena));
 }
 
 static int read_choice(struct json_scan *scan, const struct field *field, void *base, size_t index)
@@ -59,25 +85,26 @@ static int read_choice(struct json_scan *scan, const struct field *field, void *
     return field_add_to_set(field, base, name.text, name.length, scan->diag);
 }
 
-static int read_list(struct json_scan *scan, const struct field *field, void *base)
+static int read_list(struct reader *reader, const struct field *field, void *base)
 {
+    struct json_scan *scan = &reader->scan;
     if (!json_scan_take(scan, '['))
         return field_wrong_kind(field, json_scan_kind(scan), scan->diag);
     if (json_scan_take(scan, ']'))
         return 0;
-    for (size_t i = 0;; i++) {
-        int result = field->kind == FIELD_LIST  ? read_item(scan, field, base, i)
+    size_t i = 0;
+    do {
+        int result = field->kind == FIELD_LIST  ? read_item(reader, field, base, i)
                      : field->kind == FIELD_SET ? read_choice(scan, field, base, i)
-                                                : read_name(scan, field, base, i);
+                                                : read_name(reader, field, base, i);
         if (result != 0)
             return -1;
-        if (json_scan_take(scan, ']'))
-            return 0;
-        if (!json_scan_take(scan, ',')) {
-            json_scan_unexpected(scan, "',' or ']'");
-            return diag_prefix(scan->diag, "%s: ", field->name);
-        }
-    }
+        i++;
+    } while (json_scan_take(scan, ','));
+    if (json_scan_take(scan, ']'))
+        return 0;
+    json_scan_unexpected(scan, "',' or ']'");
+    return diag_prefix(scan->diag, "%s: ", field->name);
 }
 
 static int read_raw(struct json_scan *scan, const struct field *field, void *base)
@@ -89,16 +116,42 @@ static int read_raw(struct json_scan *scan, const struct field *field, void *bas
         return diag_fail(scan->diag, DIAG_DATA, "%s: %zu bytes; at most %d may be carried",
                          field->name, bytes.length, FIELD_RAW_SIZE);
     const char *copy = arena_text(scan->arena, bytes.text, bytes.length);
-    memcpy((char *)base + field->offset, &copy, sizeof copy);
+    STORE(const char *, (char *)base + field->offset, copy);
     return 0;
 }
 
-static int read_member(struct json_scan *scan, const struct field *field, void *base)
+static int read_number(struct json_scan *scan, const struct field *field, void *base)
 {
-    char first = json_scan_peek(scan);
-    struct json_string string;
     double number;
+    if (json_scan_number(scan, &number) != 0)
+        return diag_prefix(scan->diag, "%s: ", field->name);
+    return field_set_number(field, base, number, scan->diag);
+}
+
+static int read_text(struct reader *reader, const struct field *field, void *base)
+{
+    struct json_scan *scan = &reader->scan;
+    struct json_string string;
+    if (json_scan_string(scan, &string) != 0)
+        return diag_prefix(scan->diag, "%s: ", field->name);
+    return field->kind == FIELD_NAME
+               ? take_name(reader, field, &string, base)
+               : field_set_text(field, base, string.text, string.length, scan->arena, scan->diag);
+}
+
+static int read_flag(struct json_scan *scan, const struct field *field, void *base)
+{
     bool flag;
+    if (json_scan_flag(scan, &flag) != 0)
+        return diag_prefix(scan->diag, "%s: ", field->name);
+    STORE(bool, (char *)base + field->offset, flag);
+    return 0;
+}
+
+static int read_member(struct reader *reader, const struct field *field, void *base)
+{
+    struct json_scan *scan = &reader->scan;
+    char first = json_scan_peek(scan);
     if (first == '\0') {
         json_scan_unexpected(scan, "a value");
         return diag_prefix(scan->diag, "%s: ", field->name);
@@ -106,64 +159,114 @@ static int read_member(struct json_scan *scan, const struct field *field, void *
     if (field->kind == FIELD_RAW)
         return read_raw(scan, field, base);
     if (field->kind == FIELD_NAMES || field->kind == FIELD_SET || field->kind == FIELD_LIST)
-        return read_list(scan, field, base);
+        return read_list(reader, field, base);
     if (field->kind == FIELD_RECORD) {
         if (first != '{')
             return field_wrong_kind(field, json_scan_kind(scan), scan->diag);
-        if (read_record(scan, field->record, (char *)base + field->offset) == 0)
+        if (read_record(reader, field->record, (char *)base + field->offset) == 0)
             return 0;
         return diag_prefix(scan->diag, "%s%s", field->name, scan->diag->text[0] == ':' ? "" : ".");
     }
     if (first == '"')
-        return json_scan_string(scan, &string) != 0
-                   ? diag_prefix(scan->diag, "%s: ", field->name)
-                   : field_set_text(field, base, string.text, string.length, scan->arena,
-                                    scan->diag);
+        return read_text(reader, field, base);
     if (first == '-' || (first >= '0' && first <= '9'))
-        return json_scan_number(scan, &number) != 0
-                   ? diag_prefix(scan->diag, "%s: ", field->name)
-                   : field_set_number(field, base, number, scan->diag);
-    if (field->kind == FIELD_FLAG && (first == 't' || first == 'f')) {
-        if (json_scan_flag(scan, &flag) != 0)
-            return diag_prefix(scan->diag, "%s: ", field->name);
-        memcpy((char *)base + field->offset, &flag, sizeof flag);
-        return 0;
-    }
-    if (first != '\0' && strchr("{[tfn", first) != NULL)
+        return read_number(scan, field, base);
+    if (field->kind == FIELD_FLAG && (first == 't' || first == 'f'))
+        return read_flag(scan, field, base);
+    if (strchr("{[tfn", first) != NULL)
         return field_wrong_kind(field, json_scan_kind(scan), scan->diag);
     json_scan_unexpected(scan, "a value");
     return diag_prefix(scan->diag, "%s: ", field->name);
 }
 
-static int read_record(struct json_scan *scan, const struct record *record, void *base)
+/* Does the line go on with this member's key and its colon, as the writer has them? At least
+ * FIELD_KEY_SIZE bytes lie ahead. */
+static bool key_is_next(const char *at, const struct field *field)
 {
-    json_scan_take(scan, '{');
-    uint64_t seen = 0;
-    size_t hint = 0;
-    bool empty = json_scan_take(scan, '}');
-    while (!empty) {
-        struct json_string key;
-        if (json_scan_string(scan, &key) != 0)
-            return diag_prefix(scan->diag, ": ");
-        const struct field *field = field_find(record, key.text, key.length, hint);
-        if (field == NULL || field->kind == FIELD_NOTES)
-            return field_unknown(record, key.text, key.length, scan->diag);
-        size_t index = (size_t)(field - record->fields);
-        if ((seen >> index & 1) != 0)
+    const char *key = field->key + 1;
+    size_t length = field->key_length - 1u;
+    uint64_t difference = text_word(at) ^ text_word(key);
+    if (length < 8)
+        return difference << (64 - 8 * length) == 0;
+    for (size_t i = 8; difference == 0 && i + 8 < length; i += 8)
+        difference = text_word(at + i) ^ text_word(key + i);
+    return difference == 0 && text_word(at + length - 8) == text_word(key + length - 8);
+}
+
+/* The first of these members whose key comes next; NULL if it is another, or written otherwise. */
+static const struct field *take_key(struct json_scan *scan, const struct field *field)
+{
+    if (scan->end - scan->at < FIELD_KEY_SIZE)
+        return NULL;
+    while (field->name != NULL && !key_is_next(scan->at, field))
+        field++;
+    if (field->name == NULL)
+        return NULL;
+    scan->at += field->key_length - 1;
+    return field;
+}
+
+/* Past the key and the colon of any member, in any spelling; NULL after a message. */
+static const struct field *read_key(struct json_scan *scan, const struct record *record,
+                                    uint64_t seen)
+{
+    struct json_string key;
+    const struct field *field = NULL;
+    if (json_scan_string(scan, &key) != 0) {
+        diag_prefix(scan->diag, ": ");
+        return NULL;
+    }
+    field = field_find(record, key.text, key.length, 0);
+    if (field == NULL || field->kind == FIELD_NOTES)
+        field_unknown(record, key.text, key.length, scan->diag);
+    else if ((seen >> (field - record->fields) & 1) != 0)
+        field_twice(field, scan->diag);
+    else if (!json_scan_take(scan, ':'))
+        unexpected(scan, "':'");
+    else
+        return field;
+    return NULL;
+}
+
+static int read_members(struct reader *reader, const struct record *record, void *base,
+                        uint64_t *seen)
+{
+    struct json_scan *scan = &reader->scan;
+    const struct field *next = record->fields;
+    do {
+        const struct field *field = take_key(scan, next);
+        if (field == NULL)
+            field = read_key(scan, record, *seen);
+        if (field == NULL)
+            return -1;
+        uint64_t bit = UINT64_C(1) << (field - record->fields);
+        if ((*seen & bit) != 0)
             return field_twice(field, scan->diag);
-        seen |= UINT64_C(1) << index;
-        hint = index + 1;
-        if (!json_scan_take(scan, ':'))
-            return unexpected(scan, "':'");
-        if (read_member(scan, field, base) != 0)
+        *seen |= bit;
+        next = field + 1;
+        if (read_member(reader, field, base) != 0)
             return -1;
         field_mark_present(record, field, base);
-        if (json_scan_take(scan, '}'))
-            break;
-        if (!json_scan_take(scan, ','))
-            return unexpected(scan, "',' or '}'");
+    } while (json_scan_take(scan, ','));
+    return json_scan_take(scan, '}') ? 0 : unexpected(scan, "',' or '}'");
+}
+
+/* Into a zeroed struct. */
+static int read_record(struct reader *reader, const struct record *record, void *base)
+{
+    struct json_scan *scan = &reader->scan;
+    uint64_t seen = 0;
+    json_scan_take(scan, '{');
+    if (!json_scan_take(scan, '}') && read_members(reader, record, base, &seen) != 0)
+        return -1;
+    for (uint64_t unseen = ~seen;; unseen &= unseen - 1) {
+        const struct field *field = &record->fields[__builtin_ctzll(unseen)];
+        if (field->name == NULL)
+            return 0;
+        if (!field->optional)
+            return field_require(record, seen, scan->diag);
+        field_set_absent(field, base);
     }
-    return field_require(record, seen, scan->diag);
 }
 
 static int no_record(struct json_scan *scan, const struct record *record)
@@ -178,16 +281,18 @@ static int no_record(struct json_scan *scan, const struct record *record)
 int frame_text_read_record(const char *line, size_t length, const struct record *record, void *base,
                            struct arena *arena, struct diag *diag)
 {
-    struct json_scan scan = {line, line + length, arena, diag};
-    if (json_scan_peek(&scan) != '{')
-        return no_record(&scan, record);
-    if (read_record(&scan, record, base) != 0) {
+    struct reader reader = {{line, line + length, arena, diag},
+                            names_begin(arena, length / BYTES_PER_NAME)};
+    struct json_scan *scan = &reader.scan;
+    if (json_scan_peek(scan) != '{')
+        return no_record(scan, record);
+    if (read_record(&reader, record, base) != 0) {
         if (diag->text[0] == ':')
             memmove(diag->text, diag->text + 2, sizeof diag->text - 2);
         return -1;
     }
-    json_scan_peek(&scan);
-    return scan.at == scan.end ? 0 : json_scan_unexpected(&scan, "the end of the line");
+    json_scan_peek(scan);
+    return scan->at == scan->end ? 0 : json_scan_unexpected(scan, "the end of the line");
 }
 
 int frame_text_read(const char *line, size_t length, struct frame *frame, struct diag *diag)
@@ -278,8 +383,6 @@ static void write_seed(uint64_t seed, struct writer *writer)
     writer->at += number_write_whole(seed, writer->at);
     *writer->at++ = '"';
 }
-
-#define LOAD(type, member) (*(type *)memcpy(&(type){0}, (member), sizeof(type)))
 
 static void write_member(const struct field *field, const void *base, struct writer *writer)
 {

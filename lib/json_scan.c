@@ -7,23 +7,6 @@
 #include "number.h"
 #include "text.h"
 
-char json_scan_peek(struct json_scan *scan)
-{
-    while (scan->at < scan->end && (*scan->at == ' ' || *scan->at == '\t' || *scan->at == '\r'))
-        scan->at++;
-    if (scan->at == scan->end)
-        return '\0';
-    return *scan->at;
-}
-
-bool json_scan_take(struct json_scan *scan, char character)
-{
-    if (json_scan_peek(scan) != character || scan->at == scan->end)
-        return false;
-    scan->at++;
-    return true;
-}
-
 int json_scan_unexpected(struct json_scan *scan, const char *what)
 {
     if (json_scan_peek(scan) == '\0' && scan->at == scan->end)
@@ -100,7 +83,10 @@ static size_t unescape(const char **at, const char *end, char *out)
 static int skip_string(struct json_scan *scan, size_t *escapes)
 {
     *escapes = 0;
-    while (scan->at < scan->end && *scan->at != '"') {
+    for (;;) {
+        scan->at += text_plain(scan->at, (size_t)(scan->end - scan->at));
+        if (scan->at == scan->end || *scan->at == '"')
+            break;
         unsigned char byte = (unsigned char)*scan->at;
         if (byte < 0x20)
             return diag_fail(scan->diag, DIAG_DATA, "control character 0x%02x in a string", byte);
@@ -123,21 +109,12 @@ static int skip_string(struct json_scan *scan, size_t *escapes)
     return 0;
 }
 
-int json_scan_string(struct json_scan *scan, struct json_string *string)
+/* No escape is shorter than what it stands for. */
+static void decode(struct json_scan *scan, struct json_string *string)
 {
-    if (!json_scan_take(scan, '"'))
-        return json_scan_unexpected(scan, "a string");
-    const char *begin = scan->at;
-    size_t escapes;
-    if (skip_string(scan, &escapes) != 0)
-        return -1;
-    *string = (struct json_string){begin, (size_t)(scan->at - 1 - begin)};
-    if (escapes == 0)
-        return 0;
-    /* No escape is shorter than what it stands for. */
     char *decoded = arena_get(scan->arena, string->length);
     size_t length = 0;
-    for (const char *at = begin, *end = begin + string->length; at < end;) {
+    for (const char *at = string->text, *end = at + string->length; at < end;) {
         if (*at == '\\') {
             at++;
             length += unescape(&at, end, decoded + length);
@@ -145,7 +122,27 @@ int json_scan_string(struct json_scan *scan, struct json_string *string)
             decoded[length++] = *at++;
         }
     }
-    *string = (struct json_string){decoded, length};
+    string->text = decoded;
+    string->length = length;
+}
+
+int json_scan_string(struct json_scan *scan, struct json_string *string)
+{
+    if (!json_scan_take(scan, '"'))
+        return json_scan_unexpected(scan, "a string");
+    const char *begin = scan->at;
+    size_t plain = text_plain(begin, (size_t)(scan->end - begin));
+    if (begin + plain < scan->end && begin[plain] == '"') {
+        *string = (struct json_string){begin, plain, true};
+        scan->at += plain + 1;
+        return 0;
+    }
+    size_t escapes;
+    if (skip_string(scan, &escapes) != 0)
+        return -1;
+    *string = (struct json_string){begin, (size_t)(scan->at - 1 - begin), false};
+    if (escapes > 0)
+        decode(scan, string);
     return 0;
 }
 
@@ -184,9 +181,35 @@ static const char *number_end(const struct json_scan *scan)
     return at;
 }
 
+/* Digits with at most a point among them, and no more of them than 64 bits hold. False, and
+ * nowhere, at any other number. */
+static bool take_short_number(struct json_scan *scan, double *value)
+{
+    const char *at = scan->at, *end = scan->end;
+    bool negative = at < end && *at == '-';
+    uint64_t digits = 0;
+    const char *whole = at += negative;
+    for (; at < end && *at >= '0' && *at <= '9'; at++)
+        digits = 10 * digits + (uint64_t)(*at - '0');
+    const char *point = at;
+    if (at < end && *at == '.')
+        for (at++; at < end && *at >= '0' && *at <= '9'; at++)
+            digits = 10 * digits + (uint64_t)(*at - '0');
+    ptrdiff_t places = at > point ? at - point - 1 : 0;
+    bool form = point > whole && (*whole != '0' || point == whole + 1) && at != point + 1;
+    if (!form || at - whole > NUMBER_DIGITS || (at < end && (*at | 0x20) == 'e'))
+        return false;
+    double size = number_of_digits(digits, (int)places);
+    *value = negative ? -size : size;
+    scan->at = at;
+    return true;
+}
+
 int json_scan_number(struct json_scan *scan, double *value)
 {
     json_scan_peek(scan);
+    if (take_short_number(scan, value))
+        return 0;
     const char *end = number_end(scan);
     if (end == NULL)
         return json_scan_unexpected(scan, "a number");
@@ -291,6 +314,6 @@ int json_scan_value(struct json_scan *scan, struct json_string *bytes)
         if (closing[depth - 1] == '}' && scan_key(scan) != 0)
             return -1;
     }
-    *bytes = (struct json_string){begin, (size_t)(scan->at - begin)};
+    *bytes = (struct json_string){begin, (size_t)(scan->at - begin), false};
     return 0;
 }

@@ -24,13 +24,25 @@ enum { JSON_SCAN_DEPTH = 1000 };
 struct json_string {
     const char *text;
     size_t length;
+    bool plain; /* printable ASCII, as it stood in the line */
 };
 
 /* The next character that is not white space, or '\0' at the end of the line. */
-char json_scan_peek(struct json_scan *scan);
+static inline char json_scan_peek(struct json_scan *scan)
+{
+    while (scan->at < scan->end && (*scan->at == ' ' || *scan->at == '\t' || *scan->at == '\r'))
+        scan->at++;
+    return scan->at < scan->end ? *scan->at : '\0';
+}
 
 /* True, and past it, if the next character is this one. */
-bool json_scan_take(struct json_scan *scan, char character);
+static inline bool json_scan_take(struct json_scan *scan, char character)
+{
+    if (json_scan_peek(scan) != character || scan->at == scan->end)
+        return false;
+    scan->at++;
+    return true;
+}
 
 /* Refuses "expected WHAT, not ..." at the cursor. */
 int json_scan_unexpected(struct json_scan *scan, const char *what);

@@ -37,6 +37,9 @@ constexpr uint64_t FIVES[] = {1,
                               3814697265625,
                               19073486328125};
 
+constexpr double TENS[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,
+                           1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19};
+
 constexpr char PAIRS[] = "0001020304050607080910111213141516171819"
                          "2021222324252627282930313233343536373839"
                          "4041424344454647484950515253545556575859"
@@ -77,13 +80,14 @@ char *put_ten_thousandths(uint32_t value, char *text)
     return without_zeros(text + count + 5);
 }
 
+using wide = unsigned __int128;
+
 // Of all decimals that read back to mantissa * 2^-scale the shortest, and of those the nearest, as
 // a multiple of 10^-places. Places is the least that puts at least one multiple between the two
 // midpoints to the neighbours, so less than ten lie there, and at most one multiple of ten, which
 // is then shorter. Every product is exact in 128 bits. Ties go to the even decimal.
 uint64_t shortest_multiple(uint64_t mantissa, int scale, int places)
 {
-    using wide = unsigned __int128;
     const int shift = scale - places;
     const uint64_t half_step = FIVES[places]; // of the mantissa, in units of 2^-(shift + 1)
     const wide exact = wide(mantissa) * half_step, twice = 2 * exact;
@@ -151,6 +155,23 @@ size_t number_write(double value, char *text)
 size_t number_write_whole(uint64_t value, char *text)
 {
     return size_t(std::to_chars(text, text + NUMBER_SIZE, value).ptr - text);
+}
+
+double number_of_digits(uint64_t digits, int places)
+{
+    // Both are exact, so that only the division rounds.
+    if (digits >> (MANTISSA_BITS + 1) == 0)
+        return double(digits) / TENS[places];
+    // The quotient by 5^places to 63 bits or 64, of which the last one says whether there is a rest.
+    const int up = __builtin_clzll(digits), side = __builtin_clzll(FIVES[places]);
+    const uint64_t divisor = FIVES[places] << side;
+    const wide dividend = wide(digits << up) << 63;
+    const uint64_t quotient = uint64_t(dividend / divisor);
+    const bool rest = wide(quotient) * divisor != dividend;
+    const uint64_t power = uint64_t(1023 + side - up - 63 - places) << MANTISSA_BITS;
+    double scale;
+    memcpy(&scale, &power, sizeof scale);
+    return double(quotient | rest) * scale;
 }
 
 bool number_read(const char *begin, const char *end, double *value)

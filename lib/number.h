@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-enum { NUMBER_SIZE = 32 };
+enum { NUMBER_SIZE = 32, NUMBER_DIGITS = 19 };
 
 /* Writes a finite double at text (at least NUMBER_SIZE bytes) without a NUL; returns its length.
  * Minus zero is "-0.0". */
@@ -26,6 +26,9 @@ size_t number_write_whole(uint64_t value, char *text);
 /* Reads the whole of [begin, end), which must have the form of a JSON number, as the nearest
  * double. Too small becomes 0 or a subnormal; false if too large. */
 bool number_read(const char *begin, const char *end, double *value);
+
+/* The double nearest to digits / 10^places; places from 0 to NUMBER_DIGITS. */
+double number_of_digits(uint64_t digits, int places);
 
 #ifdef __cplusplus
 }

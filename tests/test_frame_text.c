@@ -24,7 +24,8 @@
     "\"reflectors\":[{\"model\":\"car\",\"worn_by\":[\"a\\\"b\\\\\",\"\xc3\xa9\"],"                \
     "\"blocks\":true,\"raised\":true,\"points\":[{\"name\":\"p\",\"x\":0.5,\"y\":-0.5,"            \
     "\"inset_m\":0.1,\"facing_rad\":0,\"full_rad\":0.5,\"zero_rad\":1.5,\"shape\":\"linear\","     \
-    "\"ercs\":0.7,\"under_vehicles\":0.5}],\"planes\":[{\"name\":\"q\",\"from_x\":0.5,"            \
+    "\"ercs\":0.7,\"under_vehicles\":0.5,\"lobe\":{\"width_rad\":0.7,\"depth_db\":14.9}}],"        \
+    "\"planes\":[{\"name\":\"q\",\"from_x\":0.5,"                                                  \
     "\"from_y\":0.5,\"to_x\":-0.5,\"to_y\":0.5,\"margin_m\":0.2,\"ercs\":1}],\"rows\":[{"          \
     "\"name\":\"r\",\"from_x\":0,\"from_y\":0,\"to_x\":1,\"to_y\":0,\"spacing_m\":4,"              \
     "\"facing_rad\":0,\"full_rad\":1,\"zero_rad\":2,\"shape\":\"hard\",\"ercs\":0.2}]}],"
@@ -156,6 +157,21 @@ static void keys_may_come_in_any_order_with_any_white_space(void **state)
     json_decref(tree);
     arena_free(&arena[0]);
     arena_free(&arena[1]);
+}
+
+/* Every use of an id points to the same place, so that comparing them is cheap. */
+static void equal_names_of_a_frame_are_one_pointer(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena};
+    struct diag diag;
+    assert_int_equal(read_line(rich, &frame, &diag), 0);
+    assert_true(frame.ego == frame.objects.items->id);
+    assert_true(frame.ego == frame.cells.items->members.items->object);
+    assert_true(frame.ego == frame.lost.items->echoes.items->by);
+    assert_true(frame.sensors.list.items->name == frame.echoes.items->sensor);
+    arena_free(&arena);
 }
 
 /* rich with its first `from` replaced. In memory of its own. */
@@ -405,6 +421,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_rich_frame_comes_back_byte_for_byte),
         cmocka_unit_test(keys_may_come_in_any_order_with_any_white_space),
+        cmocka_unit_test(equal_names_of_a_frame_are_one_pointer),
         cmocka_unit_test(a_number_may_be_spelled_in_any_way),
         cmocka_unit_test(what_is_absent_stays_absent),
         cmocka_unit_test(faults_are_named_with_their_path_value_and_expectation),

@@ -234,6 +234,42 @@ static void decimals_round_to_the_nearest_double(void **state)
                 value == 9007199254740994.0);
 }
 
+static void digits_and_places_round_to_the_nearest_double(void **state)
+{
+    (void)state;
+    uint64_t random = 6;
+    for (int i = 0; i < 300000; i++) {
+        int places = (int)(sample_bits(&random) % (NUMBER_DIGITS + 1));
+        uint64_t digits =
+            (sample_bits(&random) << 16 ^ sample_bits(&random)) >> sample_bits(&random) % 64;
+        if (i % 3 == 0) { /* exactly between two doubles, or one off */
+            places = (int)(sample_bits(&random) % 4);
+            digits =
+                UINT64_C(1) << 53 | (sample_bits(&random) << 6 ^ sample_bits(&random)) >> 11 | 1;
+            for (int power = 0; power < places; power++)
+                digits *= 5;
+            digits += (uint64_t)sample_integer(&random, 1);
+        }
+        char text[64];
+        snprintf(text, sizeof text, "%llue-%d", (unsigned long long)digits, places);
+        double value = number_of_digits(digits, places), expected = strtod(text, NULL);
+        if (memcmp(&value, &expected, sizeof value) != 0)
+            fail_msg("%s became %.17g", text, value);
+    }
+    assert_true(number_of_digits(UINT64_MAX, 0) == 0x1p64);
+    assert_true(number_of_digits(0, NUMBER_DIGITS) == 0);
+}
+
+static void whole_numbers_are_written_in_full(void **state)
+{
+    (void)state;
+    char text[NUMBER_SIZE];
+    assert_int_equal(number_write_whole(UINT64_MAX, text), 20);
+    assert_memory_equal(text, "18446744073709551615", 20);
+    assert_int_equal(number_write_whole(0, text), 1);
+    assert_memory_equal(text, "0", 1);
+}
+
 static void nothing_may_follow_the_number(void **state)
 {
     (void)state;
@@ -255,6 +291,8 @@ int main(void)
         cmocka_unit_test(subnormals_and_the_ends_of_the_range_come_back),
         cmocka_unit_test(too_large_is_refused_and_too_small_is_zero),
         cmocka_unit_test(decimals_round_to_the_nearest_double),
+        cmocka_unit_test(digits_and_places_round_to_the_nearest_double),
+        cmocka_unit_test(whole_numbers_are_written_in_full),
         cmocka_unit_test(nothing_may_follow_the_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
