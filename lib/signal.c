@@ -161,13 +161,13 @@ static void filter(struct phasor *row, const struct phasor *noise, size_t count)
         tap[k] = kernel_value(KERNEL_PULSE, sqrt(2) * (double)k);
         power += (k == 0 ? 1 : 2) * tap[k] * tap[k];
     }
-    for (size_t n = 0; n < count; n++)
-        for (size_t k = 0; k <= 2 * (size_t)FILTER_REACH; k++) {
-            size_t away = k > FILTER_REACH ? k - FILTER_REACH : FILTER_REACH - k;
-            const struct phasor *from = &noise[(n + k + count - FILTER_REACH) % count];
-            row[n].re += tap[away] / sqrt(power) * from->re;
-            row[n].im += tap[away] / sqrt(power) * from->im;
-        }
+    for (size_t k = 0; k <= 2 * (size_t)FILTER_REACH; k++) {
+        size_t away = k > FILTER_REACH ? k - FILTER_REACH : FILTER_REACH - k;
+        size_t shift = (k + count - FILTER_REACH) % count;
+        struct phasor weight = {tap[away] / sqrt(power), 0};
+        add(row, noise + shift, count - shift, weight);
+        add(row + count - shift, noise, shift, weight);
+    }
 }
 
 void signal_add_noise(const struct signal *signal, const struct random_address *address,
