@@ -141,7 +141,8 @@ $(BUILD)/tests/soundness/planted_%: $(BUILD)/tests/soundness/planted_%.o $(sound
     $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
 	$(Q)$(LINK) $(call wraps,tests/soundness/planted_$*.c) -o $@ $^ $(stage_libs) $(LIBS)
 
-# For scripts/bench: our functions beside libm's, the machine's floors, what a command spends.
+# For scripts/bench: our functions beside libm's, the machine's floors, what a command spends. For
+# scripts/accuracy-cost: angles by table.
 $(BUILD)/tests/speed/%: $(BUILD)/tests/speed/%.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ -lz -lm
 $(BUILD)/tests/speed/floors: $(BUILD)/tests/speed/plain.o
@@ -172,6 +173,10 @@ check: all unit
 
 bench: all
 	$(Q)scripts/bench
+
+# What accuracy costs, as diagrams and tables in data/accuracy: minutes.
+accuracy: all
+	$(Q)scripts/accuracy-cost
 
 schemas: all
 	$(Q)for s in $$($(BUILD)/bin/glint --list schemas); do \
@@ -204,7 +209,7 @@ clean:
 	rm -rf build build-*
 
 FORCE:
-.PHONY: all unit hard soundness check bench schemas format lint man install clean FORCE
+.PHONY: all unit hard soundness check bench accuracy schemas format lint man install clean FORCE
 .PRECIOUS: $(BUILD)/main/%.o $(BUILD)/tests/%.o $(BUILD)/tests/test_% $(BUILD)/tests/hard/%
 
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*.d)
