@@ -215,10 +215,11 @@ static void complete_size(struct object *object, const struct vehicle *vehicle)
         object->height_m = vehicle->height_m;
 }
 
+/* A class has one document, and its name one place. */
 static struct reflector_set *set_of(struct frame *frame, const char *model)
 {
     for (size_t i = 0; i < frame->reflectors.count; i++)
-        if (strcmp(frame->reflectors.items[i].model, model) == 0)
+        if (frame->reflectors.items[i].model == model)
             return &frame->reflectors.items[i];
     return NULL;
 }
