@@ -1,9 +1,8 @@
 """What scripts/bench times: scenes fused and piped, the machine's floors, start-up, two shards, a
 long stream.
 
-Nanoseconds are CPU time, so that a busy machine does not count: parts are told apart by wall clock
-inside the process, and share out its CPU time. Only what is called wall is wall clock, and so are
-start-up and shards. Every number is a median, with minimum and maximum."""
+Nanoseconds are CPU time, so that a busy machine counts little. Only what is called wall is wall
+clock, and so are start-up and shards. Every number is a median, with minimum and maximum."""
 import json
 import os
 import shlex
@@ -50,19 +49,9 @@ def write_text(text, folder, name="chain.sh"):
     return path
 
 
-def run_timed(glint, path):
-    """What glint --times tells of a pipeline and what the process spent, by part."""
-    told = spent([glint, "--times", path])
-    share = told["spent"]["cpu_ns"] / told["spent"]["wall_ns"]
-    for line in told.values():
-        if "ns_per_frame" in line:
-            line["ns_per_frame"] *= share
-    return told
-
-
 def part_times(glint, text, folder):
     """ns per frame of one fused run, by part."""
-    told = run_timed(glint, write_text(text, folder))
+    told = spent([glint, "--times", write_text(text, folder)])
     return {part: line["ns_per_frame"] for part, line in told.items() if "ns_per_frame" in line}
 
 
@@ -109,13 +98,15 @@ class Chain:
         return total
 
     def sample(self):
-        told = run_timed(self.glint, self.fused)
+        told = spent([self.glint, "--times", self.fused])
         self.add("fused", "all", self.add_run("fused", told))
-        self.add("fused", "cpu", told["spent"]["cpu_ns"] / self.frames)
-        self.peak_kB["fused", "all"] = told["spent"]["peak_kB"]
+        told = spent([self.glint, self.fused])["spent"]
+        self.add("fused", "cpu", told["cpu_ns"] / self.frames)
+        self.add("fused", "wall", told["wall_ns"] / self.frames)
+        self.peak_kB["fused", "all"] = told["peak_kB"]
         total = 0
         for name, text in self.stages:
-            told = run_timed(self.glint, text)
+            told = spent([self.glint, "--times", text])
             total += self.add_run("piped", told, f"{name}: ")
         self.add("piped", "all", total)
         told = spent(["bash", self.fused])["spent"]
