@@ -474,6 +474,8 @@ static bool integers_good(const struct record *record, const struct field *field
 static bool is_name(const char *text)
 {
     size_t length = strlen(text);
+    if (length > 0 && length <= FIELD_NAME_SIZE && text_plain(text, length) == length)
+        return true;
     struct diag ignored = {0};
     return check_name(&(struct field){0}, text, length, &ignored) == 0;
 }
