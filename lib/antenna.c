@@ -161,7 +161,8 @@ double antenna_azimuth_rad(const struct antenna *antenna, double delta, double s
     /* By a power of two, which changes neither ratio nor rounding. */
     int exponent;
     frexp(fmax(fabs(delta), sum), &exponent);
-    struct antenna_pair pair = {scalbn(sum, -exponent), scalbn(delta, -exponent)};
+    struct antenna_pair pair = {elementary_scaled(sum, -exponent),
+                                elementary_scaled(delta, -exponent)};
     return antenna->pattern == ANTENNA_TABLE ? table_azimuth(antenna, pair) : dipole_azimuth(pair);
 }
 

@@ -79,11 +79,11 @@ void disturbance_range(const struct disturbance *by, const struct random_address
                        struct reading *reading)
 {
     const struct sensor *sensor = by->sensor;
-    double draw[4];
+    double draw[2];
     if (!by->range)
         return;
     struct deviation sigma = disturbance_deviation(by, reading->cell);
-    random_gaussian(address, RANDOM_RANGE_RATE, 0, draw);
+    random_gaussian_pair(address, RANDOM_RANGE_RATE, 0, draw);
     reading->range_m = fmax(reading->range_m + sigma.range_m * draw[0], 0);
     reading->range_rate_mps += sigma.range_rate_mps * draw[1];
     if (reading->range_m != reading->cell->range_m ||

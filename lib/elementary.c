@@ -476,10 +476,7 @@ static double exp_of(double hi, double lo)
     double first = hi - k * LOG_2_HI;
     struct pair r = sum_of(first, lo - k * LOG_2_LO);
     double value = 1 + (r.hi + (exp_rest(r.hi) + (r.lo + r.hi * r.lo)));
-    int exponent = (int)k;
-    if (exponent < -1021 || exponent > 1023)
-        return scalbn(value, exponent);
-    return value * from_bits((uint64_t)(exponent + 1023) << 52);
+    return elementary_scaled(value, (int)k);
 }
 
 double elementary_exp(double x)

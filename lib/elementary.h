@@ -9,6 +9,10 @@
 #ifndef ELEMENTARY_H
 #define ELEMENTARY_H
 
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
 struct elementary_sincos {
     double sin, cos;
 };
@@ -49,5 +53,16 @@ double elementary_pow(double base, double exponent);
 
 /* sqrt(x^2 + y^2) without overflow or underflow on the way, within 1.2; exact where a side is 0. */
 double elementary_hypot(double x, double y);
+
+/* x 2^exponent, rounded once where it is subnormal: scalbn by a product, which is what it costs as
+ * long as the power itself is a normal double. */
+static inline double elementary_scaled(double x, int exponent)
+{
+    if (exponent < -1022 || exponent > 1023)
+        return scalbn(x, exponent);
+    double power;
+    memcpy(&power, &(uint64_t){(uint64_t)(exponent + 1023) << 52}, sizeof power);
+    return x * power;
+}
 
 #endif

@@ -18,8 +18,8 @@ static struct scaled_pointer scale_pointer(double _Complex pointer)
 {
     struct scaled_pointer scaled;
     frexp(fmax(fabs(creal(pointer)), fabs(cimag(pointer))), &scaled.exponent);
-    scaled.real = scalbn(creal(pointer), -scaled.exponent);
-    scaled.imag = scalbn(cimag(pointer), -scaled.exponent);
+    scaled.real = elementary_scaled(creal(pointer), -scaled.exponent);
+    scaled.imag = elementary_scaled(cimag(pointer), -scaled.exponent);
     scaled.size = elementary_hypot(scaled.real, scaled.imag);
     return scaled;
 }
@@ -29,8 +29,8 @@ static double azimuth_of(const struct antenna *antenna, double delta, int delta_
                          const struct scaled_pointer *sum)
 {
     int exponent = delta_exponent > sum->exponent ? delta_exponent : sum->exponent;
-    return antenna_azimuth_rad(antenna, scalbn(delta, delta_exponent - exponent),
-                               scalbn(sum->size, sum->exponent - exponent));
+    return antenna_azimuth_rad(antenna, elementary_scaled(delta, delta_exponent - exponent),
+                               elementary_scaled(sum->size, sum->exponent - exponent));
 }
 
 /* Im(delta conj(sum)), in the scale of the two. */

@@ -17,15 +17,28 @@ void random_uniform(const struct random_address *address, enum random_purpose pu
         uniform[i] = ((double)(bits.v[i] >> 12) + 0.5) * 0x1p-52;
 }
 
+/* Box and Muller's way from two uniform draws to two Gaussian ones. */
+static void make_gaussian(const double uniform[2], double gaussian[2])
+{
+    double radius = sqrt(-2 * elementary_log(uniform[0]));
+    struct elementary_sincos angle = elementary_sincos_turns(uniform[1]);
+    gaussian[0] = radius * angle.cos;
+    gaussian[1] = radius * angle.sin;
+}
+
 void random_gaussian(const struct random_address *address, enum random_purpose purpose,
                      uint32_t index, double gaussian[4])
 {
     double uniform[4];
     random_uniform(address, purpose, index, uniform);
-    for (int i = 0; i < 4; i += 2) {
-        double radius = sqrt(-2 * elementary_log(uniform[i]));
-        struct elementary_sincos angle = elementary_sincos_turns(uniform[i + 1]);
-        gaussian[i] = radius * angle.cos;
-        gaussian[i + 1] = radius * angle.sin;
-    }
+    make_gaussian(uniform, gaussian);
+    make_gaussian(uniform + 2, gaussian + 2);
+}
+
+void random_gaussian_pair(const struct random_address *address, enum random_purpose purpose,
+                          uint32_t index, double gaussian[2])
+{
+    double uniform[4];
+    random_uniform(address, purpose, index, uniform);
+    make_gaussian(uniform, gaussian);
 }

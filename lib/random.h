@@ -47,4 +47,8 @@ void random_uniform(const struct random_address *address, enum random_purpose pu
 void random_gaussian(const struct random_address *address, enum random_purpose purpose,
                      uint32_t index, double gaussian[4]);
 
+/* The first two of these. */
+void random_gaussian_pair(const struct random_address *address, enum random_purpose purpose,
+                          uint32_t index, double gaussian[2]);
+
 #endif

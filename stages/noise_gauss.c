@@ -12,9 +12,9 @@ static struct reading measure(const struct frame *frame, const struct sensor *se
 {
     struct random_address address =
         address_of(frame, sensor->name, SUBJECT_OF(&cell->members.items[0]));
-    double straight[4], across[4];
-    random_gaussian(&address, RANDOM_RANGE_RATE, 0, straight);
-    random_gaussian(&address, RANDOM_AZIMUTH, 0, across);
+    double straight[2], across[2];
+    random_gaussian_pair(&address, RANDOM_RANGE_RATE, 0, straight);
+    random_gaussian_pair(&address, RANDOM_AZIMUTH, 0, across);
     struct reading reading = reading_of(cell);
     reading.range_m = fmax(reading.range_m + sensor->range_sigma_m * straight[0], 0);
     reading.range_rate_mps += sensor->range_rate_sigma_mps * straight[1];

@@ -630,6 +630,20 @@ static void special_hypotenuses_are_exact(void **state)
     }
 }
 
+static void scaling_rounds_as_scalbn_does(void **state)
+{
+    (void)state;
+    uint64_t random = 9;
+    for (int i = 0; i < 300000; i++) {
+        int size = (int)sample_between(&random, -1100, 1000);
+        int exponent = (int)sample_between(&random, -2200, 2200);
+        double x = scalbn(sample_between(&random, -2, 2), size);
+        assert_true(elementary_scaled(x, exponent) == scalbn(x, exponent));
+    }
+    for (int exponent = -1080; exponent <= 1080; exponent++)
+        assert_true(elementary_scaled(1, exponent) == scalbn(1, exponent));
+}
+
 int main(int argc, char **argv)
 {
     int points = argc > 1 && strcmp(argv[1], "long") == 0 ? MANY_POINTS : POINTS;
@@ -643,6 +657,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(special_places_have_their_angle),
         cmocka_unit_test(special_logarithms_and_powers_are_exact),
         cmocka_unit_test(special_hypotenuses_are_exact),
+        cmocka_unit_test(scaling_rounds_as_scalbn_does),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -53,6 +53,8 @@ static void the_same_address_draws_the_same(void **state)
     random_uniform(&ADDRESS, RANDOM_PHASE, 0, again);
     random_gaussian(&ADDRESS, RANDOM_POINTERS, 7, again);
     assert_memory_equal(first, again, sizeof first);
+    random_gaussian_pair(&ADDRESS, RANDOM_POINTERS, 7, again);
+    assert_memory_equal(first, again, 2 * sizeof *first);
 }
 
 static void assert_all_differ(const double first[4], const double second[4])
