@@ -42,14 +42,7 @@ static int sign_of_sum(const struct expansion *sum)
     return sign_of(sum->term[last]);
 }
 
-/* Rounding costs at most (3 + 16u)u of the sum of sizes, u = 2^-53 (NUMERICS 27). 4u leaves room
- * for a bound that is itself rounded among the subnormals. */
-static bool is_certain(double total, double left, double right)
-{
-    return fabs(total) > 0x1p-51 * (fabs(left) + fabs(right));
-}
-
-static int exact_sign(struct vec2 a, struct vec2 b, struct vec2 c)
+int orientation_exact_sign(struct vec2 a, struct vec2 b, struct vec2 c)
 {
     struct expansion sum = {.count = 0};
     add_product(&sum, a.x, b.y);
@@ -59,14 +52,6 @@ static int exact_sign(struct vec2 a, struct vec2 b, struct vec2 c)
     add_product(&sum, c.x, a.y);
     add_product(&sum, -c.y, a.x);
     return sign_of_sum(&sum);
-}
-
-int orientation_sign(struct vec2 a, struct vec2 b, struct vec2 c)
-{
-    double left = (a.x - c.x) * (b.y - c.y);
-    double right = (a.y - c.y) * (b.x - c.x);
-    double determinant = left - right;
-    return is_certain(determinant, left, right) ? sign_of(determinant) : exact_sign(a, b, c);
 }
 
 static int exact_sign_along(struct vec2 a, struct vec2 b, struct vec2 direction)
@@ -84,5 +69,6 @@ int orientation_along(struct vec2 a, struct vec2 b, struct vec2 direction)
     double x = (b.x - a.x) * direction.x;
     double y = (b.y - a.y) * direction.y;
     double way = x + y;
-    return is_certain(way, x, y) ? sign_of(way) : exact_sign_along(a, b, direction);
+    bool certain = fabs(way) > ORIENTATION_ROUNDING * (fabs(x) + fabs(y));
+    return certain ? sign_of(way) : exact_sign_along(a, b, direction);
 }

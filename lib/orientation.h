@@ -10,9 +10,21 @@
 
 #include "vec2.h"
 
+/* Rounding costs a difference of two products at most (3 + 16u)u of the sum of their sizes, u =
+ * 2^-53 (NUMERICS 27). 4u leaves room for a bound that is itself rounded among the subnormals. */
+#define ORIENTATION_ROUNDING 0x1p-51
+
+/* The answer where the filter cannot tell. */
+int orientation_exact_sign(struct vec2 a, struct vec2 b, struct vec2 c);
+
 /* The sign of (b - a) × (c - a): +1 if c lies to the left of the line from a to b, -1 to the
  * right, 0 exactly on it (or a == b). */
-int orientation_sign(struct vec2 a, struct vec2 b, struct vec2 c);
+static inline int orientation_sign(struct vec2 a, struct vec2 b, struct vec2 c)
+{
+    double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
+    double error = ORIENTATION_ROUNDING * (fabs(left) + fabs(right)), determinant = left - right;
+    return determinant > error ? 1 : determinant < -error ? -1 : orientation_exact_sign(a, b, c);
+}
 
 /* The sign of (b - a) · direction: +1 if b is farther along the direction than a, -1 if a is, 0 if
  * they are exactly abreast. */

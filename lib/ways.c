@@ -57,8 +57,9 @@ static bool joins(const struct look_body *body, const struct side *side, bool be
         const struct plane_reflector *plane = &body->worn->set->planes.items[i];
         if (plane->margin_m != 0 || !vec2_same(reflectors_along(&body->box, plane), side->along))
             continue;
-        struct side other = ways_side(body, plane);
-        struct vec2 gap = begins ? vec2_sub(other.from, side->to) : vec2_sub(other.to, side->from);
+        struct vec2 gap =
+            begins ? vec2_sub(reflectors_place(&body->box, plane->from_x, plane->from_y), side->to)
+                   : vec2_sub(reflectors_place(&body->box, plane->to_x, plane->to_y), side->from);
         if (vec2_length(gap) <= within_m)
             return true;
     }
