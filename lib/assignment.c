@@ -63,7 +63,7 @@ static void change_prices(struct pairing *pairing, size_t row, double spent)
 static void add_row(struct pairing *pairing, size_t row)
 {
     for (size_t column = 0; column < pairing->columns; column++) {
-        pairing->reach[column] = INFINITY;
+        pairing->reach[column] = HUGE_VAL;
         pairing->settled[column] = false;
     }
     size_t at = row, column;

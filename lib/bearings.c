@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "units.h"
+
 enum { SLICES = 256 };
 
 #define NEAR_M 1e-6
@@ -17,7 +19,7 @@ static unsigned slice_of(struct vec2 place_m)
     if (size_m == 0)
         return 0;
     double up = place_m.y / size_m;
-    return (unsigned)((place_m.x < 0 ? 3 - up : 1 + up) * (SLICES / 4)) % SLICES;
+    return (unsigned)((place_m.x < 0 ? 3 - up : 1 + up) * (SLICES / 4.0)) % SLICES;
 }
 
 /* Of directions less than half a turn apart. */
@@ -46,6 +48,20 @@ struct bearings_span bearings_between(struct vec2 from_m, struct vec2 to_m)
     if (fabs(cross) <= -NEAR_SINE * dot)
         return bearings_everywhere;
     return cross < 0 ? span_of(to_m, from_m) : span_of(from_m, to_m);
+}
+
+struct bearings_span bearings_around(struct vec2 ahead, double half_rad)
+{
+    if (!(half_rad < PI / 2 - NEAR_SINE))
+        return bearings_everywhere;
+    struct vec2 edge = vec2_heading(half_rad + NEAR_SINE);
+    return span_of(vec2_turn_back(ahead, edge), vec2_turn(ahead, edge));
+}
+
+bool bearings_apart(struct bearings_span a, struct bearings_span b)
+{
+    return (b.first + SLICES - a.first) % SLICES >= a.count &&
+           (a.first + SLICES - b.first) % SLICES >= b.count;
 }
 
 struct bearings bearings_begin(size_t count, struct arena *arena)

@@ -24,6 +24,11 @@ static const struct field vehicle_fields[] = {
     {FIELD_REAL_IN(struct vehicle, height_m, 0.01, 1e3, "where an object of the class gives none")},
     {FIELD_RECORD_OF(struct vehicle, reflectors, &reflector_model_record,
                      "reflection centres of the class")},
+    {FIELD_CHOICE_OF(struct vehicle, sensing_target, sensing_target_names,
+                     "what 3GPP TR 38.901 would call it, for glint-extract-3gpp"),
+     FIELD_OPTIONAL},
+    {FIELD_RECORD_OF(struct vehicle, contour, &contour_record, "for glint-extract-contour"),
+     FIELD_OPTIONAL},
     {0},
 };
 
@@ -69,6 +74,10 @@ const struct vehicle *catalogue_vehicle(const char *class, struct arena *arena, 
     vehicle->reflectors.model = arena_text(arena, class, strlen(class));
     if (check_reflectors(&vehicle->reflectors, diag) != 0) {
         diag_prefix(diag, "%s: reflectors: ", path);
+        return NULL;
+    }
+    if (contour_check(&vehicle->contour, diag) != 0) {
+        diag_prefix(diag, "%s: contour.", path);
         return NULL;
     }
     return vehicle;

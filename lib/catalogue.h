@@ -3,8 +3,10 @@
 #ifndef CATALOGUE_H
 #define CATALOGUE_H
 
+#include "contour.h"
 #include "reflectors.h"
 #include "scenario.h"
+#include "sensing_target.h"
 #include "suite.h"
 
 /* One class of road users or things (data/vehicles/). */
@@ -12,6 +14,8 @@ struct vehicle {
     const char *origin;
     double length_m, width_m, height_m; /* where an object of the class gives none */
     struct reflector_set reflectors;    /* worn_by is empty */
+    enum sensing_target sensing_target; /* for glint-extract-3gpp */
+    struct contour contour;             /* for glint-extract-contour */
 };
 
 extern const struct record vehicle_record;

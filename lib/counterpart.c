@@ -26,10 +26,12 @@ struct waiting {
 struct counterpart {
     struct input *input;
     bool partial, ended;
-    size_t number; /* of the line read last */
-    size_t found;  /* of the line found last */
+    size_t number;    /* of the line read last */
+    size_t found;     /* of the line found last: */
+    const char *line; /* valid until the next is looked for */
+    size_t length;
     struct waiting *first, **last;
-    struct waiting *taken; /* the one found last, if it had waited */
+    struct waiting *taken; /* the one that was taken out last */
     int64_t left, absent;
     struct frame frame;
     struct arena arena, words;
@@ -66,6 +68,8 @@ void counterpart_close(struct counterpart *counterpart)
 
 static int place(const struct counterpart *counterpart, struct diag *diag)
 {
+    if (diag->code == DIAG_NO_INPUT) /* a folder has no lines */
+        return diag_prefix(diag, "%s: ", input_name(counterpart->input));
     return diag_prefix(diag, "%s:%zu: ", input_name(counterpart->input), counterpart->found);
 }
 
@@ -109,11 +113,11 @@ static int read_member(struct json_scan *scan, struct key *key)
 }
 
 /* Reads no further than both members: whoever takes the line reads all of it. */
-static int read_key(struct counterpart *counterpart, const char *line, size_t length,
-                    struct key *key, struct diag *diag)
+static int read_key(struct counterpart *counterpart, struct key *key, struct diag *diag)
 {
     arena_clear(&counterpart->words);
-    struct json_scan scan = {line, line + length, &counterpart->words, diag};
+    const char *line = counterpart->line;
+    struct json_scan scan = {line, line + counterpart->length, &counterpart->words, diag};
     *key = (struct key){.frame = -1};
     if (!json_scan_take(&scan, '{'))
         return json_scan_unexpected(&scan, "an object");
@@ -129,19 +133,18 @@ static int read_key(struct counterpart *counterpart, const char *line, size_t le
     return 0;
 }
 
-static void hold(struct counterpart *counterpart, const struct key *key, const char *bytes,
-                 size_t length)
+static void hold(struct counterpart *counterpart, const struct key *key)
 {
     size_t scene = strlen(key->scene) + 1;
-    struct waiting *line = memory_get(sizeof *line + scene + length);
+    struct waiting *line = memory_get(sizeof *line + scene + counterpart->length);
     char *text = (char *)(line + 1);
     *line = (struct waiting){.number = counterpart->number,
                              .frame = (int64_t)key->frame,
                              .scene = text,
-                             .length = length,
+                             .length = counterpart->length,
                              .bytes = text + scene};
     memcpy(text, key->scene, scene);
-    memcpy(text + scene, bytes, length);
+    memcpy(line->bytes, counterpart->line, line->length);
     *counterpart->last = line;
     counterpart->last = &line->next;
 }
@@ -170,9 +173,11 @@ static struct waiting *take(struct counterpart *counterpart, struct waiting **at
     return line;
 }
 
-/* Looks among the lines that wait: 1; 0 if it may still come; -1; 2 if the scene is past it. */
-static int look(struct counterpart *counterpart, const char *scene, int64_t frame,
-                struct diag *diag)
+enum search { SEARCH_FAILED, SEARCH_ON, SEARCH_FOUND, SEARCH_PAST };
+
+/* Among the lines that wait. */
+static enum search look(struct counterpart *counterpart, const char *scene, int64_t frame,
+                        struct diag *diag)
 {
     for (struct waiting **at = &counterpart->first; *at != NULL;) {
         if (strcmp((*at)->scene, scene) != 0) {
@@ -180,58 +185,60 @@ static int look(struct counterpart *counterpart, const char *scene, int64_t fram
             continue;
         }
         if ((*at)->frame > frame)
-            return 2;
+            return SEARCH_PAST;
         struct waiting *line = take(counterpart, at);
         if (line->frame == frame) {
             counterpart->found = line->number;
-            return 1;
+            counterpart->line = line->bytes;
+            counterpart->length = line->length;
+            return SEARCH_FOUND;
         }
         if (leave(counterpart, line->number, line->scene, line->frame, diag) != 0)
-            return -1;
+            return SEARCH_FAILED;
     }
-    return 0;
+    return SEARCH_ON;
 }
 
-/* The same for the line that comes next; everything that is not wanted waits, or is left. */
-static int read_next(struct counterpart *counterpart, const char *scene, int64_t frame,
-                     const char **line, size_t *length, struct diag *diag)
+/* The line that comes next; one that is not wanted waits, or is left. Without a scene none is. */
+static enum search read_next(struct counterpart *counterpart, const char *scene, int64_t frame,
+                             struct diag *diag)
 {
     struct key key;
-    counterpart->number++;
-    int more = input_line(counterpart->input, FRAME_TEXT_SIZE, line, length, diag);
+    counterpart->found = ++counterpart->number;
+    int more = input_line(counterpart->input, FRAME_TEXT_SIZE, &counterpart->line,
+                          &counterpart->length, diag);
     counterpart->ended = more == 0;
-    counterpart->found = counterpart->number;
-    if (more < 0 || (more > 0 && read_key(counterpart, *line, *length, &key, diag) != 0))
-        return place(counterpart, diag);
+    if (more < 0 || (more > 0 && read_key(counterpart, &key, diag) != 0)) {
+        place(counterpart, diag);
+        return SEARCH_FAILED;
+    }
     if (more == 0)
-        return 2;
+        return SEARCH_PAST;
     bool same = scene != NULL && strcmp(key.scene, scene) == 0;
     if (same && (int64_t)key.frame == frame)
-        return 1;
-    if (scene == NULL || (same && key.frame < (double)frame))
-        return leave(counterpart, counterpart->number, key.scene, (int64_t)key.frame, diag);
-    hold(counterpart, &key, *line, *length);
-    return same ? 2 : 0;
+        return SEARCH_FOUND;
+    if (scene == NULL || (same && key.frame < (double)frame)) {
+        int left = leave(counterpart, counterpart->number, key.scene, (int64_t)key.frame, diag);
+        return left == 0 ? SEARCH_ON : SEARCH_FAILED;
+    }
+    hold(counterpart, &key);
+    return same ? SEARCH_PAST : SEARCH_ON;
 }
 
-/* The line for a scene and frame, valid until the next call: 1, 0 if there is none, -1. */
-static int find(struct counterpart *counterpart, const char *scene, int64_t frame,
-                const char **line, size_t *length, struct diag *diag)
+/* Finds the line for a scene and frame: 1, 0 if there is none, -1. */
+static int find(struct counterpart *counterpart, const struct frame *frame, struct diag *diag)
 {
-    int found = look(counterpart, scene, frame, diag);
-    if (found == 1) {
-        *line = counterpart->taken->bytes;
-        *length = counterpart->taken->length;
-    }
-    while (found == 0)
-        found = counterpart->ended ? 2 : read_next(counterpart, scene, frame, line, length, diag);
-    if (found != 2)
-        return found;
+    enum search search = look(counterpart, frame->scene, frame->frame, diag);
+    while (search == SEARCH_ON)
+        search = counterpart->ended ? SEARCH_PAST
+                                    : read_next(counterpart, frame->scene, frame->frame, diag);
+    if (search != SEARCH_PAST)
+        return search == SEARCH_FOUND ? 1 : -1;
     counterpart->absent++;
     if (counterpart->partial)
         return 0;
     return diag_fail(diag, DIAG_DATA, "frame: %s has no frame %lld of scene \"%s\"",
-                     input_name(counterpart->input), (long long)frame, scene);
+                     input_name(counterpart->input), (long long)frame->frame, frame->scene);
 }
 
 /* Refuses streams of other scenes under the same names. */
@@ -248,13 +255,11 @@ static int check_time(const struct frame *frame, double time_s, struct diag *dia
 int counterpart_frame(struct counterpart *counterpart, const struct frame *frame, unsigned sections,
                       const struct frame **other, struct diag *diag)
 {
-    const char *line;
-    size_t length;
-    int found = find(counterpart, frame->scene, frame->frame, &line, &length, diag);
+    int found = find(counterpart, frame, diag);
     if (found <= 0)
         return found;
     struct frame *own = &counterpart->frame;
-    if (frame_text_read(line, length, own, diag) != 0)
+    if (frame_text_read(counterpart->line, counterpart->length, own, diag) != 0)
         return place(counterpart, diag);
     frame_order(own);
     unsigned missing = sections & ~own->present;
@@ -270,13 +275,12 @@ int counterpart_frame(struct counterpart *counterpart, const struct frame *frame
 int counterpart_tracks(struct counterpart *counterpart, const struct frame *frame,
                        struct track_list *tracks, struct diag *diag)
 {
-    const char *line;
-    size_t length;
-    int found = find(counterpart, frame->scene, frame->frame, &line, &length, diag);
+    int found = find(counterpart, frame, diag);
     if (found <= 0)
         return found;
     field_clear(&track_list_record, tracks);
-    if (frame_text_read_record(line, length, &track_list_record, tracks, frame->arena, diag) != 0 ||
+    if (frame_text_read_record(counterpart->line, counterpart->length, &track_list_record, tracks,
+                               frame->arena, diag) != 0 ||
         track_order(tracks, frame->arena, diag) != 0 ||
         ((tracks->told & TRACK_TIME) != 0 && check_time(frame, tracks->time_s, diag) != 0))
         return place(counterpart, diag);
@@ -285,15 +289,13 @@ int counterpart_tracks(struct counterpart *counterpart, const struct frame *fram
 
 int counterpart_finish(struct counterpart *counterpart, struct diag *diag)
 {
-    const char *line;
-    size_t length;
     while (counterpart->first != NULL) {
         struct waiting *left = take(counterpart, &counterpart->first);
         if (leave(counterpart, left->number, left->scene, left->frame, diag) != 0)
             return -1;
     }
     while (!counterpart->ended)
-        if (read_next(counterpart, NULL, 0, &line, &length, diag) < 0)
+        if (read_next(counterpart, NULL, 0, diag) == SEARCH_FAILED)
             return -1;
     return 0;
 }

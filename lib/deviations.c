@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdbool.h>
-#include <string.h>
 
 #include "sort.h"
 
@@ -12,25 +11,22 @@ static int ascending(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-static double *sorted(const double *values, size_t count, struct arena *arena)
+static void sort(double *values, size_t count, struct arena *arena)
 {
-    double *copy = arena_get(arena, count * sizeof *copy);
-    memcpy(copy, values, count * sizeof *copy);
-    sort_items(copy, count, sizeof *copy, ascending, arena);
-    return copy;
+    sort_items(values, count, sizeof *values, ascending, arena);
 }
 
 /* Sums run over sorted values, so that the order of the differences changes no bit. */
-struct deviations deviations_of(const double *differences, size_t count, struct arena *arena)
+struct deviations deviations_of(double *differences, size_t count, struct arena *arena)
 {
-    double *size = sorted(differences, count, arena);
-    double sum = 0, squares = 0;
+    double sum = 0, squares = 0, *size = differences;
+    sort(differences, count, arena);
     for (size_t i = 0; i < count; i++) {
-        sum += size[i];
-        squares += size[i] * size[i];
-        size[i] = fabs(size[i]);
+        sum += differences[i];
+        squares += differences[i] * differences[i];
+        size[i] = fabs(differences[i]);
     }
-    sort_items(size, count, sizeof *size, ascending, arena);
+    sort(size, count, arena);
     return (struct deviations){
         .mean = sum / (double)count,
         .rms = sqrt(squares / (double)count),
@@ -39,15 +35,16 @@ struct deviations deviations_of(const double *differences, size_t count, struct 
     };
 }
 
-double deviations_wasserstein(const double *one, size_t one_count, const double *other,
-                              size_t other_count, struct arena *arena)
+double deviations_wasserstein(double *one, size_t one_count, double *other, size_t other_count,
+                              struct arena *arena)
 {
-    const double *a = sorted(one, one_count, arena), *b = sorted(other, other_count, arena);
-    double area = 0, from = fmin(a[0], b[0]);
+    sort(one, one_count, arena);
+    sort(other, other_count, arena);
+    double area = 0, from = fmin(one[0], other[0]);
     size_t i = 0, j = 0; /* how many of each are at most `from` */
     while (i < one_count || j < other_count) {
-        bool first = j == other_count || (i < one_count && a[i] <= b[j]);
-        double to = first ? a[i] : b[j];
+        bool first = j == other_count || (i < one_count && one[i] <= other[j]);
+        double to = first ? one[i] : other[j];
         double apart = fabs((double)(i * other_count) - (double)(j * one_count));
         area += apart * (to - from);
         from = to;

@@ -21,6 +21,8 @@ static struct margins margins_of(const struct look *look, double margin_m)
 static void lose(struct look *look, const struct look_body *body, const char *reflector,
                  enum loss reason, const struct look_body *by, double margin_m)
 {
+    if (!look->frame->account)
+        return;
     frame_lose(look->frame, stage_name, look->sensor->name, reason,
                &(struct lost_echo){.object = body->object->id,
                                    .reflector = reflector,
@@ -158,14 +160,12 @@ static void look_at(struct look *look, const struct look_body *body, struct glim
 }
 
 static void look_at_point(struct look *look, const struct look_body *body,
-                          const struct point_reflector *point, struct vec2 place)
+                          const struct point_reflector *point, struct vec2 facing,
+                          struct vec2 place)
 {
     look->pairs++;
     bool selective = effects_may(look->selection, EFFECT_VISIBILITY);
-    double visible =
-        selective ? reflectors_visibility(&body->box, point->shape, point->facing_rad,
-                                          point->full_rad, point->zero_rad, place, look->position_m)
-                  : 1;
+    double visible = look_visibility(look, body, point, facing, place, look->position_m);
     double margin_m = (double)INFINITY;
     if (look->frame->margins && selective)
         margin_m = clearance_facing_m(&body->box, point->shape, point->facing_rad, point->zero_rad,
@@ -224,26 +224,42 @@ static void look_at_plane(struct look *look, const struct look_body *body,
 static void look_along_row(struct look *look, const struct look_body *body,
                            const struct post_row *row)
 {
+    struct vec2 facing = vec2_heading(row->facing_rad);
     int64_t first, end;
     reflectors_posts_within(&body->box, row, look->position_m, look->sensor->range_max_m, &first,
                             &end);
     for (int64_t number = first; number < end; number++) {
         const struct point_reflector post = look_post(look, row, number);
-        look_at_point(look, body, &post, reflectors_post_place(&body->box, row, number));
+        look_at_point(look, body, &post, facing, reflectors_post_place(&body->box, row, number));
     }
 }
 
+/* Is the whole body out of range or out of view, and nobody asks why or what was tried? */
+static bool passed_over(const struct look *look, const struct look_body *body,
+                        const struct look_set *set, const struct sector *sector)
+{
+    return !look->frame->account && look->selection->log == NULL && set->set->rows.count == 0 &&
+           look_misses(look, body, sector);
+}
+
 static void look_at_body(struct look *look, const struct look_body *body,
-                         const struct reflector_set *set)
+                         const struct look_set *worn)
 {
     const struct selection *selection = look->selection;
-    ways_find_blockers(look, body, set);
+    const struct reflector_set *set = worn->set;
+    struct sector sector = look_reflectors_sector(body, worn);
+    if (passed_over(look, body, worn, &sector)) {
+        look->pairs += (int64_t)(set->points.count + set->planes.count);
+        return;
+    }
+    ways_find_blockers(look, body, &sector);
     effects_note(selection, EFFECT_VISIBILITY, set->points.count + set->rows.count > 0);
     effects_note(selection, EFFECT_PLANE_REFLECTION, set->planes.count > 0);
     effects_note(selection, EFFECT_ROWS, set->rows.count > 0);
     for (size_t i = 0; i < set->points.count; i++) {
         const struct point_reflector *point = &set->points.items[i];
-        look_at_point(look, body, point, reflectors_point_place(&body->box, point));
+        look_at_point(look, body, point, worn->facings[i],
+                      reflectors_point_place(&body->box, point));
     }
     for (size_t i = 0; i < set->planes.count; i++)
         look_at_plane(look, body, &set->planes.items[i]);
@@ -255,11 +271,9 @@ void direct_look(struct look *look)
 {
     struct frame *frame = look->frame;
     look->blockers = arena_get(frame->arena, (look->body_count + 1) * sizeof(*look->blockers));
-    for (size_t i = 0; i < frame->reflectors.count; i++) {
-        const struct reflector_set *set = &frame->reflectors.items[i];
-        for (size_t j = 0; j < set->worn_by.count; j++)
-            look_at_body(look, look_body_of(look, set->worn_by.items[j]), set);
-    }
+    for (size_t i = 0; i < frame->reflectors.count; i++)
+        for (size_t j = 0; j < look->sets[i].set->worn_by.count; j++)
+            look_at_body(look, look->sets[i].worn_by[j], &look->sets[i]);
     frame_count_pairs(frame, look->sensor->name, look->pairs);
     frame_count_echoes(frame, look->sensor->name, PATH_DIRECT, look->echoes);
 }

@@ -32,7 +32,7 @@ struct facets {
 
 static struct facet facet_of(const struct look_body *body, size_t index)
 {
-    const struct mirror_plane *plane = &body->set->mirrors.items[index];
+    const struct mirror_plane *plane = &body->worn->set->mirrors.items[index];
     const struct plane_reflector side = {
         .from_x = plane->from_x, .from_y = plane->from_y, .to_x = plane->to_x, .to_y = plane->to_y};
     return (struct facet){
@@ -48,7 +48,7 @@ static struct facet facet_of(const struct look_body *body, size_t index)
 
 static size_t mirrors_of(const struct look_body *body)
 {
-    return body->set != NULL ? body->set->mirrors.count : 0;
+    return body->worn != NULL ? body->worn->set->mirrors.count : 0;
 }
 
 static void join(struct facets *facets)
@@ -268,13 +268,13 @@ static void add_paths(struct look *look, struct reflex *reflex, bool one_way)
 
 /* What a viewer at the sensor or the bounce sees of a point. */
 static void show(const struct look *look, const struct reflex *reflex,
-                 const struct point_reflector *point, struct vec2 viewer, struct course *course)
+                 const struct point_reflector *point, struct vec2 facing, struct vec2 viewer,
+                 struct course *course)
 {
     const struct box *box = &reflex->body->box;
     if (!effects_may(look->selection, EFFECT_VISIBILITY))
         return;
-    double visible = reflectors_visibility(box, point->shape, point->facing_rad, point->full_rad,
-                                           point->zero_rad, reflex->place, viewer);
+    double visible = look_visibility(look, reflex->body, point, facing, reflex->place, viewer);
     course->factor *= visible;
     if (visible < 1)
         course->effects |= EFFECT_BIT(EFFECT_VISIBILITY);
@@ -283,24 +283,42 @@ static void show(const struct look *look, const struct reflex *reflex,
                                               reflex->place, viewer);
 }
 
-static void add_point(struct look *look, const struct facet *facet, const struct look_body *body,
-                      const struct point_reflector *point, struct vec2 place, struct vec2 bounce)
+/* Can the sensor list any path of the point, as far as ranges and its face tell? Asked before what
+ * costs more. No path is shorter than half of the way there by the mirror and straight back. */
+static bool may_list(const struct look *look, const struct look_body *body,
+                     const struct point_reflector *point, struct vec2 facing, struct vec2 place,
+                     struct vec2 bounce)
 {
+    double out_m = vec2_length(vec2_sub(bounce, look->position_m));
+    double on_m = vec2_length(vec2_sub(place, bounce));
+    double straight_m = vec2_length(vec2_sub(place, look->position_m));
+    return out_m + on_m + straight_m <= 2 * look->sensor->range_max_m + 1e-6 &&
+           (!effects_may(look->selection, EFFECT_VISIBILITY) ||
+            reflectors_visibility(&body->box, point, facing, place, bounce) > 0);
+}
+
+static void add_point(struct look *look, const struct facet *facet, const struct look_body *body,
+                      const struct point_reflector *point, struct vec2 facing, struct vec2 place,
+                      struct vec2 bounce)
+{
+    if (!may_list(look, body, point, facing, place, bounce))
+        return;
     struct reflex reflex = reflex_of(look, facet, body, place, point->z, bounce);
     reflex.reflector = point->name;
     reflex.ercs = point->ercs;
-    show(look, &reflex, point, look->position_m, &reflex.direct);
-    show(look, &reflex, point, bounce, &reflex.mirrored);
+    show(look, &reflex, point, facing, look->position_m, &reflex.direct);
+    show(look, &reflex, point, facing, bounce, &reflex.mirrored);
     add_paths(look, &reflex, true);
 }
 
 static void add_points(struct look *look, const struct facet *facet, const struct look_body *body)
 {
-    for (size_t i = 0; i < body->set->points.count; i++) {
-        const struct point_reflector *point = &body->set->points.items[i];
+    const struct reflector_set *set = body->worn->set;
+    for (size_t i = 0; i < set->points.count; i++) {
+        const struct point_reflector *point = &set->points.items[i];
         struct vec2 place = reflectors_point_place(&body->box, point), bounce;
         if (bounces(look, facet, place, &bounce))
-            add_point(look, facet, body, point, place, bounce);
+            add_point(look, facet, body, point, body->worn->facings[i], place, bounce);
     }
 }
 
@@ -317,13 +335,13 @@ static bool may_show(const struct look *look, const struct facet *facet,
 }
 
 static void add_post(struct look *look, const struct facet *facet, const struct look_body *body,
-                     const struct post_row *row, int64_t number)
+                     const struct post_row *row, struct vec2 facing, int64_t number)
 {
     struct vec2 place = reflectors_post_place(&body->box, row, number), bounce;
     if (!bounces(look, facet, place, &bounce))
         return;
     struct point_reflector post = look_post(look, row, number);
-    add_point(look, facet, body, &post, place, bounce);
+    add_point(look, facet, body, &post, facing, place, bounce);
 }
 
 /* No path is shorter than the direct one: posts out of its range have no ghost in range. A row is
@@ -332,6 +350,7 @@ static void add_row(struct look *look, const struct facet *facet, const struct l
                     const struct post_row *row)
 {
     bool all = effects_must(look->selection, EFFECT_GHOSTS);
+    struct vec2 facing = vec2_heading(row->facing_rad);
     int64_t first, end;
     reflectors_posts_within(&body->box, row, look->position_m, look->sensor->range_max_m, &first,
                             &end);
@@ -339,7 +358,7 @@ static void add_row(struct look *look, const struct facet *facet, const struct l
         next = first + PIECE < end ? first + PIECE : end;
         if (all || may_show(look, facet, body, row, first, next - 1))
             for (int64_t number = first; number < next; number++)
-                add_post(look, facet, body, row, number);
+                add_post(look, facet, body, row, facing, number);
     }
 }
 
@@ -366,7 +385,7 @@ static void add_plane(struct look *look, const struct facet *facet, const struct
 
 static void add_body(struct look *look, const struct facet *facet, const struct look_body *body)
 {
-    const struct reflector_set *set = body->set;
+    const struct reflector_set *set = body->worn->set;
     bool planes =
         look->sensor->bounces >= BOTH_WAYS && effects_may(look->selection, EFFECT_PLANE_REFLECTION);
     bool rows = effects_may(look->selection, EFFECT_ROWS);
@@ -382,7 +401,7 @@ static void add_all(struct look *look, const struct facets *facets, const struct
     const struct selection *selection = look->selection;
     bool all = effects_must(selection, EFFECT_GHOSTS);
     struct vec2 centre = body->box.motion.position_m;
-    double radius_m = reflectors_radius_m(body->set, body->sector.radius_m);
+    double radius_m = look_reflectors_sector(body, body->worn).radius_m;
     for (size_t i = 0; i < facets->count; i++) {
         const struct facet *facet = &facets->items[i];
         if (facet->body == body)
@@ -403,7 +422,7 @@ void ghosts_around(struct look *look)
     int64_t begin = effects_begin(selection);
     struct facets facets = facets_of(look);
     for (size_t i = 0; i < look->body_count && facets.count > 0; i++)
-        if (look->bodies[i].set != NULL)
+        if (look->bodies[i].worn != NULL)
             add_all(look, &facets, &look->bodies[i]);
     effects_end(selection, EFFECT_GHOSTS, begin);
 }

@@ -1,8 +1,6 @@
 #include "look.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "clearance.h"
@@ -25,6 +23,11 @@
  * in range is at most twice as far by the mirror. */
 #define LONGEST_WAY 2
 
+/* What is LEVEL times as far as it is high is seen at an azimuth whose sine is less than it would
+ * be in the plane, by a factor of 1 / LIFTED at least (elevation.h). */
+#define LEVEL 5
+#define LIFTED 1.02
+
 double look_border_rad(const struct sensor *sensor)
 {
     return sensor->field_of_view_rad / 2 - BORDER_RAD;
@@ -42,7 +45,7 @@ static int compare_objects(const void *left, const void *right)
                   (*(const struct object *const *)right)->id);
 }
 
-struct look_body *look_body_of(const struct look *look, const char *id)
+static struct look_body *body_of_id(const struct look *look, const char *id)
 {
     size_t low = 0, high = look->body_count;
     while (low < high) {
@@ -61,7 +64,7 @@ static bool moves(const struct object *object, const struct motion *then)
            object->yaw_rad != then->yaw_rad;
 }
 
-static struct look_body body_of(const struct look *look, const struct object *object, double age_s)
+static struct look_body body_at(const struct look *look, const struct object *object, double age_s)
 {
     struct look_body body = {.object = object, .box = box_at(object, age_s)};
     body.moved = age_s != 0 && moves(object, &body.box.motion);
@@ -82,26 +85,39 @@ static void place_bodies(struct look *look, double age_s)
     sort_items(others, count, sizeof(*others), compare_objects, frame->arena);
     look->bodies = arena_get(frame->arena, count * sizeof *look->bodies);
     for (size_t i = 0; i < count; i++)
-        look->bodies[i] = body_of(look, others[i], age_s);
+        look->bodies[i] = body_at(look, others[i], age_s);
     look->body_count = count;
 }
 
-static int mark_blockers(struct look *look, struct diag *diag)
+static struct look_set set_of(const struct reflector_set *set, struct arena *arena)
+{
+    struct look_set shared = {.set = set, .spread = reflectors_spread(set)};
+    shared.facings = arena_get(arena, set->points.count * sizeof *shared.facings);
+    for (size_t i = 0; i < set->points.count; i++)
+        shared.facings[i] = vec2_heading(set->points.items[i].facing_rad);
+    shared.worn_by = arena_get(arena, set->worn_by.count * sizeof(*shared.worn_by));
+    return shared;
+}
+
+static int dress_bodies(struct look *look, struct diag *diag)
 {
     const struct frame *frame = look->frame;
+    look->sets = arena_get(frame->arena, frame->reflectors.count * sizeof *look->sets);
     for (size_t i = 0; i < frame->reflectors.count; i++) {
         const struct reflector_set *set = &frame->reflectors.items[i];
+        look->sets[i] = set_of(set, frame->arena);
         for (size_t j = 0; j < set->worn_by.count; j++) {
-            struct look_body *body = look_body_of(look, set->worn_by.items[j]);
+            struct look_body *body = body_of_id(look, set->worn_by.items[j]);
             if (body == NULL)
                 return diag_fail(
                     diag, DIAG_DATA,
                     "reflectors[%zu].worn_by[%zu]: \"%s\" is not among the objects, or "
                     "is the ego",
                     i, j, set->worn_by.items[j]);
-            body->set = set;
+            body->worn = &look->sets[i];
             body->blocks = set->blocks;
             body->raised = set->raised;
+            look->sets[i].worn_by[j] = body;
         }
     }
     return 0;
@@ -136,11 +152,32 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
     if (sensor->diffraction && effects_may(selection, EFFECT_DIFFRACTION))
         look->wavelength_m = units_wavelength_m(sensor->carrier_hz);
     look->bend_m = knife_edge_reach_m(LONGEST_WAY * sensor->range_max_m, look->wavelength_m);
+    double border_rad = look_border_rad(sensor);
+    look->view =
+        border_rad < PI / 2
+            ? bearings_around(look->boresight,
+                              elementary_asin(fmin(LIFTED * elementary_sin(border_rad), 1)))
+            : bearings_everywhere;
     place_bodies(look, age_s);
-    if (mark_blockers(look, diag) != 0)
+    if (dress_bodies(look, diag) != 0)
         return -1;
     enter_blockers(look);
     return 0;
+}
+
+struct sector look_reflectors_sector(const struct look_body *body, const struct look_set *set)
+{
+    struct sector sector = body->sector;
+    sector.radius_m = set->spread.share * sector.radius_m + set->spread.inset_m;
+    return sector;
+}
+
+bool look_misses(const struct look *look, const struct look_body *body, const struct sector *sector)
+{
+    double nearest_m = sector->distance_m - sector->radius_m;
+    double rise_m = look->height_m > 0 ? fmax(look->height_m, 2 * body->object->height_m) : 0;
+    return nearest_m > look->sensor->range_max_m + 1e-6 ||
+           (nearest_m > LEVEL * rise_m && bearings_apart(look->view, bearings_of(sector)));
 }
 
 double look_top_m(const struct look *look, const struct look_body *body)
@@ -201,11 +238,34 @@ double look_plane_ercs(const struct look *look, const struct plane_reflector *pl
     return ercs;
 }
 
+double look_visibility(const struct look *look, const struct look_body *body,
+                       const struct point_reflector *point, struct vec2 facing, struct vec2 place,
+                       struct vec2 viewer)
+{
+    const struct box *box = &body->box;
+    if (!effects_may(look->selection, EFFECT_VISIBILITY))
+        return 1;
+    double visible = reflectors_visibility(box, point, facing, place, viewer);
+    if (point->lobe.depth_db == 0 || visible == 0)
+        return visible;
+    bool level = !(look->height_m > 0 && effects_may(look->selection, EFFECT_ELEVATION));
+    double range_m =
+        vec2_length(vec2_sub(viewer, place)) + vec2_length(vec2_sub(look->position_m, viewer));
+    double rise_m = level ? 0 : look->height_m - look_height_m(look, body, point->z);
+    return visible * reflectors_lobe(box, point, place, viewer, elementary_atan2(range_m, rise_m));
+}
+
 static const char *post_name(struct arena *arena, const struct post_row *row, int64_t post)
 {
-    size_t size = strlen(row->name) + 24;
-    char *name = arena_get(arena, size);
-    snprintf(name, size, "%s_%lld", row->name, (long long)post);
+    char digits[20];
+    size_t length = strlen(row->name), count = 0;
+    for (; post > 0 || count == 0; post /= 10)
+        digits[count++] = (char)('0' + post % 10);
+    char *name = arena_get(arena, length + count + 2);
+    memcpy(name, row->name, length);
+    name[length] = '_';
+    for (size_t i = 1; i <= count; i++)
+        name[length + i] = digits[count - i];
     return name;
 }
 

@@ -16,9 +16,17 @@
 #include "sight.h"
 #include "suite.h"
 
+/* A set of the frame, and what all who wear it share. */
+struct look_set {
+    const struct reflector_set *set;
+    struct vec2 *facings;       /* of its points, in the object's frame */
+    struct look_body **worn_by; /* as the set's ids */
+    struct reflectors_spread spread;
+};
+
 struct look_body {
     const struct object *object;
-    const struct reflector_set *set; /* NULL: it wears none */
+    const struct look_set *worn; /* NULL: it wears none */
     struct box box;
     struct vec2 corner[4];
     struct sector sector; /* the circle around the box */
@@ -33,13 +41,15 @@ struct look {
     const struct selection *selection;
     double time_s;
     struct vec2 position_m, velocity_mps, boresight;
-    double height_m;          /* 0: in a flat world */
-    bool over;                /* is something seen over what is low? */
-    double wavelength_m;      /* that bends around edges; 0: none does */
-    double bend_m;            /* how far beside a body it may matter that it does */
-    bool moved;               /* the ego, since then */
-    struct look_body *bodies; /* all objects but the ego, by id */
+    double height_m;           /* 0: in a flat world */
+    bool over;                 /* is something seen over what is low? */
+    double wavelength_m;       /* that bends around edges; 0: none does */
+    double bend_m;             /* how far beside a body it may matter that it does */
+    bool moved;                /* the ego, since then */
+    struct bearings_span view; /* slices that are in view, of what is not high above or below */
+    struct look_body *bodies;  /* all objects but the ego, by id */
     size_t body_count;
+    struct look_set *sets;             /* of the frame */
     struct bearings bearings;          /* of the bodies that block, as they are numbered here */
     const struct look_body **blockers; /* of the body that is looked at, by id */
     size_t blocker_count;
@@ -50,9 +60,6 @@ struct look {
  * object that is not there. */
 int look_begin(struct look *look, struct frame *frame, const struct sensor *sensor,
                const struct selection *selection, double time_s, struct diag *diag);
-
-/* The body of that object, or NULL. */
-struct look_body *look_body_of(const struct look *look, const char *id);
 
 /* Of a reflector at a fraction of the object's height, or at the sensor's for z = 0. */
 double look_height_m(const struct look *look, const struct look_body *body, double z);
@@ -68,6 +75,19 @@ struct sight look_lifted(const struct look *look, double reflector_m, struct sig
 /* The cross section of a side at its specular point, range_m away in the plane; adds to effects. */
 double look_plane_ercs(const struct look *look, const struct plane_reflector *plane, double range_m,
                        uint64_t *effects);
+
+/* The circle around all reflectors of that set on the body. */
+struct sector look_reflectors_sector(const struct look_body *body, const struct look_set *set);
+
+/* True only if nothing of the body in that circle can be in range and in view. */
+bool look_misses(const struct look *look, const struct look_body *body,
+                 const struct sector *sector);
+
+/* How much of a point is seen from the viewer, the sensor itself or a bounce on the way to it: its
+ * visibility, and its lobe at the sensor's elevation. 1 without the effect visibility. */
+double look_visibility(const struct look *look, const struct look_body *body,
+                       const struct point_reflector *point, struct vec2 facing, struct vec2 place,
+                       struct vec2 viewer);
 
 /* A post of a row as the point it is, under its name. */
 struct point_reflector look_post(const struct look *look, const struct post_row *row, int64_t post);

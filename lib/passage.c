@@ -87,8 +87,8 @@ struct passage passage_of(const struct vec2 *corners, size_t count, double top_m
                           const struct passage_line *line, double wavelength_m)
 {
     bool touched = occlusion_outline_blocks(corners, count, line->from, line->to);
-    if (!touched && wavelength_m == 0)
-        return (struct passage){.factor = 1};
+    if (wavelength_m == 0 && (!touched || isinf(top_m)))
+        return (struct passage){.factor = touched ? 0 : 1};
     struct stretch inside = stretch_of(corners, count, line);
     double straight = touched && above_m(line, inside, top_m) <= 0 ? 0 : 1;
     if (wavelength_m == 0 || vec2_same(line->from, line->to))

@@ -164,7 +164,8 @@ void plan_write(const struct plan *plan, struct text *text)
     text_format(text, "# What %" PRId64 " frames call for.\n", plan->frames);
     for (int i = 0; i < EFFECT_COUNT; i++)
         write_effect(plan, i, text);
-    text_add_word(text, "# glint-extract stays: nothing stands in for it\n");
+    text_add_word(text,
+                  "# glint-extract stays: what stands in for it models objects, not effects\n");
     for (int i = 0; i < PLAN_POSITIONS; i++)
         write_stage(plan, &plan->positions[i], text);
     text_add_word(text, "set -o pipefail\nglint-extract");

@@ -50,3 +50,8 @@ double radar_cross_section_m2(double ercs)
 {
     return ERCS_UNIT_M2 * ercs * ercs;
 }
+
+double radar_cross_section_from_dbsm_m2(double dbsm)
+{
+    return elementary_pow(10, dbsm / 10);
+}

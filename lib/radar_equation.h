@@ -40,4 +40,7 @@ double radar_detection_range_m(const struct radar_equation *law, double gain, do
 double radar_ercs(double cross_section_m2);
 double radar_cross_section_m2(double ercs);
 
+/* Of decibels over 1 m^2, a power. */
+double radar_cross_section_from_dbsm_m2(double dbsm);
+
 #endif

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "hash.h"
 #include "units.h"
 
 static const char *const shapes[] = {
@@ -42,6 +43,26 @@ const char *const reflectors_moving_parts[] = {
         FIELD_REAL_IN(owner, ercs, 0, 1e3, "equivalent radar cross section, a linear amplitude")   \
     }
 
+static const struct field lobe_fields[] = {
+    {FIELD_REAL_IN(struct lobe, width_rad, 0, 4 * PI,
+                   "in azimuth around the facing, 3 dB down at both ends; absent: all around"),
+     FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct lobe, zenith_rad, 0, PI, "its middle, from straight up"), FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct lobe, zenith_width_rad, 0, 4 * PI,
+                   "the same upright; absent: at every height"),
+     FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct lobe, depth_db, 0, 100, "the most that it is below its middle"),
+     FIELD_OPTIONAL},
+    {0},
+};
+
+static const struct record lobe_record = {
+    .name = "lobe",
+    .help = "Where a point returns most: a parabola in decibels, with a floor.",
+    .size = sizeof(struct lobe),
+    .fields = lobe_fields,
+};
+
 static const struct field point_fields[] = {
     {FIELD_NAME_OF(struct point_reflector, name, "unique in its set")},
     FRACTION(struct point_reflector, x, "place, as a fraction of the length from the centre"),
@@ -56,6 +77,8 @@ static const struct field point_fields[] = {
     {FIELD_REAL_IN(
          struct point_reflector, under_vehicles, 0, 1,
          "part of the cross section that is left when only raised vehicles are in the way"),
+     FIELD_OPTIONAL},
+    {FIELD_RECORD_OF(struct point_reflector, lobe, &lobe_record, "of ercs; absent: none"),
      FIELD_OPTIONAL},
     {0},
 };
@@ -187,13 +210,23 @@ static const char *name_of_post(const struct reflector_set *set)
     return NULL;
 }
 
+/* One of 64 bits for a name: names without a common bit differ. */
+static uint64_t mark_of(const char *name)
+{
+    return UINT64_C(1) << hash_for_table(HASH_START, name) % 64;
+}
+
 const char *reflectors_name_twice(const struct reflector_set *set)
 {
     size_t count = set->points.count + set->planes.count + set->rows.count;
-    for (size_t i = 1; i < count; i++)
-        for (size_t j = 0; j < i; j++)
+    uint64_t marks = 0;
+    for (size_t i = 0; i < count; i++) {
+        uint64_t mark = mark_of(name_at(set, i));
+        for (size_t j = 0; j < i && (marks & mark) != 0; j++)
             if (strcmp(name_at(set, i), name_at(set, j)) == 0)
                 return name_at(set, i);
+        marks |= mark;
+    }
     return name_of_post(set);
 }
 
@@ -202,22 +235,25 @@ static double farthest(double least, double x, double y)
     return fmax(least, 2 * fmax(fabs(x), fabs(y)));
 }
 
-double reflectors_radius_m(const struct reflector_set *set, double radius_m)
+struct reflectors_spread reflectors_spread(const struct reflector_set *set)
 {
-    double share = 1, inset_m = 0;
+    struct reflectors_spread spread = {.share = 1};
     for (size_t i = 0; i < set->points.count; i++) {
-        share = farthest(share, set->points.items[i].x, set->points.items[i].y);
-        inset_m = fmax(inset_m, set->points.items[i].inset_m);
+        const struct point_reflector *point = &set->points.items[i];
+        spread.share = farthest(spread.share, point->x, point->y);
+        spread.inset_m = fmax(spread.inset_m, point->inset_m);
     }
     for (size_t i = 0; i < set->planes.count; i++) {
-        share = farthest(share, set->planes.items[i].from_x, set->planes.items[i].from_y);
-        share = farthest(share, set->planes.items[i].to_x, set->planes.items[i].to_y);
+        const struct plane_reflector *plane = &set->planes.items[i];
+        spread.share = farthest(spread.share, plane->from_x, plane->from_y);
+        spread.share = farthest(spread.share, plane->to_x, plane->to_y);
     }
     for (size_t i = 0; i < set->rows.count; i++) {
-        share = farthest(share, set->rows.items[i].from_x, set->rows.items[i].from_y);
-        share = farthest(share, set->rows.items[i].to_x, set->rows.items[i].to_y);
+        const struct post_row *row = &set->rows.items[i];
+        spread.share = farthest(spread.share, row->from_x, row->from_y);
+        spread.share = farthest(spread.share, row->to_x, row->to_y);
     }
-    return share * radius_m + inset_m;
+    return spread;
 }
 
 struct vec2 reflectors_place(const struct box *box, double x, double y)
@@ -250,13 +286,19 @@ struct vec2 reflectors_along(const struct box *box, const struct plane_reflector
     return vec2_turn((struct vec2){own.x / length, own.y / length}, box->heading);
 }
 
-double reflectors_visibility(const struct box *box, enum visibility_shape shape, double facing_rad,
-                             double full_rad, double zero_rad, struct vec2 place,
-                             struct vec2 sensor)
+double reflectors_visibility(const struct box *box, const struct point_reflector *point,
+                             struct vec2 facing, struct vec2 place, struct vec2 sensor)
 {
-    struct vec2 facing = vec2_turn(vec2_heading(facing_rad), box->heading);
-    double delta = visibility_angle_rad(facing, vec2_sub(sensor, place));
-    return visibility(shape, full_rad, zero_rad, delta);
+    return visibility_along(point->shape, point->full_rad, point->zero_rad,
+                            vec2_turn(facing, box->heading), vec2_sub(sensor, place));
+}
+
+double reflectors_lobe(const struct box *box, const struct point_reflector *point,
+                       struct vec2 place, struct vec2 sensor, double zenith_rad)
+{
+    struct vec2 facing = vec2_turn(vec2_heading(point->facing_rad), box->heading);
+    double off_rad = visibility_angle_rad(facing, vec2_sub(sensor, place));
+    return lobe_amplitude_factor(&point->lobe, off_rad, zenith_rad);
 }
 
 static struct vec2 row_vector(const struct box *box, const struct post_row *row)

@@ -8,6 +8,7 @@
 #define REFLECTORS_H
 
 #include "field.h"
+#include "lobe.h"
 #include "motion.h"
 #include "visibility.h"
 
@@ -28,6 +29,7 @@ struct point_reflector {
     double ercs;
     enum moving_part moving_part;
     double under_vehicles; /* the part of its ERCS that passes under a raised vehicle in the way */
+    struct lobe lobe;      /* of what it returns, besides where it is seen from */
 };
 
 /* A flat side: mirrors the radar from the foot of the perpendicular, with constant ERCS, or, of a
@@ -82,9 +84,13 @@ extern const struct record reflector_model_record; /* without: the vehicle docum
  * may be called a_1, as posts are. */
 const char *reflectors_name_twice(const struct reflector_set *set);
 
-/* How far the set's reflectors may lie from the centre of an object's box: within radius_m, half of
- * the box's diagonal, unless they stand out of the box or deep inside beyond its other side. */
-double reflectors_radius_m(const struct reflector_set *set, double radius_m);
+/* How far the set's reflectors may lie from the centre of an object's box: within half of the box's
+ * diagonal, unless they stand out of the box or deep inside beyond its other side. */
+struct reflectors_spread {
+    double share; /* of half of the diagonal, at least 1 */
+    double inset_m;
+};
+struct reflectors_spread reflectors_spread(const struct reflector_set *set);
 
 /* An object's box in the world. */
 struct box {
@@ -106,11 +112,15 @@ struct vec2 reflectors_point_place(const struct box *box, const struct point_ref
  * or square to it, so that walls in line that are turned alike share it to the last bit. */
 struct vec2 reflectors_along(const struct box *box, const struct plane_reflector *plane);
 
-/* V(alpha) of MODEL 2.2: how much of a reflector at place, facing facing_rad in the object's
- * frame, a sensor sees. */
-double reflectors_visibility(const struct box *box, enum visibility_shape shape, double facing_rad,
-                             double full_rad, double zero_rad, struct vec2 place,
-                             struct vec2 sensor);
+/* V(alpha) of MODEL 2.2: how much of a point at place a sensor sees; facing is the heading of the
+ * point's facing_rad, in the object's frame. */
+double reflectors_visibility(const struct box *box, const struct point_reflector *point,
+                             struct vec2 facing, struct vec2 place, struct vec2 sensor);
+
+/* The factor on amplitude of a point's lobe; 1 without one. zenith_rad is the sensor's as the point
+ * sees it. */
+double reflectors_lobe(const struct box *box, const struct point_reflector *point,
+                       struct vec2 place, struct vec2 sensor, double zenith_rad);
 
 /* The numbers [first, end) of a row's posts that may lie within range_m of the sensor: none is
  * missed, and at most two too many are named. Place of post n by reflectors_post_place. */

@@ -204,6 +204,50 @@ const struct vehicle *runner_vehicle(struct runner *runner, const char *class)
     return vehicle;
 }
 
+/* An object of size zero takes its class's default size. */
+static void complete_size(struct object *object, const struct vehicle *vehicle)
+{
+    if (object->length_m == 0)
+        object->length_m = vehicle->length_m;
+    if (object->width_m == 0)
+        object->width_m = vehicle->width_m;
+    if (object->height_m == 0)
+        object->height_m = vehicle->height_m;
+}
+
+/* A class has one document, and its name one place. */
+static struct reflector_set *set_of(struct frame *frame, const char *model)
+{
+    for (size_t i = 0; i < frame->reflectors.count; i++)
+        if (frame->reflectors.items[i].model == model)
+            return &frame->reflectors.items[i];
+    return NULL;
+}
+
+int runner_extract(struct runner *runner, struct frame *frame,
+                   void (*describe)(const void *state, const struct vehicle *vehicle,
+                                    struct reflector_set *set, struct arena *arena))
+{
+    for (size_t i = 0; i < frame->objects.count; i++) {
+        struct object *object = &frame->objects.items[i];
+        const struct vehicle *vehicle = runner_vehicle(runner, object->class);
+        if (vehicle == NULL)
+            return diag_prefix(&runner->diag, "objects[%zu].class: ", i);
+        complete_size(object, vehicle);
+        if (strcmp(object->id, frame->ego) == 0)
+            continue;
+        struct reflector_set *set = set_of(frame, vehicle->reflectors.model);
+        if (set == NULL) {
+            set = list_add(&frame->reflectors, frame->arena);
+            *set = vehicle->reflectors;
+            if (describe != NULL)
+                describe(runner->state, vehicle, set, frame->arena);
+        }
+        *list_add(&set->worn_by, frame->arena) = object->id;
+    }
+    return 0;
+}
+
 int runner_prepare(struct runner *runner, const struct stage *stage, size_t count,
                    const char *const *words)
 {
@@ -247,7 +291,7 @@ static int check_sections(struct runner *runner, const struct frame *frame)
 static int conclude(struct runner *runner, struct frame *frame)
 {
     const struct stage *stage = runner->stage;
-    const struct part written = {stage->writes, stage->name};
+    const struct frame_part written = {stage->writes, stage->name};
     if (!runner->common.keep)
         frame_drop(frame, stage->reads & ~stage->writes & SECTIONS_CONSUMED);
     frame->present |= stage->writes & ~(unsigned)SECTION_LOST;

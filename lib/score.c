@@ -16,7 +16,8 @@
     }
 #define DIFFERENCE(member, low, bit, help)                                                         \
     {                                                                                              \
-        FIELD_REAL_IN(struct score_differences, member, low, 1e300, help), .section = (bit)        \
+        FIELD_REAL_IN(struct score_differences, member, low, 1e300, help), FIELD_OPTIONAL,         \
+            .section = (bit)                                                                       \
     }
 
 static const struct field differences_fields[] = {
@@ -103,7 +104,9 @@ const struct record score_line_record = {
 static const struct field summary_fields[] = {
     SUMMARY_HEAD(struct score_summary),
     {FIELD_REAL_IN(struct score_summary, cutoff, 0, 1e6, "in cells")},
-    {FIELD_REAL_IN(struct score_summary, azimuth_cell_rad, 0, 10, "taken for one cell")},
+    {FIELD_REAL_IN(struct score_summary, azimuth_cell_rad, 0, 10,
+                   "taken for one cell; absent: a twentieth of each field of view"),
+     FIELD_OPTIONAL},
     {FIELD_RECORD_OF(struct score_summary, all, &score_record, "over all sensors")},
     {FIELD_LIST_OF(struct score_summary, sensors, &score_record, "that measured, by name")},
     {0},
@@ -173,7 +176,8 @@ static void append(struct score_values *values, const struct score_values *more,
         score_add(values, more->list.items[i], arena);
 }
 
-void score_merge(struct score_tally *tally, const struct score_tally *other, struct arena *arena)
+/* Counts and sums, without the values. */
+static void sum(struct score_tally *tally, const struct score_tally *other)
 {
     tally->scans += other->scans;
     tally->truths += other->truths;
@@ -185,52 +189,72 @@ void score_merge(struct score_tally *tally, const struct score_tally *other, str
     tally->missed_part += other->missed_part;
     tally->false_part += other->false_part;
     tally->ospa_sum += other->ospa_sum;
-    for (int i = 0; i < SCORE_COMPONENTS; i++) {
-        append(&tally->apart[i], &other->apart[i], arena);
-        append(&tally->truth[i], &other->truth[i], arena);
-        append(&tally->list[i], &other->list[i], arena);
-    }
 }
 
-static struct score_differences differences_of(const struct score_tally *tally, int component,
-                                               struct arena *arena)
+void score_merge(struct score_tally *tally, const struct score_tally *other, struct arena *arena)
 {
-    const struct score_values *apart = &tally->apart[component], *truth = &tally->truth[component],
-                              *list = &tally->list[component];
+    sum(tally, other);
+    for (int kind = 0; kind < SCORE_KINDS; kind++)
+        for (int i = 0; i < SCORE_COMPONENTS; i++)
+            append(&tally->values[kind][i], &other->values[kind][i], arena);
+}
+
+/* The values of one kind of all tallies, in one list that has just their room. */
+static struct score_values gather(const struct score_tally *tallies, size_t count, int kind,
+                                  int component, struct arena *arena)
+{
+    struct score_values all = {0};
+    for (size_t i = 0; i < count; i++)
+        all.list.room += tallies[i].values[kind][component].list.count;
+    all.list.items = arena_get(arena, all.list.room * sizeof *all.list.items);
+    for (size_t i = 0; i < count; i++)
+        append(&all, &tallies[i].values[kind][component], arena);
+    return all;
+}
+
+static struct score_differences differences_of(const struct score_tally *tallies, size_t count,
+                                               int component, struct arena *arena)
+{
+    struct score_values apart = gather(tallies, count, SCORE_APART, component, arena);
+    struct score_values truth = gather(tallies, count, SCORE_TRUTH, component, arena);
+    struct score_values list = gather(tallies, count, SCORE_LISTED, component, arena);
     struct score_differences differences = {0};
-    if (apart->list.count > 0) {
-        struct deviations of = deviations_of(apart->list.items, apart->list.count, arena);
+    if (apart.list.count > 0) {
+        struct deviations of = deviations_of(apart.list.items, apart.list.count, arena);
         differences = (struct score_differences){of.mean, of.rms, of.p95, of.max, 0, SCORE_PAIRS};
     }
-    if (truth->list.count > 0 && list->list.count > 0) {
-        differences.wasserstein = deviations_wasserstein(truth->list.items, truth->list.count,
-                                                         list->list.items, list->list.count, arena);
+    if (truth.list.count > 0 && list.list.count > 0) {
+        differences.wasserstein = deviations_wasserstein(truth.list.items, truth.list.count,
+                                                         list.list.items, list.list.count, arena);
         differences.told |= SCORE_LISTS;
     }
     return differences;
 }
 
-struct score score_of(const struct score_tally *tally, struct arena *arena)
+struct score score_of(const struct score_tally *tallies, size_t count, struct arena *arena)
 {
-    double scans = tally->scans > 0 ? (double)tally->scans : 1;
+    struct score_tally all = {0};
+    for (size_t i = 0; i < count; i++)
+        sum(&all, &tallies[i]);
+    double scans = all.scans > 0 ? (double)all.scans : 1;
     struct score score = {
-        .sensor = tally->sensor,
-        .scans = tally->scans,
-        .true_count = tally->truths,
-        .listed_count = tally->listed,
-        .pair_count = tally->pairs,
-        .missed_count = tally->truths - tally->pairs,
-        .false_count = tally->listed - tally->pairs,
-        .gospa = tally->gospa_sum / scans,
-        .gospa_max = tally->gospa_max,
-        .gospa_localisation = tally->localisation / scans,
-        .gospa_missed = tally->missed_part / scans,
-        .gospa_false = tally->false_part / scans,
-        .ospa = tally->ospa_sum / scans,
+        .sensor = count > 0 ? tallies->sensor : NULL,
+        .scans = all.scans,
+        .true_count = all.truths,
+        .listed_count = all.listed,
+        .pair_count = all.pairs,
+        .missed_count = all.truths - all.pairs,
+        .false_count = all.listed - all.pairs,
+        .gospa = all.gospa_sum / scans,
+        .gospa_max = all.gospa_max,
+        .gospa_localisation = all.localisation / scans,
+        .gospa_missed = all.missed_part / scans,
+        .gospa_false = all.false_part / scans,
+        .ospa = all.ospa_sum / scans,
     };
     score.gospa_rms = sqrt(score.gospa_localisation + score.gospa_missed + score.gospa_false);
     for (int i = 0; i < SCORE_COMPONENTS; i++)
-        score.differences[i] = differences_of(tally, i, arena);
+        score.differences[i] = differences_of(tallies, count, i, arena);
     return score;
 }
 
@@ -255,11 +279,14 @@ static int compare_sensors(const void *left, const void *right)
 void score_summarize(struct score_tallies *tallies, struct score_summary *summary,
                      struct arena *arena)
 {
-    struct score_tally all = {0};
+    size_t count = tallies->list.count;
+    struct arena scratch = {0};
     sort_list(&tallies->list, compare_sensors, arena);
-    for (size_t i = 0; i < tallies->list.count; i++) {
-        *list_add(&summary->sensors, arena) = score_of(&tallies->list.items[i], arena);
-        score_merge(&all, &tallies->list.items[i], arena);
+    for (size_t i = 0; i < count; i++) {
+        *list_add(&summary->sensors, arena) = score_of(&tallies->list.items[i], 1, &scratch);
+        arena_clear(&scratch);
     }
-    summary->all = score_of(&all, arena);
+    summary->all = score_of(tallies->list.items, count, &scratch);
+    summary->all.sensor = NULL;
+    arena_free(&scratch);
 }

@@ -49,7 +49,7 @@ struct score_line {
 
 struct score_summary {
     int64_t frames, true_frames, listed_frames; /* on both sides, on one alone */
-    double cutoff, azimuth_cell_rad;
+    double cutoff, azimuth_cell_rad;            /* 0: by the fields of view */
     struct score all;
     LIST_OF(struct score) sensors;
 };
@@ -77,13 +77,19 @@ struct score_values {
     LIST_OF(double) list;
 };
 
+enum score_kind {
+    SCORE_APART, /* listed less true, of pairs */
+    SCORE_TRUTH, /* of the lists themselves */
+    SCORE_LISTED,
+    SCORE_KINDS,
+};
+
 struct score_tally {
     const char *sensor;
     int64_t scans, truths, listed, pairs;
     double gospa_sum, gospa_max, ospa_sum;
     double localisation, missed_part, false_part; /* sums */
-    struct score_values apart[SCORE_COMPONENTS];  /* of pairs */
-    struct score_values truth[SCORE_COMPONENTS], list[SCORE_COMPONENTS];
+    struct score_values values[SCORE_KINDS][SCORE_COMPONENTS];
 };
 
 /* By sensor, in the order in which they first come. */
@@ -103,8 +109,8 @@ void score_merge(struct score_tally *tally, const struct score_tally *other, str
 /* Merges a tally into that of its sensor. */
 void score_keep(struct score_tallies *tallies, const struct score_tally *scan, struct arena *arena);
 
-/* What a tally amounts to. Without any scan all is 0. */
-struct score score_of(const struct score_tally *tally, struct arena *arena);
+/* What tallies amount to together, under the name of the first. Without any scan all is 0. */
+struct score score_of(const struct score_tally *tallies, size_t count, struct arena *arena);
 
 /* Fills in the scores, by the names of sensors. */
 void score_summarize(struct score_tallies *tallies, struct score_summary *summary,

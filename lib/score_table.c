@@ -76,8 +76,12 @@ void score_table_summary(const struct score_summary *summary, struct text *text,
     scores[sensors] = summary->all;
     heads[sensors] = "all";
     write_frames(summary->frames, summary->true_frames, summary->listed_frames, text);
-    text_format(text, "; distances in cells, %g rad for one in azimuth, cut off at %g\n",
-                summary->azimuth_cell_rad, summary->cutoff);
+    text_format(text, "; distances in cells, cut off at %g; in azimuth a cell is ",
+                summary->cutoff);
+    if (summary->azimuth_cell_rad > 0)
+        text_format(text, "%g rad\n", summary->azimuth_cell_rad);
+    else
+        text_add_word(text, "a twentieth of the view\n");
     bool single = sensors == 1;
     score_table_write(scores, heads, single ? 1 : sensors + 1, text);
 }

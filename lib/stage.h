@@ -103,6 +103,13 @@ int runner_visit_sensors(struct runner *runner, struct frame *frame,
 /* The vehicle document of a class. NULL after a message. Loaded once. */
 const struct vehicle *runner_vehicle(struct runner *runner, const char *class);
 
+/* The whole step of a stage that extracts: completes the objects' sizes and has every object but
+ * the ego wear its class's set: the document's, of which describe, if it is not NULL, may put
+ * others in place of any list, in memory of the arena. */
+int runner_extract(struct runner *runner, struct frame *frame,
+                   void (*describe)(const void *state, const struct vehicle *vehicle,
+                                    struct reflector_set *set, struct arena *arena));
+
 /* The step of another stage, for sinks that ask what it would do: with these options (NULL: its own
  * for nothing given; only stages whose state begins with a suite_choice take others), its effects
  * noted in a log that has a clock (or NULL), and all the checks of a run. Started at its first

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "assignment.h"
 #include "sort.h"
 #include "units.h"
 
@@ -12,6 +11,17 @@ enum { COMPONENTS = SCORE_AMPLITUDE + 1 };
 struct target_list {
     LIST_OF(const struct target *) list;
 };
+
+struct target_cell target_score_cell(const struct sensor_view *view, double azimuth_rad,
+                                     double cutoff)
+{
+    return (struct target_cell){
+        .range_m = view->cell_range_m,
+        .azimuth_rad = azimuth_rad > 0 ? azimuth_rad : view->field_of_view_rad / 20,
+        .range_rate_mps = view->cell_range_rate_mps,
+        .cutoff = cutoff,
+    };
+}
 
 double target_score_distance(const struct target *a, const struct target *b,
                              const struct target_cell *cell)
@@ -35,11 +45,13 @@ int target_score_check(const struct frame *truth, const struct frame *listed, st
             return diag_fail(diag, DIAG_DATA,
                              "sensors.list[%zu].name: \"%s\"; the truth has \"%s\"", i, name,
                              view->name);
-        if (!(view->cell_range_m > 0 && view->cell_range_rate_mps > 0))
-            return diag_fail(diag, DIAG_DATA,
-                             "sensors.list[%zu]: the truth's \"%s\" has cells of %g m by %g m/s; "
-                             "distances in cells need more than 0",
-                             i, name, view->cell_range_m, view->cell_range_rate_mps);
+        if (!(view->cell_range_m > 0 && view->cell_range_rate_mps > 0 &&
+              view->field_of_view_rad > 0))
+            return diag_fail(
+                diag, DIAG_DATA,
+                "sensors.list[%zu]: the truth's \"%s\" has cells of %g m by %g m/s in a "
+                "view of %g rad; distances in cells need more than 0",
+                i, name, view->cell_range_m, view->cell_range_rate_mps, view->field_of_view_rad);
     }
     return 0;
 }
@@ -69,7 +81,7 @@ static struct target_list targets_of(const struct frame *frame, const char *sens
     return targets;
 }
 
-static double component(const struct target *target, enum score_component which)
+static double component(const struct target *target, int which)
 {
     switch (which) {
     case SCORE_RANGE:
@@ -98,7 +110,7 @@ static void add_pair(struct score_tally *tally, const struct target *truth,
         double apart = component(listed, which) - component(truth, which);
         if (which == SCORE_AZIMUTH)
             apart = units_wrap_rad(apart);
-        score_add(&tally->apart[which], apart, arena);
+        score_add(&tally->values[SCORE_APART][which], apart, arena);
     }
 }
 
@@ -118,13 +130,13 @@ void target_score_scan(struct score_tally *tally, const struct frame *truth,
     size_t pairs = gospa_pair(distance, rows, columns, cell->cutoff, item_of, arena);
     double squares = 0;
     for (size_t i = 0; i < rows; i++) {
-        if (item_of[i] == ASSIGNMENT_NONE)
+        if (item_of[i] >= columns) /* ASSIGNMENT_NONE is beyond them all */
             continue;
         double apart = distance[i * columns + item_of[i]];
         squares += apart * apart;
         add_pair(tally, true_list.list.items[i], list.list.items[item_of[i]], arena);
     }
     score_count(tally, squares, pairs, rows, columns, cell->cutoff);
-    add_values(tally->truth, &true_list, arena);
-    add_values(tally->list, &list, arena);
+    add_values(tally->values[SCORE_TRUTH], &true_list, arena);
+    add_values(tally->values[SCORE_LISTED], &list, arena);
 }

@@ -16,11 +16,17 @@ struct target_cell {
     double cutoff;
 };
 
+/* The cell of a sensor, as the truth has it. An azimuth_rad of 0 stands for a twentieth of its
+ * field of view. */
+struct target_cell target_score_cell(const struct sensor_view *view, double azimuth_rad,
+                                     double cutoff);
+
 double target_score_distance(const struct target *a, const struct target *b,
                              const struct target_cell *cell);
 
 /* Can these frames be compared? Suites may differ, for models are what is compared, but not in what
- * their sensors are called; and the truth's cells need a width. Refuses with DIAG_DATA. */
+ * their sensors are called; and the truth's cells and views need a width. Refuses with DIAG_DATA.
+ */
 int target_score_check(const struct frame *truth, const struct frame *listed, struct diag *diag);
 
 /* Adds one scan to the tally: its sensor's targets of both frames. The order of targets in either

@@ -149,8 +149,8 @@ int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
         const struct track *track = &list->tracks.items[track_of[i]];
         double apart_m = distance[i * columns + track_of[i]];
         squares += apart_m * apart_m;
-        score_add(&tally->apart[SCORE_POSITION], apart_m, frame->arena);
-        score_add(&tally->apart[SCORE_VELOCITY],
+        score_add(&tally->values[SCORE_APART][SCORE_POSITION], apart_m, frame->arena);
+        score_add(&tally->values[SCORE_APART][SCORE_VELOCITY],
                   elementary_hypot(object->vx_mps - track->vx_mps, object->vy_mps - track->vy_mps),
                   frame->arena);
         switches += track_score_switches(memory, frame->scene, object->id, track->id, lasting);

@@ -5,6 +5,12 @@
 #include "elementary.h"
 #include "units.h"
 
+/* Of cosines, a million times their rounding. */
+#define SLACK 1e-9
+
+/* Below it squares leave the doubles. */
+#define SHORTEST 1e-100
+
 double visibility_angle_rad(struct vec2 a, struct vec2 b)
 {
     /* + 0.0 turns -0 into 0: a vector of length zero is at angle 0, never at pi. */
@@ -26,4 +32,30 @@ double visibility(enum visibility_shape shape, double full_rad, double zero_rad,
         return rise;
     double cosine = elementary_sin(PI / 2 * rise);
     return shape == VISIBILITY_COSINE ? cosine : cosine * cosine;
+}
+
+/* cos(angle) is no more, and no less: its series, cut after a term of either sign. */
+static double cosine_most(double angle_rad)
+{
+    double square = angle_rad * angle_rad;
+    return 1 + square * (-1.0 / 2 + square / 24);
+}
+
+static double cosine_least(double angle_rad)
+{
+    double square = angle_rad * angle_rad;
+    return 1 + square * (-1.0 / 2 + square * (1.0 / 24 - square / 720));
+}
+
+double visibility_along(enum visibility_shape shape, double full_rad, double zero_rad,
+                        struct vec2 facing, struct vec2 sight)
+{
+    double start_rad = shape == VISIBILITY_HARD ? zero_rad : full_rad;
+    double length = vec2_length(sight), along = vec2_dot(facing, sight);
+    bool plain = length > SHORTEST;
+    if (plain && along < (cosine_least(zero_rad) - SLACK) * length)
+        return 0;
+    if (plain && shape != VISIBILITY_COSINE && along > (cosine_most(start_rad) + SLACK) * length)
+        return 1;
+    return visibility(shape, full_rad, zero_rad, visibility_angle_rad(facing, sight));
 }

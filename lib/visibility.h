@@ -24,4 +24,9 @@ double visibility_angle_rad(struct vec2 a, struct vec2 b);
  * straight line are hard too: 1 at that angle, which full visibility reaches. */
 double visibility(enum visibility_shape shape, double full_rad, double zero_rad, double delta_rad);
 
+/* V of what faces along a unit vector, from the end of a sight: to the last bit that at the angle
+ * between both, which is only worked out where the answer is not plainly 0 or 1. */
+double visibility_along(enum visibility_shape shape, double full_rad, double zero_rad,
+                        struct vec2 facing, struct vec2 sight);
+
 #endif

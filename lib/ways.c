@@ -10,18 +10,18 @@
 /* Both ends of a line beyond the same side of a body. */
 static bool passes_beside(double from_m, double to_m, double reach_m)
 {
-    return fmin(from_m, to_m) > reach_m || fmax(from_m, to_m) < -reach_m;
+    return (from_m > reach_m && to_m > reach_m) || (from_m < -reach_m && to_m < -reach_m);
 }
 
 /* A sight line that stays clear of the circle around a body, or has both ends beyond one of its
  * sides, cannot touch its outline. The slack covers the rounding of this test, so the exact one is
  * only spared where it would say no. */
 static bool passes_clear(const struct look_body *body, struct vec2 from, struct vec2 to,
-                         double wavelength_m)
+                         double bend_m)
 {
     struct vec2 line = vec2_sub(to, from), centre = vec2_sub(body->box.motion.position_m, from);
     double length_m = vec2_length(line), along = vec2_dot(line, centre);
-    double slack_m = 1e-6 + knife_edge_reach_m(length_m, wavelength_m);
+    double slack_m = 1e-6 + bend_m;
     double reach = (body->sector.radius_m + slack_m) * (1 + 1e-9) * length_m;
     if (fabs(vec2_cross(line, centre)) > reach || along < -reach ||
         along > vec2_dot(line, line) + reach)
@@ -46,8 +46,8 @@ struct side ways_side(const struct look_body *body, const struct plane_reflector
 static bool joins(const struct look_body *body, const struct side *side, bool begins,
                   double within_m)
 {
-    for (size_t i = 0; body->set != NULL && i < body->set->planes.count; i++) {
-        const struct plane_reflector *plane = &body->set->planes.items[i];
+    for (size_t i = 0; body->worn != NULL && i < body->worn->set->planes.count; i++) {
+        const struct plane_reflector *plane = &body->worn->set->planes.items[i];
         struct side other = ways_side(body, plane);
         struct vec2 gap = begins ? vec2_sub(other.from, side->to) : vec2_sub(other.to, side->from);
         if (plane->margin_m == 0 && vec2_same(other.along, side->along) &&
@@ -67,24 +67,21 @@ bool ways_next_side_has_foot(const struct look *look, const struct side *side)
     return false;
 }
 
-void ways_find_blockers(struct look *look, const struct look_body *own,
-                        const struct reflector_set *set)
+void ways_find_blockers(struct look *look, const struct look_body *own, const struct sector *wanted)
 {
     const struct selection *selection = look->selection;
     int64_t begin = effects_begin(selection);
-    struct sector wanted = own->sector;
-    wanted.radius_m = reflectors_radius_m(set, own->sector.radius_m);
     look->blocker_count = 0;
     if (!effects_may(selection, EFFECT_OCCLUSION))
         return;
     bool all = effects_must(selection, EFFECT_OCCLUSION);
-    struct bearings_span span = all ? bearings_everywhere : bearings_of(&wanted);
+    struct bearings_span span = all ? bearings_everywhere : bearings_of(wanted);
     size_t count = bearings_find(&look->bearings, span);
     for (size_t i = 0; i < count; i++) {
         const struct look_body *body = &look->bodies[look->bearings.found[i]];
         struct sector shadow = body->sector;
         shadow.radius_m += look->bend_m;
-        if (body != own && (all || sectors_overlap(&shadow, &wanted)))
+        if (body != own && (all || sectors_overlap(&shadow, wanted)))
             look->blockers[look->blocker_count++] = body;
     }
     bool some = all || look->blocker_count > 0;
@@ -114,7 +111,7 @@ struct way ways_past_blockers(const struct look *look, const struct side *side,
     struct way all = {.factor = 1};
     for (size_t i = 0; i < look->blocker_count; i++) {
         const struct look_body *body = look->blockers[i];
-        if ((solid && body->raised) || passes_clear(body, line->from, line->to, look->wavelength_m))
+        if ((solid && body->raised) || passes_clear(body, line->from, line->to, look->bend_m))
             continue;
         struct way way = past(look, body, line);
         if ((way.factor == 1 && way.effects == 0) ||
@@ -151,8 +148,7 @@ struct way ways_along(const struct look *look, const struct passage_line *line,
     size_t near = bearings_find(&look->bearings, span);
     for (size_t i = 0; i < near; i++) {
         const struct look_body *body = &look->bodies[look->bearings.found[i]];
-        if (passes_clear(body, line->from, line->to, look->wavelength_m) ||
-            is_among(body, but, count))
+        if (passes_clear(body, line->from, line->to, look->bend_m) || is_among(body, but, count))
             continue;
         struct way way = past(look, body, line);
         if (way.by != NULL)

@@ -36,14 +36,13 @@ static int score_step(void *state, struct frame *frame, struct runner *runner)
         const struct sensor_view *view = &truth->sensors.list.items[i];
         if (!view->measured && !frame->sensors.list.items[i].measured)
             continue;
-        struct target_cell cell = {view->cell_range_m, own->azimuth_cell_rad,
-                                   view->cell_range_rate_mps, own->cutoff};
+        struct target_cell cell = target_score_cell(view, own->azimuth_cell_rad, own->cutoff);
         struct score_tally scan = {.sensor = view->name};
         target_score_scan(&scan, truth, frame, &cell, frame->arena);
         if (own->summary)
             score_keep(&own->sensors, &scan, runner_arena(runner));
         else
-            *list_add(&line.sensors, frame->arena) = score_of(&scan, frame->arena);
+            *list_add(&line.sensors, frame->arena) = score_of(&scan, 1, frame->arena);
     }
     return own->summary ? 0 : runner_write_record(runner, &score_line_record, &line);
 }
@@ -79,8 +78,8 @@ static const struct field score_options[] = {
                    "targets this many cells apart are no pair (absent: 2)"),
      FIELD_OPTIONAL, .absent = 2},
     {FIELD_REAL_IN(struct score_state, azimuth_cell_rad, 1e-6, 2 * PI,
-                   "what counts as one cell in azimuth (absent: 0.035, which is 2 degrees)"),
-     FIELD_OPTIONAL, .absent = 0.035},
+                   "what counts as one cell in azimuth (absent: a twentieth of the field of view)"),
+     FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct score_state, partial,
                    "count frames that only one side has instead of refusing them"),
      FIELD_OPTIONAL},
@@ -105,7 +104,7 @@ const struct stage stage_score = {
         "is in cells, d^2 = (range / cell_range_m)^2 + (range rate / cell_range_rate_mps)^2 +\n"
         "(azimuth / azimuth_cell_rad)^2, with the cells of the truth's sensors. Frames that one\n"
         "side lacks are errors unless --partial is given. For the summary every value is kept,\n"
-        "about 100 bytes for each target.",
+        "half a kilobyte for each target. glint-score-tracks scores trackers.",
     .options = &score_state_record,
     .sink = true,
     .reads = SECTION_SENSORS | SECTION_TARGETS,

@@ -44,7 +44,7 @@ static int score_tracks_step(void *state, struct frame *frame, struct runner *ru
         return 0;
     }
     struct score_track_line line = {
-        frame->scene, frame->frame, frame->time_s, switches, score_of(&tally, frame->arena),
+        frame->scene, frame->frame, frame->time_s, switches, score_of(&tally, 1, frame->arena),
     };
     return runner_write_record(runner, &score_track_line_record, &line);
 }
@@ -62,7 +62,7 @@ static int score_tracks_stop(void *state, struct runner *runner)
         .listed_frames = counterpart_left(own->other),
         .cutoff_m = own->cutoff_m,
         .id_switches = own->id_switches,
-        .all = score_of(&own->tally, runner_arena(runner)),
+        .all = score_of(&own->tally, 1, runner_arena(runner)),
     };
     if (!own->table)
         return runner_write_record(runner, &score_track_summary_record, &summary);

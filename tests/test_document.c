@@ -143,7 +143,7 @@ static void faults_are_named_with_path_member_and_expectation(void **state)
         {"\"x\": 0.5", "\"x\": 1.5", "reflectors.points[0].x: 1.5 is outside [-1, 1]"},
         {"\"x\"", "\"q\"",
          "reflectors.points[0].q: unknown key; expected one of name, x, y, z, extent, inset_m, "
-         "facing_rad, full_rad, zero_rad, shape, ercs, moving_part, under_vehicles"},
+         "facing_rad, full_rad, zero_rad, shape, ercs, moving_part, under_vehicles, lobe"},
         {"true", "1", "reflectors.blocks: a number; expected true or false"},
         {"\"blocks\": true", "\"worn_by\": []",
          "reflectors.worn_by: unknown key; expected one of blocks, raised, points, planes, "

@@ -24,7 +24,8 @@
     "\"reflectors\":[{\"model\":\"car\",\"worn_by\":[\"a\\\"b\\\\\",\"\xc3\xa9\"],"                \
     "\"blocks\":true,\"raised\":true,\"points\":[{\"name\":\"p\",\"x\":0.5,\"y\":-0.5,"            \
     "\"inset_m\":0.1,\"facing_rad\":0,\"full_rad\":0.5,\"zero_rad\":1.5,\"shape\":\"linear\","     \
-    "\"ercs\":0.7,\"under_vehicles\":0.5}],\"planes\":[{\"name\":\"q\",\"from_x\":0.5,"            \
+    "\"ercs\":0.7,\"under_vehicles\":0.5,\"lobe\":{\"width_rad\":0.7,\"depth_db\":14.9}}],"        \
+    "\"planes\":[{\"name\":\"q\",\"from_x\":0.5,"                                                  \
     "\"from_y\":0.5,\"to_x\":-0.5,\"to_y\":0.5,\"margin_m\":0.2,\"ercs\":1}],\"rows\":[{"          \
     "\"name\":\"r\",\"from_x\":0,\"from_y\":0,\"to_x\":1,\"to_y\":0,\"spacing_m\":4,"              \
     "\"facing_rad\":0,\"full_rad\":1,\"zero_rad\":2,\"shape\":\"hard\",\"ercs\":0.2}]}],"

@@ -87,8 +87,9 @@ static void what_is_exactly_at_the_cutoff_is_no_pair(void **state)
     assert_close(answer.gospa.false_part, 2, 0);
 }
 
-/* Ten targets, 0.1 apart or changed as the row says, with a cut-off of 2 (NUMERICS C1). */
-static void ten_targets_give_the_figures_of_the_reference(void **state)
+/* Ten targets with a cut-off of 2: one moved by 1, one missing, one false, one of each, five
+ * missing; and none, with one and ten false. */
+static void ten_targets_give_the_figures_of_the_definitions(void **state)
 {
     (void)state;
     static const struct {
@@ -162,7 +163,7 @@ int main(void)
         cmocka_unit_test(an_empty_list_is_far_by_half_a_squared_cutoff_for_each),
         cmocka_unit_test(one_pair_is_as_far_as_it_is_apart),
         cmocka_unit_test(what_is_exactly_at_the_cutoff_is_no_pair),
-        cmocka_unit_test(ten_targets_give_the_figures_of_the_reference),
+        cmocka_unit_test(ten_targets_give_the_figures_of_the_definitions),
         cmocka_unit_test(both_are_metrics),
         cmocka_unit_test(the_order_of_a_list_changes_no_distance),
         cmocka_unit_test(the_parts_add_up),

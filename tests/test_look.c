@@ -275,6 +275,38 @@ static void the_joint_of_two_walls_mirrors_once(void **state)
     }
 }
 
+/* Level at its middle, 60 degrees wide there and 40 upright, at most 20 dB deep. */
+static double lobe_of(double off_degrees, double below_degrees)
+{
+    double across_db = 12 * (off_degrees / 60) * (off_degrees / 60);
+    double upright_db = 12 * (below_degrees / 40) * (below_degrees / 40);
+    return pow(10, -fmin(across_db + upright_db, 20) / 20);
+}
+
+static void a_lobe_is_seen_from_where_the_sensor_stands_and_how_high(void **state)
+{
+    struct scene *scene = *state;
+    struct object *object = add_object(scene, "o", 10, 0);
+    struct point_reflector *point = add_point(scene, add_set(scene, "o"));
+    point->z = 1;
+    point->lobe = (struct lobe){60 * PI / 180, PI / 2, 40 * PI / 180, 20};
+    static const double turned[] = {180, 165, 200, 0};
+    for (size_t i = 0; i < 4; i++) {
+        scene->frame.echoes.count = 0;
+        object->yaw_rad = turned[i] * PI / 180;
+        look_around_at(scene, 10);
+        const struct echo *echo = scene->frame.echoes.items;
+        assert_near(echo->ercs, 0.5 * lobe_of(turned[i] - 180, 0), 1e-12);
+        assert_true(((echo->effects & EFFECT_BIT(EFFECT_VISIBILITY)) != 0) == (turned[i] != 180));
+    }
+    object->yaw_rad = PI;
+    object->height_m = 0.5;
+    scene->sensor.mount_z_m = 0.5 + 10 * tan(10 * PI / 180);
+    scene->frame.echoes.count = 0;
+    look_around_at(scene, 10);
+    assert_near(scene->frame.echoes.items->ercs, 0.5 * lobe_of(0, 10), 1e-12);
+}
+
 static void rows_are_expanded_in_range_and_no_post_is_missed(void **state)
 {
     (void)state;
@@ -474,6 +506,65 @@ static void a_set_on_nobody_is_refused(void **state)
                                    "or is the ego");
 }
 
+/* Around the sensor, touching each other, of all heights, at the border of its range and view. */
+static void crowd(struct scene *scene, uint64_t *random)
+{
+    static const char *const ids[] = {"a", "b", "c", "d", "f", "g", "h", "i", "j", "k", "l",
+                                      "m", "n", "o", "p", "q", "r", "s", "t", "u", "v", "w"};
+    struct sensor *sensor = &scene->sensor;
+    sensor->mount_yaw_rad = sample_between(random, -PI, PI);
+    sensor->field_of_view_rad = sample_between(random, 0.1, sample_bits(random) % 2 ? 2 * PI : 1);
+    sensor->mount_z_m = sample_bits(random) % 2 ? sample_between(random, 0.2, 2) : 0;
+    sensor->diffraction = sample_bits(random) % 4 == 0;
+    sensor->carrier_hz = 24e9;
+    double spread_m = sample_bits(random) % 2 ? 20 : 120;
+    for (size_t i = 0; i < sizeof ids / sizeof ids[0]; i++) {
+        struct reflector_set *set = add_set(scene, ids[i]);
+        set->blocks = i % 4 != 0;
+        struct point_reflector *pole = add_point(scene, set);
+        pole->x = sample_between(random, -1, 1);
+        pole->y = sample_between(random, -1, 1);
+        pole->z = sample_bits(random) % 2 ? 0 : sample_between(random, 0.1, 2);
+        pole->facing_rad = sample_between(random, -PI, PI);
+        pole->zero_rad = sample_between(random, 0, PI);
+        *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
+            .name = "side", .from_x = 0.5, .from_y = 0.5, .to_x = -0.5, .to_y = 0.5, .ercs = 0.8};
+        struct object *object = add_object(scene, ids[i], sample_between(random, -1, 1) * spread_m,
+                                           sample_between(random, -1, 1) * spread_m);
+        object->yaw_rad = sample_between(random, -PI, PI);
+        object->height_m = sample_between(random, 0.3, 4);
+    }
+}
+
+static void who_asks_for_less_sees_the_same(void **state)
+{
+    (void)state;
+    static const struct selection automatic = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1,
+                                               .automatic = true};
+    uint64_t random = 5;
+    size_t echoes = 0, pairs = 0;
+    for (int i = 0; i < 3000; i++) {
+        void *place;
+        make_scene(&place);
+        struct scene *scene = place;
+        crowd(scene, &random);
+        struct look all = look_around_at(scene, 10), some;
+        struct frame *frame = &scene->frame, accounted = *frame;
+        frame->account = false;
+        memset(&frame->echoes, 0, sizeof frame->echoes);
+        assert_int_equal(look_begin(&some, frame, &scene->sensor, &automatic, 10, NULL), 0);
+        direct_look(&some);
+        assert_int_equal(some.pairs, all.pairs);
+        assert_int_equal(some.echoes, all.echoes);
+        assert_memory_equal(frame->echoes.items, accounted.echoes.items,
+                            (size_t)some.echoes * sizeof(struct echo));
+        echoes += (size_t)all.echoes;
+        pairs += (size_t)all.pairs;
+        remove_scene(&place);
+    }
+    assert_true(echoes > 5000 && pairs > 100000);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, make_scene, remove_scene)
 
 int main(void)
@@ -487,6 +578,7 @@ int main(void)
         TEST(every_loss_has_its_reason),
         TEST(planes_mirror_from_the_foot_of_the_perpendicular),
         TEST(the_joint_of_two_walls_mirrors_once),
+        TEST(a_lobe_is_seen_from_where_the_sensor_stands_and_how_high),
         TEST(rows_are_expanded_in_range_and_no_post_is_missed),
         TEST(posts_become_echoes_with_their_numbers),
         TEST(a_reflector_tells_how_near_it_was_to_another_answer),
@@ -494,6 +586,7 @@ int main(void)
         TEST(a_plane_tells_how_near_its_foot_was_to_its_ends),
         TEST(without_margins_nothing_is_told),
         TEST(a_set_on_nobody_is_refused),
+        TEST(who_asks_for_less_sees_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

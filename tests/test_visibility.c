@@ -147,6 +147,38 @@ static void every_shape_falls_from_one_to_zero(void **state)
     }
 }
 
+static void along_a_sight_as_much_is_seen_as_at_its_angle(void **state)
+{
+    (void)state;
+    uint64_t sample = 7;
+    size_t plain = 0;
+    for (int i = 0; i < 200000; i++) {
+        double zero_rad = sample_between(&sample, 0, PI);
+        double full_rad = i % 3 == 0 ? zero_rad : sample_between(&sample, 0, zero_rad);
+        if (i % 16 == 0)
+            zero_rad = PI;
+        double facing_rad = sample_between(&sample, -PI, PI);
+        double aside_rad = i % 4 == 0 ? full_rad : i % 4 == 1 ? zero_rad : PI;
+        aside_rad *= 1 + (i % 5 == 0 ? 0 : sample_between(&sample, -1, 1)) *
+                             (i % 4 < 2 ? 1e-8 : 1); /* around what decides, or anywhere */
+        struct vec2 facing = vec2_heading(facing_rad);
+        struct vec2 sight =
+            vec2_scale(sample_between(&sample, 0, 300), vec2_heading(facing_rad + aside_rad));
+        if (i % 100 == 0)
+            sight = vec2_scale(1e-200, sight);
+        if (i % 1000 == 0)
+            sight = (struct vec2){0, 0};
+        for (int shape = VISIBILITY_RAISED_COSINE; shape <= VISIBILITY_COSINE; shape++) {
+            double seen = visibility_along(shape, full_rad, zero_rad, facing, sight);
+            assert_close(seen,
+                         visibility(shape, full_rad, zero_rad, visibility_angle_rad(facing, sight)),
+                         0);
+            plain += seen == 0 || seen == 1;
+        }
+    }
+    assert_true(plain > 200000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -155,6 +187,7 @@ int main(void)
         cmocka_unit_test(shapes_have_their_closed_form_values),
         cmocka_unit_test(hard_includes_its_edge_and_the_tapered_shapes_end_in_zero),
         cmocka_unit_test(every_shape_falls_from_one_to_zero),
+        cmocka_unit_test(along_a_sight_as_much_is_seen_as_at_its_angle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

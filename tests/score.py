@@ -1,0 +1,338 @@
+"""glint-score and glint-score-tracks against an independent computation.
+
+Usage: python3 tests/score.py BIN_DIR        exit status 1 if any check fails
+
+Lists of random scenes, noise-free and noisy, are compared here by trying every assignment (with
+what is best for the rest of a list remembered), distances and statistics from their definitions:
+Wasserstein-1 as an integral over quantiles in fractions, percentiles by counting. Tracks are the
+objects, moved, renamed, dropped and added by a seeded generator.
+"""
+import functools
+import json
+import math
+import os
+import random
+import subprocess
+import sys
+import tempfile
+from fractions import Fraction
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+COMPONENTS = ["range_m", "azimuth_rad", "range_rate_mps", "amplitude_db"]
+MOST = 11  # targets a side that trying all is good for
+checks = failures = 0
+
+
+def check(good, what):
+    global checks, failures
+    checks += 1
+    if not good:
+        failures += 1
+        if failures <= 20:
+            print("score: " + what)
+
+
+def near(actual, expected, what):
+    check(abs(actual - expected) <= 1e-9 * max(1, abs(expected)), f"{what}: {actual}, expected {expected}")
+
+
+# ---- the definitions --------------------------------------------------------------------------
+
+
+def assign(distance, truths, listed, cutoff):
+    """The least sum of squared distances below the cut-off and of half its square for all others."""
+
+    @functools.lru_cache(None)
+    def best(row, used):
+        if row == truths:
+            left = listed - bin(used).count("1")
+            return left * cutoff**2 / 2, ()
+        cost, pairs = best(row + 1, used)
+        answer = cost + cutoff**2 / 2, pairs
+        for column in range(listed):
+            if used >> column & 1 or distance[row][column] >= cutoff:
+                continue
+            cost, pairs = best(row + 1, used | 1 << column)
+            cost += distance[row][column] ** 2
+            if cost < answer[0]:
+                answer = cost, ((row, column), *pairs)
+        return answer
+
+    return best(0, 0)
+
+
+def least_ospa(distance, truths, listed, cutoff):
+    """Every item of the shorter list has a partner, at most the cut-off away."""
+    if max(truths, listed) == 0:
+        return 0
+    if truths > listed:
+        distance = [[distance[i][j] for i in range(truths)] for j in range(listed)]
+    short, long = min(truths, listed), max(truths, listed)
+
+    @functools.lru_cache(None)
+    def best(row, used):
+        if row == short:
+            return 0
+        return min(min(distance[row][column], cutoff) ** 2 + best(row + 1, used | 1 << column)
+                   for column in range(long) if not used >> column & 1)
+
+    return math.sqrt((best(0, 0) + cutoff**2 * (long - short)) / long)
+
+
+def wasserstein(one, other):
+    """The integral over 0 < q < 1 of the difference of the quantiles at q."""
+    one, other = sorted(one), sorted(other)
+    steps = sorted({Fraction(i, len(one)) for i in range(len(one) + 1)}
+                   | {Fraction(i, len(other)) for i in range(len(other) + 1)})
+    total = Fraction(0)
+    for low, high in zip(steps, steps[1:]):
+        middle = (low + high) / 2
+        total += (high - low) * abs(Fraction(one[int(middle * len(one))]) - Fraction(other[int(middle * len(other))]))
+    return float(total)
+
+
+def statistics(differences):
+    sizes = sorted(map(abs, differences))
+    return {"mean": math.fsum(differences) / len(sizes),
+            "rms": math.sqrt(math.fsum(d * d for d in differences) / len(sizes)),
+            "p95": next(s for s in sizes if sum(t <= s for t in sizes) * 100 >= 95 * len(sizes)),
+            "max": sizes[-1]}
+
+
+class Tally:
+    """One scan, or several together."""
+
+    def __init__(self):
+        self.gospa, self.ospa, self.parts, self.counts = [], [], [], [0, 0, 0]
+        self.apart, self.truth, self.listed = {}, {}, {}
+
+    def scan(self, distance, truth, listed, cutoff):
+        """Counts the lists; returns the pairs."""
+        total, pairs = assign(distance, len(truth), len(listed), cutoff)
+        alone = cutoff**2 / 2
+        missed, false = len(truth) - len(pairs), len(listed) - len(pairs)
+        self.gospa.append(math.sqrt(total))
+        self.ospa.append(least_ospa(distance, len(truth), len(listed), cutoff))
+        self.parts.append((total - alone * (missed + false), alone * missed, alone * false))
+        self.counts = [a + b for a, b in zip(self.counts, (len(truth), len(listed), len(pairs)))]
+        return pairs
+
+    def add(self, other):
+        self.gospa += other.gospa
+        self.ospa += other.ospa
+        self.parts += other.parts
+        self.counts = [a + b for a, b in zip(self.counts, other.counts)]
+        for mine, others in ((self.apart, other.apart), (self.truth, other.truth), (self.listed, other.listed)):
+            for name, values in others.items():
+                mine.setdefault(name, []).extend(values)
+
+    def compare(self, score, what):
+        scans = len(self.gospa)
+        truths, listed, pairs = self.counts
+        for key, value in {"scans": scans, "true_count": truths, "listed_count": listed, "pair_count": pairs,
+                           "missed_count": truths - pairs, "false_count": listed - pairs}.items():
+            check(score[key] == value, f"{what}: {key} is {score[key]}, expected {value}")
+        near(score["gospa"], sum(self.gospa) / scans, what + " gospa")
+        near(score["gospa_rms"] ** 2, sum(g * g for g in self.gospa) / scans, what + " gospa_rms")
+        near(score["gospa_max"], max(self.gospa), what + " gospa_max")
+        for i, part in enumerate(("localisation", "missed", "false")):
+            near(score["gospa_" + part], sum(p[i] for p in self.parts) / scans, what + " " + part)
+        near(score["ospa"], sum(self.ospa) / scans, what + " ospa")
+        for name in COMPONENTS + ["position_m", "velocity_mps"]:
+            told = score.get(name, {})
+            expected = statistics(self.apart[name]) if self.apart.get(name) else {}
+            if self.truth.get(name) and self.listed.get(name):
+                expected["wasserstein"] = wasserstein(self.truth[name], self.listed[name])
+            check(told.keys() == expected.keys(), f"{what}: {name} has {list(told)}, expected {list(expected)}")
+            for key in expected.keys() & told.keys():
+                near(told[key], expected[key], f"{what} {name} {key}")
+
+
+# ---- targets ----------------------------------------------------------------------------------
+
+
+def turn(angle):
+    return math.remainder(angle, math.tau)
+
+
+def scan_targets(truth, listed, view, cutoff, azimuth_cell):
+    width = azimuth_cell or view["field_of_view_rad"] / 20
+
+    def apart(a, b):
+        return math.hypot((a["range_m"] - b["range_m"]) / view["cell_range_m"],
+                          (a["range_rate_mps"] - b["range_rate_mps"]) / view["cell_range_rate_mps"],
+                          turn(a["azimuth_rad"] - b["azimuth_rad"]) / width)
+
+    tally = Tally()
+    pairs = tally.scan([[apart(a, b) for b in listed] for a in truth], truth, listed, cutoff)
+    for name in COMPONENTS:
+        tally.apart[name] = [listed[j][name] - truth[i][name] for i, j in pairs]
+        tally.truth[name] = [target[name] for target in truth]
+        tally.listed[name] = [target[name] for target in listed]
+    tally.apart["azimuth_rad"] = [turn(angle) for angle in tally.apart["azimuth_rad"]]
+    return tally
+
+
+class Bench:
+    def __init__(self, bin_dir, folder):
+        self.folder = folder
+        self.environment = dict(os.environ, PATH=os.path.abspath(bin_dir) + os.pathsep + os.environ["PATH"],
+                                GLINT_DATA=ROOT + "/data")
+
+    def run(self, text):
+        done = subprocess.run(["bash", "-o", "pipefail", "-c", text], env=self.environment, cwd=self.folder,
+                              text=True, capture_output=True, check=False)
+        if done.returncode != 0:
+            sys.exit(f"score: {text}: exit {done.returncode}: {done.stderr}")
+        return [json.loads(line) for line in done.stdout.splitlines()]
+
+    def write(self, name, lines):
+        with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
+            file.writelines(json.dumps(line) + "\n" for line in lines)
+
+
+def thin(rng, frames):
+    """Few enough for trying all, in any order: no score may depend on that."""
+    for frame in frames:
+        names = [view["name"] for view in frame["sensors"]["list"]]
+        targets = {name: [t for t in frame["targets"] if t["sensor"] == name] for name in names}
+        for name in names:
+            rng.shuffle(targets[name])
+            del targets[name][rng.randint(0, MOST):]
+        frame["targets"] = [target for name in names for target in targets[name]]
+    return frames
+
+
+def check_targets(bench, rng, source, suite, cutoff, azimuth_cell):
+    bench.run(f"{source} | glint-extract | glint-ideal --sensors {suite} | glint-sensor -o cells.jsonl")
+    truth = thin(rng, bench.run("glint-noise-none cells.jsonl"))
+    listed = thin(rng, bench.run("glint-noise-gauss cells.jsonl"))
+    bench.write("truth.jsonl", truth)
+    shuffled = listed[:]
+    rng.shuffle(shuffled)
+    shuffled.sort(key=lambda frame: frame["frame"])
+    bench.write("list.jsonl", shuffled)
+    command = f"glint-score --truth truth.jsonl list.jsonl --cutoff {cutoff}"
+    if azimuth_cell is not None:
+        command += f" --azimuth-cell-rad {azimuth_cell}"
+    lines = {(line["scene"], line["frame"]): line for line in bench.run(command)}
+    check(len(lines) == len(truth), f"{source}: {len(lines)} lines for {len(truth)} frames")
+    sensors = {}
+    for a, b in zip(truth, listed):
+        line = lines[a["scene"], a["frame"]]
+        views = [view for view in a["sensors"]["list"] if view["measured"]]
+        check([score["sensor"] for score in line["sensors"]] == [view["name"] for view in views],
+              f"{source}, frame {a['frame']}: other sensors")
+        for view, score in zip(views, line["sensors"]):
+            tally = scan_targets([t for t in a["targets"] if t["sensor"] == view["name"]],
+                                 [t for t in b["targets"] if t["sensor"] == view["name"]], view, cutoff, azimuth_cell)
+            tally.compare(score, f"{source} {a['scene']} {a['frame']} {view['name']}")
+            sensors.setdefault(view["name"], Tally()).add(tally)
+    check_summary(bench.run(command + " --summary")[0], sensors, source)
+    swapped = bench.run(command.replace("truth.jsonl list.jsonl", "list.jsonl truth.jsonl") + " --summary")[0]
+    for tally in sensors.values():
+        tally.counts = [tally.counts[1], tally.counts[0], tally.counts[2]]
+        tally.parts = [(place, false, missed) for place, missed, false in tally.parts]
+        tally.truth, tally.listed = tally.listed, tally.truth
+        tally.apart = {name: [-value for value in values] for name, values in tally.apart.items()}
+    check_summary(swapped, sensors, source + ", swapped")
+
+
+def check_summary(summary, sensors, what):
+    everything = Tally()
+    for name, score in zip(sorted(sensors), summary["sensors"]):
+        check(score["sensor"] == name, f"{what}: {score['sensor']} stands for {name}")
+        sensors[name].compare(score, f"{what}, summary of {name}")
+        everything.add(sensors[name])
+    everything.compare(summary["all"], what + ", summary")
+
+
+# ---- tracks -----------------------------------------------------------------------------------
+
+
+def invented_tracks(rng, frame, names):
+    """The objects as a poor tracker might have them; names are the ids that it gives."""
+    tracks = []
+    for thing in rng.sample(frame["objects"], min(len(frame["objects"]), MOST - 2)):
+        if thing["id"] == frame["ego"] or rng.random() < 0.2:
+            continue
+        if thing["id"] not in names or rng.random() < 0.1:
+            names[thing["id"]] = str(rng.randrange(10**6))
+        tracks.append({"id": names[thing["id"]], "x_m": thing["x_m"] + rng.gauss(0, 2),
+                       "y_m": thing["y_m"] + rng.gauss(0, 2), "vx_mps": thing["vx_mps"] + rng.gauss(0, 1),
+                       "vy_mps": thing["vy_mps"]})
+    for _ in range(rng.randint(0, 2)):
+        tracks.append({"id": str(rng.randrange(10**6)), "x_m": rng.uniform(-50, 50), "y_m": rng.uniform(-50, 50),
+                       "vx_mps": 0, "vy_mps": 0})
+    return list({track["id"]: track for track in tracks}.values())
+
+
+def is_seen(frame, thing):
+    ego = next(o for o in frame["objects"] if o["id"] == frame["ego"])
+    for view in frame["sensors"]["list"]:
+        cos, sin = math.cos(ego["yaw_rad"]), math.sin(ego["yaw_rad"])
+        x = thing["x_m"] - (ego["x_m"] + cos * view["mount_x_m"] - sin * view["mount_y_m"])
+        y = thing["y_m"] - (ego["y_m"] + sin * view["mount_x_m"] + cos * view["mount_y_m"])
+        azimuth = turn(math.atan2(y, x) - ego["yaw_rad"] - view["mount_yaw_rad"])
+        if math.hypot(x, y) <= view["range_max_m"] and abs(azimuth) <= view["field_of_view_rad"] / 2:
+            return True
+    return False
+
+
+def counts(frame, thing, which):
+    echoing = {c["object"] for target in frame["targets"] for c in target["contributors"]}
+    return thing["id"] != frame["ego"] and (
+        which == "all" or (which == "in_view" and is_seen(frame, thing))
+        or (which == "detected" and thing["id"] in echoing))
+
+
+def check_tracks(bench, rng, frames, which, cutoff):
+    names, last = {}, {}
+    lines = [{"scene": frame["scene"], "frame": frame["frame"], "time_s": frame["time_s"],
+              "tracks": invented_tracks(rng, frame, names)} for frame in frames]
+    bench.write("frames.jsonl", frames)
+    bench.write("tracks.jsonl", lines)
+    command = f"glint-score-tracks --tracks tracks.jsonl frames.jsonl --objects {which} --cutoff-m {cutoff}"
+    scores, everything, total = bench.run(command), Tally(), 0
+    check(len(scores) == len(frames), f"{len(scores)} lines of tracks for {len(frames)} frames")
+    for frame, line, score in zip(frames, lines, scores):
+        truth = [thing for thing in frame["objects"] if counts(frame, thing, which)]
+        tally, tracks = Tally(), line["tracks"]
+        pairs = tally.scan([[math.dist((o["x_m"], o["y_m"]), (t["x_m"], t["y_m"])) for t in tracks] for o in truth],
+                           truth, tracks, cutoff)
+        tally.apart["position_m"] = [math.dist((truth[i]["x_m"], truth[i]["y_m"]), (tracks[j]["x_m"], tracks[j]["y_m"]))
+                                     for i, j in pairs]
+        tally.apart["velocity_mps"] = [math.hypot(truth[i]["vx_mps"] - tracks[j]["vx_mps"],
+                                                  truth[i]["vy_mps"] - tracks[j]["vy_mps"]) for i, j in pairs]
+        switches = sum(last.get(truth[i]["id"], tracks[j]["id"]) != tracks[j]["id"] for i, j in pairs)
+        last.update((truth[i]["id"], tracks[j]["id"]) for i, j in pairs)
+        tally.compare(score["all"], f"tracks {which} {frame['frame']}")
+        check(score["id_switches"] == switches,
+              f"tracks {which} {frame['frame']}: {score['id_switches']} switches, expected {switches}")
+        everything.add(tally)
+        total += switches
+    summary = bench.run(command + " --summary")[0]
+    everything.compare(summary["all"], f"tracks {which}, summary")
+    check(summary["id_switches"] == total > 0, f"tracks {which}: {summary['id_switches']} switches, expected {total}")
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    rng = random.Random(7)
+    with tempfile.TemporaryDirectory(prefix="glint-score.") as folder:
+        bench = Bench(sys.argv[1], folder)
+        for source, suite, cutoff, azimuth_cell in (
+                ("glint-traffic-random --density medium --frames 60", "srr24-pair-every-frame", 2, None),
+                ("glint-traffic-random --density dense --frames 40 --seed 3", "corner77-every-frame", 20, 0.1),
+                ("glint-traffic cut-in", "corner77", 1, 0.02)):
+            check_targets(bench, rng, source, suite, cutoff, azimuth_cell)
+        frames = bench.run("glint-traffic highway-straight --radius-m 60 | glint-extract"
+                           " | glint-ideal --sensors corner77-every-frame | glint-sensor | glint-noise")[:80]
+        for which, cutoff in (("all", 5), ("in_view", 3), ("detected", 5)):
+            check_tracks(bench, rng, frames, which, cutoff)
+    print(f"score: {checks} checks, {failures} failed")
+    return 1 if failures else 0
+
+
+sys.exit(main())

@@ -1,0 +1,60 @@
+#include "check.h"
+
+#include "lobe.h"
+#include "units.h"
+
+#define DEGREE (PI / 180)
+
+static const struct lobe front = {40.54 * DEGREE, 71.75 * DEGREE, 29.13 * DEGREE, 14.91};
+
+static double drop_db(const struct lobe *lobe, double off, double zenith)
+{
+    return -units_amplitude_db(lobe_amplitude_factor(lobe, off * DEGREE, zenith * DEGREE));
+}
+
+static void the_middle_returns_all(void **state)
+{
+    (void)state;
+    assert_true(lobe_amplitude_factor(&front, 0, front.zenith_rad) == 1);
+}
+
+static void half_a_width_aside_it_is_3_db_down(void **state)
+{
+    (void)state;
+    assert_close(drop_db(&front, 20.27, 71.75), 3, 1e-12);
+    assert_close(drop_db(&front, 0, 71.75 + 14.565), 3, 1e-12);
+    assert_close(drop_db(&front, 0, 71.75 - 14.565), 3, 1e-12);
+    assert_close(drop_db(&front, 20.27, 71.75 - 14.565), 6, 1e-12);
+}
+
+static void it_never_falls_below_its_floor(void **state)
+{
+    (void)state;
+    assert_close(drop_db(&front, 180, 71.75), 14.91, 1e-12);
+    assert_close(drop_db(&front, 0, 180), 14.91, 1e-12);
+    assert_close(drop_db(&front, 180, 0), 14.91, 1e-12);
+    for (double off = 0; off < 180; off++)
+        assert_true(drop_db(&front, off + 1, 80) >= drop_db(&front, off, 80));
+}
+
+static void without_widths_it_is_the_same_all_around(void **state)
+{
+    (void)state;
+    const struct lobe around = {.zenith_rad = 1, .zenith_width_rad = 0.5, .depth_db = 20};
+    const struct lobe upright = {.width_rad = 0.5, .depth_db = 20}, none = {.zenith_rad = 1};
+    assert_true(lobe_amplitude_factor(&around, 0, 1.2) == lobe_amplitude_factor(&around, PI, 1.2));
+    assert_true(lobe_amplitude_factor(&upright, 0.3, 0) ==
+                lobe_amplitude_factor(&upright, 0.3, PI));
+    assert_true(lobe_amplitude_factor(&none, PI, PI) == 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_middle_returns_all),
+        cmocka_unit_test(half_a_width_aside_it_is_3_db_down),
+        cmocka_unit_test(it_never_falls_below_its_floor),
+        cmocka_unit_test(without_widths_it_is_the_same_all_around),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

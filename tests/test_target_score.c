@@ -1,0 +1,233 @@
+#include "check.h"
+
+#include <string.h>
+
+#include "frame_text.h"
+#include "sample.h"
+#include "target_score.h"
+#include "units.h"
+
+enum { MOST = 8 };
+
+static const struct target_cell cell = {0.5, 0.1, 0.25, 2};
+
+/* One radar's frame with these targets. */
+struct scene {
+    struct sensor_view view;
+    struct target targets[MOST];
+    struct frame frame;
+};
+
+static void fill(struct scene *scene, size_t count)
+{
+    scene->view = (struct sensor_view){
+        .name = "front", .cell_range_m = 1, .cell_range_rate_mps = 1, .measured = true};
+    scene->frame = (struct frame){.sensors.list = {&scene->view, 1, 1},
+                                  .targets = {scene->targets, count, MOST}};
+}
+
+static struct target draw_target(uint64_t *sample)
+{
+    return (struct target){.sensor = "front",
+                           .range_m = sample_between(sample, 10, 12),
+                           .azimuth_rad = sample_between(sample, -0.2, 0.2),
+                           .range_rate_mps = (double)sample_integer(sample, 2) / 4,
+                           .amplitude_db = sample_between(sample, 6, 30)};
+}
+
+static void draw(struct scene *scene, uint64_t *sample)
+{
+    size_t count = sample_bits(sample) % (MOST + 1);
+    for (size_t i = 0; i < count; i++)
+        scene->targets[i] = draw_target(sample);
+    fill(scene, count);
+}
+
+static struct score score_scan(const struct scene *truth, const struct scene *listed,
+                               struct arena *arena)
+{
+    struct score_tally tally = {.sensor = "front"};
+    target_score_scan(&tally, &truth->frame, &listed->frame, &cell, arena);
+    return score_of(&tally, 1, arena);
+}
+
+static void assert_same_text(const struct score *one, const struct score *other)
+{
+    struct text text = {0}, other_text = {0};
+    frame_text_write_record(&score_record, one, &text);
+    frame_text_write_record(&score_record, other, &other_text);
+    assert_int_equal(text.length, other_text.length);
+    assert_memory_equal(text.bytes, other_text.bytes, text.length);
+    text_free(&text);
+    text_free(&other_text);
+}
+
+static void one_cell_is_one_in_each_component(void **state)
+{
+    (void)state;
+    const struct target at = {.range_m = 10, .azimuth_rad = 0.2, .range_rate_mps = -3};
+    struct target range = at, azimuth = at, rate = at, all = at, louder = at;
+    range.range_m += 0.5;
+    azimuth.azimuth_rad -= 0.1;
+    rate.range_rate_mps += 0.25;
+    all.range_m -= 1;
+    all.azimuth_rad += 0.2;
+    all.range_rate_mps += 0.25;
+    louder.amplitude_db = 20;
+    assert_near(target_score_distance(&at, &range, &cell), 1.0, 1e-15);
+    assert_near(target_score_distance(&at, &azimuth, &cell), 1.0, 1e-15);
+    assert_near(target_score_distance(&at, &rate, &cell), 1.0, 1e-15);
+    assert_near(target_score_distance(&at, &all, &cell), 3.0, 1e-15);
+    assert_close(target_score_distance(&at, &louder, &cell), 0, 0);
+}
+
+static void azimuths_differ_the_short_way_round(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct scene left = {.targets = {{.sensor = "front", .azimuth_rad = PI - 0.01}}};
+    struct scene right = {.targets = {{.sensor = "front", .azimuth_rad = 0.02 - PI}}};
+    fill(&left, 1);
+    fill(&right, 1);
+    assert_close(target_score_distance(&left.targets[0], &right.targets[0], &cell), 0.3, 1e-14);
+    struct score score = score_scan(&left, &right, &arena);
+    assert_close(score.differences[SCORE_AZIMUTH].mean, 0.03, 1e-15);
+    arena_free(&arena);
+}
+
+static void the_order_of_targets_changes_no_bit(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    uint64_t sample = 1;
+    for (int round = 0; round < 2000; round++) {
+        struct scene truth, listed, turned;
+        draw(&truth, &sample);
+        draw(&listed, &sample);
+        size_t count = listed.frame.targets.count;
+        for (size_t i = 0; i < count; i++)
+            turned.targets[i] = listed.targets[count - 1 - i];
+        fill(&turned, count);
+        struct score one = score_scan(&truth, &listed, &arena);
+        struct score other = score_scan(&truth, &turned, &arena);
+        assert_same_text(&one, &other);
+        arena_clear(&arena);
+    }
+    arena_free(&arena);
+}
+
+/* The other way round, what was missed is false, and differences change their sign. */
+static void scores_are_symmetric(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    uint64_t sample = 2;
+    for (int round = 0; round < 2000; round++) {
+        struct scene truth, listed;
+        draw(&truth, &sample);
+        draw(&listed, &sample);
+        struct score there = score_scan(&truth, &listed, &arena);
+        struct score back = score_scan(&listed, &truth, &arena);
+        assert_close(back.gospa, there.gospa, 1e-14);
+        assert_close(back.ospa, there.ospa, 1e-14);
+        assert_int_equal(back.missed_count, there.false_count);
+        assert_close(back.gospa_missed, there.gospa_false, 0);
+        for (int i = 0; i <= SCORE_AMPLITUDE; i++) {
+            assert_int_equal(back.differences[i].told, there.differences[i].told);
+            assert_close(back.differences[i].mean, -there.differences[i].mean, 1e-13);
+            assert_close(back.differences[i].wasserstein, there.differences[i].wasserstein, 1e-13);
+        }
+        arena_clear(&arena);
+    }
+    arena_free(&arena);
+}
+
+static void a_list_is_nothing_from_itself(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    uint64_t sample = 3;
+    for (int round = 0; round < 200; round++) {
+        struct scene scene;
+        draw(&scene, &sample);
+        struct score score = score_scan(&scene, &scene, &arena);
+        assert_close(score.gospa, 0, 0);
+        assert_close(score.ospa, 0, 0);
+        assert_int_equal(score.pair_count, scene.frame.targets.count);
+        assert_close(score.differences[SCORE_RANGE].wasserstein, 0, 0);
+        arena_clear(&arena);
+    }
+    arena_free(&arena);
+}
+
+static void other_sensors_targets_do_not_count(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct scene truth = {.targets = {{.sensor = "front", .range_m = 5}}};
+    struct scene listed = {
+        .targets = {{.sensor = "front", .range_m = 5}, {.sensor = "rear", .range_m = 5}}};
+    fill(&truth, 1);
+    fill(&listed, 2);
+    assert_int_equal(score_scan(&truth, &listed, &arena).listed_count, 1);
+    arena_free(&arena);
+}
+
+/* Means are over scans, differences over all pairs, and a tally of parts is the tally of all. */
+static void tallies_add_up(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct score_tally near = {.sensor = "front"}, far = {.sensor = "front"}, both = {0};
+    struct scene truth = {.targets = {{.sensor = "front", .range_m = 5}}};
+    struct scene one = {.targets = {{.sensor = "front", .range_m = 5.25}}};
+    fill(&truth, 1);
+    fill(&one, 1);
+    target_score_scan(&near, &truth.frame, &one.frame, &cell, &arena);
+    fill(&one, 0);
+    target_score_scan(&far, &truth.frame, &one.frame, &cell, &arena);
+    score_merge(&both, &near, &arena);
+    score_merge(&both, &far, &arena);
+    struct score score = score_of(&both, 1, &arena);
+    assert_int_equal(score.scans, 2);
+    assert_int_equal(score.true_count, 2);
+    assert_int_equal(score.missed_count, 1);
+    assert_close(score.gospa, (0.5 + sqrt(2)) / 2, 1e-15);
+    assert_close(score.gospa_rms, sqrt((0.25 + 2) / 2), 1e-15);
+    assert_close(score.gospa_max, sqrt(2), 1e-15);
+    assert_close(score.ospa, (0.5 + 2) / 2, 1e-15);
+    assert_close(score.gospa_localisation, 0.125, 1e-15);
+    assert_close(score.gospa_missed, 1, 0);
+    assert_close(score.differences[SCORE_RANGE].mean, 0.25, 1e-15);
+    assert_close(score.differences[SCORE_RANGE].wasserstein, 0.25, 1e-15);
+    arena_free(&arena);
+}
+
+static void without_scans_all_is_zero(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct score_tallies none = {0};
+    struct score_summary summary = {0};
+    score_summarize(&none, &summary, &arena);
+    assert_int_equal(summary.all.scans, 0);
+    assert_close(summary.all.gospa_rms, 0, 0);
+    assert_int_equal(summary.all.differences[SCORE_RANGE].told, 0);
+    assert_int_equal(summary.sensors.count, 0);
+    arena_free(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_cell_is_one_in_each_component),
+        cmocka_unit_test(azimuths_differ_the_short_way_round),
+        cmocka_unit_test(the_order_of_targets_changes_no_bit),
+        cmocka_unit_test(scores_are_symmetric),
+        cmocka_unit_test(a_list_is_nothing_from_itself),
+        cmocka_unit_test(other_sensors_targets_do_not_count),
+        cmocka_unit_test(tallies_add_up),
+        cmocka_unit_test(without_scans_all_is_zero),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

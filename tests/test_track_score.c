@@ -1,0 +1,168 @@
+#include "check.h"
+
+#include <string.h>
+
+#include "track_score.h"
+#include "units.h"
+
+/* The ego at (100, 50) looks along y; its radar sits 2 m ahead, turned 90 degrees to the left (to
+ * -x), and sees 20 m far and 45 degrees to each side. */
+static struct sensor_view view = {.name = "left",
+                                  .mount_x_m = 2,
+                                  .mount_yaw_rad = PI / 2,
+                                  .field_of_view_rad = PI / 2,
+                                  .range_max_m = 20};
+static struct object objects[] = {
+    {.id = "ego", .class = "car", .x_m = 100, .y_m = 50, .yaw_rad = PI / 2},
+    {.id = "thing", .class = "truck", .vx_mps = 3},
+};
+static struct contributor echo = {.object = "thing"};
+static struct target target = {.sensor = "left", .contributors = {&echo, 1, 1}};
+
+static struct frame frame_with_thing_at(double x_m, double y_m)
+{
+    objects[1].x_m = x_m;
+    objects[1].y_m = y_m;
+    return (struct frame){.scene = "s",
+                          .ego = "ego",
+                          .objects = {objects, 2, 2},
+                          .sensors.list = {&view, 1, 1},
+                          .present = SECTION_OBJECTS | SECTION_SENSORS};
+}
+
+static bool in_view(double x_m, double y_m)
+{
+    struct frame frame = frame_with_thing_at(x_m, y_m);
+    return track_score_counts(&frame, &objects[1], TRACK_TRUTH_IN_VIEW, NULL);
+}
+
+static void what_is_in_range_and_view_counts(void **state)
+{
+    (void)state;
+    assert_true(in_view(81, 52));
+    assert_false(in_view(79, 52));
+    assert_true(in_view(90, 61));
+    assert_false(in_view(90, 63));
+    assert_true(in_view(90, 43));
+    assert_false(in_view(90, 41));
+    assert_false(in_view(110, 52));
+}
+
+static void the_ego_never_counts(void **state)
+{
+    (void)state;
+    struct frame frame = frame_with_thing_at(90, 52);
+    assert_false(track_score_counts(&frame, &objects[0], TRACK_TRUTH_ALL, NULL));
+    assert_true(track_score_counts(&frame, &objects[1], TRACK_TRUTH_ALL, NULL));
+}
+
+static void what_has_an_echo_in_a_target_is_detected(void **state)
+{
+    (void)state;
+    struct frame frame = frame_with_thing_at(500, 52);
+    assert_false(track_score_counts(&frame, &objects[1], TRACK_TRUTH_DETECTED, NULL));
+    frame.targets.items = &target;
+    frame.targets.count = 1;
+    assert_true(track_score_counts(&frame, &objects[1], TRACK_TRUTH_DETECTED, NULL));
+}
+
+static void classes_are_whole_words(void **state)
+{
+    (void)state;
+    struct frame frame = frame_with_thing_at(90, 52);
+    static const struct {
+        const char *classes;
+        bool counts;
+    } cases[] = {{"truck", true},   {"car,truck", true},  {"truck,car", true},
+                 {"trucks", false}, {"tru", false},       {"car", false},
+                 {",", false},      {"a,,truck,b", true}, {"car,trucks", false}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        assert_int_equal(track_score_counts(&frame, &objects[1], TRACK_TRUTH_ALL, cases[i].classes),
+                         cases[i].counts);
+}
+
+static void sections_that_decide_must_be_there(void **state)
+{
+    (void)state;
+    struct diag diag = {0};
+    struct frame frame = {.present = SECTION_OBJECTS};
+    assert_int_equal(track_score_check(&frame, TRACK_TRUTH_ALL, &diag), 0);
+    assert_int_equal(track_score_check(&frame, TRACK_TRUTH_IN_VIEW, &diag), -1);
+    assert_string_equal(diag.text, "sensors: missing; --objects=in_view needs it");
+    diag = (struct diag){0};
+    frame.present |= SECTION_SENSORS;
+    assert_int_equal(track_score_check(&frame, TRACK_TRUTH_IN_VIEW, &diag), 0);
+    assert_int_equal(track_score_check(&frame, TRACK_TRUTH_DETECTED, &diag), -1);
+    assert_int_equal(diag.code, DIAG_DATA);
+}
+
+static void a_switch_is_another_track_than_last_in_its_scene(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct track_memory memory = {0};
+    assert_false(track_score_switches(&memory, "s", "a", "1", &arena));
+    assert_false(track_score_switches(&memory, "s", "b", "2", &arena));
+    assert_false(track_score_switches(&memory, "s", "a", "1", &arena));
+    assert_false(track_score_switches(&memory, "t", "a", "2", &arena));
+    assert_true(track_score_switches(&memory, "s", "a", "2", &arena));
+    assert_true(track_score_switches(&memory, "s", "b", "1", &arena));
+    assert_true(track_score_switches(&memory, "s", "a", "1", &arena));
+    track_score_forget(&memory, "s");
+    assert_false(track_score_switches(&memory, "s", "a", "3", &arena));
+    assert_true(track_score_switches(&memory, "t", "a", "3", &arena));
+    arena_free(&arena);
+}
+
+static void a_track_three_and_four_metres_off_is_five_off(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct frame frame = frame_with_thing_at(90, 52);
+    frame.arena = &arena;
+    struct track track = {.id = "1", .x_m = 93, .y_m = 48, .vx_mps = 3, .vy_mps = 2};
+    struct track_list list = {.tracks = {&track, 1, 1}};
+    struct track_memory memory = {0};
+    struct score_tally tally = {0};
+    track_score_frame(&tally, &frame, &list, TRACK_TRUTH_IN_VIEW, NULL, 6, &memory, &arena);
+    struct score score = score_of(&tally, 1, &arena);
+    assert_close(score.gospa, 5, 0);
+    assert_close(score.differences[SCORE_POSITION].max, 5, 0);
+    assert_close(score.differences[SCORE_VELOCITY].max, 2, 0);
+    track_score_frame(&tally, &frame, &list, TRACK_TRUTH_IN_VIEW, NULL, 4, &memory, &arena);
+    score = score_of(&tally, 1, &arena);
+    assert_int_equal(score.pair_count, 1);
+    assert_int_equal(score.missed_count, 1);
+    assert_int_equal(score.false_count, 1);
+    arena_free(&arena);
+}
+
+static void tracks_come_into_the_order_of_their_ids(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct diag diag = {0};
+    struct track tracks[] = {{.id = "b"}, {.id = "a"}, {.id = "c"}};
+    struct track_list list = {.tracks = {tracks, 3, 3}};
+    assert_int_equal(track_order(&list, &arena, &diag), 0);
+    assert_string_equal(tracks[0].id, "a");
+    tracks[2].id = "b";
+    assert_int_equal(track_order(&list, &arena, &diag), -1);
+    assert_string_equal(diag.text, "tracks: the id \"b\" stands twice");
+    arena_free(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_in_range_and_view_counts),
+        cmocka_unit_test(the_ego_never_counts),
+        cmocka_unit_test(what_has_an_echo_in_a_target_is_detected),
+        cmocka_unit_test(classes_are_whole_words),
+        cmocka_unit_test(sections_that_decide_must_be_there),
+        cmocka_unit_test(a_switch_is_another_track_than_last_in_its_scene),
+        cmocka_unit_test(a_track_three_and_four_metres_off_is_five_off),
+        cmocka_unit_test(tracks_come_into_the_order_of_their_ids),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
