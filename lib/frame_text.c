@@ -301,10 +301,10 @@ int frame_text_read(const char *line, size_t length, struct frame *frame, struct
     return frame_text_read_record(line, length, &frame_record, frame, frame->arena, diag);
 }
 
-/* The writer's place in a text: at runs ahead of the text's length, which is set in the end. */
+/* The writer's place in a text, whose length is set in the end. */
 struct writer {
     struct text *text;
-    char *at;
+    char *at, *end;
 };
 
 /* A key, a number and the brackets around them. */
@@ -312,10 +312,12 @@ enum { MEMBER_ROOM = FIELD_KEY_SIZE + NUMBER_SIZE + 8 };
 
 static void make_room(struct writer *writer, size_t size)
 {
+    if ((size_t)(writer->end - writer->at) >= size)
+        return;
     struct text *text = writer->text;
     text->length = (size_t)(writer->at - text->bytes);
-    if (text->room - text->length < size)
-        writer->at = text_room(text, size);
+    writer->at = text_room(text, size);
+    writer->end = text->bytes + text->room;
 }
 
 static void write_record(const struct record *record, const void *base, struct writer *writer);
@@ -445,7 +447,8 @@ static void write_record(const struct record *record, const void *base, struct w
 
 void frame_text_write_record(const struct record *record, const void *base, struct text *text)
 {
-    struct writer writer = {text, text_room(text, MEMBER_ROOM)};
+    char *at = text_room(text, MEMBER_ROOM);
+    struct writer writer = {text, at, text->bytes + text->room};
     write_record(record, base, &writer);
     *writer.at++ = '\n';
     text->length = (size_t)(writer.at - text->bytes);

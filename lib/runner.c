@@ -290,7 +290,7 @@ static int check_sections(struct runner *runner, const struct frame *frame)
 static int conclude(struct runner *runner, struct frame *frame)
 {
     const struct stage *stage = runner->stage;
-    const struct part written = {stage->writes, stage->name};
+    const struct frame_part written = {stage->writes, stage->name};
     if (!runner->common.keep)
         frame_drop(frame, stage->reads & ~stage->writes & SECTIONS_CONSUMED);
     frame->present |= stage->writes & ~(unsigned)SECTION_LOST;
