@@ -30,7 +30,7 @@ WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes \
 EXACT = -ffp-contract=off -fno-fast-math -fno-tree-vectorize -fno-tree-slp-vectorize
 HOUSE_C = -std=c11 -D_XOPEN_SOURCE=700 $(EXACT) $(WARNINGS) -Ilib -MMD -MP $(SANITIZE)
 HOUSE_CXX = -std=c++17 -fno-rtti $(EXACT) -Wall -Wextra -Ilib -MMD -MP $(SANITIZE)
-# number.cc is the only C++; its library is linked in, so that nobody needs it at run time.
+# number.cc is the only C++ in it; its library is linked in, so that nobody needs it at run time.
 LINK = $(CXX) -static-libstdc++ -static-libgcc $(SANITIZE) $(LDFLAGS)
 LIBS = -ljansson -lcsv -lz -lm
 
@@ -145,7 +145,10 @@ $(BUILD)/tests/soundness/planted_%: $(BUILD)/tests/soundness/planted_%.o $(sound
 # scripts/accuracy-cost: angles by table.
 $(BUILD)/tests/speed/%: $(BUILD)/tests/speed/%.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ -lz -lm
-$(BUILD)/tests/speed/floors: $(BUILD)/tests/speed/plain.o
+$(BUILD)/tests/speed/floors: $(BUILD)/tests/speed/plain.o $(BUILD)/tests/speed/digits.o
+$(BUILD)/tests/speed/digits.o: tests/speed/digits.cc
+	@mkdir -p $(@D)
+	$(Q)$(CXX) $(HOUSE_CXX) $(CXXFLAGS) -c -o $@ $<
 $(BUILD)/tests/speed/same_heap.so: tests/speed/same_heap.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -shared -fPIC -o $@ $< -ljansson

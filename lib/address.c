@@ -13,14 +13,24 @@ static uint64_t hash_subject(struct subject subject)
     return hash;
 }
 
-struct random_address address_of(const struct frame *frame, const char *sensor,
-                                 struct subject subject)
+struct random_address address_of_scan(const struct frame *frame, const char *sensor)
 {
     return (struct random_address){
         .seed = frame->seed,
         .scene = hash_text(HASH_START, frame->scene),
         .frame = (uint64_t)frame->frame,
         .sensor = hash_text(HASH_START, sensor),
-        .subject = hash_subject(subject),
     };
+}
+
+struct random_address address_in(struct random_address scan, struct subject subject)
+{
+    scan.subject = hash_subject(subject);
+    return scan;
+}
+
+struct random_address address_of(const struct frame *frame, const char *sensor,
+                                 struct subject subject)
+{
+    return address_in(address_of_scan(frame, sensor), subject);
 }

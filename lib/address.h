@@ -6,6 +6,10 @@
 #include "frame.h"
 #include "random.h"
 
+/* Of a whole scan, without a subject, and of a subject in it. */
+struct random_address address_of_scan(const struct frame *frame, const char *sensor);
+struct random_address address_in(struct random_address scan, struct subject subject);
+
 struct random_address address_of(const struct frame *frame, const char *sensor,
                                  struct subject subject);
 

@@ -46,11 +46,11 @@ static struct ending **slot_of(struct audit *audit, const struct ending *ending)
     const struct subject *subject = &ending->subject;
     if (audit->object.text != subject->object) {
         audit->object.text = subject->object;
-        audit->object.hash = hash_text(HASH_START, subject->object);
+        audit->object.hash = hash_for_table(HASH_START, subject->object);
     }
-    uint64_t hash = hash_text(audit->object.hash, subject->reflector);
+    uint64_t hash = hash_for_table(audit->object.hash, subject->reflector);
     if (subject->mirror != NULL)
-        hash = hash_text(hash, subject->mirror);
+        hash = hash_for_table(hash, subject->mirror);
     hash += (uint64_t)subject->path + 31 * (uint64_t)subject->number;
     for (;; hash++) {
         struct ending **slot = &audit->slots[hash & (audit->slot_count - 1)];
@@ -92,7 +92,7 @@ static struct audit begin(const struct frame *frame)
     struct audit audit = {.slot_count = 1};
     while (audit.slot_count < 2 * count + 1)
         audit.slot_count *= 2;
-    audit.endings = arena_get(frame->arena, count * sizeof *audit.endings);
+    audit.endings = arena_room(frame->arena, count * sizeof *audit.endings);
     audit.slots = arena_get(frame->arena, audit.slot_count * sizeof(struct ending *));
     return audit;
 }

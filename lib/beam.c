@@ -6,8 +6,8 @@
 #include "elementary.h"
 #include "units.h"
 
-/* 10 dB. */
-#define LEAST_OF_STRONGEST 0.31622776601683794
+/* Side lobes have 0.22 of their peak; noise and other echoes may lift them to twice of that. */
+#define LEAST_OF_STRONGEST 0.5
 /* To an element's distance in the array: beams are searched four to a beam's width. */
 #define SEARCH 4
 

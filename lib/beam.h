@@ -25,7 +25,7 @@ struct phasor beam_response(const struct beam_array *array, double sine, size_t 
 double beam_kernel(const struct beam_array *array, double distance);
 
 /* The peaks of B between sines of -limit and limit, strongest first, that are at least `least` in
- * amplitude and less than 10 dB below the strongest: side lobes are 13 dB below. The elements'
+ * amplitude and at least half of the strongest: weaker ones may be its side lobes. The elements'
  * samples are stride apart. Returns how many there are, at most BEAM_MOST_PEAKS; where B only falls
  * or rises there is none. */
 size_t beam_peaks(const struct beam_array *array, const struct phasor *samples, size_t stride,

@@ -55,7 +55,7 @@ static double mean(const double *values, size_t count)
 double cfar_threshold(const struct cfar *cfar, const double *power, size_t count, size_t stride,
                       size_t at)
 {
-    double window[CFAR_MOST_CELLS];
+    double window[CFAR_MOST_CELLS] = {0};
     for (size_t i = 0; i < cfar->cells / 2; i++) {
         size_t away = cfar->guard + 1 + i;
         window[2 * i] = power[(at + count - away) % count * stride];

@@ -51,14 +51,14 @@ uint64_t escalation_spared(const struct reception *reception, const struct selec
 /* M1: no cell is above the threshold that weather might take below it. */
 static bool thresholds_hold(const struct scan *scan, double alone)
 {
-    const struct clustered_rays *all = &scan->resolved;
     const struct cell quiet = {.interference = scan->reception.interference};
     double threshold = superposition_threshold(scan->reception.sensor, &quiet);
     for (size_t number = 0; number < scan->cells; number++) {
+        size_t count;
+        const struct ray *members = scan_members(scan, number, &count);
         double amplitude = 0;
-        for (size_t i = 0; i < all->count; i++)
-            if (all->cell[i] == number)
-                amplitude += all->rays[i].amplitude;
+        for (size_t i = 0; i < count; i++)
+            amplitude += members[i].amplitude;
         if (amplitude * (1 + SLACK) >= threshold && amplitude / alone < threshold)
             return false;
     }

@@ -60,9 +60,20 @@ static const void *member_of(const struct field *field, const void *base)
 #define STORE(type, field, base, value)                                                            \
     memcpy(member((field), (base)), &(type){(value)}, sizeof(type))
 
+static void set_all_absent(const struct record *record, void *base)
+{
+    for (const struct field *field = record->fields; field->name != NULL; field++)
+        if (field->absent != 0 || field->kind == FIELD_RECORD)
+            field_set_absent(field, base);
+}
+
 void field_set_absent(const struct field *field, void *base)
 {
-    if (field->kind == FIELD_REAL)
+    if (field->kind == FIELD_RECORD)
+        set_all_absent(field->record, member(field, base));
+    else if (field->absent == 0)
+        return;
+    else if (field->kind == FIELD_REAL)
         STORE(double, field, base, field->absent);
     else if (field->kind == FIELD_INTEGER)
         STORE(int64_t, field, base, (int64_t)field->absent);
@@ -70,15 +81,12 @@ void field_set_absent(const struct field *field, void *base)
         STORE(uint64_t, field, base, (uint64_t)field->absent);
     else if (field->kind == FIELD_CHOICE)
         STORE(int, field, base, (int)field->absent);
-    else if (field->kind == FIELD_RECORD)
-        field_clear(field->record, member(field, base));
 }
 
 void field_clear(const struct record *record, void *base)
 {
     memset(base, 0, record->size);
-    for (const struct field *field = record->fields; field->name != NULL; field++)
-        field_set_absent(field, base);
+    set_all_absent(record, base);
 }
 
 /* "1e6" for 1e+06; whole numbers in full. */
@@ -178,31 +186,12 @@ static int set_seed(const struct field *field, void *base, const char *text, siz
     return 0;
 }
 
-/* Printable ASCII, eight bytes at a time: no byte below a space, none from DEL on. */
-static bool is_plain(const char *text, size_t length)
-{
-    const uint64_t ones = UINT64_C(0x0101010101010101);
-    uint64_t odd = 0, word = 0x20 * ones;
-    size_t whole = length / sizeof word * sizeof word;
-    for (size_t i = 0; i < whole; i += sizeof word) {
-        memcpy(&word, text + i, sizeof word);
-        odd |= word | (word - 0x20 * ones) | (word + ones);
-    }
-    /* The rest once more with bytes before it, or beside spaces. */
-    if (whole > 0)
-        memcpy(&word, text + length - sizeof word, sizeof word);
-    else
-        memcpy(&word, text, length);
-    odd |= word | (word - 0x20 * ones) | (word + ones);
-    return (odd & 0x80 * ones) == 0;
-}
-
 static int check_name(const struct field *field, const char *text, size_t length, struct diag *diag)
 {
     if (length == 0 || length > FIELD_NAME_SIZE)
         return diag_fail(diag, DIAG_DATA, "%s: a name of %zu bytes; expected 1 to %d", field->name,
                          length, FIELD_NAME_SIZE);
-    if (is_plain(text, length))
+    if (text_plain(text, length) == length)
         return 0;
     for (size_t i = 0; i < length;) {
         unsigned char byte = (unsigned char)text[i];
@@ -382,96 +371,212 @@ int field_twice(const struct field *field, struct diag *diag)
     return diag_fail(diag, DIAG_DATA, "%s: the key stands twice", field->name);
 }
 
-static int check_text(const struct field *field, const char *name, struct field_checking *checking)
-{
-    uintptr_t address = (uintptr_t)name;
-    const char **good = &checking->good[(address >> 4 ^ address >> 11) % FIELD_NAMES_KEPT];
-    if (*good == name)
-        return 0;
-    if (check_name(field, name, strlen(name), checking->diag) != 0)
-        return -1;
-    *good = name;
-    return 0;
-}
+/* The walk that says what is out of bounds. */
+static int walk(const struct record *record, const void *base, struct diag *diag);
 
-static int check_list(const struct field *field, const void *base, struct field_checking *checking)
+static int check_list(const struct field *field, const void *base, struct diag *diag)
 {
     struct field_list list = field_list(field, base);
     for (size_t i = 0; i < list.count; i++) {
         const void *item = (const char *)list.items + i * field->record->size;
-        if (field_check_sections(field->record, item, ~0U, checking) != 0)
-            return diag_prefix(checking->diag, "%s[%zu].", field->name, i);
+        if (walk(field->record, item, diag) != 0)
+            return diag_prefix(diag, "%s[%zu].", field->name, i);
     }
     return 0;
 }
 
-static int check_names(const struct field *field, const void *base, struct field_checking *checking)
+static int check_names(const struct field *field, const void *base, struct diag *diag)
 {
     struct field_list list = field_list(field, base);
     const char *const *names = list.items;
-    const struct field item = {.name = ""};
-    for (size_t i = 0; i < list.count; i++)
-        if (check_text(&item, names[i], checking) != 0)
-            return diag_prefix(checking->diag, "%s[%zu]", field->name, i);
-    return 0;
-}
-
-static int check_number(const struct record *record, const struct field *field, const void *base,
-                        struct diag *diag)
-{
-    double value =
-        field->kind == FIELD_REAL ? LOAD(double, field, base) : (double)LOAD(int64_t, field, base);
-    if (value >= field->low && value <= field->high)
-        return 0;
-    /* What absence stands for may lie outside. */
-    return field_present(record, field, base) ? out_of_bounds(field, value, diag) : 0;
-}
-
-static int check_member(const struct record *record, const struct field *field, const void *base,
-                        struct field_checking *checking)
-{
-    const char *name;
-    switch (field->kind) {
-    case FIELD_REAL:
-    case FIELD_INTEGER:
-        return check_number(record, field, base, checking->diag);
-    case FIELD_NAME:
-        name = LOAD(const char *, field, base);
-        if (name == NULL && !field->optional)
-            return diag_fail(checking->diag, DIAG_DATA, "%s: missing", field->name);
-        return name == NULL ? 0 : check_text(field, name, checking);
-    case FIELD_NAMES:
-        return check_names(field, base, checking);
-    case FIELD_RECORD:
-        if (field_check_sections(field->record, member_of(field, base), ~0U, checking) != 0)
-            return diag_prefix(checking->diag, "%s.", field->name);
-        return 0;
-    case FIELD_LIST:
-        return check_list(field, base, checking);
-    default:
-        return 0;
-    }
-}
-
-int field_check_sections(const struct record *record, const void *base, unsigned sections,
-                         struct field_checking *checking)
-{
-    bool only_sections = record->fields[0].section != 0;
-    if (only_sections && sections_of(record, base) == 0)
-        return 0;
-    for (const struct field *field = record->fields; field->name != NULL; field++) {
-        if (field->section != 0 && (field->section & sections & sections_of(record, base)) == 0)
-            continue;
-        if (check_member(record, field, base, checking) != 0)
+    for (size_t i = 0; i < list.count; i++) {
+        char path[FIELD_PATH_SIZE];
+        snprintf(path, sizeof path, "%s[%zu]", field->name, i);
+        const struct field item = {.name = path};
+        if (check_name(&item, names[i], strlen(names[i]), diag) != 0)
             return -1;
     }
     return 0;
 }
 
+static int check_member(const struct field *field, const void *base, struct diag *diag)
+{
+    double value;
+    const char *name;
+    switch (field->kind) {
+    case FIELD_REAL:
+        value = LOAD(double, field, base);
+        return value >= field->low && value <= field->high ? 0 : out_of_bounds(field, value, diag);
+    case FIELD_INTEGER:
+        value = (double)LOAD(int64_t, field, base);
+        return value >= field->low && value <= field->high ? 0 : out_of_bounds(field, value, diag);
+    case FIELD_NAME:
+        name = LOAD(const char *, field, base);
+        return name != NULL ? check_name(field, name, strlen(name), diag)
+                            : diag_fail(diag, DIAG_DATA, "%s: missing", field->name);
+    case FIELD_NAMES:
+        return check_names(field, base, diag);
+    case FIELD_RECORD:
+        if (walk(field->record, member_of(field, base), diag) != 0)
+            return diag_prefix(diag, "%s.", field->name);
+        return 0;
+    case FIELD_LIST:
+        return check_list(field, base, diag);
+    default:
+        return 0;
+    }
+}
+
+static int walk(const struct record *record, const void *base, struct diag *diag)
+{
+    for (const struct field *field = record->fields; field->name != NULL; field++)
+        if (field_present(record, field, base) && check_member(field, base, diag) != 0)
+            return -1;
+    return 0;
+}
+
+/* The look that says whether anything is: at one member of all items of a list after the other. */
+struct items {
+    const char *first;
+    size_t size, count; /* size bytes from one to the next */
+};
+
+static bool records_good(const struct record *record, const struct items *items, unsigned sections,
+                         struct field_names *names);
+
+static bool reals_good(const struct record *record, const struct field *field,
+                       const struct items *items, struct field_names *names)
+{
+    (void)names;
+    const char *item = items->first;
+    const double low = field->low, high = field->high;
+    for (size_t i = 0; i < items->count; i++, item += items->size) {
+        double value = LOAD(double, field, item);
+        if (!(value >= low && value <= high) && field_present(record, field, item))
+            return false;
+    }
+    return true;
+}
+
+static bool integers_good(const struct record *record, const struct field *field,
+                          const struct items *items, struct field_names *names)
+{
+    (void)names;
+    const char *item = items->first;
+    for (size_t i = 0; i < items->count; i++, item += items->size) {
+        double value = (double)LOAD(int64_t, field, item);
+        if (!(value >= field->low && value <= field->high) && field_present(record, field, item))
+            return false;
+    }
+    return true;
+}
+
+static bool is_name(const char *text)
+{
+    size_t length = strlen(text);
+    struct diag ignored = {0};
+    return check_name(&(struct field){0}, text, length, &ignored) == 0;
+}
+
+static bool names_good(const struct record *record, const struct field *field,
+                       const struct items *items, struct field_names *names)
+{
+    (void)record;
+    const char *item = items->first;
+    for (size_t i = 0; i < items->count; i++, item += items->size) {
+        const char *name = LOAD(const char *, field, item);
+        uintptr_t address = (uintptr_t)name;
+        const char **known = &names->good[(address >> 4 ^ address >> 11) % FIELD_NAMES_KEPT];
+        if (name == NULL ? !field->optional : *known != name && !is_name(name))
+            return false;
+        *known = name;
+    }
+    return true;
+}
+
+static bool lists_good(const struct record *record, const struct field *field,
+                       const struct items *items, struct field_names *names)
+{
+    static const struct field name = {.kind = FIELD_NAME};
+    const char *item = items->first;
+    for (size_t i = 0; i < items->count; i++, item += items->size) {
+        struct field_list list = field_list(field, item);
+        struct items own = {list.items, sizeof(const char *), list.count};
+        if (field->kind == FIELD_LIST)
+            own.size = field->record->size;
+        if (list.count > 0 &&
+            !(field->kind == FIELD_NAMES ? names_good(record, &name, &own, names)
+                                         : records_good(field->record, &own, ~0U, names)))
+            return false;
+    }
+    return true;
+}
+
+static bool embedded_good(const struct record *record, const struct field *field,
+                          const struct items *items, struct field_names *names)
+{
+    (void)record;
+    const struct items embedded = {items->first + field->offset, items->size, items->count};
+    return records_good(field->record, &embedded, ~0U, names);
+}
+
+static bool members_good(const struct record *record, const struct field *field,
+                         const struct items *items, struct field_names *names)
+{
+    static bool (*const looks[])(const struct record *, const struct field *, const struct items *,
+                                 struct field_names *) = {
+        [FIELD_REAL] = reals_good,  [FIELD_INTEGER] = integers_good, [FIELD_NAME] = names_good,
+        [FIELD_NAMES] = lists_good, [FIELD_RECORD] = embedded_good,  [FIELD_LIST] = lists_good,
+        [FIELD_NOTES] = NULL,
+    };
+    return looks[field->kind] == NULL || looks[field->kind](record, field, items, names);
+}
+
+/* Of a section only the items that have it. */
+static bool section_good(const struct record *record, const struct field *field,
+                         const struct items *items, struct field_names *names)
+{
+    const char *item = items->first;
+    for (size_t i = 0; i < items->count; i++, item += items->size)
+        if ((sections_of(record, item) & field->section) != 0 &&
+            !members_good(record, field, &(struct items){item, items->size, 1}, names))
+            return false;
+    return true;
+}
+
+/* The sections that any of the items has. */
+static unsigned sections_among(const struct record *record, const struct items *items)
+{
+    unsigned sections = 0;
+    for (size_t i = 0; i < items->count; i++)
+        sections |= sections_of(record, items->first + i * items->size);
+    return sections;
+}
+
+static bool records_good(const struct record *record, const struct items *items, unsigned sections,
+                         struct field_names *names)
+{
+    if (record->fields[0].section != 0 && sections_among(record, items) == 0)
+        return true;
+    for (const struct field *field = record->fields; field->name != NULL; field++) {
+        if (field->section == 0
+                ? !members_good(record, field, items, names)
+                : (field->section & sections) != 0 && !section_good(record, field, items, names))
+            return false;
+    }
+    return true;
+}
+
+bool field_good(const struct record *record, const void *first, size_t count, unsigned sections,
+                struct field_names *names)
+{
+    return records_good(record, &(struct items){first, record->size, count}, sections, names);
+}
+
 int field_check(const struct record *record, const void *base, struct diag *diag)
 {
-    struct field_checking checking = {.diag = diag};
-    return field_check_sections(record, base, ~0U, &checking);
+    return field_good(record, base, 1, ~0U, &(struct field_names){0}) ? 0
+                                                                      : walk(record, base, diag);
 }
 
 /* The layout of every LIST_OF, whatever its items. */

@@ -120,8 +120,10 @@ const char *field_unit(const char *name);
 const struct field *field_find(const struct record *record, const char *name, size_t length,
                                size_t hint);
 
-/* Sets every member, or one of them, to what its absence stands for. */
+/* Sets every member to what its absence stands for. */
 void field_clear(const struct record *record, void *base);
+
+/* The same for one member of a zeroed struct. */
 void field_set_absent(const struct field *field, void *base);
 
 /* Each sets the member of the struct at base, or refuses with "name: value is outside [..] unit",
@@ -156,18 +158,18 @@ int field_twice(const struct field *field, struct diag *diag);
 /* Everything in bounds, all the way down: what the reader would say to this struct. */
 int field_check(const struct record *record, const void *base, struct diag *diag);
 
-/* The same for several structs in a row, and of a record's own sections only for these. Names that
- * were good are kept, by their addresses, and not looked at again: most of a frame's names are few
- * pointers. */
-enum { FIELD_NAMES_KEPT = 128 };
+/* Names that were good, by their addresses, so that they are not looked at again: a frame's names
+ * are few pointers. Starts as zeros, and ends before a name changes. */
+enum { FIELD_NAMES_KEPT = 256 };
 
-struct field_checking {
-    struct diag *diag;
+struct field_names {
     const char *good[FIELD_NAMES_KEPT];
 };
 
-int field_check_sections(const struct record *record, const void *base, unsigned sections,
-                         struct field_checking *checking);
+/* Whether field_check passes for count structs side by side, and of the record's own sections only
+ * for these. */
+bool field_good(const struct record *record, const void *first, size_t count, unsigned sections,
+                struct field_names *names);
 
 /* A LIST_OF anything, seen without its type. */
 struct field_list {

@@ -409,6 +409,13 @@ bool frame_same_name(const char *a, const char *b)
     return a == b || strcmp(a, b) == 0;
 }
 
+struct field_names *frame_names(struct frame *frame)
+{
+    if (frame->names == NULL)
+        frame->names = arena_get(frame->arena, sizeof *frame->names);
+    return frame->names;
+}
+
 void frame_clear(struct frame *frame)
 {
     struct arena *arena = frame->arena;

@@ -36,7 +36,7 @@ enum section {
 enum { SECTIONS_CONSUMED = SECTION_REFLECTORS | SECTION_ECHOES | SECTION_CELLS };
 
 /* What one stage wrote into a frame: these sections, and of lost only what it lost itself. */
-struct part {
+struct frame_part {
     unsigned sections;
     const char *stage; /* NULL: all of lost */
 };
@@ -231,6 +231,7 @@ struct frame {
     const char *extra;
     unsigned present; /* enum section */
     struct arena *arena;
+    struct field_names *names; /* that were good; NULL: none yet */
 };
 
 extern const struct record frame_record;
@@ -239,6 +240,9 @@ extern const struct record lost_group_record;
 
 /* Is this the same name? Names are mostly one pointer each: documents', objects'. */
 bool frame_same_name(const char *a, const char *b);
+
+/* For field_good: a name in a frame stays as it is. */
+struct field_names *frame_names(struct frame *frame);
 
 /* Back to an empty frame that keeps its arena's room. */
 void frame_clear(struct frame *frame);

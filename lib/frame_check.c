@@ -8,7 +8,7 @@
 static int check_objects(const struct frame *frame, struct diag *diag)
 {
     size_t count = frame->objects.count;
-    const char **ids = arena_get(frame->arena, (count + 1) * sizeof *ids);
+    const char **ids = arena_room(frame->arena, (count + 1) * sizeof *ids);
     for (size_t i = 0; i < count; i++)
         ids[i] = frame->objects.items[i].id;
     sort_items(ids, count, sizeof(*ids), frame_order_names, frame->arena);
@@ -116,24 +116,24 @@ int frame_check(const struct frame *frame, struct diag *diag)
     return check_sections(frame, ~0U, diag);
 }
 
-static int check_lost(const struct frame *frame, const char *stage, struct field_checking *checking)
+static bool members_good(struct frame *frame, struct frame_part part)
 {
-    for (size_t i = 0; i < frame->lost.count; i++) {
+    struct field_names *names = frame_names(frame);
+    bool lost = (part.sections & SECTION_LOST) != 0;
+    if (!field_good(&frame_record, frame, 1, part.sections & ~(unsigned)SECTION_LOST, names))
+        return false;
+    for (size_t i = 0; i < frame->lost.count && lost; i++) {
         const struct lost_group *group = &frame->lost.items[i];
-        if ((stage == NULL || frame_same_name(group->stage, stage)) &&
-            field_check_sections(&lost_group_record, group, ~0U, checking) != 0)
-            return diag_prefix(checking->diag, "lost[%zu].", i);
+        bool own = part.stage == NULL || frame_same_name(group->stage, part.stage);
+        if (own && !field_good(&lost_group_record, group, 1, ~0U, names))
+            return false;
     }
-    return 0;
+    return true;
 }
 
-int frame_check_part(const struct frame *frame, struct part part, struct diag *diag)
+int frame_check_part(struct frame *frame, struct frame_part part, struct diag *diag)
 {
-    struct field_checking checking = {.diag = diag};
-    unsigned others = part.sections & ~(unsigned)SECTION_LOST;
-    if (field_check_sections(&frame_record, frame, others, &checking) != 0)
-        return -1;
-    if ((part.sections & SECTION_LOST) != 0 && check_lost(frame, part.stage, &checking) != 0)
+    if (!members_good(frame, part) && field_check(&frame_record, frame, diag) != 0)
         return -1;
     return check_sections(frame, part.sections, diag);
 }

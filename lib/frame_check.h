@@ -10,6 +10,6 @@
 int frame_check(const struct frame *frame, struct diag *diag);
 
 /* All that a reader would refuse of a part: its members out of bounds, and the above. */
-int frame_check_part(const struct frame *frame, struct part part, struct diag *diag);
+int frame_check_part(struct frame *frame, struct frame_part part, struct diag *diag);
 
 #endif

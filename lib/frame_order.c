@@ -4,15 +4,17 @@
 
 #include "sort.h"
 
-/* strcmp, spared for names that are one pointer; NULL comes first. */
-static int compare_names(const char *a, const char *b)
+/* strcmp, spared for names that are one pointer or differ at once; NULL comes first. */
+static inline int compare_names(const char *a, const char *b)
 {
     if (a == b)
         return 0;
-    return a == NULL ? -1 : b == NULL ? 1 : strcmp(a, b);
+    if (a == NULL || b == NULL)
+        return a == NULL ? -1 : 1;
+    return *a == *b ? strcmp(a, b) : (unsigned char)*a - (unsigned char)*b;
 }
 
-int frame_order_subjects(struct subject a, struct subject b)
+static inline int compare_subjects(struct subject a, struct subject b)
 {
     int order = compare_names(a.object, b.object);
     if (order == 0)
@@ -24,10 +26,15 @@ int frame_order_subjects(struct subject a, struct subject b)
     return order != 0 ? order : (a.number > b.number) - (a.number < b.number);
 }
 
+int frame_order_subjects(struct subject a, struct subject b)
+{
+    return compare_subjects(a, b);
+}
+
 static int compare_contributors(const void *left, const void *right)
 {
     const struct contributor *a = left, *b = right;
-    return frame_order_subjects(SUBJECT_OF(a), SUBJECT_OF(b));
+    return compare_subjects(SUBJECT_OF(a), SUBJECT_OF(b));
 }
 
 int frame_order_names(const void *left, const void *right)
@@ -51,7 +58,7 @@ int frame_order_echoes(const void *left, const void *right)
 {
     const struct echo *a = left, *b = right;
     int order = compare_names(a->sensor, b->sensor);
-    return order != 0 ? order : frame_order_subjects(SUBJECT_OF(a), SUBJECT_OF(b));
+    return order != 0 ? order : compare_subjects(SUBJECT_OF(a), SUBJECT_OF(b));
 }
 
 int frame_order_cells(const void *left, const void *right)
@@ -66,7 +73,7 @@ int frame_order_cells(const void *left, const void *right)
 static int compare_lost_echoes(const void *left, const void *right)
 {
     const struct lost_echo *a = left, *b = right;
-    return frame_order_subjects(SUBJECT_OF(a), SUBJECT_OF(b));
+    return compare_subjects(SUBJECT_OF(a), SUBJECT_OF(b));
 }
 
 static int compare_lost_groups(const void *left, const void *right)
@@ -131,7 +138,7 @@ static void order_counts(struct frame *frame)
         sort_list(&frame->counts.items[i].paths, compare_paths, frame->arena);
 }
 
-void frame_order_part(struct frame *frame, struct part part)
+void frame_order_part(struct frame *frame, struct frame_part part)
 {
     if ((part.sections & SECTION_REFLECTORS) != 0)
         order_sets(frame);
@@ -151,7 +158,7 @@ void frame_order_part(struct frame *frame, struct part part)
 
 void frame_order(struct frame *frame)
 {
-    frame_order_part(frame, (struct part){~0U, NULL});
+    frame_order_part(frame, (struct frame_part){~0U, NULL});
 }
 
 int frame_order_tied(const struct contributor *a, const struct contributor *b)

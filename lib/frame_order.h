@@ -7,7 +7,7 @@
 /* Brings the sections into canonical order: ids, names and paths ascending, a cell's leader first.
  * Objects stay as they are; targets, in the order of their sensor's list, are grouped by sensor. */
 void frame_order(struct frame *frame);
-void frame_order_part(struct frame *frame, struct part part);
+void frame_order_part(struct frame *frame, struct frame_part part);
 
 /* The total order in which echoes compete wherever amplitudes tie: range, range rate, azimuth, then
  * object, reflector, path. Negative, zero or positive. */

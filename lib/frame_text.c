@@ -63,15 +63,16 @@ static int take_name(struct reader *reader, const struct field *field,
 static int read_name(struct reader *reader, const struct field *field, void *base, size_t index)
 {
     struct json_scan *scan = &reader->scan;
-    char path[FIELD_PATH_SIZE];
-    snprintf(path, sizeof path, "%s[%zu]", field->name, index);
-    const struct field item = {.name = path, .kind = FIELD_NAME};
+    const struct field item = {.name = "", .kind = FIELD_NAME};
     struct json_string name;
+    int result;
     if (json_scan_peek(scan) != '"')
-        return field_wrong_kind(&item, json_scan_kind(scan), scan->diag);
-    if (json_scan_string(scan, &name) != 0)
-        return diag_prefix(scan->diag, "%s: ", path);
-    return take_name(reader, &item, &name, field_list_extend(field, base, scan->arena));
+        result = field_wrong_kind(&item, json_scan_kind(scan), scan->diag);
+    else if (json_scan_string(scan, &name) != 0)
+        result = diag_prefix(scan->diag, ": ");
+    else
+        result = take_name(reader, &item, &name, field_list_extend(field, base, scan->arena));
+    return result == 0 ? 0 : diag_prefix(scan->diag, "%s[%zu]", field->name, index);
 }
 
 static int read_choice(struct json_scan *scan, const struct field *field, void *base, size_t index)
@@ -152,6 +153,9 @@ static int read_member(struct reader *reader, const struct field *field, void *b
 {
     struct json_scan *scan = &reader->scan;
     char first = json_scan_peek(scan);
+    bool is_number = first == '-' || (first >= '0' && first <= '9');
+    if (is_number && field->kind == FIELD_REAL)
+        return read_number(scan, field, base);
     if (first == '\0') {
         json_scan_unexpected(scan, "a value");
         return diag_prefix(scan->diag, "%s: ", field->name);
@@ -169,7 +173,7 @@ static int read_member(struct reader *reader, const struct field *field, void *b
     }
     if (first == '"')
         return read_text(reader, field, base);
-    if (first == '-' || (first >= '0' && first <= '9'))
+    if (is_number)
         return read_number(scan, field, base);
     if (field->kind == FIELD_FLAG && (first == 't' || first == 'f'))
         return read_flag(scan, field, base);
@@ -246,7 +250,8 @@ static int read_members(struct reader *reader, const struct record *record, void
         next = field + 1;
         if (read_member(reader, field, base) != 0)
             return -1;
-        field_mark_present(record, field, base);
+        if (field->section != 0)
+            field_mark_present(record, field, base);
     } while (json_scan_take(scan, ','));
     return json_scan_take(scan, '}') ? 0 : unexpected(scan, "',' or '}'");
 }
@@ -301,10 +306,10 @@ int frame_text_read(const char *line, size_t length, struct frame *frame, struct
     return frame_text_read_record(line, length, &frame_record, frame, frame->arena, diag);
 }
 
-/* The writer's place in a text: at runs ahead of the text's length, which is set in the end. */
+/* The writer's place in a text, whose length is set in the end. */
 struct writer {
     struct text *text;
-    char *at;
+    char *at, *end;
 };
 
 /* A key, a number and the brackets around them. */
@@ -312,10 +317,12 @@ enum { MEMBER_ROOM = FIELD_KEY_SIZE + NUMBER_SIZE + 8 };
 
 static void make_room(struct writer *writer, size_t size)
 {
+    if ((size_t)(writer->end - writer->at) >= size)
+        return;
     struct text *text = writer->text;
     text->length = (size_t)(writer->at - text->bytes);
-    if (text->room - text->length < size)
-        writer->at = text_room(text, size);
+    writer->at = text_room(text, size);
+    writer->end = text->bytes + text->room;
 }
 
 static void write_record(const struct record *record, const void *base, struct writer *writer);
@@ -445,7 +452,8 @@ static void write_record(const struct record *record, const void *base, struct w
 
 void frame_text_write_record(const struct record *record, const void *base, struct text *text)
 {
-    struct writer writer = {text, text_room(text, MEMBER_ROOM)};
+    char *at = text_room(text, MEMBER_ROOM);
+    struct writer writer = {text, at, text->bytes + text->room};
     write_record(record, base, &writer);
     *writer.at++ = '\n';
     text->length = (size_t)(writer.at - text->bytes);

@@ -283,10 +283,26 @@ static void show(const struct look *look, const struct reflex *reflex,
                                               reflex->place, viewer);
 }
 
+/* Can the sensor list any path of the point, as far as ranges and its face tell? Asked before what
+ * costs more. No path is shorter than half of the way there by the mirror and straight back. */
+static bool may_list(const struct look *look, const struct look_body *body,
+                     const struct point_reflector *point, struct vec2 facing, struct vec2 place,
+                     struct vec2 bounce)
+{
+    double out_m = vec2_length(vec2_sub(bounce, look->position_m));
+    double on_m = vec2_length(vec2_sub(place, bounce));
+    double straight_m = vec2_length(vec2_sub(place, look->position_m));
+    return out_m + on_m + straight_m <= 2 * look->sensor->range_max_m + 1e-6 &&
+           (!effects_may(look->selection, EFFECT_VISIBILITY) ||
+            reflectors_visibility(&body->box, point, facing, place, bounce) > 0);
+}
+
 static void add_point(struct look *look, const struct facet *facet, const struct look_body *body,
                       const struct point_reflector *point, struct vec2 facing, struct vec2 place,
                       struct vec2 bounce)
 {
+    if (!may_list(look, body, point, facing, place, bounce))
+        return;
     struct reflex reflex = reflex_of(look, facet, body, place, point->z, bounce);
     reflex.reflector = point->name;
     reflex.ercs = point->ercs;

@@ -12,4 +12,7 @@
 uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t length);
 uint64_t hash_text(uint64_t hash, const char *text);
 
+/* A quick one for tables in memory, which nothing that is written depends on. */
+uint64_t hash_for_table(uint64_t hash, const char *text);
+
 #endif

@@ -15,12 +15,12 @@ enum { RAW_SIZE = 64 * 1024, LINE_STEP = 64 * 1024 };
 struct input {
     int fd;
     const char *name;
-    unsigned char raw[RAW_SIZE];
     size_t raw_at, raw_end;
     bool sniffed, gzip, inside_member, damaged;
     z_stream stream;
     struct text line; /* unpacked bytes that no line has used yet lie behind line_at */
     size_t line_at;
+    unsigned char raw[RAW_SIZE];
 };
 
 void input_guard_descriptors(void)
@@ -39,7 +39,7 @@ struct input *input_open(const char *path, struct diag *diag)
         return NULL;
     }
     struct input *input = memory_get(sizeof *input);
-    memset(input, 0, sizeof *input);
+    memset(input, 0, offsetof(struct input, raw));
     input->fd = fd;
     input->name = standard ? "stdin" : path;
     return input;
@@ -62,17 +62,25 @@ const char *input_name(const struct input *input)
     return input->name;
 }
 
+static long read_file(struct input *input, void *bytes, size_t size, struct diag *diag)
+{
+    ssize_t got;
+    do
+        got = read(input->fd, bytes, size);
+    while (got < 0 && errno == EINTR);
+    if (got < 0)
+        return diag_fail(diag, errno == EISDIR ? DIAG_NO_INPUT : DIAG_IO, "%s", strerror(errno));
+    return got;
+}
+
 /* Makes sure that there are raw bytes: 1, 0 at the end of the file, -1 after a message. */
 static int fill(struct input *input, struct diag *diag)
 {
     if (input->raw_at < input->raw_end)
         return 1;
-    ssize_t got;
-    do
-        got = read(input->fd, input->raw, RAW_SIZE);
-    while (got < 0 && errno == EINTR);
+    long got = read_file(input, input->raw, RAW_SIZE, diag);
     if (got < 0)
-        return diag_fail(diag, errno == EISDIR ? DIAG_NO_INPUT : DIAG_IO, "%s", strerror(errno));
+        return -1;
     input->raw_at = 0;
     input->raw_end = (size_t)got;
     return got > 0;
@@ -107,10 +115,9 @@ static int sniff(struct input *input, struct diag *diag)
 
 static long read_plain(struct input *input, char *bytes, size_t size, struct diag *diag)
 {
-    int more = fill(input, diag);
-    if (more <= 0)
-        return more;
     size_t ready = input->raw_end - input->raw_at;
+    if (ready == 0)
+        return read_file(input, bytes, size, diag);
     size_t taken = ready < size ? ready : size;
     memcpy(bytes, input->raw + input->raw_at, taken);
     input->raw_at += taken;

@@ -30,9 +30,13 @@ struct json_string {
 /* The next character that is not white space, or '\0' at the end of the line. */
 static inline char json_scan_peek(struct json_scan *scan)
 {
-    while (scan->at < scan->end && (*scan->at == ' ' || *scan->at == '\t' || *scan->at == '\r'))
-        scan->at++;
-    return scan->at < scan->end ? *scan->at : '\0';
+    const char *at = scan->at, *end = scan->end;
+    if (at<end && * at> ' ')
+        return *at;
+    while (at < end && (*at == ' ' || *at == '\t' || *at == '\r'))
+        at++;
+    scan->at = at;
+    return at < end ? *at : '\0';
 }
 
 /* True, and past it, if the next character is this one. */

@@ -65,19 +65,21 @@ static double vertex(double before, double at, double after)
     return (before - after) / (2 * (before - 2 * at + after));
 }
 
-/* Over all channels, least squares of d (2 X - A - B) = B - A. */
-static double ratio(const struct phasor *before, const struct phasor *at,
-                    const struct phasor *after, size_t channels, size_t stride)
+static double in_phase(const struct phasor *samples, const struct phasor *middle, size_t channels,
+                       size_t stride)
 {
-    double above = 0, below = 0;
-    for (size_t i = 0; i < channels * stride; i += stride) {
-        double re = before[i].re - after[i].re, im = before[i].im - after[i].im;
-        double whole_re = 2 * at[i].re - before[i].re - after[i].re;
-        double whole_im = 2 * at[i].im - before[i].im - after[i].im;
-        above += re * whole_re + im * whole_im;
-        below += whole_re * whole_re + whole_im * whole_im;
-    }
-    return above / below;
+    double sum = 0;
+    for (size_t i = 0; i < channels * stride; i += stride)
+        sum += samples[i].re * middle[i].re + samples[i].im * middle[i].im;
+    return sum;
+}
+
+static double windowed(enum kernel kernel, double before, double at, double after)
+{
+    double ratio = (before - after) / (2 * at + before + after);
+    if (kernel == KERNEL_HANN)
+        return 2 * ratio / (sqrt(4 * ratio * ratio + 2.25) + 1.5);
+    return 2 * ratio / (sqrt(8 * ratio * ratio + 1) + 1);
 }
 
 double kernel_offset(enum kernel kernel, const struct phasor *before, const struct phasor *at,
@@ -88,6 +90,8 @@ double kernel_offset(enum kernel kernel, const struct phasor *before, const stru
         offset = vertex(log_power(before, channels, stride), log_power(at, channels, stride),
                         log_power(after, channels, stride));
     else
-        offset = (kernel == KERNEL_HANN ? 2 : 1) * ratio(before, at, after, channels, stride);
+        offset =
+            windowed(kernel, in_phase(before, at, channels, stride),
+                     in_phase(at, at, channels, stride), in_phase(after, at, channels, stride));
     return isfinite(offset) ? fmin(fmax(offset, -FARTHEST), FARTHEST) : 0;
 }

@@ -34,10 +34,12 @@ double kernel_envelope(enum kernel kernel, double bins);
 double kernel_half_width(enum kernel kernel);
 
 /* How far from bin `at` an echo stands, from that bin and the two beside it, of channels that see
- * the same echo, `stride` samples apart. Exact for one echo alone: d = Re (B - A)/(2 X - A - B) for
- * neighbours B before and A after, twice that for Hann, and the vertex of a parabola through
- * logarithms for pulses. Within [-3/4, 3/4]: an echo beyond has a greater bin next to it. 0 where
- * nothing is received. */
+ * the same echo, `stride` samples apart; exact for one echo alone. Pulses: the vertex of a parabola
+ * through the logarithms of their power. Windows: with a, x, b the parts of the three bins in phase
+ * with the middle one and g = (a - b)/(2 x + a + b),
+ *     d = 2 g/(sqrt(8 g^2 + 1) + 1)  or  d = 2 g/(sqrt(4 g^2 + 9/4) + 3/2)
+ * (Macleod's for no window, the same ratio for Hann's). Within [-3/4, 3/4]: an echo beyond has a
+ * greater bin next to it. 0 where nothing is received. */
 double kernel_offset(enum kernel kernel, const struct phasor *before, const struct phasor *at,
                      const struct phasor *after, size_t channels, size_t stride);
 

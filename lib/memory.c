@@ -1,5 +1,6 @@
 #include "memory.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -44,23 +45,34 @@ static void add_block(struct arena *arena, size_t size)
     arena->used = 0;
 }
 
-void *arena_get(struct arena *arena, size_t size)
+static size_t round_up(size_t size)
+{
+    return (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+}
+
+void *arena_room(struct arena *arena, size_t size)
 {
     if (size > SIZE_MAX / 4)
         grant(NULL, size);
-    size = (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    size = round_up(size);
     if (arena->blocks == NULL || arena->blocks->size - arena->used < size)
         add_block(arena, size > BLOCK_SIZE ? size : BLOCK_SIZE);
     char *memory = (char *)(arena->blocks + 1) + arena->used;
     arena->used += size;
-    return memset(memory, 0, size);
+    return memory;
+}
+
+void *arena_get(struct arena *arena, size_t size)
+{
+    return memset(arena_room(arena, size), 0, size);
 }
 
 char *arena_text(struct arena *arena, const char *text, size_t length)
 {
-    char *copy = arena_get(arena, length + 1);
+    char *copy = arena_room(arena, length + 1);
     if (length > 0)
         memcpy(copy, text, length);
+    copy[length] = '\0';
     return copy;
 }
 
@@ -73,7 +85,7 @@ void arena_clear(struct arena *arena)
     for (struct arena_block *block = arena->blocks; block != NULL; block = block->older)
         whole += block->size;
     arena_free(arena);
-    add_block(arena, whole);
+    add_block(arena, whole + whole / 2);
 }
 
 void arena_free(struct arena *arena)
@@ -86,13 +98,29 @@ void arena_free(struct arena *arena)
     arena->used = 0;
 }
 
+/* What the arena gave last grows where it is, if the block has room. */
+static bool grow_in_place(struct arena *arena, const void *memory, size_t size, size_t more)
+{
+    size_t old = round_up(size), rest = round_up(size + more) - old;
+    if (memory == NULL || (const char *)memory + old != (char *)(arena->blocks + 1) + arena->used ||
+        arena->blocks->size - arena->used < rest)
+        return false;
+    arena->used += rest;
+    return true;
+}
+
 void *list_room(struct arena *arena, void *items, size_t count, size_t *room, size_t size)
 {
-    if (count < *room)
-        return items;
-    *room = count < 4 ? 8 : 2 * count;
-    void *larger = arena_get(arena, *room * size);
-    if (count > 0)
-        memcpy(larger, items, count * size);
-    return larger;
+    if (count == *room) {
+        size_t old = *room;
+        *room = count < 4 ? 8 : 2 * count;
+        if (!grow_in_place(arena, items, old * size, (*room - old) * size)) {
+            void *larger = arena_room(arena, *room * size);
+            if (count > 0)
+                memcpy(larger, items, count * size);
+            items = larger;
+        }
+    }
+    memset((char *)items + count * size, 0, size);
+    return items;
 }

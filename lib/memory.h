@@ -25,11 +25,15 @@ struct arena {
 /* Zeroed memory, aligned for any type, valid until the arena is cleared or freed. */
 void *arena_get(struct arena *arena, size_t size);
 
+/* The same with whatever it held before, for those who write all of it. */
+void *arena_room(struct arena *arena, size_t size);
+
 /* A NUL-terminated copy of the first length bytes of text. */
 char *arena_text(struct arena *arena, const char *text, size_t length);
 
-/* Forgets everything in the arena but keeps its room, joined into one block, so that a loop that
- * clears its arena each round allocates nothing after the largest round. */
+/* Forgets everything in the arena but keeps its room, joined into one block with half as much
+ * again, so that a loop that clears its arena each round allocates nothing once a round was nearly
+ * as large as they get. */
 void arena_clear(struct arena *arena);
 
 void arena_free(struct arena *arena);
@@ -47,7 +51,8 @@ void arena_free(struct arena *arena);
          list_room((arena), (list)->items, (list)->count, &(list)->room, sizeof *(list)->items),   \
      &(list)->items[(list)->count++])
 
-/* Makes room for one more item: the array itself, or a copy of twice the size. */
+/* Makes room for one more item and zeroes it: the array itself, which may have grown, or a copy of
+ * twice the size. */
 void *list_room(struct arena *arena, void *items, size_t count, size_t *room, size_t size);
 
 #endif

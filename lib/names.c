@@ -19,18 +19,12 @@ struct names names_begin(struct arena *arena, size_t expected)
     return (struct names){arena, arena_get(arena, count * sizeof(struct names_slot)), count};
 }
 
-/* Of all bytes of short names, of the first and the last eight of others. */
+/* Of the first and the last eight bytes, which are all of a short name. */
 static uint64_t hash_ends(const char *text, size_t length)
 {
     const uint64_t spread = UINT64_C(0x9e3779b97f4a7c15); /* 2^64 over the golden ratio */
-    uint64_t first = length, last = 0;
-    if (length >= 8) {
-        first ^= text_word(text);
-        last = text_word(text + length - 8);
-    } else {
-        for (size_t i = 0; i < length; i++)
-            last = last << 8 | (unsigned char)text[i];
-    }
+    uint64_t first = text_short_word(text, length < 8 ? length : 8);
+    uint64_t last = length > 8 ? text_word(text + length - 8) : length;
     return (first * spread ^ last) * spread >> 32;
 }
 

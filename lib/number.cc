@@ -65,19 +65,32 @@ char *without_zeros(char *end)
     return end;
 }
 
+// Of a number below 10^8, and where it ends.
+char *put_whole(uint32_t value, char *text)
+{
+    if (value < 10) {
+        *text = char('0' + value);
+        return text + 1;
+    }
+    char digits[16] = "00000000";
+    put_eight(value, digits);
+    const char *first = digits;
+    while (*first == '0')
+        first++;
+    memcpy(text, first, 8);
+    return text + (digits + 8 - first);
+}
+
 // Of value / 10^4, and where it ends.
 char *put_ten_thousandths(uint32_t value, char *text)
 {
-    const uint32_t whole = value / 10000, fraction = value % 10000;
-    const int count = 1 + (whole > 9) + (whole > 99) + (whole > 999) + (whole > 9999);
-    char digits[16];
-    put_eight(whole, digits);
-    memcpy(text, digits + 8 - count, 8);
+    const uint32_t fraction = value % 10000;
+    text = put_whole(value / 10000, text);
     if (fraction == 0)
-        return text + count;
-    text[count] = '.';
-    put_four(fraction, text + count + 1);
-    return without_zeros(text + count + 5);
+        return text;
+    *text = '.';
+    put_four(fraction, text + 1);
+    return without_zeros(text + 5);
 }
 
 using wide = unsigned __int128;
@@ -85,19 +98,20 @@ using wide = unsigned __int128;
 // Of all decimals that read back to mantissa * 2^-scale the shortest, and of those the nearest, as
 // a multiple of 10^-places. Places is the least that puts at least one multiple between the two
 // midpoints to the neighbours, so less than ten lie there, and at most one multiple of ten, which
-// is then shorter. Every product is exact in 128 bits. Ties go to the even decimal.
+// is then shorter. The product is exact in 128 bits, what lies beside it in 64. Ties go to the even
+// decimal.
 uint64_t shortest_multiple(uint64_t mantissa, int scale, int places)
 {
+    const wide exact = wide(mantissa) * FIVES[places]; // in units of 2^-shift
     const int shift = scale - places;
-    const uint64_t half_step = FIVES[places]; // of the mantissa, in units of 2^-(shift + 1)
-    const wide exact = wide(mantissa) * half_step, twice = 2 * exact;
-    const bool odd = mantissa & 1; // its midpoints read back to the neighbours
-    const uint64_t tens = uint64_t((twice + half_step - odd) >> (shift + 1)) / 10 * 10;
-    if ((wide(tens) << (shift + 1)) >= twice - half_step + odd)
+    const uint64_t below = uint64_t(exact >> 64) << (64 - shift) | uint64_t(exact) >> shift;
+    const uint64_t half = uint64_t(1) << (shift - 1), rest = uint64_t(exact) & (2 * half - 1);
+    // To the midpoints, in half units; those of an odd mantissa read back to the neighbours.
+    const uint64_t reach = FIVES[places] - (mantissa & 1);
+    const uint64_t tens = (below + ((2 * rest + reach) >> (shift + 1))) / 10 * 10;
+    if (tens > below || (below - tens) * 4 * half + 2 * rest <= reach)
         return tens;
-    const uint64_t below = uint64_t(exact >> shift), middle = uint64_t(1) << (shift - 1);
-    const uint64_t rest = uint64_t(exact) & (2 * middle - 1);
-    return below + (rest > middle || (rest == middle && (below & 1)));
+    return below + (rest > half || (rest == half && (below & 1)));
 }
 
 // A number that is no whole one, in fixed notation, and where it ends.

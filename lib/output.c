@@ -68,7 +68,10 @@ static int cannot_create(const char *name, struct diag *diag)
 struct output *output_open(const char *path, struct diag *diag)
 {
     struct output *output = memory_get(sizeof *output);
-    *output = (struct output){.fd = STDOUT_FILENO, .name = copy(path), .path = target(path)};
+    memset(output, 0, offsetof(struct output, buffer));
+    output->fd = STDOUT_FILENO;
+    output->name = copy(path);
+    output->path = target(path);
     if (strcmp(path, "-") == 0)
         return output;
     path = output->path;

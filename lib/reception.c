@@ -102,6 +102,15 @@ static double interference_of(const struct frame *frame, const struct sensor *se
         other->hit_share);
 }
 
+/* Asphalt is assumed, concrete ITU-R P.2040's. */
+static struct two_ray_road road_of(enum road road, double carrier_hz)
+{
+    if (road == ROAD_ASPHALT)
+        return (struct two_ray_road){5, 0.25, 1e-3};
+    double conductivity_spm = 0.0462 * elementary_pow(carrier_hz / 1e9, 0.7822);
+    return (struct two_ray_road){5.24, 17.98 * conductivity_spm / (carrier_hz / 1e9), 3e-4};
+}
+
 struct reception reception_begin(const struct frame *frame, const struct sensor *sensor,
                                  uint64_t effects)
 {
@@ -113,7 +122,10 @@ struct reception reception_begin(const struct frame *frame, const struct sensor 
         .time_s = suite_instant_s(sensor, frame->time_s, frame->interval_s,
                                   (effects & EFFECT_BIT(EFFECT_LATENCY)) != 0),
         .effects = effects & reception_described(frame, sensor),
+        .address = address_of_scan(frame, sensor->name),
     };
+    if (simulates(&reception, EFFECT_TWO_RAY))
+        reception.road = road_of(frame->conditions.road, sensor->carrier_hz);
     if (simulates(&reception, EFFECT_RAIN))
         reception.rain_dbpkm = rain_attenuation_dbpkm(
             rain_law(sensor->carrier_hz, sensor->polarization), frame->conditions.rain_mmph);
@@ -136,9 +148,10 @@ void reception_note(const struct reception *reception, const struct selection *s
 
 /* Drawn in each frame, or that of the path and of the reflector, which is drawn once for all
  * frames. */
-static double phase_of(const struct sensor *sensor, const struct echo *echo,
-                       struct random_address address)
+static double phase_of(const struct reception *reception, const struct echo *echo)
 {
+    const struct sensor *sensor = reception->sensor;
+    struct random_address address = address_in(reception->address, SUBJECT_OF(echo));
     double uniform[4];
     if (sensor->cell_phase == CELL_RANDOM_PHASE) {
         random_uniform(&address, RANDOM_PHASE, 0, uniform);
@@ -157,15 +170,6 @@ static void scale(struct ray *ray, double factor, enum effect effect)
         ray->effects |= EFFECT_BIT(effect);
 }
 
-/* Asphalt is assumed, concrete ITU-R P.2040's. */
-static struct two_ray_road road_of(enum road road, double carrier_hz)
-{
-    if (road == ROAD_ASPHALT)
-        return (struct two_ray_road){5, 0.25, 1e-3};
-    double conductivity_spm = 0.0462 * elementary_pow(carrier_hz / 1e9, 0.7822);
-    return (struct two_ray_road){5.24, 17.98 * conductivity_spm / (carrier_hz / 1e9), 3e-4};
-}
-
 /* Along the road, of a range that elevation has made slant, or not. */
 static double distance_m(const struct sensor *sensor, const struct echo *echo)
 {
@@ -178,17 +182,18 @@ static double distance_m(const struct sensor *sensor, const struct echo *echo)
 static void mirror(const struct reception *reception, const struct echo *echo, struct ray *ray)
 {
     const struct sensor *sensor = reception->sensor;
-    struct two_ray_road road = road_of(reception->frame->conditions.road, sensor->carrier_hz);
     const struct two_ray_ends ends = {sensor->mount_z_m, echo->height_m, echo->extent_m,
                                       distance_m(sensor, echo)};
     scale(ray,
-          two_ray_amplitude_factor(&road, sensor->polarization,
+          two_ray_amplitude_factor(&reception->road, sensor->polarization,
                                    units_wavelength_m(sensor->carrier_hz), &ends),
           EFFECT_TWO_RAY);
 }
 
-static void fluctuate(const struct sensor *sensor, struct random_address address, struct ray *ray)
+static void fluctuate(const struct reception *reception, const struct echo *echo, struct ray *ray)
 {
+    const struct sensor *sensor = reception->sensor;
+    struct random_address address = address_in(reception->address, SUBJECT_OF(echo));
     double uniform[4];
     random_uniform(&address, RANDOM_FLUCTUATION, 0, uniform);
     scale(ray,
@@ -211,13 +216,12 @@ struct ray reception_ray(const struct reception *reception, const struct echo *e
 {
     const struct sensor *sensor = reception->sensor;
     struct ray ray = superposition_ray(sensor, echo, 0);
-    struct random_address address = address_of(reception->frame, sensor->name, SUBJECT_OF(echo));
     if (simulates(reception, EFFECT_COHERENCE))
-        ray.phase_rad = phase_of(sensor, echo, address);
+        ray.phase_rad = phase_of(reception, echo);
     if (echo->height_m > 0 && simulates(reception, EFFECT_TWO_RAY))
         mirror(reception, echo, &ray);
     if (simulates(reception, EFFECT_FLUCTUATION))
-        fluctuate(sensor, address, &ray);
+        fluctuate(reception, echo, &ray);
     if (simulates(reception, EFFECT_RAIN))
         scale(&ray, rain_amplitude_factor(reception->rain_dbpkm, echo->range_m), EFFECT_RAIN);
     if (simulates(reception, EFFECT_FOG))

@@ -14,8 +14,10 @@
 #ifndef RECEPTION_H
 #define RECEPTION_H
 
+#include "address.h"
 #include "rain.h"
 #include "superposition.h"
+#include "two_ray.h"
 
 struct reception {
     const struct frame *frame;
@@ -23,7 +25,9 @@ struct reception {
     double time_s;    /* of the measurement */
     uint64_t effects; /* to simulate */
     double rain_dbpkm, fog_dbpkm;
-    double interference; /* of all other radars, over the noise, in power */
+    struct two_ray_road road;
+    struct random_address address; /* of the scan */
+    double interference;           /* of all other radars, over the noise, in power */
 };
 
 /* The effects at home here that the documents describe for this scan. */

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "hash.h"
 #include "units.h"
 
 static const char *const shapes[] = {
@@ -209,13 +210,23 @@ static const char *name_of_post(const struct reflector_set *set)
     return NULL;
 }
 
+/* One of 64 bits for a name: names without a common bit differ. */
+static uint64_t mark_of(const char *name)
+{
+    return UINT64_C(1) << hash_for_table(HASH_START, name) % 64;
+}
+
 const char *reflectors_name_twice(const struct reflector_set *set)
 {
     size_t count = set->points.count + set->planes.count + set->rows.count;
-    for (size_t i = 1; i < count; i++)
-        for (size_t j = 0; j < i; j++)
+    uint64_t marks = 0;
+    for (size_t i = 0; i < count; i++) {
+        uint64_t mark = mark_of(name_at(set, i));
+        for (size_t j = 0; j < i && (marks & mark) != 0; j++)
             if (strcmp(name_at(set, i), name_at(set, j)) == 0)
                 return name_at(set, i);
+        marks |= mark;
+    }
     return name_of_post(set);
 }
 

@@ -41,19 +41,57 @@ bool resolution_close(const struct resolution_echo *echoes, size_t count, double
     return false;
 }
 
+struct ranged {
+    double range_m;
+    size_t echo;
+};
+
+static int compare_ranged(const void *left, const void *right)
+{
+    const struct ranged *a = left, *b = right;
+    return (a->range_m > b->range_m) - (a->range_m < b->range_m);
+}
+
+/* The echoes by range, and where each of them stands there. */
+struct ranks {
+    struct ranged *items;
+    size_t *place;
+};
+
+static struct ranks rank(const struct resolution_echo *echoes, size_t count, struct arena *arena)
+{
+    struct ranks ranks = {arena_get(arena, count * sizeof(struct ranged)),
+                          arena_get(arena, count * sizeof(size_t))};
+    for (size_t i = 0; i < count; i++)
+        ranks.items[i] = (struct ranged){echoes[i].range_m, i};
+    sort_items(ranks.items, count, sizeof *ranks.items, compare_ranged, arena);
+    for (size_t i = 0; i < count; i++)
+        ranks.place[ranks.items[i].echo] = i;
+    return ranks;
+}
+
 size_t resolution_cluster(const struct resolution_echo *echoes, size_t count, double half_range_m,
-                          double half_range_rate_mps, size_t *cell)
+                          double half_range_rate_mps, size_t *cell, struct arena *arena)
 {
     size_t cells = 0;
+    struct ranks ranks = rank(echoes, count, arena);
     for (size_t i = 0; i < count; i++)
         cell[i] = NO_CELL;
     for (size_t leader = 0; leader < count; leader++) {
         if (cell[leader] != NO_CELL)
             continue;
-        for (size_t i = leader; i < count; i++)
-            if (cell[i] == NO_CELL &&
-                shares_cell(&echoes[leader], &echoes[i], half_range_m, half_range_rate_mps))
-                cell[i] = cells;
+        const struct resolution_echo *first = &echoes[leader];
+        size_t low = ranks.place[leader], high = low;
+        while (low > 0 && first->range_m - ranks.items[low - 1].range_m <= half_range_m)
+            low--;
+        while (high < count && ranks.items[high].range_m - first->range_m <= half_range_m)
+            high++;
+        for (size_t i = low; i < high; i++) {
+            size_t echo = ranks.items[i].echo;
+            if (cell[echo] == NO_CELL &&
+                shares_cell(first, &echoes[echo], half_range_m, half_range_rate_mps))
+                cell[echo] = cells;
+        }
         cells++;
     }
     return cells;

@@ -20,9 +20,9 @@ struct resolution_echo {
 /* Echoes must come strongest first (ties in the frame's total order: the answer then does not
  * depend on how the echoes were listed). Writes to cell[i] the number of echo i's cell, counted
  * from 0 in the order they were opened, and returns how many cells there are. The first echo of a
- * cell is its leader. */
+ * cell is its leader. A leader looks only at echoes of its own ranges, which are sorted once. */
 size_t resolution_cluster(const struct resolution_echo *echoes, size_t count, double half_range_m,
-                          double half_range_rate_mps, size_t *cell);
+                          double half_range_rate_mps, size_t *cell, struct arena *arena);
 
 /* Do any two echoes lie within half a cell of each other in both, so that there is something to
  * merge? by_range has room for the echoes; they may come in any order. */

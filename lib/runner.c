@@ -215,10 +215,11 @@ static void complete_size(struct object *object, const struct vehicle *vehicle)
         object->height_m = vehicle->height_m;
 }
 
+/* A class has one document, and its name one place. */
 static struct reflector_set *set_of(struct frame *frame, const char *model)
 {
     for (size_t i = 0; i < frame->reflectors.count; i++)
-        if (strcmp(frame->reflectors.items[i].model, model) == 0)
+        if (frame->reflectors.items[i].model == model)
             return &frame->reflectors.items[i];
     return NULL;
 }
@@ -290,7 +291,7 @@ static int check_sections(struct runner *runner, const struct frame *frame)
 static int conclude(struct runner *runner, struct frame *frame)
 {
     const struct stage *stage = runner->stage;
-    const struct part written = {stage->writes, stage->name};
+    const struct frame_part written = {stage->writes, stage->name};
     if (!runner->common.keep)
         frame_drop(frame, stage->reads & ~stage->writes & SECTIONS_CONSUMED);
     frame->present |= stage->writes & ~(unsigned)SECTION_LOST;

@@ -26,6 +26,23 @@ struct scan scan_receive(const struct reception *reception)
     return scan;
 }
 
+/* Counts the rays of every cell, and puts each behind those that came before it. */
+static void group(struct scan *scan)
+{
+    struct arena *arena = scan->reception.frame->arena;
+    const struct clustered_rays *all = &scan->resolved;
+    struct ray *by_cell = arena_get(arena, all->count * sizeof *by_cell);
+    size_t *first = arena_get(arena, (scan->cells + 2) * sizeof *first);
+    for (size_t i = 0; i < all->count; i++)
+        first[all->cell[i] + 2]++;
+    for (size_t number = 0; number < scan->cells; number++)
+        first[number + 2] += first[number + 1];
+    for (size_t i = 0; i < all->count; i++)
+        by_cell[first[all->cell[i] + 1]++] = all->rays[i];
+    scan->by_cell = by_cell;
+    scan->first = first;
+}
+
 static void resolve(struct scan *scan, const struct selection *selection)
 {
     const struct sensor *sensor = scan->reception.sensor;
@@ -45,10 +62,11 @@ static void resolve(struct scan *scan, const struct selection *selection)
          resolution_close(echoes, count, half_range_m, half_rate_mps, echoes + count, arena));
     scan->cells = count;
     if (merge)
-        scan->cells = resolution_cluster(echoes, count, half_range_m, half_rate_mps, cell);
+        scan->cells = resolution_cluster(echoes, count, half_range_m, half_rate_mps, cell, arena);
     for (size_t i = 0; i < count && !merge; i++)
         cell[i] = i;
     scan->resolved.cell = cell;
+    group(scan);
     effects_note(selection, EFFECT_MERGING, merge);
     effects_end(selection, EFFECT_MERGING, begin);
 }
@@ -63,16 +81,8 @@ struct scan scan_make(const struct reception *reception, const struct selection 
     return scan;
 }
 
-struct ray *scan_members(const struct scan *scan, size_t number, size_t *count)
+const struct ray *scan_members(const struct scan *scan, size_t number, size_t *count)
 {
-    const struct clustered_rays *all = &scan->resolved;
-    *count = 0;
-    for (size_t i = 0; i < all->count; i++)
-        *count += all->cell[i] == number;
-    struct ray *members = arena_get(scan->reception.frame->arena, *count * sizeof *members);
-    size_t next = 0;
-    for (size_t i = 0; next < *count; i++)
-        if (all->cell[i] == number)
-            members[next++] = all->rays[i];
-    return members;
+    *count = scan->first[number + 1] - scan->first[number];
+    return scan->by_cell + scan->first[number];
 }

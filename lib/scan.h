@@ -10,8 +10,10 @@ struct scan {
     struct reception reception;
     struct echo_span scatterers; /* beyond the frame's echoes */
     struct clustered_rays resolved;
-    size_t cells;             /* numbered in the order of their leaders */
-    const struct ray *silent; /* without amplitude: they are in no cell */
+    size_t cells;              /* numbered in the order of their leaders */
+    const struct ray *by_cell; /* the same rays, those of a cell together */
+    const size_t *first;       /* of each cell among them, and behind the last */
+    const struct ray *silent;  /* without amplitude: they are in no cell */
     size_t silent_count;
 };
 
@@ -23,7 +25,7 @@ struct scan scan_receive(const struct reception *reception);
 struct scan scan_make(const struct reception *reception, const struct selection *selection,
                       uint64_t without);
 
-/* The rays of one cell, the leader first: copies, count of them. */
-struct ray *scan_members(const struct scan *scan, size_t number, size_t *count);
+/* The rays of one cell, the leader first, count of them. */
+const struct ray *scan_members(const struct scan *scan, size_t number, size_t *count);
 
 #endif

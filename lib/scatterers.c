@@ -22,7 +22,7 @@ static bool simulates(const struct reception *reception, enum effect effect)
 
 static struct random_address address_at(const struct reception *reception, struct subject subject)
 {
-    return address_of(reception->frame, reception->sensor->name, subject);
+    return address_in(reception->address, subject);
 }
 
 static void add(struct additions *additions, const struct echo *echo)

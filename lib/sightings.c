@@ -4,6 +4,7 @@
 
 #include "elementary.h"
 #include "false_alarms.h"
+#include "interference.h"
 #include "units.h"
 
 #define NOWHERE SIZE_MAX
@@ -54,18 +55,22 @@ static void add_beams(struct sightings *sightings, const struct spectrum_peak *p
 }
 
 struct sightings sightings_of(const struct signal *signal, const struct spectrum *spectrum,
-                              double threshold, struct arena *arena)
+                              const struct reception *reception)
 {
-    struct sightings sightings = {signal, spectrum, threshold, {NULL, 0, 0}};
+    struct arena *arena = reception->frame->arena;
+    double threshold =
+        signal->sensor->threshold * interference_noise_factor(reception->interference);
+    struct sightings sightings = {signal, spectrum, threshold, reception->time_s, {NULL, 0, 0}};
     struct cfar cfar = waveform_cfar(&signal->sensor->waveform);
     struct spectrum_peak *peaks;
-    size_t count = spectrum_peaks(spectrum, &cfar, threshold, arena, &peaks);
+    bool array = signal->array.elements > 0;
+    size_t count = spectrum_peaks(
+        spectrum, &cfar, array ? SIGNAL_BETWEEN_BEAMS * threshold : threshold, arena, &peaks);
     size_t stride = spectrum->range_bins * spectrum->rate_bins;
     for (size_t i = 0; i < count; i++) {
         const struct phasor *at =
             spectrum->samples + peaks[i].rate_bin * spectrum->range_bins + peaks[i].range_bin;
-        (signal->array.elements > 0 ? add_beams : add_monopulse)(&sightings, &peaks[i], at, stride,
-                                                                 arena);
+        (array ? add_beams : add_monopulse)(&sightings, &peaks[i], at, stride, arena);
     }
     return sightings;
 }
@@ -168,8 +173,10 @@ static void lose(const struct sightings *sightings, struct frame *frame, const c
 }
 
 void sightings_label(struct sightings *sightings, struct frame *frame, const char *stage,
-                     const struct ray *rays, size_t count, double time_s)
+                     const struct clustered_rays *received)
 {
+    const struct ray *rays = received->rays;
+    size_t count = received->count;
     const struct sensor *sensor = sightings->signal->sensor;
     struct arena *arena = frame->arena;
     size_t *home = arena_get(arena, (count + 1) * sizeof *home);
@@ -191,7 +198,7 @@ void sightings_label(struct sightings *sightings, struct frame *frame, const cha
         if (own > 0)
             label(sensor, sighting, members, own, arena);
         else
-            label_false_alarm(sensor, sighting, ++alarms, time_s, arena);
+            label_false_alarm(sensor, sighting, ++alarms, sightings->time_s, arena);
     }
     for (size_t i = 0; i < count; i++)
         if (home[i] == NOWHERE)
@@ -200,7 +207,7 @@ void sightings_label(struct sightings *sightings, struct frame *frame, const cha
         frame_count_echoes(frame, sensor->name, PATH_FALSE_ALARM, alarms);
 }
 
-struct reading sightings_reading(const struct sighting *sighting)
+static struct reading reading_at(const struct sighting *sighting)
 {
     struct reading reading = reading_of(&sighting->cell);
     if (sighting->range_m != reading.range_m || sighting->range_rate_mps != reading.range_rate_mps)
@@ -213,4 +220,18 @@ struct reading sightings_reading(const struct sighting *sighting)
     reading.amplitude = sighting->amplitude;
     reading.sign_undecided = sighting->sign_undecided;
     return reading;
+}
+
+void sightings_list(const struct sightings *sightings, struct frame *frame, const char *stage,
+                    const struct disturbance *by)
+{
+    size_t first = frame->targets.count, count = sightings->list.count;
+    struct reading *readings = arena_get(frame->arena, (count + 1) * sizeof *readings);
+    for (size_t i = 0; i < count; i++) {
+        readings[i] = reading_at(&sightings->list.items[i]);
+        disturbance_azimuth(by, &readings[i]);
+    }
+    readings_list(frame, stage, by->sensor, readings, count, by->list_limit);
+    for (size_t i = first; i < frame->targets.count && by->steps; i++)
+        readings_round(&frame->targets.items[i], by->sensor);
 }

@@ -1,4 +1,4 @@
-/* What a radar reads off the peaks of its spectrum, and which echoes made them (MODEL 11.2).
+/* What a radar reads off the peaks of its spectrum, and which echoes made them (MODEL 11.3).
  *
  * An echo belongs to the peak at which most of it shows, if that is at least half of its amplitude;
  * so it has one label, and a target's label are the echoes that a radar of this resolution cannot
@@ -7,7 +7,7 @@
 #ifndef SIGHTINGS_H
 #define SIGHTINGS_H
 
-#include "readings.h"
+#include "disturbance.h"
 #include "signal.h"
 
 struct sighting {
@@ -22,21 +22,23 @@ struct sightings {
     const struct signal *signal;
     const struct spectrum *spectrum;
     double threshold;
+    double time_s; /* of the measurement */
     LIST_OF(struct sighting) list;
 };
 
-/* Every peak that meets the threshold, in every beam: range, azimuth, rate and amplitude. Memory
- * comes from the arena. */
+/* Every peak that meets the threshold, which rises with what other radars add to the noise, in
+ * every beam: range, azimuth, rate and amplitude. Memory comes from the frame's arena. */
 struct sightings sightings_of(const struct signal *signal, const struct spectrum *spectrum,
-                              double threshold, struct arena *arena);
+                              const struct reception *reception);
 
 /* Gives every sighting its cell, and a range rate as near to that of its strongest echo as its
  * ambiguity allows; writes off the rays that no sighting shows, and counts false alarms. Rays come
  * strongest first. */
 void sightings_label(struct sightings *sightings, struct frame *frame, const char *stage,
-                     const struct ray *rays, size_t count, double time_s);
+                     const struct clustered_rays *received);
 
-/* As one entry of the list. */
-struct reading sightings_reading(const struct sighting *sighting);
+/* Writes the list: misaligned, in its order, up to its limit, rounded. */
+void sightings_list(const struct sightings *sightings, struct frame *frame, const char *stage,
+                    const struct disturbance *by);
 
 #endif

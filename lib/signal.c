@@ -4,7 +4,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "address.h"
 #include "elementary.h"
+#include "false_alarms.h"
+#include "interference.h"
 #include "units.h"
 
 /* Beyond so many bins a pulse is below 2^-36 of itself. */
@@ -14,7 +17,7 @@
 
 static bool pulsed(const struct signal *signal)
 {
-    return signal->sensor->waveform.kind == WAVEFORM_PULSE;
+    return signal->range_kernel == KERNEL_PULSE;
 }
 
 struct signal signal_of(const struct sensor *sensor)
@@ -25,6 +28,7 @@ struct signal signal_of(const struct sensor *sensor)
         .samples = (size_t)waveform->samples,
         .repetitions = (size_t)waveform->repetitions,
         .channels = waveform->elements > 0 ? (size_t)waveform->elements : 2,
+        .range_kernel = waveform->kind == WAVEFORM_PULSE ? KERNEL_PULSE : waveform->window,
         .range_step_m = waveform_range_step_m(waveform, sensor->cell_range_m),
         .rate_step_mps = sensor->cell_range_rate_mps,
         .array = {(size_t)waveform->elements, waveform->spacing},
@@ -157,22 +161,21 @@ static void filter(struct phasor *row, const struct phasor *noise, size_t count)
         tap[k] = kernel_value(KERNEL_PULSE, sqrt(2) * (double)k);
         power += (k == 0 ? 1 : 2) * tap[k] * tap[k];
     }
-    for (size_t n = 0; n < count; n++)
-        for (size_t k = 0; k <= 2 * (size_t)FILTER_REACH; k++) {
-            size_t away = k > FILTER_REACH ? k - FILTER_REACH : FILTER_REACH - k;
-            const struct phasor *from = &noise[(n + k + count - FILTER_REACH) % count];
-            row[n].re += tap[away] / sqrt(power) * from->re;
-            row[n].im += tap[away] / sqrt(power) * from->im;
-        }
+    for (size_t k = 0; k <= 2 * (size_t)FILTER_REACH; k++) {
+        size_t away = k > FILTER_REACH ? k - FILTER_REACH : FILTER_REACH - k;
+        size_t shift = (k + count - FILTER_REACH) % count;
+        struct phasor weight = {tap[away] / sqrt(power), 0};
+        add(row, noise + shift, count - shift, weight);
+        add(row + count - shift, noise, shift, weight);
+    }
 }
 
 void signal_add_noise(const struct signal *signal, const struct random_address *address,
                       double sigma)
 {
     size_t count = signal->samples, rows = signal->channels * signal->repetitions;
-    struct spectrum after = signal_spectrum(signal);
-    double through = kernel_noise(after.rate_kernel, signal->repetitions) *
-                     (pulsed(signal) ? 1 : kernel_noise(after.range_kernel, count));
+    double through = kernel_noise(signal->sensor->waveform.window, signal->repetitions) *
+                     (pulsed(signal) ? 1 : kernel_noise(signal->range_kernel, count));
     double elements = signal->array.elements > 0 ? (double)signal->array.elements : 1;
     double scale = sigma * sqrt(elements / 2) / through, draw[4];
     uint32_t block = 0;
@@ -194,13 +197,12 @@ void signal_add_noise(const struct signal *signal, const struct random_address *
 void signal_weigh(const struct signal *signal)
 {
     size_t count = signal->samples, rows = signal->channels * signal->repetitions;
-    struct spectrum after = signal_spectrum(signal);
     for (size_t n = 0; n < count; n++)
-        signal->row[n].re = pulsed(signal) ? 1 : kernel_weight(after.range_kernel, n, count);
+        signal->row[n].re = pulsed(signal) ? 1 : kernel_weight(signal->range_kernel, n, count);
     for (size_t row = 0; row < rows; row++) {
         struct phasor *samples = signal->cube + row * count;
-        double slow =
-            kernel_weight(after.rate_kernel, row % signal->repetitions, signal->repetitions);
+        double slow = kernel_weight(signal->sensor->waveform.window, row % signal->repetitions,
+                                    signal->repetitions);
         for (size_t n = 0; n < count; n++) {
             samples[n].re *= slow * signal->row[n].re;
             samples[n].im *= slow * signal->row[n].re;
@@ -208,16 +210,65 @@ void signal_weigh(const struct signal *signal)
     }
 }
 
-struct spectrum signal_spectrum(const struct signal *signal)
+void signal_receive(const struct signal *signal, const struct scan *scan, bool noisy)
 {
-    enum kernel window = signal->sensor->waveform.window;
+    const struct reception *reception = &scan->reception;
+    struct contributor noise = false_alarms_contributor(0);
+    struct random_address address =
+        address_of(reception->frame, reception->sensor->name, SUBJECT_OF(&noise));
+    signal_clear(signal);
+    signal_add(signal, scan->resolved.rays, scan->resolved.count, reception->frame->arena);
+    if (noisy)
+        signal_add_noise(signal, &address,
+                         signal->sensor->pointer_sigma *
+                             interference_noise_factor(reception->interference));
+    signal_weigh(signal);
+}
+
+/* One row of a beam's power, where it is above that of other beams. */
+static void look(const struct signal *signal, double sine, size_t rate_bin, double *power)
+{
+    size_t count = signal->samples, size = signal->repetitions * count;
+    double part = 1 / (double)signal->channels;
+    memset(signal->row, 0, count * sizeof *signal->row);
+    for (size_t element = 0; element < signal->channels; element++) {
+        struct phasor response = beam_response(&signal->array, sine, element);
+        add(signal->row, signal->cube + element * size + rate_bin * count, count,
+            (struct phasor){part * response.re, -part * response.im});
+    }
+    for (size_t n = 0; n < count; n++)
+        power[n] = fmax(power[n], signal->row[n].re * signal->row[n].re +
+                                      signal->row[n].im * signal->row[n].im);
+}
+
+static void look_around(const struct signal *signal, double *power)
+{
+    double limit = elementary_sin(signal->sensor->field_of_view_rad / 2);
+    double width = 1 / (signal->array.spacing * (double)signal->array.elements);
+    size_t steps = 1 + (size_t)(2 * limit / (width / 2));
+    for (size_t rate_bin = 0; rate_bin < signal->repetitions; rate_bin++)
+        for (size_t i = 0; i <= steps; i++)
+            look(signal, limit * (2 * (double)i / (double)steps - 1), rate_bin,
+                 power + rate_bin * signal->samples);
+}
+
+struct spectrum signal_spectrum(const struct signal *signal, struct arena *arena)
+{
+    size_t bins = signal->samples * signal->repetitions;
+    double *power = arena_get(arena, bins * sizeof *power);
+    bool array = signal->array.elements > 0;
+    for (size_t i = 0; i < bins && !array; i++)
+        power[i] =
+            signal->cube[i].re * signal->cube[i].re + signal->cube[i].im * signal->cube[i].im;
+    if (array)
+        look_around(signal, power);
     return (struct spectrum){
         .range_bins = signal->samples,
         .rate_bins = signal->repetitions,
-        .channels = signal->channels,
-        .detecting = signal->array.elements > 0 ? signal->channels : 1,
-        .range_kernel = pulsed(signal) ? KERNEL_PULSE : window,
-        .rate_kernel = window,
+        .channels = array ? signal->channels : 1,
+        .range_kernel = signal->range_kernel,
+        .rate_kernel = signal->sensor->waveform.window,
         .samples = signal->cube,
+        .power = power,
     };
 }

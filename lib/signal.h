@@ -1,4 +1,4 @@
-/* The signal of one scan, sample by sample, as its receivers put it out (MODEL 11.2; EFFECTS 11).
+/* The signal of one scan, sample by sample, as its receivers put it out (MODEL 11.3; EFFECTS 11).
  *
  * An echo of amplitude A, range R, rate v and phase p makes, in repetition m and sample n,
  *     A exp j(p - 2 pi (v/dv) (m/M - 1/2)) exp -j(2 pi (R_m/dR) (n/N - 1/2))     for chirps,
@@ -18,12 +18,13 @@
 
 #include "beam.h"
 #include "random.h"
+#include "scan.h"
 #include "spectrum.h"
-#include "superposition.h"
 
 struct signal {
     const struct sensor *sensor;
     size_t samples, repetitions, channels;
+    enum kernel range_kernel;
     double range_step_m, rate_step_mps; /* from bin to bin */
     struct beam_array array;            /* elements 0: sum and delta channel */
     struct phasor *cube;                /* [channel][repetition][sample] */
@@ -49,7 +50,14 @@ void signal_add_noise(const struct signal *signal, const struct random_address *
 /* Applies the windows. */
 void signal_weigh(const struct signal *signal);
 
-/* What the transformed cube is; without its power. */
-struct spectrum signal_spectrum(const struct signal *signal);
+/* All of it, for what a scan received: ready for the transforms. */
+void signal_receive(const struct signal *signal, const struct scan *scan, bool noisy);
+
+/* What the transformed cube is. Its power is that of the sum channel, or of the strongest of beams
+ * that cover the field of view half a beam's width apart. Memory comes from the arena. */
+struct spectrum signal_spectrum(const struct signal *signal, struct arena *arena);
+
+/* Between such beams an echo shows at least this part of its amplitude. */
+#define SIGNAL_BETWEEN_BEAMS 0.9
 
 #endif

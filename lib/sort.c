@@ -67,14 +67,14 @@ void sort_items(void *items, size_t count, size_t size, int (*compare)(const voi
         return;
     struct sorting sorting = {
         .compare = compare,
-        .from = arena_get(arena, count * sizeof(const char *)),
-        .to = arena_get(arena, count * sizeof(const char *)),
-        .end = arena_get(arena, count * sizeof(size_t)),
+        .from = arena_room(arena, count * sizeof(const char *)),
+        .to = arena_room(arena, count * sizeof(const char *)),
+        .end = arena_room(arena, count * sizeof(size_t)),
     };
     find_runs(&sorting, items, count, size);
     while (sorting.runs > 1)
         merge_neighbours(&sorting);
-    char *place = items, *copy = memcpy(arena_get(arena, count * size), items, count * size);
+    char *place = items, *copy = memcpy(arena_room(arena, count * size), items, count * size);
     for (size_t i = 0; i < count; i++)
         memcpy(place + i * size, copy + (sorting.from[i] - place), size);
 }

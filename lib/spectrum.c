@@ -12,19 +12,6 @@ struct peak_list {
     LIST_OF(struct spectrum_peak) list;
 };
 
-void spectrum_power(struct spectrum *spectrum, struct arena *arena)
-{
-    size_t bins = spectrum->range_bins * spectrum->rate_bins;
-    spectrum->power = arena_get(arena, bins * sizeof *spectrum->power);
-    for (size_t channel = 0; channel < spectrum->detecting; channel++) {
-        const struct phasor *samples = spectrum->samples + channel * bins;
-        for (size_t i = 0; i < bins; i++)
-            spectrum->power[i] += samples[i].re * samples[i].re + samples[i].im * samples[i].im;
-    }
-    for (size_t i = 0; i < bins; i++)
-        spectrum->power[i] /= (double)spectrum->detecting;
-}
-
 /* Of neighbours with the very same power the first one is the peak. */
 static bool is_summit(const struct spectrum *spectrum, size_t rate_bin, size_t range_bin)
 {
@@ -54,11 +41,11 @@ static struct spectrum_peak peak_at(const struct spectrum *spectrum, size_t rate
     const struct phasor *row = spectrum->samples + rate_bin * width;
     const struct phasor *at = row + range_bin;
     double range = kernel_offset(spectrum->range_kernel, row + (range_bin + width - 1) % width, at,
-                                 row + (range_bin + 1) % width, spectrum->detecting, stride);
+                                 row + (range_bin + 1) % width, spectrum->channels, stride);
     const struct phasor *column = spectrum->samples + range_bin;
     double rate =
         kernel_offset(spectrum->rate_kernel, column + (rate_bin + height - 1) % height * width, at,
-                      column + (rate_bin + 1) % height * width, spectrum->detecting, stride);
+                      column + (rate_bin + 1) % height * width, spectrum->channels, stride);
     double gain =
         kernel_value(spectrum->range_kernel, range) * kernel_value(spectrum->rate_kernel, rate);
     return (struct spectrum_peak){

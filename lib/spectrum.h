@@ -15,12 +15,11 @@
 #include "memory.h"
 
 struct spectrum {
-    size_t range_bins, rate_bins, channels;
-    size_t
-        detecting; /* so many channels, from the first, decide what is seen: by their mean power */
+    size_t range_bins, rate_bins;
+    size_t channels; /* so many read places between the bins */
     enum kernel range_kernel, rate_kernel;
     const struct phasor *samples; /* [channel][rate bin][range bin] */
-    double *power;                /* [rate bin][range bin], by spectrum_power */
+    const double *power;          /* [rate bin][range bin]: what is seen */
 };
 
 struct spectrum_peak {
@@ -30,9 +29,6 @@ struct spectrum_peak {
     double amplitude;
 };
 
-/* Fills in the power; memory comes from the arena. */
-void spectrum_power(struct spectrum *spectrum, struct arena *arena);
-
 /* Writes the peaks, strongest first; memory comes from the arena. */
 size_t spectrum_peaks(const struct spectrum *spectrum, const struct cfar *cfar, double threshold,
                       struct arena *arena, struct spectrum_peak **peaks);
@@ -40,7 +36,7 @@ size_t spectrum_peaks(const struct spectrum *spectrum, const struct cfar *cfar, 
 /* The way from one place on a ring of bins to another, in [-bins / 2, bins / 2]. */
 double spectrum_distance(double to, double from, size_t bins);
 
-/* The RMS over the detecting channels at the bin nearest to a place. */
+/* The root of the power at the bin nearest to a place. */
 double spectrum_amplitude(const struct spectrum *spectrum, double range, double rate);
 
 #endif

@@ -215,9 +215,7 @@ int suite_check(const struct sensor *sensor, struct diag *diag)
         return diag_fail(diag, DIAG_CONFIG, "radome_period_rad: missing; radome_bias_rad needs it");
     if (sensor->elevation_half_width_rad > 0 && !(sensor->mount_z_m > 0))
         return diag_fail(diag, DIAG_CONFIG, "elevation_half_width_rad: goes with mount_z_m");
-    const char *fault =
-        waveform_fault(&sensor->waveform, sensor->cell_range_m, sensor->range_max_m);
-    if (fault != NULL)
-        return diag_fail(diag, DIAG_CONFIG, "waveform.%s", fault);
+    if (waveform_check(&sensor->waveform, sensor->cell_range_m, sensor->range_max_m, diag) != 0)
+        return diag_prefix(diag, "waveform.");
     return 0;
 }

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "assignment.h"
 #include "sort.h"
 #include "units.h"
 
@@ -131,7 +130,7 @@ void target_score_scan(struct score_tally *tally, const struct frame *truth,
     size_t pairs = gospa_pair(distance, rows, columns, cell->cutoff, item_of, arena);
     double squares = 0;
     for (size_t i = 0; i < rows; i++) {
-        if (item_of[i] == ASSIGNMENT_NONE)
+        if (item_of[i] >= columns) /* ASSIGNMENT_NONE is beyond them all */
             continue;
         double apart = distance[i * columns + item_of[i]];
         squares += apart * apart;

@@ -64,11 +64,6 @@ size_t text_utf8(const char *bytes, size_t room)
     return overlong || surrogate || beyond ? 0 : length;
 }
 
-static bool is_plain(unsigned char byte)
-{
-    return byte >= 0x20 && byte < 0x7f && byte != '"' && byte != '\\';
-}
-
 /* The high bit of the first byte that is not plain; bits of later bytes mean nothing. */
 static uint64_t not_plain(uint64_t word)
 {
@@ -80,15 +75,15 @@ static uint64_t not_plain(uint64_t word)
 
 size_t text_plain(const char *bytes, size_t length)
 {
-    size_t i = 0;
-    for (; length - i >= 8; i += 8) {
-        uint64_t stops = not_plain(text_word(bytes + i));
+    for (size_t i = 0;; i += 8) {
+        size_t rest = length - i;
+        uint64_t word = rest >= 8 ? text_word(bytes + i) : text_short_word(bytes + i, rest);
+        uint64_t stops = not_plain(word);
         if (stops != 0)
             return i + (size_t)__builtin_ctzll(stops) / 8;
+        if (rest == 8)
+            return length;
     }
-    while (i < length && is_plain((unsigned char)bytes[i]))
-        i++;
-    return i;
 }
 
 size_t text_json_size(size_t length)

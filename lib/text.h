@@ -32,13 +32,33 @@ void text_add_json(struct text *text, const char *bytes, size_t length);
 char *text_put_json(char *at, const char *bytes, size_t length);
 size_t text_json_size(size_t length);
 
-/* Eight bytes as a number, the first one lowest, on every machine. */
+/* Four or eight bytes as a number, the first one lowest, on every machine. */
+static inline uint64_t text_half_word(const char *bytes)
+{
+    const unsigned char *byte = (const unsigned char *)bytes;
+    return (uint64_t)byte[0] | (uint64_t)byte[1] << 8 | (uint64_t)byte[2] << 16 |
+           (uint64_t)byte[3] << 24;
+}
+
 static inline uint64_t text_word(const char *bytes)
 {
     const unsigned char *byte = (const unsigned char *)bytes;
     return (uint64_t)byte[0] | (uint64_t)byte[1] << 8 | (uint64_t)byte[2] << 16 |
            (uint64_t)byte[3] << 24 | (uint64_t)byte[4] << 32 | (uint64_t)byte[5] << 40 |
            (uint64_t)byte[6] << 48 | (uint64_t)byte[7] << 56;
+}
+
+/* The same of up to eight bytes, which stand at the low end; zeros above them. */
+static inline uint64_t text_short_word(const char *bytes, size_t length)
+{
+    if (length == 8)
+        return text_word(bytes);
+    if (length >= 4)
+        return text_half_word(bytes) | text_half_word(bytes + length - 4) << 8 * (length - 4);
+    uint64_t word = 0;
+    for (size_t i = 0; i < length; i++)
+        word |= (uint64_t)(unsigned char)bytes[i] << 8 * i;
+    return word;
 }
 
 void text_free(struct text *text);

@@ -1,5 +1,7 @@
 #include "waveform.h"
 
+#include <math.h>
+
 static const char *const kinds[] = {[WAVEFORM_CHIRP] = "chirp", [WAVEFORM_PULSE] = "pulse", NULL};
 static const char *const windows[] = {
     [KERNEL_HANN] = "hann", [KERNEL_RECTANGULAR] = "rectangular", NULL};
@@ -43,21 +45,30 @@ double waveform_range_step_m(const struct waveform *waveform, double cell_range_
     return waveform->kind == WAVEFORM_PULSE ? cell_range_m / 4 : cell_range_m;
 }
 
-const char *waveform_fault(const struct waveform *waveform, double cell_range_m, double range_max_m)
+int waveform_check(const struct waveform *waveform, double cell_range_m, double range_max_m,
+                   struct diag *diag)
 {
-    double reach_m = (double)waveform->samples * waveform_range_step_m(waveform, cell_range_m);
+    double step_m = waveform_range_step_m(waveform, cell_range_m);
     if (waveform->samples == 0)
-        return NULL;
-    if (reach_m < range_max_m)
-        return "samples: too few for range_max_m; it needs one per cell_range_m of a chirp, four "
-               "of a pulse";
+        return 0;
+    if ((double)waveform->samples * step_m < range_max_m)
+        return diag_fail(diag, DIAG_CONFIG,
+                         "samples: %lld of %g m do not reach range_max_m, %g m; expected %.0f",
+                         (long long)waveform->samples, step_m, range_max_m,
+                         ceil(range_max_m / step_m));
     if (waveform->cfar_cells % 2 != 0)
-        return "cfar_cells: expected an even number";
+        return diag_fail(diag, DIAG_CONFIG, "cfar_cells: %lld; expected an even number",
+                         (long long)waveform->cfar_cells);
     if (waveform->cfar == CFAR_ORDERED && waveform->cfar_rank > waveform->cfar_cells)
-        return "cfar_rank: above cfar_cells";
+        return diag_fail(diag, DIAG_CONFIG, "cfar_rank: %lld is above cfar_cells, %lld",
+                         (long long)waveform->cfar_rank, (long long)waveform->cfar_cells);
     if (waveform->cfar_cells + 2 * waveform->cfar_guard >= waveform->repetitions)
-        return "cfar_cells: more neighbours than repetitions";
-    return NULL;
+        return diag_fail(diag, DIAG_CONFIG,
+                         "cfar_cells: %lld and twice cfar_guard, %lld, are no less than "
+                         "repetitions, %lld",
+                         (long long)waveform->cfar_cells, (long long)waveform->cfar_guard,
+                         (long long)waveform->repetitions);
+    return 0;
 }
 
 struct cfar waveform_cfar(const struct waveform *waveform)

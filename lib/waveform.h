@@ -28,9 +28,9 @@ extern const struct record waveform_record;
 /* How far apart its range bins are. */
 double waveform_range_step_m(const struct waveform *waveform, double cell_range_m);
 
-/* What stands wrong together, as "member: why", or NULL, also if there is no waveform. */
-const char *waveform_fault(const struct waveform *waveform, double cell_range_m,
-                           double range_max_m);
+/* Refuses what is fine alone and wrong together. No waveform is fine. */
+int waveform_check(const struct waveform *waveform, double cell_range_m, double range_max_m,
+                   struct diag *diag);
 
 struct cfar waveform_cfar(const struct waveform *waveform);
 

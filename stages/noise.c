@@ -14,11 +14,11 @@
 
 /* False if there is nothing to read an angle off. */
 static bool measure(const struct frame *frame, const struct disturbance *by,
-                    const struct cell *cell, struct reading *reading)
+                    const struct random_address *scan, const struct cell *cell,
+                    struct reading *reading)
 {
     const struct sensor *sensor = by->sensor;
-    struct random_address address =
-        address_of(frame, sensor->name, SUBJECT_OF(&cell->members.items[0]));
+    struct random_address address = address_in(*scan, SUBJECT_OF(&cell->members.items[0]));
     struct antenna_pointers pointers = disturbance_pointers(by, &address, cell);
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
@@ -37,7 +37,8 @@ static bool measure(const struct frame *frame, const struct disturbance *by,
 }
 
 /* The readings of all cells that are still a target after noise. */
-static size_t read_cells(struct frame *frame, const struct disturbance *by, struct cell_span cells,
+static size_t read_cells(struct frame *frame, const struct disturbance *by,
+                         const struct random_address *scan, struct cell_span cells,
                          struct reading *readings)
 {
     const struct sensor *sensor = by->sensor;
@@ -45,7 +46,7 @@ static size_t read_cells(struct frame *frame, const struct disturbance *by, stru
     for (size_t i = 0; i < cells.count; i++) {
         const struct cell *cell = &cells.items[i];
         struct reading *reading = &readings[count];
-        bool has_angle = measure(frame, by, cell, reading);
+        bool has_angle = measure(frame, by, scan, cell, reading);
         double threshold = superposition_threshold(sensor, cell);
         if (by->final_threshold && reading->amplitude < threshold)
             frame_lose_cell(frame, "noise", cell, LOSS_BELOW_FINAL,
@@ -68,7 +69,7 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
     struct cell_span cells = frame_cells_of(frame, sensor->name);
     struct reading *readings =
         arena_get(frame->arena, (cells.count + alarms.count + 1) * sizeof *readings);
-    size_t count = read_cells(frame, &by, cells, readings);
+    size_t count = read_cells(frame, &by, &scan, cells, readings);
     for (size_t i = 0; i < alarms.count; i++)
         readings[count++] = reading_of(&alarms.items[i]);
     size_t first = frame->targets.count;

@@ -32,7 +32,7 @@ static void report(struct frame *frame, const struct scan *scan, const struct se
     const struct sensor *sensor = scan->reception.sensor;
     struct cell cell;
     size_t count;
-    struct ray *members = scan_members(scan, number, &count);
+    const struct ray *members = scan_members(scan, number, &count);
     bool has_angle = superpose(scan, selection, members, count, &cell);
     double threshold = superposition_threshold(sensor, &cell);
     if (frame->margins) {

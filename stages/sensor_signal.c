@@ -1,13 +1,8 @@
 /* The signal itself instead of a model of its cells: samples of every receiver, transformed and
- * searched for peaks as a radar does it (MODEL 11.2; EFFECTS 11). */
+ * searched for peaks as a radar does it (MODEL 11.3; EFFECTS 11). */
 /* needs: fftw3 */
 #include <fftw3.h>
 
-#include "address.h"
-#include "disturbance.h"
-#include "false_alarms.h"
-#include "interference.h"
-#include "scan.h"
 #include "sightings.h"
 #include "stage.h"
 
@@ -49,60 +44,33 @@ static struct transform *transform_of(struct sensor_signal *own, const struct se
     return transform;
 }
 
-/* The signal of a scan, and its spectrum in its place. */
-static void synthesise(const struct transform *transform, const struct scan *scan, double sigma)
+static void to_spectrum(const struct transform *transform)
 {
     const struct signal *signal = &transform->signal;
-    const struct reception *reception = &scan->reception;
-    struct contributor noise = false_alarms_contributor(0);
-    struct random_address address =
-        address_of(reception->frame, reception->sensor->name, SUBJECT_OF(&noise));
-    signal_clear(signal);
-    signal_add(signal, scan->resolved.rays, scan->resolved.count, reception->frame->arena);
-    if (sigma > 0)
-        signal_add_noise(signal, &address, sigma);
-    signal_weigh(signal);
     for (size_t channel = 0; channel < signal->channels; channel++) {
         struct phasor *samples = signal->cube + channel * signal->samples * signal->repetitions;
         fftw_execute_dft(transform->plan, (fftw_complex *)samples, (fftw_complex *)samples);
     }
 }
 
-static void list_targets(struct frame *frame, const struct disturbance *by,
-                         const struct sightings *sightings)
-{
-    size_t first = frame->targets.count, count = sightings->list.count;
-    struct reading *readings = arena_get(frame->arena, (count + 1) * sizeof *readings);
-    for (size_t i = 0; i < count; i++) {
-        readings[i] = sightings_reading(&sightings->list.items[i]);
-        disturbance_azimuth(by, &readings[i]);
-    }
-    readings_list(frame, "sensor-signal", by->sensor, readings, count, by->list_limit);
-    for (size_t i = first; i < frame->targets.count && by->steps; i++)
-        readings_round(&frame->targets.items[i], by->sensor);
-}
-
 static void sense(struct frame *frame, const struct transform *transform,
                   const struct selection *selection)
 {
-    const struct sensor *sensor = transform->signal.sensor;
-    struct reception reception = reception_begin(frame, sensor, selection->allowed);
-    struct disturbance by = disturbance_of(sensor, selection);
+    const struct signal *signal = &transform->signal;
+    struct reception reception = reception_begin(frame, signal->sensor, selection->allowed);
+    struct disturbance by = disturbance_of(signal->sensor, selection);
     struct scan scan = scan_receive(&reception);
-    double rise = interference_noise_factor(reception.interference);
     reception_note(&reception, selection);
-    scatterers_count(frame, sensor->name, scan.scatterers);
+    scatterers_count(frame, signal->sensor->name, scan.scatterers);
     for (size_t i = 0; i < scan.silent_count; i++)
-        frame_lose_subject(frame, "sensor-signal", sensor->name, &scan.silent[i].echo,
+        frame_lose_subject(frame, "sensor-signal", signal->sensor->name, &scan.silent[i].echo,
                            LOSS_NO_AMPLITUDE);
-    synthesise(transform, &scan, by.pointers ? sensor->pointer_sigma * rise : 0);
-    struct spectrum spectrum = signal_spectrum(&transform->signal);
-    spectrum_power(&spectrum, frame->arena);
-    struct sightings sightings =
-        sightings_of(&transform->signal, &spectrum, sensor->threshold * rise, frame->arena);
-    sightings_label(&sightings, frame, "sensor-signal", scan.resolved.rays, scan.resolved.count,
-                    reception.time_s);
-    list_targets(frame, &by, &sightings);
+    signal_receive(signal, &scan, by.pointers);
+    to_spectrum(transform);
+    struct spectrum spectrum = signal_spectrum(signal, frame->arena);
+    struct sightings sightings = sightings_of(signal, &spectrum, &reception);
+    sightings_label(&sightings, frame, "sensor-signal", &scan.resolved);
+    sightings_list(&sightings, frame, "sensor-signal", &by);
     effects_count_scan(selection);
 }
 

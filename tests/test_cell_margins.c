@@ -29,8 +29,10 @@ static size_t margins_of(const struct spot *spots, size_t count, struct margins 
         echoes[i] =
             (struct resolution_echo){spots[i].range_m, spots[i].range_rate_mps, spots[i].amplitude};
     }
-    size_t cells =
-        resolution_cluster(echoes, count, sensor.half_range_m, sensor.half_range_rate_mps, cell);
+    struct arena arena = {0};
+    size_t cells = resolution_cluster(echoes, count, sensor.half_range_m,
+                                      sensor.half_range_rate_mps, cell, &arena);
+    arena_free(&arena);
     const struct clustered_rays all = {rays, cell, count};
     for (size_t number = 0; number < cells; number++)
         answers[number] = cell_margins_of(&sensor, &all, number);

@@ -37,8 +37,10 @@ static size_t posts_of(const struct reflector_set *set, const struct box *box, s
         reflectors_posts_within(box, row, sensor, 2 * FAR_M, &first, &end);
         for (int64_t n = first; n < end; n++) {
             struct vec2 place = reflectors_post_place(box, row, n);
-            double seen = reflectors_visibility(box, row->shape, row->facing_rad, row->full_rad,
-                                                row->zero_rad, place, sensor);
+            struct point_reflector post = {
+                .full_rad = row->full_rad, .zero_rad = row->zero_rad, .shape = row->shape};
+            double seen =
+                reflectors_visibility(box, &post, vec2_heading(row->facing_rad), place, sensor);
             assert_true(count < most);
             posts[count].amplitude = sqrt(radar_cross_section_m2(seen * row->ercs));
             posts[count++].range_m = vec2_length(vec2_sub(place, sensor));

@@ -38,8 +38,6 @@ struct situation {
 static void decisions_that_could_turn_are_seen(void **state)
 {
     (void)state;
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
     const struct ray straight = ray_at(50, 0, 2);
     const struct situation cases[] = {
         {"a strong cell", {straight}, {0}, 1, 1, {1.1, 1.01}, true},
@@ -60,26 +58,29 @@ static void decisions_that_could_turn_are_seen(void **state)
         {"an angle that moves", {straight, ray_at(50, 0.5, 1.5)}, {0, 0}, 2, 1, {1.3, 1.1}, false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const size_t one[] = {0, cases[i].count}, each[] = {0, 1, 2};
         const struct scan scan = {
-            .reception = {.frame = &frame, .sensor = &sensor},
+            .reception = {.sensor = &sensor},
             .resolved = {cases[i].rays, cases[i].cell, cases[i].count},
             .cells = cases[i].cells,
+            .by_cell = cases[i].rays,
+            .first = cases[i].cells == 1 ? one : each,
         };
         if (escalation_holds(&scan, cases[i].weakening, &wide) != cases[i].holds)
             fail_msg("%s: expected %d", cases[i].what, cases[i].holds);
     }
-    arena_free(&arena);
 }
 
 static void echoes_with_phases_are_never_spared(void **state)
 {
     (void)state;
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
     struct ray rays[] = {ray_at(50, 0, 3), ray_at(50, 0, 2)};
-    const size_t cell[] = {0, 0};
-    const struct scan scan = {
-        .reception = {.frame = &frame, .sensor = &sensor}, .resolved = {rays, cell, 2}, .cells = 1};
+    const size_t cell[] = {0, 0}, first[] = {0, 2};
+    const struct scan scan = {.reception = {.sensor = &sensor},
+                              .resolved = {rays, cell, 2},
+                              .cells = 1,
+                              .by_cell = rays,
+                              .first = first};
     assert_true(escalation_holds(&scan, (struct weakening){1.1, 1.01}, &wide));
     assert_true(escalation_spares_superposition(&sensor, rays, 2, &wide));
     rays[1].phase_rad = 1;
@@ -89,7 +90,6 @@ static void echoes_with_phases_are_never_spared(void **state)
     struct sensor element = sensor;
     element.phase_reference = PHASE_ELEMENT;
     assert_false(escalation_spares_superposition(&element, rays, 2, &wide));
-    arena_free(&arena);
 }
 
 static void superposition_is_spared_where_all_look_the_same_way(void **state)

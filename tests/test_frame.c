@@ -69,6 +69,19 @@ static void a_whole_account_passes(void **state)
     arena_free(&arena);
 }
 
+static void an_echo_may_feed_several_targets(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct frame frame = accounted_frame(&arena);
+    struct diag diag = {0};
+    struct cell cell = cell_of(&arena, "left", 1, (struct contributor[]){from("b", "corner")});
+    frame_add_target(&frame, &cell, 2);
+    frame_add_target(&frame, &cell, 1);
+    assert_int_equal(audit_frame(&frame, &diag), 0);
+    arena_free(&arena);
+}
+
 static void forget_one(struct frame *frame)
 {
     frame->targets.items[0].contributors.count = 1;
@@ -88,6 +101,14 @@ static void double_one_between_target_and_lost(struct frame *frame)
 {
     frame_lose(frame, "noise", "left", LOSS_BELOW_FINAL,
                &(struct lost_echo){.object = "a", .reflector = "rear"});
+}
+
+static void double_three(struct frame *frame)
+{
+    double_one_between_target_and_lost(frame);
+    frame_lose(frame, "ideal", "left", LOSS_OUT_OF_VIEW,
+               &(struct lost_echo){.object = "a", .reflector = "corner"});
+    double_one_in_a_target(frame);
 }
 
 static void add_a_foreign_one(struct frame *frame)
@@ -119,6 +140,8 @@ static void planted_faults_in_the_account_are_caught(void **state)
                   "account: sensor \"left\", object \"b\", reflector \"corner\" has two entries"},
                  {double_one_between_target_and_lost,
                   "account: sensor \"left\", object \"a\", reflector \"rear\" has two entries"},
+                 {double_three,
+                  "account: sensor \"left\", object \"a\", reflector \"corner\" has two entries"},
                  {add_a_foreign_one, "account: sensor \"right\" has 4 entries; 3 are due"},
                  {add_one_of_a_foreign_sensor, "account: 1 entries of sensors without a count"},
                  {count_one_more, "account: sensor \"left\" has 3 entries; 4 are due"}};
@@ -392,6 +415,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_whole_account_passes),
+        cmocka_unit_test(an_echo_may_feed_several_targets),
         cmocka_unit_test(planted_faults_in_the_account_are_caught),
         cmocka_unit_test(losses_are_grouped_by_sensor_stage_and_reason),
         cmocka_unit_test(a_frame_without_account_forgets_its_losses),

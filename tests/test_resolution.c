@@ -19,6 +19,16 @@ static int compare_echoes(const void *first, const void *second)
     return (a->range_rate_mps > b->range_rate_mps) - (a->range_rate_mps < b->range_rate_mps);
 }
 
+static size_t cluster(const struct resolution_echo *echoes, size_t count, double half_range_m,
+                      double half_range_rate_mps, size_t *cell)
+{
+    struct arena arena = {0};
+    size_t cells =
+        resolution_cluster(echoes, count, half_range_m, half_range_rate_mps, cell, &arena);
+    arena_free(&arena);
+    return cells;
+}
+
 static double draw(uint64_t scene, uint32_t index)
 {
     struct random_address address = {.seed = 11, .scene = scene};
@@ -48,7 +58,7 @@ static void the_four_echoes_of_the_model_make_three_cells(void **state)
         {10.00, -2.0, 10}, {10.10, -2.1, 5}, {10.40, -2.0, 4}, {10.12, -1.5, 3}};
     static const size_t expected[] = {0, 0, 1, 2};
     size_t cell[4];
-    assert_int_equal(resolution_cluster(echoes, 4, 0.15, 0.25, cell), 3);
+    assert_int_equal(cluster(echoes, 4, 0.15, 0.25, cell), 3);
     assert_memory_equal(cell, expected, sizeof cell);
     double range_m = resolution_mean((double[]){10.00, 10.10}, (double[]){10, 5}, 2);
     double range_rate_mps = resolution_mean((double[]){-2.0, -2.1}, (double[]){10, 5}, 2);
@@ -59,7 +69,7 @@ static void the_four_echoes_of_the_model_make_three_cells(void **state)
 static void no_echo_makes_no_cell(void **state)
 {
     (void)state;
-    assert_int_equal(resolution_cluster(NULL, 0, 0.15, 0.25, NULL), 0);
+    assert_int_equal(cluster(NULL, 0, 0.15, 0.25, NULL), 0);
 }
 
 /* NUMERICS 44: three distances of 0.15 m as written. */
@@ -73,12 +83,12 @@ static void the_border_is_decided_by_the_doubles(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct resolution_echo echoes[] = {{cases[i].leader_m, 0, 2}, {cases[i].echo_m, 0, 1}};
         size_t cell[2];
-        assert_int_equal(resolution_cluster(echoes, 2, 0.15, 0.25, cell), cases[i].cells);
+        assert_int_equal(cluster(echoes, 2, 0.15, 0.25, cell), cases[i].cells);
     }
     static const struct resolution_echo exact[] = {
         {8, 1, 5}, {8, 1.25, 4}, {8, 0.75, 3}, {8.125, 1, 2}, {7.875, 1, 1}};
     size_t cell[5];
-    assert_int_equal(resolution_cluster(exact, 5, 0.125, 0.25, cell), 1);
+    assert_int_equal(cluster(exact, 5, 0.125, 0.25, cell), 1);
 }
 
 static void a_cell_does_not_grow_along_a_chain(void **state)
@@ -88,7 +98,7 @@ static void a_cell_does_not_grow_along_a_chain(void **state)
         {10.0, 0, 5}, {10.1, 0, 4}, {10.2, 0, 3}, {10.3, 0, 2}};
     static const size_t expected[] = {0, 0, 1, 1};
     size_t cell[4];
-    assert_int_equal(resolution_cluster(echoes, 4, 0.15, 0.25, cell), 2);
+    assert_int_equal(cluster(echoes, 4, 0.15, 0.25, cell), 2);
     assert_memory_equal(cell, expected, sizeof cell);
 }
 
@@ -101,7 +111,7 @@ static void every_echo_lies_in_the_first_cell_that_reaches_it(void **state)
         size_t cell[ECHO_MAX];
         size_t leader[ECHO_MAX];
         size_t count = draw_echoes(scene, echoes);
-        size_t cells = resolution_cluster(echoes, count, 0.15, 0.25, cell);
+        size_t cells = cluster(echoes, count, 0.15, 0.25, cell);
         size_t opened = 0;
         for (size_t i = 0; i < count; i++) {
             size_t first = 0;
@@ -142,6 +152,51 @@ static void echoes_are_close_exactly_if_a_pair_is(void **state)
 }
 
 /* NUMERICS 45. */
+/* As the rule is written: every leader asks all echoes that are left. */
+static size_t cluster_all_pairs(const struct resolution_echo *echoes, size_t count,
+                                double half_range_m, double half_rate_mps, size_t *cell)
+{
+    size_t cells = 0;
+    for (size_t i = 0; i < count; i++)
+        cell[i] = count;
+    for (size_t leader = 0; leader < count; leader++) {
+        if (cell[leader] < count)
+            continue;
+        for (size_t i = leader; i < count; i++)
+            if (cell[i] == count &&
+                fabs(echoes[i].range_m - echoes[leader].range_m) <= half_range_m &&
+                fabs(echoes[i].range_rate_mps - echoes[leader].range_rate_mps) <= half_rate_mps)
+                cell[i] = cells;
+        cells++;
+    }
+    return cells;
+}
+
+/* Some on borders, some equal, some a rounding apart. */
+static void a_crowd_clusters_as_if_every_pair_were_asked(void **state)
+{
+    (void)state;
+    enum { CROWD = 300 };
+    static const double half_m[] = {0.125, 0.15, 0.9};
+    for (uint64_t scene = 0; scene < 500; scene++) {
+        struct resolution_echo echoes[CROWD];
+        size_t cell[CROWD], expected[CROWD], count = (size_t)(draw(scene, 9999) * CROWD);
+        double spread = draw(scene, 9998) * 300;
+        for (size_t i = 0; i < count; i++) {
+            uint32_t at = (uint32_t)(3 * i);
+            double step = at % 2 == 0 ? floor(draw(scene, at) * 400) / 400 : draw(scene, at);
+            echoes[i] =
+                (struct resolution_echo){spread * step * (1 + (double)(at % 3) * 0x1p-52),
+                                         floor(draw(scene, at + 1) * 10) / 8, draw(scene, at + 2)};
+        }
+        qsort(echoes, count, sizeof echoes[0], compare_echoes);
+        double half = half_m[scene % 3];
+        assert_int_equal(cluster(echoes, count, half, 0.25, cell),
+                         cluster_all_pairs(echoes, count, half, 0.25, expected));
+        assert_memory_equal(cell, expected, count * sizeof cell[0]);
+    }
+}
+
 static void sorted_echoes_cluster_alike_in_every_input_order(void **state)
 {
     (void)state;
@@ -151,14 +206,14 @@ static void sorted_echoes_cluster_alike_in_every_input_order(void **state)
         size_t cell[ECHO_MAX];
         size_t again[ECHO_MAX];
         size_t count = draw_echoes(scene, echoes);
-        size_t cells = resolution_cluster(echoes, count, 0.15, 0.25, cell);
+        size_t cells = cluster(echoes, count, 0.15, 0.25, cell);
         for (uint32_t i = 0; i < count; i++) {
             size_t place = (size_t)(draw(scene, 100 + i) * (i + 1));
             shuffled[i] = shuffled[place];
             shuffled[place] = echoes[i];
         }
         qsort(shuffled, count, sizeof *shuffled, compare_echoes);
-        assert_int_equal(resolution_cluster(shuffled, count, 0.15, 0.25, again), cells);
+        assert_int_equal(cluster(shuffled, count, 0.15, 0.25, again), cells);
         assert_memory_equal(again, cell, count * sizeof *cell);
     }
 }
@@ -175,7 +230,7 @@ static void three_equal_echoes_make_two_cells(void **state)
         for (size_t k = 0; k < 3; k++)
             echoes[k] = (struct resolution_echo){ranges_m[i][k], 0, 1};
         qsort(echoes, 3, sizeof *echoes, compare_echoes);
-        assert_int_equal(resolution_cluster(echoes, 3, 0.15, 0.25, cell), 2);
+        assert_int_equal(cluster(echoes, 3, 0.15, 0.25, cell), 2);
         assert_int_equal(cell[0], 0);
         assert_int_equal(cell[1], 0);
         assert_int_equal(cell[2], 1);
@@ -250,6 +305,7 @@ int main(void)
         cmocka_unit_test(a_cell_does_not_grow_along_a_chain),
         cmocka_unit_test(every_echo_lies_in_the_first_cell_that_reaches_it),
         cmocka_unit_test(echoes_are_close_exactly_if_a_pair_is),
+        cmocka_unit_test(a_crowd_clusters_as_if_every_pair_were_asked),
         cmocka_unit_test(sorted_echoes_cluster_alike_in_every_input_order),
         cmocka_unit_test(three_equal_echoes_make_two_cells),
         cmocka_unit_test(the_mean_of_equal_values_is_that_value),

@@ -9,6 +9,7 @@ static const struct cfar quiet = {CFAR_ORDERED, 16, 2, 8, 0};
 struct sky {
     struct spectrum spectrum;
     struct phasor samples[WIDTH * HEIGHT];
+    double power[WIDTH * HEIGHT];
     struct arena arena;
 };
 
@@ -22,10 +23,10 @@ static void begin(struct sky *sky, enum kernel range_kernel, enum kernel rate_ke
     *sky = (struct sky){.spectrum = {.range_bins = WIDTH,
                                      .rate_bins = HEIGHT,
                                      .channels = 1,
-                                     .detecting = 1,
                                      .range_kernel = range_kernel,
                                      .rate_kernel = rate_kernel}};
     sky->spectrum.samples = sky->samples;
+    sky->spectrum.power = sky->power;
 }
 
 static void add(struct sky *sky, double range, double rate, double amplitude, double phase)
@@ -44,7 +45,9 @@ static void add(struct sky *sky, double range, double rate, double amplitude, do
 static size_t search(struct sky *sky, const struct cfar *cfar, double threshold,
                      struct spectrum_peak **peaks)
 {
-    spectrum_power(&sky->spectrum, &sky->arena);
+    for (size_t i = 0; i < WIDTH * HEIGHT; i++)
+        sky->power[i] =
+            sky->samples[i].re * sky->samples[i].re + sky->samples[i].im * sky->samples[i].im;
     return spectrum_peaks(&sky->spectrum, cfar, threshold, &sky->arena, peaks);
 }
 

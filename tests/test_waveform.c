@@ -16,9 +16,16 @@ static struct waveform usual(enum waveform_kind kind)
 
 static void assert_fault(const struct waveform *waveform, const char *member)
 {
-    const char *fault = waveform_fault(waveform, 1.79, 229);
-    assert_non_null(fault);
-    assert_int_equal(strncmp(fault, member, strlen(member)), 0);
+    struct diag diag = {0};
+    assert_int_equal(waveform_check(waveform, 1.79, 229, &diag), -1);
+    assert_int_equal(diag.code, DIAG_CONFIG);
+    assert_int_equal(strncmp(diag.text, member, strlen(member)), 0);
+}
+
+static void assert_fine(const struct waveform *waveform, double cell_range_m, double range_max_m)
+{
+    struct diag diag = {0};
+    assert_int_equal(waveform_check(waveform, cell_range_m, range_max_m, &diag), 0);
 }
 
 static void absent_members_are_hanns_window_and_the_twelfth_of_sixteen(void **state)
@@ -32,7 +39,7 @@ static void absent_members_are_hanns_window_and_the_twelfth_of_sixteen(void **st
     assert_int_equal(cfar.guard, 2);
     assert_int_equal(cfar.rank, 12);
     assert_near(cfar.factor, 11.080194, 1e-7);
-    assert_null(waveform_fault(&waveform, 1.79, 229));
+    assert_fine(&waveform, 1.79, 229);
 }
 
 static void no_waveform_has_no_fault(void **state)
@@ -40,7 +47,7 @@ static void no_waveform_has_no_fault(void **state)
     (void)state;
     struct waveform waveform;
     field_clear(&waveform_record, &waveform);
-    assert_null(waveform_fault(&waveform, 1.79, 1e6));
+    assert_fine(&waveform, 1.79, 1e6);
 }
 
 static void pulses_have_four_samples_to_a_cell(void **state)
@@ -49,8 +56,9 @@ static void pulses_have_four_samples_to_a_cell(void **state)
     struct waveform chirp = usual(WAVEFORM_CHIRP), pulse = usual(WAVEFORM_PULSE);
     assert_close(waveform_range_step_m(&chirp, 1.79), 1.79, 0);
     assert_close(waveform_range_step_m(&pulse, 0.3), 0.075, 0);
-    assert_null(waveform_fault(&pulse, 0.3, 9.6));
-    assert_non_null(waveform_fault(&pulse, 0.3, 9.7));
+    assert_fine(&pulse, 0.3, 9.6);
+    struct diag diag = {0};
+    assert_int_equal(waveform_check(&pulse, 0.3, 9.7, &diag), -1);
 }
 
 static void what_does_not_go_together_is_refused_by_name(void **state)
@@ -65,7 +73,7 @@ static void what_does_not_go_together_is_refused_by_name(void **state)
     waveform.cfar_cells = 8;
     assert_fault(&waveform, "cfar_rank: ");
     waveform.cfar = CFAR_MEAN;
-    assert_null(waveform_fault(&waveform, 1.79, 229));
+    assert_fine(&waveform, 1.79, 229);
     waveform.repetitions = 12;
     assert_fault(&waveform, "cfar_cells: ");
 }

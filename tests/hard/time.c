@@ -232,6 +232,16 @@ static void multiples_of_a_step_stay_in_their_bin(void **state)
 
 /* The border of a cell is where the doubles put it: |a - b| rounded once, then <=. The naive count
  * is of decimals, a multiple of 0.01 m apart, that the doubles put on the other side. */
+static size_t cluster(const struct resolution_echo *echoes, size_t count, double half_range_m,
+                      double half_range_rate_mps, size_t *cell)
+{
+    struct arena arena = {0};
+    size_t cells =
+        resolution_cluster(echoes, count, half_range_m, half_range_rate_mps, cell, &arena);
+    arena_free(&arena);
+    return cells;
+}
+
 static void the_border_of_a_cell_is_decided_in_doubles(void **state)
 {
     (void)state;
@@ -250,7 +260,7 @@ static void the_border_of_a_cell_is_decided_in_doubles(void **state)
             for (int k = 0; k < 2; k++)
                 echoes[k].range_m = pairs[i][k];
         size_t cell[2];
-        bool one = resolution_cluster(echoes, 2, 0.15, 0.25, cell) == 1;
+        bool one = cluster(echoes, 2, 0.15, 0.25, cell) == 1;
         mpfr_set_d(difference, echoes[0].range_m, MPFR_RNDN);
         mpfr_sub_d(difference, difference, echoes[1].range_m, MPFR_RNDN);
         mpfr_abs(difference, difference, MPFR_RNDN);
@@ -297,7 +307,7 @@ static size_t find_cells(const struct ray rays[TIED], double range_m[TIED])
     size_t cell[TIED];
     for (size_t i = 0; i < TIED; i++)
         echoes[i] = (struct resolution_echo){rays[i].echo.range_m, 0, rays[i].amplitude};
-    size_t cells = resolution_cluster(echoes, TIED, 0.15, 0.25, cell);
+    size_t cells = cluster(echoes, TIED, 0.15, 0.25, cell);
     for (size_t number = 0; number < cells; number++) {
         double ranges[TIED], weights[TIED];
         size_t count = 0;
@@ -451,11 +461,13 @@ static void shuffle_echoes(uint64_t *random, struct frame *frame)
     }
 }
 
-/* The echoes, cells and targets that stages from to the last make of the chain's frame. */
+/* What stages from to the last make of the chain's frame: cells, targets, and echoes if not given.
+ */
 static void find_targets(struct hard_chain *chain, size_t from, struct text *text)
 {
     hard_chain_step(chain, from, CHAIN_STAGES - 1);
-    frame_drop(&chain->frame, SECTION_OBJECTS | SECTION_REFLECTORS);
+    frame_drop(&chain->frame,
+               SECTION_OBJECTS | SECTION_REFLECTORS | (from > 2 ? SECTION_ECHOES : 0));
     text->length = 0;
     hard_chain_write(chain, text);
 }

@@ -5,11 +5,13 @@ Start-up, documents and the growing of buffers belong to the first frames and ar
 hashes by a random seed, so reading documents does not repeat). The C library picks its string
 functions by CPU; here it is held to those that every x86-64 has.
 """
+import concurrent.futures
 import os
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
 
 import scenes
 
@@ -32,70 +34,80 @@ def available():
     return shutil.which("valgrind") is not None
 
 
-def texts(glint, scene, frames, labels, folder):
-    """(mode, pipeline): the whole, and each stage but the source between its lines."""
+def jobs(glint, scene, frames, labels, folder):
+    """{mode: (pipeline, its input)}: the whole, and each stage but the source between its lines."""
     commands = scenes.commands(*scene, FIRST + frames + 1, labels)
-    yield "fused", " | ".join(commands)
-    carried = os.path.join(folder, "0.jsonl")
-    subprocess.run([glint, "-c", f"{commands[0]} -o {carried}"], check=True)
-    for number, command in enumerate(commands[1:], 1):
+    found = {"fused": (" | ".join(commands), os.devnull)}
+    carried = os.devnull
+    for command in commands:
         name = command.split()[0][len("glint-"):]
-        yield f"piped {name}", f"{command} {carried}"
-        written = os.path.join(folder, f"{number}.jsonl")
-        subprocess.run([glint, "-c", f"{command} {carried} -o {written}"], check=True)
+        if carried != os.devnull:
+            found[f"piped {name}"] = (command, carried)
+        handle, written = tempfile.mkstemp(dir=folder)
+        with open(carried) as lines, open(handle, "w") as out:
+            subprocess.run([glint, "-c", command], check=True, stdin=lines, stdout=out)
         carried = written
+    return found
 
 
-def run(tool, binary, text, *options):
-    done = subprocess.run(["valgrind", f"--tool={tool}", *options, binary, "-c", text],
-                          env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                          text=True)
+def run(tool, binary, job, *options):
+    """What valgrind says. The input comes without a name, so that the place of a folder for it
+    makes no difference."""
+    text, path = job
+    with open(path) as lines:
+        done = subprocess.run(["valgrind", f"--tool={tool}", *options, binary, "-c", text],
+                              env=ENVIRONMENT, stdin=lines, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, text=True)
     if done.returncode != 0:
         raise SystemExit(f"bench: valgrind cannot run {text}:\n{done.stderr}")
     return done.stderr
 
 
-def part_counts(profile):
-    """The inclusive counts of one dump: of the whole and of every part that it has."""
-    table = subprocess.run(["callgrind_annotate", "--auto=no", "--inclusive=yes",
-                            "--threshold=100", profile], check=True, stdout=subprocess.PIPE,
-                           text=True).stdout
-    counts = {}
-    for part, function in PARTS.items():
-        found = re.search(rf"^ *([\d,]+) .*:{function} \[", table, re.M)
-        if found:
-            counts[part] = int(found[1].replace(",", ""))
+def read_dump(path):
+    """Of one dump of callgrind: instructions of the whole, and with all that they call, of the
+    functions of PARTS."""
+    parts = {function: part for part, function in PARTS.items()}
+    counts, names, called = {}, {}, None
+    with open(path) as file:
+        for line in file:
+            if line.startswith("cfn=") or line.startswith("fn="):
+                number, _, name = line.split("=", 1)[1].rstrip().partition(" ")
+                names.setdefault(number, name)
+                if line[0] == "c":
+                    called = parts.get(names[number])
+            elif line.startswith("calls="):
+                cost = int(next(file).split()[1])
+                if called:
+                    counts[called] = counts.get(called, 0) + cost
+            elif line.startswith("totals:"):
+                counts["all"] = int(line.split()[1])
     return counts
 
 
-def total(profile):
-    with open(profile) as file:
-        return int(re.search(r"^totals: (\d+)", file.read(), re.M)[1])
-
-
-def instructions(binary, text, folder, parts=False):
-    """Per frame, from frame FIRST to the last but one: {"all": ...} and, if asked for, every part.
-    Callgrind is made to dump wherever a frame begins."""
-    profile = os.path.join(folder, "callgrind")
-    begins = "runner_next" if "glint-traffic" in text else "runner_step"
-    run("callgrind", binary, text, f"--callgrind-out-file={profile}", f"--dump-before={begins}")
-    dumps = []
-    while os.path.exists(f"{profile}.{len(dumps) + 1}"):
-        dumps.append(f"{profile}.{len(dumps) + 1}")
-    frames = dumps[FIRST:-1]
-    counts = {"all": sum(map(total, frames)) / len(frames)}
-    for dump in frames if parts else []:
-        for part, count in part_counts(dump).items():
-            counts[part] = counts.get(part, 0) + count / len(frames)
-    if parts:
-        counts["runner"] = 2 * counts["all"] - sum(counts.values())
-    for dump in dumps + [profile]:
-        os.remove(dump)
+def instructions(binary, job):
+    """Per frame, from frame FIRST to the last but one: {"all": ...} and every part. Callgrind is
+    made to dump wherever a frame begins."""
+    name = job[0].split()[0][len("glint-"):].replace("-", "_")
+    begins = f"{name}_next" if job[1] == os.devnull else f"{name}_step"
+    with tempfile.TemporaryDirectory() as folder:
+        profile = os.path.join(folder, "callgrind")
+        run("callgrind", binary, job, f"--callgrind-out-file={profile}", f"--dump-before={begins}")
+        frames = [read_dump(f"{profile}.{number}")
+                  for number in range(FIRST + 1, len(os.listdir(folder)) - 1)]
+    counts = {part: sum(frame[part] for frame in frames) / len(frames)
+              for part in ["all", *PARTS] if part in frames[0]}
+    counts["runner"] = 2 * counts["all"] - sum(counts.values())
     return counts
 
 
-def allocations(binary, text):
-    told = run("memcheck", binary, text, "--leak-check=no")
+def side_by_side(count, jobs_):
+    """count(job) of every job, on all processors."""
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        return list(pool.map(count, jobs_))
+
+
+def allocations(binary, job):
+    told = run("memcheck", binary, job, "--leak-check=no")
     return int(re.search(r"total heap usage: ([\d,]+) allocs", told)[1].replace(",", ""))
 
 

@@ -36,8 +36,8 @@ def chain(files, effects):
             " | glint-sensor | glint-noise")
 
 
-def instructions(glint, path, effects, folder):
-    parts = counts.instructions(glint, chain(path, effects), folder, parts=True)
+def instructions(glint, path, effects):
+    parts = counts.instructions(glint, (chain("-", effects), path))
     return {"physics": sum(parts[name] for name in PHYSICS), "end to end": parts["all"]}
 
 
@@ -57,8 +57,8 @@ def lines(glint, repeat, folder):
     for scene, source in SCENES.items():
         path = os.path.join(folder, "frames")
         frames = write_frames(glint, source, path)
-        counted = {effects: instructions(glint, path, effects, folder)
-                   for effects in EFFECTS if counts.available()}
+        counted = counts.available() and dict(zip(EFFECTS, counts.side_by_side(
+            lambda effects: instructions(glint, path, effects), EFFECTS)))
         samples = sample(glint, path, repeat, folder)
         for (effects, part), values in samples.items():
             line = {"scene": scene, "effects": effects, "part": part, "frames": frames}

@@ -11,7 +11,7 @@
 #include <zlib.h>
 
 #include "../sample.h"
-#include "number.h"
+#include "digits.h"
 #include "plain.h"
 
 enum { NUMBERS = 240, VEHICLES = 20, PIPE_BYTES = 30000, TEXT_SIZE = 1 << 16, SWEEPS = 500 };
@@ -28,7 +28,7 @@ struct bench {
 
 static char *put(char *at, double number, char after)
 {
-    at += number_write(number, at);
+    at = digits_write(number, at);
     *at++ = after;
     return at;
 }
@@ -40,13 +40,10 @@ static char *put_text(char *at, const char *text)
     return at + length;
 }
 
-/* Numbers one after the other, each ended by `after`. */
-static const char *get(const char *at, char after, double *number)
+/* Numbers one after the other, each ended by one byte. */
+static const char *get(const char *at, double *number)
 {
-    const char *end = strchr(at, after);
-    if (end == NULL || !number_read(at, end, number))
-        abort();
-    return end + 1;
+    return digits_read(at, at + 32, number) + 1;
 }
 
 static void write_numbers(struct bench *bench)
@@ -61,7 +58,7 @@ static void read_numbers(struct bench *bench)
 {
     const char *at = bench->text;
     for (int i = 0; i < NUMBERS; i++)
-        at = get(at, '\n', &bench->numbers[i]);
+        at = get(at, &bench->numbers[i]);
 }
 
 static void compute(struct bench *bench)
@@ -108,7 +105,7 @@ static void run_plain_chain(struct bench *bench)
         double *members[] = {&vehicles[i].x_m,       &vehicles[i].y_m,      &vehicles[i].yaw_rad,
                              &vehicles[i].speed_mps, &vehicles[i].length_m, &vehicles[i].width_m};
         for (int k = 0; k < 6; k++)
-            from = get(from, ',', members[k]);
+            from = get(from, members[k]);
     }
     char *at = put_text(bench->line, "{\"targets\":[");
     size_t count = plain_targets(vehicles, VEHICLES, targets);

@@ -1,11 +1,14 @@
 """What scripts/bench times: scenes fused and piped, the machine's floors, start-up, two shards, a
-long stream. Nanoseconds are of wall clock unless a part is called cpu; every number is a median,
-with minimum and maximum."""
+long stream.
+
+Nanoseconds are CPU time, so that a busy machine counts little. Only what is called wall is wall
+clock, and so are start-up and shards. Every number is a median, with minimum and maximum."""
 import json
 import os
 import shlex
 import statistics
 import subprocess
+import sys
 
 import scenes
 
@@ -31,6 +34,14 @@ def spent(command, stdout=subprocess.DEVNULL):
     return {line["part"]: line for line in map(json.loads, done.stderr.splitlines())}
 
 
+def show(title, done, expected):
+    """Progress, for people only."""
+    if sys.stderr.isatty() and not sys.stdout.isatty():
+        filled = 40 * done // expected
+        sys.stderr.write(f"\r{title:6} [{'#' * filled:40}] {100 * done // expected:3} %")
+        sys.stderr.write("\n" if done >= expected else "")
+
+
 def write_text(text, folder, name="chain.sh"):
     path = os.path.join(folder, name)
     with open(path, "w") as out:
@@ -52,25 +63,22 @@ class Chain:
         self.glint, self.frames, self.samples, self.bytes, self.peak_kB = glint, frames, {}, {}, {}
         os.makedirs(folder)
         self.fused = write_text(" | ".join(commands), folder)
-        self.stages, carried = [], None
+        self.stages, read = [], []
         for number, command in enumerate(commands):
             name = command.split()[0][len("glint-"):]
-            text = command if carried is None else f"{command} {carried}"
-            many = command if carried is None else f"{command} {' '.join([carried] * reads)}"
-            carried = os.path.join(folder, f"{number}.jsonl")
-            self.stages.append((name, write_text(many, folder, f"{number}.sh")))
-            self.write_lines(f"{text} -o {carried}", frames // reads)
-        self.output = carried
+            many = write_text(" ".join([command] + read * reads), folder, f"{number}.sh")
+            self.stages.append((name, many))
+            written = os.path.join(folder, f"{number}.jsonl")
+            self.write_lines(" ".join([command] + read), written, frames // reads)
+            read = [written]
 
-    def write_lines(self, text, frames):
-        """A source makes all its frames; the files hold some of them, spread evenly."""
-        subprocess.run([self.glint, "-c", text], check=True)
-        path = text.split(" -o ")[-1]
+    def write_lines(self, text, path, frames):
+        """A source makes all its frames; the file gets so many of them, spread evenly."""
+        subprocess.run([self.glint, "-c", f"{text} -o {path}"], check=True)
         with open(path) as file:
             lines = file.readlines()
-        if len(lines) > frames:
-            with open(path, "w") as out:
-                out.writelines(lines[::len(lines) // frames][:frames])
+        with open(path, "w") as out:
+            out.writelines(lines[::len(lines) // frames][:frames])
 
     def add(self, mode, part, value):
         self.samples.setdefault((mode, part), []).append(value)
@@ -92,12 +100,14 @@ class Chain:
     def sample(self):
         told = spent([self.glint, "--times", self.fused])
         self.add("fused", "all", self.add_run("fused", told))
-        self.add("fused", "cpu", told["spent"]["cpu_ns"] / self.frames)
-        self.peak_kB["fused", "all"] = told["spent"]["peak_kB"]
+        told = spent([self.glint, self.fused])["spent"]
+        self.add("fused", "cpu", told["cpu_ns"] / self.frames)
+        self.add("fused", "wall", told["wall_ns"] / self.frames)
+        self.peak_kB["fused", "all"] = told["peak_kB"]
         total = 0
         for name, text in self.stages:
             told = spent([self.glint, "--times", text])
-            total += self.add_run("piped", told, "" if len(self.stages) == 1 else f"{name}: ")
+            total += self.add_run("piped", told, f"{name}: ")
         self.add("piped", "all", total)
         told = spent(["bash", self.fused])["spent"]
         self.add("piped", "cpu", told["cpu_ns"] / self.frames)

@@ -1,0 +1,20 @@
+/* Numbers as text by the compiler's own C++ library: the floor of shortest digits, which stays
+ * where it is when lib/number.cc gets faster. */
+#ifndef DIGITS_H
+#define DIGITS_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Writes the shortest decimal that reads back, at most 32 bytes; returns its end. */
+char *digits_write(double value, char *at);
+
+/* Reads a decimal; returns its end. */
+const char *digits_read(const char *at, const char *end, double *value);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

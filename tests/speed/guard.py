@@ -1,0 +1,92 @@
+"""scripts/bench --guard: the part of the bench that a test can hold to, for it measures no time.
+
+Instructions per frame of a few chains must be within 3 % of tests/speed/instructions.json where
+machine, compiler, its options and C library are those of the record; elsewhere they are printed. A
+gain is a change too: --renew writes down what this build takes. And no chain may allocate anything
+after its first frames, anywhere.
+"""
+import json
+import os
+import subprocess
+
+import counts
+import scenes
+
+RECORD = os.path.join("tests", "speed", "instructions.json")
+BUDGET = 0.03
+FRAMES = 12
+CHAINS = [("highway", 20, 1, "default"), ("highway", 20, 1, "account"),
+          ("intersection", 20, 4, "default"), ("in-view", 100, 1, "default")]
+PIPED = CHAINS[0]
+
+
+def chains(glint, folder):
+    """{name: job}"""
+    found = {}
+    for scene in CHAINS:
+        for mode, job in counts.jobs(glint, scene[:3], FRAMES, scene[3], folder).items():
+            if mode == "fused" or scene == PIPED:
+                found["{}-{}x{}, {}, {}".format(*scene, mode)] = job
+    return found
+
+
+def pairs(glint, folder):
+    """Chains over few and over more frames, made by a source and read from text: (name, job)."""
+    for frames in (FRAMES, 4 * FRAMES):
+        commands = scenes.commands("highway", 20, 1, frames, "account")
+        lines = os.path.join(folder, f"lines-{frames}.jsonl")
+        subprocess.run([glint, "-c", f"{commands[0]} -o {lines}"], check=True)
+        yield "made", (" | ".join(commands), os.devnull)
+        yield "read", (" | ".join(commands[1:]), lines)
+
+
+def growing(glint, folder):
+    """How chains allocate after their first frames: a line for each that does."""
+    names, jobs = zip(*pairs(glint, folder))
+    counted = counts.side_by_side(lambda job: counts.allocations(glint, job), jobs)
+    return [f"frames {name}: {few} allocations in {FRAMES} frames, {many} in {4 * FRAMES}"
+            for name, few, many in zip(names, counted[:2], counted[2:]) if few != many]
+
+
+def compare(found, record):
+    """A line for every chain, and the names of those that leave the budget."""
+    outside = []
+    for name, count in found.items():
+        before = record.get(name)
+        change = f"{count / before - 1:+8.2%}" if before else "     new"
+        print(f"{count:14,.0f} {change}  {name}")
+        if before is None or abs(count / before - 1) > BUDGET:
+            outside.append(name)
+    return outside
+
+
+def write(record):
+    with open(RECORD, "w") as out:
+        json.dump(record, out, indent=2)
+        out.write("\n")
+
+
+def run(glint, renew, folder):
+    """The exit status."""
+    if not counts.available():
+        return 0
+    with open(RECORD) as file:
+        record = json.load(file)
+    platform, jobs = counts.platform(glint), chains(glint, folder)
+    found = counts.side_by_side(lambda job: round(counts.instructions(glint, job)["all"], 3),
+                                jobs.values())
+    found = dict(zip(jobs, found))
+    print("instructions per frame, next to the record")
+    outside = compare(found, record["instructions_per_frame"])
+    grown = growing(glint, folder)
+    for told in grown:
+        print(f"bench: {told}")
+    foreign = [key for key, value in platform.items() if record[key] != value]
+    if renew:
+        write(platform | {"instructions_per_frame": found})
+    elif foreign:
+        print(f"not held to the record, which is of another {', '.join(foreign)}")
+    elif outside:
+        print(f"bench: more than {BUDGET:.0%} off: {'; '.join(outside)}\n"
+              "Where this is meant: scripts/bench --guard --renew")
+    return 1 if grown or (outside and not foreign and not renew) else 0

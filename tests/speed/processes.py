@@ -1,0 +1,126 @@
+"""What scripts/bench measures of whole processes: how fast they start, what two shards gain, and
+whether a long stream costs the same at its end as at its beginning."""
+import os
+import statistics
+import subprocess
+
+import scenes
+import timing
+
+SUITE = "--sensors lrr77-every-frame"
+# What each executable is given to do of one frame: options, and after which stage it reads.
+STARTS = {"extract": ("", 0), "ideal": (SUITE, 1), "plan": (SUITE, 1), "sensor": ("", 2),
+          "sensor-perfect": ("", 2), "noise": ("", 3), "noise-gauss": ("", 3),
+          "noise-none": ("", 3), "export-csv": ("", 4), "summary": ("", 4), "view": ("", 4)}
+TENTHS = 10
+
+
+def one_frame(glint, folder):
+    """The stages of a chain over one frame, and the files that they write."""
+    commands = scenes.commands("highway", 20, 1, 1, "default")
+    files = []
+    for number, command in enumerate(commands):
+        path = os.path.join(folder, f"one-{number}.jsonl")
+        text = " ".join([command] + files[-1:] + ["-o", path])
+        subprocess.run([glint, "-c", text], check=True)
+        files.append(path)
+    return commands, files
+
+
+def start_commands(glint, folder):
+    """{executable: (command, frames)}; one that is not known here is asked for its version."""
+    bin_folder = os.path.dirname(glint)
+    commands, files = one_frame(glint, folder)
+    found = {"true": (["true"], 0), "glint": ([glint, "-c", " | ".join(commands)], 1)}
+    for program in sorted(os.listdir(bin_folder)):
+        path, name = os.path.join(bin_folder, program), program[len("glint-"):]
+        if name == "traffic":
+            found[program] = [path] + commands[0].split()[1:], 1
+        elif name == "traffic-random":
+            found[program] = [path, "--frames", "1"], 1
+        elif name in STARTS:
+            words, stage = STARTS[name]
+            found[program] = [path] + words.split() + [files[stage]], 1
+        elif program != "glint":
+            found[program] = [path, "--version"], 0
+    return found
+
+
+def start_lines(glint, repeat, folder):
+    """From start to end over one frame, documents and all; `true` is what any process takes."""
+    commands, samples = start_commands(glint, folder), {}
+    for _ in range(4 * repeat):
+        for program, (command, _) in commands.items():
+            told = timing.spent(command)["spent"]
+            samples.setdefault(program, []).append((told["wall_ns"], told["cpu_ns"]))
+    for program, values in samples.items():
+        walls, cpus = zip(*values)
+        yield ({"start": program, "frames": commands[program][1]} | timing.spread(walls, "ns")
+               | {"cpu_ns": round(statistics.median(cpus))})
+
+
+def shard_lines(glint, repeat, folder, frames=1000, reads=5):
+    """One process over a stream of frames, and two over half of it each."""
+    source, *stages = scenes.commands("highway", 20, 1, frames, "default")
+    lines = os.path.join(folder, "shards.jsonl")
+    subprocess.run([glint, "-c", f"{source} -o {lines}"], check=True)
+
+    def run(times):
+        text = " | ".join([" ".join([stages[0]] + [lines] * times)] + stages[1:])
+        return f"{glint} -c '{text}'"
+    commands = {"one": run(2 * reads), "two": f"{run(reads)} & other=$!; {run(reads)} && wait $other"}
+    samples = {"one": [], "two": []}
+    for _ in range(repeat):
+        for name, command in commands.items():
+            told = timing.spent(["bash", "-c", command])["spent"]
+            samples[name].append(told["wall_ns"] / (2 * reads * frames))
+    for name, values in samples.items():
+        yield {"shards": name} | timing.spread(values)
+
+
+def seen(processes):
+    """CPU time so far, and resident memory now, of running processes together."""
+    cpu_ns = resident_kB = 0
+    for process in processes:
+        with open(f"/proc/{process.pid}/schedstat") as file:
+            cpu_ns += int(file.read().split()[0])
+        with open(f"/proc/{process.pid}/status") as file:
+            fields = dict(line.split(":", 1) for line in file)
+        resident_kB += int(fields.get("VmRSS", "0 kB").split()[0])
+    return cpu_ns, resident_kB
+
+
+def follow(title, processes, frames):
+    """Reads what the last process writes; (CPU, memory) at the end of every tenth but the last,
+    after which there may be no process to ask."""
+    found, done = [(0, 0)], 0
+    while chunk := os.read(processes[-1].stdout.fileno(), 1 << 20):
+        done += chunk.count(b"\n")
+        timing.show(title, done, frames)
+        if len(found) < TENTHS and done >= len(found) * frames // TENTHS:
+            found.append(seen(processes))
+    if done != frames or any(process.wait() != 0 for process in processes):
+        raise SystemExit(f"bench: {done} frames came out of {frames}")
+    return found
+
+
+def pipe(commands):
+    processes = []
+    for command in commands:
+        before = processes[-1].stdout if processes else subprocess.DEVNULL
+        processes.append(subprocess.Popen(command.split(), stdin=before, stdout=subprocess.PIPE))
+        if len(processes) > 1:
+            before.close()
+    return processes
+
+
+def stream_lines(glint, frames):
+    """The platoon (everyone at the ego's speed) in so many frames, fused and piped."""
+    commands = scenes.commands("platoon", 20, 1, frames, "default")
+    fused = [subprocess.Popen([glint, "-c", " | ".join(commands)], stdout=subprocess.PIPE)]
+    for mode, processes in (("fused", fused), ("piped", None)):
+        found = follow(mode, processes or pipe(commands), frames)
+        for tenth in range(1, len(found)):
+            cpu_ns = (found[tenth][0] - found[tenth - 1][0]) / (frames / TENTHS)
+            yield {"stream": frames, "mode": mode, "tenth": tenth, "cpu_ns_per_frame": round(cpu_ns),
+                   "resident_kB": found[tenth][1]}
