@@ -5,6 +5,9 @@
 #include "hash.h"
 #include "units.h"
 
+/* Far more than the rounding of a place in the world. */
+#define PLAIN_M 1e-6
+
 static const char *const shapes[] = {
     [VISIBILITY_RAISED_COSINE] = "raised_cosine",
     [VISIBILITY_HARD] = "hard",
@@ -291,6 +294,25 @@ double reflectors_visibility(const struct box *box, const struct point_reflector
 {
     return visibility_along(point->shape, point->full_rad, point->zero_rad,
                             vec2_turn(facing, box->heading), vec2_sub(sensor, place));
+}
+
+bool reflectors_plainly_away(const struct box *box, const struct point_reflector *point,
+                             struct vec2 facing, struct vec2 sensor)
+{
+    struct vec2 sight = {sensor.x - point->x * box->length_m + point->inset_m * facing.x,
+                         sensor.y - point->y * box->width_m + point->inset_m * facing.y};
+    return visibility_plainly_none(point->zero_rad, facing, sight, PLAIN_M);
+}
+
+bool reflectors_plainly_aside(const struct box *box, const struct plane_reflector *plane,
+                              struct vec2 sensor)
+{
+    struct vec2 from = {plane->from_x * box->length_m, plane->from_y * box->width_m};
+    struct vec2 to = {plane->to_x * box->length_m, plane->to_y * box->width_m};
+    struct vec2 side = vec2_sub(to, from), sight = vec2_sub(sensor, from);
+    double square = vec2_dot(side, side), along = vec2_dot(side, sight), length = sqrt(square);
+    double margin = (plane->margin_m - PLAIN_M) * length;
+    return vec2_cross(side, sight) > PLAIN_M * length || along < margin || along > square - margin;
 }
 
 double reflectors_lobe(const struct box *box, const struct point_reflector *point,

@@ -528,8 +528,15 @@ static void crowd(struct scene *scene, uint64_t *random)
         pole->z = sample_bits(random) % 2 ? 0 : sample_between(random, 0.1, 2);
         pole->facing_rad = sample_between(random, -PI, PI);
         pole->zero_rad = sample_between(random, 0, PI);
-        *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
-            .name = "side", .from_x = 0.5, .from_y = 0.5, .to_x = -0.5, .to_y = 0.5, .ercs = 0.8};
+        pole->inset_m = i % 3 == 0 ? sample_between(random, 0, 1) : 0;
+        *list_add(&set->planes, &scene->arena) =
+            (struct plane_reflector){.name = "side",
+                                     .from_x = 0.5,
+                                     .from_y = 0.5,
+                                     .to_x = -0.5,
+                                     .to_y = 0.5,
+                                     .margin_m = i % 2 == 0 ? 0.2 : 0,
+                                     .ercs = 0.8};
         struct object *object = add_object(scene, ids[i], sample_between(random, -1, 1) * spread_m,
                                            sample_between(random, -1, 1) * spread_m);
         object->yaw_rad = sample_between(random, -PI, PI);
