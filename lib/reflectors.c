@@ -134,9 +134,20 @@ static const struct field row_fields[] = {
     {0},
 };
 
+/* What the document does not say of its set. */
+#define MODEL                                                                                      \
+    {                                                                                              \
+        FIELD_NAME_OF(struct reflector_set, model,                                                 \
+                      "the class that the vehicle document describes")                             \
+    }
+#define WORN_BY                                                                                    \
+    {                                                                                              \
+        FIELD_NAMES_OF(struct reflector_set, worn_by, "ids of the objects that reflect like this") \
+    }
+
 static const struct field reflector_set_fields[] = {
-    {FIELD_NAME_OF(struct reflector_set, model, "the class that the vehicle document describes")},
-    {FIELD_NAMES_OF(struct reflector_set, worn_by, "ids of the objects that reflect like this")},
+    MODEL,
+    WORN_BY,
     {FIELD_FLAG_OF(struct reflector_set, blocks, "does the outline stop sight lines?"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct reflector_set, raised, "can a radar look under it?"), FIELD_OPTIONAL},
@@ -185,6 +196,27 @@ const struct record reflector_model_record = {
     .size = sizeof(struct reflector_set),
     .fields = reflector_set_fields + 2,
 };
+
+static const struct field reflector_worn_fields[] = {
+    MODEL,
+    WORN_BY,
+    {0},
+};
+
+const struct record reflector_worn_record = {
+    .name = "reflector set's wearers",
+    .help = "Who wears the reflection centres of a class.",
+    .size = sizeof(struct reflector_set),
+    .fields = reflector_worn_fields,
+};
+
+bool reflectors_as_read(const struct reflector_set *set)
+{
+    const struct reflector_set *read = set->document;
+#define SAME(list) (set->list.items == read->list.items && set->list.count == read->list.count)
+    return read != NULL && SAME(points) && SAME(planes) && SAME(rows) && SAME(mirrors);
+#undef SAME
+}
 
 static const char *name_at(const struct reflector_set *set, size_t index)
 {

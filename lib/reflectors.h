@@ -74,11 +74,16 @@ struct reflector_set {
     LIST_OF(struct plane_reflector) planes;
     LIST_OF(struct post_row) rows;
     LIST_OF(struct mirror_plane) mirrors;
+    const struct reflector_set *document; /* that it was copied from; NULL: none */
 };
 
 extern const struct record point_record, plane_record, row_record;
 extern const struct record reflector_set_record;   /* with who wears it: the frame's */
 extern const struct record reflector_model_record; /* without: the vehicle document's */
+extern const struct record reflector_worn_record;  /* only the model and who wears it */
+
+/* Are all of its lists still those of its document, which was checked when it was read? */
+bool reflectors_as_read(const struct reflector_set *set);
 
 /* The first name that two reflectors of the set share, or NULL. Beside a row "a" no point or plane
  * may be called a_1, as posts are. */
