@@ -72,7 +72,7 @@ def knob_panel(rows, ladder, x, y, texts, more="", line="linespoints", least=LEA
     plots += [f'${name} using 1:2:3 with labels left offset 0.6, 0.4 font ",9" notitle' for name in names]
     return blocks, f"""
 set title "{title}"; set xlabel "{xlabel}"; set ylabel "{ylabel}"; set autoscale; {more}
-set label 1 "{wrapped(choice, 50)}" at graph 0, -0.36 font ",10"
+set label 1 "{wrapped(choice, 44)}" at graph 0, -0.36 font ",10"
 plot {", ".join(plots)}"""
 
 
