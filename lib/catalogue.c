@@ -80,6 +80,7 @@ const struct vehicle *catalogue_vehicle(const char *class, struct arena *arena, 
         diag_prefix(diag, "%s: contour.", path);
         return NULL;
     }
+    vehicle->reflectors.document = &vehicle->reflectors;
     return vehicle;
 }
 

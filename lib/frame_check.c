@@ -24,7 +24,7 @@ static int check_sets(const struct frame *frame, struct diag *diag)
 {
     for (size_t i = 0; i < frame->reflectors.count; i++) {
         const struct reflector_set *set = &frame->reflectors.items[i];
-        const char *twice = reflectors_name_twice(set);
+        const char *twice = reflectors_as_read(set) ? NULL : reflectors_name_twice(set);
         for (size_t j = 1; j < set->worn_by.count && twice == NULL; j++)
             if (frame_same_name(set->worn_by.items[j - 1], set->worn_by.items[j]))
                 twice = set->worn_by.items[j];
@@ -116,19 +116,37 @@ int frame_check(const struct frame *frame, struct diag *diag)
     return check_sections(frame, ~0U, diag);
 }
 
-static bool members_good(struct frame *frame, struct frame_part part)
+static bool sets_good(const struct frame *frame, struct field_names *names)
 {
-    struct field_names *names = frame_names(frame);
-    bool lost = (part.sections & SECTION_LOST) != 0;
-    if (!field_good(&frame_record, frame, 1, part.sections & ~(unsigned)SECTION_LOST, names))
-        return false;
-    for (size_t i = 0; i < frame->lost.count && lost; i++) {
+    for (size_t i = 0; i < frame->reflectors.count; i++) {
+        const struct reflector_set *set = &frame->reflectors.items[i];
+        const struct record *record =
+            reflectors_as_read(set) ? &reflector_worn_record : &reflector_set_record;
+        if (!field_good(record, set, 1, ~0U, names))
+            return false;
+    }
+    return true;
+}
+
+static bool lost_good(const struct frame *frame, const char *stage, struct field_names *names)
+{
+    for (size_t i = 0; i < frame->lost.count; i++) {
         const struct lost_group *group = &frame->lost.items[i];
-        bool own = part.stage == NULL || frame_same_name(group->stage, part.stage);
+        bool own = stage == NULL || frame_same_name(group->stage, stage);
         if (own && !field_good(&lost_group_record, group, 1, ~0U, names))
             return false;
     }
     return true;
+}
+
+/* The sections whose items need not all be looked at come by themselves. */
+static bool members_good(struct frame *frame, struct frame_part part)
+{
+    const unsigned apart = SECTION_REFLECTORS | SECTION_LOST;
+    struct field_names *names = frame_names(frame);
+    return field_good(&frame_record, frame, 1, part.sections & ~apart, names) &&
+           ((part.sections & SECTION_REFLECTORS) == 0 || sets_good(frame, names)) &&
+           ((part.sections & SECTION_LOST) == 0 || lost_good(frame, part.stage, names));
 }
 
 int frame_check_part(struct frame *frame, struct frame_part part, struct diag *diag)

@@ -5,6 +5,9 @@
 #include "hash.h"
 #include "units.h"
 
+/* Far more than the rounding of a place in the world. */
+#define PLAIN_M 1e-6
+
 static const char *const shapes[] = {
     [VISIBILITY_RAISED_COSINE] = "raised_cosine",
     [VISIBILITY_HARD] = "hard",
@@ -131,9 +134,20 @@ static const struct field row_fields[] = {
     {0},
 };
 
+/* What the document does not say of its set. */
+#define MODEL                                                                                      \
+    {                                                                                              \
+        FIELD_NAME_OF(struct reflector_set, model,                                                 \
+                      "the class that the vehicle document describes")                             \
+    }
+#define WORN_BY                                                                                    \
+    {                                                                                              \
+        FIELD_NAMES_OF(struct reflector_set, worn_by, "ids of the objects that reflect like this") \
+    }
+
 static const struct field reflector_set_fields[] = {
-    {FIELD_NAME_OF(struct reflector_set, model, "the class that the vehicle document describes")},
-    {FIELD_NAMES_OF(struct reflector_set, worn_by, "ids of the objects that reflect like this")},
+    MODEL,
+    WORN_BY,
     {FIELD_FLAG_OF(struct reflector_set, blocks, "does the outline stop sight lines?"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct reflector_set, raised, "can a radar look under it?"), FIELD_OPTIONAL},
@@ -182,6 +196,27 @@ const struct record reflector_model_record = {
     .size = sizeof(struct reflector_set),
     .fields = reflector_set_fields + 2,
 };
+
+static const struct field reflector_worn_fields[] = {
+    MODEL,
+    WORN_BY,
+    {0},
+};
+
+const struct record reflector_worn_record = {
+    .name = "reflector set's wearers",
+    .help = "Who wears the reflection centres of a class.",
+    .size = sizeof(struct reflector_set),
+    .fields = reflector_worn_fields,
+};
+
+bool reflectors_as_read(const struct reflector_set *set)
+{
+    const struct reflector_set *read = set->document;
+#define SAME(list) (set->list.items == read->list.items && set->list.count == read->list.count)
+    return read != NULL && SAME(points) && SAME(planes) && SAME(rows) && SAME(mirrors);
+#undef SAME
+}
 
 static const char *name_at(const struct reflector_set *set, size_t index)
 {
@@ -291,6 +326,25 @@ double reflectors_visibility(const struct box *box, const struct point_reflector
 {
     return visibility_along(point->shape, point->full_rad, point->zero_rad,
                             vec2_turn(facing, box->heading), vec2_sub(sensor, place));
+}
+
+bool reflectors_plainly_away(const struct box *box, const struct point_reflector *point,
+                             struct vec2 facing, struct vec2 sensor)
+{
+    struct vec2 sight = {sensor.x - point->x * box->length_m + point->inset_m * facing.x,
+                         sensor.y - point->y * box->width_m + point->inset_m * facing.y};
+    return visibility_plainly_none(point->zero_rad, facing, sight, PLAIN_M);
+}
+
+bool reflectors_plainly_aside(const struct box *box, const struct plane_reflector *plane,
+                              struct vec2 sensor)
+{
+    struct vec2 from = {plane->from_x * box->length_m, plane->from_y * box->width_m};
+    struct vec2 to = {plane->to_x * box->length_m, plane->to_y * box->width_m};
+    struct vec2 side = vec2_sub(to, from), sight = vec2_sub(sensor, from);
+    double square = vec2_dot(side, side), along = vec2_dot(side, sight), length = sqrt(square);
+    double margin = (plane->margin_m - PLAIN_M) * length;
+    return vec2_cross(side, sight) > PLAIN_M * length || along < margin || along > square - margin;
 }
 
 double reflectors_lobe(const struct box *box, const struct point_reflector *point,

@@ -74,11 +74,16 @@ struct reflector_set {
     LIST_OF(struct plane_reflector) planes;
     LIST_OF(struct post_row) rows;
     LIST_OF(struct mirror_plane) mirrors;
+    const struct reflector_set *document; /* that it was copied from; NULL: none */
 };
 
 extern const struct record point_record, plane_record, row_record;
 extern const struct record reflector_set_record;   /* with who wears it: the frame's */
 extern const struct record reflector_model_record; /* without: the vehicle document's */
+extern const struct record reflector_worn_record;  /* only the model and who wears it */
+
+/* Are all of its lists still those of its document, which was checked when it was read? */
+bool reflectors_as_read(const struct reflector_set *set);
 
 /* The first name that two reflectors of the set share, or NULL. Beside a row "a" no point or plane
  * may be called a_1, as posts are. */
@@ -116,6 +121,13 @@ struct vec2 reflectors_along(const struct box *box, const struct plane_reflector
  * point's facing_rad, in the object's frame. */
 double reflectors_visibility(const struct box *box, const struct point_reflector *point,
                              struct vec2 facing, struct vec2 place, struct vec2 sensor);
+
+/* True only if a sensor sees nothing of a point, and a plane has no specular point for it: told in
+ * the object's frame, where sensor is its place, so that neither need be placed in the world. */
+bool reflectors_plainly_away(const struct box *box, const struct point_reflector *point,
+                             struct vec2 facing, struct vec2 sensor);
+bool reflectors_plainly_aside(const struct box *box, const struct plane_reflector *plane,
+                              struct vec2 sensor);
 
 /* The factor on amplitude of a point's lobe; 1 without one. zenith_rad is the sensor's as the point
  * sees it. */

@@ -285,6 +285,19 @@ static int check_sections(struct runner *runner, const struct frame *frame)
     return 0;
 }
 
+/* Nonsense is the stage's own, unless it can name the place that it read it from. */
+static int refuse(struct runner *runner, const struct frame *frame)
+{
+    const struct stage *stage = runner->stage;
+    struct diag nonsense = runner->diag;
+    runner->diag = (struct diag){0};
+    if (stage->blame != NULL && stage->blame(runner->state, frame, runner) != 0)
+        return -1;
+    runner->diag = nonsense;
+    runner->diag.code = DIAG_INTERNAL;
+    return diag_prefix(&runner->diag, "made nonsense: ");
+}
+
 /* What follows every step: sections that were used up go, what the stage wrote is ordered and
  * checked, so that the stage that makes nonsense fails, not its neighbour. The rest was checked
  * before, by the reader or after an earlier stage. */
@@ -298,10 +311,8 @@ static int conclude(struct runner *runner, struct frame *frame)
     if (frame->account && (stage->writes & SECTION_LOST) != 0)
         frame->present |= SECTION_LOST;
     frame_order_part(frame, written);
-    if (frame_check_part(frame, written, &runner->diag) != 0) {
-        runner->diag.code = DIAG_INTERNAL;
-        return diag_prefix(&runner->diag, "made nonsense: ");
-    }
+    if (frame_check_part(frame, written, &runner->diag) != 0)
+        return refuse(runner, frame);
     if (frame->account && (stage->writes & SECTION_TARGETS) != 0)
         return audit_frame(frame, &runner->diag);
     return 0;

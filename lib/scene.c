@@ -184,11 +184,9 @@ static int refuse(const struct scene *scene, int64_t number, const char *id, str
     return diag_prefix(diag, "object \"%s\" in frame %lld: ", id, (long long)number);
 }
 
-int scene_check(const struct scene *scene, int64_t number, struct frame *frame, struct diag *diag)
+int scene_check(const struct scene *scene, int64_t number, const struct frame *frame,
+                struct diag *diag)
 {
-    if (field_good(&object_record, frame->objects.items, frame->objects.count, ~0U,
-                   frame_names(frame)))
-        return 0;
     for (size_t i = 0; i < frame->objects.count; i++) {
         const struct object *object = &frame->objects.items[i];
         if (field_check(&object_record, object, diag) != 0)

@@ -30,6 +30,7 @@ void scene_frame(const struct scene *scene, int64_t number, struct frame *frame)
 /* Refuses objects of that frame that no frame can hold, as they are too far from its origin, say,
  * or turn too fast, and names their row (DIAG_DATA) or their object in the scenario (DIAG_CONFIG).
  */
-int scene_check(const struct scene *scene, int64_t number, struct frame *frame, struct diag *diag);
+int scene_check(const struct scene *scene, int64_t number, const struct frame *frame,
+                struct diag *diag);
 
 #endif

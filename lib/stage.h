@@ -37,6 +37,9 @@ struct stage {
     int (*start)(void *state, struct runner *runner);
     int (*next)(void *state, struct frame *frame, struct runner *runner);
     int (*step)(void *state, struct frame *frame, struct runner *runner);
+    /* Of a source, for a frame that is refused: -1 after a message that names the place in what it
+     * read, 0 if that is not to blame; NULL: it never is. */
+    int (*blame)(void *state, const struct frame *frame, struct runner *runner);
     int (*stop)(void *state, struct runner *runner); /* after the last frame; NULL: nothing */
     /* Frees what a library made for the state, after a failure too; NULL: nothing. */
     void (*release)(void *state);

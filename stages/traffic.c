@@ -43,6 +43,7 @@ static void limit_radius(struct frame *frame, double radius_m)
 
 static int traffic_next(void *state, struct frame *frame, struct runner *runner)
 {
+    (void)runner;
     struct traffic *traffic = state;
     if (traffic->frame == traffic->played.frames)
         return 0;
@@ -54,9 +55,15 @@ static int traffic_next(void *state, struct frame *frame, struct runner *runner)
     frame->last = traffic->frame == traffic->played.frames;
     if (traffic->radius_m > 0)
         limit_radius(frame, traffic->radius_m);
+    return 1;
+}
+
+static int traffic_blame(void *state, const struct frame *frame, struct runner *runner)
+{
+    const struct traffic *traffic = state;
     if (scene_check(&traffic->played, frame->frame, frame, runner_diag(runner)) != 0)
         return diag_prefix(runner_diag(runner), "%s: ", traffic->source);
-    return 1;
+    return 0;
 }
 
 static const struct field traffic_options[] = {
@@ -90,4 +97,5 @@ const struct stage stage_traffic = {
     .writes = SECTION_OBJECTS,
     .start = traffic_start,
     .next = traffic_next,
+    .blame = traffic_blame,
 };

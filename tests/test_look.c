@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "direct.h"
+#include "frame_text.h"
 #include "sample.h"
 #include "units.h"
 
@@ -527,13 +528,36 @@ static void crowd(struct scene *scene, uint64_t *random)
         pole->z = sample_bits(random) % 2 ? 0 : sample_between(random, 0.1, 2);
         pole->facing_rad = sample_between(random, -PI, PI);
         pole->zero_rad = sample_between(random, 0, PI);
-        *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
-            .name = "side", .from_x = 0.5, .from_y = 0.5, .to_x = -0.5, .to_y = 0.5, .ercs = 0.8};
+        pole->inset_m = i % 3 == 0 ? sample_between(random, 0, 1) : 0;
+        *list_add(&set->planes, &scene->arena) =
+            (struct plane_reflector){.name = "side",
+                                     .from_x = 0.5,
+                                     .from_y = 0.5,
+                                     .to_x = -0.5,
+                                     .to_y = 0.5,
+                                     .margin_m = i % 2 == 0 ? 0.2 : 0,
+                                     .ercs = 0.8};
         struct object *object = add_object(scene, ids[i], sample_between(random, -1, 1) * spread_m,
                                            sample_between(random, -1, 1) * spread_m);
         object->yaw_rad = sample_between(random, -PI, PI);
         object->height_m = sample_between(random, 0.3, 4);
     }
+}
+
+/* As lines have them, since the gaps between members are nobody's. */
+static void assert_same_echoes(const struct echo *one, const struct echo *other, size_t count)
+{
+    const struct record *record = field_find(&frame_record, "echoes", strlen("echoes"), 0)->record;
+    struct text texts[2] = {0};
+    for (size_t i = 0; i < count; i++) {
+        frame_text_write_record(record, &one[i], &texts[0]);
+        frame_text_write_record(record, &other[i], &texts[1]);
+    }
+    assert_int_equal(texts[0].length, texts[1].length);
+    if (count > 0)
+        assert_memory_equal(texts[0].bytes, texts[1].bytes, texts[0].length);
+    text_free(&texts[0]);
+    text_free(&texts[1]);
 }
 
 static void who_asks_for_less_sees_the_same(void **state)
@@ -556,8 +580,7 @@ static void who_asks_for_less_sees_the_same(void **state)
         direct_look(&some);
         assert_int_equal(some.pairs, all.pairs);
         assert_int_equal(some.echoes, all.echoes);
-        assert_memory_equal(frame->echoes.items, accounted.echoes.items,
-                            (size_t)some.echoes * sizeof(struct echo));
+        assert_same_echoes(frame->echoes.items, accounted.echoes.items, (size_t)some.echoes);
         echoes += (size_t)all.echoes;
         pairs += (size_t)all.pairs;
         remove_scene(&place);

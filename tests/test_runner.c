@@ -190,12 +190,50 @@ static void a_stage_that_makes_nonsense_fails_itself(void **state)
     arena_free(&arena);
 }
 
+static void describe_nonsense(const void *state, const struct vehicle *vehicle,
+                              struct reflector_set *set, struct arena *arena)
+{
+    (void)state;
+    (void)vehicle;
+    memset(&set->points, 0, sizeof set->points);
+    struct point_reflector *point = list_add(&set->points, arena);
+    *point = (struct point_reflector){.name = "glare", .ercs = -1};
+}
+
+static int extract_nonsense(void *state, struct frame *frame, struct runner *runner)
+{
+    (void)state;
+    return runner_extract(runner, frame, describe_nonsense);
+}
+
+/* A document's reflectors were checked when it was read; others in their place were not. */
+static void a_list_in_place_of_the_documents_is_checked(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena};
+    const struct stage stage = {.name = "nonsense",
+                                .options = &stage_no_options,
+                                .reads = SECTION_OBJECTS,
+                                .writes = SECTION_OBJECTS | SECTION_REFLECTORS,
+                                .step = extract_nonsense};
+    struct runner runner;
+    begin_frame(&frame);
+    begin(&runner, &stage, 0, NULL);
+    assert_int_equal(runner_step(&runner, &frame), -1);
+    assert_string_equal(runner.diag.text,
+                        "made nonsense: reflectors[0].points[0].ercs: -1 is outside [0, 1000]");
+    runner_free(&runner);
+    arena_free(&arena);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_stage_changes_what_it_does_not_declare),
         cmocka_unit_test(a_change_that_is_not_declared_is_found),
         cmocka_unit_test(a_stage_that_makes_nonsense_fails_itself),
+        cmocka_unit_test(a_list_in_place_of_the_documents_is_checked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
