@@ -83,7 +83,7 @@ static void place_bodies(struct look *look, double age_s)
         if (strcmp(frame->objects.items[i].id, frame->ego) != 0)
             others[count++] = &frame->objects.items[i];
     sort_items(others, count, sizeof(*others), compare_objects, frame->arena);
-    look->bodies = arena_get(frame->arena, count * sizeof *look->bodies);
+    look->bodies = arena_room(frame->arena, count * sizeof *look->bodies);
     for (size_t i = 0; i < count; i++)
         look->bodies[i] = body_at(look, others[i], age_s);
     look->body_count = count;
@@ -127,10 +127,11 @@ static void enter_blockers(struct look *look)
 {
     look->bearings = bearings_begin(look->body_count, look->frame->arena);
     for (size_t i = 0; i < look->body_count; i++) {
-        struct sector shadow = look->bodies[i].sector;
-        shadow.radius_m += look->bend_m;
-        if (look->bodies[i].blocks)
-            bearings_enter(&look->bearings, i, bearings_of(&shadow));
+        struct look_body *body = &look->bodies[i];
+        body->shadow = body->sector;
+        body->shadow.radius_m += look->bend_m;
+        if (body->blocks)
+            bearings_enter(&look->bearings, i, bearings_of(&body->shadow));
     }
 }
 

@@ -267,7 +267,8 @@ const char *reflectors_name_twice(const struct reflector_set *set)
 
 static double farthest(double least, double x, double y)
 {
-    return fmax(least, 2 * fmax(fabs(x), fabs(y)));
+    double far = 2 * (fabs(x) > fabs(y) ? fabs(x) : fabs(y));
+    return far > least ? far : least;
 }
 
 struct reflectors_spread reflectors_spread(const struct reflector_set *set)
@@ -299,9 +300,15 @@ struct vec2 reflectors_place(const struct box *box, double x, double y)
 
 void reflectors_outline(const struct box *box, struct vec2 corner[4])
 {
-    static const double x[] = {0.5, -0.5, -0.5, 0.5}, y[] = {0.5, 0.5, -0.5, -0.5};
-    for (int i = 0; i < 4; i++)
-        corner[i] = reflectors_place(box, x[i], y[i]);
+    /* What reflectors_place says of each, from the same four products. */
+    struct vec2 centre = box->motion.position_m;
+    struct vec2 ahead = vec2_scale(0.5 * box->length_m, box->heading);
+    struct vec2 left = vec2_left(vec2_scale(0.5 * box->width_m, box->heading));
+    struct vec2 front_left = vec2_add(ahead, left), front_right = vec2_sub(ahead, left);
+    corner[0] = vec2_add(centre, front_left);
+    corner[1] = vec2_sub(centre, front_right);
+    corner[2] = vec2_sub(centre, front_left);
+    corner[3] = vec2_add(centre, front_right);
 }
 
 struct vec2 reflectors_point_place(const struct box *box, const struct point_reflector *point)

@@ -6,8 +6,10 @@
 
 #include "direct.h"
 #include "frame_text.h"
+#include "occlusion.h"
 #include "sample.h"
 #include "units.h"
+#include "ways.h"
 
 /* A frame in which object "e" carries a sensor with a view all around ahead. */
 struct scene {
@@ -588,6 +590,39 @@ static void who_asks_for_less_sees_the_same(void **state)
     assert_true(echoes > 5000 && pairs > 100000);
 }
 
+/* Circles around bodies and within them tell most answers, the outline all of them. */
+static void a_way_is_blocked_where_an_outline_is_touched(void **state)
+{
+    (void)state;
+    uint64_t random = 11;
+    size_t blocked = 0, ways = 0;
+    for (int i = 0; i < 2000; i++) {
+        void *place;
+        make_scene(&place);
+        struct scene *scene = place;
+        crowd(scene, &random);
+        scene->sensor.mount_z_m = 0;
+        scene->sensor.diffraction = false;
+        struct look look = look_around_at(scene, 10);
+        for (int k = 0; k < 50; k++) {
+            struct vec2 far = {sample_between(&random, -60, 60), sample_between(&random, -60, 60)};
+            const struct passage_line line = {.from = look.position_m, .to = far};
+            const struct look_body *by = NULL;
+            for (size_t j = look.body_count; j-- > 0;)
+                if (look.bodies[j].blocks &&
+                    occlusion_outline_blocks(look.bodies[j].corner, 4, line.from, line.to))
+                    by = &look.bodies[j];
+            struct way way = ways_along(&look, &line, NULL, 0);
+            assert_ptr_equal(way.by, by);
+            assert_true(way.factor == (by == NULL));
+            blocked += by != NULL;
+            ways++;
+        }
+        remove_scene(&place);
+    }
+    assert_true(blocked > ways / 10 && blocked < ways / 2);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, make_scene, remove_scene)
 
 int main(void)
@@ -610,6 +645,7 @@ int main(void)
         TEST(without_margins_nothing_is_told),
         TEST(a_set_on_nobody_is_refused),
         TEST(who_asks_for_less_sees_the_same),
+        TEST(a_way_is_blocked_where_an_outline_is_touched),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
