@@ -57,8 +57,8 @@ static double sight_margin_m(const struct look *look, const struct look_body *bo
 {
     if (!under)
         return ways_clearance_m(look, line, &body, 1);
-    return fmin(ways_margin_m(look, &body, 1, line, true, false),
-                ways_margin_m(look, &body, 1, line, false, true));
+    return elementary_least(ways_margin_m(look, &body, 1, line, true, false),
+                            ways_margin_m(look, &body, 1, line, false, true));
 }
 
 /* The way past what stands there, or under it where that lets more through. */
@@ -96,8 +96,8 @@ static bool in_reach(struct look *look, const struct look_body *body, struct gli
 {
     const struct sensor *sensor = look->sensor;
     double azimuth = fabs(sight->azimuth_rad);
-    double reach_m =
-        fabs(fmin(sight->range_m - sensor->range_min_m, sensor->range_max_m - sight->range_m));
+    double reach_m = fabs(elementary_least(sight->range_m - sensor->range_min_m,
+                                           sensor->range_max_m - sight->range_m));
     double view_m = sight->range_m * fabs(look_border_rad(sensor) - azimuth);
     if (!(sight->range_m > 0 && sight->range_m >= sensor->range_min_m &&
           sight->range_m <= sensor->range_max_m)) {
@@ -108,7 +108,7 @@ static bool in_reach(struct look *look, const struct look_body *body, struct gli
         lose(look, body, seen->reflector, LOSS_OUT_OF_VIEW, NULL, view_m);
         return false;
     }
-    seen->margin_m = fmin(seen->margin_m, fmin(reach_m, view_m));
+    seen->margin_m = elementary_least(seen->margin_m, elementary_least(reach_m, view_m));
     return true;
 }
 
@@ -159,7 +159,8 @@ static void look_at(struct look *look, const struct look_body *body, struct glim
         return;
     }
     if (tell)
-        seen->margin_m = fmin(seen->margin_m, sight_margin_m(look, body, &line, seen->under));
+        seen->margin_m =
+            elementary_least(seen->margin_m, sight_margin_m(look, body, &line, seen->under));
     look->echoes++;
     struct echo *echo = list_add(&look->frame->echoes, look->frame->arena);
     *echo = (struct echo){

@@ -3,18 +3,45 @@
 #include <string.h>
 
 #include "frame_order.h"
+#include "hash.h"
 #include "sort.h"
 
-static int check_objects(const struct frame *frame, struct diag *diag)
+/* By a hash table, so that many objects cost no more each than few. */
+static bool ids_differ(const struct frame *frame)
+{
+    size_t slot_count = 1;
+    while (slot_count < 2 * frame->objects.count)
+        slot_count *= 2;
+    const char **slots = arena_get(frame->arena, slot_count * sizeof *slots);
+    for (size_t i = 0; i < frame->objects.count; i++) {
+        const char *id = frame->objects.items[i].id;
+        size_t slot = hash_for_table(HASH_START, id) & (slot_count - 1);
+        for (; slots[slot] != NULL; slot = (slot + 1) & (slot_count - 1))
+            if (frame_same_name(slots[slot], id))
+                return false;
+        slots[slot] = id;
+    }
+    return true;
+}
+
+/* The first id in order that stands twice. */
+static int refuse_id(const struct frame *frame, struct diag *diag)
 {
     size_t count = frame->objects.count;
-    const char **ids = arena_room(frame->arena, (count + 1) * sizeof *ids);
+    const char **ids = arena_room(frame->arena, count * sizeof *ids);
     for (size_t i = 0; i < count; i++)
         ids[i] = frame->objects.items[i].id;
     sort_items(ids, count, sizeof(*ids), frame_order_names, frame->arena);
-    for (size_t i = 1; i < count; i++)
-        if (frame_same_name(ids[i - 1], ids[i]))
-            return diag_fail(diag, DIAG_DATA, "objects: the id \"%s\" stands twice", ids[i]);
+    size_t i = 1;
+    while (!frame_same_name(ids[i - 1], ids[i]))
+        i++;
+    return diag_fail(diag, DIAG_DATA, "objects: the id \"%s\" stands twice", ids[i]);
+}
+
+static int check_objects(const struct frame *frame, struct diag *diag)
+{
+    if (!ids_differ(frame))
+        return refuse_id(frame, diag);
     if (frame_object(frame, frame->ego) == NULL)
         return diag_fail(diag, DIAG_DATA, "ego: \"%s\" is not among the objects", frame->ego);
     return 0;

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "elementary.h"
 #include "hash.h"
 #include "units.h"
 
@@ -277,7 +278,7 @@ struct reflectors_spread reflectors_spread(const struct reflector_set *set)
     for (size_t i = 0; i < set->points.count; i++) {
         const struct point_reflector *point = &set->points.items[i];
         spread.share = farthest(spread.share, point->x, point->y);
-        spread.inset_m = fmax(spread.inset_m, point->inset_m);
+        spread.inset_m = elementary_most(spread.inset_m, point->inset_m);
     }
     for (size_t i = 0; i < set->planes.count; i++) {
         const struct plane_reflector *plane = &set->planes.items[i];

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "clearance.h"
+#include "elementary.h"
 #include "knife_edge.h"
 #include "occlusion.h"
 #include "orientation.h"
@@ -29,7 +30,8 @@ static enum meeting meeting_of(const struct look_body *body, struct vec2 from, s
     double reach = (body->sector.radius_m + slack_m) * (1 + 1e-9) * length_m;
     if (aside > reach || along < -reach || along > square + reach)
         return MEETING_NONE;
-    double inner_m = 0.5 * fmin(body->box.length_m, body->box.width_m) * (1 - 1e-9) - slack_m;
+    double inner_m =
+        0.5 * elementary_least(body->box.length_m, body->box.width_m) * (1 - 1e-9) - slack_m;
     if (aside < inner_m * length_m && along > reach && along < square - reach)
         return MEETING_THROUGH;
     struct vec2 ahead = body->box.heading, rest = vec2_sub(centre, line);
@@ -183,14 +185,14 @@ double ways_margin_m(const struct look *look, const struct look_body *const *but
         if (!body->blocks || (solid && body->raised) || is_among(body, but, count))
             continue;
         if (!occlusion_outline_blocks(corner, 4, from, to)) {
-            nearest_m = fmin(nearest_m, clearance_outline_m(corner, 4, from, to));
+            nearest_m = elementary_least(nearest_m, clearance_outline_m(corner, 4, from, to));
             continue;
         }
         double above_m = passage_above_m(corner, 4, look_top_m(look, body), line);
         if (above_m > 0 || soft_m > 0)
-            nearest_m = fmin(nearest_m, fmax(above_m, 0));
-        double depth_m = fmin(clearance_depth_m(corner, 4, from, to), -above_m);
-        deepest_m = fmax(deepest_m, depth_m - soft_m);
+            nearest_m = elementary_least(nearest_m, elementary_most(above_m, 0));
+        double depth_m = elementary_least(clearance_depth_m(corner, 4, from, to), -above_m);
+        deepest_m = elementary_most(deepest_m, depth_m - soft_m);
     }
     return blocked ? deepest_m : nearest_m;
 }
