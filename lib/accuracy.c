@@ -2,11 +2,13 @@
 
 #include <math.h>
 
+#include "elementary.h"
+
 double accuracy_sigma(const struct accuracy *accuracy, double snr)
 {
     double noise = accuracy->factor * accuracy->cell / sqrt(snr);
-    /* fmin passes over the NaN of 0/0. */
-    double variance = fmin(noise * noise + accuracy->floor * accuracy->floor,
-                           accuracy->cell * accuracy->cell / 12);
+    /* The lesser passes over the NaN of 0/0. */
+    double variance = elementary_least(noise * noise + accuracy->floor * accuracy->floor,
+                                       accuracy->cell * accuracy->cell / 12);
     return sqrt(variance + accuracy->step * accuracy->step / 12);
 }

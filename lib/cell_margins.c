@@ -3,14 +3,16 @@
 #include <complex.h>
 #include <math.h>
 
+#include "elementary.h"
+
 /* By how many half cells other lies beyond the edge of a cell around leader; negative inside. */
 static double beyond_edge(const struct sensor *sensor, const struct ray *leader,
                           const struct ray *other)
 {
     double range_m = fabs(other->range_m - leader->range_m);
     double rate_mps = fabs(other->range_rate_mps - leader->range_rate_mps);
-    return fmax((range_m - sensor->half_range_m) / sensor->half_range_m,
-                (rate_mps - sensor->half_range_rate_mps) / sensor->half_range_rate_mps);
+    return elementary_most((range_m - sensor->half_range_m) / sensor->half_range_m,
+                           (rate_mps - sensor->half_range_rate_mps) / sensor->half_range_rate_mps);
 }
 
 static void note_pair(const struct sensor *sensor, const struct ray *leader,

@@ -1,5 +1,6 @@
 #include "clearance.h"
 
+#include "elementary.h"
 #include "occlusion.h"
 #include "units.h"
 
@@ -21,7 +22,7 @@ double clearance_foot_m(struct vec2 a, struct vec2 b, struct vec2 along, double 
     double before_m = -vec2_cross(along, vec2_sub(sensor, a));
     double from_a_m = vec2_dot(vec2_sub(sensor, a), along) - margin_m;
     double from_b_m = vec2_dot(vec2_sub(b, sensor), along) - margin_m;
-    return fabs(fmin(before_m, fmin(from_a_m, from_b_m)));
+    return fabs(elementary_least(before_m, elementary_least(from_a_m, from_b_m)));
 }
 
 static double to_line_m(struct vec2 a, struct vec2 b, struct vec2 point)
@@ -45,8 +46,8 @@ static double to_segment_m(struct vec2 a, struct vec2 b, struct vec2 point)
 static double least_m(double (*distance_m)(struct vec2 a, struct vec2 b, struct vec2 point),
                       struct vec2 p, struct vec2 q, struct vec2 a, struct vec2 b)
 {
-    return fmin(fmin(distance_m(p, q, a), distance_m(p, q, b)),
-                fmin(distance_m(a, b, p), distance_m(a, b, q)));
+    return elementary_least(elementary_least(distance_m(p, q, a), distance_m(p, q, b)),
+                            elementary_least(distance_m(a, b, p), distance_m(a, b, q)));
 }
 
 double clearance_outline_m(const struct vec2 *corners, size_t count, struct vec2 from,
@@ -54,8 +55,8 @@ double clearance_outline_m(const struct vec2 *corners, size_t count, struct vec2
 {
     double nearest_m = (double)INFINITY;
     for (size_t i = 0; i < count; i++)
-        nearest_m =
-            fmin(nearest_m, least_m(to_segment_m, from, to, corners[i], corners[(i + 1) % count]));
+        nearest_m = elementary_least(
+            nearest_m, least_m(to_segment_m, from, to, corners[i], corners[(i + 1) % count]));
     return nearest_m;
 }
 
@@ -65,7 +66,7 @@ double clearance_depth_m(const struct vec2 *corners, size_t count, struct vec2 f
     for (size_t i = 0; i < count; i++) {
         struct vec2 next = corners[(i + 1) % count];
         if (occlusion_segments_touch(from, to, corners[i], next))
-            deepest_m = fmax(deepest_m, least_m(to_line_m, from, to, corners[i], next));
+            deepest_m = elementary_most(deepest_m, least_m(to_line_m, from, to, corners[i], next));
     }
     return deepest_m;
 }

@@ -15,7 +15,7 @@ double clutter_area_m2(double range_min_m, double range_max_m, double field_of_v
 double clutter_range_m(double range_min_m, double range_max_m, double uniform)
 {
     double square = range_min_m * range_min_m * (1 - uniform) + range_max_m * range_max_m * uniform;
-    return fmin(fmax(sqrt(square), range_min_m), range_max_m);
+    return elementary_least(elementary_most(sqrt(square), range_min_m), range_max_m);
 }
 
 double clutter_range_rate_mps(struct vec2 sensor_mps, struct vec2 boresight, double azimuth_rad)

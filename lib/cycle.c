@@ -4,11 +4,13 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "elementary.h"
+
 /* The number of the latest instant at or before time_s; -1 before the first. */
 static double latest_instant(double cycle_s, double time_s)
 {
     double cycles = time_s / cycle_s;
-    return fmax(floor(cycles + 1e-9 + 4 * DBL_EPSILON * fabs(cycles)), -1);
+    return elementary_most(floor(cycles + 1e-9 + 4 * DBL_EPSILON * fabs(cycles)), -1);
 }
 
 /* Cycles are decimals, so their multiples are too: 4.392, not 4.3919999999999995. */

@@ -30,7 +30,7 @@ static void lose(struct look *look, const struct look_body *body, const char *re
                                    .margins = margins_of(look, margin_m)});
 }
 
-/* One reflector that faces the sensor. */
+/* One reflector that may face the sensor. */
 struct glimpse {
     const char *reflector;
     const struct side *side; /* that it is, or NULL for a point */
@@ -42,30 +42,52 @@ struct glimpse {
     double under_vehicles;
     double margin_m;  /* by which it faces the sensor */
     uint64_t effects; /* that changed something so far */
+    bool sought;      /* is the way to it known, */
+    struct way way;
+    bool under; /* and does it lead under what stands there? */
 };
+
+static struct passage_line line_to(const struct look *look, const struct glimpse *seen)
+{
+    return (struct passage_line){look->position_m, seen->place, look->height_m, seen->height_m};
+}
 
 static double sight_margin_m(const struct look *look, const struct look_body *body,
                              const struct passage_line *line, bool under)
 {
     if (!under)
         return ways_clearance_m(look, line, &body, 1);
-    return fmin(ways_margin_m(look, &body, 1, line, true, false),
-                ways_margin_m(look, &body, 1, line, false, true));
+    return elementary_least(ways_margin_m(look, &body, 1, line, true, false),
+                            ways_margin_m(look, &body, 1, line, false, true));
 }
 
 /* The way past what stands there, or under it where that lets more through. */
-static struct way best_way(const struct look *look, const struct glimpse *seen,
-                           const struct passage_line *line, bool *under)
+static void seek_way(const struct look *look, struct glimpse *seen)
 {
-    *under = false;
-    struct way way = ways_past_blockers(look, seen->side, line, false);
-    if (seen->under_vehicles == 0 || way.factor == 1)
-        return way;
-    struct way below = ways_past_blockers(look, seen->side, line, true);
-    below.factor *= seen->under_vehicles;
-    below.effects |= EFFECT_BIT(EFFECT_OCCLUSION);
-    *under = below.factor > way.factor;
-    return *under ? below : way;
+    if (seen->sought)
+        return;
+    const struct passage_line line = line_to(look, seen);
+    int64_t begin = effects_begin(look->selection);
+    seen->sought = true;
+    seen->way = ways_past_blockers(look, seen->side, &line, false);
+    if (seen->under_vehicles != 0 && seen->way.factor != 1) {
+        struct way below = ways_past_blockers(look, seen->side, &line, true);
+        below.factor *= seen->under_vehicles;
+        below.effects |= EFFECT_BIT(EFFECT_OCCLUSION);
+        seen->under = below.factor > seen->way.factor;
+        seen->way = seen->under ? below : seen->way;
+    }
+    effects_end(look->selection, EFFECT_OCCLUSION, begin);
+}
+
+/* That it is blocked is found with a few products, what it reads with arctangents: the latter are
+ * spared unless somebody asks what comes first of the reasons for its loss. */
+static bool is_hidden(const struct look *look, struct glimpse *seen)
+{
+    if (look->frame->account)
+        return false;
+    seek_way(look, seen);
+    return seen->way.by != NULL;
 }
 
 /* Is it in range and in view? If not, it is lost. */
@@ -74,8 +96,8 @@ static bool in_reach(struct look *look, const struct look_body *body, struct gli
 {
     const struct sensor *sensor = look->sensor;
     double azimuth = fabs(sight->azimuth_rad);
-    double reach_m =
-        fabs(fmin(sight->range_m - sensor->range_min_m, sensor->range_max_m - sight->range_m));
+    double reach_m = fabs(elementary_least(sight->range_m - sensor->range_min_m,
+                                           sensor->range_max_m - sight->range_m));
     double view_m = sight->range_m * fabs(look_border_rad(sensor) - azimuth);
     if (!(sight->range_m > 0 && sight->range_m >= sensor->range_min_m &&
           sight->range_m <= sensor->range_max_m)) {
@@ -86,7 +108,7 @@ static bool in_reach(struct look *look, const struct look_body *body, struct gli
         lose(look, body, seen->reflector, LOSS_OUT_OF_VIEW, NULL, view_m);
         return false;
     }
-    seen->margin_m = fmin(seen->margin_m, fmin(reach_m, view_m));
+    seen->margin_m = elementary_least(seen->margin_m, elementary_least(reach_m, view_m));
     return true;
 }
 
@@ -117,46 +139,45 @@ static void tell_motion(const struct look *look, const struct look_body *body,
 }
 
 /* An echo if it is in range, in view and not blocked. */
-static void look_at(struct look *look, const struct look_body *body, struct glimpse seen)
+static void look_at(struct look *look, const struct look_body *body, struct glimpse *seen)
 {
-    bool tell = look->frame->margins, under;
-    struct vec2 velocity = motion_velocity_at(&body->box.motion, seen.place);
+    bool tell = look->frame->margins;
+    struct vec2 velocity = motion_velocity_at(&body->box.motion, seen->place);
     double gain;
     struct sight sight = look_lifted(
-        look, seen.height_m,
-        sight_of(look->position_m, look->velocity_mps, look->boresight, seen.place, velocity),
-        &gain, &seen.effects);
-    seen.ercs *= gain;
-    if (!in_reach(look, body, &seen, &sight))
+        look, seen->height_m,
+        sight_of(look->position_m, look->velocity_mps, look->boresight, seen->place, velocity),
+        &gain, &seen->effects);
+    seen->ercs *= gain;
+    if (!in_reach(look, body, seen, &sight))
         return;
-    const struct passage_line line = {look->position_m, seen.place, look->height_m, seen.height_m};
-    int64_t begin = effects_begin(look->selection);
-    struct way way = best_way(look, &seen, &line, &under);
-    effects_end(look->selection, EFFECT_OCCLUSION, begin);
-    if (way.by != NULL) {
-        lose(look, body, seen.reflector, LOSS_BLOCKED, way.by,
-             tell ? ways_margin_m(look, &body, 1, &line, seen.under_vehicles > 0, true) : 0);
+    const struct passage_line line = line_to(look, seen);
+    seek_way(look, seen);
+    if (seen->way.by != NULL) {
+        lose(look, body, seen->reflector, LOSS_BLOCKED, seen->way.by,
+             tell ? ways_margin_m(look, &body, 1, &line, seen->under_vehicles > 0, true) : 0);
         return;
     }
     if (tell)
-        seen.margin_m = fmin(seen.margin_m, sight_margin_m(look, body, &line, under));
+        seen->margin_m =
+            elementary_least(seen->margin_m, sight_margin_m(look, body, &line, seen->under));
     look->echoes++;
     struct echo *echo = list_add(&look->frame->echoes, look->frame->arena);
     *echo = (struct echo){
         .sensor = look->sensor->name,
         .object = body->object->id,
-        .reflector = seen.reflector,
+        .reflector = seen->reflector,
         .path = PATH_DIRECT,
         .range_m = sight.range_m,
         .azimuth_rad = sight.azimuth_rad,
         .range_rate_mps = sight.range_rate_mps,
-        .ercs = way.factor * seen.ercs,
+        .ercs = seen->way.factor * seen->ercs,
         .time_s = look->time_s,
-        .effects = seen.effects | way.effects,
-        .margins = margins_of(look, seen.margin_m),
+        .effects = seen->effects | seen->way.effects,
+        .margins = margins_of(look, seen->margin_m),
     };
-    tell_height(look, body, &seen, echo);
-    tell_motion(look, body, &seen, velocity, echo);
+    tell_height(look, body, seen, echo);
+    tell_motion(look, body, seen, velocity, echo);
 }
 
 static void look_at_point(struct look *look, const struct look_body *body,
@@ -164,29 +185,30 @@ static void look_at_point(struct look *look, const struct look_body *body,
                           struct vec2 place)
 {
     look->pairs++;
-    bool selective = effects_may(look->selection, EFFECT_VISIBILITY);
+    struct glimpse seen = {
+        .reflector = point->name,
+        .place = place,
+        .height_m = look_height_m(look, body, point->z),
+        .z = point->z,
+        .extent = point->extent,
+        .moving_part = point->moving_part,
+        .under_vehicles = point->under_vehicles,
+        .margin_m = (double)INFINITY,
+        .effects = look_aged(look, body),
+    };
+    if (is_hidden(look, &seen))
+        return;
     double visible = look_visibility(look, body, point, facing, place, look->position_m);
-    double margin_m = (double)INFINITY;
-    if (look->frame->margins && selective)
-        margin_m = clearance_facing_m(&body->box, point->shape, point->facing_rad, point->zero_rad,
-                                      place, look->position_m);
-    if (visible > 0)
-        look_at(look, body,
-                (struct glimpse){
-                    .reflector = point->name,
-                    .place = place,
-                    .height_m = look_height_m(look, body, point->z),
-                    .z = point->z,
-                    .extent = point->extent,
-                    .moving_part = point->moving_part,
-                    .ercs = visible * point->ercs,
-                    .under_vehicles = point->under_vehicles,
-                    .margin_m = margin_m,
-                    .effects =
-                        look_aged(look, body) | (visible < 1 ? EFFECT_BIT(EFFECT_VISIBILITY) : 0),
-                });
-    else
-        lose(look, body, point->name, LOSS_FACING_AWAY, NULL, margin_m);
+    if (look->frame->margins && effects_may(look->selection, EFFECT_VISIBILITY))
+        seen.margin_m = clearance_facing_m(&body->box, point->shape, point->facing_rad,
+                                           point->zero_rad, place, look->position_m);
+    if (visible == 0) {
+        lose(look, body, point->name, LOSS_FACING_AWAY, NULL, seen.margin_m);
+        return;
+    }
+    seen.ercs = visible * point->ercs;
+    seen.effects |= visible < 1 ? EFFECT_BIT(EFFECT_VISIBILITY) : 0;
+    look_at(look, body, &seen);
 }
 
 static void look_at_plane(struct look *look, const struct look_body *body,
@@ -214,9 +236,11 @@ static void look_at_plane(struct look *look, const struct look_body *body,
             .margin_m = margin_m,
             .effects = look_aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
         };
+        if (is_hidden(look, &seen))
+            return;
         double range_m = vec2_length(vec2_sub(foot, look->position_m));
         seen.ercs = look_plane_ercs(look, plane, range_m, &seen.effects);
-        look_at(look, body, seen);
+        look_at(look, body, &seen);
     } else
         lose(look, body, plane->name, LOSS_NO_SPECULAR, NULL, margin_m);
 }
@@ -242,6 +266,32 @@ static bool passed_over(const struct look *look, const struct look_body *body,
            look_misses(look, body, sector);
 }
 
+/* Those that do not plainly face away, unless somebody asks why not. */
+static void look_at_points(struct look *look, const struct look_body *body,
+                           const struct look_set *worn, struct vec2 sensor, bool all)
+{
+    for (size_t i = 0; i < worn->set->points.count; i++) {
+        const struct point_reflector *point = &worn->set->points.items[i];
+        struct vec2 facing = worn->facings[i];
+        if (all || !reflectors_plainly_away(&body->box, point, facing, sensor))
+            look_at_point(look, body, point, facing, reflectors_point_place(&body->box, point));
+        else
+            look->pairs++;
+    }
+}
+
+static void look_at_planes(struct look *look, const struct look_body *body,
+                           const struct reflector_set *set, struct vec2 sensor, bool all)
+{
+    for (size_t i = 0; i < set->planes.count; i++) {
+        const struct plane_reflector *plane = &set->planes.items[i];
+        if (all || !reflectors_plainly_aside(&body->box, plane, sensor))
+            look_at_plane(look, body, plane);
+        else
+            look->pairs++;
+    }
+}
+
 static void look_at_body(struct look *look, const struct look_body *body,
                          const struct look_set *worn)
 {
@@ -256,13 +306,11 @@ static void look_at_body(struct look *look, const struct look_body *body,
     effects_note(selection, EFFECT_VISIBILITY, set->points.count + set->rows.count > 0);
     effects_note(selection, EFFECT_PLANE_REFLECTION, set->planes.count > 0);
     effects_note(selection, EFFECT_ROWS, set->rows.count > 0);
-    for (size_t i = 0; i < set->points.count; i++) {
-        const struct point_reflector *point = &set->points.items[i];
-        look_at_point(look, body, point, worn->facings[i],
-                      reflectors_point_place(&body->box, point));
-    }
-    for (size_t i = 0; i < set->planes.count; i++)
-        look_at_plane(look, body, &set->planes.items[i]);
+    bool asked = look->frame->account;
+    struct vec2 sensor =
+        vec2_turn_back(vec2_sub(look->position_m, body->box.motion.position_m), body->box.heading);
+    look_at_points(look, body, worn, sensor, asked || !effects_may(selection, EFFECT_VISIBILITY));
+    look_at_planes(look, body, set, sensor, asked);
     for (size_t i = 0; i < set->rows.count && effects_may(selection, EFFECT_ROWS); i++)
         look_along_row(look, body, &set->rows.items[i]);
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "accuracy.h"
+#include "elementary.h"
 #include "interference.h"
 #include "misalignment.h"
 #include "superposition.h"
@@ -71,7 +72,7 @@ struct deviation disturbance_deviation(const struct disturbance *by, const struc
         return (struct deviation){
             sigma_by_snr(sensor, amplitude, sensor->cell_range_m, fixed.range_m),
             sigma_by_snr(sensor, amplitude, sensor->cell_range_rate_mps, fixed.range_rate_mps)};
-    double part = fmin(sensor->threshold / amplitude, 1);
+    double part = elementary_least(sensor->threshold / amplitude, 1);
     return (struct deviation){part * fixed.range_m, part * fixed.range_rate_mps};
 }
 
@@ -84,7 +85,7 @@ void disturbance_range(const struct disturbance *by, const struct random_address
         return;
     struct deviation sigma = disturbance_deviation(by, reading->cell);
     random_gaussian(address, RANDOM_RANGE_RATE, 0, draw);
-    reading->range_m = fmax(reading->range_m + sigma.range_m * draw[0], 0);
+    reading->range_m = elementary_most(reading->range_m + sigma.range_m * draw[0], 0);
     reading->range_rate_mps += sigma.range_rate_mps * draw[1];
     if (reading->range_m != reading->cell->range_m ||
         reading->range_rate_mps != reading->cell->range_rate_mps)

@@ -1,7 +1,5 @@
 #include "draws.h"
 
-#include <math.h>
-
 #include "elementary.h"
 
 struct draws draws_at(struct random_address address, enum random_purpose purpose)
@@ -26,7 +24,7 @@ double draws_between(struct draws *draws, double low, double high)
 int64_t draws_whole(struct draws *draws, int64_t least, int64_t most)
 {
     double choices = (double)(most - least + 1);
-    return least + (int64_t)fmin(choices * draws_next(draws), choices - 1);
+    return least + (int64_t)elementary_least(choices * draws_next(draws), choices - 1);
 }
 
 bool draws_chance(struct draws *draws, double probability)

@@ -9,6 +9,8 @@
 #ifndef ELEMENTARY_H
 #define ELEMENTARY_H
 
+#include <math.h>
+
 struct elementary_sincos {
     double sin, cos;
 };
@@ -49,5 +51,17 @@ double elementary_pow(double base, double exponent);
 
 /* sqrt(x^2 + y^2) without overflow or underflow on the way, within 1.2; exact where a side is 0. */
 double elementary_hypot(double x, double y);
+
+/* The lesser and the greater of two numbers, and the first of equal ones: of two zeros that differ
+ * in sign fmin and fmax take either. Of a NaN and a number the number. */
+static inline double elementary_least(double a, double b)
+{
+    return b < a || isnan(a) ? b : a;
+}
+
+static inline double elementary_most(double a, double b)
+{
+    return b > a || isnan(a) ? b : a;
+}
 
 #endif

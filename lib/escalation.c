@@ -3,6 +3,7 @@
 #include <complex.h>
 #include <math.h>
 
+#include "elementary.h"
 #include "rain.h"
 #include "units.h"
 
@@ -105,7 +106,7 @@ struct span {
 
 static struct span widen(struct span span, double value)
 {
-    return (struct span){fmin(span.least, value), fmax(span.most, value)};
+    return (struct span){elementary_least(span.least, value), elementary_most(span.most, value)};
 }
 
 /* Delta over sum, signed, of a pointer from the array's centre: sum is real, delta imaginary. */
@@ -128,9 +129,11 @@ static bool angle_holds(const struct sensor *sensor, const struct ray *members, 
     }
     double ratio = weighted / total, shift = part * (span.most - span.least);
     double azimuth = antenna_azimuth_rad(&sensor->antenna, ratio, 1);
-    double high = antenna_azimuth_rad(&sensor->antenna, fmin(ratio + shift, span.most), 1);
-    double low = antenna_azimuth_rad(&sensor->antenna, fmax(ratio - shift, span.least), 1);
-    return fmax(high - azimuth, azimuth - low) * (1 + SLACK) <= limit_rad;
+    double high =
+        antenna_azimuth_rad(&sensor->antenna, elementary_least(ratio + shift, span.most), 1);
+    double low =
+        antenna_azimuth_rad(&sensor->antenna, elementary_most(ratio - shift, span.least), 1);
+    return elementary_most(high - azimuth, azimuth - low) * (1 + SLACK) <= limit_rad;
 }
 
 /* M4 and M5: a weighted mean over [0, 1] whose weights change by factors within [1/g, g] moves by

@@ -12,7 +12,7 @@
 static double cut_gaussian(const double uniform[4])
 {
     double radius = sqrt(-2 * elementary_log(uniform[0]));
-    return fmin(radius * elementary_sincos_turns(uniform[1]).cos, 3);
+    return elementary_least(radius * elementary_sincos_turns(uniform[1]).cos, 3);
 }
 
 static double log_normal(double sigma_db, double gaussian)

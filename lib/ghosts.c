@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "clearance.h"
+#include "elementary.h"
 #include "ghost.h"
 #include "orientation.h"
 #include "reflection.h"
@@ -142,11 +143,11 @@ static double bounce_margin_m(const struct look *look, const struct reflex *refl
 {
     const struct facet *facet = reflex->facet;
     struct vec2 a = facet->mirror.a, b = facet->mirror.b, along = facet->along;
-    double ends_m = fmin(fabs(vec2_dot(vec2_sub(reflex->bounce, a), along)),
-                         fabs(vec2_dot(vec2_sub(b, reflex->bounce), along)));
-    double line_m = fmin(fabs(vec2_cross(along, vec2_sub(look->position_m, a))),
-                         fabs(vec2_cross(along, vec2_sub(reflex->place, a))));
-    return fmin(ends_m, line_m);
+    double ends_m = elementary_least(fabs(vec2_dot(vec2_sub(reflex->bounce, a), along)),
+                                     fabs(vec2_dot(vec2_sub(b, reflex->bounce), along)));
+    double line_m = elementary_least(fabs(vec2_cross(along, vec2_sub(look->position_m, a))),
+                                     fabs(vec2_cross(along, vec2_sub(reflex->place, a))));
+    return elementary_least(ends_m, line_m);
 }
 
 /* Adds one leg to a course. False if nothing comes through. */
@@ -157,7 +158,8 @@ static bool pass(const struct look *look, struct course *course, struct passage_
     course->factor *= way.factor;
     course->effects |= way.effects;
     if (look->frame->margins && way.factor > 0)
-        course->margin_m = fmin(course->margin_m, ways_clearance_m(look, &line, but, count));
+        course->margin_m =
+            elementary_least(course->margin_m, ways_clearance_m(look, &line, but, count));
     return course->factor > 0;
 }
 
@@ -183,7 +185,8 @@ static bool pass_by_mirror(const struct look *look, struct reflex *reflex)
         !pass(look, course, on, touched, 4))
         return false;
     if (look->frame->margins)
-        course->margin_m = fmin(course->margin_m, fmin(bounce_margin_m(look, reflex), below_m));
+        course->margin_m = elementary_least(
+            course->margin_m, elementary_least(bounce_margin_m(look, reflex), below_m));
     return true;
 }
 
@@ -196,10 +199,11 @@ static bool is_listed(const struct sensor *sensor, const struct sight *sight, do
 static double limits_margin_m(const struct sensor *sensor, const struct sight *sight,
                               double departure_rad)
 {
-    double view_rad =
-        fmin(look_border_rad(sensor) - fabs(sight->azimuth_rad), PI / 2 - fabs(departure_rad));
-    return fmin(fmin(sight->range_m - sensor->range_min_m, sensor->range_max_m - sight->range_m),
-                sight->range_m * view_rad);
+    double view_rad = elementary_least(look_border_rad(sensor) - fabs(sight->azimuth_rad),
+                                       PI / 2 - fabs(departure_rad));
+    return elementary_least(elementary_least(sight->range_m - sensor->range_min_m,
+                                             sensor->range_max_m - sight->range_m),
+                            sight->range_m * view_rad);
 }
 
 static struct margins margins_of(const struct look *look, const struct sight *sight,
@@ -208,7 +212,8 @@ static struct margins margins_of(const struct look *look, const struct sight *si
     struct margins margins = {0};
     double limits_m = limits_margin_m(look->sensor, sight, out->sight.azimuth_rad);
     if (look->frame->margins)
-        margins_note(&margins, MARGIN_SIGHT, fmin(limits_m, fmin(out->margin_m, back->margin_m)));
+        margins_note(&margins, MARGIN_SIGHT,
+                     elementary_least(limits_m, elementary_least(out->margin_m, back->margin_m)));
     return margins;
 }
 

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "assignment.h"
+#include "elementary.h"
 
 /* With costs of at most c^2 every item of the shorter list gets a partner; one at the cut-off costs
  * what two items left alone do, and is none. */
@@ -11,7 +12,7 @@ size_t gospa_pair(const double *distance, size_t truths, size_t listed, double c
 {
     double *cost = arena_get(arena, truths * listed * sizeof *cost);
     for (size_t i = 0; i < truths * listed; i++) {
-        double near = fmin(distance[i], cutoff);
+        double near = elementary_least(distance[i], cutoff);
         cost[i] = near * near;
     }
     assignment_least(cost, truths, listed, item_of, arena);

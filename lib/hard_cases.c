@@ -90,11 +90,11 @@ static enum random_class draw_point_class(struct draws *draws)
 static struct spot draw_spot(struct site *site)
 {
     double nearest_m = site->sensor->range_min_m + 3;
-    double farthest_m = fmin(0.8 * site->sensor->range_max_m, 30);
+    double farthest_m = elementary_least(0.8 * site->sensor->range_max_m, 30);
     double border = 0.8 * look_border_rad(site->sensor);
     struct spot spot = {
         .class = draw_point_class(&site->draws),
-        .range_m = draws_between(&site->draws, fmin(nearest_m, farthest_m), farthest_m),
+        .range_m = draws_between(&site->draws, elementary_least(nearest_m, farthest_m), farthest_m),
         .azimuth_rad = draws_between(&site->draws, -border, border),
         .range_rate_mps = draws_between(&site->draws, -20, 20),
     };
@@ -119,7 +119,7 @@ static double sum_from(const struct site *site, const struct spot *spots, int co
  * is out of reach. Bisection ends on neighbouring doubles. */
 static bool move_to_sum(const struct site *site, struct spot *spots, int count, double wanted)
 {
-    double near_m = fmax(site->sensor->range_min_m, site->sensor->range_floor_m) +
+    double near_m = elementary_most(site->sensor->range_min_m, site->sensor->range_floor_m) +
                     2 * site->sensor->half_range_m;
     double far_m = site->sensor->range_max_m - 2 * site->sensor->half_range_m;
     if (sum_from(site, spots, count, near_m) < wanted ||

@@ -21,7 +21,7 @@ double interference_power_dbm(double eirp_dbm, double gain_db, double wavelength
 
 double interference_overlap(double bandwidth_hz, double slope_difference_hzps, double chirp_s)
 {
-    return fmin(2 * bandwidth_hz / (fabs(slope_difference_hzps) * chirp_s), 1);
+    return elementary_least(2 * bandwidth_hz / (fabs(slope_difference_hzps) * chirp_s), 1);
 }
 
 double interference_ratio(double power_dbm, double noise_dbm, double overlap, double hit_share)

@@ -40,8 +40,8 @@ double kernel_envelope(enum kernel kernel, double bins)
     if (kernel == KERNEL_PULSE)
         return gaussian(d);
     if (kernel == KERNEL_HANN)
-        return d > 1 ? fmin(1 / (PI * d * (d * d - 1)), 1) : 1;
-    return fmin(1 / (PI * d), 1);
+        return d > 1 ? elementary_least(1 / (PI * d * (d * d - 1)), 1) : 1;
+    return elementary_least(1 / (PI * d), 1);
 }
 
 double kernel_half_width(enum kernel kernel)
@@ -93,5 +93,5 @@ double kernel_offset(enum kernel kernel, const struct phasor *before, const stru
         offset =
             windowed(kernel, in_phase(before, at, channels, stride),
                      in_phase(at, at, channels, stride), in_phase(after, at, channels, stride));
-    return isfinite(offset) ? fmin(fmax(offset, -FARTHEST), FARTHEST) : 0;
+    return isfinite(offset) ? elementary_least(elementary_most(offset, -FARTHEST), FARTHEST) : 0;
 }

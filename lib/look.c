@@ -83,7 +83,7 @@ static void place_bodies(struct look *look, double age_s)
         if (strcmp(frame->objects.items[i].id, frame->ego) != 0)
             others[count++] = &frame->objects.items[i];
     sort_items(others, count, sizeof(*others), compare_objects, frame->arena);
-    look->bodies = arena_get(frame->arena, count * sizeof *look->bodies);
+    look->bodies = arena_room(frame->arena, count * sizeof *look->bodies);
     for (size_t i = 0; i < count; i++)
         look->bodies[i] = body_at(look, others[i], age_s);
     look->body_count = count;
@@ -127,10 +127,11 @@ static void enter_blockers(struct look *look)
 {
     look->bearings = bearings_begin(look->body_count, look->frame->arena);
     for (size_t i = 0; i < look->body_count; i++) {
-        struct sector shadow = look->bodies[i].sector;
-        shadow.radius_m += look->bend_m;
-        if (look->bodies[i].blocks)
-            bearings_enter(&look->bearings, i, bearings_of(&shadow));
+        struct look_body *body = &look->bodies[i];
+        body->shadow = body->sector;
+        body->shadow.radius_m += look->bend_m;
+        if (body->blocks)
+            bearings_enter(&look->bearings, i, bearings_of(&body->shadow));
     }
 }
 
@@ -153,11 +154,10 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
         look->wavelength_m = units_wavelength_m(sensor->carrier_hz);
     look->bend_m = knife_edge_reach_m(LONGEST_WAY * sensor->range_max_m, look->wavelength_m);
     double border_rad = look_border_rad(sensor);
-    look->view =
-        border_rad < PI / 2
-            ? bearings_around(look->boresight,
-                              elementary_asin(fmin(LIFTED * elementary_sin(border_rad), 1)))
-            : bearings_everywhere;
+    look->view = border_rad < PI / 2 ? bearings_around(look->boresight,
+                                                       elementary_asin(elementary_least(
+                                                           LIFTED * elementary_sin(border_rad), 1)))
+                                     : bearings_everywhere;
     place_bodies(look, age_s);
     if (dress_bodies(look, diag) != 0)
         return -1;
@@ -175,7 +175,8 @@ struct sector look_reflectors_sector(const struct look_body *body, const struct 
 bool look_misses(const struct look *look, const struct look_body *body, const struct sector *sector)
 {
     double nearest_m = sector->distance_m - sector->radius_m;
-    double rise_m = look->height_m > 0 ? fmax(look->height_m, 2 * body->object->height_m) : 0;
+    double rise_m =
+        look->height_m > 0 ? elementary_most(look->height_m, 2 * body->object->height_m) : 0;
     return nearest_m > look->sensor->range_max_m + 1e-6 ||
            (nearest_m > LEVEL * rise_m && bearings_apart(look->view, bearings_of(sector)));
 }

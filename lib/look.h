@@ -30,6 +30,7 @@ struct look_body {
     struct box box;
     struct vec2 corner[4];
     struct sector sector; /* the circle around the box */
+    struct sector shadow; /* and around where it bends what passes */
     bool blocks;
     bool raised;
     bool moved; /* between the instant of the measurement and the frame's time */

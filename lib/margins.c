@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "elementary.h"
 #include "units.h"
 
 #define MARGIN(member, bit, high, help)                                                            \
@@ -56,5 +57,5 @@ void margins_merge(struct margins *margins, const struct margins *others)
 
 double margins_between_db(double a, double b)
 {
-    return fmin(fabs(units_amplitude_db(a) - units_amplitude_db(b)), 1e4);
+    return elementary_least(fabs(units_amplitude_db(a) - units_amplitude_db(b)), 1e4);
 }

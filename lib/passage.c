@@ -1,5 +1,6 @@
 #include "passage.h"
 
+#include "elementary.h"
 #include "knife_edge.h"
 #include "occlusion.h"
 
@@ -20,9 +21,9 @@ static struct stretch stretch_of(const struct vec2 *corners, size_t count,
         double from = vec2_cross(edge, vec2_sub(line->from, corners[i]));
         double to = vec2_cross(edge, vec2_sub(line->to, corners[i]));
         if (from < 0 && to > from)
-            inside.begin = fmax(inside.begin, fmin(from / (from - to), 1));
+            inside.begin = elementary_most(inside.begin, elementary_least(from / (from - to), 1));
         if (to < 0 && from > to)
-            inside.end = fmin(inside.end, fmax(from / (from - to), 0));
+            inside.end = elementary_least(inside.end, elementary_most(from / (from - to), 0));
     }
     return inside;
 }
@@ -35,7 +36,7 @@ static double height_m(const struct passage_line *line, double share)
 /* Of a line with that stretch inside. */
 static double above_m(const struct passage_line *line, struct stretch inside, double top_m)
 {
-    return fmin(height_m(line, inside.begin), height_m(line, inside.end)) - top_m;
+    return elementary_least(height_m(line, inside.begin), height_m(line, inside.end)) - top_m;
 }
 
 double passage_above_m(const struct vec2 *corners, size_t count, double top_m,
@@ -56,13 +57,13 @@ static double beside(const struct vec2 *corners, size_t count, const struct pass
         double foot_m = vec2_dot(along, offset);
         if (!touched && !(foot_m > 0 && foot_m < length_m))
             continue;
-        double before_m = fmin(fmax(foot_m, 0), length_m);
+        double before_m = elementary_least(elementary_most(foot_m, 0), length_m);
         double parameter = knife_edge_parameter(vec2_cross(along, offset), before_m,
                                                 length_m - before_m, wavelength_m);
-        left = fmax(left, parameter);
-        right = fmax(right, -parameter);
+        left = elementary_most(left, parameter);
+        right = elementary_most(right, -parameter);
     }
-    return fmin(left, right);
+    return elementary_least(left, right);
 }
 
 /* nu of the way over the top. */
@@ -75,7 +76,7 @@ static double above(const struct passage_line *line, struct stretch inside, doub
                              (1 - inside.begin) * length_m, wavelength_m);
     double back = knife_edge_parameter(top_m - height_m(line, inside.end), inside.end * length_m,
                                        (1 - inside.end) * length_m, wavelength_m);
-    return fmax(front, back);
+    return elementary_most(front, back);
 }
 
 static double factor_at(double parameter)
@@ -96,7 +97,7 @@ struct passage passage_of(const struct vec2 *corners, size_t count, double top_m
     if (!touched && inside.end - inside.begin == 1)
         return (struct passage){.factor = 1};
     double round = beside(corners, count, line, touched, wavelength_m);
-    double factor = factor_at(fmin(round, above(line, inside, top_m, wavelength_m)));
+    double factor = factor_at(elementary_least(round, above(line, inside, top_m, wavelength_m)));
     return (struct passage){
         .factor = factor, .bent = factor != straight, .over = factor != factor_at(round)};
 }

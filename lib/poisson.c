@@ -49,7 +49,8 @@ int64_t poisson_overdispersed_count(double mean, double overdispersion, double u
 {
     if (!(mean > 0))
         return 0;
-    struct law law = {fmin(mean, 1e9), fmin(fmax(overdispersion, 1), 1e3)};
+    struct law law = {elementary_least(mean, 1e9),
+                      elementary_least(elementary_most(overdispersion, 1), 1e3)};
     struct beginning begin = law.mean < 16 ? begin_at_none(&law) : begin_below_the_mean(&law);
     double target = uniform * begin.total;
     double k = begin.first, weight = begin.weight, sum = weight;

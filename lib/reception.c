@@ -176,7 +176,7 @@ static double distance_m(const struct sensor *sensor, const struct echo *echo)
     double up_m = fabs(echo->height_m - sensor->mount_z_m);
     if ((echo->effects & EFFECT_BIT(EFFECT_ELEVATION)) == 0)
         return echo->range_m;
-    return sqrt(fmax(echo->range_m - up_m, 0) * (echo->range_m + up_m));
+    return sqrt(elementary_most(echo->range_m - up_m, 0) * (echo->range_m + up_m));
 }
 
 static void mirror(const struct reception *reception, const struct echo *echo, struct ray *ray)

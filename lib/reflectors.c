@@ -2,8 +2,12 @@
 
 #include <string.h>
 
+#include "elementary.h"
 #include "hash.h"
 #include "units.h"
+
+/* Far more than the rounding of a place in the world. */
+#define PLAIN_M 1e-6
 
 static const char *const shapes[] = {
     [VISIBILITY_RAISED_COSINE] = "raised_cosine",
@@ -264,7 +268,8 @@ const char *reflectors_name_twice(const struct reflector_set *set)
 
 static double farthest(double least, double x, double y)
 {
-    return fmax(least, 2 * fmax(fabs(x), fabs(y)));
+    double far = 2 * (fabs(x) > fabs(y) ? fabs(x) : fabs(y));
+    return far > least ? far : least;
 }
 
 struct reflectors_spread reflectors_spread(const struct reflector_set *set)
@@ -273,7 +278,7 @@ struct reflectors_spread reflectors_spread(const struct reflector_set *set)
     for (size_t i = 0; i < set->points.count; i++) {
         const struct point_reflector *point = &set->points.items[i];
         spread.share = farthest(spread.share, point->x, point->y);
-        spread.inset_m = fmax(spread.inset_m, point->inset_m);
+        spread.inset_m = elementary_most(spread.inset_m, point->inset_m);
     }
     for (size_t i = 0; i < set->planes.count; i++) {
         const struct plane_reflector *plane = &set->planes.items[i];
@@ -296,9 +301,15 @@ struct vec2 reflectors_place(const struct box *box, double x, double y)
 
 void reflectors_outline(const struct box *box, struct vec2 corner[4])
 {
-    static const double x[] = {0.5, -0.5, -0.5, 0.5}, y[] = {0.5, 0.5, -0.5, -0.5};
-    for (int i = 0; i < 4; i++)
-        corner[i] = reflectors_place(box, x[i], y[i]);
+    /* What reflectors_place says of each, from the same four products. */
+    struct vec2 centre = box->motion.position_m;
+    struct vec2 ahead = vec2_scale(0.5 * box->length_m, box->heading);
+    struct vec2 left = vec2_left(vec2_scale(0.5 * box->width_m, box->heading));
+    struct vec2 front_left = vec2_add(ahead, left), front_right = vec2_sub(ahead, left);
+    corner[0] = vec2_add(centre, front_left);
+    corner[1] = vec2_sub(centre, front_right);
+    corner[2] = vec2_sub(centre, front_left);
+    corner[3] = vec2_add(centre, front_right);
 }
 
 struct vec2 reflectors_point_place(const struct box *box, const struct point_reflector *point)
@@ -323,6 +334,25 @@ double reflectors_visibility(const struct box *box, const struct point_reflector
 {
     return visibility_along(point->shape, point->full_rad, point->zero_rad,
                             vec2_turn(facing, box->heading), vec2_sub(sensor, place));
+}
+
+bool reflectors_plainly_away(const struct box *box, const struct point_reflector *point,
+                             struct vec2 facing, struct vec2 sensor)
+{
+    struct vec2 sight = {sensor.x - point->x * box->length_m + point->inset_m * facing.x,
+                         sensor.y - point->y * box->width_m + point->inset_m * facing.y};
+    return visibility_plainly_none(point->zero_rad, facing, sight, PLAIN_M);
+}
+
+bool reflectors_plainly_aside(const struct box *box, const struct plane_reflector *plane,
+                              struct vec2 sensor)
+{
+    struct vec2 from = {plane->from_x * box->length_m, plane->from_y * box->width_m};
+    struct vec2 to = {plane->to_x * box->length_m, plane->to_y * box->width_m};
+    struct vec2 side = vec2_sub(to, from), sight = vec2_sub(sensor, from);
+    double square = vec2_dot(side, side), along = vec2_dot(side, sight), length = sqrt(square);
+    double margin = (plane->margin_m - PLAIN_M) * length;
+    return vec2_cross(side, sight) > PLAIN_M * length || along < margin || along > square - margin;
 }
 
 double reflectors_lobe(const struct box *box, const struct point_reflector *point,

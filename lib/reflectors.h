@@ -122,6 +122,13 @@ struct vec2 reflectors_along(const struct box *box, const struct plane_reflector
 double reflectors_visibility(const struct box *box, const struct point_reflector *point,
                              struct vec2 facing, struct vec2 place, struct vec2 sensor);
 
+/* True only if a sensor sees nothing of a point, and a plane has no specular point for it: told in
+ * the object's frame, where sensor is its place, so that neither need be placed in the world. */
+bool reflectors_plainly_away(const struct box *box, const struct point_reflector *point,
+                             struct vec2 facing, struct vec2 sensor);
+bool reflectors_plainly_aside(const struct box *box, const struct plane_reflector *plane,
+                              struct vec2 sensor);
+
 /* The factor on amplitude of a point's lobe; 1 without one. zenith_rad is the sensor's as the point
  * sees it. */
 double reflectors_lobe(const struct box *box, const struct point_reflector *point,

@@ -4,6 +4,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "elementary.h"
 #include "sort.h"
 
 #define NO_CELL SIZE_MAX
@@ -107,9 +108,9 @@ double resolution_mean(const double *values, const double *weights, size_t count
         double weight = weights[i] / weights[0];
         shift += weight * (values[i] - values[0]);
         total += weight;
-        least = fmin(least, values[i]);
-        most = fmax(most, values[i]);
+        least = elementary_least(least, values[i]);
+        most = elementary_most(most, values[i]);
     }
     /* Rounding may carry the anchored mean one step past the farthest value. */
-    return fmin(fmax(values[0] + shift / total, least), most);
+    return elementary_least(elementary_most(values[0] + shift / total, least), most);
 }

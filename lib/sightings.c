@@ -16,7 +16,7 @@ static struct sighting *add(struct sightings *sightings, const struct spectrum_p
     const struct signal *signal = sightings->signal;
     struct sighting *sighting = list_add(&sightings->list, arena);
     sighting->peak = peak;
-    sighting->range_m = fmax(peak->range * signal->range_step_m, 0);
+    sighting->range_m = elementary_most(peak->range * signal->range_step_m, 0);
     sighting->range_rate_mps = peak->rate * signal->rate_step_mps;
     return sighting;
 }

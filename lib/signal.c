@@ -106,7 +106,7 @@ static void chirp(struct phasor *tone, size_t count, double cells, struct phasor
 
 static void pulse(struct phasor *tone, size_t count, double bins, struct phasor first)
 {
-    double begin = fmax(ceil(bins - PULSE_REACH), 0), end = floor(bins + PULSE_REACH);
+    double begin = elementary_most(ceil(bins - PULSE_REACH), 0), end = floor(bins + PULSE_REACH);
     memset(tone, 0, count * sizeof *tone);
     for (double n = begin; n <= end && n < (double)count; n++) {
         double size = kernel_value(KERNEL_PULSE, n - bins);
@@ -237,8 +237,8 @@ static void look(const struct signal *signal, double sine, size_t rate_bin, doub
             (struct phasor){part * response.re, -part * response.im});
     }
     for (size_t n = 0; n < count; n++)
-        power[n] = fmax(power[n], signal->row[n].re * signal->row[n].re +
-                                      signal->row[n].im * signal->row[n].im);
+        power[n] = elementary_most(power[n], signal->row[n].re * signal->row[n].re +
+                                                 signal->row[n].im * signal->row[n].im);
 }
 
 static void look_around(const struct signal *signal, double *power)

@@ -166,7 +166,7 @@ static double offset_of(const struct smear *smear, const struct smear_sample *pe
         return 0;
     double before = magnitude(find(smear, peak->range - range, peak->rate - rate));
     double after = magnitude(find(smear, peak->range + range, peak->rate + rate));
-    return fmax(fmin(window_hann_offset(before, here, after), most), least);
+    return elementary_most(elementary_least(window_hann_offset(before, here, after), most), least);
 }
 
 /* Where there is one ray alone, nothing merges. */
@@ -207,7 +207,7 @@ bool smear_cell(const struct smear *smear, size_t number, struct arena *arena, s
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
     *cell = (struct cell){
         .sensor = sensor->name,
-        .range_m = fmax(((double)peak->range / BIN + range) * sensor->cell_range_m, 0),
+        .range_m = elementary_most(((double)peak->range / BIN + range) * sensor->cell_range_m, 0),
         .azimuth_rad = angle.azimuth_rad,
         .range_rate_mps = ((double)peak->rate / BIN + rate) * sensor->cell_range_rate_mps,
         .amplitude = elementary_hypot(creal(pointers.sum), cimag(pointers.sum)),

@@ -16,7 +16,7 @@ static double departure_factor(const struct antenna *antenna, const struct echo 
     if (echo->departure_rad == 0 || arrival_gain == 0)
         return 1;
     double gain = antenna_gain(antenna, echo->azimuth_rad + echo->departure_rad);
-    return sqrt(fmax(gain, 0) / arrival_gain);
+    return sqrt(elementary_most(gain, 0) / arrival_gain);
 }
 
 struct ray superposition_ray(const struct sensor *sensor, const struct echo *echo, double phase_rad)

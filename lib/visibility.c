@@ -47,6 +47,13 @@ static double cosine_least(double angle_rad)
     return 1 + square * (-1.0 / 2 + square * (1.0 / 24 - square / 720));
 }
 
+bool visibility_plainly_none(double zero_rad, struct vec2 facing, struct vec2 sight, double slack_m)
+{
+    /* 1 + |cosine_least(pi)| < 3: what a sight's end can change per metre. */
+    return vec2_dot(facing, sight) <
+           (cosine_least(zero_rad) - SLACK) * vec2_length(sight) - 3 * slack_m;
+}
+
 double visibility_along(enum visibility_shape shape, double full_rad, double zero_rad,
                         struct vec2 facing, struct vec2 sight)
 {

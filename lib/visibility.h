@@ -7,6 +7,8 @@
 #ifndef VISIBILITY_H
 #define VISIBILITY_H
 
+#include <stdbool.h>
+
 #include "vec2.h"
 
 enum visibility_shape {
@@ -28,5 +30,9 @@ double visibility(enum visibility_shape shape, double full_rad, double zero_rad,
  * between both, which is only worked out where the answer is not plainly 0 or 1. */
 double visibility_along(enum visibility_shape shape, double full_rad, double zero_rad,
                         struct vec2 facing, struct vec2 sight);
+
+/* True only if V is 0 along that sight, and along any whose end is within slack_m of its end. */
+bool visibility_plainly_none(double zero_rad, struct vec2 facing, struct vec2 sight,
+                             double slack_m);
 
 #endif

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "clearance.h"
+#include "elementary.h"
 #include "knife_edge.h"
 #include "occlusion.h"
 #include "orientation.h"
@@ -13,25 +14,33 @@ static bool passes_beside(double from_m, double to_m, double reach_m)
     return (from_m > reach_m && to_m > reach_m) || (from_m < -reach_m && to_m < -reach_m);
 }
 
+/* How a sight line and a body's outline lie to each other: told from circles where it is plain. */
+enum meeting { MEETING_UNSURE, MEETING_NONE, MEETING_THROUGH };
+
 /* A sight line that stays clear of the circle around a body, or has both ends beyond one of its
- * sides, cannot touch its outline. The slack covers the rounding of this test, so the exact one is
- * only spared where it would say no. */
-static bool passes_clear(const struct look_body *body, struct vec2 from, struct vec2 to,
-                         double bend_m)
+ * sides, cannot touch its outline; one with both ends outside that circle that runs through the
+ * circle within its sides must. The slack covers the rounding of this test, so the exact one is
+ * only spared where it would say the same. */
+static enum meeting meeting_of(const struct look_body *body, struct vec2 from, struct vec2 to,
+                               double bend_m)
 {
     struct vec2 line = vec2_sub(to, from), centre = vec2_sub(body->box.motion.position_m, from);
-    double length_m = vec2_length(line), along = vec2_dot(line, centre);
-    double slack_m = 1e-6 + bend_m;
+    double square = vec2_dot(line, line), length_m = sqrt(square), along = vec2_dot(line, centre);
+    double aside = fabs(vec2_cross(line, centre)), slack_m = 1e-6 + bend_m;
     double reach = (body->sector.radius_m + slack_m) * (1 + 1e-9) * length_m;
-    if (fabs(vec2_cross(line, centre)) > reach || along < -reach ||
-        along > vec2_dot(line, line) + reach)
-        return true;
+    if (aside > reach || along < -reach || along > square + reach)
+        return MEETING_NONE;
+    double inner_m =
+        0.5 * elementary_least(body->box.length_m, body->box.width_m) * (1 - 1e-9) - slack_m;
+    if (aside < inner_m * length_m && along > reach && along < square - reach)
+        return MEETING_THROUGH;
     struct vec2 ahead = body->box.heading, rest = vec2_sub(centre, line);
     slack_m += 1e-9 * (length_m + body->sector.radius_m);
-    return passes_beside(vec2_cross(ahead, centre), vec2_cross(ahead, rest),
-                         0.5 * body->box.width_m + slack_m) ||
-           passes_beside(vec2_dot(ahead, centre), vec2_dot(ahead, rest),
-                         0.5 * body->box.length_m + slack_m);
+    bool beside = passes_beside(vec2_cross(ahead, centre), vec2_cross(ahead, rest),
+                                0.5 * body->box.width_m + slack_m) ||
+                  passes_beside(vec2_dot(ahead, centre), vec2_dot(ahead, rest),
+                                0.5 * body->box.length_m + slack_m);
+    return beside ? MEETING_NONE : MEETING_UNSURE;
 }
 
 struct side ways_side(const struct look_body *body, const struct plane_reflector *plane)
@@ -48,10 +57,11 @@ static bool joins(const struct look_body *body, const struct side *side, bool be
 {
     for (size_t i = 0; body->worn != NULL && i < body->worn->set->planes.count; i++) {
         const struct plane_reflector *plane = &body->worn->set->planes.items[i];
+        if (plane->margin_m != 0 || !vec2_same(reflectors_along(&body->box, plane), side->along))
+            continue;
         struct side other = ways_side(body, plane);
         struct vec2 gap = begins ? vec2_sub(other.from, side->to) : vec2_sub(other.to, side->from);
-        if (plane->margin_m == 0 && vec2_same(other.along, side->along) &&
-            vec2_length(gap) <= within_m)
+        if (vec2_length(gap) <= within_m)
             return true;
     }
     return false;
@@ -79,9 +89,7 @@ void ways_find_blockers(struct look *look, const struct look_body *own, const st
     size_t count = bearings_find(&look->bearings, span);
     for (size_t i = 0; i < count; i++) {
         const struct look_body *body = &look->bodies[look->bearings.found[i]];
-        struct sector shadow = body->sector;
-        shadow.radius_m += look->bend_m;
-        if (body != own && (all || sectors_overlap(&shadow, wanted)))
+        if (body != own && (all || sectors_overlap(&body->shadow, wanted)))
             look->blockers[look->blocker_count++] = body;
     }
     bool some = all || look->blocker_count > 0;
@@ -95,6 +103,11 @@ void ways_find_blockers(struct look *look, const struct look_body *own, const st
 static struct way past(const struct look *look, const struct look_body *body,
                        const struct passage_line *line)
 {
+    enum meeting meeting = meeting_of(body, line->from, line->to, look->bend_m);
+    if (meeting == MEETING_NONE)
+        return (struct way){.factor = 1};
+    if (meeting == MEETING_THROUGH && look->wavelength_m == 0 && !look->over)
+        return (struct way){.factor = 0, .by = body};
     struct passage passage =
         passage_of(body->corner, 4, look_top_m(look, body), line, look->wavelength_m);
     return (struct way){
@@ -111,7 +124,7 @@ struct way ways_past_blockers(const struct look *look, const struct side *side,
     struct way all = {.factor = 1};
     for (size_t i = 0; i < look->blocker_count; i++) {
         const struct look_body *body = look->blockers[i];
-        if ((solid && body->raised) || passes_clear(body, line->from, line->to, look->bend_m))
+        if (solid && body->raised)
             continue;
         struct way way = past(look, body, line);
         if ((way.factor == 1 && way.effects == 0) ||
@@ -148,7 +161,7 @@ struct way ways_along(const struct look *look, const struct passage_line *line,
     size_t near = bearings_find(&look->bearings, span);
     for (size_t i = 0; i < near; i++) {
         const struct look_body *body = &look->bodies[look->bearings.found[i]];
-        if (passes_clear(body, line->from, line->to, look->bend_m) || is_among(body, but, count))
+        if (is_among(body, but, count))
             continue;
         struct way way = past(look, body, line);
         if (way.by != NULL)
@@ -171,14 +184,14 @@ double ways_margin_m(const struct look *look, const struct look_body *const *but
         if (!body->blocks || (solid && body->raised) || is_among(body, but, count))
             continue;
         if (!occlusion_outline_blocks(corner, 4, from, to)) {
-            nearest_m = fmin(nearest_m, clearance_outline_m(corner, 4, from, to));
+            nearest_m = elementary_least(nearest_m, clearance_outline_m(corner, 4, from, to));
             continue;
         }
         double above_m = passage_above_m(corner, 4, look_top_m(look, body), line);
         if (above_m > 0 || soft_m > 0)
-            nearest_m = fmin(nearest_m, fmax(above_m, 0));
-        double depth_m = fmin(clearance_depth_m(corner, 4, from, to), -above_m);
-        deepest_m = fmax(deepest_m, depth_m - soft_m);
+            nearest_m = elementary_least(nearest_m, elementary_most(above_m, 0));
+        double depth_m = elementary_least(clearance_depth_m(corner, 4, from, to), -above_m);
+        deepest_m = elementary_most(deepest_m, depth_m - soft_m);
     }
     return blocked ? deepest_m : nearest_m;
 }

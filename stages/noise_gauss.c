@@ -1,7 +1,7 @@
 /* The textbook sensor: independent Gaussian noise on range, azimuth and range rate. */
-#include <math.h>
 
 #include "address.h"
+#include "elementary.h"
 #include "random.h"
 #include "readings.h"
 #include "stage.h"
@@ -16,7 +16,7 @@ static struct reading measure(const struct frame *frame, const struct sensor *se
     random_gaussian(&address, RANDOM_RANGE_RATE, 0, straight);
     random_gaussian(&address, RANDOM_AZIMUTH, 0, across);
     struct reading reading = reading_of(cell);
-    reading.range_m = fmax(reading.range_m + sensor->range_sigma_m * straight[0], 0);
+    reading.range_m = elementary_most(reading.range_m + sensor->range_sigma_m * straight[0], 0);
     reading.range_rate_mps += sensor->range_rate_sigma_mps * straight[1];
     reading.azimuth_rad =
         units_wrap_rad(reading.azimuth_rad + sensor->azimuth_sigma_rad * across[0]);

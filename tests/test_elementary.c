@@ -630,6 +630,24 @@ static void special_hypotenuses_are_exact(void **state)
     }
 }
 
+/* fmin and fmax may take either of two zeros, and compilers do. */
+static void the_lesser_and_the_greater_of_equal_numbers_is_the_first(void **state)
+{
+    (void)state;
+    static const double pairs[][2] = {{0.0, -0.0}, {-0.0, 0.0}};
+    for (size_t i = 0; i < 2; i++) {
+        double least = elementary_least(pairs[i][0], pairs[i][1]);
+        double most = elementary_most(pairs[i][0], pairs[i][1]);
+        assert_true(signbit(least) == signbit(pairs[i][0]));
+        assert_true(signbit(most) == signbit(pairs[i][0]));
+    }
+    assert_true(elementary_least(1, 2) == 1 && elementary_least(2, 1) == 1);
+    assert_true(elementary_most(1, 2) == 2 && elementary_most(2, 1) == 2);
+    assert_true(elementary_least((double)NAN, 1) == 1 && elementary_least(1, (double)NAN) == 1);
+    assert_true(elementary_most((double)NAN, 1) == 1 && elementary_most(1, (double)NAN) == 1);
+    assert_true(isnan(elementary_least((double)NAN, (double)NAN)));
+}
+
 int main(int argc, char **argv)
 {
     int points = argc > 1 && strcmp(argv[1], "long") == 0 ? MANY_POINTS : POINTS;
@@ -643,6 +661,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(special_places_have_their_angle),
         cmocka_unit_test(special_logarithms_and_powers_are_exact),
         cmocka_unit_test(special_hypotenuses_are_exact),
+        cmocka_unit_test(the_lesser_and_the_greater_of_equal_numbers_is_the_first),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

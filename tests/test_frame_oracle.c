@@ -543,6 +543,7 @@ static size_t change(char *line, size_t length, uint64_t *random)
 {
     static const char bytes[] =
         "{}[]:,\"\\ \t\r0123456789-+.eEtfnu/bdD8cC\x80\xbf\xc2\xe2\xed\xf0\x9f\x01\x7f";
+    static const char numbers[] = "01234567890.5e2-1e9";
     const char *byte = &bytes[pick(random, sizeof bytes - 1)];
     size_t at = pick(random, length);
     size_t digit = at + strcspn(line + at, "0123456789");
@@ -558,7 +559,7 @@ static size_t change(char *line, size_t length, uint64_t *random)
     case 4:
     case 5:
         return splice(line, length, digit, pick(random, 2),
-                      "01234567890.5e2-1e9" + pick(random, 17), pick(random, 3));
+                      &numbers[pick(random, sizeof numbers - 3)], pick(random, 3));
     case 6:
         return replace_value(line, length, random);
     default:

@@ -41,7 +41,7 @@ static void the_hash_for_tables_spreads_names_over_few_bits(void **state)
     enum { NAMES = 4096, SLOTS = 8192 };
     int taken[SLOTS] = {0}, most = 0;
     for (int i = 0; i < NAMES; i++) {
-        char name[16];
+        char name[24];
         snprintf(name, sizeof name, "vehicle_%d", i);
         int *slot = &taken[hash_for_table(HASH_START, name) % SLOTS];
         most = ++*slot > most ? *slot : most;
@@ -79,7 +79,7 @@ static void similar_names_have_unrelated_hashes(void **state)
     uint64_t *hashes = malloc(SAMPLES * sizeof *hashes);
     int set[64] = {0};
     for (int i = 0; i < SAMPLES; i++) {
-        char name[16];
+        char name[24];
         size_t length = (size_t)snprintf(name, sizeof name, "veh_%d", i);
         hashes[i] = hash_bytes(HASH_START, name, length);
         for (int bit = 0; bit < 64; bit++)

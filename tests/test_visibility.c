@@ -179,6 +179,30 @@ static void along_a_sight_as_much_is_seen_as_at_its_angle(void **state)
     assert_true(plain > 200000);
 }
 
+/* Sights that end within reach of the edge, where a slack decides. */
+static void what_is_plainly_unseen_is_unseen_from_all_ends_nearby(void **state)
+{
+    (void)state;
+    uint64_t sample = 27;
+    int unseen = 0;
+    for (int i = 0; i < 300000; i++) {
+        double zero_rad = sample_between(&sample, 0, PI), slack_m = i % 2 == 0 ? 1e-6 : 0.1;
+        struct vec2 facing = vec2_heading(sample_between(&sample, -PI, PI));
+        struct vec2 edge =
+            vec2_turn(facing, vec2_heading(zero_rad + sample_between(&sample, 0, 1)));
+        struct vec2 sight = vec2_scale(sample_between(&sample, 0, 3), edge);
+        if (!visibility_plainly_none(zero_rad, facing, sight, slack_m))
+            continue;
+        unseen++;
+        struct vec2 aside = vec2_heading(sample_between(&sample, -PI, PI));
+        struct vec2 near = vec2_add(sight, vec2_scale(slack_m, aside));
+        for (int shape = VISIBILITY_RAISED_COSINE; shape <= VISIBILITY_COSINE; shape++)
+            assert_true(visibility_along(shape, 0, zero_rad, facing, near) == 0);
+    }
+    assert_true(unseen > 50000);
+    assert_false(visibility_plainly_none(PI, (struct vec2){1, 0}, (struct vec2){-9, 0}, 0));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -188,6 +212,7 @@ int main(void)
         cmocka_unit_test(hard_includes_its_edge_and_the_tapered_shapes_end_in_zero),
         cmocka_unit_test(every_shape_falls_from_one_to_zero),
         cmocka_unit_test(along_a_sight_as_much_is_seen_as_at_its_angle),
+        cmocka_unit_test(what_is_plainly_unseen_is_unseen_from_all_ends_nearby),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,22 +31,20 @@ def models_panel(rows, radar, legend):
         return f'title "{text}"' if legend else "notitle"
 
     floor = scores.floor(rows, radar, "centres")
-    own = pick(rows, ladder="models", radar=radar, against="centres")
-    paper = pick(own, way="paper")[0]["gospa"]
-    effects = [row for row in own if " + " in row["way"]]
+    own, contour = (pick(rows, ladder="models", radar=radar, against=against) for against in ("centres", "contour"))
+    effects = [row for row in own if scores.single(row)]
+    best = min(effects, key=lambda row: row["gospa"])
     series = {"front": scores.front(own), "effects": effects,
               "main": [row for row in own if row not in effects] + [floor | {"way": "signal, large"}],
-              "contour": [row for row in pick(rows, ladder="models", radar=radar, against="contour")
-                          if " + " not in row["way"]],
-              "nearer": [row | {"way": row["way"].replace("paper ", "")} for row in effects
-                         if row["gospa"] < 0.97 * paper]}
+              "contour": [row for row in contour if not scores.single(row)],
+              "best": [best | {"way": best["way"].replace("paper ", "")}]}
     plots = [f'{floor["gospa"]} with lines dt 2 lc rgb "{INK}" {title("floor: that signal against itself")}']
     plots += [f"${name}_{radar} using 1:2 {look} {title(text)}" for name, look, text in MODELS]
-    plots += [f'$main_{radar} using 1:2:3 with labels left offset 0.7, 0.3 font ",10" notitle',
-              f'$nearer_{radar} using 1:2:3 with labels right offset -0.6, -0.3 font ",9" tc rgb "{GREY}" notitle']
+    plots += [f'$main_{radar} using 1:2:3 with labels left rotate by 25 offset 0.7, 0.4 font ",10" notitle',
+              f'$best_{radar} using 1:2:3 with labels right offset -0.8, 0 font ",9" tc rgb "{GREY}" notitle']
     return [block(f"{name}_{radar}", of, "cpu_us", "gospa") for name, of in series.items()], f"""
 set title "{radar.capitalize()} range"
-set label 1 "{wrapped(scores.advice(rows, radar, "centres"), 76)}" at graph 0, -0.19 font ",10"
+set label 1 "{wrapped(scores.advice(rows, radar, "centres"), 68)}" at graph 0, -0.19 font ",10"
 plot {", ".join(plots)}"""
 
 
@@ -54,8 +52,8 @@ def models(rows):
     panels = [models_panel(rows, radar, radar == "long") for radar in ("long", "short")]
     parts = [f"set origin {0.5 * number}, 0; set size 0.5, 1{commands}" for number, (_, commands) in enumerate(panels)]
     return "".join(text for blocks, _ in panels for text in blocks) + """set multiplot
-set border 3; set tics nomirror out; set logscale xy; set xrange [30:3e6]; set yrange [1:10]; set bmargin 9
-set ytics (1, 2, 3, 4, 5, 7, 10); set format x "10^{%L}"; set key top right samplen 1.5 font ",10"
+set border 3; set tics nomirror out; set logscale xy; set xrange [30:3e6]; set yrange [0.8:16]; set bmargin 9
+set ytics (1, 1.5, 2, 3, 4, 5, 7, 10); set format x "10^{%L}"; set key top right samplen 1.5 font ",10"
 set xlabel "CPU time per frame, µs"; set ylabel "GOSPA, cells"
 """ + "\n".join([*parts, "unset multiplot\n"])
 
@@ -74,7 +72,7 @@ def knob_panel(rows, ladder, x, y, texts, more="", line="linespoints", least=LEA
     plots += [f'${name} using 1:2:3 with labels left offset 0.6, 0.4 font ",9" notitle' for name in names]
     return blocks, f"""
 set title "{title}"; set xlabel "{xlabel}"; set ylabel "{ylabel}"; set autoscale; {more}
-set label 1 "{wrapped(choice, 50)}" at graph 0, -0.36 font ",10"
+set label 1 "{wrapped(choice, 44)}" at graph 0, -0.36 font ",10"
 plot {", ".join(plots)}"""
 
 
@@ -86,14 +84,15 @@ def knobs(rows):
     panels = [
         knob_panel(rows, "tolerance", "cpu_us", "gospa",
                    ("Tolerance of auto, times the default", FRAME, "GOSPA from all, cells",
-                    "auto, which is all to the bit; a tolerance gains little more"), exact),
+                    "auto, which is all to the bit; a tolerance gains nothing here"), exact),
         knob_panel(rows, "table", "cpu_us", "azimuth_rad_max",
                    ("Angle by a table of so many entries", ANGLE, "greatest error, rad",
                     "the closed form: an angle is little of a frame"),
                    "set xrange [0.002:1]; set yrange [1e-17:1]", "points", 0),
         knob_panel(rows, "spacing", "cpu_us", "gospa",
                    ("Spacing of a contour", FRAME, "GOSPA from its signal, cells",
-                    "the cell's range; closer scatterers cost and change nothing"), "set yrange [1:10]"),
+                    "as coarse as outlines may be: closer scatterers cost, and make cells that a signal has not"),
+                   "set yrange [0.8:10]"),
         knob_panel(rows, "digits", "bytes", "gospa",
                    ("Digits from stage to stage", "bytes written per frame", "GOSPA from all digits, cells",
                     "all; phases of 77 GHz turn within a millimetre, and digits save little room"), exact),
