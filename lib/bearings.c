@@ -4,7 +4,8 @@
 
 #include "units.h"
 
-enum { SLICES = 256 };
+/* Fine slices part a crowd that stands far off; of few, four slices share a set. */
+enum { SLICES = 1024, FEW = 64, SHIFT_OF_FEW = 2 };
 
 #define NEAR_M 1e-6
 #define NEAR_SINE 1e-4
@@ -67,38 +68,51 @@ bool bearings_apart(struct bearings_span a, struct bearings_span b)
 struct bearings bearings_begin(size_t count, struct arena *arena)
 {
     size_t words = count / 64 + 1;
+    unsigned shift = count <= FEW ? SHIFT_OF_FEW : 0;
     return (struct bearings){
+        .shift = shift,
         .words = words,
-        .slices = arena_get(arena, SLICES * words * sizeof(uint64_t)),
+        .sets = arena_get(arena, ((size_t)SLICES >> shift) * words * sizeof(uint64_t)),
         .found = arena_get(arena, (count + 1) * sizeof(size_t)),
     };
 }
 
-static uint64_t *set_of(const struct bearings *bearings, struct bearings_span span, unsigned i)
+/* The same span, counted in sets. */
+static struct bearings_span sets_of(const struct bearings *bearings, struct bearings_span span)
 {
-    return bearings->slices + (span.first + i) % SLICES * bearings->words;
+    unsigned shift = bearings->shift, all = (unsigned)SLICES >> shift, first = span.first >> shift;
+    unsigned count = ((span.first + span.count - 1) >> shift) - first + 1;
+    return (struct bearings_span){first, count < all ? count : all};
+}
+
+static uint64_t *set_of(const struct bearings *bearings, struct bearings_span sets, unsigned i)
+{
+    unsigned last = (SLICES - 1U) >> bearings->shift; /* all ones */
+    return bearings->sets + ((sets.first + i) & last) * bearings->words;
 }
 
 void bearings_enter(struct bearings *bearings, size_t number, struct bearings_span span)
 {
-    for (unsigned i = 0; i < span.count; i++)
-        set_of(bearings, span, i)[number / 64] |= UINT64_C(1) << number % 64;
+    struct bearings_span sets = sets_of(bearings, span);
+    for (unsigned i = 0; i < sets.count; i++)
+        set_of(bearings, sets, i)[number / 64] |= UINT64_C(1) << number % 64;
 }
 
-/* Numbers of a whole word, in that word of every set of the span. */
-static uint64_t word_of(const struct bearings *bearings, struct bearings_span span, size_t word)
+/* Numbers of a whole word, in that word of each of these sets. */
+static uint64_t word_of(const struct bearings *bearings, struct bearings_span sets, size_t word)
 {
     uint64_t bits = 0;
-    for (unsigned i = 0; i < span.count; i++)
-        bits |= set_of(bearings, span, i)[word];
+    for (unsigned i = 0; i < sets.count; i++)
+        bits |= set_of(bearings, sets, i)[word];
     return bits;
 }
 
 size_t bearings_find(const struct bearings *bearings, struct bearings_span span)
 {
+    struct bearings_span sets = sets_of(bearings, span);
     size_t count = 0;
     for (size_t word = 0; word < bearings->words; word++)
-        for (uint64_t bits = word_of(bearings, span, word); bits != 0; bits &= bits - 1)
+        for (uint64_t bits = word_of(bearings, sets, word); bits != 0; bits &= bits - 1)
             bearings->found[count++] = 64 * word + (size_t)__builtin_ctzll(bits);
     return count;
 }

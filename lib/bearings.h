@@ -1,9 +1,9 @@
 /* Who may stand in which direction, so that a question about one direction asks few of many.
  *
- * The horizon around a sensor is cut into slices. Each holds the set of those, by number, whose
- * circles may reach into it; what a question gets is every number whose circle comes anywhere near
- * the slices it is about, and some more. Sets are bits, 64 to a word: they join in one step a word
- * and come out in ascending order. */
+ * The horizon around a sensor is cut into slices. Each, or a few side by side, have a set of those,
+ * by number, whose circles may reach into it; what a question gets is every number whose circle
+ * comes anywhere near the slices it is about, and some more. Sets are bits, 64 to a word: they join
+ * in one step a word and come out in ascending order. */
 #ifndef BEARINGS_H
 #define BEARINGS_H
 
@@ -13,9 +13,10 @@
 #include "sectors.h"
 
 struct bearings {
-    size_t words;     /* of a set */
-    uint64_t *slices; /* a set for each */
-    size_t *found;    /* numbers, ascending: the answer to the last question */
+    unsigned shift; /* from a slice's number to its set's */
+    size_t words;   /* of a set */
+    uint64_t *sets; /* counter-clockwise */
+    size_t *found;  /* numbers, ascending: the answer to the last question */
 };
 
 /* Slices, counter-clockwise from the first. */

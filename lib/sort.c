@@ -60,6 +60,27 @@ static bool is_sorted(const char *items, size_t count, size_t size,
     return true;
 }
 
+/* Brings items to their places along the cycles of their exchange, so that each moves once. from[i]
+ * is the address of the item that belongs at place i; it becomes that place. */
+static void move_items(char *items, size_t count, size_t size, const char **from,
+                       struct arena *arena)
+{
+    char *first = arena_room(arena, size);
+    for (size_t i = 0; i < count; i++) {
+        char *place = items + i * size;
+        if (from[i] == place)
+            continue;
+        memcpy(first, place, size);
+        size_t to = i;
+        while (from[to] != place) {
+            const char *next = from[to];
+            from[to] = memcpy(items + to * size, next, size);
+            to = (size_t)(next - items) / size;
+        }
+        from[to] = memcpy(items + to * size, first, size);
+    }
+}
+
 void sort_items(void *items, size_t count, size_t size, int (*compare)(const void *, const void *),
                 struct arena *arena)
 {
@@ -74,7 +95,5 @@ void sort_items(void *items, size_t count, size_t size, int (*compare)(const voi
     find_runs(&sorting, items, count, size);
     while (sorting.runs > 1)
         merge_neighbours(&sorting);
-    char *place = items, *copy = memcpy(arena_room(arena, count * size), items, count * size);
-    for (size_t i = 0; i < count; i++)
-        memcpy(place + i * size, copy + (sorting.from[i] - place), size);
+    move_items(items, count, size, sorting.from, arena);
 }
