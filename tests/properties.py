@@ -385,10 +385,12 @@ def piped_is_fused(folder):
 
 
 def laws_hold(folder):
+    """Where reflectors are those of the vehicle documents, which say what must be accounted for."""
     frames = 0
     for path in PIPELINES:
         commands = stages_of(path)[1]
-        if "--account" in " ".join(commands) and writes_frames(commands[-1]):
+        if ("--account" in " ".join(commands) and writes_frames(commands[-1])
+                and "glint-extract" in (command.split()[0] for command in commands)):
             for frame in parse(run(["bash", path]).stdout):
                 check_laws(frame)
                 frames += 1
