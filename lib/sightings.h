@@ -1,4 +1,4 @@
-/* What a radar reads off the peaks of its spectrum, and which echoes made them (MODEL 11.2).
+/* What a radar reads off the peaks of its spectrum, and which echoes made them (MODEL 11.3).
  *
  * An echo belongs to the peak at which most of it shows, if that is at least half of its amplitude;
  * so it has one label, and a target's label are the echoes that a radar of this resolution cannot

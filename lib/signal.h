@@ -1,4 +1,4 @@
-/* The signal of one scan, sample by sample, as its receivers put it out (MODEL 11.2; EFFECTS 11).
+/* The signal of one scan, sample by sample, as its receivers put it out (MODEL 11.3; EFFECTS 11).
  *
  * An echo of amplitude A, range R, rate v and phase p makes, in repetition m and sample n,
  *     A exp j(p - 2 pi (v/dv) (m/M - 1/2)) exp -j(2 pi (R_m/dR) (n/N - 1/2))     for chirps,

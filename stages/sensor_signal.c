@@ -1,5 +1,5 @@
 /* The signal itself instead of a model of its cells: samples of every receiver, transformed and
- * searched for peaks as a radar does it (MODEL 11.2; EFFECTS 11). */
+ * searched for peaks as a radar does it (MODEL 11.3; EFFECTS 11). */
 /* needs: fftw3 */
 #include <fftw3.h>
 
