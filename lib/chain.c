@@ -9,12 +9,14 @@
 #include "frame_text.h"
 #include "input.h"
 #include "progress.h"
+#include "repeats.h"
 
 struct chain {
     struct runner *runners;
     size_t count;
     struct frame frame;
     struct arena arena; /* the frame's */
+    struct repeats repeats;
     struct text line;
     struct input *input;
     size_t file, line_number;
@@ -214,6 +216,7 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
 {
     struct chain chain = {.runners = runners, .count = count, .times = times};
     chain.frame.arena = &chain.arena;
+    chain.frame.repeats = &chain.repeats;
     if (times != NULL)
         time_clock(&chain);
     start(&chain);
@@ -234,6 +237,7 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
     input_close(chain.input);
     text_free(&chain.line);
     arena_free(&chain.arena);
+    repeats_free(&chain.repeats);
     return code;
 }
 

@@ -45,6 +45,7 @@ struct field {
     char key[FIELD_KEY_SIZE]; /* as lines have it behind another member: ,"range_m": */
     unsigned char key_length;
     bool optional; /* may be absent; then, and only then, it is not written either */
+    bool steady;   /* a list that lines repeat (repeats.h) */
     enum field_kind kind;
     size_t offset;
     double low, high;
@@ -110,6 +111,7 @@ extern const struct field field_none[];
     FIELD_NAMED(member), .kind = FIELD_RAW, .offset = FIELD_AT(const char *, owner, member),       \
                          .optional = true, .help = (help_)
 #define FIELD_OPTIONAL .optional = true
+#define FIELD_STEADY .steady = true
 
 /* What the name's ending says about the unit, for messages and help: "m" for range_m, "" if the
  * number has none. */

@@ -419,9 +419,11 @@ struct field_names *frame_names(struct frame *frame)
 void frame_clear(struct frame *frame)
 {
     struct arena *arena = frame->arena;
+    struct repeats *repeats = frame->repeats;
     arena_clear(arena);
     field_clear(&frame_record, frame);
     frame->arena = arena;
+    frame->repeats = repeats;
 }
 
 const char *frame_section_name(enum section section)

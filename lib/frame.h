@@ -231,6 +231,7 @@ struct frame {
     const char *extra;
     unsigned present; /* enum section */
     struct arena *arena;
+    struct repeats *repeats;   /* what its lines repeat; NULL: nothing is kept of a line */
     struct field_names *names; /* that were good; NULL: none yet */
 };
 

@@ -6,6 +6,7 @@
 #include "json_scan.h"
 #include "names.h"
 #include "number.h"
+#include "repeats.h"
 
 #define LOAD(type, member) (*(type *)memcpy(&(type){0}, (member), sizeof(type)))
 #define STORE(type, member, value) memcpy((member), &(type){(value)}, sizeof(type))
@@ -16,6 +17,7 @@ enum { BYTES_PER_NAME = 128 };
 struct reader {
     struct json_scan scan;
     struct names names;
+    struct repeats *repeats; /* or NULL */
 };
 
 static int read_record(struct reader *reader, const struct record *record, void *base);
@@ -108,6 +110,29 @@ static int read_list(struct reader *reader, const struct field *field, void *bas
     return diag_prefix(scan->diag, "%s: ", field->name);
 }
 
+/* A list that may have stood in an earlier line: if so it is there already. If not it is read into
+ * the memory of those that are kept, with names of its own. */
+static int read_steady(struct reader *reader, const struct field *field, void *base)
+{
+    struct json_scan *scan = &reader->scan;
+    struct repeats *repeats = reader->repeats;
+    const struct repeat *repeat = repeats_find(repeats, field->record, scan->at, scan->end);
+    if (repeat != NULL) {
+        scan->at += repeat->length;
+        memcpy((char *)base + field->offset, &repeat->items, sizeof repeat->items);
+        return 0;
+    }
+    if (repeats_full(repeats))
+        return read_list(reader, field, base);
+    struct reader apart = {
+        {scan->at, scan->end, &repeats->arena, scan->diag}, names_begin(&repeats->arena, 0), NULL};
+    if (read_list(&apart, field, base) != 0)
+        return -1;
+    repeats_keep(repeats, field, base, scan->at, (size_t)(apart.scan.at - scan->at));
+    scan->at = apart.scan.at;
+    return 0;
+}
+
 static int read_raw(struct json_scan *scan, const struct field *field, void *base)
 {
     struct json_string bytes;
@@ -162,6 +187,8 @@ static int read_member(struct reader *reader, const struct field *field, void *b
     }
     if (field->kind == FIELD_RAW)
         return read_raw(scan, field, base);
+    if (field->steady && reader->repeats != NULL)
+        return read_steady(reader, field, base);
     if (field->kind == FIELD_NAMES || field->kind == FIELD_SET || field->kind == FIELD_LIST)
         return read_list(reader, field, base);
     if (field->kind == FIELD_RECORD) {
@@ -283,11 +310,11 @@ static int no_record(struct json_scan *scan, const struct record *record)
                : json_scan_unexpected(scan, expected);
 }
 
-int frame_text_read_record(const char *line, size_t length, const struct record *record, void *base,
-                           struct arena *arena, struct diag *diag)
+static int read_line(const char *line, size_t length, const struct record *record, void *base,
+                     struct arena *arena, struct repeats *repeats, struct diag *diag)
 {
-    struct reader reader = {{line, line + length, arena, diag},
-                            names_begin(arena, length / BYTES_PER_NAME)};
+    struct reader reader = {
+        {line, line + length, arena, diag}, names_begin(arena, length / BYTES_PER_NAME), repeats};
     struct json_scan *scan = &reader.scan;
     if (json_scan_peek(scan) != '{')
         return no_record(scan, record);
@@ -303,7 +330,13 @@ int frame_text_read_record(const char *line, size_t length, const struct record 
 int frame_text_read(const char *line, size_t length, struct frame *frame, struct diag *diag)
 {
     frame_clear(frame);
-    return frame_text_read_record(line, length, &frame_record, frame, frame->arena, diag);
+    return read_line(line, length, &frame_record, frame, frame->arena, frame->repeats, diag);
+}
+
+int frame_text_read_record(const char *line, size_t length, const struct record *record, void *base,
+                           struct arena *arena, struct diag *diag)
+{
+    return read_line(line, length, record, base, arena, NULL, diag);
 }
 
 /* The writer's place in a text, whose length is set in the end. */

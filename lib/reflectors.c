@@ -153,11 +153,13 @@ static const struct field reflector_set_fields[] = {
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct reflector_set, raised, "can a radar look under it?"), FIELD_OPTIONAL},
     {FIELD_LIST_OF(struct reflector_set, points, &point_record, "corners, wheel houses, poles"),
-     FIELD_OPTIONAL},
-    {FIELD_LIST_OF(struct reflector_set, planes, &plane_record, "flat sides"), FIELD_OPTIONAL},
-    {FIELD_LIST_OF(struct reflector_set, rows, &row_record, "rows of posts"), FIELD_OPTIONAL},
+     FIELD_OPTIONAL, FIELD_STEADY},
+    {FIELD_LIST_OF(struct reflector_set, planes, &plane_record, "flat sides"), FIELD_OPTIONAL,
+     FIELD_STEADY},
+    {FIELD_LIST_OF(struct reflector_set, rows, &row_record, "rows of posts"), FIELD_OPTIONAL,
+     FIELD_STEADY},
     {FIELD_LIST_OF(struct reflector_set, mirrors, &mirror_record, "flat sides that show ghosts"),
-     FIELD_OPTIONAL},
+     FIELD_OPTIONAL, FIELD_STEADY},
     {0},
 };
 

@@ -1,0 +1,130 @@
+#include "check.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "frame_text.h"
+#include "repeats.h"
+
+static const char HEAD[] =
+    "{\"version\":0,\"scene\":\"s\",\"frame\":0,\"time_s\":0,\"interval_s\":1,\"seed\":\"1\","
+    "\"ego\":\"e\",\"objects\":[],\"reflectors\":[{\"model\":\"m\",\"worn_by\":[],\"points\":";
+
+static const char *point_of(const char *name, double x)
+{
+    static char text[256];
+    snprintf(text, sizeof text,
+             "{\"name\":\"%s\",\"x\":%g,\"y\":0,\"facing_rad\":0,\"full_rad\":1,\"zero_rad\":2,"
+             "\"shape\":\"hard\",\"ercs\":0.5}",
+             name, x);
+    return text;
+}
+
+static void line_of(struct text *line, const char *points)
+{
+    line->length = 0;
+    text_format(line, "%s%s}]}", HEAD, points);
+}
+
+static int read_points(struct frame *frame, const char *points, struct diag *diag)
+{
+    struct text line = {0};
+    line_of(&line, points);
+    int result = frame_text_read(line.bytes, line.length, frame, diag);
+    text_free(&line);
+    return result;
+}
+
+static void the_same_text_is_the_same_list(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct repeats repeats = {0};
+    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct diag diag = {0};
+    char one[512], other[512];
+    snprintf(one, sizeof one, "[%s]", point_of("a", 0.25));
+    snprintf(other, sizeof other, "[%s ]", point_of("a", 0.5));
+    const void *first[2];
+    for (int i = 0; i < 6; i++) {
+        assert_int_equal(read_points(&frame, i % 2 ? other : one, &diag), 0);
+        assert_int_equal(frame.reflectors.items[0].points.count, 1);
+        const struct point_reflector *point = &frame.reflectors.items[0].points.items[0];
+        assert_string_equal(point->name, "a");
+        assert_close(point->x, i % 2 ? 0.5 : 0.25, 0);
+        if (i < 2)
+            first[i] = point;
+        assert_ptr_equal(point, first[i % 2]);
+    }
+    assert_int_equal(repeats.kept.count, 2);
+    repeats_free(&repeats);
+    arena_free(&arena);
+}
+
+static void what_is_wrong_in_a_list_is_wrong_every_time(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct repeats repeats = {0};
+    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    char wrong[512];
+    snprintf(wrong, sizeof wrong, "[%s,%s]", point_of("a", 0.25), "{\"name\":\"\"}");
+    for (int i = 0; i < 3; i++) {
+        struct diag diag = {0};
+        assert_int_equal(read_points(&frame, wrong, &diag), -1);
+        assert_string_equal(diag.text, "reflectors[0].points[1].name: a name of 0 bytes; expected "
+                                       "1 to 1024");
+    }
+    assert_int_equal(repeats.kept.count, 0);
+    repeats_free(&repeats);
+    arena_free(&arena);
+}
+
+static void lists_that_never_come_again_are_kept_up_to_a_limit(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct repeats repeats = {0};
+    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct diag diag = {0};
+    for (int i = 0; i < 3 * REPEATS_MOST; i++) {
+        char points[512];
+        snprintf(points, sizeof points, "[%s]", point_of("a", i * 0.001));
+        assert_int_equal(read_points(&frame, points, &diag), 0);
+        assert_close(frame.reflectors.items[0].points.items[0].x, i * 0.001, 1e-9);
+    }
+    assert_int_equal(repeats.kept.count, REPEATS_MOST);
+    repeats_free(&repeats);
+    arena_free(&arena);
+}
+
+static void a_list_that_grows_leaves_the_kept_one_alone(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct repeats repeats = {0};
+    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct diag diag = {0};
+    char points[512];
+    snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(read_points(&frame, points, &diag), 0);
+        struct reflector_set *set = &frame.reflectors.items[0];
+        assert_int_equal(set->points.count, 1);
+        if (i > 0)
+            *list_add(&set->points, &arena) = (struct point_reflector){.name = "b"};
+    }
+    repeats_free(&repeats);
+    arena_free(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_same_text_is_the_same_list),
+        cmocka_unit_test(what_is_wrong_in_a_list_is_wrong_every_time),
+        cmocka_unit_test(lists_that_never_come_again_are_kept_up_to_a_limit),
+        cmocka_unit_test(a_list_that_grows_leaves_the_kept_one_alone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
