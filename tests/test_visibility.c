@@ -135,7 +135,8 @@ static void hard_includes_its_edge_and_the_tapered_shapes_end_in_zero(void **sta
 static void every_shape_falls_from_one_to_zero(void **state)
 {
     (void)state;
-    for (int shape = VISIBILITY_RAISED_COSINE; shape <= VISIBILITY_COSINE; shape++) {
+    for (enum visibility_shape shape = VISIBILITY_RAISED_COSINE; shape <= VISIBILITY_COSINE;
+         shape++) {
         double before = 1;
         for (int i = 0; i <= 18000; i++) {
             double value = visibility((enum visibility_shape)shape, degrees(30), degrees(75),
@@ -168,7 +169,8 @@ static void along_a_sight_as_much_is_seen_as_at_its_angle(void **state)
             sight = vec2_scale(1e-200, sight);
         if (i % 1000 == 0)
             sight = (struct vec2){0, 0};
-        for (int shape = VISIBILITY_RAISED_COSINE; shape <= VISIBILITY_COSINE; shape++) {
+        for (enum visibility_shape shape = VISIBILITY_RAISED_COSINE; shape <= VISIBILITY_COSINE;
+             shape++) {
             double seen = visibility_along(shape, full_rad, zero_rad, facing, sight);
             assert_close(seen,
                          visibility(shape, full_rad, zero_rad, visibility_angle_rad(facing, sight)),
@@ -196,7 +198,8 @@ static void what_is_plainly_unseen_is_unseen_from_all_ends_nearby(void **state)
         unseen++;
         struct vec2 aside = vec2_heading(sample_between(&sample, -PI, PI));
         struct vec2 near = vec2_add(sight, vec2_scale(slack_m, aside));
-        for (int shape = VISIBILITY_RAISED_COSINE; shape <= VISIBILITY_COSINE; shape++)
+        for (enum visibility_shape shape = VISIBILITY_RAISED_COSINE; shape <= VISIBILITY_COSINE;
+             shape++)
             assert_true(visibility_along(shape, 0, zero_rad, facing, near) == 0);
     }
     assert_true(unseen > 50000);
