@@ -19,17 +19,16 @@ const struct repeat *repeats_find(struct repeats *repeats, const struct record *
 
 bool repeats_full(const struct repeats *repeats)
 {
-    return repeats->kept.count >= REPEATS_MOST;
+    return repeats->kept.count >= REPEATS_MOST || repeats->size >= REPEATS_SIZE;
 }
 
 void repeats_keep(struct repeats *repeats, const struct field *field, const void *base,
                   const char *text, size_t length)
 {
-    if (length > REPEATS_SIZE)
-        return;
     struct field_list list = field_list(field, base);
     struct repeat *repeat = list_add(&repeats->kept, &repeats->arena);
     *repeat = (struct repeat){.record = field->record, .length = length};
+    repeats->size += length;
     repeat->text = arena_text(&repeats->arena, text, length);
     repeat->items.items = list.items;
     repeat->items.count = repeat->items.room = list.count;

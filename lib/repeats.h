@@ -6,7 +6,8 @@
 
 #include "field.h"
 
-enum { REPEATS_MOST = 256, REPEATS_SIZE = 64 * 1024 };
+/* No more are kept after so many, or after so many bytes of text. */
+enum { REPEATS_MOST = 256, REPEATS_SIZE = 1024 * 1024 };
 
 struct repeat {
     const struct record *record; /* of the items */
@@ -18,8 +19,9 @@ struct repeat {
 /* Zeroed, it has kept nothing. */
 struct repeats {
     struct arena arena;
-    LIST_OF(struct repeat) kept; /* at most REPEATS_MOST of at most REPEATS_SIZE bytes */
-    size_t next;                 /* the likeliest: what came after the last one found */
+    LIST_OF(struct repeat) kept;
+    size_t size; /* of their text */
+    size_t next; /* the likeliest: what came after the last one found */
 };
 
 /* The list of these items with which the text begins, or NULL. */

@@ -98,6 +98,34 @@ static void lists_that_never_come_again_are_kept_up_to_a_limit(void **state)
     arena_free(&arena);
 }
 
+/* So that a stream's memory stays constant whatever its lines hold. */
+static void long_lists_are_kept_up_to_a_limit_too(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct repeats repeats = {0};
+    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct diag diag = {0};
+    struct text points = {0};
+    for (int i = 0; i < 40; i++) {
+        points.length = 0;
+        text_format(&points, "[%s", point_of("a", i * 0.001));
+        for (int j = 0; j < 1000; j++) {
+            char name[16];
+            snprintf(name, sizeof name, "b%d", j % 1000);
+            text_format(&points, ",%s", point_of(name, 0.25));
+        }
+        text_add(&points, "]", 2);
+        assert_int_equal(read_points(&frame, points.bytes, &diag), 0);
+        assert_int_equal(frame.reflectors.items[0].points.count, 1001);
+    }
+    assert_true(repeats.size >= REPEATS_SIZE && repeats.size < 2 * REPEATS_SIZE);
+    assert_true(repeats.kept.count < 40);
+    text_free(&points);
+    repeats_free(&repeats);
+    arena_free(&arena);
+}
+
 static void a_list_that_grows_leaves_the_kept_one_alone(void **state)
 {
     (void)state;
@@ -124,6 +152,7 @@ int main(void)
         cmocka_unit_test(the_same_text_is_the_same_list),
         cmocka_unit_test(what_is_wrong_in_a_list_is_wrong_every_time),
         cmocka_unit_test(lists_that_never_come_again_are_kept_up_to_a_limit),
+        cmocka_unit_test(long_lists_are_kept_up_to_a_limit_too),
         cmocka_unit_test(a_list_that_grows_leaves_the_kept_one_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
