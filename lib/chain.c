@@ -17,6 +17,7 @@ struct chain {
     struct frame frame;
     struct arena arena; /* the frame's */
     struct repeats repeats;
+    struct arena kept;
     struct text line;
     struct input *input;
     size_t file, line_number;
@@ -217,6 +218,7 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
     struct chain chain = {.runners = runners, .count = count, .times = times};
     chain.frame.arena = &chain.arena;
     chain.frame.repeats = &chain.repeats;
+    chain.frame.kept = &chain.kept;
     if (times != NULL)
         time_clock(&chain);
     start(&chain);
@@ -237,6 +239,7 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
     input_close(chain.input);
     text_free(&chain.line);
     arena_free(&chain.arena);
+    arena_free(&chain.kept);
     repeats_free(&chain.repeats);
     return code;
 }

@@ -404,11 +404,6 @@ const struct record frame_record = {
     .present_offset = offsetof(struct frame, present),
 };
 
-bool frame_same_name(const char *a, const char *b)
-{
-    return a == b || strcmp(a, b) == 0;
-}
-
 struct field_names *frame_names(struct frame *frame)
 {
     if (frame->names == NULL)
@@ -419,11 +414,13 @@ struct field_names *frame_names(struct frame *frame)
 void frame_clear(struct frame *frame)
 {
     struct arena *arena = frame->arena;
-    struct repeats *repeats = frame->repeats;
+    struct frame before = *frame;
     arena_clear(arena);
     field_clear(&frame_record, frame);
     frame->arena = arena;
-    frame->repeats = repeats;
+    frame->repeats = before.repeats;
+    frame->kept = before.kept;
+    memcpy(&frame->ranking, &before.ranking, sizeof before.ranking);
 }
 
 const char *frame_section_name(enum section section)

@@ -13,6 +13,8 @@
 #ifndef FRAME_H
 #define FRAME_H
 
+#include <string.h>
+
 #include "conditions.h"
 #include "effects.h"
 #include "field.h"
@@ -233,14 +235,23 @@ struct frame {
     struct arena *arena;
     struct repeats *repeats;   /* what its lines repeat; NULL: nothing is kept of a line */
     struct field_names *names; /* that were good; NULL: none yet */
+    struct object **by_id;     /* ranked_count objects from ranked on (frame_order_objects) */
+    struct object *ranked;
+    size_t ranked_count;
+    struct arena *kept;        /* what stays from frame to frame; NULL: nothing */
+    LIST_OF(size_t) ranking;   /* in it: numbers of the objects of the frame before, by their ids */
 };
 
 extern const struct record frame_record;
 extern const struct record object_record;
 extern const struct record lost_group_record;
 
-/* Is this the same name? Names are mostly one pointer each: documents', objects'. */
-bool frame_same_name(const char *a, const char *b);
+/* Is this the same name? Names are mostly one pointer each, documents' and objects', or differ at
+ * once. */
+static inline bool frame_same_name(const char *a, const char *b)
+{
+    return a == b || (*a == *b && strcmp(a, b) == 0);
+}
 
 /* For field_good: a name in a frame stays as it is. */
 struct field_names *frame_names(struct frame *frame);

@@ -3,45 +3,14 @@
 #include <string.h>
 
 #include "frame_order.h"
-#include "hash.h"
-#include "sort.h"
 
-/* By a hash table, so that many objects cost no more each than few. */
-static bool ids_differ(const struct frame *frame)
+static int check_objects(struct frame *frame, struct diag *diag)
 {
-    size_t slot_count = 1;
-    while (slot_count < 2 * frame->objects.count)
-        slot_count *= 2;
-    const char **slots = arena_get(frame->arena, slot_count * sizeof *slots);
-    for (size_t i = 0; i < frame->objects.count; i++) {
-        const char *id = frame->objects.items[i].id;
-        size_t slot = hash_for_table(HASH_START, id) & (slot_count - 1);
-        for (; slots[slot] != NULL; slot = (slot + 1) & (slot_count - 1))
-            if (frame_same_name(slots[slot], id))
-                return false;
-        slots[slot] = id;
-    }
-    return true;
-}
-
-/* The first id in order that stands twice. */
-static int refuse_id(const struct frame *frame, struct diag *diag)
-{
-    size_t count = frame->objects.count;
-    const char **ids = arena_room(frame->arena, count * sizeof *ids);
-    for (size_t i = 0; i < count; i++)
-        ids[i] = frame->objects.items[i].id;
-    sort_items(ids, count, sizeof(*ids), frame_order_names, frame->arena);
-    size_t i = 1;
-    while (!frame_same_name(ids[i - 1], ids[i]))
-        i++;
-    return diag_fail(diag, DIAG_DATA, "objects: the id \"%s\" stands twice", ids[i]);
-}
-
-static int check_objects(const struct frame *frame, struct diag *diag)
-{
-    if (!ids_differ(frame))
-        return refuse_id(frame, diag);
+    struct object *const *object = frame_order_objects(frame);
+    for (size_t i = 1; i < frame->objects.count; i++)
+        if (frame_same_name(object[i - 1]->id, object[i]->id))
+            return diag_fail(diag, DIAG_DATA, "objects: the id \"%s\" stands twice",
+                             object[i]->id);
     if (frame_object(frame, frame->ego) == NULL)
         return diag_fail(diag, DIAG_DATA, "ego: \"%s\" is not among the objects", frame->ego);
     return 0;
@@ -124,7 +93,7 @@ static int check_targets(const struct frame *frame, struct diag *diag)
 }
 
 /* Echoes, cells and targets name sensors: with new sensors they are looked at again. */
-static int check_sections(const struct frame *frame, unsigned sections, struct diag *diag)
+static int check_sections(struct frame *frame, unsigned sections, struct diag *diag)
 {
     if ((sections & SECTION_SENSORS) != 0)
         sections |= SECTION_ECHOES | SECTION_CELLS | SECTION_TARGETS;
@@ -138,7 +107,7 @@ static int check_sections(const struct frame *frame, unsigned sections, struct d
     return good ? 0 : -1;
 }
 
-int frame_check(const struct frame *frame, struct diag *diag)
+int frame_check(struct frame *frame, struct diag *diag)
 {
     return check_sections(frame, ~0U, diag);
 }

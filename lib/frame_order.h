@@ -9,6 +9,10 @@
 void frame_order(struct frame *frame);
 void frame_order_part(struct frame *frame, struct frame_part part);
 
+/* The objects by id, ascending; as many as the frame has. They are sorted at the first call, and
+ * after a change of the list by frame_order_part of its section. */
+struct object *const *frame_order_objects(struct frame *frame);
+
 /* The total order in which echoes compete wherever amplitudes tie: range, range rate, azimuth, then
  * object, reflector, path. Negative, zero or positive. */
 int frame_order_tied(const struct contributor *a, const struct contributor *b);

@@ -6,12 +6,12 @@
 #include "clearance.h"
 #include "elementary.h"
 #include "elevation.h"
+#include "frame_order.h"
 #include "knife_edge.h"
 #include "occlusion.h"
 #include "orientation.h"
 #include "reflection.h"
 #include "sight.h"
-#include "sort.h"
 #include "specular.h"
 #include "units.h"
 
@@ -39,18 +39,12 @@ static struct box box_at(const struct object *object, double age_s)
     return (struct box){then, vec2_heading(then.yaw_rad), object->length_m, object->width_m};
 }
 
-static int compare_objects(const void *left, const void *right)
-{
-    return strcmp((*(const struct object *const *)left)->id,
-                  (*(const struct object *const *)right)->id);
-}
-
 static struct look_body *body_of_id(const struct look *look, const char *id)
 {
     size_t low = 0, high = look->body_count;
     while (low < high) {
         size_t middle = low + (high - low) / 2;
-        int order = strcmp(id, look->bodies[middle].object->id);
+        int order = frame_order_names(&id, &look->bodies[middle].object->id);
         if (order == 0)
             return &look->bodies[middle];
         *(order < 0 ? &high : &low) = order < 0 ? middle : middle + 1;
@@ -77,16 +71,11 @@ static struct look_body body_at(const struct look *look, const struct object *ob
 static void place_bodies(struct look *look, double age_s)
 {
     const struct frame *frame = look->frame;
-    size_t count = 0;
-    const struct object **others = arena_get(frame->arena, frame->objects.count * sizeof(*others));
+    struct object *const *objects = frame_order_objects(look->frame);
+    look->bodies = arena_room(frame->arena, frame->objects.count * sizeof *look->bodies);
     for (size_t i = 0; i < frame->objects.count; i++)
-        if (strcmp(frame->objects.items[i].id, frame->ego) != 0)
-            others[count++] = &frame->objects.items[i];
-    sort_items(others, count, sizeof(*others), compare_objects, frame->arena);
-    look->bodies = arena_room(frame->arena, count * sizeof *look->bodies);
-    for (size_t i = 0; i < count; i++)
-        look->bodies[i] = body_at(look, others[i], age_s);
-    look->body_count = count;
+        if (!frame_same_name(objects[i]->id, frame->ego))
+            look->bodies[look->body_count++] = body_at(look, objects[i], age_s);
 }
 
 static struct look_set set_of(const struct reflector_set *set, struct arena *arena)

@@ -7,6 +7,7 @@
 #include "frame_check.h"
 #include "frame_order.h"
 #include "frame_text.h"
+#include "sort.h"
 
 struct arena *runner_arena(struct runner *runner)
 {
@@ -193,14 +194,22 @@ int runner_visit_sensors(struct runner *runner, struct frame *frame,
     return 0;
 }
 
+static int compare_vehicles(const void *left, const void *right)
+{
+    return strcmp((*(const struct vehicle *const *)left)->reflectors.model,
+                  (*(const struct vehicle *const *)right)->reflectors.model);
+}
+
 const struct vehicle *runner_vehicle(struct runner *runner, const char *class)
 {
     for (size_t i = 0; i < runner->vehicles.count; i++)
-        if (strcmp(runner->vehicles.items[i]->reflectors.model, class) == 0)
+        if (frame_same_name(runner->vehicles.items[i]->reflectors.model, class))
             return runner->vehicles.items[i];
     const struct vehicle *vehicle = catalogue_vehicle(class, &runner->arena, &runner->diag);
-    if (vehicle != NULL)
-        *list_add(&runner->vehicles, &runner->arena) = vehicle;
+    if (vehicle == NULL)
+        return NULL;
+    *list_add(&runner->vehicles, &runner->arena) = vehicle;
+    sort_list(&runner->vehicles, compare_vehicles, &runner->arena);
     return vehicle;
 }
 
@@ -215,36 +224,44 @@ static void complete_size(struct object *object, const struct vehicle *vehicle)
         object->height_m = vehicle->height_m;
 }
 
-/* A class has one document, and its name one place. */
-static struct reflector_set *set_of(struct frame *frame, const char *model)
+/* What the objects wear that are of one vehicle; of[i] is object[i]'s. */
+static void add_set(struct runner *runner, struct frame *frame, const struct vehicle *vehicle,
+                    const struct vehicle *const *of,
+                    void (*describe)(const void *state, const struct vehicle *vehicle,
+                                     struct reflector_set *set, struct arena *arena))
 {
-    for (size_t i = 0; i < frame->reflectors.count; i++)
-        if (frame->reflectors.items[i].model == model)
-            return &frame->reflectors.items[i];
-    return NULL;
-}
-
-int runner_extract(struct runner *runner, struct frame *frame,
-                   void (*describe)(const void *state, const struct vehicle *vehicle,
-                                    struct reflector_set *set, struct arena *arena))
-{
+    struct object *const *object = frame_order_objects(frame);
+    struct reflector_set *set = NULL;
     for (size_t i = 0; i < frame->objects.count; i++) {
-        struct object *object = &frame->objects.items[i];
-        const struct vehicle *vehicle = runner_vehicle(runner, object->class);
-        if (vehicle == NULL)
-            return diag_prefix(&runner->diag, "objects[%zu].class: ", i);
-        complete_size(object, vehicle);
-        if (strcmp(object->id, frame->ego) == 0)
+        if (of[i] != vehicle)
             continue;
-        struct reflector_set *set = set_of(frame, vehicle->reflectors.model);
         if (set == NULL) {
             set = list_add(&frame->reflectors, frame->arena);
             *set = vehicle->reflectors;
             if (describe != NULL)
                 describe(runner->state, vehicle, set, frame->arena);
         }
-        *list_add(&set->worn_by, frame->arena) = object->id;
+        *list_add(&set->worn_by, frame->arena) = object[i]->id;
     }
+}
+
+int runner_extract(struct runner *runner, struct frame *frame,
+                   void (*describe)(const void *state, const struct vehicle *vehicle,
+                                    struct reflector_set *set, struct arena *arena))
+{
+    struct object *const *object = frame_order_objects(frame);
+    const struct vehicle **of = arena_get(frame->arena, frame->objects.count * sizeof(*of));
+    for (size_t i = 0; i < frame->objects.count; i++) {
+        const struct vehicle *vehicle = runner_vehicle(runner, object[i]->class);
+        if (vehicle == NULL)
+            return diag_prefix(&runner->diag, "objects[%zu].class: ",
+                               (size_t)(object[i] - frame->objects.items));
+        complete_size(object[i], vehicle);
+        if (!frame_same_name(object[i]->id, frame->ego))
+            of[i] = vehicle;
+    }
+    for (size_t i = 0; i < runner->vehicles.count; i++)
+        add_set(runner, frame, runner->vehicles.items[i], of, describe);
     return 0;
 }
 

@@ -16,7 +16,7 @@ struct runner {
     struct diag diag;
     struct output *output; /* of the last stage in a chain, else NULL */
     LIST_OF(const struct suite *) suites;
-    LIST_OF(const struct vehicle *) vehicles;
+    LIST_OF(const struct vehicle *) vehicles; /* by class */
     struct completeness completeness;    /* followed only under --complete */
     int64_t expected_frames;             /* 0 if the source does not say */
     struct effect_log *log;              /* NULL unless --explain was given */

@@ -108,7 +108,8 @@ const struct vehicle *runner_vehicle(struct runner *runner, const char *class);
 
 /* The whole step of a stage that extracts: completes the objects' sizes and has every object but
  * the ego wear its class's set: the document's, of which describe, if it is not NULL, may put
- * others in place of any list, in memory of the arena. */
+ * others in place of any list, in memory of the arena. Sizes come from documents that were checked,
+ * so objects are not among what the stage writes. */
 int runner_extract(struct runner *runner, struct frame *frame,
                    void (*describe)(const void *state, const struct vehicle *vehicle,
                                     struct reflector_set *set, struct arena *arena));

@@ -14,6 +14,6 @@ const struct stage stage_extract = {
                "takes the default size of its class. The ego does not reflect.",
     .options = &stage_no_options,
     .reads = SECTION_OBJECTS,
-    .writes = SECTION_OBJECTS | SECTION_REFLECTORS,
+    .writes = SECTION_REFLECTORS,
     .step = extract_step,
 };

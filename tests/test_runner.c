@@ -24,6 +24,17 @@ static const struct stage *stage_of(const char *name)
     return stages[i];
 }
 
+/* Whoever writes reflectors completes sizes, by documents that were checked (runner_extract). */
+static void forget_sizes(struct frame *frame, struct arena *arena)
+{
+    struct object *objects = arena_room(arena, frame->objects.count * sizeof *objects);
+    for (size_t i = 0; i < frame->objects.count; i++) {
+        objects[i] = frame->objects.items[i];
+        objects[i].length_m = objects[i].width_m = objects[i].height_m = 0;
+    }
+    frame->objects.items = objects;
+}
+
 /* The frame as text, without the part that the stage may change. */
 static void write_rest(const struct frame *frame, unsigned present, const struct stage *stage,
                        struct text *text)
@@ -36,6 +47,8 @@ static void write_rest(const struct frame *frame, unsigned present, const struct
         if (strcmp(frame->lost.items[i].stage, stage->name) != 0)
             *list_add(&rest.lost, &arena) = frame->lost.items[i];
     rest.present = present & ~(stage->writes & ~(unsigned)SECTION_LOST);
+    if ((stage->writes & SECTION_REFLECTORS) != 0)
+        forget_sizes(&rest, &arena);
     if ((stage->writes & SECTION_SENSORS) != 0)
         rest.account = rest.margins = false;
     text->length = 0;
