@@ -238,8 +238,8 @@ struct frame {
     struct object **by_id;     /* ranked_count objects from ranked on (frame_order_objects) */
     struct object *ranked;
     size_t ranked_count;
-    struct arena *kept;        /* what stays from frame to frame; NULL: nothing */
-    LIST_OF(size_t) ranking;   /* in it: numbers of the objects of the frame before, by their ids */
+    struct arena *kept;      /* what stays from frame to frame; NULL: nothing */
+    LIST_OF(size_t) ranking; /* in it: numbers of the objects of the frame before, by their ids */
 };
 
 extern const struct record frame_record;

@@ -59,7 +59,7 @@ def start_lines(glint, repeat, folder):
                | {"cpu_ns": round(statistics.median(cpus))})
 
 
-def shard_lines(glint, repeat, folder, frames=1000, reads=5):
+def shard_lines(glint, repeat, folder, frames=1000, reads=15):
     """One process over a stream of frames, and two over half of it each."""
     source, *stages = scenes.commands("highway", 20, 1, frames, "default")
     lines = os.path.join(folder, "shards.jsonl")

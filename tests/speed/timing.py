@@ -14,10 +14,10 @@ import scenes
 
 TOOLS = os.path.join("build", "tests", "speed")
 SPENT = os.path.join(TOOLS, "spent")
-# Frames of a run by objects, and how often a piped stage reads its file, so that the frames of one
-# file are few on the disk and many in the run.
-FRAMES = {2: 4000, 20: 1000, 100: 200, 1000: 6}
-READS = {2: 40, 20: 10, 100: 5, 1000: 2}
+# Frames of a run by objects, so many that starting is a small part of it, and how often a piped
+# stage reads its file, so that the frames of one file are few on the disk and many in the run.
+FRAMES = {2: 10000, 20: 4000, 100: 800, 1000: 60}
+READS = {2: 100, 20: 40, 100: 20, 1000: 6}
 
 
 def spread(values, name="ns_per_frame"):
