@@ -44,13 +44,6 @@ double kernel_envelope(enum kernel kernel, double bins)
     return elementary_least(1 / (PI * d), 1);
 }
 
-double kernel_half_width(enum kernel kernel)
-{
-    static const double widths[] = {
-        [KERNEL_HANN] = 1, [KERNEL_RECTANGULAR] = 0.603354, [KERNEL_PULSE] = 2};
-    return widths[kernel];
-}
-
 static double log_power(const struct phasor *samples, size_t channels, size_t stride)
 {
     double power = 0;

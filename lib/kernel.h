@@ -30,9 +30,6 @@ double kernel_value(enum kernel kernel, double bins);
 /* A bound on the size of kernel_value that falls with |bins| and is 1 within the main lobe. */
 double kernel_envelope(enum kernel kernel, double bins);
 
-/* Where the kernel is down to a half. */
-double kernel_half_width(enum kernel kernel);
-
 /* How far from bin `at` an echo stands, from that bin and the two beside it, of channels that see
  * the same echo, `stride` samples apart; exact for one echo alone. Pulses: the vertex of a parabola
  * through the logarithms of their power. Windows: with a, x, b the parts of the three bins in phase
