@@ -1,10 +1,11 @@
 /* Memory that is never NULL, and arenas.
  *
  * Ownership in one sentence: whatever belongs to a frame lies in the frame's arena and goes when
- * the runner clears it; whatever is loaded from a document lies in the runner's arena and goes at
- * the end; nothing else is allocated. Out of memory says so on stderr and leaves with 71, in
- * jansson too (document_guard_memory), because a library that carries on after a
- * failed allocation has been seen to return wrong numbers. */
+ * the runner clears it; whatever is loaded from a document lies in the runner's arena, and what one
+ * frame leaves to the next lies with the chain, and both go at the end; nothing else is allocated.
+ * Out of memory says so on stderr and leaves with 71, in jansson too (document_guard_memory),
+ * because a library that carries on after a failed allocation has been seen to return wrong
+ * numbers. */
 #ifndef MEMORY_H
 #define MEMORY_H
 
