@@ -475,6 +475,28 @@ def shards(folder):
         check(b"".join(piped(text, part) for part in parts) == whole, f"{count} shards differ")
 
 
+def lines_alone(folder):
+    """What a stage remembers of a line never shows in another: other scenes, other orders of
+    objects, other reflectors of the same class."""
+    draw = random.Random(2)
+    frames = [frame for name in ("cut-in", "intersection", "highway-straight")
+              for frame in parse(piped(f"glint-traffic {name}"))[::12]]
+    draw.shuffle(frames)
+    for stage in chain("srr24-pair-every-frame").split(" | "):
+        for frame in frames:
+            draw.shuffle(frame["objects"])
+            for one in frame.get("reflectors", [])[draw.randrange(2)::2]:
+                for point in one.get("points", []):
+                    point["ercs"] = draw.choice([point["ercs"], 0.5])
+        lines = [json.dumps(frame, separators=(",", ":")).encode() + b"\n" for frame in frames]
+        whole = piped(stage + " --keep", b"".join(lines))
+        for line, expected in zip(lines, whole.splitlines(keepends=True)):
+            check(piped(stage + " --keep", line) == expected,
+                  f"{place(json.loads(line))}: {stage} writes something else of this line alone")
+        frames = parse(whole)
+    return f"{len(frames)} lines"
+
+
 def interleaved_scenes(folder):
     text = chain("srr24-pair")
     scenes = [piped(f"glint-traffic {name}").splitlines(keepends=True)
@@ -829,6 +851,7 @@ PROPERTIES = [
     ("a scene turned, or shifted by 1e6 m, gives the same list", turn_and_shift),
     ("the order of objects does not matter", object_order),
     ("frames can be taken one at a time and in shards", shards),
+    ("a line is read and written as it is alone", lines_alone),
     ("frames of two scenes may interleave", interleaved_scenes),
     ("a seed may be given anywhere and touches noise alone", seeds),
     ("objects that no sensor sees leave no trace", unseen_objects),
