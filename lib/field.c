@@ -603,6 +603,16 @@ struct field_list field_list(const struct field *field, const void *base)
     return (struct field_list){list.items, list.count};
 }
 
+bool field_as_read(const struct record *record, const struct field *field, const void *base)
+{
+    const void *document;
+    memcpy(&document, (const char *)base + record->document_offset, sizeof document);
+    if (document == NULL)
+        return false;
+    struct field_list list = field_list(field, base), read = field_list(field, document);
+    return list.items == read.items && list.count == read.count;
+}
+
 void *field_list_extend(const struct field *field, void *base, struct arena *arena)
 {
     size_t size = field->kind == FIELD_NAMES ? sizeof(const char *) : field->record->size;

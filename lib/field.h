@@ -45,7 +45,7 @@ struct field {
     char key[FIELD_KEY_SIZE]; /* as lines have it behind another member: ,"range_m": */
     unsigned char key_length;
     bool optional; /* may be absent; then, and only then, it is not written either */
-    bool steady;   /* a list that lines repeat (repeats.h) */
+    bool steady;   /* a list that frames repeat (repeats.h) */
     enum field_kind kind;
     size_t offset;
     double low, high;
@@ -59,13 +59,15 @@ struct field {
 
 /* Tables end with a field without a name. A record with sections keeps their bits in an unsigned
  * member at present_offset; a section counts as absent unless its bit is set. (So do members of
- * which 0 is a value like any other.) */
+ * which 0 is a value like any other.) One with steady lists has at document_offset a pointer to the
+ * struct of a document that it was copied from, or NULL. */
 struct record {
     const char *name;
     const char *help;
     size_t size;
     const struct field *fields;
     size_t present_offset;
+    size_t document_offset;
 };
 
 /* The table of a record without members. */
@@ -180,6 +182,9 @@ struct field_list {
 };
 
 struct field_list field_list(const struct field *field, const void *base);
+
+/* Is this steady list still that of the document, which does not change any more? */
+bool field_as_read(const struct record *record, const struct field *field, const void *base);
 
 /* Appends one cleared item to the list member and returns its address. For FIELD_NAMES the item is
  * a const char *. */

@@ -118,7 +118,7 @@ static int read_steady(struct reader *reader, const struct field *field, void *b
     struct repeats *repeats = reader->repeats;
     const struct repeat *repeat = repeats_find(repeats, field->record, scan->at, scan->end);
     if (repeat != NULL) {
-        scan->at += repeat->length;
+        scan->at += repeat->read.length;
         memcpy((char *)base + field->offset, &repeat->items, sizeof repeat->items);
         return 0;
     }
@@ -343,6 +343,7 @@ int frame_text_read_record(const char *line, size_t length, const struct record 
 struct writer {
     struct text *text;
     char *at, *end;
+    struct repeats *repeats; /* or NULL */
 };
 
 /* A key, a number and the brackets around them. */
@@ -397,6 +398,25 @@ static void write_list(const struct field *field, const void *base, struct write
     *writer->at++ = ']';
 }
 
+/* A list that may stand in later lines: if it stood in an earlier one, its text is there. */
+static void write_steady(const struct record *record, const struct field *field, const void *base,
+                         struct writer *writer)
+{
+    struct repeat *repeat = repeats_of(writer->repeats, record, field, base);
+    if (repeat == NULL) {
+        write_list(field, base, writer);
+    } else if (repeat->written.bytes == NULL) {
+        size_t begin = (size_t)(writer->at - writer->text->bytes);
+        write_list(field, base, writer);
+        const char *text = writer->text->bytes + begin;
+        repeats_keep_written(writer->repeats, repeat, text, (size_t)(writer->at - text));
+    } else {
+        make_room(writer, repeat->written.length + MEMBER_ROOM);
+        memcpy(writer->at, repeat->written.bytes, repeat->written.length);
+        writer->at += repeat->written.length;
+    }
+}
+
 static void write_set(const struct field *field, uint64_t set, struct writer *writer)
 {
     *writer->at++ = '[';
@@ -424,7 +444,8 @@ static void write_seed(uint64_t seed, struct writer *writer)
     *writer->at++ = '"';
 }
 
-static void write_member(const struct field *field, const void *base, struct writer *writer)
+static void write_member(const struct record *record, const struct field *field, const void *base,
+                         struct writer *writer)
 {
     const void *member = (const char *)base + field->offset;
     switch (field->kind) {
@@ -457,7 +478,10 @@ static void write_member(const struct field *field, const void *base, struct wri
         break;
     case FIELD_LIST:
     case FIELD_NAMES:
-        write_list(field, base, writer);
+        if (field->steady && writer->repeats != NULL)
+            write_steady(record, field, base, writer);
+        else
+            write_list(field, base, writer);
         break;
     case FIELD_NOTES:
         break;
@@ -474,7 +498,7 @@ static void write_record(const struct record *record, const void *base, struct w
         memcpy(writer->at, field->key, FIELD_KEY_SIZE);
         *writer->at = separator;
         writer->at += field->key_length;
-        write_member(field, base, writer);
+        write_member(record, field, base, writer);
         separator = ',';
     }
     make_room(writer, MEMBER_ROOM);
@@ -483,19 +507,25 @@ static void write_record(const struct record *record, const void *base, struct w
     *writer->at++ = '}';
 }
 
-void frame_text_write_record(const struct record *record, const void *base, struct text *text)
+static void write_line(const struct record *record, const void *base, struct text *text,
+                       struct repeats *repeats)
 {
     char *at = text_room(text, MEMBER_ROOM);
-    struct writer writer = {text, at, text->bytes + text->room};
+    struct writer writer = {text, at, text->bytes + text->room, repeats};
     write_record(record, base, &writer);
     *writer.at++ = '\n';
     text->length = (size_t)(writer.at - text->bytes);
 }
 
+void frame_text_write_record(const struct record *record, const void *base, struct text *text)
+{
+    write_line(record, base, text, NULL);
+}
+
 int frame_text_write(const struct frame *frame, struct text *text, struct diag *diag)
 {
     size_t begin = text->length;
-    frame_text_write_record(&frame_record, frame, text);
+    write_line(&frame_record, frame, text, frame->repeats);
     size_t length = text->length - begin;
     if (length > FRAME_TEXT_SIZE) {
         text->length = begin;

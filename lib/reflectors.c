@@ -189,6 +189,7 @@ const struct record reflector_set_record = {
     .help = "The reflection centres of one class and the objects that wear them.",
     .size = sizeof(struct reflector_set),
     .fields = reflector_set_fields,
+    .document_offset = offsetof(struct reflector_set, document),
 };
 
 /* The same struct and table without its first two members: a document does not know who wears it.

@@ -1,6 +1,7 @@
-/* Lists that lines repeat word for word: reflector sets, above all, which hardly change in a
- * stream. What was read of them is kept with its text, and the same text is not read again. A line
- * still stands alone: this is only a quicker way to the same list. */
+/* Lists that a stream repeats word for word: reflector sets, above all, which hardly change. What
+ * was read of them is kept with its text, and the same text is not read again; and their text is
+ * kept once it was written, and the same list is not written out again. A line still stands alone:
+ * this is only a quicker way to the same list, and to the same line. */
 #ifndef REPEATS_H
 #define REPEATS_H
 
@@ -9,11 +10,17 @@
 /* No more are kept after so many, or after so many bytes of text. */
 enum { REPEATS_MOST = 256, REPEATS_SIZE = 1024 * 1024 };
 
+struct repeats_text {
+    const char *bytes; /* NULL: not yet */
+    size_t length;
+};
+
+/* A list that never changes: one read from a line, or a document's. */
 struct repeat {
     const struct record *record; /* of the items */
-    const char *text;
-    size_t length;
-    LIST_OF(void) items; /* full, so that whoever adds one gets a copy */
+    LIST_OF(void) items;         /* full, so that whoever adds one gets a copy */
+    struct repeats_text read;    /* as it stood in a line */
+    struct repeats_text written; /* as lines have it */
 };
 
 /* Zeroed, it has kept nothing. */
@@ -33,6 +40,16 @@ bool repeats_full(const struct repeats *repeats);
 /* Keeps the list member at base, which lies in the arena of repeats and was read from that text. */
 void repeats_keep(struct repeats *repeats, const struct field *field, const void *base,
                   const char *text, size_t length);
+
+/* What is kept of the steady list of the struct at base, by its address: of one that was read, or
+ * is a document's. NULL of any other, whose memory may hold another list in the next frame, and of
+ * those that are too many. */
+struct repeat *repeats_of(struct repeats *repeats, const struct record *record,
+                          const struct field *field, const void *base);
+
+/* Keeps what was written of it, unless there is too much already. */
+void repeats_keep_written(struct repeats *repeats, struct repeat *repeat, const char *text,
+                          size_t length);
 
 void repeats_free(struct repeats *repeats);
 
