@@ -181,62 +181,6 @@ static const char *number_end(const struct json_scan *scan)
     return at;
 }
 
-/* Are these eight bytes digits? No byte outside '0' to '9' has a high half of 3 with and without 6
- * more. */
-static bool are_digits(uint64_t word)
-{
-    const uint64_t ones = UINT64_C(0x0101010101010101), high = 0xf0 * ones;
-    return (word & high) == 0x30 * ones && ((word + 6 * ones) & high) == 0x30 * ones;
-}
-
-/* The number that eight digits spell: by pairs, by fours, whole. */
-static uint64_t eight_digits(uint64_t word)
-{
-    word = (word & UINT64_C(0x0f0f0f0f0f0f0f0f)) * (1 + (10 << 8)) >> 8;
-    word = (word & UINT64_C(0x00ff00ff00ff00ff)) * (1 + (100 << 16)) >> 16;
-    return (word & UINT64_C(0x0000ffff0000ffff)) * (1 + (UINT64_C(10000) << 32)) >> 32;
-}
-
-/* Past all digits from here on, which are appended to a number. */
-static const char *take_digits(const char *at, const char *end, uint64_t *number)
-{
-    uint64_t digits = *number;
-    while (end - at >= 8 && are_digits(text_word(at))) {
-        digits = 100000000 * digits + eight_digits(text_word(at));
-        at += 8;
-    }
-    for (; at < end && *at >= '0' && *at <= '9'; at++)
-        digits = 10 * digits + (uint64_t)(*at - '0');
-    *number = digits;
-    return at;
-}
-
-/* Digits with at most a point among them, and no more of them than 64 bits hold. False, and
- * nowhere, at any other number. */
-static bool take_short_number(struct json_scan *scan, double *value)
-{
-    const char *at = scan->at, *end = scan->end;
-    bool negative = at < end && *at == '-';
-    uint64_t digits = 0;
-    const char *whole = at + negative, *point = whole;
-    for (; point < end && *point >= '0' && *point <= '9'; point++)
-        digits = 10 * digits + (uint64_t)(*point - '0');
-    if (point == whole || (*whole == '0' && point > whole + 1))
-        return false;
-    at = point;
-    if (at < end && *at == '.') {
-        at = take_digits(point + 1, end, &digits);
-        if (at == point + 1)
-            return false;
-    }
-    if (at - whole > NUMBER_DIGITS || (at < end && (*at == 'e' || *at == 'E')))
-        return false;
-    double size = number_of_digits(digits, at > point ? (int)(at - point - 1) : 0);
-    *value = negative ? -size : size;
-    scan->at = at;
-    return true;
-}
-
 static int scan_long_number(struct json_scan *scan, double *value)
 {
     const char *end = number_end(scan);
@@ -253,7 +197,11 @@ static int scan_long_number(struct json_scan *scan, double *value)
 int json_scan_number(struct json_scan *scan, double *value)
 {
     json_scan_peek(scan);
-    return take_short_number(scan, value) ? 0 : scan_long_number(scan, value);
+    const char *end = number_take(scan->at, scan->end, value);
+    if (end == NULL)
+        return scan_long_number(scan, value);
+    scan->at = end;
+    return 0;
 }
 
 static bool take_word(struct json_scan *scan, const char *word)

@@ -16,6 +16,8 @@ constexpr double FIXED_FROM = 1e-3, FIXED_TO = 1e5;
 
 enum { MANTISSA_BITS = 52, EXPONENT_BIAS = 1075, DIGITS = 17, EIGHT_DIGITS = 100000000 };
 
+using wide = unsigned __int128;
+
 constexpr uint64_t FIVES[] = {1,
                               5,
                               25,
@@ -39,6 +41,38 @@ constexpr uint64_t FIVES[] = {1,
 
 constexpr double TENS[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,
                            1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19};
+
+constexpr uint64_t WHOLE_TENS[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
+
+// With one digit more, and seven behind a point, it is still a double.
+constexpr uint64_t WHOLE_MOST = 10000000;
+
+// More bytes than such a number has that is looked at.
+enum { NUMBER_ROOM = 64 };
+
+constexpr uint64_t BYTES = UINT64_C(0x0101010101010101);
+
+// The powers of five shifted up to 64 bits, and for each 2^128 divided by it, less 2^64: a product
+// with that stands for the division (N. Moeller and T. Granlund, Improved division by invariant
+// integers, 2011).
+struct shifted_fives {
+    uint64_t divisor[NUMBER_DIGITS + 1], inverse[NUMBER_DIGITS + 1];
+};
+
+constexpr shifted_fives shift_fives()
+{
+    shifted_fives shifted{};
+    for (int i = 0; i <= NUMBER_DIGITS; i++) {
+        uint64_t divisor = FIVES[i];
+        while (divisor >> 63 == 0)
+            divisor *= 2;
+        shifted.divisor[i] = divisor;
+        shifted.inverse[i] = uint64_t(~wide(0) / divisor);
+    }
+    return shifted;
+}
+
+constexpr shifted_fives SHIFTED_FIVES = shift_fives();
 
 constexpr char PAIRS[] = "0001020304050607080910111213141516171819"
                          "2021222324252627282930313233343536373839"
@@ -93,8 +127,6 @@ char *put_ten_thousandths(uint32_t value, char *text)
     return without_zeros(text + 5);
 }
 
-using wide = unsigned __int128;
-
 // Of all decimals that read back to mantissa * 2^-scale the shortest, and of those the nearest, as
 // a multiple of 10^-places. Places is the least that puts at least one multiple between the two
 // midpoints to the neighbours, so less than ten lie there, and at most one multiple of ten, which
@@ -137,6 +169,97 @@ char *put_shortest(uint64_t mantissa, int scale, char *text)
     return text + 2 - whole + count;
 }
 
+// Eight bytes as a number, the first one lowest, on every machine.
+uint64_t word_of(const char *text)
+{
+    const unsigned char *byte = reinterpret_cast<const unsigned char *>(text);
+    return uint64_t(byte[0]) | uint64_t(byte[1]) << 8 | uint64_t(byte[2]) << 16 |
+           uint64_t(byte[3]) << 24 | uint64_t(byte[4]) << 32 | uint64_t(byte[5]) << 40 |
+           uint64_t(byte[6]) << 48 | uint64_t(byte[7]) << 56;
+}
+
+bool is_digit(char character)
+{
+    return unsigned(character - '0') < 10;
+}
+
+// How many of eight bytes are digits, up to the first that is none: only digits, once '0' is taken
+// out of them, stay below 0x80 with and without 0x76 more.
+int digits_in(uint64_t word)
+{
+    const uint64_t values = word ^ '0' * BYTES;
+    const uint64_t others = (values | (values + 0x76 * BYTES)) & 0x80 * BYTES;
+    return others == 0 ? 8 : __builtin_ctzll(others) / 8;
+}
+
+// The number that eight digits spell: by pairs, by fours, whole.
+uint64_t eight_digits(uint64_t word)
+{
+    word = (word & 0x0f * BYTES) * (1 + (10 << 8)) >> 8;
+    word = (word & UINT64_C(0x00ff00ff00ff00ff)) * (1 + (100 << 16)) >> 16;
+    return (word & UINT64_C(0x0000ffff0000ffff)) * (1 + (UINT64_C(10000) << 32)) >> 32;
+}
+
+// The quotient of digits * 2^63 and the shifted 5^places; a rest shows in its last bit. The estimate
+// is at most one off.
+uint64_t quotient_of(uint64_t digits, int places)
+{
+    const uint64_t divisor = SHIFTED_FIVES.divisor[places], inverse = SHIFTED_FIVES.inverse[places];
+    const uint64_t high = digits >> 1, low = digits << 63;
+    const wide estimate = wide(inverse) * high + (wide(high) << 64 | low);
+    uint64_t quotient = uint64_t(estimate >> 64) + 1, rest = low - quotient * divisor;
+    if (rest > uint64_t(estimate)) {
+        quotient--;
+        rest += divisor;
+    }
+    if (rest >= divisor) {
+        quotient++;
+        rest -= divisor;
+    }
+    return quotient | (rest != 0);
+}
+
+// Appends the digits from here on, eight at most, to a number; how many they are.
+inline int take_eight(const char *at, uint64_t *digits)
+{
+    const uint64_t word = word_of(at);
+    const int count = digits_in(word), half = 4 * (8 - count); // of the shift that leaves just them
+    *digits = *digits * WHOLE_TENS[count] + eight_digits(word << half << half);
+    return count;
+}
+
+// Where it ends, unless an exponent follows.
+inline const char *finish(const char *begin, const char *end, double size, double *value)
+{
+    if ((*end | 0x20) == 'e')
+        return nullptr;
+    *value = *begin == '-' ? -size : size;
+    return end;
+}
+
+// Goes on behind the first eight digits of the fraction. Not part of number_take, which would then
+// save registers for every number.
+[[gnu::noinline]] const char *take_long(const char *begin, const char *fraction, uint64_t digits,
+                                        double *value)
+{
+    const char *const whole = begin + (*begin == '-'), *at = fraction + 8;
+    int count = 8;
+    for (; count == 8 && at - fraction < NUMBER_DIGITS; at += count)
+        count = take_eight(at, &digits);
+    if (at - whole - 1 - (*whole == '0') > NUMBER_DIGITS)
+        return nullptr;
+    return finish(begin, at, number_of_digits(digits, int(at - fraction)), value);
+}
+
+// Where less than NUMBER_ROOM bytes are left: from a copy with zeros behind it.
+[[gnu::noinline]] const char *take_last(const char *begin, const char *end, double *value)
+{
+    char copy[2 * NUMBER_ROOM] = {0};
+    memcpy(copy, begin, size_t(end - begin));
+    const char *after = number_take(copy, copy + sizeof copy, value);
+    return after == nullptr ? nullptr : begin + (after - copy);
+}
+
 } // namespace
 
 size_t number_write(double value, char *text)
@@ -175,17 +298,39 @@ double number_of_digits(uint64_t digits, int places)
 {
     // Both are exact, so that only the division rounds.
     if (digits >> (MANTISSA_BITS + 1) == 0)
-        return double(digits) / TENS[places];
-    // The quotient by 5^places to 63 bits or 64, of which the last one says whether there is a rest.
+        return double(int64_t(digits)) / TENS[places];
+    // The quotient has 63 bits or 64.
     const int up = __builtin_clzll(digits), side = __builtin_clzll(FIVES[places]);
-    const uint64_t divisor = FIVES[places] << side;
-    const wide dividend = wide(digits << up) << 63;
-    const uint64_t quotient = uint64_t(dividend / divisor);
-    const bool rest = wide(quotient) * divisor != dividend;
+    const uint64_t quotient = quotient_of(digits << up, places);
     const uint64_t power = uint64_t(1023 + side - up - 63 - places) << MANTISSA_BITS;
     double scale;
     memcpy(&scale, &power, sizeof scale);
-    return double(quotient | rest) * scale;
+    return double(quotient) * scale;
+}
+
+const char *number_take(const char *begin, const char *end, double *value)
+{
+    if (end - begin < NUMBER_ROOM)
+        return take_last(begin, end, value);
+    const char *at = begin + (*begin == '-');
+    if (!is_digit(*at))
+        return nullptr;
+    uint64_t digits = uint64_t(*at++ - '0');
+    for (; is_digit(*at); at++) {
+        if (digits == 0 || digits > WHOLE_MOST)
+            return nullptr;
+        digits = 10 * digits + uint64_t(*at - '0');
+    }
+    int places = 0;
+    if (*at == '.') {
+        places = take_eight(++at, &digits);
+        if (places == 8)
+            return take_long(begin, at, digits, value);
+        if (places == 0)
+            return nullptr;
+        at += places;
+    }
+    return finish(begin, at, double(int64_t(digits)) / TENS[places], value);
 }
 
 bool number_read(const char *begin, const char *end, double *value)

@@ -260,6 +260,73 @@ static void digits_and_places_round_to_the_nearest_double(void **state)
     assert_true(number_of_digits(0, NUMBER_DIGITS) == 0);
 }
 
+/* A number of so many digits before and behind the point, and where it ends. */
+static size_t put_number(char *text, uint64_t *random, int whole, int fraction)
+{
+    size_t length = 0;
+    if (sample_bits(random) % 2 != 0)
+        text[length++] = '-';
+    for (int i = 0; i < whole; i++)
+        text[length++] = (char)('0' + (i == 0 && whole > 1 ? 1 + sample_bits(random) % 9
+                                                           : sample_bits(random) % 10));
+    if (fraction > 0)
+        text[length++] = '.';
+    for (int i = 0; i < fraction; i++)
+        text[length++] = (char)('0' + sample_bits(random) % 10);
+    return length;
+}
+
+static void everyday_numbers_are_taken_from_the_front(void **state)
+{
+    (void)state;
+    uint64_t random = 7;
+    for (int i = 0; i < 300000; i++) {
+        int whole = 1 + (int)(sample_bits(&random) % 10);
+        int fraction = (int)(sample_bits(&random) % 24);
+        size_t more = i % 2 ? sample_bits(&random) % 80 : 0;
+        char text[128];
+        size_t length = put_number(text, &random, whole, fraction);
+        memset(text + length, i % 3 ? ',' : ' ', more);
+        /* Exactly this much memory, for a sanitizer to see. */
+        char *bare = malloc(length + more);
+        memcpy(bare, text, length + more);
+        double value, expected;
+        const char *end = number_take(bare, bare + length + more, &value);
+        text[length] = '\0';
+        expected = strtod(text, NULL);
+        if (whole < 9 && fraction + whole <= NUMBER_DIGITS)
+            assert_non_null(end);
+        if (end != NULL) {
+            assert_ptr_equal(end, bare + length);
+            if (memcmp(&value, &expected, sizeof value) != 0)
+                fail_msg("%s became %.17g", text, value);
+        }
+        free(bare);
+    }
+}
+
+static void what_is_no_everyday_number_is_left_alone(void **state)
+{
+    (void)state;
+    static const char *const others[] = {
+        "",     "-",   ",1",   ".5",   "-.5", "+1",   "1.",
+        "1.,",  "01",  "-00",  "00.5", "1e5", "1E5",  "1.5e",
+        "0e+1", "inf", "-inf", "nan",  "0x1", "1.5E", "1234567890123.5"};
+    for (size_t i = 0; i < COUNT(others); i++) {
+        char text[128];
+        size_t length = strlen(others[i]);
+        memset(text, ' ', sizeof text);
+        memcpy(text, others[i], length);
+        double value;
+        const char *end = number_take(text, text + length, &value);
+        if (strcmp(others[i], "0x1") == 0)
+            assert_ptr_equal(end, text + 1);
+        else
+            assert_null(end);
+        assert_true((number_take(text, text + sizeof text, &value) == NULL) == (end == NULL));
+    }
+}
+
 static void whole_numbers_are_written_in_full(void **state)
 {
     (void)state;
@@ -292,6 +359,8 @@ int main(void)
         cmocka_unit_test(too_large_is_refused_and_too_small_is_zero),
         cmocka_unit_test(decimals_round_to_the_nearest_double),
         cmocka_unit_test(digits_and_places_round_to_the_nearest_double),
+        cmocka_unit_test(everyday_numbers_are_taken_from_the_front),
+        cmocka_unit_test(what_is_no_everyday_number_is_left_alone),
         cmocka_unit_test(whole_numbers_are_written_in_full),
         cmocka_unit_test(nothing_may_follow_the_number),
     };
