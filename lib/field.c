@@ -26,19 +26,20 @@ const char *field_unit(const char *name)
     return "";
 }
 
-static bool is_called(const struct field *field, const char *name, size_t length)
+static bool is_word(const char *word, const char *text, size_t length)
 {
-    return strncmp(field->name, name, length) == 0 && field->name[length] == '\0';
+    return length > 0 && word[0] == text[0] && strncmp(word, text, length) == 0 &&
+           word[length] == '\0';
 }
 
 const struct field *field_find(const struct record *record, const char *name, size_t length,
                                size_t hint)
 {
     const struct field *fields = record->fields;
-    if (fields[hint].name != NULL && is_called(&fields[hint], name, length))
+    if (fields[hint].name != NULL && is_word(fields[hint].name, name, length))
         return &fields[hint];
     for (const struct field *field = fields; field->name != NULL; field++)
-        if (is_called(field, name, length))
+        if (is_word(field->name, name, length))
             return field;
     return NULL;
 }
@@ -136,7 +137,7 @@ int field_set_number(const struct field *field, void *base, double value, struct
 static int choice_of(const struct field *field, const char *text, size_t length, struct diag *diag)
 {
     for (int i = 0; field->choices[i] != NULL; i++)
-        if (strncmp(field->choices[i], text, length) == 0 && field->choices[i][length] == '\0')
+        if (is_word(field->choices[i], text, length))
             return i;
     char expected[1024];
     field_expectation(field, expected, sizeof expected);
@@ -487,7 +488,7 @@ static bool is_name(const char *text)
         return true;
     length = strlen(text);
     struct diag ignored = {0};
-    return check_name(&(struct field){0}, text, length, &ignored) == 0;
+    return check_name(&(struct field){.name = ""}, text, length, &ignored) == 0;
 }
 
 static bool names_good(const struct record *record, const struct field *field,

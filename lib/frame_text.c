@@ -48,14 +48,26 @@ static int read_item(struct reader *reader, const struct field *field, void *bas
     return result == 0 ? 0 : put_before(scan->diag, field->name, index);
 }
 
-/* Names of plain characters need no second look. */
-static int take_name(struct reader *reader, const struct field *field,
-                     const struct json_string *name, void *base)
+/* A name of plain characters needs no second look. */
+static bool take_name(struct reader *reader, const struct field *field, void *base)
 {
     struct json_scan *scan = &reader->scan;
-    bool good = name->plain && name->length > 0 && name->length <= FIELD_NAME_SIZE;
-    if (!good &&
-        field_set_text(field, base, name->text, name->length, scan->arena, scan->diag) != 0)
+    size_t length;
+    if (scan->at == scan->end || *scan->at != '"')
+        return false;
+    const char *kept = names_keep_quoted(&reader->names, scan->at + 1, scan->end, &length);
+    if (kept == NULL || length > FIELD_NAME_SIZE)
+        return false;
+    scan->at += length + 2;
+    STORE(const char *, (char *)base + field->offset, kept);
+    return true;
+}
+
+static int set_name(struct reader *reader, const struct field *field,
+                    const struct json_string *name, void *base)
+{
+    struct json_scan *scan = &reader->scan;
+    if (field_set_text(field, base, name->text, name->length, scan->arena, scan->diag) != 0)
         return -1;
     const char *kept = names_keep(&reader->names, name->text, name->length);
     STORE(const char *, (char *)base + field->offset, kept);
@@ -66,14 +78,17 @@ static int read_name(struct reader *reader, const struct field *field, void *bas
 {
     struct json_scan *scan = &reader->scan;
     const struct field item = {.name = "", .kind = FIELD_NAME};
+    void *place = field_list_extend(field, base, scan->arena);
     struct json_string name;
     int result;
+    if (take_name(reader, &item, place))
+        return 0;
     if (json_scan_peek(scan) != '"')
         result = field_wrong_kind(&item, json_scan_kind(scan), scan->diag);
     else if (json_scan_string(scan, &name) != 0)
         result = diag_prefix(scan->diag, ": ");
     else
-        result = take_name(reader, &item, &name, field_list_extend(field, base, scan->arena));
+        result = set_name(reader, &item, &name, place);
     return result == 0 ? 0 : diag_prefix(scan->diag, "%s[%zu]", field->name, index);
 }
 
@@ -154,6 +169,18 @@ static int read_number(struct json_scan *scan, const struct field *field, void *
     return field_set_number(field, base, number, scan->diag);
 }
 
+/* An everyday number in bounds needs no second look. */
+static bool take_real(struct json_scan *scan, const struct field *field, void *base)
+{
+    double number;
+    const char *end = number_take(scan->at, scan->end, &number);
+    if (end == NULL || !(number >= field->low && number <= field->high))
+        return false;
+    scan->at = end;
+    STORE(double, (char *)base + field->offset, number);
+    return true;
+}
+
 static int read_text(struct reader *reader, const struct field *field, void *base)
 {
     struct json_scan *scan = &reader->scan;
@@ -161,7 +188,7 @@ static int read_text(struct reader *reader, const struct field *field, void *bas
     if (json_scan_string(scan, &string) != 0)
         return diag_prefix(scan->diag, "%s: ", field->name);
     return field->kind == FIELD_NAME
-               ? take_name(reader, field, &string, base)
+               ? set_name(reader, field, &string, base)
                : field_set_text(field, base, string.text, string.length, scan->arena, scan->diag);
 }
 
@@ -177,10 +204,11 @@ static int read_flag(struct json_scan *scan, const struct field *field, void *ba
 static int read_member(struct reader *reader, const struct field *field, void *base)
 {
     struct json_scan *scan = &reader->scan;
+    if (field->kind == FIELD_REAL && take_real(scan, field, base))
+        return 0;
+    if (field->kind == FIELD_NAME && take_name(reader, field, base))
+        return 0;
     char first = json_scan_peek(scan);
-    bool is_number = first == '-' || (first >= '0' && first <= '9');
-    if (is_number && field->kind == FIELD_REAL)
-        return read_number(scan, field, base);
     if (first == '\0') {
         json_scan_unexpected(scan, "a value");
         return diag_prefix(scan->diag, "%s: ", field->name);
@@ -200,7 +228,7 @@ static int read_member(struct reader *reader, const struct field *field, void *b
     }
     if (first == '"')
         return read_text(reader, field, base);
-    if (is_number)
+    if (first == '-' || (first >= '0' && first <= '9'))
         return read_number(scan, field, base);
     if (field->kind == FIELD_FLAG && (first == 't' || first == 'f'))
         return read_flag(scan, field, base);

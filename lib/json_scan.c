@@ -133,14 +133,14 @@ int json_scan_string(struct json_scan *scan, struct json_string *string)
     const char *begin = scan->at;
     size_t plain = text_plain(begin, (size_t)(scan->end - begin));
     if (begin + plain < scan->end && begin[plain] == '"') {
-        *string = (struct json_string){begin, plain, true};
+        *string = (struct json_string){begin, plain};
         scan->at += plain + 1;
         return 0;
     }
     size_t escapes;
     if (skip_string(scan, &escapes) != 0)
         return -1;
-    *string = (struct json_string){begin, (size_t)(scan->at - 1 - begin), false};
+    *string = (struct json_string){begin, (size_t)(scan->at - 1 - begin)};
     if (escapes > 0)
         decode(scan, string);
     return 0;
@@ -297,6 +297,6 @@ int json_scan_value(struct json_scan *scan, struct json_string *bytes)
         if (closing[depth - 1] == '}' && scan_key(scan) != 0)
             return -1;
     }
-    *bytes = (struct json_string){begin, (size_t)(scan->at - begin), false};
+    *bytes = (struct json_string){begin, (size_t)(scan->at - begin)};
     return 0;
 }

@@ -24,7 +24,6 @@ enum { JSON_SCAN_DEPTH = 1000 };
 struct json_string {
     const char *text;
     size_t length;
-    bool plain; /* printable ASCII, as it stood in the line */
 };
 
 /* The next character that is not white space, or '\0' at the end of the line. */
@@ -39,10 +38,11 @@ static inline char json_scan_peek(struct json_scan *scan)
     return at < end ? *at : '\0';
 }
 
-/* True, and past it, if the next character is this one. */
+/* True, and past it, if the next character is this one, which is not '\0'. */
 static inline bool json_scan_take(struct json_scan *scan, char character)
 {
-    if (json_scan_peek(scan) != character || scan->at == scan->end)
+    bool is_here = scan->at < scan->end && *scan->at == character;
+    if (!is_here && json_scan_peek(scan) != character)
         return false;
     scan->at++;
     return true;

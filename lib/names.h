@@ -22,4 +22,9 @@ struct names names_begin(struct arena *arena, size_t expected);
 /* A NUL-terminated copy of the first length bytes of text, the one made before if it is there. */
 const char *names_keep(struct names *names, const char *text, size_t length);
 
+/* The same of the plain characters with which [text, end) begins, up to a quote; NULL if there are
+ * none, or they end otherwise. */
+const char *names_keep_quoted(struct names *names, const char *text, const char *end,
+                              size_t *length);
+
 #endif

@@ -28,8 +28,8 @@ size_t number_write_whole(uint64_t value, char *text);
 bool number_read(const char *begin, const char *end, double *value);
 
 /* Reads the number with which [begin, end) begins, as the nearest double, if it is an everyday one:
- * in the form of JSON, without an exponent, of no more than NUMBER_DIGITS digits and less than 10^8.
- * Where it ends; NULL if it is another one, or none. */
+ * in the form of JSON, without an exponent, of no more than NUMBER_DIGITS digits and less than
+ * 10^8. Where it ends; NULL if it is another one, or none. */
 const char *number_take(const char *begin, const char *end, double *value);
 
 /* The double nearest to digits / 10^places; places from 0 to NUMBER_DIGITS. */

@@ -64,28 +64,6 @@ size_t text_utf8(const char *bytes, size_t room)
     return overlong || surrogate || beyond ? 0 : length;
 }
 
-/* The high bit of the first byte that is not plain; bits of later bytes mean nothing. */
-static uint64_t not_plain(uint64_t word)
-{
-    const uint64_t ones = UINT64_C(0x0101010101010101);
-    uint64_t beyond = word | (word + ones), control = word - 0x20 * ones;
-    uint64_t quote = (word ^ '"' * ones) - ones, backslash = (word ^ '\\' * ones) - ones;
-    return (beyond | control | quote | backslash) & 0x80 * ones;
-}
-
-size_t text_plain(const char *bytes, size_t length)
-{
-    for (size_t i = 0;; i += 8) {
-        size_t rest = length - i;
-        uint64_t word = rest >= 8 ? text_word(bytes + i) : text_short_word(bytes + i, rest);
-        uint64_t stops = not_plain(word);
-        if (stops != 0)
-            return i + (size_t)__builtin_ctzll(stops) / 8;
-        if (rest == 8)
-            return length;
-    }
-}
-
 size_t text_json_size(size_t length)
 {
     return 6 * length + 2;

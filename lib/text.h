@@ -21,10 +21,6 @@ void text_format(struct text *text, const char *format, ...) __attribute__((form
  * (cut short, overlong, a surrogate, beyond U+10FFFF). */
 size_t text_utf8(const char *bytes, size_t room);
 
-/* How many bytes of the first length are printable ASCII, and neither '"' nor '\\', up to the first
- * that is not: they stand for themselves in names and in JSON strings. */
-size_t text_plain(const char *bytes, size_t length);
-
 /* A JSON string with its quotes and escapes; length bytes of valid UTF-8. */
 void text_add_json(struct text *text, const char *bytes, size_t length);
 
@@ -55,10 +51,35 @@ static inline uint64_t text_short_word(const char *bytes, size_t length)
         return text_word(bytes);
     if (length >= 4)
         return text_half_word(bytes) | text_half_word(bytes + length - 4) << 8 * (length - 4);
-    uint64_t word = 0;
-    for (size_t i = 0; i < length; i++)
-        word |= (uint64_t)(unsigned char)bytes[i] << 8 * i;
-    return word;
+    if (length == 0)
+        return 0;
+    const unsigned char *byte = (const unsigned char *)bytes;
+    return (uint64_t)byte[0] | (uint64_t)byte[length / 2] << 8 * (length / 2) |
+           (uint64_t)byte[length - 1] << 8 * (length - 1);
+}
+
+/* The high bit of the first byte that is not plain; bits of later bytes mean nothing. */
+static inline uint64_t text_not_plain(uint64_t word)
+{
+    const uint64_t ones = UINT64_C(0x0101010101010101);
+    uint64_t beyond = word | (word + ones), control = word - 0x20 * ones;
+    uint64_t quote = (word ^ '"' * ones) - ones, backslash = (word ^ '\\' * ones) - ones;
+    return (beyond | control | quote | backslash) & 0x80 * ones;
+}
+
+/* How many bytes of the first length are printable ASCII, and neither '"' nor '\\', up to the first
+ * that is not: they stand for themselves in names and in JSON strings. */
+static inline size_t text_plain(const char *bytes, size_t length)
+{
+    for (size_t i = 0;; i += 8) {
+        size_t rest = length - i;
+        uint64_t word = rest >= 8 ? text_word(bytes + i) : text_short_word(bytes + i, rest);
+        uint64_t stops = text_not_plain(word);
+        if (stops != 0)
+            return i + (size_t)__builtin_ctzll(stops) / 8;
+        if (rest == 8)
+            return length;
+    }
 }
 
 void text_free(struct text *text);

@@ -49,11 +49,38 @@ static void names_that_share_a_place_are_not_mixed_up(void **state)
     arena_free(&arena);
 }
 
+static void a_name_is_taken_up_to_its_quote(void **state)
+{
+    (void)state;
+    static const char *const given[] = {"a\"", "left_3\",", "right_1\"", "right_12\" ",
+                                        "articulated_truck_1\"\""};
+    static const char *const others[] = {"",      "a",           "\"",    "\"a",
+                                         "a\\\"", "a\xc3\xa9\"", "a\t\"", "right_123456789"};
+    struct arena arena = {0};
+    struct names names = names_begin(&arena, 10);
+    size_t length;
+    for (size_t i = 0; i < sizeof given / sizeof given[0]; i++) {
+        size_t expected = strcspn(given[i], "\""), size = strlen(given[i]);
+        char *bare = malloc(size);
+        memcpy(bare, given[i], size);
+        const char *name = names_keep_quoted(&names, bare, bare + size, &length);
+        assert_int_equal(length, expected);
+        assert_int_equal(strlen(name), expected);
+        assert_memory_equal(name, given[i], expected);
+        assert_true(names_keep(&names, given[i], expected) == name);
+        free(bare);
+    }
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        assert_null(names_keep_quoted(&names, others[i], others[i] + strlen(others[i]), &length));
+    arena_free(&arena);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(equal_names_are_one_pointer),
         cmocka_unit_test(names_that_share_a_place_are_not_mixed_up),
+        cmocka_unit_test(a_name_is_taken_up_to_its_quote),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
