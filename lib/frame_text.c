@@ -476,10 +476,11 @@ static void write_member(const struct record *record, const struct field *field,
                          struct writer *writer)
 {
     const void *member = (const char *)base + field->offset;
-    switch (field->kind) {
-    case FIELD_REAL:
+    if (field->kind == FIELD_REAL) { /* as most are */
         writer->at += number_write(LOAD(double, member), writer->at);
-        break;
+        return;
+    }
+    switch (field->kind) {
     case FIELD_INTEGER:
         write_whole(LOAD(int64_t, member), writer);
         break;
@@ -511,6 +512,7 @@ static void write_member(const struct record *record, const struct field *field,
         else
             write_list(field, base, writer);
         break;
+    case FIELD_REAL:
     case FIELD_NOTES:
         break;
     }

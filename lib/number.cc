@@ -260,32 +260,37 @@ inline const char *finish(const char *begin, const char *end, double size, doubl
     return after == nullptr ? nullptr : begin + (after - copy);
 }
 
+// As many digits as it takes. Not part of number_write, which would then save registers for every
+// number.
+[[gnu::noinline]] size_t write_long(double value, char *text)
+{
+    const double magnitude = std::fabs(value);
+    uint64_t bits;
+    memcpy(&bits, &magnitude, sizeof bits);
+    const uint64_t one = uint64_t(1) << MANTISSA_BITS, fraction = bits & (one - 1);
+    // Below a power of two the next double is nearer than above it.
+    if (!(magnitude >= FIXED_FROM && magnitude < FIXED_TO) || fraction == 0)
+        return size_t(std::to_chars(text, text + NUMBER_SIZE, value).ptr - text);
+    *text = '-';
+    const char *end = put_shortest(one | fraction, EXPONENT_BIAS - int(bits >> MANTISSA_BITS),
+                                   text + std::signbit(value));
+    return size_t(end - text);
+}
+
 } // namespace
 
 size_t number_write(double value, char *text)
 {
     const double magnitude = std::fabs(value);
-    if (!(magnitude >= FIXED_FROM && magnitude < FIXED_TO) && magnitude != 0)
-        return size_t(std::to_chars(text, text + NUMBER_SIZE, value).ptr - text);
-    char *at = text;
-    *at = '-';
-    at += std::signbit(value);
     // Two decimals of so few digits are never the same double, so there is no shorter one.
-    const uint32_t near = uint32_t(magnitude * 1e4 + 0.5);
-    if (near / 1e4 == magnitude) {
-        at = put_ten_thousandths(near, at);
-        // "-0" would lose its sign in every reader that takes it for an integer.
-        if (near == 0 && at > text + 1)
-            at = static_cast<char *>(memcpy(at, ".0", 2)) + 2;
-        return size_t(at - text);
-    }
-    uint64_t bits;
-    memcpy(&bits, &magnitude, sizeof bits);
-    const uint64_t one = uint64_t(1) << MANTISSA_BITS, fraction = bits & (one - 1);
-    // Below a power of two the next double is nearer than above it.
-    if (fraction == 0)
-        return size_t(std::to_chars(text, text + NUMBER_SIZE, value).ptr - text);
-    at = put_shortest(one | fraction, EXPONENT_BIAS - int(bits >> MANTISSA_BITS), at);
+    const uint32_t near = magnitude < FIXED_TO ? uint32_t(magnitude * 1e4 + 0.5) : 0;
+    if (near / 1e4 != magnitude || (magnitude < FIXED_FROM && near != 0))
+        return write_long(value, text);
+    *text = '-';
+    char *at = put_ten_thousandths(near, text + std::signbit(value));
+    // "-0" would lose its sign in every reader that takes it for an integer.
+    if (near == 0 && at > text + 1)
+        at = static_cast<char *>(memcpy(at, ".0", 2)) + 2;
     return size_t(at - text);
 }
 

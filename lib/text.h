@@ -24,7 +24,8 @@ size_t text_utf8(const char *bytes, size_t room);
 /* A JSON string with its quotes and escapes; length bytes of valid UTF-8. */
 void text_add_json(struct text *text, const char *bytes, size_t length);
 
-/* The same into room of text_json_size(length) bytes; where it ends. */
+/* The same into room of text_json_size(length) bytes, which is more than it can take; where it
+ * ends. */
 char *text_put_json(char *at, const char *bytes, size_t length);
 size_t text_json_size(size_t length);
 
@@ -42,6 +43,19 @@ static inline uint64_t text_word(const char *bytes)
     return (uint64_t)byte[0] | (uint64_t)byte[1] << 8 | (uint64_t)byte[2] << 16 |
            (uint64_t)byte[3] << 24 | (uint64_t)byte[4] << 32 | (uint64_t)byte[5] << 40 |
            (uint64_t)byte[6] << 48 | (uint64_t)byte[7] << 56;
+}
+
+/* The reverse. */
+static inline void text_put_word(char *bytes, uint64_t word)
+{
+    bytes[0] = (char)word;
+    bytes[1] = (char)(word >> 8);
+    bytes[2] = (char)(word >> 16);
+    bytes[3] = (char)(word >> 24);
+    bytes[4] = (char)(word >> 32);
+    bytes[5] = (char)(word >> 40);
+    bytes[6] = (char)(word >> 48);
+    bytes[7] = (char)(word >> 56);
 }
 
 /* The same of up to eight bytes, which stand at the low end; zeros above them. */

@@ -38,7 +38,14 @@ static void plain_bytes_end_at_the_first_that_is_not(void **state)
 static void a_word_has_its_first_byte_lowest(void **state)
 {
     (void)state;
-    assert_true(text_word("\x01\x02\x03\x04\x05\x06\x07\xff") == UINT64_C(0xff07060504030201));
+    static const char bytes[] = "\x01\x02\x03\x04\x05\x06\x07\xff";
+    char written[8];
+    assert_true(text_word(bytes) == UINT64_C(0xff07060504030201));
+    text_put_word(written, text_word(bytes));
+    assert_memory_equal(written, bytes, 8);
+    for (size_t length = 0; length <= 8; length++)
+        assert_true(text_short_word(bytes, length) ==
+                    (length == 0 ? 0 : text_word(bytes) << 8 * (8 - length) >> 8 * (8 - length)));
 }
 
 static void strings_are_escaped_no_more_than_json_asks(void **state)
@@ -59,11 +66,14 @@ static void room_for_a_string_is_room_for_its_escapes(void **state)
 {
     (void)state;
     for (size_t length = 0; length < 100; length++) {
-        char bytes[100];
-        memset(bytes, '\x02', sizeof bytes);
-        char *room = malloc(text_json_size(length));
-        assert_true(text_put_json(room, bytes, length) == room + text_json_size(length));
-        free(room);
+        for (size_t plain = 0; plain <= length; plain++) {
+            char bytes[100];
+            memset(bytes, '\x02', sizeof bytes);
+            memset(bytes, 'a', plain);
+            char *room = malloc(text_json_size(length));
+            assert_true(text_put_json(room, bytes, length) == room + 6 * length - 5 * plain + 2);
+            free(room);
+        }
     }
 }
 
