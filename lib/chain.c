@@ -18,7 +18,6 @@ struct chain {
     struct arena arena; /* the frame's */
     struct repeats repeats;
     struct arena kept;
-    struct text line;
     struct input *input;
     size_t file, line_number;
     struct chain_times *times;
@@ -135,10 +134,13 @@ static int write_frame(struct chain *chain)
     struct runner *runner = last(chain);
     if (runner->stage->sink)
         return 0;
-    chain->line.length = 0;
-    if (frame_text_write(&chain->frame, &chain->line, &runner->diag) != 0)
+    struct text *text = output_text(runner->output);
+    size_t begin = text->length;
+    if (frame_text_write(&chain->frame, text, &runner->diag) != 0)
         return -1;
-    return output_write(runner->output, chain->line.bytes, chain->line.length, &runner->diag);
+    if (chain->times != NULL)
+        chain->times->bytes_written += (int64_t)(text->length - begin);
+    return output_send(runner->output, &runner->diag);
 }
 
 static int first_frame(struct chain *chain)
@@ -176,7 +178,6 @@ static int run_frame(struct chain *chain)
     if (chain->times != NULL) {
         add_time(chain, &chain->times->write_ns, begin);
         chain->times->frames++;
-        chain->times->bytes_written += (int64_t)chain->line.length;
     }
     progress_step(&chain->progress);
     return result == 0 ? 1 : -1;
@@ -237,7 +238,6 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
             code = (int)runners[i].diag.code;
         }
     input_close(chain.input);
-    text_free(&chain.line);
     arena_free(&chain.arena);
     arena_free(&chain.kept);
     repeats_free(&chain.repeats);

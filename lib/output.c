@@ -13,16 +13,16 @@
 
 #include "memory.h"
 
-enum { BUFFER_SIZE = 64 * 1024 };
+/* What a pipe takes at once. */
+enum { PIECE_SIZE = 64 * 1024 };
 
 struct output {
     int fd;
     gzFile gzip;            /* NULL for plain output */
     char *name;             /* as it was given, for messages */
     char *path, *temporary; /* temporary is NULL if the path is written directly */
-    size_t used;
+    struct text held;       /* not written yet */
     bool failed; /* something that was written is lost: the file must not take its name */
-    char buffer[BUFFER_SIZE];
 };
 
 static char *temporary_name(const char *path)
@@ -57,6 +57,7 @@ static void discard(struct output *output)
     free(output->name);
     free(output->path);
     free(output->temporary);
+    text_free(&output->held);
     free(output);
 }
 
@@ -68,8 +69,7 @@ static int cannot_create(const char *name, struct diag *diag)
 struct output *output_open(const char *path, struct diag *diag)
 {
     struct output *output = memory_get(sizeof *output);
-    memset(output, 0, offsetof(struct output, buffer));
-    output->fd = STDOUT_FILENO;
+    *output = (struct output){.fd = STDOUT_FILENO};
     output->name = copy(path);
     output->path = target(path);
     if (strcmp(path, "-") == 0)
@@ -121,29 +121,41 @@ static const char *shown_name(const struct output *output)
     return strcmp(output->name, "-") == 0 ? "stdout" : output->name;
 }
 
-static int flush(struct output *output, struct diag *diag)
+/* The first bytes of those that are held; the rest moves up. */
+static int send_first(struct output *output, size_t length, struct diag *diag)
 {
-    size_t length = output->used;
-    output->used = 0;
+    struct text *held = &output->held;
     errno = 0;
     bool good = length == 0 ||
-                (output->gzip != NULL ? gzwrite(output->gzip, output->buffer, (unsigned)length) > 0
-                                      : write_all(output->fd, output->buffer, length) == 0);
+                (output->gzip != NULL ? gzwrite(output->gzip, held->bytes, (unsigned)length) > 0
+                                      : write_all(output->fd, held->bytes, length) == 0);
+    held->length -= length;
+    if (held->length > 0)
+        memmove(held->bytes, held->bytes + length, held->length);
     if (good)
         return 0;
     output->failed = true;
     return diag_fail(diag, DIAG_IO, "%s: %s", shown_name(output), strerror(errno));
 }
 
+struct text *output_text(struct output *output)
+{
+    return &output->held;
+}
+
+int output_send(struct output *output, struct diag *diag)
+{
+    size_t whole = output->held.length / PIECE_SIZE * PIECE_SIZE;
+    return whole == 0 ? 0 : send_first(output, whole, diag);
+}
+
 int output_write(struct output *output, const char *bytes, size_t length, struct diag *diag)
 {
     while (length > 0) {
-        if (output->used == BUFFER_SIZE && flush(output, diag) != 0)
+        size_t taken = length < PIECE_SIZE ? length : PIECE_SIZE;
+        text_add(&output->held, bytes, taken);
+        if (output_send(output, diag) != 0)
             return -1;
-        size_t room = BUFFER_SIZE - output->used;
-        size_t taken = length < room ? length : room;
-        memcpy(output->buffer + output->used, bytes, taken);
-        output->used += taken;
         bytes += taken;
         length -= taken;
     }
@@ -152,7 +164,7 @@ int output_write(struct output *output, const char *bytes, size_t length, struct
 
 int output_close(struct output *output, int whole, struct diag *diag)
 {
-    int result = flush(output, diag) == 0 && !output->failed ? 0 : -1;
+    int result = send_first(output, output->held.length, diag) == 0 && !output->failed ? 0 : -1;
     if (output->gzip != NULL && gzclose(output->gzip) != Z_OK)
         result = diag_fail(diag, DIAG_IO, "%s: %s", shown_name(output), strerror(errno));
     if (output->temporary != NULL && result == 0 && whole && fsync(output->fd) != 0)

@@ -10,12 +10,18 @@
 #include <stddef.h>
 
 #include "diag.h"
+#include "text.h"
 
 struct output;
 
 /* "-" is standard output. NULL after a message (DIAG_CANNOT_CREATE). */
 struct output *output_open(const char *path, struct diag *diag);
 
+/* The text that is written next: append to it, and send what is whole of it. */
+struct text *output_text(struct output *output);
+int output_send(struct output *output, struct diag *diag);
+
+/* The same of bytes that lie elsewhere. */
 int output_write(struct output *output, const char *bytes, size_t length, struct diag *diag);
 
 /* Flushes, closes and names the file; the output is gone afterwards. A run that failed keeps what

@@ -103,6 +103,30 @@ static void what_is_written_can_be_read(void **state)
     assert_int_equal(files_in(scratch->directory), 2);
 }
 
+static void what_is_appended_is_sent_in_whole_pieces(void **state)
+{
+    struct scratch *scratch = *state;
+    static const size_t lengths[] = {1, 1000, 65535, 65536, 200000};
+    struct text all = {0};
+    struct diag diag = {0};
+    struct output *output = output_open(scratch->path, &diag);
+    assert_non_null(output);
+    for (size_t i = 0; i < 100; i++) {
+        struct text line = sample_text(lengths[i % 5]);
+        text_add(output_text(output), line.bytes, line.length);
+        text_add(&all, line.bytes, line.length);
+        assert_int_equal(output_send(output, &diag), 0);
+        assert_int_equal(output_text(output)->length, all.length % 65536);
+        text_free(&line);
+    }
+    assert_int_equal(output_close(output, 1, &diag), 0);
+    struct text back = read_all(scratch->path);
+    assert_int_equal(back.length, all.length);
+    assert_memory_equal(back.bytes, all.bytes, all.length);
+    text_free(&back);
+    text_free(&all);
+}
+
 static void gz_is_gzip_and_depends_on_nothing_but_its_content(void **state)
 {
     struct scratch *scratch = *state;
@@ -179,7 +203,7 @@ static void a_full_device_is_noticed_at_the_latest_when_it_is_closed(void **stat
         struct output *output = output_open("/dev/full", &diag);
         assert_non_null(output);
         int written = output_write(output, text.bytes, text.length, &diag);
-        assert_int_equal(written, lengths[i] > 65536 ? -1 : 0);
+        assert_int_equal(written, lengths[i] >= 65536 ? -1 : 0);
         int closed = output_close(output, written == 0, &diag);
         assert_true(written != 0 || closed != 0);
         assert_string_equal(diag.text, "/dev/full: No space left on device");
@@ -218,6 +242,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_written_can_be_read),
+        cmocka_unit_test(what_is_appended_is_sent_in_whole_pieces),
         cmocka_unit_test(gz_is_gzip_and_depends_on_nothing_but_its_content),
         cmocka_unit_test(the_name_is_taken_only_when_the_file_is_whole),
         cmocka_unit_test(what_cannot_be_made_says_why_and_leaves_nothing),
