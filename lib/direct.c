@@ -258,22 +258,33 @@ static void look_along_row(struct look *look, const struct look_body *body,
     }
 }
 
-/* Is the whole body out of range or out of view, and nobody asks why or what was tried? */
-static bool passed_over(const struct look *look, const struct look_body *body,
-                        const struct look_set *set, const struct sector *sector)
+/* Does nobody ask why the set's reflectors are not seen, or what was tried? */
+static bool unasked(const struct look *look, const struct look_set *worn)
 {
-    return !look->frame->account && look->selection->log == NULL && set->set->rows.count == 0 &&
-           look_misses(look, body, sector);
+    return !look->frame->account && look->selection->log == NULL && worn->set->rows.count == 0;
+}
+
+/* Is the whole body out of range, out of view or hidden? If not, its blockers are found. */
+static bool passed_over(struct look *look, const struct look_body *body,
+                        const struct look_set *worn)
+{
+    struct silhouette seen = look_reflectors(body, worn);
+    bool plain = unasked(look, worn);
+    if (plain && look_misses(look, body, &seen))
+        return true;
+    ways_find_blockers(look, body, &seen);
+    return plain && !effects_must(look->selection, EFFECT_OCCLUSION) &&
+           ways_all_hidden(look, worn, &seen);
 }
 
 /* Those that do not plainly face away, unless somebody asks why not. */
 static void look_at_points(struct look *look, const struct look_body *body,
-                           const struct look_set *worn, struct vec2 sensor, bool all)
+                           const struct look_set *worn, bool all)
 {
     for (size_t i = 0; i < worn->set->points.count; i++) {
         const struct point_reflector *point = &worn->set->points.items[i];
         struct vec2 facing = worn->facings[i];
-        if (all || !reflectors_plainly_away(&body->box, point, facing, sensor))
+        if (all || !reflectors_plainly_away(&body->box, point, facing, body->sensor_m))
             look_at_point(look, body, point, facing, reflectors_point_place(&body->box, point));
         else
             look->pairs++;
@@ -281,11 +292,11 @@ static void look_at_points(struct look *look, const struct look_body *body,
 }
 
 static void look_at_planes(struct look *look, const struct look_body *body,
-                           const struct reflector_set *set, struct vec2 sensor, bool all)
+                           const struct reflector_set *set, bool all)
 {
     for (size_t i = 0; i < set->planes.count; i++) {
         const struct plane_reflector *plane = &set->planes.items[i];
-        if (all || !reflectors_plainly_aside(&body->box, plane, sensor))
+        if (all || !reflectors_plainly_aside(&body->box, plane, body->sensor_m))
             look_at_plane(look, body, plane);
         else
             look->pairs++;
@@ -297,20 +308,16 @@ static void look_at_body(struct look *look, const struct look_body *body,
 {
     const struct selection *selection = look->selection;
     const struct reflector_set *set = worn->set;
-    struct sector sector = look_reflectors_sector(body, worn);
-    if (passed_over(look, body, worn, &sector)) {
+    if (passed_over(look, body, worn)) {
         look->pairs += (int64_t)(set->points.count + set->planes.count);
         return;
     }
-    ways_find_blockers(look, body, &sector);
     effects_note(selection, EFFECT_VISIBILITY, set->points.count + set->rows.count > 0);
     effects_note(selection, EFFECT_PLANE_REFLECTION, set->planes.count > 0);
     effects_note(selection, EFFECT_ROWS, set->rows.count > 0);
     bool asked = look->frame->account;
-    struct vec2 sensor =
-        vec2_turn_back(vec2_sub(look->position_m, body->box.motion.position_m), body->box.heading);
-    look_at_points(look, body, worn, sensor, asked || !effects_may(selection, EFFECT_VISIBILITY));
-    look_at_planes(look, body, set, sensor, asked);
+    look_at_points(look, body, worn, asked || !effects_may(selection, EFFECT_VISIBILITY));
+    look_at_planes(look, body, set, asked);
     for (size_t i = 0; i < set->rows.count && effects_may(selection, EFFECT_ROWS); i++)
         look_along_row(look, body, &set->rows.items[i]);
 }

@@ -406,7 +406,7 @@ static void add_all(struct look *look, const struct facets *facets, const struct
     const struct selection *selection = look->selection;
     bool all = effects_must(selection, EFFECT_GHOSTS);
     struct vec2 centre = body->box.motion.position_m;
-    double radius_m = look_reflectors_sector(body, body->worn).radius_m;
+    double radius_m = look_reflectors_radius_m(body, body->worn);
     for (size_t i = 0; i < facets->count; i++) {
         const struct facet *facet = &facets->items[i];
         if (facet->body == body)

@@ -68,8 +68,9 @@ static struct look_body body_at(const struct look *look, const struct object *ob
 {
     struct look_body body = {.object = object, .box = box_at(object, age_s)};
     body.moved = age_s != 0 && moves(object, &body.box.motion);
-    body.sector = sector_of(vec2_sub(body.box.motion.position_m, look->position_m),
-                            0.5 * vec2_length((struct vec2){object->length_m, object->width_m}));
+    body.radius_m = 0.5 * vec2_length((struct vec2){object->length_m, object->width_m});
+    body.sensor_m =
+        vec2_turn_back(vec2_sub(look->position_m, body.box.motion.position_m), body.box.heading);
     reflectors_outline(&body.box, body.corner);
     return body;
 }
@@ -93,8 +94,10 @@ static struct look_set set_of(const struct reflector_set *set, struct arena *are
 {
     struct look_set shared = {.set = set, .spread = reflectors_spread(set)};
     shared.facings = arena_get(arena, set->points.count * sizeof *shared.facings);
-    for (size_t i = 0; i < set->points.count; i++)
+    for (size_t i = 0; i < set->points.count; i++) {
         shared.facings[i] = vec2_heading(set->points.items[i].facing_rad);
+        shared.under |= set->points.items[i].under_vehicles > 0;
+    }
     shared.worn_by = arena_get(arena, set->worn_by.count * sizeof(*shared.worn_by));
     return shared;
 }
@@ -123,15 +126,24 @@ static int dress_bodies(struct look *look, struct diag *diag)
     return 0;
 }
 
+/* Of what reaches beyond the body's box by that share of its size, and so far to every side. */
+static struct silhouette silhouette_around(const struct look_body *body, double share,
+                                           double beyond_m)
+{
+    struct vec2 half_m = {0.5 * share * body->box.length_m + beyond_m,
+                          0.5 * share * body->box.width_m + beyond_m};
+    return silhouette_of(half_m, body->box.heading, body->sensor_m);
+}
+
 static void enter_blockers(struct look *look)
 {
     look->bearings = bearings_begin(look->body_count, look->frame->arena);
     for (size_t i = 0; i < look->body_count; i++) {
         struct look_body *body = &look->bodies[i];
-        body->shadow = body->sector;
-        body->shadow.radius_m += look->bend_m;
-        if (body->blocks)
-            bearings_enter(&look->bearings, i, bearings_of(&body->shadow));
+        if (!body->blocks)
+            continue;
+        body->shadow = silhouette_around(body, 1, look->bend_m);
+        bearings_enter(&look->bearings, i, bearings_of(&body->shadow));
     }
 }
 
@@ -165,20 +177,24 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
     return 0;
 }
 
-struct sector look_reflectors_sector(const struct look_body *body, const struct look_set *set)
+double look_reflectors_radius_m(const struct look_body *body, const struct look_set *set)
 {
-    struct sector sector = body->sector;
-    sector.radius_m = set->spread.share * sector.radius_m + set->spread.inset_m;
-    return sector;
+    return set->spread.share * body->radius_m + set->spread.inset_m;
 }
 
-bool look_misses(const struct look *look, const struct look_body *body, const struct sector *sector)
+struct silhouette look_reflectors(const struct look_body *body, const struct look_set *set)
 {
-    double nearest_m = sector->distance_m - sector->radius_m;
+    return silhouette_around(body, set->spread.share, set->spread.inset_m);
+}
+
+bool look_misses(const struct look *look, const struct look_body *body,
+                 const struct silhouette *silhouette)
+{
     double rise_m =
         look->height_m > 0 ? elementary_most(look->height_m, 2 * body->object->height_m) : 0;
-    return nearest_m > look->sensor->range_max_m + 1e-6 ||
-           (nearest_m > LEVEL * rise_m && bearings_apart(look->view, bearings_of(sector)));
+    return silhouette->nearest_m > look->sensor->range_max_m ||
+           (silhouette->nearest_m > LEVEL * rise_m &&
+            bearings_apart(look->view, bearings_of(silhouette)));
 }
 
 double look_top_m(const struct look *look, const struct look_body *body)

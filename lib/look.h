@@ -22,6 +22,7 @@ struct look_set {
     struct vec2 *facings;       /* of its points, in the object's frame */
     struct look_body **worn_by; /* as the set's ids */
     struct reflectors_spread spread;
+    bool under; /* may any of its points be seen under raised vehicles? */
 };
 
 struct look_body {
@@ -29,8 +30,9 @@ struct look_body {
     const struct look_set *worn; /* NULL: it wears none */
     struct box box;
     struct vec2 corner[4];
-    struct sector sector; /* the circle around the box */
-    struct sector shadow; /* and around where it bends what passes */
+    double radius_m;          /* of the circle around the box */
+    struct vec2 sensor_m;     /* in the body's frame */
+    struct silhouette shadow; /* of the box and where it bends what passes, if it blocks */
     bool blocks;
     bool raised;
     bool moved; /* between the instant of the measurement and the frame's time */
@@ -77,12 +79,13 @@ struct sight look_lifted(const struct look *look, double reflector_m, struct sig
 double look_plane_ercs(const struct look *look, const struct plane_reflector *plane, double range_m,
                        uint64_t *effects);
 
-/* The circle around all reflectors of that set on the body. */
-struct sector look_reflectors_sector(const struct look_body *body, const struct look_set *set);
+/* The circle around the body's centre with all reflectors of that set, and their silhouette. */
+double look_reflectors_radius_m(const struct look_body *body, const struct look_set *set);
+struct silhouette look_reflectors(const struct look_body *body, const struct look_set *set);
 
-/* True only if nothing of the body in that circle can be in range and in view. */
+/* True only if nothing of the body within that silhouette can be in range and in view. */
 bool look_misses(const struct look *look, const struct look_body *body,
-                 const struct sector *sector);
+                 const struct silhouette *silhouette);
 
 /* How much of a point is seen from the viewer, the sensor itself or a bounce on the way to it: its
  * visibility, and its lobe at the sensor's elevation. 1 without the effect visibility. */

@@ -524,9 +524,12 @@ static void crowd(struct scene *scene, uint64_t *random)
     for (size_t i = 0; i < sizeof ids / sizeof ids[0]; i++) {
         struct reflector_set *set = add_set(scene, ids[i]);
         set->blocks = i % 4 != 0;
+        set->raised = sample_bits(random) % 4 == 0;
         struct point_reflector *pole = add_point(scene, set);
-        pole->x = sample_between(random, -1, 1);
-        pole->y = sample_between(random, -1, 1);
+        pole->under_vehicles = sample_bits(random) % 4 == 0 ? 0.5 : 0;
+        double reach = sample_bits(random) % 2 ? 0.5 : 1;
+        pole->x = sample_between(random, -reach, reach);
+        pole->y = sample_between(random, -reach, reach);
         pole->z = sample_bits(random) % 2 ? 0 : sample_between(random, 0.1, 2);
         pole->facing_rad = sample_between(random, -PI, PI);
         pole->zero_rad = sample_between(random, 0, PI);
