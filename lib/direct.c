@@ -283,7 +283,7 @@ static void look_at_points(struct look *look, const struct look_body *body,
 {
     for (size_t i = 0; i < worn->set->points.count; i++) {
         const struct point_reflector *point = &worn->set->points.items[i];
-        struct vec2 facing = worn->facings[i];
+        struct vec2 facing = worn->shape->facings[i];
         if (all || !reflectors_plainly_away(&body->box, point, facing, body->sensor_m))
             look_at_point(look, body, point, facing, reflectors_point_place(&body->box, point));
         else

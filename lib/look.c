@@ -92,12 +92,7 @@ static void place_bodies(struct look *look, double age_s)
 
 static struct look_set set_of(const struct reflector_set *set, struct arena *arena)
 {
-    struct look_set shared = {.set = set, .spread = reflectors_spread(set)};
-    shared.facings = arena_get(arena, set->points.count * sizeof *shared.facings);
-    for (size_t i = 0; i < set->points.count; i++) {
-        shared.facings[i] = vec2_heading(set->points.items[i].facing_rad);
-        shared.under |= set->points.items[i].under_vehicles > 0;
-    }
+    struct look_set shared = {.set = set, .shape = reflectors_shape(set, arena)};
     shared.worn_by = arena_get(arena, set->worn_by.count * sizeof(*shared.worn_by));
     return shared;
 }
@@ -179,12 +174,12 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
 
 double look_reflectors_radius_m(const struct look_body *body, const struct look_set *set)
 {
-    return set->spread.share * body->radius_m + set->spread.inset_m;
+    return set->shape->share * body->radius_m + set->shape->inset_m;
 }
 
 struct silhouette look_reflectors(const struct look_body *body, const struct look_set *set)
 {
-    return silhouette_around(body, set->spread.share, set->spread.inset_m);
+    return silhouette_around(body, set->shape->share, set->shape->inset_m);
 }
 
 bool look_misses(const struct look *look, const struct look_body *body,

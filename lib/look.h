@@ -19,10 +19,8 @@
 /* A set of the frame, and what all who wear it share. */
 struct look_set {
     const struct reflector_set *set;
-    struct vec2 *facings;       /* of its points, in the object's frame */
+    const struct reflectors_shape *shape;
     struct look_body **worn_by; /* as the set's ids */
-    struct reflectors_spread spread;
-    bool under; /* may any of its points be seen under raised vehicles? */
 };
 
 struct look_body {

@@ -274,25 +274,32 @@ static double farthest(double least, double x, double y)
     return far > least ? far : least;
 }
 
-struct reflectors_spread reflectors_spread(const struct reflector_set *set)
+const struct reflectors_shape *reflectors_shape(const struct reflector_set *set,
+                                                struct arena *arena)
 {
-    struct reflectors_spread spread = {.share = 1};
+    if (set->shape != NULL && reflectors_as_read(set))
+        return set->shape;
+    struct reflectors_shape *shape = arena_get(arena, sizeof *shape);
+    shape->facings = arena_get(arena, set->points.count * sizeof *shape->facings);
+    shape->share = 1;
     for (size_t i = 0; i < set->points.count; i++) {
         const struct point_reflector *point = &set->points.items[i];
-        spread.share = farthest(spread.share, point->x, point->y);
-        spread.inset_m = elementary_most(spread.inset_m, point->inset_m);
+        shape->facings[i] = vec2_heading(point->facing_rad);
+        shape->share = farthest(shape->share, point->x, point->y);
+        shape->inset_m = elementary_most(shape->inset_m, point->inset_m);
+        shape->under |= point->under_vehicles > 0;
     }
     for (size_t i = 0; i < set->planes.count; i++) {
         const struct plane_reflector *plane = &set->planes.items[i];
-        spread.share = farthest(spread.share, plane->from_x, plane->from_y);
-        spread.share = farthest(spread.share, plane->to_x, plane->to_y);
+        shape->share = farthest(shape->share, plane->from_x, plane->from_y);
+        shape->share = farthest(shape->share, plane->to_x, plane->to_y);
     }
     for (size_t i = 0; i < set->rows.count; i++) {
         const struct post_row *row = &set->rows.items[i];
-        spread.share = farthest(spread.share, row->from_x, row->from_y);
-        spread.share = farthest(spread.share, row->to_x, row->to_y);
+        shape->share = farthest(shape->share, row->from_x, row->from_y);
+        shape->share = farthest(shape->share, row->to_x, row->to_y);
     }
-    return spread;
+    return shape;
 }
 
 struct vec2 reflectors_place(const struct box *box, double x, double y)

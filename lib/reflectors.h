@@ -75,6 +75,16 @@ struct reflector_set {
     LIST_OF(struct post_row) rows;
     LIST_OF(struct mirror_plane) mirrors;
     const struct reflector_set *document; /* that it was copied from; NULL: none */
+    const struct reflectors_shape *shape; /* the document's; NULL: of no document */
+};
+
+/* What follows from a set's lists alone. Its reflectors lie within an object's box, or, if any
+ * stands out of it, within one that is larger by a share, and inset_m beyond. */
+struct reflectors_shape {
+    struct vec2 *facings; /* of its points, in the object's frame */
+    double share;         /* at least 1 */
+    double inset_m;
+    bool under; /* may any of its points be seen under raised vehicles? */
 };
 
 extern const struct record point_record, plane_record, row_record;
@@ -89,13 +99,9 @@ bool reflectors_as_read(const struct reflector_set *set);
  * may be called a_1, as posts are. */
 const char *reflectors_name_twice(const struct reflector_set *set);
 
-/* How far the set's reflectors may lie from the centre of an object's box: within half of the box's
- * diagonal, unless they stand out of the box or deep inside beyond its other side. */
-struct reflectors_spread {
-    double share; /* of half of the diagonal, at least 1 */
-    double inset_m;
-};
-struct reflectors_spread reflectors_spread(const struct reflector_set *set);
+/* Worked out, or that of a document whose lists the set still has; in the arena. */
+const struct reflectors_shape *reflectors_shape(const struct reflector_set *set,
+                                                struct arena *arena);
 
 /* An object's box in the world. */
 struct box {

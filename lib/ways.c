@@ -121,8 +121,8 @@ bool ways_all_hidden(const struct look *look, const struct look_set *set,
     /* A side that joins one of the set's stands out of its body, or does not end before it. */
     for (size_t i = 0; i < look->blocker_count && hides_all(look); i++) {
         const struct look_body *body = look->blockers[i];
-        if (silhouette_covers(&body->shadow, wanted) && body->worn->spread.share == 1 &&
-            !(set->under && body->raised))
+        if (silhouette_covers(&body->shadow, wanted) && body->worn->shape->share == 1 &&
+            !(set->shape->under && body->raised))
             return true;
     }
     return false;
