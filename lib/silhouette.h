@@ -35,9 +35,10 @@ static inline struct silhouette silhouette_of_place(struct vec2 place_m)
 static inline bool silhouette_overlaps(const struct silhouette *front,
                                        const struct silhouette *behind)
 {
-    return front->nearest_m <= behind->farthest_m &&
-           vec2_cross(front->right_m, behind->left_m) >= 0 &&
-           vec2_cross(behind->right_m, front->left_m) >= 0;
+    bool before = front->nearest_m <= behind->farthest_m;
+    bool leftwards = vec2_cross(front->right_m, behind->left_m) >= 0;
+    bool rightwards = vec2_cross(behind->right_m, front->left_m) >= 0;
+    return before & leftwards & rightwards;
 }
 
 /* Of two that overlap: true only if every sight line to what is in the box behind runs through the

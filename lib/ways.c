@@ -99,8 +99,10 @@ void ways_find_blockers(struct look *look, const struct look_body *own,
     size_t count = bearings_find(&look->bearings, span);
     for (size_t i = 0; i < count; i++) {
         const struct look_body *body = &look->bodies[look->bearings.found[i]];
-        if (body != own && (all || silhouette_overlaps(&body->shadow, wanted)))
-            look->blockers[look->blocker_count++] = body;
+        /* Without a branch, which would go either way too often to be foreseen. */
+        look->blockers[look->blocker_count] = body;
+        look->blocker_count +=
+            (size_t)((body != own) & (all | silhouette_overlaps(&body->shadow, wanted)));
     }
     bool some = all || look->blocker_count > 0;
     effects_note(selection, EFFECT_OCCLUSION, some);
