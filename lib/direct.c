@@ -268,7 +268,7 @@ static bool unasked(const struct look *look, const struct look_set *worn)
 static bool passed_over(struct look *look, const struct look_body *body,
                         const struct look_set *worn)
 {
-    struct silhouette seen = look_reflectors(body, worn);
+    struct look_extent seen = look_reflectors(look, body, worn);
     bool plain = unasked(look, worn);
     if (plain && look_misses(look, body, &seen))
         return true;

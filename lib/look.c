@@ -122,12 +122,12 @@ static int dress_bodies(struct look *look, struct diag *diag)
 }
 
 /* Of what reaches beyond the body's box by that share of its size, and so far to every side. */
-static struct silhouette silhouette_around(const struct look_body *body, double share,
-                                           double beyond_m)
+static struct look_extent extent_around(const struct look_body *body, double share, double beyond_m)
 {
     struct vec2 half_m = {0.5 * share * body->box.length_m + beyond_m,
                           0.5 * share * body->box.width_m + beyond_m};
-    return silhouette_of(half_m, body->box.heading, body->sensor_m);
+    struct silhouette silhouette = silhouette_of(half_m, body->box.heading, body->sensor_m);
+    return (struct look_extent){silhouette, bearings_of(&silhouette)};
 }
 
 static void enter_blockers(struct look *look)
@@ -135,10 +135,9 @@ static void enter_blockers(struct look *look)
     look->bearings = bearings_begin(look->body_count, look->frame->arena);
     for (size_t i = 0; i < look->body_count; i++) {
         struct look_body *body = &look->bodies[i];
-        if (!body->blocks)
-            continue;
-        body->shadow = silhouette_around(body, 1, look->bend_m);
-        bearings_enter(&look->bearings, i, bearings_of(&body->shadow));
+        body->shadow = extent_around(body, 1, look->bend_m);
+        if (body->blocks)
+            bearings_enter(&look->bearings, i, body->shadow.span);
     }
 }
 
@@ -177,19 +176,21 @@ double look_reflectors_radius_m(const struct look_body *body, const struct look_
     return set->shape->share * body->radius_m + set->shape->inset_m;
 }
 
-struct silhouette look_reflectors(const struct look_body *body, const struct look_set *set)
+struct look_extent look_reflectors(const struct look *look, const struct look_body *body,
+                                   const struct look_set *set)
 {
-    return silhouette_around(body, set->shape->share, set->shape->inset_m);
+    bool in_shadow = set->shape->share == 1 && set->shape->inset_m <= look->bend_m;
+    return in_shadow ? body->shadow : extent_around(body, set->shape->share, set->shape->inset_m);
 }
 
 bool look_misses(const struct look *look, const struct look_body *body,
-                 const struct silhouette *silhouette)
+                 const struct look_extent *extent)
 {
+    double nearest_m = extent->silhouette.nearest_m;
     double rise_m =
         look->height_m > 0 ? elementary_most(look->height_m, 2 * body->object->height_m) : 0;
-    return silhouette->nearest_m > look->sensor->range_max_m ||
-           (silhouette->nearest_m > LEVEL * rise_m &&
-            bearings_apart(look->view, bearings_of(silhouette)));
+    return nearest_m > look->sensor->range_max_m ||
+           (nearest_m > LEVEL * rise_m && bearings_apart(look->view, extent->span));
 }
 
 double look_top_m(const struct look *look, const struct look_body *body)

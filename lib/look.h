@@ -23,14 +23,20 @@ struct look_set {
     struct look_body **worn_by; /* as the set's ids */
 };
 
+/* What of the view something covers. */
+struct look_extent {
+    struct silhouette silhouette;
+    struct bearings_span span; /* of it */
+};
+
 struct look_body {
     const struct object *object;
     const struct look_set *worn; /* NULL: it wears none */
     struct box box;
     struct vec2 corner[4];
-    double radius_m;          /* of the circle around the box */
-    struct vec2 sensor_m;     /* in the body's frame */
-    struct silhouette shadow; /* of the box and where it bends what passes, if it blocks */
+    double radius_m;           /* of the circle around the box */
+    struct vec2 sensor_m;      /* in the body's frame */
+    struct look_extent shadow; /* of the box and where it bends what passes */
     bool blocks;
     bool raised;
     bool moved; /* between the instant of the measurement and the frame's time */
@@ -77,13 +83,14 @@ struct sight look_lifted(const struct look *look, double reflector_m, struct sig
 double look_plane_ercs(const struct look *look, const struct plane_reflector *plane, double range_m,
                        uint64_t *effects);
 
-/* The circle around the body's centre with all reflectors of that set, and their silhouette. */
+/* The circle around the body's centre with all reflectors of that set, and their extent. */
 double look_reflectors_radius_m(const struct look_body *body, const struct look_set *set);
-struct silhouette look_reflectors(const struct look_body *body, const struct look_set *set);
+struct look_extent look_reflectors(const struct look *look, const struct look_body *body,
+                                   const struct look_set *set);
 
-/* True only if nothing of the body within that silhouette can be in range and in view. */
+/* True only if nothing of the body within that extent can be in range and in view. */
 bool look_misses(const struct look *look, const struct look_body *body,
-                 const struct silhouette *silhouette);
+                 const struct look_extent *extent);
 
 /* How much of a point is seen from the viewer, the sensor itself or a bounce on the way to it: its
  * visibility, and its lobe at the sensor's elevation. 1 without the effect visibility. */

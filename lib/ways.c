@@ -46,9 +46,9 @@ static enum meeting meeting_of(const struct look_body *body, struct vec2 from, s
 /* The same of a line from the sensor to a place. */
 static enum meeting meeting_before(const struct look_body *body, const struct silhouette *place)
 {
-    if (!silhouette_overlaps(&body->shadow, place))
+    if (!silhouette_overlaps(&body->shadow.silhouette, place))
         return MEETING_NONE;
-    return silhouette_covers(&body->shadow, place) ? MEETING_THROUGH : MEETING_UNSURE;
+    return silhouette_covers(&body->shadow.silhouette, place) ? MEETING_THROUGH : MEETING_UNSURE;
 }
 
 struct side ways_side(const struct look_body *body, const struct plane_reflector *plane)
@@ -87,7 +87,7 @@ bool ways_next_side_has_foot(const struct look *look, const struct side *side)
 }
 
 void ways_find_blockers(struct look *look, const struct look_body *own,
-                        const struct silhouette *wanted)
+                        const struct look_extent *wanted)
 {
     const struct selection *selection = look->selection;
     int64_t begin = effects_begin(selection);
@@ -95,14 +95,15 @@ void ways_find_blockers(struct look *look, const struct look_body *own,
     if (!effects_may(selection, EFFECT_OCCLUSION))
         return;
     bool all = effects_must(selection, EFFECT_OCCLUSION);
-    struct bearings_span span = all ? bearings_everywhere : bearings_of(wanted);
+    struct bearings_span span = all ? bearings_everywhere : wanted->span;
     size_t count = bearings_find(&look->bearings, span);
     for (size_t i = 0; i < count; i++) {
         const struct look_body *body = &look->bodies[look->bearings.found[i]];
         /* Without a branch, which would go either way too often to be foreseen. */
         look->blockers[look->blocker_count] = body;
         look->blocker_count +=
-            (size_t)((body != own) & (all | silhouette_overlaps(&body->shadow, wanted)));
+            (size_t)((body != own) &
+                     (all | silhouette_overlaps(&body->shadow.silhouette, &wanted->silhouette)));
     }
     bool some = all || look->blocker_count > 0;
     effects_note(selection, EFFECT_OCCLUSION, some);
@@ -118,13 +119,13 @@ static bool hides_all(const struct look *look)
 }
 
 bool ways_all_hidden(const struct look *look, const struct look_set *set,
-                     const struct silhouette *wanted)
+                     const struct look_extent *wanted)
 {
     /* A side that joins one of the set's stands out of its body, or does not end before it. */
     for (size_t i = 0; i < look->blocker_count && hides_all(look); i++) {
         const struct look_body *body = look->blockers[i];
-        if (silhouette_covers(&body->shadow, wanted) && body->worn->shape->share == 1 &&
-            !(set->shape->under && body->raised))
+        if (silhouette_covers(&body->shadow.silhouette, &wanted->silhouette) &&
+            body->worn->shape->share == 1 && !(set->shape->under && body->raised))
             return true;
     }
     return false;
