@@ -283,9 +283,10 @@ static void look_at_points(struct look *look, const struct look_body *body,
 {
     for (size_t i = 0; i < worn->set->points.count; i++) {
         const struct point_reflector *point = &worn->set->points.items[i];
-        struct vec2 facing = worn->shape->facings[i];
-        if (all || !reflectors_plainly_away(&body->box, point, facing, body->sensor_m))
-            look_at_point(look, body, point, facing, reflectors_point_place(&body->box, point));
+        const struct reflectors_face *face = &worn->shape->faces[i];
+        if (all || !reflectors_plainly_away(&body->box, point, face, body->sensor_m))
+            look_at_point(look, body, point, face->heading,
+                          reflectors_point_place(&body->box, point));
         else
             look->pairs++;
     }

@@ -323,7 +323,7 @@ static void add_points(struct look *look, const struct facet *facet, const struc
         const struct point_reflector *point = &set->points.items[i];
         struct vec2 place = reflectors_point_place(&body->box, point), bounce;
         if (bounces(look, facet, place, &bounce))
-            add_point(look, facet, body, point, body->worn->shape->facings[i], place, bounce);
+            add_point(look, facet, body, point, body->worn->shape->faces[i].heading, place, bounce);
     }
 }
 

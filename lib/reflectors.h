@@ -81,10 +81,16 @@ struct reflector_set {
 /* What follows from a set's lists alone. Its reflectors lie within an object's box, or, if any
  * stands out of it, within one that is larger by a share, and inset_m beyond. */
 struct reflectors_shape {
-    struct vec2 *facings; /* of its points, in the object's frame */
-    double share;         /* at least 1 */
+    struct reflectors_face *faces; /* of its points */
+    double share;                  /* at least 1 */
     double inset_m;
     bool under; /* may any of its points be seen under raised vehicles? */
+};
+
+/* Which way a point faces, in the object's frame. */
+struct reflectors_face {
+    struct vec2 heading;
+    double dark_cosine; /* visibility.h */
 };
 
 extern const struct record point_record, plane_record, row_record;
@@ -128,10 +134,20 @@ struct vec2 reflectors_along(const struct box *box, const struct plane_reflector
 double reflectors_visibility(const struct box *box, const struct point_reflector *point,
                              struct vec2 facing, struct vec2 place, struct vec2 sensor);
 
+/* Far more than the rounding of a place in the world. */
+#define REFLECTORS_PLAIN_M 1e-6
+
 /* True only if a sensor sees nothing of a point, and a plane has no specular point for it: told in
  * the object's frame, where sensor is its place, so that neither need be placed in the world. */
-bool reflectors_plainly_away(const struct box *box, const struct point_reflector *point,
-                             struct vec2 facing, struct vec2 sensor);
+static inline bool reflectors_plainly_away(const struct box *box,
+                                           const struct point_reflector *point,
+                                           const struct reflectors_face *face, struct vec2 sensor)
+{
+    struct vec2 facing = face->heading;
+    struct vec2 sight = {sensor.x - point->x * box->length_m + point->inset_m * facing.x,
+                         sensor.y - point->y * box->width_m + point->inset_m * facing.y};
+    return visibility_plainly_none(face->dark_cosine, facing, sight, REFLECTORS_PLAIN_M);
+}
 bool reflectors_plainly_aside(const struct box *box, const struct plane_reflector *plane,
                               struct vec2 sensor);
 
