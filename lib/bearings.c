@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#include "units.h"
 
 /* Fine slices part a crowd that stands far off; of few, four slices share a set. */
 enum { SLICES = 1024, FEW = 64, SHIFT_OF_FEW = 2 };
@@ -46,20 +45,6 @@ struct bearings_span bearings_between(struct vec2 from_m, struct vec2 to_m)
     if (fabs(cross) <= -NEAR_SINE * dot)
         return bearings_everywhere;
     return cross < 0 ? span_of(to_m, from_m) : span_of(from_m, to_m);
-}
-
-struct bearings_span bearings_around(struct vec2 ahead, double half_rad)
-{
-    if (!(half_rad < PI / 2 - NEAR_SINE))
-        return bearings_everywhere;
-    struct vec2 edge = vec2_heading(half_rad + NEAR_SINE);
-    return span_of(vec2_turn_back(ahead, edge), vec2_turn(ahead, edge));
-}
-
-bool bearings_apart(struct bearings_span a, struct bearings_span b)
-{
-    return (b.first + SLICES - a.first) % SLICES >= a.count &&
-           (a.first + SLICES - b.first) % SLICES >= b.count;
 }
 
 struct bearings bearings_begin(size_t count, struct arena *arena)

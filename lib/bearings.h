@@ -33,12 +33,6 @@ struct bearings_span bearings_of(const struct silhouette *silhouette);
 /* Every slice in which a straight line between two places runs, as seen from the sensor. */
 struct bearings_span bearings_between(struct vec2 from_m, struct vec2 to_m);
 
-/* Every slice with a direction less than half_rad in [0, pi] from `ahead`, a unit vector. */
-struct bearings_span bearings_around(struct vec2 ahead, double half_rad);
-
-/* Has the one no slice of the other? */
-bool bearings_apart(struct bearings_span a, struct bearings_span b);
-
 /* Empty sets of numbers below count. */
 struct bearings bearings_begin(size_t count, struct arena *arena);
 

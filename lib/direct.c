@@ -80,12 +80,15 @@ static void seek_way(const struct look *look, struct glimpse *seen)
     effects_end(look->selection, EFFECT_OCCLUSION, begin);
 }
 
-/* That it is blocked is found with a few products, what it reads with arctangents: the latter are
- * spared unless somebody asks what comes first of the reasons for its loss. */
-static bool is_hidden(const struct look *look, struct glimpse *seen)
+/* That it is out of view or blocked is found with a few products, what it reads with arctangents:
+ * the latter are spared unless somebody asks what comes first of the reasons for its loss. */
+static bool is_hidden(const struct look *look, const struct look_body *body, struct glimpse *seen)
 {
+    struct silhouette place = silhouette_of_place(vec2_sub(seen->place, look->position_m));
     if (look->frame->account)
         return false;
+    if (look->selection->log == NULL && look_misses(look, body, &place))
+        return true;
     seek_way(look, seen);
     return seen->way.by != NULL;
 }
@@ -196,7 +199,7 @@ static void look_at_point(struct look *look, const struct look_body *body,
         .margin_m = (double)INFINITY,
         .effects = look_aged(look, body),
     };
-    if (is_hidden(look, &seen))
+    if (is_hidden(look, body, &seen))
         return;
     double visible = look_visibility(look, body, point, facing, place, look->position_m);
     if (look->frame->margins && effects_may(look->selection, EFFECT_VISIBILITY))
@@ -236,7 +239,7 @@ static void look_at_plane(struct look *look, const struct look_body *body,
             .margin_m = margin_m,
             .effects = look_aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
         };
-        if (is_hidden(look, &seen))
+        if (is_hidden(look, body, &seen))
             return;
         double range_m = vec2_length(vec2_sub(foot, look->position_m));
         seen.ercs = look_plane_ercs(look, plane, range_m, &seen.effects);
@@ -270,7 +273,7 @@ static bool passed_over(struct look *look, const struct look_body *body,
 {
     struct look_extent seen = look_reflectors(look, body, worn);
     bool plain = unasked(look, worn);
-    if (plain && look_misses(look, body, &seen))
+    if (plain && look_misses(look, body, &seen.silhouette))
         return true;
     ways_find_blockers(look, body, &seen);
     return plain && !effects_must(look->selection, EFFECT_OCCLUSION) &&

@@ -28,6 +28,9 @@
 #define LEVEL 5
 #define LIFTED 1.02
 
+/* Of metres and sines, far more than rounding. */
+#define PLAIN 1e-6
+
 double look_border_rad(const struct sensor *sensor)
 {
     return sensor->field_of_view_rad / 2 - BORDER_RAD;
@@ -141,6 +144,17 @@ static void enter_blockers(struct look *look)
     }
 }
 
+static void open_view(struct look *look)
+{
+    double border_rad = look_border_rad(look->sensor), lift = look->height_m > 0 ? LIFTED : 1;
+    double sine = border_rad < PI / 2 ? lift * elementary_sin(border_rad) + PLAIN : 1;
+    if (!(sine < 1))
+        return;
+    struct vec2 edge = {sqrt((1 - sine) * (1 + sine)), sine};
+    look->view_right = vec2_turn_back(look->boresight, edge);
+    look->view_left = vec2_turn(look->boresight, edge);
+}
+
 int look_begin(struct look *look, struct frame *frame, const struct sensor *sensor,
                const struct selection *selection, double time_s, struct diag *diag)
 {
@@ -159,11 +173,7 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
     if (sensor->diffraction && effects_may(selection, EFFECT_DIFFRACTION))
         look->wavelength_m = units_wavelength_m(sensor->carrier_hz);
     look->bend_m = knife_edge_reach_m(LONGEST_WAY * sensor->range_max_m, look->wavelength_m);
-    double border_rad = look_border_rad(sensor);
-    look->view = border_rad < PI / 2 ? bearings_around(look->boresight,
-                                                       elementary_asin(elementary_least(
-                                                           LIFTED * elementary_sin(border_rad), 1)))
-                                     : bearings_everywhere;
+    open_view(look);
     place_bodies(look, age_s);
     if (dress_bodies(look, diag) != 0)
         return -1;
@@ -184,13 +194,13 @@ struct look_extent look_reflectors(const struct look *look, const struct look_bo
 }
 
 bool look_misses(const struct look *look, const struct look_body *body,
-                 const struct look_extent *extent)
+                 const struct silhouette *silhouette)
 {
-    double nearest_m = extent->silhouette.nearest_m;
     double rise_m =
         look->height_m > 0 ? elementary_most(look->height_m, 2 * body->object->height_m) : 0;
-    return nearest_m > look->sensor->range_max_m ||
-           (nearest_m > LEVEL * rise_m && bearings_apart(look->view, extent->span));
+    return silhouette->nearest_m > look->sensor->range_max_m + PLAIN ||
+           (silhouette->nearest_m > LEVEL * rise_m &&
+            silhouette_outside(silhouette, look->view_right, look->view_left));
 }
 
 double look_top_m(const struct look *look, const struct look_body *body)

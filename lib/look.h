@@ -48,13 +48,14 @@ struct look {
     const struct selection *selection;
     double time_s;
     struct vec2 position_m, velocity_mps, boresight;
-    double height_m;           /* 0: in a flat world */
-    bool over;                 /* is something seen over what is low? */
-    double wavelength_m;       /* that bends around edges; 0: none does */
-    double bend_m;             /* how far beside a body it may matter that it does */
-    bool moved;                /* the ego, since then */
-    struct bearings_span view; /* slices that are in view, of what is not high above or below */
-    struct look_body *bodies;  /* all objects but the ego, by id */
+    double height_m;          /* 0: in a flat world */
+    bool over;                /* is something seen over what is low? */
+    double wavelength_m;      /* that bends around edges; 0: none does */
+    double bend_m;            /* how far beside a body it may matter that it does */
+    bool moved;               /* the ego, since then */
+    struct vec2 view_right;   /* what is not high above or below is in view from here */
+    struct vec2 view_left;    /* to here; both zero: all around */
+    struct look_body *bodies; /* all objects but the ego, by id */
     size_t body_count;
     struct look_set *sets;             /* of the frame */
     struct bearings bearings;          /* of the bodies that block, as they are numbered here */
@@ -88,9 +89,9 @@ double look_reflectors_radius_m(const struct look_body *body, const struct look_
 struct look_extent look_reflectors(const struct look *look, const struct look_body *body,
                                    const struct look_set *set);
 
-/* True only if nothing of the body within that extent can be in range and in view. */
+/* True only if nothing of the body within that silhouette can be in range and in view. */
 bool look_misses(const struct look *look, const struct look_body *body,
-                 const struct look_extent *extent);
+                 const struct silhouette *silhouette);
 
 /* How much of a point is seen from the viewer, the sensor itself or a bounce on the way to it: its
  * visibility, and its lobe at the sensor's elevation. 1 without the effect visibility. */

@@ -53,4 +53,14 @@ static inline bool silhouette_covers(const struct silhouette *front,
            vec2_cross(behind->left_m, front->left_m) > slack;
 }
 
+/* True only if none of its directions lies between these two, the left one less than half a turn
+ * from the right one. Of two zeros nothing is outside. */
+static inline bool silhouette_outside(const struct silhouette *silhouette, struct vec2 right,
+                                      struct vec2 left)
+{
+    return (vec2_cross(right, silhouette->right_m) < 0 &&
+            vec2_cross(right, silhouette->left_m) < 0) ||
+           (vec2_cross(silhouette->right_m, left) < 0 && vec2_cross(silhouette->left_m, left) < 0);
+}
+
 #endif

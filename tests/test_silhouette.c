@@ -153,6 +153,28 @@ static void a_box_is_no_nearer_and_no_farther_than_said(void **state)
     assert_close(seen(&box).farthest_m, hypot(33, 5), 1e-5);
 }
 
+static void what_reaches_between_two_directions_is_not_outside_of_them(void **state)
+{
+    (void)state;
+    uint64_t random = 4;
+    int inside = 0, outside = 0;
+    for (int i = 0; i < 100000; i++) {
+        struct box box = any_box(&random, 40);
+        double right_rad = sample_between(&random, -PI, PI);
+        double wide_rad = sample_between(&random, 0, PI - 1e-3);
+        struct vec2 right = vec2_heading(right_rad), left = vec2_heading(right_rad + wide_rad);
+        struct vec2 place =
+            place_in(&box, sample_between(&random, -1, 1), sample_between(&random, -1, 1));
+        struct silhouette all = seen(&box), one = silhouette_of_place(place);
+        bool between = vec2_cross(right, place) >= 0 && vec2_cross(place, left) >= 0;
+        assert_true(silhouette_outside(&one, right, left) == !between);
+        assert_false(between && silhouette_outside(&all, right, left));
+        inside += between;
+        outside += silhouette_outside(&all, right, left);
+    }
+    assert_true(inside > 20000 && outside > 20000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -160,6 +182,7 @@ int main(void)
         cmocka_unit_test(no_line_that_touches_is_called_clear_nor_one_that_passes_hidden),
         cmocka_unit_test(a_place_in_line_with_a_corner_is_unsure),
         cmocka_unit_test(a_box_is_no_nearer_and_no_farther_than_said),
+        cmocka_unit_test(what_reaches_between_two_directions_is_not_outside_of_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
