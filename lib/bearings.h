@@ -2,8 +2,8 @@
  *
  * The horizon around a sensor is cut into slices. Each, or a few side by side, have a set of those,
  * by number, whose silhouettes reach into it; what a question gets is every number whose silhouette
- * has one of the slices it is about, and some more. Sets are bits, 64 to a word: they join
- * in one step a word and come out in ascending order. */
+ * has one of the slices it is about, and some more. Sets are bits, 64 to a word: they join in one
+ * step a word and come out in ascending order. */
 #ifndef BEARINGS_H
 #define BEARINGS_H
 

@@ -84,9 +84,9 @@ static void seek_way(const struct look *look, struct glimpse *seen)
  * the latter are spared unless somebody asks what comes first of the reasons for its loss. */
 static bool is_hidden(const struct look *look, const struct look_body *body, struct glimpse *seen)
 {
-    struct silhouette place = silhouette_of_place(vec2_sub(seen->place, look->position_m));
     if (look->frame->account)
         return false;
+    struct silhouette place = silhouette_of_place(vec2_sub(seen->place, look->position_m));
     if (look->selection->log == NULL && look_misses(look, body, &place))
         return true;
     seek_way(look, seen);
@@ -261,7 +261,8 @@ static void look_along_row(struct look *look, const struct look_body *body,
     }
 }
 
-/* Does nobody ask why the set's reflectors are not seen, or what was tried? */
+/* Does nobody ask why the set's reflectors are not seen, or what was tried? How many a row has in
+ * range takes a look. */
 static bool unasked(const struct look *look, const struct look_set *worn)
 {
     return !look->frame->account && look->selection->log == NULL && worn->set->rows.count == 0;

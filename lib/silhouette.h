@@ -42,8 +42,8 @@ static inline bool silhouette_overlaps(const struct silhouette *front,
 }
 
 /* Of two that overlap: true only if every sight line to what is in the box behind runs through the
- * one in front, which ends before the other begins. A line is not counted that runs
- * nearer to its edge than four times the slack. */
+ * one in front, which ends before the other begins. Lines that run nearer to an edge of it than
+ * four times the slack are not told from those that miss it. */
 static inline bool silhouette_covers(const struct silhouette *front,
                                      const struct silhouette *behind)
 {

@@ -121,7 +121,7 @@ static bool hides_all(const struct look *look)
 bool ways_all_hidden(const struct look *look, const struct look_set *set,
                      const struct look_extent *wanted)
 {
-    /* A side that joins one of the set's stands out of its body, or does not end before it. */
+    /* What keeps within its box and ends before the set begins has no side that joins one of it. */
     for (size_t i = 0; i < look->blocker_count && hides_all(look); i++) {
         const struct look_body *body = look->blockers[i];
         if (silhouette_covers(&body->shadow.silhouette, &wanted->silhouette) &&
