@@ -41,13 +41,18 @@ static double mix(double from, double from_weight, double to, double to_weight)
     return from * from_weight + to * to_weight;
 }
 
-static struct antenna_pair table_pair(const struct antenna *antenna, double azimuth_rad)
+/* The row at or before an azimuth in the table, and not the last. */
+static const struct antenna_row *row_before(const struct antenna *antenna, double azimuth_rad)
 {
+    const struct antenna_row *rows = antenna->rows;
     size_t low = 0;
     size_t high = antenna->row_count - 1;
-    const struct antenna_row *rows = antenna->rows;
-    if (azimuth_rad < rows[low].azimuth_rad || azimuth_rad > rows[high].azimuth_rad)
-        return (struct antenna_pair){0, 0};
+    /* Rows mostly stand at even steps. */
+    double step_rad = (rows[high].azimuth_rad - rows[low].azimuth_rad) / (double)high;
+    size_t guess = (size_t)((azimuth_rad - rows[low].azimuth_rad) / step_rad);
+    if (guess < high && azimuth_rad >= rows[guess].azimuth_rad &&
+        azimuth_rad < rows[guess + 1].azimuth_rad)
+        return &rows[guess];
     while (high - low > 1) {
         size_t middle = low + (high - low) / 2;
         if (azimuth_rad >= rows[middle].azimuth_rad)
@@ -55,11 +60,20 @@ static struct antenna_pair table_pair(const struct antenna *antenna, double azim
         else
             high = middle;
     }
-    double width = rows[high].azimuth_rad - rows[low].azimuth_rad;
-    double to = (azimuth_rad - rows[low].azimuth_rad) / width;
-    double from = (rows[high].azimuth_rad - azimuth_rad) / width;
-    return (struct antenna_pair){mix(rows[low].sum, from, rows[high].sum, to),
-                                 mix(rows[low].delta, from, rows[high].delta, to)};
+    return &rows[low];
+}
+
+static struct antenna_pair table_pair(const struct antenna *antenna, double azimuth_rad)
+{
+    const struct antenna_row *first = antenna->rows, *last = first + antenna->row_count - 1;
+    if (azimuth_rad < first->azimuth_rad || azimuth_rad > last->azimuth_rad)
+        return (struct antenna_pair){0, 0};
+    const struct antenna_row *low = row_before(antenna, azimuth_rad), *high = low + 1;
+    double width = high->azimuth_rad - low->azimuth_rad;
+    double to = (azimuth_rad - low->azimuth_rad) / width;
+    double from = (high->azimuth_rad - azimuth_rad) / width;
+    return (struct antenna_pair){mix(low->sum, from, high->sum, to),
+                                 mix(low->delta, from, high->delta, to)};
 }
 
 static struct antenna_pair pair_at(const struct antenna *antenna, double azimuth_rad)

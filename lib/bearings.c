@@ -2,13 +2,14 @@
 
 #include <math.h>
 
-#include "units.h"
 
 /* Fine slices part a crowd that stands far off; of few, four slices share a set. */
 enum { SLICES = 1024, FEW = 64, SHIFT_OF_FEW = 2 };
 
-#define NEAR_M 1e-6
+/* Thousands of times more than rounding. */
 #define NEAR_SINE 1e-4
+
+static const struct vec2 here = {0, 0};
 
 const struct bearings_span bearings_everywhere = {0, SLICES};
 
@@ -30,39 +31,20 @@ static struct bearings_span span_of(struct vec2 right, struct vec2 left)
     return (struct bearings_span){first, (last + SLICES - first) % SLICES + 1};
 }
 
-struct bearings_span bearings_of(const struct sector *sector)
+struct bearings_span bearings_of(const struct silhouette *silhouette)
 {
-    double sine = (sector->radius_m + NEAR_M) / sector->distance_m + NEAR_SINE;
-    if (!(sine < 1))
-        return bearings_everywhere;
-    struct vec2 ahead = vec2_scale(sqrt((1 - sine) * (1 + sine)), sector->centre_m);
-    struct vec2 aside = vec2_scale(sine, vec2_left(sector->centre_m));
-    return span_of(vec2_sub(ahead, aside), vec2_add(ahead, aside));
+    return vec2_same(silhouette->right_m, here) ? bearings_everywhere
+                                                : span_of(silhouette->right_m, silhouette->left_m);
 }
 
 struct bearings_span bearings_between(struct vec2 from_m, struct vec2 to_m)
 {
-    static const struct vec2 here = {0, 0};
     double cross = vec2_cross(from_m, to_m), dot = vec2_dot(from_m, to_m);
     if (vec2_same(from_m, here) || vec2_same(to_m, here))
         return vec2_same(from_m, here) ? span_of(to_m, to_m) : span_of(from_m, from_m);
     if (fabs(cross) <= -NEAR_SINE * dot)
         return bearings_everywhere;
     return cross < 0 ? span_of(to_m, from_m) : span_of(from_m, to_m);
-}
-
-struct bearings_span bearings_around(struct vec2 ahead, double half_rad)
-{
-    if (!(half_rad < PI / 2 - NEAR_SINE))
-        return bearings_everywhere;
-    struct vec2 edge = vec2_heading(half_rad + NEAR_SINE);
-    return span_of(vec2_turn_back(ahead, edge), vec2_turn(ahead, edge));
-}
-
-bool bearings_apart(struct bearings_span a, struct bearings_span b)
-{
-    return (b.first + SLICES - a.first) % SLICES >= a.count &&
-           (a.first + SLICES - b.first) % SLICES >= b.count;
 }
 
 struct bearings bearings_begin(size_t count, struct arena *arena)

@@ -1,16 +1,16 @@
 /* Who may stand in which direction, so that a question about one direction asks few of many.
  *
  * The horizon around a sensor is cut into slices. Each, or a few side by side, have a set of those,
- * by number, whose circles may reach into it; what a question gets is every number whose circle
- * comes anywhere near the slices it is about, and some more. Sets are bits, 64 to a word: they join
- * in one step a word and come out in ascending order. */
+ * by number, whose silhouettes reach into it; what a question gets is every number whose silhouette
+ * has one of the slices it is about, and some more. Sets are bits, 64 to a word: they join in one
+ * step a word and come out in ascending order. */
 #ifndef BEARINGS_H
 #define BEARINGS_H
 
 #include <stdint.h>
 
 #include "memory.h"
-#include "sectors.h"
+#include "silhouette.h"
 
 struct bearings {
     unsigned shift; /* from a slice's number to its set's */
@@ -26,19 +26,12 @@ struct bearings_span {
 
 extern const struct bearings_span bearings_everywhere;
 
-/* Every slice that a line from the sensor which comes near the circle can run in; all of them if
- * the sensor is in the circle or near it. Near is 1e-6 m and 1e-4 of the distance and 1e-4 rad,
- * thousands of times more than rounding or the slack of sectors_overlap. */
-struct bearings_span bearings_of(const struct sector *sector);
+/* Every slice that a silhouette has a direction in; all of them if the sensor is too near for one.
+ */
+struct bearings_span bearings_of(const struct silhouette *silhouette);
 
 /* Every slice in which a straight line between two places runs, as seen from the sensor. */
 struct bearings_span bearings_between(struct vec2 from_m, struct vec2 to_m);
-
-/* Every slice with a direction less than half_rad in [0, pi] from `ahead`, a unit vector. */
-struct bearings_span bearings_around(struct vec2 ahead, double half_rad);
-
-/* Has the one no slice of the other? */
-bool bearings_apart(struct bearings_span a, struct bearings_span b);
 
 /* Empty sets of numbers below count. */
 struct bearings bearings_begin(size_t count, struct arena *arena);

@@ -81,6 +81,7 @@ const struct vehicle *catalogue_vehicle(const char *class, struct arena *arena, 
         return NULL;
     }
     vehicle->reflectors.document = &vehicle->reflectors;
+    vehicle->reflectors.shape = reflectors_shape(&vehicle->reflectors, arena);
     return vehicle;
 }
 

@@ -80,12 +80,15 @@ static void seek_way(const struct look *look, struct glimpse *seen)
     effects_end(look->selection, EFFECT_OCCLUSION, begin);
 }
 
-/* That it is blocked is found with a few products, what it reads with arctangents: the latter are
- * spared unless somebody asks what comes first of the reasons for its loss. */
-static bool is_hidden(const struct look *look, struct glimpse *seen)
+/* That it is out of view or blocked is found with a few products, what it reads with arctangents:
+ * the latter are spared unless somebody asks what comes first of the reasons for its loss. */
+static bool is_hidden(const struct look *look, const struct look_body *body, struct glimpse *seen)
 {
     if (look->frame->account)
         return false;
+    struct silhouette place = silhouette_of_place(vec2_sub(seen->place, look->position_m));
+    if (look->selection->log == NULL && look_misses(look, body, &place))
+        return true;
     seek_way(look, seen);
     return seen->way.by != NULL;
 }
@@ -196,7 +199,7 @@ static void look_at_point(struct look *look, const struct look_body *body,
         .margin_m = (double)INFINITY,
         .effects = look_aged(look, body),
     };
-    if (is_hidden(look, &seen))
+    if (is_hidden(look, body, &seen))
         return;
     double visible = look_visibility(look, body, point, facing, place, look->position_m);
     if (look->frame->margins && effects_may(look->selection, EFFECT_VISIBILITY))
@@ -236,7 +239,7 @@ static void look_at_plane(struct look *look, const struct look_body *body,
             .margin_m = margin_m,
             .effects = look_aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
         };
-        if (is_hidden(look, &seen))
+        if (is_hidden(look, body, &seen))
             return;
         double range_m = vec2_length(vec2_sub(foot, look->position_m));
         seen.ercs = look_plane_ercs(look, plane, range_m, &seen.effects);
@@ -258,34 +261,47 @@ static void look_along_row(struct look *look, const struct look_body *body,
     }
 }
 
-/* Is the whole body out of range or out of view, and nobody asks why or what was tried? */
-static bool passed_over(const struct look *look, const struct look_body *body,
-                        const struct look_set *set, const struct sector *sector)
+/* Does nobody ask why the set's reflectors are not seen, or what was tried? How many a row has in
+ * range takes a look. */
+static bool unasked(const struct look *look, const struct look_set *worn)
 {
-    return !look->frame->account && look->selection->log == NULL && set->set->rows.count == 0 &&
-           look_misses(look, body, sector);
+    return !look->frame->account && look->selection->log == NULL && worn->set->rows.count == 0;
+}
+
+/* Is the whole body out of range, out of view or hidden? If not, its blockers are found. */
+static bool passed_over(struct look *look, const struct look_body *body,
+                        const struct look_set *worn)
+{
+    struct look_extent seen = look_reflectors(look, body, worn);
+    bool plain = unasked(look, worn);
+    if (plain && look_misses(look, body, &seen.silhouette))
+        return true;
+    ways_find_blockers(look, body, &seen);
+    return plain && !effects_must(look->selection, EFFECT_OCCLUSION) &&
+           ways_all_hidden(look, worn, &seen);
 }
 
 /* Those that do not plainly face away, unless somebody asks why not. */
 static void look_at_points(struct look *look, const struct look_body *body,
-                           const struct look_set *worn, struct vec2 sensor, bool all)
+                           const struct look_set *worn, bool all)
 {
     for (size_t i = 0; i < worn->set->points.count; i++) {
         const struct point_reflector *point = &worn->set->points.items[i];
-        struct vec2 facing = worn->facings[i];
-        if (all || !reflectors_plainly_away(&body->box, point, facing, sensor))
-            look_at_point(look, body, point, facing, reflectors_point_place(&body->box, point));
+        const struct reflectors_face *face = &worn->shape->faces[i];
+        if (all || !reflectors_plainly_away(&body->box, point, face, body->sensor_m))
+            look_at_point(look, body, point, face->heading,
+                          reflectors_point_place(&body->box, point));
         else
             look->pairs++;
     }
 }
 
 static void look_at_planes(struct look *look, const struct look_body *body,
-                           const struct reflector_set *set, struct vec2 sensor, bool all)
+                           const struct reflector_set *set, bool all)
 {
     for (size_t i = 0; i < set->planes.count; i++) {
         const struct plane_reflector *plane = &set->planes.items[i];
-        if (all || !reflectors_plainly_aside(&body->box, plane, sensor))
+        if (all || !reflectors_plainly_aside(&body->box, plane, body->sensor_m))
             look_at_plane(look, body, plane);
         else
             look->pairs++;
@@ -297,20 +313,16 @@ static void look_at_body(struct look *look, const struct look_body *body,
 {
     const struct selection *selection = look->selection;
     const struct reflector_set *set = worn->set;
-    struct sector sector = look_reflectors_sector(body, worn);
-    if (passed_over(look, body, worn, &sector)) {
+    if (passed_over(look, body, worn)) {
         look->pairs += (int64_t)(set->points.count + set->planes.count);
         return;
     }
-    ways_find_blockers(look, body, &sector);
     effects_note(selection, EFFECT_VISIBILITY, set->points.count + set->rows.count > 0);
     effects_note(selection, EFFECT_PLANE_REFLECTION, set->planes.count > 0);
     effects_note(selection, EFFECT_ROWS, set->rows.count > 0);
     bool asked = look->frame->account;
-    struct vec2 sensor =
-        vec2_turn_back(vec2_sub(look->position_m, body->box.motion.position_m), body->box.heading);
-    look_at_points(look, body, worn, sensor, asked || !effects_may(selection, EFFECT_VISIBILITY));
-    look_at_planes(look, body, set, sensor, asked);
+    look_at_points(look, body, worn, asked || !effects_may(selection, EFFECT_VISIBILITY));
+    look_at_planes(look, body, set, asked);
     for (size_t i = 0; i < set->rows.count && effects_may(selection, EFFECT_ROWS); i++)
         look_along_row(look, body, &set->rows.items[i]);
 }

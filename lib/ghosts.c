@@ -323,7 +323,7 @@ static void add_points(struct look *look, const struct facet *facet, const struc
         const struct point_reflector *point = &set->points.items[i];
         struct vec2 place = reflectors_point_place(&body->box, point), bounce;
         if (bounces(look, facet, place, &bounce))
-            add_point(look, facet, body, point, body->worn->facings[i], place, bounce);
+            add_point(look, facet, body, point, body->worn->shape->faces[i].heading, place, bounce);
     }
 }
 
@@ -406,7 +406,7 @@ static void add_all(struct look *look, const struct facets *facets, const struct
     const struct selection *selection = look->selection;
     bool all = effects_must(selection, EFFECT_GHOSTS);
     struct vec2 centre = body->box.motion.position_m;
-    double radius_m = look_reflectors_sector(body, body->worn).radius_m;
+    double radius_m = look_reflectors_radius_m(body, body->worn);
     for (size_t i = 0; i < facets->count; i++) {
         const struct facet *facet = &facets->items[i];
         if (facet->body == body)

@@ -28,6 +28,9 @@
 #define LEVEL 5
 #define LIFTED 1.02
 
+/* Of metres and sines, far more than rounding. */
+#define PLAIN 1e-6
+
 double look_border_rad(const struct sensor *sensor)
 {
     return sensor->field_of_view_rad / 2 - BORDER_RAD;
@@ -62,8 +65,9 @@ static struct look_body body_at(const struct look *look, const struct object *ob
 {
     struct look_body body = {.object = object, .box = box_at(object, age_s)};
     body.moved = age_s != 0 && moves(object, &body.box.motion);
-    body.sector = sector_of(vec2_sub(body.box.motion.position_m, look->position_m),
-                            0.5 * vec2_length((struct vec2){object->length_m, object->width_m}));
+    body.radius_m = 0.5 * vec2_length((struct vec2){object->length_m, object->width_m});
+    body.sensor_m =
+        vec2_turn_back(vec2_sub(look->position_m, body.box.motion.position_m), body.box.heading);
     reflectors_outline(&body.box, body.corner);
     return body;
 }
@@ -80,10 +84,7 @@ static void place_bodies(struct look *look, double age_s)
 
 static struct look_set set_of(const struct reflector_set *set, struct arena *arena)
 {
-    struct look_set shared = {.set = set, .spread = reflectors_spread(set)};
-    shared.facings = arena_get(arena, set->points.count * sizeof *shared.facings);
-    for (size_t i = 0; i < set->points.count; i++)
-        shared.facings[i] = vec2_heading(set->points.items[i].facing_rad);
+    struct look_set shared = {.set = set, .shape = reflectors_shape(set, arena)};
     shared.worn_by = arena_get(arena, set->worn_by.count * sizeof(*shared.worn_by));
     return shared;
 }
@@ -112,16 +113,35 @@ static int dress_bodies(struct look *look, struct diag *diag)
     return 0;
 }
 
+/* Of what reaches beyond the body's box by that share of its size, and so far to every side. */
+static struct look_extent extent_around(const struct look_body *body, double share, double beyond_m)
+{
+    struct vec2 half_m = {0.5 * share * body->box.length_m + beyond_m,
+                          0.5 * share * body->box.width_m + beyond_m};
+    struct silhouette silhouette = silhouette_of(half_m, body->box.heading, body->sensor_m);
+    return (struct look_extent){silhouette, bearings_of(&silhouette)};
+}
+
 static void enter_blockers(struct look *look)
 {
     look->bearings = bearings_begin(look->body_count, look->frame->arena);
     for (size_t i = 0; i < look->body_count; i++) {
         struct look_body *body = &look->bodies[i];
-        body->shadow = body->sector;
-        body->shadow.radius_m += look->bend_m;
+        body->shadow = extent_around(body, 1, look->bend_m);
         if (body->blocks)
-            bearings_enter(&look->bearings, i, bearings_of(&body->shadow));
+            bearings_enter(&look->bearings, i, body->shadow.span);
     }
+}
+
+static void open_view(struct look *look)
+{
+    double border_rad = look_border_rad(look->sensor), lift = look->height_m > 0 ? LIFTED : 1;
+    double sine = border_rad < PI / 2 ? lift * elementary_sin(border_rad) + PLAIN : 1;
+    if (!(sine < 1))
+        return;
+    struct vec2 edge = {sqrt((1 - sine) * (1 + sine)), sine};
+    look->view_right = vec2_turn_back(look->boresight, edge);
+    look->view_left = vec2_turn(look->boresight, edge);
 }
 
 int look_begin(struct look *look, struct frame *frame, const struct sensor *sensor,
@@ -142,11 +162,7 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
     if (sensor->diffraction && effects_may(selection, EFFECT_DIFFRACTION))
         look->wavelength_m = units_wavelength_m(sensor->carrier_hz);
     look->bend_m = knife_edge_reach_m(LONGEST_WAY * sensor->range_max_m, look->wavelength_m);
-    double border_rad = look_border_rad(sensor);
-    look->view = border_rad < PI / 2 ? bearings_around(look->boresight,
-                                                       elementary_asin(elementary_least(
-                                                           LIFTED * elementary_sin(border_rad), 1)))
-                                     : bearings_everywhere;
+    open_view(look);
     place_bodies(look, age_s);
     if (dress_bodies(look, diag) != 0)
         return -1;
@@ -154,20 +170,26 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
     return 0;
 }
 
-struct sector look_reflectors_sector(const struct look_body *body, const struct look_set *set)
+double look_reflectors_radius_m(const struct look_body *body, const struct look_set *set)
 {
-    struct sector sector = body->sector;
-    sector.radius_m = set->spread.share * sector.radius_m + set->spread.inset_m;
-    return sector;
+    return set->shape->share * body->radius_m + set->shape->inset_m;
 }
 
-bool look_misses(const struct look *look, const struct look_body *body, const struct sector *sector)
+struct look_extent look_reflectors(const struct look *look, const struct look_body *body,
+                                   const struct look_set *set)
 {
-    double nearest_m = sector->distance_m - sector->radius_m;
+    bool in_shadow = set->shape->share == 1 && set->shape->inset_m <= look->bend_m;
+    return in_shadow ? body->shadow : extent_around(body, set->shape->share, set->shape->inset_m);
+}
+
+bool look_misses(const struct look *look, const struct look_body *body,
+                 const struct silhouette *silhouette)
+{
     double rise_m =
         look->height_m > 0 ? elementary_most(look->height_m, 2 * body->object->height_m) : 0;
-    return nearest_m > look->sensor->range_max_m + 1e-6 ||
-           (nearest_m > LEVEL * rise_m && bearings_apart(look->view, bearings_of(sector)));
+    return silhouette->nearest_m > look->sensor->range_max_m + PLAIN ||
+           (silhouette->nearest_m > LEVEL * rise_m &&
+            silhouette_outside(silhouette, look->view_right, look->view_left));
 }
 
 double look_top_m(const struct look *look, const struct look_body *body)

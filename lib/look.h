@@ -19,9 +19,14 @@
 /* A set of the frame, and what all who wear it share. */
 struct look_set {
     const struct reflector_set *set;
-    struct vec2 *facings;       /* of its points, in the object's frame */
+    const struct reflectors_shape *shape;
     struct look_body **worn_by; /* as the set's ids */
-    struct reflectors_spread spread;
+};
+
+/* What of the view something covers. */
+struct look_extent {
+    struct silhouette silhouette;
+    struct bearings_span span; /* of it */
 };
 
 struct look_body {
@@ -29,8 +34,9 @@ struct look_body {
     const struct look_set *worn; /* NULL: it wears none */
     struct box box;
     struct vec2 corner[4];
-    struct sector sector; /* the circle around the box */
-    struct sector shadow; /* and around where it bends what passes */
+    double radius_m;           /* of the circle around the box */
+    struct vec2 sensor_m;      /* in the body's frame */
+    struct look_extent shadow; /* of the box and where it bends what passes */
     bool blocks;
     bool raised;
     bool moved; /* between the instant of the measurement and the frame's time */
@@ -42,13 +48,14 @@ struct look {
     const struct selection *selection;
     double time_s;
     struct vec2 position_m, velocity_mps, boresight;
-    double height_m;           /* 0: in a flat world */
-    bool over;                 /* is something seen over what is low? */
-    double wavelength_m;       /* that bends around edges; 0: none does */
-    double bend_m;             /* how far beside a body it may matter that it does */
-    bool moved;                /* the ego, since then */
-    struct bearings_span view; /* slices that are in view, of what is not high above or below */
-    struct look_body *bodies;  /* all objects but the ego, by id */
+    double height_m;          /* 0: in a flat world */
+    bool over;                /* is something seen over what is low? */
+    double wavelength_m;      /* that bends around edges; 0: none does */
+    double bend_m;            /* how far beside a body it may matter that it does */
+    bool moved;               /* the ego, since then */
+    struct vec2 view_right;   /* what is not high above or below is in view from here */
+    struct vec2 view_left;    /* to here; both zero: all around */
+    struct look_body *bodies; /* all objects but the ego, by id */
     size_t body_count;
     struct look_set *sets;             /* of the frame */
     struct bearings bearings;          /* of the bodies that block, as they are numbered here */
@@ -77,12 +84,14 @@ struct sight look_lifted(const struct look *look, double reflector_m, struct sig
 double look_plane_ercs(const struct look *look, const struct plane_reflector *plane, double range_m,
                        uint64_t *effects);
 
-/* The circle around all reflectors of that set on the body. */
-struct sector look_reflectors_sector(const struct look_body *body, const struct look_set *set);
+/* The circle around the body's centre with all reflectors of that set, and their extent. */
+double look_reflectors_radius_m(const struct look_body *body, const struct look_set *set);
+struct look_extent look_reflectors(const struct look *look, const struct look_body *body,
+                                   const struct look_set *set);
 
-/* True only if nothing of the body in that circle can be in range and in view. */
+/* True only if nothing of the body within that silhouette can be in range and in view. */
 bool look_misses(const struct look *look, const struct look_body *body,
-                 const struct sector *sector);
+                 const struct silhouette *silhouette);
 
 /* How much of a point is seen from the viewer, the sensor itself or a bounce on the way to it: its
  * visibility, and its lobe at the sensor's elevation. 1 without the effect visibility. */

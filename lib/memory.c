@@ -109,18 +109,11 @@ static bool grow_in_place(struct arena *arena, const void *memory, size_t size, 
     return true;
 }
 
-void *list_room(struct arena *arena, void *items, size_t count, size_t *room, size_t size)
+void *list_grow(struct arena *arena, void *items, size_t count, size_t *room, size_t size)
 {
-    if (count == *room) {
-        size_t old = *room;
-        *room = count < 4 ? 8 : 2 * count;
-        if (!grow_in_place(arena, items, old * size, (*room - old) * size)) {
-            void *larger = arena_room(arena, *room * size);
-            if (count > 0)
-                memcpy(larger, items, count * size);
-            items = larger;
-        }
-    }
-    memset((char *)items + count * size, 0, size);
-    return items;
+    *room = count < 4 ? 8 : 2 * count;
+    if (grow_in_place(arena, items, count * size, (*room - count) * size))
+        return items;
+    void *larger = arena_room(arena, *room * size);
+    return count > 0 ? memcpy(larger, items, count * size) : larger;
 }

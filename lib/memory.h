@@ -10,6 +10,7 @@
 #define MEMORY_H
 
 #include <stddef.h>
+#include <string.h>
 
 /* malloc and realloc that end the program with 71 instead of returning NULL. */
 void *memory_get(size_t size);
@@ -52,8 +53,17 @@ void arena_free(struct arena *arena);
          list_room((arena), (list)->items, (list)->count, &(list)->room, sizeof *(list)->items),   \
      &(list)->items[(list)->count++])
 
-/* Makes room for one more item and zeroes it: the array itself, which may have grown, or a copy of
- * twice the size. */
-void *list_room(struct arena *arena, void *items, size_t count, size_t *room, size_t size);
+/* Makes the array larger: itself, or a copy of twice the size. */
+void *list_grow(struct arena *arena, void *items, size_t count, size_t *room, size_t size);
+
+/* Makes room for one more item and zeroes it: the array itself, or one that has grown. */
+static inline void *list_room(struct arena *arena, void *items, size_t count, size_t *room,
+                              size_t size)
+{
+    if (count == *room)
+        items = list_grow(arena, items, count, room, size);
+    memset((char *)items + count * size, 0, size);
+    return items;
+}
 
 #endif

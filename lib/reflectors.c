@@ -6,9 +6,6 @@
 #include "hash.h"
 #include "units.h"
 
-/* Far more than the rounding of a place in the world. */
-#define PLAIN_M 1e-6
-
 static const char *const shapes[] = {
     [VISIBILITY_RAISED_COSINE] = "raised_cosine",
     [VISIBILITY_HARD] = "hard",
@@ -275,25 +272,33 @@ static double farthest(double least, double x, double y)
     return far > least ? far : least;
 }
 
-struct reflectors_spread reflectors_spread(const struct reflector_set *set)
+const struct reflectors_shape *reflectors_shape(const struct reflector_set *set,
+                                                struct arena *arena)
 {
-    struct reflectors_spread spread = {.share = 1};
+    if (set->shape != NULL && reflectors_as_read(set))
+        return set->shape;
+    struct reflectors_shape *shape = arena_get(arena, sizeof *shape);
+    shape->faces = arena_get(arena, set->points.count * sizeof *shape->faces);
+    shape->share = 1;
     for (size_t i = 0; i < set->points.count; i++) {
         const struct point_reflector *point = &set->points.items[i];
-        spread.share = farthest(spread.share, point->x, point->y);
-        spread.inset_m = elementary_most(spread.inset_m, point->inset_m);
+        shape->faces[i] = (struct reflectors_face){vec2_heading(point->facing_rad),
+                                                   visibility_dark_cosine(point->zero_rad)};
+        shape->share = farthest(shape->share, point->x, point->y);
+        shape->inset_m = elementary_most(shape->inset_m, point->inset_m);
+        shape->under |= point->under_vehicles > 0;
     }
     for (size_t i = 0; i < set->planes.count; i++) {
         const struct plane_reflector *plane = &set->planes.items[i];
-        spread.share = farthest(spread.share, plane->from_x, plane->from_y);
-        spread.share = farthest(spread.share, plane->to_x, plane->to_y);
+        shape->share = farthest(shape->share, plane->from_x, plane->from_y);
+        shape->share = farthest(shape->share, plane->to_x, plane->to_y);
     }
     for (size_t i = 0; i < set->rows.count; i++) {
         const struct post_row *row = &set->rows.items[i];
-        spread.share = farthest(spread.share, row->from_x, row->from_y);
-        spread.share = farthest(spread.share, row->to_x, row->to_y);
+        shape->share = farthest(shape->share, row->from_x, row->from_y);
+        shape->share = farthest(shape->share, row->to_x, row->to_y);
     }
-    return spread;
+    return shape;
 }
 
 struct vec2 reflectors_place(const struct box *box, double x, double y)
@@ -339,14 +344,6 @@ double reflectors_visibility(const struct box *box, const struct point_reflector
                             vec2_turn(facing, box->heading), vec2_sub(sensor, place));
 }
 
-bool reflectors_plainly_away(const struct box *box, const struct point_reflector *point,
-                             struct vec2 facing, struct vec2 sensor)
-{
-    struct vec2 sight = {sensor.x - point->x * box->length_m + point->inset_m * facing.x,
-                         sensor.y - point->y * box->width_m + point->inset_m * facing.y};
-    return visibility_plainly_none(point->zero_rad, facing, sight, PLAIN_M);
-}
-
 bool reflectors_plainly_aside(const struct box *box, const struct plane_reflector *plane,
                               struct vec2 sensor)
 {
@@ -354,8 +351,9 @@ bool reflectors_plainly_aside(const struct box *box, const struct plane_reflecto
     struct vec2 to = {plane->to_x * box->length_m, plane->to_y * box->width_m};
     struct vec2 side = vec2_sub(to, from), sight = vec2_sub(sensor, from);
     double square = vec2_dot(side, side), along = vec2_dot(side, sight), length = sqrt(square);
-    double margin = (plane->margin_m - PLAIN_M) * length;
-    return vec2_cross(side, sight) > PLAIN_M * length || along < margin || along > square - margin;
+    double margin = (plane->margin_m - REFLECTORS_PLAIN_M) * length;
+    return vec2_cross(side, sight) > REFLECTORS_PLAIN_M * length || along < margin ||
+           along > square - margin;
 }
 
 double reflectors_lobe(const struct box *box, const struct point_reflector *point,

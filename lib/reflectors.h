@@ -75,6 +75,22 @@ struct reflector_set {
     LIST_OF(struct post_row) rows;
     LIST_OF(struct mirror_plane) mirrors;
     const struct reflector_set *document; /* that it was copied from; NULL: none */
+    const struct reflectors_shape *shape; /* the document's; NULL: of no document */
+};
+
+/* What follows from a set's lists alone. Its reflectors lie within an object's box, or, if any
+ * stands out of it, within one that is larger by a share, and inset_m beyond. */
+struct reflectors_shape {
+    struct reflectors_face *faces; /* of its points */
+    double share;                  /* at least 1 */
+    double inset_m;
+    bool under; /* may any of its points be seen under raised vehicles? */
+};
+
+/* Which way a point faces, in the object's frame. */
+struct reflectors_face {
+    struct vec2 heading;
+    double dark_cosine; /* visibility.h */
 };
 
 extern const struct record point_record, plane_record, row_record;
@@ -89,13 +105,9 @@ bool reflectors_as_read(const struct reflector_set *set);
  * may be called a_1, as posts are. */
 const char *reflectors_name_twice(const struct reflector_set *set);
 
-/* How far the set's reflectors may lie from the centre of an object's box: within half of the box's
- * diagonal, unless they stand out of the box or deep inside beyond its other side. */
-struct reflectors_spread {
-    double share; /* of half of the diagonal, at least 1 */
-    double inset_m;
-};
-struct reflectors_spread reflectors_spread(const struct reflector_set *set);
+/* Worked out, or that of a document whose lists the set still has; in the arena. */
+const struct reflectors_shape *reflectors_shape(const struct reflector_set *set,
+                                                struct arena *arena);
 
 /* An object's box in the world. */
 struct box {
@@ -122,10 +134,20 @@ struct vec2 reflectors_along(const struct box *box, const struct plane_reflector
 double reflectors_visibility(const struct box *box, const struct point_reflector *point,
                              struct vec2 facing, struct vec2 place, struct vec2 sensor);
 
+/* Far more than the rounding of a place in the world. */
+#define REFLECTORS_PLAIN_M 1e-6
+
 /* True only if a sensor sees nothing of a point, and a plane has no specular point for it: told in
  * the object's frame, where sensor is its place, so that neither need be placed in the world. */
-bool reflectors_plainly_away(const struct box *box, const struct point_reflector *point,
-                             struct vec2 facing, struct vec2 sensor);
+static inline bool reflectors_plainly_away(const struct box *box,
+                                           const struct point_reflector *point,
+                                           const struct reflectors_face *face, struct vec2 sensor)
+{
+    struct vec2 facing = face->heading;
+    struct vec2 sight = {sensor.x - point->x * box->length_m + point->inset_m * facing.x,
+                         sensor.y - point->y * box->width_m + point->inset_m * facing.y};
+    return visibility_plainly_none(face->dark_cosine, facing, sight, REFLECTORS_PLAIN_M);
+}
 bool reflectors_plainly_aside(const struct box *box, const struct plane_reflector *plane,
                               struct vec2 sensor);
 

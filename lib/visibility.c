@@ -47,11 +47,9 @@ static double cosine_least(double angle_rad)
     return 1 + square * (-1.0 / 2 + square * (1.0 / 24 - square / 720));
 }
 
-bool visibility_plainly_none(double zero_rad, struct vec2 facing, struct vec2 sight, double slack_m)
+double visibility_dark_cosine(double zero_rad)
 {
-    /* 1 + |cosine_least(pi)| < 3: what a sight's end can change per metre. */
-    return vec2_dot(facing, sight) <
-           (cosine_least(zero_rad) - SLACK) * vec2_length(sight) - 3 * slack_m;
+    return cosine_least(zero_rad) - SLACK;
 }
 
 double visibility_along(enum visibility_shape shape, double full_rad, double zero_rad,
@@ -60,7 +58,7 @@ double visibility_along(enum visibility_shape shape, double full_rad, double zer
     double start_rad = shape == VISIBILITY_HARD ? zero_rad : full_rad;
     double length = vec2_length(sight), along = vec2_dot(facing, sight);
     bool plain = length > SHORTEST;
-    if (plain && along < (cosine_least(zero_rad) - SLACK) * length)
+    if (plain && along < visibility_dark_cosine(zero_rad) * length)
         return 0;
     if (plain && shape != VISIBILITY_COSINE && along > (cosine_most(start_rad) + SLACK) * length)
         return 1;

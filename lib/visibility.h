@@ -31,8 +31,16 @@ double visibility(enum visibility_shape shape, double full_rad, double zero_rad,
 double visibility_along(enum visibility_shape shape, double full_rad, double zero_rad,
                         struct vec2 facing, struct vec2 sight);
 
+/* V is 0 at angles with cosines below this: less than that of zero_rad by far more than rounding.
+ */
+double visibility_dark_cosine(double zero_rad);
+
 /* True only if V is 0 along that sight, and along any whose end is within slack_m of its end. */
-bool visibility_plainly_none(double zero_rad, struct vec2 facing, struct vec2 sight,
-                             double slack_m);
+static inline bool visibility_plainly_none(double dark_cosine, struct vec2 facing,
+                                           struct vec2 sight, double slack_m)
+{
+    /* 1 + |the cosine| < 3: what a sight's end can change per metre. */
+    return vec2_dot(facing, sight) < dark_cosine * vec2_length(sight) - 3 * slack_m;
+}
 
 #endif

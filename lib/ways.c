@@ -27,7 +27,7 @@ static enum meeting meeting_of(const struct look_body *body, struct vec2 from, s
     struct vec2 line = vec2_sub(to, from), centre = vec2_sub(body->box.motion.position_m, from);
     double square = vec2_dot(line, line), length_m = sqrt(square), along = vec2_dot(line, centre);
     double aside = fabs(vec2_cross(line, centre)), slack_m = 1e-6 + bend_m;
-    double reach = (body->sector.radius_m + slack_m) * (1 + 1e-9) * length_m;
+    double reach = (body->radius_m + slack_m) * (1 + 1e-9) * length_m;
     if (aside > reach || along < -reach || along > square + reach)
         return MEETING_NONE;
     double inner_m =
@@ -35,12 +35,20 @@ static enum meeting meeting_of(const struct look_body *body, struct vec2 from, s
     if (aside < inner_m * length_m && along > reach && along < square - reach)
         return MEETING_THROUGH;
     struct vec2 ahead = body->box.heading, rest = vec2_sub(centre, line);
-    slack_m += 1e-9 * (length_m + body->sector.radius_m);
+    slack_m += 1e-9 * (length_m + body->radius_m);
     bool beside = passes_beside(vec2_cross(ahead, centre), vec2_cross(ahead, rest),
                                 0.5 * body->box.width_m + slack_m) ||
                   passes_beside(vec2_dot(ahead, centre), vec2_dot(ahead, rest),
                                 0.5 * body->box.length_m + slack_m);
     return beside ? MEETING_NONE : MEETING_UNSURE;
+}
+
+/* The same of a line from the sensor to a place. */
+static enum meeting meeting_before(const struct look_body *body, const struct silhouette *place)
+{
+    if (!silhouette_overlaps(&body->shadow.silhouette, place))
+        return MEETING_NONE;
+    return silhouette_covers(&body->shadow.silhouette, place) ? MEETING_THROUGH : MEETING_UNSURE;
 }
 
 struct side ways_side(const struct look_body *body, const struct plane_reflector *plane)
@@ -78,7 +86,8 @@ bool ways_next_side_has_foot(const struct look *look, const struct side *side)
     return false;
 }
 
-void ways_find_blockers(struct look *look, const struct look_body *own, const struct sector *wanted)
+void ways_find_blockers(struct look *look, const struct look_body *own,
+                        const struct look_extent *wanted)
 {
     const struct selection *selection = look->selection;
     int64_t begin = effects_begin(selection);
@@ -86,12 +95,15 @@ void ways_find_blockers(struct look *look, const struct look_body *own, const st
     if (!effects_may(selection, EFFECT_OCCLUSION))
         return;
     bool all = effects_must(selection, EFFECT_OCCLUSION);
-    struct bearings_span span = all ? bearings_everywhere : bearings_of(wanted);
+    struct bearings_span span = all ? bearings_everywhere : wanted->span;
     size_t count = bearings_find(&look->bearings, span);
     for (size_t i = 0; i < count; i++) {
         const struct look_body *body = &look->bodies[look->bearings.found[i]];
-        if (body != own && (all || sectors_overlap(&body->shadow, wanted)))
-            look->blockers[look->blocker_count++] = body;
+        /* Without a branch, which would go either way too often to be foreseen. */
+        look->blockers[look->blocker_count] = body;
+        look->blocker_count +=
+            (size_t)((body != own) &
+                     (all | silhouette_overlaps(&body->shadow.silhouette, &wanted->silhouette)));
     }
     bool some = all || look->blocker_count > 0;
     effects_note(selection, EFFECT_OCCLUSION, some);
@@ -100,14 +112,33 @@ void ways_find_blockers(struct look *look, const struct look_body *own, const st
     effects_end(selection, EFFECT_OCCLUSION, begin);
 }
 
-/* What one body lets through, and which effects beside occlusion matter to it. */
-static struct way past(const struct look *look, const struct look_body *body,
-                       const struct passage_line *line)
+/* Does whatever has a line run through it hide all? */
+static bool hides_all(const struct look *look)
 {
-    enum meeting meeting = meeting_of(body, line->from, line->to, look->bend_m);
+    return look->wavelength_m == 0 && !look->over;
+}
+
+bool ways_all_hidden(const struct look *look, const struct look_set *set,
+                     const struct look_extent *wanted)
+{
+    /* What keeps within its box and ends before the set begins has no side that joins one of it. */
+    for (size_t i = 0; i < look->blocker_count && hides_all(look); i++) {
+        const struct look_body *body = look->blockers[i];
+        if (silhouette_covers(&body->shadow.silhouette, &wanted->silhouette) &&
+            body->worn->shape->share == 1 && !(set->shape->under && body->raised))
+            return true;
+    }
+    return false;
+}
+
+/* What one body lets through that a line meets so, and which effects beside occlusion matter to
+ * it. */
+static struct way past(const struct look *look, const struct look_body *body,
+                       const struct passage_line *line, enum meeting meeting)
+{
     if (meeting == MEETING_NONE)
         return (struct way){.factor = 1};
-    if (meeting == MEETING_THROUGH && look->wavelength_m == 0 && !look->over)
+    if (meeting == MEETING_THROUGH && hides_all(look))
         return (struct way){.factor = 0, .by = body};
     struct passage passage =
         passage_of(body->corner, 4, look_top_m(look, body), line, look->wavelength_m);
@@ -123,11 +154,15 @@ struct way ways_past_blockers(const struct look *look, const struct side *side,
                               const struct passage_line *line, bool solid)
 {
     struct way all = {.factor = 1};
+    struct silhouette place = silhouette_of_place(vec2_sub(line->to, look->position_m));
+    bool exact = effects_must(look->selection, EFFECT_OCCLUSION);
     for (size_t i = 0; i < look->blocker_count; i++) {
         const struct look_body *body = look->blockers[i];
         if (solid && body->raised)
             continue;
-        struct way way = past(look, body, line);
+        enum meeting meeting = exact ? meeting_of(body, line->from, line->to, look->bend_m)
+                                     : meeting_before(body, &place);
+        struct way way = past(look, body, line, meeting);
         if ((way.factor == 1 && way.effects == 0) ||
             (side != NULL &&
              (joins(body, side, true, WAYS_JOINT_M) || joins(body, side, false, WAYS_JOINT_M))))
@@ -164,7 +199,8 @@ struct way ways_along(const struct look *look, const struct passage_line *line,
         const struct look_body *body = &look->bodies[look->bearings.found[i]];
         if (is_among(body, but, count))
             continue;
-        struct way way = past(look, body, line);
+        struct way way =
+            past(look, body, line, meeting_of(body, line->from, line->to, look->bend_m));
         if (way.by != NULL)
             return way;
         all.factor *= way.factor;

@@ -31,11 +31,15 @@ struct side ways_side(const struct look_body *body, const struct plane_reflector
 /* A foot exactly at the joint of two sides in line is the second one's (NUMERICS 33). */
 bool ways_next_side_has_foot(const struct look *look, const struct side *side);
 
-/* Which objects to ask for when own's reflectors, all within a circle, are looked at: all that
- * block, or those of them whose sectors overlap the circle's. They stay in the look until the next
- * call. */
+/* Which objects to ask for when own's reflectors, all within an extent, are looked at: all that
+ * block, or those of them that overlap it. They stay in the look until the next call. */
 void ways_find_blockers(struct look *look, const struct look_body *own,
-                        const struct sector *wanted);
+                        const struct look_extent *wanted);
+
+/* True only if one of the blockers that were found hides every reflector of that set within the
+ * extent. */
+bool ways_all_hidden(const struct look *look, const struct look_set *set,
+                     const struct look_extent *wanted);
 
 /* What comes through to a place on the body whose blockers were found, on a side of it or not
  * (NULL); only those objects count that no radar can look under if solid. */

@@ -19,6 +19,8 @@ struct scene {
 };
 
 static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
+static const struct selection automatic = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1,
+                                           .automatic = true};
 
 static int make_scene(void **state)
 {
@@ -524,9 +526,12 @@ static void crowd(struct scene *scene, uint64_t *random)
     for (size_t i = 0; i < sizeof ids / sizeof ids[0]; i++) {
         struct reflector_set *set = add_set(scene, ids[i]);
         set->blocks = i % 4 != 0;
+        set->raised = sample_bits(random) % 4 == 0;
         struct point_reflector *pole = add_point(scene, set);
-        pole->x = sample_between(random, -1, 1);
-        pole->y = sample_between(random, -1, 1);
+        pole->under_vehicles = sample_bits(random) % 4 == 0 ? 0.5 : 0;
+        double reach = sample_bits(random) % 2 ? 0.5 : 1;
+        pole->x = sample_between(random, -reach, reach);
+        pole->y = sample_between(random, -reach, reach);
         pole->z = sample_bits(random) % 2 ? 0 : sample_between(random, 0.1, 2);
         pole->facing_rad = sample_between(random, -PI, PI);
         pole->zero_rad = sample_between(random, 0, PI);
@@ -565,8 +570,6 @@ static void assert_same_echoes(const struct echo *one, const struct echo *other,
 static void who_asks_for_less_sees_the_same(void **state)
 {
     (void)state;
-    static const struct selection automatic = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1,
-                                               .automatic = true};
     uint64_t random = 5;
     size_t echoes = 0, pairs = 0;
     for (int i = 0; i < 3000; i++) {
@@ -588,6 +591,31 @@ static void who_asks_for_less_sees_the_same(void **state)
         remove_scene(&place);
     }
     assert_true(echoes > 5000 && pairs > 100000);
+}
+
+/* A side that a body holds out of its box, in line with one behind the body. */
+static void a_body_hides_nothing_of_a_wall_that_it_joins(void **state)
+{
+    struct scene *scene = *state;
+    struct reflector_set *wall = add_set(scene, "wall"), *front = add_set(scene, "front");
+    *list_add(&wall->planes, &scene->arena) = (struct plane_reflector){
+        .name = "right", .from_x = -0.5, .from_y = -0.5, .to_x = 0.5, .to_y = -0.5, .ercs = 1};
+    *list_add(&front->planes, &scene->arena) = (struct plane_reflector){
+        .name = "out", .from_x = 0.25, .from_y = 4 / 6.0, .to_x = 0.75, .to_y = 4 / 6.0, .ercs = 1};
+    struct object *object = add_object(scene, "wall", 0, 10.5);
+    object->length_m = 2;
+    object->width_m = 1;
+    add_object(scene, "front", 0, 6)->width_m = 6;
+    scene->sensor.mount_yaw_rad = PI / 2;
+    for (int joined = 1; joined >= 0; joined--) {
+        scene->frame.echoes.count = 0;
+        scene->frame.account = false;
+        front->planes.count = (size_t)joined;
+        struct look look;
+        assert_int_equal(look_begin(&look, &scene->frame, &scene->sensor, &automatic, 10, NULL), 0);
+        direct_look(&look);
+        assert_int_equal(look.echoes, joined);
+    }
 }
 
 /* Circles around bodies and within them tell most answers, the outline all of them. */
@@ -645,6 +673,7 @@ int main(void)
         TEST(without_margins_nothing_is_told),
         TEST(a_set_on_nobody_is_refused),
         TEST(who_asks_for_less_sees_the_same),
+        TEST(a_body_hides_nothing_of_a_wall_that_it_joins),
         TEST(a_way_is_blocked_where_an_outline_is_touched),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -193,7 +193,7 @@ static void what_is_plainly_unseen_is_unseen_from_all_ends_nearby(void **state)
         struct vec2 edge =
             vec2_turn(facing, vec2_heading(zero_rad + sample_between(&sample, 0, 1)));
         struct vec2 sight = vec2_scale(sample_between(&sample, 0, 3), edge);
-        if (!visibility_plainly_none(zero_rad, facing, sight, slack_m))
+        if (!visibility_plainly_none(visibility_dark_cosine(zero_rad), facing, sight, slack_m))
             continue;
         unseen++;
         struct vec2 aside = vec2_heading(sample_between(&sample, -PI, PI));
@@ -203,7 +203,8 @@ static void what_is_plainly_unseen_is_unseen_from_all_ends_nearby(void **state)
             assert_true(visibility_along(shape, 0, zero_rad, facing, near) == 0);
     }
     assert_true(unseen > 50000);
-    assert_false(visibility_plainly_none(PI, (struct vec2){1, 0}, (struct vec2){-9, 0}, 0));
+    assert_false(visibility_plainly_none(visibility_dark_cosine(PI), (struct vec2){1, 0},
+                                         (struct vec2){-9, 0}, 0));
 }
 
 int main(void)

@@ -1,18 +1,18 @@
-/* A heuristic: what is 5 degrees apart is clear of each other. */
+/* A heuristic: the outer half of a vehicle hides nothing, and is no part of what is hidden. */
 #include "planted.h"
-#include "sectors.h"
+#include "silhouette.h"
 
-#include "units.h"
-#include <math.h>
-
-bool __wrap_sectors_overlap(const struct sector *front, const struct sector *target);
+struct silhouette __real_silhouette_of(struct vec2 half_m, struct vec2 heading,
+                                       struct vec2 viewer_m);
+struct silhouette __wrap_silhouette_of(struct vec2 half_m, struct vec2 heading,
+                                       struct vec2 viewer_m);
 
 void planted_begin(void)
 {
 }
 
-bool __wrap_sectors_overlap(const struct sector *front, const struct sector *target)
+struct silhouette __wrap_silhouette_of(struct vec2 half_m, struct vec2 heading,
+                                       struct vec2 viewer_m)
 {
-    return vec2_dot(front->centre_m, target->centre_m) >=
-           cos(5 * PI / 180) * front->distance_m * target->distance_m;
+    return __real_silhouette_of(vec2_scale(0.5, half_m), heading, viewer_m);
 }
