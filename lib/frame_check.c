@@ -9,8 +9,7 @@ static int check_objects(struct frame *frame, struct diag *diag)
     struct object *const *object = frame_order_objects(frame);
     for (size_t i = 1; i < frame->objects.count; i++)
         if (frame_same_name(object[i - 1]->id, object[i]->id))
-            return diag_fail(diag, DIAG_DATA, "objects: the id \"%s\" stands twice",
-                             object[i]->id);
+            return diag_fail(diag, DIAG_DATA, "objects: the id \"%s\" stands twice", object[i]->id);
     if (frame_object(frame, frame->ego) == NULL)
         return diag_fail(diag, DIAG_DATA, "ego: \"%s\" is not among the objects", frame->ego);
     return 0;

@@ -254,8 +254,8 @@ int runner_extract(struct runner *runner, struct frame *frame,
     for (size_t i = 0; i < frame->objects.count; i++) {
         const struct vehicle *vehicle = runner_vehicle(runner, object[i]->class);
         if (vehicle == NULL)
-            return diag_prefix(&runner->diag, "objects[%zu].class: ",
-                               (size_t)(object[i] - frame->objects.items));
+            return diag_prefix(&runner->diag,
+                               "objects[%zu].class: ", (size_t)(object[i] - frame->objects.items));
         complete_size(object[i], vehicle);
         if (!frame_same_name(object[i]->id, frame->ego))
             of[i] = vehicle;
