@@ -1,4 +1,5 @@
 """The diagrams of scripts/accuracy-cost, by gnuplot."""
+import math
 import os
 import subprocess
 import textwrap
@@ -21,6 +22,24 @@ def block(name, rows, x, y, least=0):
     return f"${name} << END\n{text}\nEND\n"
 
 
+def labels(rows, x, y, near, least=0):
+    """One row, with all their names, for points that lie nearer than such a part of both axes,
+    which are a decade long at least."""
+    def place(row):
+        return math.log10(row[x]), math.log10(max(row[y], least))
+
+    axes = [max(max(values) - min(values), 1) for values in zip(*map(place, rows))]
+    found = []
+    for row in rows:
+        for other in found:
+            if all(abs(a - b) < near * axis for a, b, axis in zip(place(row), place(other), axes)):
+                other["way"] += ", " + row["way"]
+                break
+        else:
+            found.append(dict(row))
+    return found
+
+
 def wrapped(text, width):
     return r"\n".join(textwrap.wrap("Pick: " + text, width))
 
@@ -38,9 +57,10 @@ def models_panel(rows, radar, legend):
               "main": [row for row in own if row not in effects] + [floor | {"way": "signal, large"}],
               "contour": [row for row in contour if not scores.single(row)],
               "best": [best | {"way": best["way"].replace("paper ", "")}]}
+    series["label"] = labels(series["main"], "cpu_us", "gospa", 0.03)
     plots = [f'{floor["gospa"]} with lines dt 2 lc rgb "{INK}" {title("floor: that signal against itself")}']
     plots += [f"${name}_{radar} using 1:2 {look} {title(text)}" for name, look, text in MODELS]
-    plots += [f'$main_{radar} using 1:2:3 with labels left rotate by 25 offset 0.7, 0.4 font ",10" notitle',
+    plots += [f'$label_{radar} using 1:2:3 with labels left rotate by 25 offset 0.7, 0.4 font ",10" notitle',
               f'$best_{radar} using 1:2:3 with labels right offset -0.8, 0 font ",9" tc rgb "{GREY}" notitle']
     return [block(f"{name}_{radar}", of, "cpu_us", "gospa") for name, of in series.items()], f"""
 set title "{radar.capitalize()} range"
@@ -52,7 +72,7 @@ def models(rows):
     panels = [models_panel(rows, radar, radar == "long") for radar in ("long", "short")]
     parts = [f"set origin {0.5 * number}, 0; set size 0.5, 1{commands}" for number, (_, commands) in enumerate(panels)]
     return "".join(text for blocks, _ in panels for text in blocks) + """set multiplot
-set border 3; set tics nomirror out; set logscale xy; set xrange [30:3e6]; set yrange [0.8:16]; set bmargin 9
+set border 3; set tics nomirror out; set logscale xy; set xrange [2:1e6]; set yrange [0.8:16]; set bmargin 9
 set ytics (1, 1.5, 2, 3, 4, 5, 7, 10); set format x "10^{%L}"; set key top right samplen 1.5 font ",10"
 set xlabel "CPU time per frame, µs"; set ylabel "GOSPA, cells"
 """ + "\n".join([*parts, "unset multiplot\n"])
@@ -69,9 +89,12 @@ def knob_panel(rows, ladder, x, y, texts, more="", line="linespoints", least=LEA
     plots = [f'${name} using 1:2 with {line} pt 7 ps 0.7 lc rgb "{colour}" '
              + (f'title "{radar} range"' if radar else "notitle")
              for name, radar, colour in zip(names, radars, (BLUE, ORANGE))]
-    plots += [f'${name} using 1:2:3 with labels left offset 0.6, 0.4 font ",9" notitle' for name in names]
+    shown = [labels(pick(own, radar=radar), x, y, 0.08, least) for radar in radars]
+    blocks += [block(f"label_{name}", of, x, y, least) for name, of in zip(names, shown)]
+    plots += [f'$label_{name} using 1:2:3 with labels left rotate by 25 offset 0.6, 0.4 font ",9" notitle'
+              for name in names]
     return blocks, f"""
-set title "{title}"; set xlabel "{xlabel}"; set ylabel "{ylabel}"; set autoscale; {more}
+set title "{title}"; set xlabel "{xlabel}"; set ylabel "{ylabel}"; set autoscale; set key top right; {more}
 set label 1 "{wrapped(choice, 44)}" at graph 0, -0.36 font ",10"
 plot {", ".join(plots)}"""
 
@@ -95,10 +118,11 @@ def knobs(rows):
                    "set yrange [0.8:10]"),
         knob_panel(rows, "digits", "bytes", "gospa",
                    ("Digits from stage to stage", "bytes written per frame", "GOSPA from all digits, cells",
-                    "all; phases of 77 GHz turn within a millimetre, and digits save little room"), exact),
+                    "all; phases of 77 GHz turn within a millimetre, and digits save little room"),
+                   exact + "; set key center"),
         knob_panel(rows, "plumbing", "cpu_us", "bytes",
                    ("Plumbing: the same targets", FRAME, "bytes written per frame",
-                    "one process; .gz of its output where room counts"), "set yrange [1e3:3e5]", "points"),
+                    "one process; .gz of its output where room counts"), "set yrange [300:3e5]; set key top left", "points"),
     ]
     parts = [f"set origin {number % 3 / 3}, {0.5 - 0.5 * (number // 3)}; set size 0.33, 0.5{commands}"
              for number, (_, commands) in enumerate(panels)]
