@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-
 /* Fine slices part a crowd that stands far off; of few, four slices share a set. */
 enum { SLICES = 1024, FEW = 64, SHIFT_OF_FEW = 2 };
 

@@ -15,14 +15,21 @@ static int check_objects(struct frame *frame, struct diag *diag)
     return 0;
 }
 
+static const char *worn_twice(const struct reflector_set *set)
+{
+    for (size_t i = 1; i < set->worn_by.count; i++)
+        if (frame_same_name(set->worn_by.items[i - 1], set->worn_by.items[i]))
+            return set->worn_by.items[i];
+    return NULL;
+}
+
 static int check_sets(const struct frame *frame, struct diag *diag)
 {
     for (size_t i = 0; i < frame->reflectors.count; i++) {
         const struct reflector_set *set = &frame->reflectors.items[i];
         const char *twice = reflectors_as_read(set) ? NULL : reflectors_name_twice(set);
-        for (size_t j = 1; j < set->worn_by.count && twice == NULL; j++)
-            if (frame_same_name(set->worn_by.items[j - 1], set->worn_by.items[j]))
-                twice = set->worn_by.items[j];
+        if (twice == NULL)
+            twice = worn_twice(set);
         if (twice != NULL)
             return diag_fail(diag, DIAG_DATA, "reflectors[%zu]: \"%s\" stands twice", i, twice);
     }
