@@ -413,11 +413,10 @@ struct field_names *frame_names(struct frame *frame)
 
 void frame_clear(struct frame *frame)
 {
-    struct arena *arena = frame->arena;
-    struct frame before = *frame;
-    arena_clear(arena);
+    const struct frame before = *frame;
+    arena_clear(before.arena);
     field_clear(&frame_record, frame);
-    frame->arena = arena;
+    frame->arena = before.arena;
     frame->repeats = before.repeats;
     frame->kept = before.kept;
     memcpy(&frame->ranking, &before.ranking, sizeof before.ranking);

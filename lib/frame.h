@@ -256,7 +256,7 @@ static inline bool frame_same_name(const char *a, const char *b)
 /* For field_good: a name in a frame stays as it is. */
 struct field_names *frame_names(struct frame *frame);
 
-/* Back to an empty frame that keeps its arena's room. */
+/* Back to an empty frame that keeps its arena's room, and what stays from frame to frame. */
 void frame_clear(struct frame *frame);
 
 /* The name of a section, for messages. */

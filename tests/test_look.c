@@ -535,7 +535,7 @@ static void crowd(struct scene *scene, uint64_t *random)
         pole->z = sample_bits(random) % 2 ? 0 : sample_between(random, 0.1, 2);
         pole->facing_rad = sample_between(random, -PI, PI);
         pole->zero_rad = sample_between(random, 0, PI);
-        pole->inset_m = i % 3 == 0 ? sample_between(random, 0, 1) : 0;
+        pole->inset_m = i % 3 == 0 ? sample_between(random, 0, 8) : 0;
         *list_add(&set->planes, &scene->arena) =
             (struct plane_reflector){.name = "side",
                                      .from_x = 0.5,
