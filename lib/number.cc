@@ -9,6 +9,10 @@
 #include <locale.h>
 #include <stdlib.h>
 
+extern "C" {
+#include "text.h"
+}
+
 namespace {
 
 // From here to there the shortest text is never the one with an exponent.
@@ -169,15 +173,6 @@ char *put_shortest(uint64_t mantissa, int scale, char *text)
     return text + 2 - whole + count;
 }
 
-// Eight bytes as a number, the first one lowest, on every machine.
-uint64_t word_of(const char *text)
-{
-    const unsigned char *byte = reinterpret_cast<const unsigned char *>(text);
-    return uint64_t(byte[0]) | uint64_t(byte[1]) << 8 | uint64_t(byte[2]) << 16 |
-           uint64_t(byte[3]) << 24 | uint64_t(byte[4]) << 32 | uint64_t(byte[5]) << 40 |
-           uint64_t(byte[6]) << 48 | uint64_t(byte[7]) << 56;
-}
-
 bool is_digit(char character)
 {
     return unsigned(character - '0') < 10;
@@ -222,7 +217,7 @@ uint64_t quotient_of(uint64_t digits, int places)
 // Appends the digits from here on, eight at most, to a number; how many they are.
 inline int take_eight(const char *at, uint64_t *digits)
 {
-    const uint64_t word = word_of(at);
+    const uint64_t word = text_word(at);
     const int count = digits_in(word), half = 4 * (8 - count); // of the shift that leaves just them
     *digits = *digits * WHOLE_TENS[count] + eight_digits(word << half << half);
     return count;
