@@ -213,10 +213,11 @@ const struct record reflector_worn_record = {
 
 bool reflectors_as_read(const struct reflector_set *set)
 {
-    const struct reflector_set *read = set->document;
-#define SAME(list) (set->list.items == read->list.items && set->list.count == read->list.count)
-    return read != NULL && SAME(points) && SAME(planes) && SAME(rows) && SAME(mirrors);
-#undef SAME
+    const struct record *record = &reflector_set_record;
+    for (const struct field *field = record->fields; field->name != NULL; field++)
+        if (field->steady && !field_as_read(record, field, set))
+            return false;
+    return true;
 }
 
 static const char *name_at(const struct reflector_set *set, size_t index)
