@@ -28,8 +28,9 @@ WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes \
 # Contraction would let a compiler round a*b+c once instead of twice, and so change results.
 # gcc 12's vectorizer does it all the same where a subtraction and an addition stand side by side.
 EXACT = -ffp-contract=off -fno-fast-math -fno-tree-vectorize -fno-tree-slp-vectorize
-HOUSE_C = -std=c11 -D_XOPEN_SOURCE=700 $(EXACT) $(WARNINGS) -Ilib -MMD -MP $(SANITIZE)
-HOUSE_CXX = -std=c++17 -fno-rtti $(EXACT) -Wall -Wextra -Ilib -MMD -MP $(SANITIZE)
+rooms = $(addprefix -iquote ,$(patsubst %/,%,$(wildcard lib/*/)))
+HOUSE_C = -std=c11 -D_XOPEN_SOURCE=700 $(EXACT) $(WARNINGS) -iquote lib $(rooms) -MMD -MP $(SANITIZE)
+HOUSE_CXX = -std=c++17 -fno-rtti $(EXACT) -Wall -Wextra -iquote lib $(rooms) -MMD -MP $(SANITIZE)
 # number.cc is the only C++ in it; its library is linked in, so that nobody needs it at run time.
 LINK = $(CXX) -static-libstdc++ -static-libgcc $(SANITIZE) $(LDFLAGS)
 LIBS = -ljansson -lcsv -lz -lm
@@ -46,10 +47,10 @@ flags_of = $(if $(call needs,stages/$(1).c),$(shell pkg-config --cflags $(call n
 libs_of = $(if $(call needs,stages/$(1).c),$(shell pkg-config --libs $(call needs,stages/$(1).c)))
 stage_libs := $(foreach s,$(stages),$(call libs_of,$(s)))
 
-lib_objects := $(patsubst lib/%,$(BUILD)/lib/%.o,$(wildcard lib/*.c lib/*.cc)) $(BUILD)/lib/view_page.o
+lib_objects := $(patsubst lib/%,$(BUILD)/lib/%.o,$(wildcard lib/*.c lib/*/*.c lib/*/*.cc lib/*.cc)) $(BUILD)/lib/view_page.o
 stage_objects := $(patsubst %,$(BUILD)/stages/%.o,$(stages))
 tools := $(foreach s,$(stages),$(BUILD)/bin/glint-$(subst _,-,$(s))) $(BUILD)/bin/glint
-tests := $(patsubst tests/test_%.c,$(BUILD)/tests/test_%,$(wildcard tests/test_*.c))
+tests := $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/test_*.c tests/*/test_*.c tests/unit/*/test_*.c))
 hard_tests := $(patsubst tests/hard/%.c,$(BUILD)/tests/hard/%,$(wildcard tests/hard/*.c))
 soundness_tests := $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/soundness/planted_*.c))
 
@@ -64,10 +65,11 @@ $(BUILD)/lib/%.cc.o: lib/%.cc
 	$(Q)$(CXX) $(HOUSE_CXX) $(CXXFLAGS) -c -o $@ $<
 
 # The page of glint-view: its parts joined, where page.html names them, and embedded as bytes.
-view_parts = $(addprefix stages/view/,$(shell sed -n 's/^@\(.*\.[a-z]*\)@$$/\1/p' stages/view/page.html))
-$(BUILD)/view_page.html: stages/view/page.html $(view_parts)
+page = $(firstword $(wildcard lib/view/page stages/view))
+view_parts = $(addprefix $(page)/,$(shell sed -n 's/^@\(.*\.[a-z]*\)@$$/\1/p' $(page)/page.html))
+$(BUILD)/view_page.html: $(page)/page.html $(view_parts)
 	@mkdir -p $(@D)
-	$(Q)awk '/^@.*\.(css|js)@$$/ { part = "stages/view/" substr($$0, 2, length($$0) - 2); \
+	$(Q)awk '/^@.*\.(css|js)@$$/ { part = "$(page)/" substr($$0, 2, length($$0) - 2); \
 	    while ((getline line < part) > 0) print line; close(part); next } { print }' $< >$@
 
 $(BUILD)/view_page.c: $(BUILD)/view_page.html
@@ -126,9 +128,9 @@ $(BUILD)/bin/glint: $(BUILD)/main/glint.o $(BUILD)/registry.o $(stage_objects) $
 
 $(BUILD)/tests/%.o: tests/%.c
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(HOUSE_C) -Itests $(CFLAGS) -c -o $@ $<
+	$(Q)$(CC) $(HOUSE_C) -iquote tests -iquote tests/support $(CFLAGS) -c -o $@ $<
 
-$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
+$(tests): %: %.o $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS) -lcmocka
 
 $(BUILD)/tests/hard/%: $(BUILD)/tests/hard/%.o $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
@@ -153,10 +155,10 @@ $(BUILD)/tests/speed/same_heap.so: tests/speed/same_heap.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -shared -fPIC -o $@ $< -ljansson
 
-$(BUILD)/tests/test_compare: $(BUILD)/tests/soundness/compare.o
+$(filter %/test_compare,$(tests)): $(BUILD)/tests/soundness/compare.o
 
 # The reference of this one test alone.
-$(BUILD)/tests/test_elementary: LIBS += -lmpfr -lgmp
+$(filter %/test_elementary,$(tests)): LIBS += -lmpfr -lgmp
 
 # A program that fails shows what failed; all the others run on.
 %.ran: % FORCE
@@ -186,11 +188,11 @@ schemas: all
 	    $(BUILD)/bin/glint --schema $$s >schemas/$$s.json || exit 1; done
 
 format:
-	clang-format -i $(wildcard lib/*.[ch] stages/*.c tests/*.[ch] tests/*/*.[ch])
+	clang-format -i $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.c tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
 
 lint:
-	clang-format --dry-run --Werror $(wildcard lib/*.[ch] stages/*.c tests/*.[ch] tests/*/*.[ch])
-	clang-tidy --quiet $(wildcard lib/*.c stages/*.c) -- -std=c11 -D_XOPEN_SOURCE=700 -Ilib
+	clang-format --dry-run --Werror $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.c tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
+	clang-tidy --quiet $(wildcard lib/*.c lib/*/*.c stages/*.c) -- -std=c11 -D_XOPEN_SOURCE=700 -iquote lib $(rooms)
 
 # Man pages are made from --help, by help2man; SOURCE_DATE_EPOCH makes them reproducible.
 man: all
@@ -213,6 +215,6 @@ clean:
 
 FORCE:
 .PHONY: all unit hard soundness check bench accuracy schemas format lint man install clean FORCE
-.PRECIOUS: $(BUILD)/main/%.o $(BUILD)/tests/%.o $(BUILD)/tests/test_% $(BUILD)/tests/hard/%
+.PRECIOUS: $(BUILD)/main/%.o $(BUILD)/tests/%.o $(tests) $(BUILD)/tests/hard/%
 
--include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*.d)
+-include $(wildcard $(BUILD)/*.d $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d)
