@@ -65,7 +65,7 @@ $(BUILD)/lib/%.cc.o: lib/%.cc
 	$(Q)$(CXX) $(HOUSE_CXX) $(CXXFLAGS) -c -o $@ $<
 
 # The page of glint-view: its parts joined, where page.html names them, and embedded as bytes.
-page = $(firstword $(wildcard lib/view/page stages/view))
+page = lib/view/page
 view_parts = $(addprefix $(page)/,$(shell sed -n 's/^@\(.*\.[a-z]*\)@$$/\1/p' $(page)/page.html))
 $(BUILD)/view_page.html: $(page)/page.html $(view_parts)
 	@mkdir -p $(@D)

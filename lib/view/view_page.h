@@ -1,4 +1,4 @@
-/* The page of glint-view: stages/view/ joined into one file and embedded by the Makefile. Two
+/* The page of glint-view: lib/view/page/ joined into one file and embedded by the Makefile. Two
  * lines of it are marks, in this order, to be replaced by what view_data.h writes. */
 #ifndef VIEW_PAGE_H
 #define VIEW_PAGE_H

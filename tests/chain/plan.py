@@ -1,6 +1,6 @@
 """What glint-plan prints, run: the targets of the whole chain, from what it left.
 
-Usage: python3 tests/plan.py BIN_DIR
+Usage: python3 tests/chain/plan.py BIN_DIR
 
 For every pipeline's stream, and for suites that spare a stage: the printed pipeline, run in bash and
 fused, gives the bytes that all effects and all stages give, but for the request in `sensors`.
@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 REQUEST = re.compile(rb'"effects":"[^"]*"')
 QUIET = {"pointer_sigma": 0, "range_sigma_m": 0, "range_rate_sigma_mps": 0, "final_threshold": False,
          "list_limit": 250}

@@ -1,6 +1,6 @@
 """Properties of the whole chain, tested through the executables.
 
-Usage: python3 tests/properties.py BIN_DIR
+Usage: python3 tests/chain/properties.py BIN_DIR
 
 One line per property. Set GLINT_TEST_DATA to a folder with csv/us101_interaction.csv to send a
 recording through the chain too.
@@ -20,7 +20,7 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 BIN = os.path.abspath(sys.argv[1]) if len(sys.argv) == 2 else sys.exit(__doc__)
 ENV = dict(os.environ, PATH=BIN + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
 PIPELINES = sorted(glob.glob(ROOT + "/pipelines/*.sh"))

@@ -1,6 +1,6 @@
 """glint-score and glint-score-tracks against an independent computation.
 
-Usage: python3 tests/score.py BIN_DIR        exit status 1 if any check fails
+Usage: python3 tests/chain/score.py BIN_DIR        exit status 1 if any check fails
 
 Lists of random scenes, noise-free and noisy, are compared here by trying every assignment (with
 what is best for the rest of a list remembered), distances and statistics from their definitions:
@@ -17,7 +17,7 @@ import sys
 import tempfile
 from fractions import Fraction
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 COMPONENTS = ["range_m", "azimuth_rad", "range_rate_mps", "amplitude_db"]
 MOST = 11  # targets a side that trying all is good for
 checks = failures = 0

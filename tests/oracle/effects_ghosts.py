@@ -1,6 +1,6 @@
 """Mirror ghosts through the executables, against EFFECTS 7 and closed forms.
 
-Usage: python3 tests/effects_ghosts.py BIN_DIR
+Usage: python3 tests/oracle/effects_ghosts.py BIN_DIR
 
 Exit status 1 if any check fails.
 """

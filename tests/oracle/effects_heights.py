@@ -1,6 +1,6 @@
 """Effects of the ideal list: elevation, height, diffraction, curvature and latency.
 
-Usage: python3 tests/effects_heights.py BIN_DIR        exit status 1 if any check fails
+Usage: python3 tests/oracle/effects_heights.py BIN_DIR        exit status 1 if any check fails
 
 The figures are those printed in EFFECTS 15, 16, 17 and 19, or closed forms.
 """
@@ -23,7 +23,7 @@ def point(**changes):
 
 
 def vehicle(points=(), planes=(), blocks=False, raised=False, height=1.0):
-    return {"origin": "Made by tests/effects_heights.py.", "length_m": 1, "width_m": 1, "height_m": height,
+    return {"origin": "Made by tests/oracle/effects_heights.py.", "length_m": 1, "width_m": 1, "height_m": height,
             "reflectors": {"blocks": blocks, "raised": raised, "points": list(points), "planes": list(planes)}}
 
 

@@ -1,6 +1,6 @@
 """The effects at home in noise, through the executables, against closed forms and published values.
 
-Usage: python3 tests/effects_noise.py BIN_DIR
+Usage: python3 tests/oracle/effects_noise.py BIN_DIR
 
 Exit status 1 if any check fails. Statistics are of fixed seeds, held to five standard errors or to
 three per cent.

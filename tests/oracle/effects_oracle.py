@@ -1,6 +1,6 @@
 """The effects beyond the paper on random scenes, against an independent computation (oracle_effects.py).
 
-Usage: python3 tests/effects_oracle.py BIN_DIR [FRAMES]
+Usage: python3 tests/oracle/effects_oracle.py BIN_DIR [FRAMES]
 
 FRAMES (6) of every density with every suite below; half of them with a road, rain, fog and other radars. Exit status 1 if
 any check fails.

@@ -1,6 +1,6 @@
 """The effects of reception, through the executables, against closed forms and published values.
 
-Usage: python3 tests/effects_reception.py BIN_DIR
+Usage: python3 tests/oracle/effects_reception.py BIN_DIR
 
 Fluctuation, rain and fog, ambiguity, interference and coherence. Exit status 1 if any check fails.
 Statistics are of fixed seeds, held to five standard errors.

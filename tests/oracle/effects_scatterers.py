@@ -1,6 +1,6 @@
 """The road as a mirror, wheels, limbs and clutter through the executables, against EFFECTS 6, 8, 9 and 18.
 
-Usage: python3 tests/effects_scatterers.py BIN_DIR        exit status 1 if any check fails
+Usage: python3 tests/oracle/effects_scatterers.py BIN_DIR        exit status 1 if any check fails
 
 Statistics are of fixed seeds, held to five standard errors.
 """
@@ -29,7 +29,7 @@ def flat(**changes):
 
 
 def vehicle(*points, height=1.0, **reflectors):
-    return {"origin": "Made by tests/effects_scatterers.py.", "length_m": 0.1, "width_m": 0.1, "height_m": height,
+    return {"origin": "Made by tests/oracle/effects_scatterers.py.", "length_m": 0.1, "width_m": 0.1, "height_m": height,
             "reflectors": {"points": list(points), **reflectors}}
 
 

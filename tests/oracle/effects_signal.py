@@ -1,6 +1,6 @@
 """glint-sensor-signal, through the executables, against closed forms and against the two stages that it replaces.
 
-Usage: python3 tests/effects_signal.py BIN_DIR
+Usage: python3 tests/oracle/effects_signal.py BIN_DIR
 
 Exit status 1 if any check fails; 0 with a word if the build has no such stage. Statistics are of fixed seeds.
 """
@@ -221,7 +221,7 @@ def lost(bench):
     """Too weak; beside something strong; and nothing twice: the account is audited in every run."""
     weak = [post("strong", 10.0), post("hidden", 10.0, 1.0), post("weak", 30.0)]
     weak[1].update({"class": "faint", "x_m": 12.2})
-    bench.add_vehicle("faint", {"origin": "Made by tests/effects_signal.py.", "length_m": 1, "width_m": 1, "height_m": 1,
+    bench.add_vehicle("faint", {"origin": "Made by tests/oracle/effects_signal.py.", "length_m": 1, "width_m": 1, "height_m": 1,
                                 "reflectors": {"points": [model.everywhere("centre", 0.01)]}})
     out = run(bench, frames_of(weak, 1), [quiet(amplitude=1000.0 / 40)])
     reasons = {one["object"]: group["reason"] for group in out[0]["lost"] if group["stage"] == "sensor-signal"
@@ -235,7 +235,7 @@ def lost(bench):
 
 def shipped(bench):
     """Every shipped suite with a signal: fused, piped and in pieces the same bytes."""
-    root = Path(__file__).resolve().parent.parent
+    root = Path(__file__).resolve().parents[2]
     for suite in sorted((root / "data/sensors").glob("*-signal*.json")):
         source = f"glint-traffic {root}/data/scenarios/cut-in.json | glint-extract | glint-ideal --sensors {suite} --account"
         frames = 2 if "large" in suite.stem else 12

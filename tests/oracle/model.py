@@ -1,6 +1,6 @@
 """Run the executables against MODEL's printed figures and against the independent oracle.
 
-Usage: python3 tests/model.py BIN_DIR        exit status 1 if any check fails
+Usage: python3 tests/oracle/model.py BIN_DIR        exit status 1 if any check fails
 """
 
 import itertools
@@ -16,7 +16,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 import oracle  # noqa: E402
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 TAU = math.tau
 RELATIVE = ABSOLUTE = 1e-9
 FAINT = 1e-12  # near V = 0 and near +-90 degrees rounding of the angle alone moves cross sections and weights
@@ -123,7 +123,7 @@ def sensor(name="radar", **changes):
 
 
 def suite_of(*sensors):
-    return {"origin": "Made by tests/model.py.", "sensors": list(sensors)}
+    return {"origin": "Made by tests/oracle/model.py.", "sensors": list(sensors)}
 
 
 def thing(name, kind, x, y, yaw=0.0, velocity=(0.0, 0.0), turn=0.0, length=0.0, width=0.0):
@@ -160,7 +160,7 @@ def everywhere(name, ercs=0.5, **rest):
 
 
 def vehicle(length, width, **reflectors):
-    return {"origin": "Made by tests/model.py.", "length_m": length, "width_m": width, "height_m": 1,
+    return {"origin": "Made by tests/oracle/model.py.", "length_m": length, "width_m": width, "height_m": 1,
             "reflectors": reflectors}
 
 

@@ -1,6 +1,6 @@
 """Random scenes: what glint-traffic-random makes, sent through the chain and held to the oracle.
 
-Usage: python3 tests/random_scenes.py BIN_DIR [FRAMES]
+Usage: python3 tests/oracle/random_scenes.py BIN_DIR [FRAMES]
 
 FRAMES (2000) of every density go through every suite with --account. Exit status 1 if any check
 fails.
