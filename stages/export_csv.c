@@ -5,7 +5,7 @@
 
 #include "number.h"
 #include "stage.h"
-#include "table.h"
+#include "csv_table.h"
 
 struct export_csv {
     bool begun; /* is the header out? */
@@ -34,7 +34,7 @@ static void add(struct row *row, const char *bytes, size_t length)
 static void add_word(struct row *row, const char *word)
 {
     char cell[CELL_ROOM];
-    add(row, cell, table_quote(word, cell, sizeof cell));
+    add(row, cell, csv_table_quote(word, cell, sizeof cell));
 }
 
 static void add_real(struct row *row, double value)

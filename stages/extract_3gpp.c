@@ -6,8 +6,8 @@ static void describe(const void *state, const struct vehicle *vehicle, struct re
                      struct arena *arena)
 {
     (void)state;
-    if (vehicle->sensing_target != SENSING_TARGET_NONE)
-        sensing_target_describe(vehicle->sensing_target, set, arena);
+    if (vehicle->sensing_target != SENSING_TARGET_3GPP_NONE)
+        sensing_target_3gpp_describe(vehicle->sensing_target, set, arena);
 }
 
 static int extract_3gpp_step(void *state, struct frame *frame, struct runner *runner)

@@ -1,8 +1,8 @@
 /* The ideal target list: exact range, azimuth, range rate and cross section of every reflector that
  * a sensor sees (MODEL 2.2 to 2.5, 5). */
-#include "cycle.h"
-#include "direct.h"
-#include "ghosts.h"
+#include "scan_timing.h"
+#include "direct_echoes.h"
+#include "ghost_echoes.h"
 #include "look.h"
 #include "stage.h"
 
@@ -59,23 +59,23 @@ static int ideal_step(void *state, struct frame *frame, struct runner *runner)
     for (size_t i = 0; i < suite->sensors.count; i++) {
         const struct sensor *sensor = &suite->sensors.items[i];
         double instant_s = 0;
-        enum cycle_answer answer =
-            cycle_instant_s(sensor->cycle_s, frame->time_s, frame->interval_s, &instant_s);
-        if (answer == CYCLE_SEVERAL)
+        enum scan_timing_answer answer =
+            scan_timing_instant_s(sensor->cycle_s, frame->time_s, frame->interval_s, &instant_s);
+        if (answer == SCAN_TIMING_SEVERAL)
             return diag_fail(
                 runner_diag(runner), DIAG_DATA,
                 "sensor \"%s\" measures every %g s, more than once in a frame of %g s; "
                 "raise the frame rate",
                 sensor->name, sensor->cycle_s, frame->interval_s);
-        *list_add(&frame->sensors.list, frame->arena) = view_of(sensor, answer == CYCLE_ONE);
-        if (answer == CYCLE_NONE)
+        *list_add(&frame->sensors.list, frame->arena) = view_of(sensor, answer == SCAN_TIMING_ONE);
+        if (answer == SCAN_TIMING_NONE)
             continue;
         struct look look;
         if (look_begin(&look, frame, sensor, &selection, instant_s - latency_s(sensor, &selection),
                        runner_diag(runner)) != 0)
             return -1;
-        direct_look(&look);
-        ghosts_around(&look);
+        direct_echoes_add(&look);
+        ghost_echoes_add(&look);
         effects_count_scan(&selection);
     }
     return 0;

@@ -3,9 +3,9 @@
  * the list (10, 11), and the rounding of what is reported. */
 #include <complex.h>
 
-#include "address.h"
+#include "draw_address.h"
 #include "cell_margins.h"
-#include "disturbance.h"
+#include "measurement_noise.h"
 #include "elementary.h"
 #include "false_alarms.h"
 #include "stage.h"
@@ -13,23 +13,23 @@
 #include "units.h"
 
 /* False if there is nothing to read an angle off. */
-static bool measure(const struct frame *frame, const struct disturbance *by,
+static bool measure(const struct frame *frame, const struct measurement_noise *by,
                     const struct random_address *scan, const struct cell *cell,
                     struct reading *reading)
 {
     const struct sensor *sensor = by->sensor;
-    struct random_address address = address_in(*scan, SUBJECT_OF(&cell->members.items[0]));
-    struct antenna_pointers pointers = disturbance_pointers(by, &address, cell);
+    struct random_address address = draw_address_in(*scan, SUBJECT_OF(&cell->members.items[0]));
+    struct antenna_pointers pointers = measurement_noise_pointers(by, &address, cell);
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
-    *reading = reading_of(cell);
+    *reading = target_list_measure(cell);
     reading->azimuth_rad = angle.azimuth_rad;
     reading->amplitude = elementary_hypot(creal(pointers.sum), cimag(pointers.sum));
     reading->sign_undecided = angle.sign_undecided;
     if (by->pointers)
         reading->effects |= EFFECT_BIT(EFFECT_ANGLE_NOISE);
-    disturbance_range(by, &address, reading);
-    disturbance_azimuth(by, reading);
+    measurement_noise_range(by, &address, reading);
+    measurement_noise_azimuth(by, reading);
     if (frame->margins)
         cell_margins_add_noisy(sensor, cell, pointers, reading->amplitude, by->final_threshold,
                                &reading->margins);
@@ -37,7 +37,7 @@ static bool measure(const struct frame *frame, const struct disturbance *by,
 }
 
 /* The readings of all cells that are still a target after noise. */
-static size_t read_cells(struct frame *frame, const struct disturbance *by,
+static size_t read_cells(struct frame *frame, const struct measurement_noise *by,
                          const struct random_address *scan, struct cell_span cells,
                          struct reading *readings)
 {
@@ -62,20 +62,20 @@ static size_t read_cells(struct frame *frame, const struct disturbance *by,
 static void list_targets(struct frame *frame, const struct sensor *sensor,
                          const struct selection *selection)
 {
-    struct disturbance by = disturbance_of(sensor, selection);
+    struct measurement_noise by = measurement_noise_of(sensor, selection);
     struct contributor noise = false_alarms_contributor(0);
-    struct random_address scan = address_of(frame, sensor->name, SUBJECT_OF(&noise));
+    struct random_address scan = draw_address_of(frame, sensor->name, SUBJECT_OF(&noise));
     struct cell_span alarms = false_alarms_of(frame, sensor, selection, by.false_alarms, &scan);
     struct cell_span cells = frame_cells_of(frame, sensor->name);
     struct reading *readings =
         arena_get(frame->arena, (cells.count + alarms.count + 1) * sizeof *readings);
     size_t count = read_cells(frame, &by, &scan, cells, readings);
     for (size_t i = 0; i < alarms.count; i++)
-        readings[count++] = reading_of(&alarms.items[i]);
+        readings[count++] = target_list_measure(&alarms.items[i]);
     size_t first = frame->targets.count;
-    readings_list(frame, "noise", sensor, readings, count, by.list_limit);
+    target_list_make(frame, "noise", sensor, readings, count, by.list_limit);
     for (size_t i = first; i < frame->targets.count && by.steps; i++)
-        readings_round(&frame->targets.items[i], sensor);
+        target_list_round(&frame->targets.items[i], sensor);
 }
 
 static int noise_step(void *state, struct frame *frame, struct runner *runner)

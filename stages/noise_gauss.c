@@ -1,9 +1,9 @@
 /* The textbook sensor: independent Gaussian noise on range, azimuth and range rate. */
 
-#include "address.h"
+#include "draw_address.h"
 #include "elementary.h"
 #include "random.h"
-#include "readings.h"
+#include "target_list.h"
 #include "stage.h"
 #include "units.h"
 
@@ -11,11 +11,11 @@ static struct reading measure(const struct frame *frame, const struct sensor *se
                               const struct cell *cell)
 {
     struct random_address address =
-        address_of(frame, sensor->name, SUBJECT_OF(&cell->members.items[0]));
+        draw_address_of(frame, sensor->name, SUBJECT_OF(&cell->members.items[0]));
     double straight[2], across[2];
     random_gaussian_pair(&address, RANDOM_RANGE_RATE, 0, straight);
     random_gaussian_pair(&address, RANDOM_AZIMUTH, 0, across);
-    struct reading reading = reading_of(cell);
+    struct reading reading = target_list_measure(cell);
     reading.range_m = elementary_most(reading.range_m + sensor->range_sigma_m * straight[0], 0);
     reading.range_rate_mps += sensor->range_rate_sigma_mps * straight[1];
     reading.azimuth_rad =
@@ -31,7 +31,7 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
     struct reading *readings = arena_get(frame->arena, cells.count * sizeof *readings);
     for (size_t i = 0; i < cells.count; i++)
         readings[i] = measure(frame, sensor, &cells.items[i]);
-    readings_list(frame, "noise-gauss", sensor, readings, cells.count, 0);
+    target_list_make(frame, "noise-gauss", sensor, readings, cells.count, 0);
 }
 
 static int noise_gauss_step(void *state, struct frame *frame, struct runner *runner)

@@ -1,5 +1,5 @@
 /* No noise: the target list of the cells as they are. */
-#include "readings.h"
+#include "target_list.h"
 #include "stage.h"
 
 static void list_targets(struct frame *frame, const struct sensor *sensor,
@@ -9,8 +9,8 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
     struct cell_span cells = frame_cells_of(frame, sensor->name);
     struct reading *readings = arena_get(frame->arena, cells.count * sizeof *readings);
     for (size_t i = 0; i < cells.count; i++)
-        readings[i] = reading_of(&cells.items[i]);
-    readings_list(frame, "noise-none", sensor, readings, cells.count, 0);
+        readings[i] = target_list_measure(&cells.items[i]);
+    target_list_make(frame, "noise-none", sensor, readings, cells.count, 0);
 }
 
 static int noise_none_step(void *state, struct frame *frame, struct runner *runner)

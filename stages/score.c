@@ -7,7 +7,7 @@ struct score_state {
     const char *truth;
     double cutoff, azimuth_cell_rad;
     bool partial, summary, table;
-    struct counterpart *other;
+    struct reference_stream *other;
     int64_t frames;
     struct score_tallies sensors; /* for the summary */
 };
@@ -24,7 +24,7 @@ static int score_step(void *state, struct frame *frame, struct runner *runner)
 {
     struct score_state *own = state;
     const struct frame *truth;
-    int found = counterpart_frame(own->other, frame, SECTION_SENSORS | SECTION_TARGETS, &truth,
+    int found = reference_stream_frame(own->other, frame, SECTION_SENSORS | SECTION_TARGETS, &truth,
                                   runner_diag(runner));
     if (found <= 0)
         return found;
@@ -50,12 +50,12 @@ static int score_step(void *state, struct frame *frame, struct runner *runner)
 static int score_stop(void *state, struct runner *runner)
 {
     struct score_state *own = state;
-    if (counterpart_finish(own->other, runner_diag(runner)) != 0)
+    if (reference_stream_finish(own->other, runner_diag(runner)) != 0)
         return -1;
     struct score_summary summary = {
         .frames = own->frames,
-        .true_frames = counterpart_left(own->other),
-        .listed_frames = counterpart_absent(own->other),
+        .true_frames = reference_stream_left(own->other),
+        .listed_frames = reference_stream_absent(own->other),
         .cutoff = own->cutoff,
         .azimuth_cell_rad = own->azimuth_cell_rad,
     };

@@ -8,7 +8,7 @@ struct score_tracks {
     enum track_truth objects;
     double cutoff_m;
     bool partial, summary, table;
-    struct counterpart *other;
+    struct reference_stream *other;
     int64_t frames, id_switches;
     struct score_tally tally; /* for the summary */
     struct track_memory memory;
@@ -29,7 +29,7 @@ static int score_tracks_step(void *state, struct frame *frame, struct runner *ru
     struct track_list tracks;
     if (track_score_check(frame, own->objects, runner_diag(runner)) != 0)
         return -1;
-    int found = counterpart_tracks(own->other, frame, &tracks, runner_diag(runner));
+    int found = reference_stream_tracks(own->other, frame, &tracks, runner_diag(runner));
     if (found <= 0)
         return found;
     struct score_tally tally = {0};
@@ -52,14 +52,14 @@ static int score_tracks_step(void *state, struct frame *frame, struct runner *ru
 static int score_tracks_stop(void *state, struct runner *runner)
 {
     struct score_tracks *own = state;
-    if (counterpart_finish(own->other, runner_diag(runner)) != 0)
+    if (reference_stream_finish(own->other, runner_diag(runner)) != 0)
         return -1;
     if (!own->summary)
         return 0;
     struct score_track_summary summary = {
         .frames = own->frames,
-        .true_frames = counterpart_absent(own->other),
-        .listed_frames = counterpart_left(own->other),
+        .true_frames = reference_stream_absent(own->other),
+        .listed_frames = reference_stream_left(own->other),
         .cutoff_m = own->cutoff_m,
         .id_switches = own->id_switches,
         .all = score_of(&own->tally, 1, runner_arena(runner)),

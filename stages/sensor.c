@@ -52,7 +52,7 @@ static void report(struct frame *frame, const struct scan *scan, const struct se
 static struct scan receive(struct frame *frame, const struct sensor *sensor,
                            const struct selection *selection)
 {
-    struct reception whole = reception_begin(frame, sensor, selection->allowed);
+    struct reception whole = received_echo_begin(frame, sensor, selection->allowed);
     uint64_t spared = escalation_spared(&whole, selection);
     struct scan scan = scan_make(&whole, selection, spared);
     if (spared != 0 &&
@@ -65,7 +65,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
                   const struct selection *selection)
 {
     struct scan scan = receive(frame, sensor, selection);
-    reception_note(&scan.reception, selection);
+    received_echo_note(&scan.reception, selection);
     effects_note(selection, EFFECT_SUPERPOSITION, false);
     effects_note(selection, EFFECT_THRESHOLD, true);
     scatterers_count(frame, sensor->name, scan.scatterers);

@@ -3,12 +3,12 @@
 /* needs: fftw3 */
 #include <fftw3.h>
 
-#include "sightings.h"
+#include "detections.h"
 #include "stage.h"
 
 /* A transform of one sensor's channels, in place, with a positive exponent. */
 struct transform {
-    struct signal signal;
+    struct signal_cube signal;
     fftw_plan plan;
 };
 
@@ -19,7 +19,7 @@ struct sensor_signal {
 
 /* Over both axes of chirps, over repetitions alone of pulses. Such a plan depends on its sizes
  * alone: not on time, on addresses, or on which vectors the CPU has. */
-static fftw_plan plan_of(const struct signal *signal)
+static fftw_plan plan_of(const struct signal_cube *signal)
 {
     bool pulses = signal->sensor->waveform.kind == WAVEFORM_PULSE;
     int bins[] = {(int)signal->repetitions, (int)signal->samples};
@@ -36,8 +36,8 @@ static struct transform *transform_of(struct sensor_signal *own, const struct se
         if (own->transforms.items[i].signal.sensor == sensor)
             return &own->transforms.items[i];
     struct arena *arena = runner_arena(runner);
-    struct signal signal = signal_of(sensor);
-    signal.cube = arena_get(arena, signal_size(&signal) * sizeof *signal.cube);
+    struct signal_cube signal = signal_cube_of(sensor);
+    signal.cube = arena_get(arena, signal_cube_size(&signal) * sizeof *signal.cube);
     signal.row = arena_get(arena, signal.samples * sizeof *signal.row);
     struct transform *transform = list_add(&own->transforms, arena);
     *transform = (struct transform){signal, plan_of(&signal)};
@@ -46,7 +46,7 @@ static struct transform *transform_of(struct sensor_signal *own, const struct se
 
 static void to_spectrum(const struct transform *transform)
 {
-    const struct signal *signal = &transform->signal;
+    const struct signal_cube *signal = &transform->signal;
     for (size_t channel = 0; channel < signal->channels; channel++) {
         struct phasor *samples = signal->cube + channel * signal->samples * signal->repetitions;
         fftw_execute_dft(transform->plan, (fftw_complex *)samples, (fftw_complex *)samples);
@@ -56,21 +56,21 @@ static void to_spectrum(const struct transform *transform)
 static void sense(struct frame *frame, const struct transform *transform,
                   const struct selection *selection)
 {
-    const struct signal *signal = &transform->signal;
-    struct reception reception = reception_begin(frame, signal->sensor, selection->allowed);
-    struct disturbance by = disturbance_of(signal->sensor, selection);
+    const struct signal_cube *signal = &transform->signal;
+    struct reception reception = received_echo_begin(frame, signal->sensor, selection->allowed);
+    struct measurement_noise by = measurement_noise_of(signal->sensor, selection);
     struct scan scan = scan_receive(&reception);
-    reception_note(&reception, selection);
+    received_echo_note(&reception, selection);
     scatterers_count(frame, signal->sensor->name, scan.scatterers);
     for (size_t i = 0; i < scan.silent_count; i++)
         frame_lose_subject(frame, "sensor-signal", signal->sensor->name, &scan.silent[i].echo,
                            LOSS_NO_AMPLITUDE);
-    signal_receive(signal, &scan, by.pointers);
+    signal_cube_receive(signal, &scan, by.pointers);
     to_spectrum(transform);
-    struct spectrum spectrum = signal_spectrum(signal, frame->arena);
-    struct sightings sightings = sightings_of(signal, &spectrum, &reception);
-    sightings_label(&sightings, frame, "sensor-signal", &scan.resolved);
-    sightings_list(&sightings, frame, "sensor-signal", &by);
+    struct range_doppler spectrum = signal_cube_spectrum(signal, frame->arena);
+    struct detections sightings = detections_of(signal, &spectrum, &reception);
+    detections_label(&sightings, frame, "sensor-signal", &scan.resolved);
+    detections_list(&sightings, frame, "sensor-signal", &by);
     effects_count_scan(selection);
 }
 

@@ -40,11 +40,11 @@ static void report(struct frame *frame, const struct selection *selection,
 static void sense(struct frame *frame, const struct sensor *sensor,
                   const struct selection *selection)
 {
-    struct reception reception = reception_begin(frame, sensor, selection->allowed);
+    struct reception reception = received_echo_begin(frame, sensor, selection->allowed);
     struct scan scan = scan_receive(&reception);
     bool merge = effects_may(selection, EFFECT_MERGING);
     size_t count = scan.resolved.count, together = merge ? count : 1;
-    reception_note(&reception, selection);
+    received_echo_note(&reception, selection);
     effects_note(selection, EFFECT_MERGING, merge);
     effects_note(selection, EFFECT_SUPERPOSITION, merge);
     effects_note(selection, EFFECT_THRESHOLD, true);

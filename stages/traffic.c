@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "elementary.h"
-#include "scene.h"
+#include "playback.h"
 #include "stage.h"
 
 struct traffic {
@@ -11,7 +11,7 @@ struct traffic {
     const char *scene;
     double radius_m;
     struct conditions conditions;
-    struct scene played;
+    struct playback played;
     int64_t frame;
 };
 
@@ -19,11 +19,11 @@ static int traffic_start(void *state, struct runner *runner)
 {
     struct traffic *traffic = state;
     struct arena *arena = runner_arena(runner);
-    if (scene_open(&traffic->played, traffic->source, traffic->ego, arena, runner_diag(runner)) !=
+    if (playback_open(&traffic->played, traffic->source, traffic->ego, arena, runner_diag(runner)) !=
         0)
         return -1;
     if (traffic->scene == NULL)
-        traffic->scene = scene_name(traffic->source, traffic->played.ego, arena);
+        traffic->scene = playback_name(traffic->source, traffic->played.ego, arena);
     runner_expect(runner, traffic->played.frames);
     return 0;
 }
@@ -47,7 +47,7 @@ static int traffic_next(void *state, struct frame *frame, struct runner *runner)
     struct traffic *traffic = state;
     if (traffic->frame == traffic->played.frames)
         return 0;
-    scene_frame(&traffic->played, traffic->frame, frame);
+    playback_frame(&traffic->played, traffic->frame, frame);
     conditions_change(&frame->conditions, &traffic->conditions);
     frame->scene = traffic->scene;
     frame->ego = traffic->played.ego;
@@ -61,7 +61,7 @@ static int traffic_next(void *state, struct frame *frame, struct runner *runner)
 static int traffic_blame(void *state, const struct frame *frame, struct runner *runner)
 {
     const struct traffic *traffic = state;
-    if (scene_check(&traffic->played, frame->frame, frame, runner_diag(runner)) != 0)
+    if (playback_check(&traffic->played, frame->frame, frame, runner_diag(runner)) != 0)
         return diag_prefix(runner_diag(runner), "%s: ", traffic->source);
     return 0;
 }

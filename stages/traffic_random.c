@@ -3,8 +3,8 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "hard_cases.h"
-#include "random_scene.h"
+#include "adversarial_traffic.h"
+#include "random_traffic.h"
 #include "stage.h"
 
 struct traffic_random {
@@ -14,20 +14,20 @@ struct traffic_random {
     bool conditions;
     const char *sensors;
     const struct suite *suite;
-    struct random_scene scene;
+    struct random_traffic scene;
     int64_t made;
 };
 
 static int traffic_random_start(void *state, struct runner *runner)
 {
     struct traffic_random *traffic = state;
-    struct random_scene *scene = &traffic->scene;
+    struct random_traffic *scene = &traffic->scene;
     if ((traffic->density == RANDOM_ADVERSARIAL) != (traffic->sensors != NULL))
         return diag_fail(runner_diag(runner), DIAG_USAGE,
                          "--density adversarial and --sensors SUITE need each other");
     scene->density = traffic->density;
     for (enum random_class class = 0; class < RANDOM_CLASSES; class ++) {
-        const struct vehicle *vehicle = runner_vehicle(runner, random_class_name(class));
+        const struct vehicle *vehicle = runner_vehicle(runner, random_traffic_class_name(class));
         if (vehicle == NULL)
             return -1;
         scene->models[class] =
@@ -45,7 +45,7 @@ static const char *name_of(const struct traffic_random *traffic, const struct fr
 {
     enum { SIZE = 80 };
     char *name = arena_get(frame->arena, SIZE);
-    snprintf(name, SIZE, "random-%s/%" PRIu64 "/%" PRId64, random_densities[traffic->density],
+    snprintf(name, SIZE, "random-%s/%" PRIu64 "/%" PRId64, random_traffic_densities[traffic->density],
              frame->seed, number);
     return name;
 }
@@ -61,16 +61,16 @@ static int traffic_random_next(void *state, struct frame *frame, struct runner *
     frame->time_s = (double)number / traffic->rate_hz;
     frame->interval_s = 1 / traffic->rate_hz;
     frame->last = true;
-    random_scene_fill(&traffic->scene, number, frame);
+    random_traffic_fill(&traffic->scene, number, frame);
     if (traffic->suite != NULL)
-        hard_cases_add(&traffic->scene, traffic->suite, number, frame);
+        adversarial_traffic_add(&traffic->scene, traffic->suite, number, frame);
     if (traffic->conditions)
-        random_scene_conditions(&traffic->scene, number, frame);
+        random_traffic_conditions(&traffic->scene, number, frame);
     return 1;
 }
 
 static const struct field traffic_random_options[] = {
-    {FIELD_CHOICE_OF(struct traffic_random, density, random_densities,
+    {FIELD_CHOICE_OF(struct traffic_random, density, random_traffic_densities,
                      "how many objects, how near"),
      FIELD_OPTIONAL, .absent = RANDOM_MEDIUM},
     {FIELD_INTEGER_IN(struct traffic_random, frames, 0, 1e9, "how many; absent: 100"),

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "memory.h"
+#include "arena.h"
 
 char *text_room(struct text *text, size_t size)
 {

@@ -5,7 +5,7 @@
 
 #include "document.h"
 #include "hash.h"
-#include "table.h"
+#include "csv_table.h"
 
 /* Suites and vehicles are asked for by frames, whose standard input is the stream itself. */
 static const char *find(const char *kind, const char *name, struct arena *arena, struct diag *diag)
@@ -24,7 +24,7 @@ static const struct field vehicle_fields[] = {
     {FIELD_REAL_IN(struct vehicle, height_m, 0.01, 1e3, "where an object of the class gives none")},
     {FIELD_RECORD_OF(struct vehicle, reflectors, &reflector_model_record,
                      "reflection centres of the class")},
-    {FIELD_CHOICE_OF(struct vehicle, sensing_target, sensing_target_names,
+    {FIELD_CHOICE_OF(struct vehicle, sensing_target, sensing_target_3gpp_names,
                      "what 3GPP TR 38.901 would call it, for glint-extract-3gpp"),
      FIELD_OPTIONAL},
     {FIELD_RECORD_OF(struct vehicle, contour, &contour_record, "for glint-extract-contour"),
@@ -111,11 +111,11 @@ static const char *beside(const char *document, const char *table, struct arena 
     return path;
 }
 
-static int columns_of(const struct table *table, const char *const *names, size_t count,
+static int columns_of(const struct csv_table *table, const char *const *names, size_t count,
                       size_t *columns, struct diag *diag)
 {
     for (size_t i = 0; i < count; i++)
-        if (table_column(table, names[i], &columns[i], diag) != 0)
+        if (csv_table_column(table, names[i], &columns[i], diag) != 0)
             return -1;
     return 0;
 }
@@ -124,15 +124,15 @@ static int read_amplitudes(const struct text *bytes, struct sensor *sensor, stru
                            struct diag *diag)
 {
     static const char *const names[] = {"range_m", "amplitude"};
-    struct table table;
+    struct csv_table table;
     size_t column[2];
-    if (table_parse(bytes, &table, arena, diag) != 0 ||
+    if (csv_table_parse(bytes, &table, arena, diag) != 0 ||
         columns_of(&table, names, 2, column, diag) != 0)
         return -1;
     struct radar_row *rows = arena_get(arena, table.rows * sizeof *rows);
     for (size_t i = 0; i < table.rows; i++) {
-        if (table_number(&table, i, column[0], 1e-6, 1e6, &rows[i].range_m, diag) != 0 ||
-            table_number(&table, i, column[1], 1e-300, 1e300, &rows[i].amplitude, diag) != 0)
+        if (csv_table_number(&table, i, column[0], 1e-6, 1e6, &rows[i].range_m, diag) != 0 ||
+            csv_table_number(&table, i, column[1], 1e-300, 1e300, &rows[i].amplitude, diag) != 0)
             return -1;
         if (i > 0 && rows[i].range_m <= rows[i - 1].range_m)
             return diag_fail(diag, DIAG_CONFIG, "row %zu: range_m must ascend", table.numbers[i]);
@@ -148,16 +148,16 @@ static int read_pattern(const struct text *bytes, struct sensor *sensor, struct 
                         struct diag *diag)
 {
     static const char *const names[] = {"azimuth_rad", "sum", "delta"};
-    struct table table;
+    struct csv_table table;
     size_t column[3];
-    if (table_parse(bytes, &table, arena, diag) != 0 ||
+    if (csv_table_parse(bytes, &table, arena, diag) != 0 ||
         columns_of(&table, names, 3, column, diag) != 0)
         return -1;
     struct antenna_row *rows = arena_get(arena, table.rows * sizeof *rows);
     for (size_t i = 0; i < table.rows; i++)
-        if (table_number(&table, i, column[0], -2, 2, &rows[i].azimuth_rad, diag) != 0 ||
-            table_number(&table, i, column[1], 0, 1e300, &rows[i].sum, diag) != 0 ||
-            table_number(&table, i, column[2], -1e300, 1e300, &rows[i].delta, diag) != 0)
+        if (csv_table_number(&table, i, column[0], -2, 2, &rows[i].azimuth_rad, diag) != 0 ||
+            csv_table_number(&table, i, column[1], 0, 1e300, &rows[i].sum, diag) != 0 ||
+            csv_table_number(&table, i, column[2], -1e300, 1e300, &rows[i].delta, diag) != 0)
             return -1;
     size_t row = 0;
     const char *fault = antenna_table_fault(rows, table.rows, &row);

@@ -6,7 +6,7 @@
 #include "contour.h"
 #include "reflectors.h"
 #include "scenario.h"
-#include "sensing_target.h"
+#include "sensing_target_3gpp.h"
 #include "suite.h"
 
 /* One class of road users or things (data/vehicles/). */
@@ -14,7 +14,7 @@ struct vehicle {
     const char *origin;
     double length_m, width_m, height_m; /* where an object of the class gives none */
     struct reflector_set reflectors;    /* worn_by is empty */
-    enum sensing_target sensing_target; /* for glint-extract-3gpp */
+    enum sensing_target_3gpp sensing_target; /* for glint-extract-3gpp */
     struct contour contour;             /* for glint-extract-contour */
 };
 

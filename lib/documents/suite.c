@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "cycle.h"
+#include "scan_timing.h"
 #include "units.h"
 
 static const char *const extents[] = {
@@ -174,7 +174,7 @@ const struct sensor *suite_sensor(const struct suite *suite, const char *name)
 double suite_instant_s(const struct sensor *sensor, double time_s, double interval_s, bool late)
 {
     double instant_s = time_s;
-    cycle_instant_s(sensor->cycle_s, time_s, interval_s, &instant_s);
+    scan_timing_instant_s(sensor->cycle_s, time_s, interval_s, &instant_s);
     return instant_s - (late ? sensor->latency_s : 0);
 }
 

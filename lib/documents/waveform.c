@@ -4,7 +4,7 @@
 
 static const char *const kinds[] = {[WAVEFORM_CHIRP] = "chirp", [WAVEFORM_PULSE] = "pulse", NULL};
 static const char *const windows[] = {
-    [KERNEL_HANN] = "hann", [KERNEL_RECTANGULAR] = "rectangular", NULL};
+    [POINT_RESPONSE_HANN] = "hann", [POINT_RESPONSE_RECTANGULAR] = "rectangular", NULL};
 static const char *const cfars[] = {[CFAR_ORDERED] = "ordered", [CFAR_MEAN] = "mean", NULL};
 
 #define INTEGER(member, low, high, help) FIELD_INTEGER_IN(struct waveform, member, low, high, help)

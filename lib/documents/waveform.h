@@ -7,7 +7,7 @@
 
 #include "cfar.h"
 #include "field.h"
-#include "kernel.h"
+#include "point_response.h"
 
 enum waveform_kind { WAVEFORM_CHIRP, WAVEFORM_PULSE };
 
@@ -17,7 +17,7 @@ struct waveform {
     int64_t repetitions; /* of the chirp, or of the pulse */
     int64_t elements;    /* 0: the sum and delta channels of the antenna */
     double spacing;
-    enum kernel window;
+    enum point_response window;
     enum cfar_kind cfar;
     int64_t cfar_cells, cfar_guard, cfar_rank;
     double cfar_false_alarm;

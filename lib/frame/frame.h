@@ -233,7 +233,7 @@ struct frame {
     const char *extra;
     unsigned present; /* enum section */
     struct arena *arena;
-    struct repeats *repeats;   /* what frames repeat; NULL: nothing is kept from one to the next */
+    struct list_cache *repeats;   /* what frames repeat; NULL: nothing is kept from one to the next */
     struct field_names *names; /* that were good; NULL: none yet */
     struct object **by_id;     /* ranked_count objects from ranked on (frame_order_objects) */
     struct object *ranked;

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "json_scan.h"
-#include "names.h"
+#include "intern.h"
 #include "number.h"
-#include "repeats.h"
+#include "list_cache.h"
 
 #define LOAD(type, member) (*(type *)memcpy(&(type){0}, (member), sizeof(type)))
 #define STORE(type, member, value) memcpy((member), &(type){(value)}, sizeof(type))
@@ -16,8 +16,8 @@ enum { BYTES_PER_NAME = 128 };
 
 struct reader {
     struct json_scan scan;
-    struct names names;
-    struct repeats *repeats; /* or NULL */
+    struct intern names;
+    struct list_cache *repeats; /* or NULL */
 };
 
 static int read_record(struct reader *reader, const struct record *record, void *base);
@@ -55,7 +55,7 @@ static bool take_name(struct reader *reader, const struct field *field, void *ba
     size_t length;
     if (scan->at == scan->end || *scan->at != '"')
         return false;
-    const char *kept = names_keep_quoted(&reader->names, scan->at + 1, scan->end, &length);
+    const char *kept = intern_keep_quoted(&reader->names, scan->at + 1, scan->end, &length);
     if (kept == NULL || length > FIELD_NAME_SIZE)
         return false;
     scan->at += length + 2;
@@ -69,7 +69,7 @@ static int set_name(struct reader *reader, const struct field *field,
     struct json_scan *scan = &reader->scan;
     if (field_set_text(field, base, name->text, name->length, scan->arena, scan->diag) != 0)
         return -1;
-    const char *kept = names_keep(&reader->names, name->text, name->length);
+    const char *kept = intern_keep(&reader->names, name->text, name->length);
     STORE(const char *, (char *)base + field->offset, kept);
     return 0;
 }
@@ -130,20 +130,20 @@ static int read_list(struct reader *reader, const struct field *field, void *bas
 static int read_steady(struct reader *reader, const struct field *field, void *base)
 {
     struct json_scan *scan = &reader->scan;
-    struct repeats *repeats = reader->repeats;
-    const struct repeat *repeat = repeats_find(repeats, field->record, scan->at, scan->end);
+    struct list_cache *repeats = reader->repeats;
+    const struct repeat *repeat = list_cache_find(repeats, field->record, scan->at, scan->end);
     if (repeat != NULL) {
         scan->at += repeat->read.length;
         memcpy((char *)base + field->offset, &repeat->items, sizeof repeat->items);
         return 0;
     }
-    if (repeats_full(repeats))
+    if (list_cache_full(repeats))
         return read_list(reader, field, base);
     struct reader apart = {
-        {scan->at, scan->end, &repeats->arena, scan->diag}, names_begin(&repeats->arena, 0), NULL};
+        {scan->at, scan->end, &repeats->arena, scan->diag}, intern_begin(&repeats->arena, 0), NULL};
     if (read_list(&apart, field, base) != 0)
         return -1;
-    repeats_keep(repeats, field, base, scan->at, (size_t)(apart.scan.at - scan->at));
+    list_cache_keep(repeats, field, base, scan->at, (size_t)(apart.scan.at - scan->at));
     scan->at = apart.scan.at;
     return 0;
 }
@@ -339,10 +339,10 @@ static int no_record(struct json_scan *scan, const struct record *record)
 }
 
 static int read_line(const char *line, size_t length, const struct record *record, void *base,
-                     struct arena *arena, struct repeats *repeats, struct diag *diag)
+                     struct arena *arena, struct list_cache *repeats, struct diag *diag)
 {
     struct reader reader = {
-        {line, line + length, arena, diag}, names_begin(arena, length / BYTES_PER_NAME), repeats};
+        {line, line + length, arena, diag}, intern_begin(arena, length / BYTES_PER_NAME), repeats};
     struct json_scan *scan = &reader.scan;
     if (json_scan_peek(scan) != '{')
         return no_record(scan, record);
@@ -371,7 +371,7 @@ int frame_text_read_record(const char *line, size_t length, const struct record 
 struct writer {
     struct text *text;
     char *at, *end;
-    struct repeats *repeats; /* or NULL */
+    struct list_cache *repeats; /* or NULL */
 };
 
 /* A key, a number and the brackets around them. */
@@ -430,14 +430,14 @@ static void write_list(const struct field *field, const void *base, struct write
 static void write_steady(const struct record *record, const struct field *field, const void *base,
                          struct writer *writer)
 {
-    struct repeat *repeat = repeats_of(writer->repeats, record, field, base);
+    struct repeat *repeat = list_cache_of(writer->repeats, record, field, base);
     if (repeat == NULL) {
         write_list(field, base, writer);
     } else if (repeat->written.bytes == NULL) {
         size_t begin = (size_t)(writer->at - writer->text->bytes);
         write_list(field, base, writer);
         const char *text = writer->text->bytes + begin;
-        repeats_keep_written(writer->repeats, repeat, text, (size_t)(writer->at - text));
+        list_cache_keep_written(writer->repeats, repeat, text, (size_t)(writer->at - text));
     } else {
         make_room(writer, repeat->written.length + MEMBER_ROOM);
         memcpy(writer->at, repeat->written.bytes, repeat->written.length);
@@ -538,7 +538,7 @@ static void write_record(const struct record *record, const void *base, struct w
 }
 
 static void write_line(const struct record *record, const void *base, struct text *text,
-                       struct repeats *repeats)
+                       struct list_cache *repeats)
 {
     char *at = text_room(text, MEMBER_ROOM);
     struct writer writer = {text, at, text->bytes + text->room, repeats};

@@ -33,7 +33,7 @@ struct point_reflector {
 };
 
 /* A flat side: mirrors the radar from the foot of the perpendicular, with constant ERCS, or, of a
- * side that is curved, with that of its specular point (specular.h) if the sensor asks for it. Its
+ * side that is curved, with that of its specular point (curvature.h) if the sensor asks for it. Its
  * outer face is to the right of from -> to, that is, sides run counter-clockwise around the
  * outline. */
 struct plane_reflector {
@@ -46,7 +46,7 @@ struct plane_reflector {
 };
 
 /* A flat side that mirrors what stands before its outer face, for sensors that see ghosts
- * (ghosts.h). It is no reflector itself: a side that is both is described twice. */
+ * (ghost_echoes.h). It is no reflector itself: a side that is both is described twice. */
 struct mirror_plane {
     double from_x, from_y, to_x, to_y; /* as a plane_reflector's */
     double reflection;                 /* amplitude reflection coefficient |Gamma| */

@@ -1,6 +1,6 @@
 #include "mirror.h"
 
-#include "orientation.h"
+#include "predicates.h"
 
 /* Towards the outer side; zero for a wall of length zero. */
 static struct vec2 normal_of(const struct mirror *mirror)
@@ -41,7 +41,7 @@ bool mirror_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec
                    struct vec2 *bounce_m)
 {
     struct vec2 a = mirror->a, b = mirror->b;
-    if (orientation_sign(a, b, sensor_m) >= 0 || orientation_sign(a, b, point_m) >= 0)
+    if (predicates_orientation(a, b, sensor_m) >= 0 || predicates_orientation(a, b, point_m) >= 0)
         return false;
     struct vec2 normal = normal_of(mirror);
     double sensor_height_m = height_m(mirror, normal, sensor_m);
@@ -50,7 +50,7 @@ bool mirror_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec
     if (sensor_height_m <= 0 || point_height_m <= 0)
         return false;
     struct vec2 image_m = flipped(point_m, point_height_m, normal);
-    if (orientation_sign(sensor_m, image_m, a) < 0 || orientation_sign(sensor_m, image_m, b) > 0)
+    if (predicates_orientation(sensor_m, image_m, a) < 0 || predicates_orientation(sensor_m, image_m, b) > 0)
         return false;
     double part = sensor_height_m / (sensor_height_m + point_height_m);
     *bounce_m = vec2_add(sensor_m, vec2_scale(part, vec2_sub(image_m, sensor_m)));
@@ -61,7 +61,7 @@ bool mirror_may_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct
                        double radius_m)
 {
     struct vec2 a = mirror->a, b = mirror->b;
-    if (orientation_sign(a, b, sensor_m) >= 0)
+    if (predicates_orientation(a, b, sensor_m) >= 0)
         return false;
     struct vec2 normal = normal_of(mirror);
     double height = height_m(mirror, normal, centre_m);

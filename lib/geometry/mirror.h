@@ -1,7 +1,7 @@
 /* A straight wall as a mirror: what stands before it is seen a second time behind it (EFFECTS 7).
  *
  * The wall is the segment a to b with its outer face to the right of a -> b, like every flat side
- * (reflection.h), and only that face mirrors: a guardrail has two. It may move and turn with the
+ * (specular_point.h), and only that face mirrors: a guardrail has two. It may move and turn with the
  * body that carries it. With the unit normal n and a point o at the height h = n · (o - a),
  *     o' = o - 2 h n,   v' = V(o') + w - 2 (n · w) n,   w = v - V(o),
  * where V is the velocity of the body's material at a place: seen from the wall, the image of the
@@ -28,7 +28,7 @@ struct mirror_image mirror_image(const struct mirror *mirror, struct vec2 point_
 
 /* True, and the place on the wall, if the wall mirrors the point towards the sensor: both are
  * strictly on its outer side, and the line from the sensor to the image crosses the segment, ends
- * included. Exact signs decide (orientation.h), for the image as it is rounded. A sensor or point
+ * included. Exact signs decide (predicates.h), for the image as it is rounded. A sensor or point
  * on the wall's line, exactly or when its height is rounded, or behind it has no reflection, nor
  * has a wall of length zero; with both before it nothing is parallel and nothing divides by zero. A
  * mirrored scene has the mirrored answer to the last bit. */

@@ -1,6 +1,6 @@
 #include "occlusion.h"
 
-#include "orientation.h"
+#include "predicates.h"
 
 static bool intervals_touch(double p, double q, double a, double b)
 {
@@ -17,7 +17,7 @@ static bool boxes_touch(struct vec2 p, struct vec2 q, struct vec2 a, struct vec2
 /* Do a and b lie on different sides of the line p-q, or either of them on it? */
 static bool line_parts(struct vec2 p, struct vec2 q, struct vec2 a, struct vec2 b)
 {
-    return orientation_sign(p, q, a) * orientation_sign(p, q, b) <= 0;
+    return predicates_orientation(p, q, a) * predicates_orientation(p, q, b) <= 0;
 }
 
 bool occlusion_segments_touch(struct vec2 p, struct vec2 q, struct vec2 a, struct vec2 b)
@@ -29,11 +29,11 @@ bool occlusion_outline_blocks(const struct vec2 *corners, size_t count, struct v
                               struct vec2 to)
 {
     /* Edge by edge as occlusion_segments_touch, but every corner's side is asked for once. */
-    int first = orientation_sign(from, to, corners[0]), side = first;
+    int first = predicates_orientation(from, to, corners[0]), side = first;
     for (size_t i = 0; i < count; i++) {
         bool last = i + 1 == count;
         struct vec2 corner = corners[i], next = corners[last ? 0 : i + 1];
-        int next_side = last ? first : orientation_sign(from, to, next);
+        int next_side = last ? first : predicates_orientation(from, to, next);
         if (side * next_side <= 0 && boxes_touch(from, to, corner, next) &&
             line_parts(corner, next, from, to))
             return true;

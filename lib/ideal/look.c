@@ -3,16 +3,16 @@
 #include <math.h>
 #include <string.h>
 
-#include "clearance.h"
+#include "sight_margins.h"
 #include "elementary.h"
 #include "elevation.h"
 #include "frame_order.h"
 #include "knife_edge.h"
 #include "occlusion.h"
-#include "orientation.h"
-#include "reflection.h"
-#include "sight.h"
-#include "specular.h"
+#include "predicates.h"
+#include "specular_point.h"
+#include "kinematics.h"
+#include "curvature.h"
 #include "units.h"
 
 /* The border of a field of view is outside, and this wide: the foot on a wall that is parallel to
@@ -119,17 +119,17 @@ static struct look_extent extent_around(const struct look_body *body, double sha
     struct vec2 half_m = {0.5 * share * body->box.length_m + beyond_m,
                           0.5 * share * body->box.width_m + beyond_m};
     struct silhouette silhouette = silhouette_of(half_m, body->box.heading, body->sensor_m);
-    return (struct look_extent){silhouette, bearings_of(&silhouette)};
+    return (struct look_extent){silhouette, azimuth_index_of(&silhouette)};
 }
 
 static void enter_blockers(struct look *look)
 {
-    look->bearings = bearings_begin(look->body_count, look->frame->arena);
+    look->bearings = azimuth_index_begin(look->body_count, look->frame->arena);
     for (size_t i = 0; i < look->body_count; i++) {
         struct look_body *body = &look->bodies[i];
         body->shadow = extent_around(body, 1, look->bend_m);
         if (body->blocks)
-            bearings_enter(&look->bearings, i, body->shadow.span);
+            azimuth_index_enter(&look->bearings, i, body->shadow.span);
     }
 }
 
@@ -207,7 +207,7 @@ uint64_t look_aged(const struct look *look, const struct look_body *body)
     return look->moved || body->moved ? EFFECT_BIT(EFFECT_LATENCY) : 0;
 }
 
-struct sight look_lifted(const struct look *look, double reflector_m, struct sight sight,
+struct kinematics look_lifted(const struct look *look, double reflector_m, struct kinematics sight,
                          double *gain, uint64_t *effects)
 {
     const struct selection *selection = look->selection;
@@ -220,7 +220,7 @@ struct sight look_lifted(const struct look *look, double reflector_m, struct sig
         return sight;
     int64_t begin = effects_begin(selection);
     struct elevation elevation = elevation_of(sight.range_m, height_m);
-    struct sight slant = {
+    struct kinematics slant = {
         .range_m = elevation.range_m,
         .azimuth_rad = elevation_azimuth_rad(elevation, sight.azimuth_rad),
         .range_rate_mps = elevation.cosine * sight.range_rate_mps,
@@ -244,7 +244,7 @@ double look_plane_ercs(const struct look *look, const struct plane_reflector *pl
     if (!curved)
         return plane->ercs;
     double radius_m = plane->radius_m > 0 ? plane->radius_m : (double)INFINITY;
-    double ercs = specular_ercs(plane->profile_radius_m, radius_m, range_m);
+    double ercs = curvature_ercs(plane->profile_radius_m, radius_m, range_m);
     if (ercs != plane->ercs)
         *effects |= EFFECT_BIT(EFFECT_CURVATURE);
     return ercs;

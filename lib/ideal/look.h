@@ -3,7 +3,7 @@
  *
  * A look stands at the instant of the measurement: the ego and all objects are moved there in
  * closed form, the sensor's place and speed follow from its mount on the moving, turning ego. What
- * lies in the way is in ways.h, what echoes in direct.h and ghosts.h.
+ * lies in the way is in line_of_sight.h, what echoes in direct_echoes.h and ghost_echoes.h.
  *
  * With mount_z_m reflectors that have a height are seen from the sensor's: their slant range, the
  * angle that a linear array reads, and the rate along the slant decide and are reported (EFFECTS
@@ -11,9 +11,9 @@
 #ifndef LOOK_H
 #define LOOK_H
 
-#include "bearings.h"
+#include "azimuth_index.h"
 #include "frame.h"
-#include "sight.h"
+#include "kinematics.h"
 #include "suite.h"
 
 /* A set of the frame, and what all who wear it share. */
@@ -26,7 +26,7 @@ struct look_set {
 /* What of the view something covers. */
 struct look_extent {
     struct silhouette silhouette;
-    struct bearings_span span; /* of it */
+    struct azimuth_index_span span; /* of it */
 };
 
 struct look_body {
@@ -58,7 +58,7 @@ struct look {
     struct look_body *bodies; /* all objects but the ego, by id */
     size_t body_count;
     struct look_set *sets;             /* of the frame */
-    struct bearings bearings;          /* of the bodies that block, as they are numbered here */
+    struct azimuth_index bearings;          /* of the bodies that block, as they are numbered here */
     const struct look_body **blockers; /* of the body that is looked at, by id */
     size_t blocker_count;
     int64_t pairs, echoes;
@@ -77,7 +77,7 @@ double look_top_m(const struct look *look, const struct look_body *body);
 
 /* What a sensor reads of a reflector at that height which it would see so in the plane, with the
  * factor on amplitude of its beam; adds to effects. */
-struct sight look_lifted(const struct look *look, double reflector_m, struct sight sight,
+struct kinematics look_lifted(const struct look *look, double reflector_m, struct kinematics sight,
                          double *gain, uint64_t *effects);
 
 /* The cross section of a side at its specular point, range_m away in the plane; adds to effects. */

@@ -155,10 +155,10 @@ double antenna_gain(const struct antenna *antenna, double azimuth_rad)
 }
 
 /* The dipole pair's gain falls to both sides of boresight; a table's has its extremes at rows. */
-struct bounds antenna_gain_bounds(const struct antenna *antenna, double low_rad, double high_rad)
+struct interval antenna_gain_bounds(const struct antenna *antenna, double low_rad, double high_rad)
 {
     double low = antenna_gain(antenna, low_rad), high = antenna_gain(antenna, high_rad);
-    struct bounds gain = {elementary_least(low, high), elementary_most(low, high)};
+    struct interval gain = {elementary_least(low, high), elementary_most(low, high)};
     if (antenna->pattern == ANTENNA_DIPOLE_PAIR && low_rad < 0 && high_rad > 0)
         gain.most = antenna_gain(antenna, 0);
     for (size_t i = 0; antenna->pattern == ANTENNA_TABLE && i < antenna->row_count; i++) {

@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "memory.h"
+#include "arena.h"
 
 struct resolution_echo {
     double range_m;

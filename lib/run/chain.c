@@ -9,14 +9,14 @@
 #include "frame_text.h"
 #include "input.h"
 #include "progress.h"
-#include "repeats.h"
+#include "list_cache.h"
 
 struct chain {
     struct runner *runners;
     size_t count;
     struct frame frame;
     struct arena arena; /* the frame's */
-    struct repeats repeats;
+    struct list_cache repeats;
     struct arena kept;
     struct input *input;
     size_t file, line_number;
@@ -240,7 +240,7 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
     input_close(chain.input);
     arena_free(&chain.arena);
     arena_free(&chain.kept);
-    repeats_free(&chain.repeats);
+    list_cache_free(&chain.repeats);
     return code;
 }
 

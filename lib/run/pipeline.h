@@ -6,7 +6,7 @@
 #define PIPELINE_H
 
 #include "diag.h"
-#include "memory.h"
+#include "arena.h"
 
 struct command {
     LIST_OF(const char *) words; /* the first is the program */

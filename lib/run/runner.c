@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "audit.h"
+#include "frame_account.h"
 #include "explain.h"
 #include "frame_check.h"
 #include "frame_order.h"
@@ -87,13 +87,13 @@ static bool reads_standard_input(const struct runner *runner)
     return runner->common.files.count == 0;
 }
 
-struct counterpart *runner_counterpart(struct runner *runner, const char *path, bool partial)
+struct reference_stream *runner_counterpart(struct runner *runner, const char *path, bool partial)
 {
     if (strcmp(path, "-") == 0 && reads_standard_input(runner))
         diag_fail(&runner->diag, DIAG_USAGE,
                   "\"-\" is standard input, where the frames come from; name their file");
     else if (runner->counterpart == NULL)
-        runner->counterpart = counterpart_open(path, partial, &runner->diag);
+        runner->counterpart = reference_stream_open(path, partial, &runner->diag);
     return runner->counterpart;
 }
 
@@ -281,7 +281,7 @@ void runner_free(struct runner *runner)
 {
     for (size_t i = 0; i < runner->rehearsing.count; i++)
         runner_free(runner->rehearsing.items[i]);
-    counterpart_close(runner->counterpart);
+    reference_stream_close(runner->counterpart);
     if (runner->stage != NULL && runner->stage->release != NULL)
         runner->stage->release(runner->state);
     arena_free(&runner->arena);
@@ -331,7 +331,7 @@ static int conclude(struct runner *runner, struct frame *frame)
     if (frame_check_part(frame, written, &runner->diag) != 0)
         return refuse(runner, frame);
     if (frame->account && (stage->writes & SECTION_TARGETS) != 0)
-        return audit_frame(frame, &runner->diag);
+        return frame_account_check(frame, &runner->diag);
     return 0;
 }
 
@@ -367,7 +367,7 @@ int runner_step(struct runner *runner, struct frame *frame)
         frame->seed = runner->common.seed;
     if (check_sections(runner, frame) != 0 ||
         (runner->common.complete &&
-         completeness_follow(&runner->completeness, frame, &runner->arena, &runner->diag) != 0) ||
+         frame_sequence_follow(&runner->completeness, frame, &runner->arena, &runner->diag) != 0) ||
         told(runner, runner->stage->step(runner->state, frame, runner)) != 0)
         return -1;
     return runner->stage->sink ? 0 : conclude(runner, frame);
@@ -402,7 +402,7 @@ int runner_rehearse(struct runner *runner, const struct stage *stage,
 
 int runner_finish(struct runner *runner)
 {
-    if (completeness_end(&runner->completeness, &runner->diag) != 0)
+    if (frame_sequence_end(&runner->completeness, &runner->diag) != 0)
         return -1;
     const struct stage *stage = runner->stage;
     if (stage->stop != NULL && told(runner, stage->stop(runner->state, runner)) != 0)

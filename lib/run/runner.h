@@ -3,7 +3,7 @@
 #ifndef RUNNER_H
 #define RUNNER_H
 
-#include "completeness.h"
+#include "frame_sequence.h"
 #include "options.h"
 #include "output.h"
 #include "stage.h"
@@ -17,11 +17,11 @@ struct runner {
     struct output *output; /* of the last stage in a chain, else NULL */
     LIST_OF(const struct suite *) suites;
     LIST_OF(const struct vehicle *) vehicles; /* by class */
-    struct completeness completeness;         /* followed only under --complete */
+    struct frame_sequence completeness;         /* followed only under --complete */
     int64_t expected_frames;                  /* 0 if the source does not say */
     struct effect_log *log;                   /* NULL unless --explain was given */
     LIST_OF(struct runner *) rehearsing;      /* other stages, inside this one */
-    struct counterpart *counterpart;          /* NULL: none was asked for */
+    struct reference_stream *counterpart;          /* NULL: none was asked for */
 };
 
 /* All return 0, or -1 after a message in runner->diag; runner_next returns 1 with a frame and 0 at

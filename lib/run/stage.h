@@ -15,7 +15,7 @@
 #define STAGE_H
 
 #include "catalogue.h"
-#include "counterpart.h"
+#include "reference_stream.h"
 #include "frame.h"
 #include "units.h"
 
@@ -130,7 +130,7 @@ int runner_write_record(struct runner *runner, const struct record *record, cons
 /* Another stream beside the one that is read, for sinks that compare: opened once, closed at the
  * end.
  * "-" is standard input where the frames come from files. NULL after a message. */
-struct counterpart *runner_counterpart(struct runner *runner, const char *path, bool partial);
+struct reference_stream *runner_counterpart(struct runner *runner, const char *path, bool partial);
 
 /* For the progress bar of a source: how many frames there will be. */
 void runner_expect(struct runner *runner, int64_t frames);

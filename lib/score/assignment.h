@@ -2,7 +2,7 @@
 #ifndef ASSIGNMENT_H
 #define ASSIGNMENT_H
 
-#include "memory.h"
+#include "arena.h"
 
 #define ASSIGNMENT_NONE ((size_t)-1)
 

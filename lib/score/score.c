@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "deviations.h"
+#include "error_statistics.h"
 #include "elementary.h"
 #include "sort.h"
 
@@ -221,11 +221,11 @@ static struct score_differences differences_of(const struct score_tally *tallies
     struct score_values list = gather(tallies, count, SCORE_LISTED, component, arena);
     struct score_differences differences = {0};
     if (apart.list.count > 0) {
-        struct deviations of = deviations_of(apart.list.items, apart.list.count, arena);
+        struct error_statistics of = error_statistics_of(apart.list.items, apart.list.count, arena);
         differences = (struct score_differences){of.mean, of.rms, of.p95, of.max, 0, SCORE_PAIRS};
     }
     if (truth.list.count > 0 && list.list.count > 0) {
-        differences.wasserstein = deviations_wasserstein(truth.list.items, truth.list.count,
+        differences.wasserstein = error_statistics_wasserstein(truth.list.items, truth.list.count,
                                                          list.list.items, list.list.count, arena);
         differences.told |= SCORE_LISTS;
     }

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "elementary.h"
-#include "rain.h"
+#include "attenuation.h"
 #include "units.h"
 
 #define WEATHER (EFFECT_BIT(EFFECT_RAIN) | EFFECT_BIT(EFFECT_FOG))
@@ -18,8 +18,8 @@
 
 static double factor_over(const struct reception *reception, double range_m)
 {
-    double least = rain_amplitude_factor(reception->rain_dbpkm, range_m) *
-                   rain_amplitude_factor(reception->fog_dbpkm, range_m);
+    double least = attenuation_amplitude_factor(reception->rain_dbpkm, range_m) *
+                   attenuation_amplitude_factor(reception->fog_dbpkm, range_m);
     return (1 + SLACK) / least;
 }
 
@@ -179,7 +179,7 @@ bool escalation_spares_superposition(const struct sensor *sensor, const struct r
     if (!((azimuth.most - azimuth.least) * (1 + SLACK) <=
           SUPERPOSITION_AZIMUTH * tolerance->azimuth_rad))
         return false;
-    struct bounds gain = antenna_gain_bounds(&sensor->antenna, azimuth.least, azimuth.most);
+    struct interval gain = antenna_gain_bounds(&sensor->antenna, azimuth.least, azimuth.most);
     return gain.least > 0 && units_amplitude_db(gain.most / gain.least * (1 + SLACK)) <=
                                  SUPERPOSITION_AMPLITUDE * tolerance->amplitude_db;
 }

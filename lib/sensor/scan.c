@@ -12,9 +12,9 @@ struct scan scan_receive(const struct reception *reception)
     size_t all = echoes.count + scatterers.count, count = all;
     struct ray *rays = arena_get(frame->arena, (all + 1) * sizeof *rays);
     for (size_t i = 0; i < echoes.count; i++)
-        rays[i] = reception_ray(reception, &echoes.items[i]);
+        rays[i] = received_echo_ray(reception, &echoes.items[i]);
     for (size_t i = 0; i < scatterers.count; i++)
-        rays[echoes.count + i] = reception_ray(reception, &scatterers.items[i]);
+        rays[echoes.count + i] = received_echo_ray(reception, &scatterers.items[i]);
     sort_items(rays, count, sizeof *rays, superposition_compare, frame->arena);
     while (count > 0 && !(rays[count - 1].amplitude > 0))
         count--;

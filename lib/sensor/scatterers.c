@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "address.h"
+#include "draw_address.h"
 #include "clutter.h"
 #include "elementary.h"
 #include "limbs.h"
@@ -22,7 +22,7 @@ static bool simulates(const struct reception *reception, enum effect effect)
 
 static struct random_address address_at(const struct reception *reception, struct subject subject)
 {
-    return address_in(reception->address, subject);
+    return draw_address_in(reception->address, subject);
 }
 
 static void add(struct additions *additions, const struct echo *echo)
@@ -93,9 +93,9 @@ static void add_parts(struct additions *additions)
     struct echo_span echoes = frame_echoes_of(reception->frame, reception->sensor->name);
     for (size_t i = 0; i < echoes.count; i++) {
         const struct echo *echo = &echoes.items[i];
-        if (reception_rolls(echo) && simulates(reception, EFFECT_WHEELS))
+        if (received_echo_rolls(echo) && simulates(reception, EFFECT_WHEELS))
             add_wheel(additions, echo);
-        if (reception_walks(echo) && simulates(reception, EFFECT_LIMBS))
+        if (received_echo_walks(echo) && simulates(reception, EFFECT_LIMBS))
             add_limbs(additions, echo);
     }
 }

@@ -13,7 +13,7 @@
 #include <stdint.h>
 
 #include "diag.h"
-#include "memory.h"
+#include "arena.h"
 
 enum field_kind {
     FIELD_REAL,    /* double: finite, in [low, high] */
@@ -45,7 +45,7 @@ struct field {
     char key[FIELD_KEY_SIZE]; /* as lines have it behind another member: ,"range_m": */
     unsigned char key_length;
     bool optional; /* may be absent; then, and only then, it is not written either */
-    bool steady;   /* a list that frames repeat (repeats.h) */
+    bool steady;   /* a list that frames repeat (list_cache.h) */
     enum field_kind kind;
     size_t offset;
     double low, high;

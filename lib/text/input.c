@@ -8,7 +8,7 @@
 
 #include <zlib.h>
 
-#include "memory.h"
+#include "arena.h"
 
 enum { RAW_SIZE = 64 * 1024, LINE_STEP = 64 * 1024 };
 

@@ -10,7 +10,7 @@
 #include <stddef.h>
 
 #include "diag.h"
-#include "memory.h"
+#include "arena.h"
 
 struct json_scan {
     const char *at, *end;

@@ -11,7 +11,7 @@
 
 #include <zlib.h>
 
-#include "memory.h"
+#include "arena.h"
 
 /* What a pipe takes at once. */
 enum { PIECE_SIZE = 64 * 1024 };

@@ -6,7 +6,7 @@
 #include "elementary.h"
 #include "field.h"
 #include "sort.h"
-#include "table.h"
+#include "csv_table.h"
 #include "units.h"
 #include "vec2.h"
 
@@ -45,16 +45,16 @@ struct layout {
     bool has_box;
 };
 
-static int find_columns(const struct table *table, const struct column *columns, size_t count,
+static int find_columns(const struct csv_table *table, const struct column *columns, size_t count,
                         size_t *found, struct diag *diag)
 {
     for (size_t i = 0; i < count; i++)
-        if (table_column(table, columns[i].name, &found[i], diag) != 0)
+        if (csv_table_column(table, columns[i].name, &found[i], diag) != 0)
             return -1;
     return 0;
 }
 
-static bool has_any_box_column(const struct table *table)
+static bool has_any_box_column(const struct csv_table *table)
 {
     for (size_t i = 0; i < table->columns; i++)
         for (size_t j = 0; j < BOX; j++)
@@ -63,49 +63,49 @@ static bool has_any_box_column(const struct table *table)
     return false;
 }
 
-static int find_layout(const struct table *table, struct layout *layout, struct diag *diag)
+static int find_layout(const struct csv_table *table, struct layout *layout, struct diag *diag)
 {
     layout->has_box = has_any_box_column(table);
-    if (table_column(table, "track_id", &layout->id, diag) != 0 ||
-        table_column(table, "timestamp_ms", &layout->time, diag) != 0 ||
-        table_column(table, "agent_type", &layout->class, diag) != 0 ||
+    if (csv_table_column(table, "track_id", &layout->id, diag) != 0 ||
+        csv_table_column(table, "timestamp_ms", &layout->time, diag) != 0 ||
+        csv_table_column(table, "agent_type", &layout->class, diag) != 0 ||
         find_columns(table, moving_columns, MOVING, layout->moving, diag) != 0)
         return -1;
     return layout->has_box ? find_columns(table, box_columns, BOX, layout->box, diag) : 0;
 }
 
-static int read_numbers(const struct table *table, size_t row, const struct column *columns,
+static int read_numbers(const struct csv_table *table, size_t row, const struct column *columns,
                         const size_t *found, size_t count, struct recorded_state *state,
                         struct diag *diag)
 {
     for (size_t i = 0; i < count; i++) {
         double value;
-        if (table_number(table, row, found[i], columns[i].low, columns[i].high, &value, diag) != 0)
+        if (csv_table_number(table, row, found[i], columns[i].low, columns[i].high, &value, diag) != 0)
             return -1;
         memcpy((char *)state + columns[i].offset, &value, sizeof value);
     }
     return 0;
 }
 
-static int read_time(const struct table *table, size_t row, size_t column, int64_t *time_ms,
+static int read_time(const struct csv_table *table, size_t row, size_t column, int64_t *time_ms,
                      struct diag *diag)
 {
     double value;
-    if (table_number(table, row, column, -0x1p53, 0x1p53, &value, diag) != 0)
+    if (csv_table_number(table, row, column, -0x1p53, 0x1p53, &value, diag) != 0)
         return -1;
     if (value != floor(value))
         return diag_fail(diag, DIAG_DATA, "row %zu, column \"%s\": %s is not a whole number",
                          table->numbers[row], table->header[column],
-                         table_cell(table, row, column));
+                         csv_table_cell(table, row, column));
     *time_ms = (int64_t)value;
     return 0;
 }
 
 /* ASCII, because names go into frames, which must be UTF-8, and CSV says nothing of its coding. */
-static int read_name(const struct table *table, size_t row, size_t column, const char **name,
+static int read_name(const struct csv_table *table, size_t row, size_t column, const char **name,
                      struct diag *diag)
 {
-    const char *text = table_cell(table, row, column);
+    const char *text = csv_table_cell(table, row, column);
     size_t length = strlen(text);
     bool good = length > 0 && length <= FIELD_NAME_SIZE;
     for (size_t i = 0; i < length && good; i++)
@@ -118,15 +118,15 @@ static int read_name(const struct table *table, size_t row, size_t column, const
     return 0;
 }
 
-static bool box_is_empty(const struct table *table, size_t row, const struct layout *layout)
+static bool box_is_empty(const struct csv_table *table, size_t row, const struct layout *layout)
 {
     for (size_t i = 0; i < BOX; i++)
-        if (table_cell(table, row, layout->box[i])[0] != '\0')
+        if (csv_table_cell(table, row, layout->box[i])[0] != '\0')
             return false;
     return true;
 }
 
-static int read_state(const struct table *table, size_t row, const struct layout *layout,
+static int read_state(const struct csv_table *table, size_t row, const struct layout *layout,
                       struct recorded_state *state, struct diag *diag)
 {
     state->row = table->numbers[row];
@@ -235,9 +235,9 @@ int trajectory_read(const char *path, struct arena *arena, struct trajectories *
                     struct diag *diag)
 {
     *trajectories = (struct trajectories){0};
-    struct table table;
+    struct csv_table table;
     struct layout layout;
-    if (table_read(path, &table, arena, diag) != 0 || find_layout(&table, &layout, diag) != 0)
+    if (csv_table_read(path, &table, arena, diag) != 0 || find_layout(&table, &layout, diag) != 0)
         return -1;
     struct recorded_state *states = arena_get(arena, table.rows * sizeof *states);
     for (size_t row = 0; row < table.rows; row++)

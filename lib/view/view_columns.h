@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#include "memory.h"
+#include "arena.h"
 #include "text.h"
 
 /* Real columns first. */

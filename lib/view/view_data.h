@@ -11,7 +11,7 @@
 #define VIEW_DATA_H
 
 #include "frame.h"
-#include "pool.h"
+#include "numbering.h"
 #include "view_columns.h"
 #include "view_frame.h"
 
@@ -26,7 +26,7 @@ struct view_scene {
 struct view_data {
     struct arena *arena;
     struct view_models models;
-    struct pool names, scene_names, patterns, effect_sets;
+    struct numbering names, scene_names, patterns, effect_sets;
     LIST_OF(struct view_scene) scenes;
     LIST_OF(struct sensor_view) sensors;
     struct view_columns columns;

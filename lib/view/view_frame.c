@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "cycle.h"
+#include "scan_timing.h"
 
 static struct motion motion_of(const struct object *object)
 {
@@ -22,7 +22,7 @@ static double age_s(const struct frame *frame, const struct sensor_view *sensor)
             return frame->time_s - frame->targets.items[i].contributors.items[0].time_s;
     double instant_s;
     if (!sensor->measured ||
-        cycle_instant_s(sensor->cycle_s, frame->time_s, frame->interval_s, &instant_s) != CYCLE_ONE)
+        scan_timing_instant_s(sensor->cycle_s, frame->time_s, frame->interval_s, &instant_s) != SCAN_TIMING_ONE)
         return 0;
     return frame->time_s - instant_s;
 }

@@ -10,7 +10,7 @@
 #include "elementary.h"
 #include "frame_text.h"
 #include "monopulse.h"
-#include "sight.h"
+#include "kinematics.h"
 #include "units.h"
 #include "visibility.h"
 
@@ -191,8 +191,8 @@ static void an_echo_from_the_side_is_not_invented_elsewhere(void **state)
         double element = place.x / vec2_length(place);
         double azimuth_rad = naive_azimuth(element * 1.0, element * 0.0);
         naive += !(fabs(azimuth_rad - PI / 2) < 1e-15);
-        struct sight sight =
-            sight_of((struct vec2){0, 0}, (struct vec2){0, 0}, boresight, place, place);
+        struct kinematics sight =
+            kinematics_of((struct vec2){0, 0}, (struct vec2){0, 0}, boresight, place, place);
         const struct antenna *antenna = i / 2 % 2 == 0 ? &CENTRE : &ELEMENT;
         struct monopulse_angle angle =
             monopulse_angle(antenna, i / 4 % 2 == 0 ? MONOPULSE_MAGNITUDE : MONOPULSE_RATIO,

@@ -3,11 +3,11 @@
 
 #include <stdbool.h>
 
-#include "direct.h"
+#include "direct_echoes.h"
 #include "occlusion.h"
-#include "orientation.h"
-#include "reflection.h"
-#include "sight.h"
+#include "predicates.h"
+#include "specular_point.h"
+#include "kinematics.h"
 #include "units.h"
 
 __extension__ typedef __int128 wide;
@@ -80,7 +80,7 @@ static void what_has_no_size_has_a_fixed_answer(void **state)
     struct vec2 foot;
     int64_t posts;
     struct vec2 post = posts_of_a_row_without_length(&posts);
-    struct sight here = sight_of(p, up, up, p, o);
+    struct kinematics here = kinematics_of(p, up, up, p, o);
     struct motion still = motion_drive(p, 1, 0, 0, 0, 0);
     const double no_length = vec2_length(o);
     const struct {
@@ -100,17 +100,17 @@ static void what_has_no_size_has_a_fixed_answer(void **state)
         {0, occlusion_outline_blocks(line, 4, o, up), 0},
         {0, occlusion_outline_blocks(flat, 4, p, (struct vec2){9, 0}), 1},
         {0, occlusion_outline_blocks(flat, 4, (struct vec2){3, 0}, (struct vec2){9, 0}), 0},
-        {0, orientation_sign(p, p, off), 0},
-        {0, orientation_sign(off, p, p), 0},
-        {0, orientation_sign(p, off, p), 0},
-        {0, orientation_sign(p, p, p), 0},
-        {0, orientation_along(p, p, up), 0},
-        {0, orientation_along(o, off, o), 0},
-        {no_length / no_length, reflection_foot(p, p, up, 0, o, &foot), 0},
-        {no_length / no_length, reflection_foot(p, p, up, 0, p, &foot), 0},
-        {1, reflection_foot(p, q, p, 0, p, &foot), 0},
-        {1, reflection_foot(p, q, p, 0.75, (struct vec2){1.5, -1}, &foot), 0},
-        {1, reflection_foot(o, (struct vec2){1e-170, 0}, p, 0, (struct vec2){0, -1}, &foot), 0},
+        {0, predicates_orientation(p, p, off), 0},
+        {0, predicates_orientation(off, p, p), 0},
+        {0, predicates_orientation(p, off, p), 0},
+        {0, predicates_orientation(p, p, p), 0},
+        {0, predicates_along(p, p, up), 0},
+        {0, predicates_along(o, off, o), 0},
+        {no_length / no_length, specular_point_foot(p, p, up, 0, o, &foot), 0},
+        {no_length / no_length, specular_point_foot(p, p, up, 0, p, &foot), 0},
+        {1, specular_point_foot(p, q, p, 0, p, &foot), 0},
+        {1, specular_point_foot(p, q, p, 0.75, (struct vec2){1.5, -1}, &foot), 0},
+        {1, specular_point_foot(o, (struct vec2){1e-170, 0}, p, 0, (struct vec2){0, -1}, &foot), 0},
         {0, here.range_m, 0},
         {no_length / no_length, here.azimuth_rad, 0},
         {no_length / no_length, here.range_rate_mps, 0},
@@ -147,8 +147,8 @@ static void near_collinear_points_have_their_side(void **state)
         for (int j = 0; j < 256; j++) {
             struct vec2 a = {0.5 + i * 0x1p-53, 0.5 + j * 0x1p-53}, b = {12, 12}, c = {24, 24};
             naive += plain_sign(a, b, c) != sign_of(j - i);
-            ours += orientation_sign(a, b, c) != sign_of(j - i) ||
-                    orientation_sign(b, c, a) != sign_of(j - i);
+            ours += predicates_orientation(a, b, c) != sign_of(j - i) ||
+                    predicates_orientation(b, c, a) != sign_of(j - i);
         }
     for (int i = 0; i < hard_points(1000000); i++) {
         int64_t x = sample_integer(&random, INT64_C(1) << 40);
@@ -164,7 +164,7 @@ static void near_collinear_points_have_their_side(void **state)
         struct vec2 a = {(double)x, (double)y}, b = {(double)(x + bx), (double)(y + by)};
         struct vec2 c = {(double)(x + cx), (double)(y + cy)};
         naive += plain_sign(a, b, c) != exact;
-        ours += orientation_sign(a, b, c) != exact || orientation_sign(c, b, a) != -exact;
+        ours += predicates_orientation(a, b, c) != exact || predicates_orientation(c, b, a) != -exact;
     }
     hard_case("27", "sides of 1e6 near-collinear triples", "wrong", naive, ours, 0);
 }
@@ -204,7 +204,7 @@ static void decimal_road_points_have_their_side(void **state)
                     struct vec2 *p = road[spelling];
                     int exact = exact_sign(p[i], p[j], p[k], work);
                     naive += plain_sign(p[i], p[j], p[k]) != exact;
-                    ours += orientation_sign(p[i], p[j], p[k]) != exact;
+                    ours += predicates_orientation(p[i], p[j], p[k]) != exact;
                 }
     mpfr_clears(work[0], work[1], (mpfr_ptr)NULL);
     hard_case("28", "sides of decimal road points", "wrong", naive, ours, 0);
@@ -280,13 +280,13 @@ static void no_ray_leaks_through_a_joint(void **state)
 }
 
 /* A frame in which "e" carries a sensor, and what else is there. */
-struct scene {
+struct playback {
     struct arena arena;
     struct frame frame;
     struct sensor sensor;
 };
 
-static void begin_scene(struct scene *scene, struct vec2 sensor, double yaw_rad)
+static void begin_scene(struct playback *scene, struct vec2 sensor, double yaw_rad)
 {
     scene->frame.arena = &scene->arena;
     frame_clear(&scene->frame);
@@ -300,7 +300,7 @@ static void begin_scene(struct scene *scene, struct vec2 sensor, double yaw_rad)
 }
 
 /* An object that alone wears its set. */
-static struct reflector_set *add_object(struct scene *scene, struct object object)
+static struct reflector_set *add_object(struct playback *scene, struct object object)
 {
     *list_add(&scene->frame.objects, &scene->arena) = object;
     struct reflector_set *set = list_add(&scene->frame.reflectors, &scene->arena);
@@ -309,7 +309,7 @@ static struct reflector_set *add_object(struct scene *scene, struct object objec
     return set;
 }
 
-static void add_point(struct scene *scene, struct reflector_set *set, double x, double y)
+static void add_point(struct playback *scene, struct reflector_set *set, double x, double y)
 {
     *list_add(&set->points, &scene->arena) = (struct point_reflector){.name = "p",
                                                                       .x = x,
@@ -320,22 +320,22 @@ static void add_point(struct scene *scene, struct reflector_set *set, double x, 
                                                                       .ercs = 1};
 }
 
-static void add_plane(struct scene *scene, struct reflector_set *set, double from, double to)
+static void add_plane(struct playback *scene, struct reflector_set *set, double from, double to)
 {
     *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
         .name = "w", .from_x = from, .from_y = -0.5, .to_x = to, .to_y = -0.5, .ercs = 1};
 }
 
-static void look(struct scene *scene)
+static void look(struct playback *scene)
 {
     struct look seen;
     struct diag diag = {0};
     if (look_begin(&seen, &scene->frame, &scene->sensor, &everything, 0, &diag) != 0)
         fail_msg("%s", diag.text);
-    direct_look(&seen);
+    direct_echoes_add(&seen);
 }
 
-static size_t lost_for(const struct scene *scene, enum loss reason)
+static size_t lost_for(const struct playback *scene, enum loss reason)
 {
     size_t count = 0;
     for (size_t i = 0; i < scene->frame.lost.count; i++)
@@ -348,7 +348,7 @@ static void no_object_hides_its_own_outline(void **state)
 {
     (void)state;
     uint64_t random = 32;
-    struct scene scene = {0};
+    struct playback scene = {0};
     double naive = 0, ours = 0;
     for (int i = 0; i < hard_points(200000) / 20; i++) {
         begin_scene(&scene, (struct vec2){0, 0}, 0);
@@ -390,7 +390,7 @@ static int plain_feet(struct vec2 a, struct vec2 joint, struct vec2 b, struct ve
 }
 
 /* A wall in two pieces: of one object, or of two whose ends coincide as doubles. */
-static struct vec2 build_wall(struct scene *scene, uint64_t *random, bool straight, double yaw_rad)
+static struct vec2 build_wall(struct playback *scene, uint64_t *random, bool straight, double yaw_rad)
 {
     struct object one = {.id = "a",
                          .class = "wall",
@@ -433,7 +433,7 @@ static void every_joint_has_one_foot(void **state)
 {
     (void)state;
     uint64_t random = 33;
-    struct scene scene = {0};
+    struct playback scene = {0};
     double naive = 0, ours = 0, objects = 0;
     for (int i = 0; i < hard_points(1000000); i++) {
         bool straight = i % 8 == 0;
@@ -479,11 +479,11 @@ static void a_joint_up_to_rounding_has_one_foot_beside_it(void **state)
         struct vec2 beside = vec2_add(before, vec2_scale(i % 2 ? 1e-12 : -1e-12, along));
         struct vec2 from = reflectors_place(&one, -0.5, -0.5);
         struct vec2 to = reflectors_place(&two, 0.5, -0.5);
-        naive += reflection_foot(from, end, along, 0, before, &foot) +
-                     reflection_foot(begin, to, along, 0, before, &foot) !=
+        naive += specular_point_foot(from, end, along, 0, before, &foot) +
+                     specular_point_foot(begin, to, along, 0, before, &foot) !=
                  1;
-        ours += reflection_foot(from, end, along, 0, beside, &foot) +
-                    reflection_foot(begin, to, along, 0, beside, &foot) !=
+        ours += specular_point_foot(from, end, along, 0, beside, &foot) +
+                    specular_point_foot(begin, to, along, 0, beside, &foot) !=
                 1;
     }
     hard_case("33 apart", "ends that differ: at, and 1e-12 m beside", "wrong", naive, ours, 0);
@@ -510,7 +510,7 @@ static void an_outline_along_the_sight_line_blocks_the_foot(void **state)
                 *all[k] = vec2_left(*all[k]);
             along = vec2_left(along);
         }
-        assert_true(reflection_foot(a, b, along, 0, sensor, &foot));
+        assert_true(specular_point_foot(a, b, along, 0, sensor, &foot));
         struct vec2 edge = vec2_sub(b, a);
         double part = vec2_dot(vec2_sub(sensor, a), edge) / vec2_dot(edge, edge);
         struct vec2 plain = vec2_add(a, vec2_scale(part, edge));
@@ -563,7 +563,7 @@ static void a_turned_foot_is_off_its_sight_line_by_rounding_alone(void **state)
         struct vec2 own = {sample_between(&random, 0.1, 0.9) * length_m,
                            -between_powers(&random, -7, 8)};
         struct vec2 sensor = vec2_add(a, vec2_turn(own, along));
-        assert_true(reflection_foot(a, b, along, 0, sensor, &foot));
+        assert_true(specular_point_foot(a, b, along, 0, sensor, &foot));
         struct vec2 edge = vec2_sub(b, a);
         double part = vec2_dot(vec2_sub(sensor, a), edge) / vec2_dot(edge, edge);
         struct vec2 plain = vec2_add(a, vec2_scale(part, edge));
@@ -589,7 +589,7 @@ static void nothing_at_range_zero_is_infinite(void **state)
         struct vec2 sensor = i % 3 ? (struct vec2){0, 0} : draw_place(&random, 1e3);
         struct vec2 beside = {ldexp(1, -(i % 1075)), i % 2 ? 0 : ldexp(-1, -(i % 1074))};
         struct vec2 point = i % 4 ? vec2_add(sensor, beside) : sensor;
-        struct sight sight = sight_of(sensor, draw_place(&random, 50), (struct vec2){1, 0}, point,
+        struct kinematics sight = kinematics_of(sensor, draw_place(&random, 50), (struct vec2){1, 0}, point,
                                       draw_place(&random, 50));
         struct vec2 line = vec2_sub(point, sensor);
         naive += !isfinite(line.y / vec2_length(line)) || !isfinite(1 / vec2_dot(line, line));
@@ -606,7 +606,7 @@ static void a_look_at_its_own_place_is_out_of_range(void **state)
 {
     (void)state;
     uint64_t random = 37;
-    struct scene scene = {0};
+    struct playback scene = {0};
     double ours = 0;
     int looks = hard_points(100000);
     for (int i = 0; i < looks; i++) {
@@ -627,7 +627,7 @@ static void a_sensor_inside_an_object_sees_the_inside_alone(void **state)
 {
     (void)state;
     uint64_t random = 38;
-    struct scene scene = {0};
+    struct playback scene = {0};
     double naive = 0, ours = 0;
     for (int i = 0; i < hard_points(100000); i++) {
         struct object around = {

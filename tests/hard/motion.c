@@ -6,8 +6,8 @@
 
 #include "motion.h"
 #include "scenario.h"
-#include "scene.h"
-#include "sight.h"
+#include "playback.h"
+#include "kinematics.h"
 #include "units.h"
 
 /* |actual - exact|, which is used up. */
@@ -101,9 +101,9 @@ static void utm_places_keep_a_nanometre(void **state)
     int steps = hard_points(100000) / TRACKS;
     struct utm *places = arena_get(&scratch->arena, (size_t)(steps * TRACKS) * sizeof *places);
     assert_int_equal(write_tracks(scratch->path, places, steps), 0);
-    struct scene scene;
+    struct playback scene;
     struct diag diag = {0};
-    if (scene_open(&scene, scratch->path, "000", &scratch->arena, &diag) != 0)
+    if (playback_open(&scene, scratch->path, "000", &scratch->arena, &diag) != 0)
         fail_msg("%s", diag.text);
     double naive = 0, ours = 0;
     mpfr_t work[2];
@@ -111,7 +111,7 @@ static void utm_places_keep_a_nanometre(void **state)
     struct frame frame = {.arena = &scratch->arena};
     for (int step = 0; step < steps; step++) {
         frame.objects.count = 0;
-        scene_frame(&scene, step, &frame);
+        playback_frame(&scene, step, &frame);
         assert_int_equal(frame.objects.count, TRACKS);
         assert_true(frame.origin_x_m == round((double)places[0].x_um / 1e6) &&
                     frame.origin_y_m == round((double)places[0].y_um / 1e6));
@@ -121,7 +121,7 @@ static void utm_places_keep_a_nanometre(void **state)
         for (int i = 0; i < TRACKS; i++) {
             const struct object *object = &frame.objects.items[i];
             struct vec2 place_m = {object->x_m, object->y_m};
-            struct sight sight = sight_of(ego_m, (struct vec2){0, 0}, (struct vec2){1, 0}, place_m,
+            struct kinematics sight = kinematics_of(ego_m, (struct vec2){0, 0}, (struct vec2){1, 0}, place_m,
                                           (struct vec2){0, 0});
             ours = fmax(ours, local_error_m(place_m.x, now[i].x_um, origin_m.x, work[0]));
             ours = fmax(ours, local_error_m(place_m.y, now[i].y_um, origin_m.y, work[0]));
@@ -201,7 +201,7 @@ static void a_nearly_tangential_speed_keeps_its_sign(void **state)
     for (int i = 0; i < hard_points(300000); i++) {
         struct vec2 r = draw_vector(&random, 100);
         struct vec2 v = vec2_scale(sample_between(&random, -1, 1), vec2_left(r));
-        double rate_mps = sight_of(o, o, ahead, r, v).range_rate_mps;
+        double rate_mps = kinematics_of(o, o, ahead, r, v).range_rate_mps;
         exact_rate(r, v, exact, work);
         ours = fmax(ours, hard_ulp(rate_mps, exact));
         exact_rate(r, v, exact, work);
@@ -223,7 +223,7 @@ static void ranges_are_never_differenced(void **state)
         struct vec2 aside = vec2_heading(sample_between(&random, -PI, PI));
         struct vec2 r = vec2_scale(10, aside), v = vec2_scale(30, vec2_left(aside));
         double later_m = vec2_length(vec2_add(r, vec2_scale(1e-3, v)));
-        double rate_mps = sight_of(o, o, ahead, r, v).range_rate_mps;
+        double rate_mps = kinematics_of(o, o, ahead, r, v).range_rate_mps;
         exact_rate(r, v, exact, work);
         naive = fmax(naive, fabs((later_m - vec2_length(r)) / 1e-3 - mpfr_get_d(exact, MPFR_RNDN)));
         ours = fmax(ours, distance(rate_mps, exact));

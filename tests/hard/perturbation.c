@@ -11,10 +11,10 @@
 #include <string.h>
 
 #include "catalogue.h"
-#include "direct.h"
+#include "direct_echoes.h"
 #include "frame_order.h"
 #include "fused.h"
-#include "hard_cases.h"
+#include "adversarial_traffic.h"
 #include "hash.h"
 #include "runner.h"
 #include "sort.h"
@@ -89,7 +89,7 @@ struct bench {
     struct arena documents;
     const struct suite *suite;
     struct suite moved;
-    struct random_scene scene;
+    struct random_traffic scene;
     struct chain before, after;
     double lists, changed, entries, near, values, undecided;
     double farthest; /* of all changed lists: the nearest margin in units of its bound */
@@ -134,7 +134,7 @@ static int make_bench(void **state)
     struct diag diag = {0};
     for (enum random_class class = 0; class < RANDOM_CLASSES; class ++) {
         const struct vehicle *vehicle =
-            catalogue_vehicle(random_class_name(class), &bench->documents, &diag);
+            catalogue_vehicle(random_traffic_class_name(class), &bench->documents, &diag);
         if (vehicle == NULL)
             fail_msg("%s", diag.text);
         bench->scene.models[class] =
@@ -232,7 +232,7 @@ static void see(struct frame *frame, const struct suite *suite)
         struct diag diag = {0};
         if (look_begin(&look, frame, sensor, &everything, frame->time_s, &diag) != 0)
             fail_msg("%s", diag.text);
-        direct_look(&look);
+        direct_echoes_add(&look);
     }
     frame->present |= SECTION_SENSORS | SECTION_ECHOES | SECTION_LOST | SECTION_COUNTS;
     frame_order(frame);
@@ -533,7 +533,7 @@ static void compare_fates_of(struct bench *bench, const struct fates *before,
             print_message(
                 "%s of %s, %s scene %d: the %s list changed, %g from its nearest border\n",
                 bench->suite->sensors.items[sensor].name, bench->suite->name,
-                random_densities[bench->scene.density], (int)number, what, least[sensor]);
+                random_traffic_densities[bench->scene.density], (int)number, what, least[sensor]);
     }
 }
 
@@ -564,11 +564,11 @@ static void run_scene(struct bench *bench, int64_t number)
     bool sensors = number % 4 == 3;
     uint64_t coin =
         hash_text(hash_text(hash_bytes(HASH_START, &number, sizeof number), bench->suite->name),
-                  random_densities[bench->scene.density]);
+                  random_traffic_densities[bench->scene.density]);
     begin(before, number);
-    random_scene_fill(&bench->scene, number, &before->frame);
+    random_traffic_fill(&bench->scene, number, &before->frame);
     if (bench->scene.density == RANDOM_ADVERSARIAL)
-        hard_cases_add(&bench->scene, bench->suite, number, &before->frame);
+        adversarial_traffic_add(&bench->scene, bench->suite, number, &before->frame);
     begin(after, number);
     after->frame.ego = before->frame.ego;
     for (size_t i = 0; i < before->frame.objects.count; i++)

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "carrier.h"
-#include "direct.h"
+#include "direct_echoes.h"
 #include "elementary.h"
 #include "frame_order.h"
 #include "frame_text.h"
@@ -156,7 +156,7 @@ static struct look look_at_pole(struct bench *bench, struct vec2 ego, struct vec
     static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
     if (look_begin(&look, frame, &bench->sensor, &everything, 0, &diag) != 0)
         fail_msg("%s", diag.text);
-    direct_look(&look);
+    direct_echoes_add(&look);
     return look;
 }
 

@@ -7,7 +7,7 @@
 
 #include "hash.h"
 #include "number.h"
-#include "readings.h"
+#include "target_list.h"
 #include "resolution.h"
 #include "sort.h"
 #include "superposition.h"
@@ -390,9 +390,9 @@ static void list_readings(struct frame *frame, const double *amplitudes, size_t 
         cells[i] = (struct cell){.sensor = "s", .sum_re = amplitudes[i]};
         *list_add(&cells[i].members, frame->arena) =
             (struct contributor){.object = "o", .reflector = "r", .weight = 1};
-        readings[i] = reading_of(&cells[i]);
+        readings[i] = target_list_measure(&cells[i]);
     }
-    readings_list(frame, "noise", &sensor, readings, count, 0);
+    target_list_make(frame, "noise", &sensor, readings, count, 0);
 }
 
 static void no_amplitude_makes_infinite_decibels(void **state)

@@ -13,7 +13,7 @@
 #include "frame_text.h"
 #include "number.h"
 #include "scenario.h"
-#include "table.h"
+#include "csv_table.h"
 
 enum { PRECISION = 200 };
 
@@ -141,13 +141,13 @@ static bool document_reads_x(struct arena *arena, const char *x, double *value)
     return done == 0;
 }
 
-static bool parse_table(struct arena *arena, const char *bytes, size_t length, struct table *table,
+static bool parse_table(struct arena *arena, const char *bytes, size_t length, struct csv_table *table,
                         struct diag *diag)
 {
     struct text text = {0};
     *diag = (struct diag){0};
     text_add(&text, bytes, length);
-    bool done = table_parse(&text, table, arena, diag) == 0;
+    bool done = csv_table_parse(&text, table, arena, diag) == 0;
     text_free(&text);
     return done;
 }
@@ -155,11 +155,11 @@ static bool parse_table(struct arena *arena, const char *bytes, size_t length, s
 static bool table_reads_x(struct arena *arena, const char *x, double *value)
 {
     char text[128];
-    struct table table;
+    struct csv_table table;
     struct diag diag;
     int length = snprintf(text, sizeof text, "id,x\n1,%s\n", x);
     return parse_table(arena, text, (size_t)length, &table, &diag) &&
-           table_number(&table, 0, 1, -1e300, 1e300, value, &diag) == 0;
+           csv_table_number(&table, 0, 1, -1e300, 1e300, value, &diag) == 0;
 }
 
 static bool option_reads_x(struct arena *arena, const char *x, double *value)
@@ -532,12 +532,12 @@ static double count_plain_csv_wrong(void)
 static bool table_says(const char *bytes, const char *expected)
 {
     struct arena arena = {0};
-    struct table table;
+    struct csv_table table;
     struct diag diag;
     char said[2100];
     double value;
     if (parse_table(&arena, bytes, strlen(bytes), &table, &diag) &&
-        table_number(&table, table.rows - 1, table.columns - 1, -1e9, 1e9, &value, &diag) == 0)
+        csv_table_number(&table, table.rows - 1, table.columns - 1, -1e9, 1e9, &value, &diag) == 0)
         snprintf(said, sizeof said, "%g in row %zu", value, table.numbers[table.rows - 1]);
     else
         snprintf(said, sizeof said, "%s", diag.text);

@@ -3,11 +3,11 @@
 #include "../scratch.h"
 #include "chain.h"
 
-#include "cycle.h"
+#include "scan_timing.h"
 #include "number.h"
-#include "readings.h"
+#include "target_list.h"
 #include "resolution.h"
-#include "scene.h"
+#include "playback.h"
 #include "sort.h"
 #include "superposition.h"
 
@@ -31,7 +31,7 @@ static void write_file(const struct scratch *scratch, const char *text)
 #define YAW_RAD 0.6
 
 /* A car at 50 m/s in UTM coordinates for a million frames. */
-static struct scene open_scene(struct scratch *scratch, double rate_hz)
+static struct playback open_scene(struct scratch *scratch, double rate_hz)
 {
     char text[512];
     snprintf(text, sizeof text,
@@ -40,9 +40,9 @@ static struct scene open_scene(struct scratch *scratch, double rate_hz)
              "\"speed_mps\": %.17g, \"yaw_rad\": %.17g}]}",
              rate_hz, (FRAMES - 1) / rate_hz, START_X_M, START_Y_M, SPEED_MPS, YAW_RAD);
     write_file(scratch, text);
-    struct scene scene;
+    struct playback scene;
     struct diag diag = {0};
-    if (scene_open(&scene, scratch->path, NULL, &scratch->arena, &diag) != 0)
+    if (playback_open(&scene, scratch->path, NULL, &scratch->arena, &diag) != 0)
         fail_msg("%s", diag.text);
     assert_int_equal(scene.frames, FRAMES);
     return scene;
@@ -54,10 +54,10 @@ static int64_t frame_step(void)
     return FRAMES / hard_points(FRAMES);
 }
 
-static void frame_of(const struct scene *scene, int64_t number, struct frame *frame)
+static void frame_of(const struct playback *scene, int64_t number, struct frame *frame)
 {
     frame_clear(frame);
-    scene_frame(scene, number, frame);
+    playback_frame(scene, number, frame);
 }
 
 static void a_million_frames_stand_at_their_times(void **state)
@@ -68,7 +68,7 @@ static void a_million_frames_stand_at_their_times(void **state)
     mpfr_t exact;
     mpfr_init2(exact, PRECISION);
     for (size_t r = 0; r < COUNT(rates_hz); r++) {
-        struct scene scene = open_scene(*state, rates_hz[r]);
+        struct playback scene = open_scene(*state, rates_hz[r]);
         double clock_s = 0;
         for (int64_t i = 0; i < FRAMES; i++, clock_s += 1 / rates_hz[r]) {
             if (i % frame_step() != 0)
@@ -93,7 +93,7 @@ static void a_frame_is_found_again_from_its_time(void **state)
     struct frame frame = {.arena = &arena};
     double naive = 0, ours = 0;
     for (size_t r = 0; r < COUNT(rates_hz); r++) {
-        struct scene scene = open_scene(*state, rates_hz[r]);
+        struct playback scene = open_scene(*state, rates_hz[r]);
         for (int64_t i = 0; i < FRAMES; i += frame_step()) {
             frame_of(&scene, i, &frame);
             double interval_s = 1 / rates_hz[r];
@@ -112,7 +112,7 @@ static void scans_fall_on_their_frames(void **state)
     struct frame frame = {.arena = &arena};
     double naive = 0, ours = 0;
     for (size_t r = 0; r < COUNT(rates_hz); r++) {
-        struct scene scene = open_scene(*state, rates_hz[r]);
+        struct playback scene = open_scene(*state, rates_hz[r]);
         double cycle_s = 2 / rates_hz[r];
         for (int64_t i = 0; i < FRAMES; i += frame_step()) {
             double instant_s = -1;
@@ -120,10 +120,10 @@ static void scans_fall_on_their_frames(void **state)
             bool scan =
                 floor(frame.time_s / cycle_s) != floor((frame.time_s - frame.interval_s) / cycle_s);
             naive += scan != (i % 2 == 0);
-            enum cycle_answer answer =
-                cycle_instant_s(cycle_s, frame.time_s, frame.interval_s, &instant_s);
-            ours += i % 2 == 0 ? answer != CYCLE_ONE || instant_s != frame.time_s
-                               : answer != CYCLE_NONE;
+            enum scan_timing_answer answer =
+                scan_timing_instant_s(cycle_s, frame.time_s, frame.interval_s, &instant_s);
+            ours += i % 2 == 0 ? answer != SCAN_TIMING_ONE || instant_s != frame.time_s
+                               : answer != SCAN_TIMING_NONE;
         }
     }
     arena_free(&arena);
@@ -144,9 +144,9 @@ static void unix_times_keep_their_intervals(void **state)
     char path[128];
     snprintf(path, sizeof path, "%s.csv", scratch->path);
     assert_int_equal(rename(scratch->path, path), 0);
-    struct scene scene;
+    struct playback scene;
     struct diag diag = {0};
-    if (scene_open(&scene, path, "1", &scratch->arena, &diag) != 0)
+    if (playback_open(&scene, path, "1", &scratch->arena, &diag) != 0)
         fail_msg("%s", diag.text);
     unlink(path);
     struct arena arena = {0};
@@ -193,7 +193,7 @@ static void straight_motion_does_not_drift(void **state)
     mpfr_cos(cosine, sine, MPFR_RNDN);
     mpfr_sin(sine, sine, MPFR_RNDN);
     for (size_t r = 0; r < COUNT(rates); r++) {
-        struct scene scene = open_scene(*state, rates[r]);
+        struct playback scene = open_scene(*state, rates[r]);
         struct object car = {.x_m = START_X_M, .y_m = START_Y_M};
         drifting.objects.items = &car;
         for (int64_t i = 0; i < FRAMES; i++) {
@@ -223,9 +223,9 @@ static void multiples_of_a_step_stay_in_their_bin(void **state)
         for (int k = 0; k < hard_points(10000); k++) {
             char decimal[32];
             snprintf(decimal, sizeof decimal, "%.10g", k * steps[s]);
-            double value = strtod(decimal, NULL), reported = reading_step(value, steps[s]);
+            double value = strtod(decimal, NULL), reported = target_list_step(value, steps[s]);
             naive += floor(value / steps[s]) != k;
-            ours += reported != k * steps[s] || reading_step(reported, steps[s]) != reported;
+            ours += reported != k * steps[s] || target_list_step(reported, steps[s]) != reported;
         }
     hard_case("43", "1e4 multiples of five steps", "wrong", naive, ours, 0);
 }

@@ -6,7 +6,7 @@
 #include "elementary.h"
 #include "frame_order.h"
 
-static const char *address_of(const struct field *field, const void *base)
+static const char *draw_address_of(const struct field *field, const void *base)
 {
     return (const char *)base + field->offset;
 }
@@ -55,7 +55,7 @@ static size_t size_of(enum field_kind kind)
 static int compare_members(const struct field *field, const void *a, const void *b,
                            struct diag *diag)
 {
-    const char *left = address_of(field, a), *right = address_of(field, b);
+    const char *left = draw_address_of(field, a), *right = draw_address_of(field, b);
     switch (field->kind) {
     case FIELD_NAME:
     case FIELD_RAW:

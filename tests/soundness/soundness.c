@@ -16,7 +16,7 @@
 #include "options.h"
 #include "planted.h"
 #include "progress.h"
-#include "random_scene.h"
+#include "random_traffic.h"
 #include "runner.h"
 
 enum { STEPS = 3, SHOWN = 5 };
@@ -63,7 +63,7 @@ struct bench {
 };
 
 static const struct field soundness_options[] = {
-    {FIELD_CHOICE_OF(struct soundness, density, random_densities, "of the scenes"), FIELD_OPTIONAL},
+    {FIELD_CHOICE_OF(struct soundness, density, random_traffic_densities, "of the scenes"), FIELD_OPTIONAL},
     {FIELD_NAME_OF(struct soundness, sensors, "the suite")},
     {FIELD_INTEGER_IN(struct soundness, first, 0, 1e9, "number of the first scene"),
      FIELD_OPTIONAL},
@@ -147,7 +147,7 @@ static int start_scenes(struct bench *bench)
     const char *around = wanted->density == RANDOM_ADVERSARIAL ? "--sensors" : NULL;
     bench->scene.arena = &bench->arena;
     return start_stage(&bench->source, "traffic-random",
-                       (const char *const[]){"--density", random_densities[wanted->density],
+                       (const char *const[]){"--density", random_traffic_densities[wanted->density],
                                              "--first", first, "--frames", frames, "--conditions",
                                              around, wanted->sensors, NULL}) == 0
                ? start_stage(&bench->extract, "extract", (const char *const[]){NULL})
@@ -363,7 +363,7 @@ static void tell(const struct bench *bench)
 {
     const struct soundness *wanted = bench->wanted;
     struct text text = {0};
-    text_format(&text, "{\"density\":\"%s\",\"sensors\":", random_densities[wanted->density]);
+    text_format(&text, "{\"density\":\"%s\",\"sensors\":", random_traffic_densities[wanted->density]);
     text_add_json(&text, wanted->sensors, strlen(wanted->sensors));
     text_format(&text, ",\"first\":%" PRId64 ",\"frames\":%" PRId64 ",\"planners\":[",
                 wanted->first, bench->planners[0].frames);

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "check.h"
-#include "memory.h"
+#include "arena.h"
 
 struct scratch {
     char directory[64];

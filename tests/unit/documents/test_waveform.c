@@ -33,7 +33,7 @@ static void absent_members_are_hanns_window_and_the_twelfth_of_sixteen(void **st
     (void)state;
     struct waveform waveform = usual(WAVEFORM_CHIRP);
     struct cfar cfar = waveform_cfar(&waveform);
-    assert_int_equal(waveform.window, KERNEL_HANN);
+    assert_int_equal(waveform.window, POINT_RESPONSE_HANN);
     assert_int_equal(cfar.kind, CFAR_ORDERED);
     assert_int_equal(cfar.cells, 16);
     assert_int_equal(cfar.guard, 2);

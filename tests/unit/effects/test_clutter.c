@@ -3,7 +3,7 @@
 #include "clutter.h"
 #include "motion.h"
 #include "sample.h"
-#include "sight.h"
+#include "kinematics.h"
 #include "units.h"
 
 #define DEGREE (PI / 180)
@@ -56,7 +56,7 @@ static void the_standing_world_moves_as_effects_14_says(void **state)
     assert_close(clutter_range_rate_mps(sensor_mps, aside, -25 * DEGREE), -15.854230, 5e-7);
     /* The same as a standing point seen there. */
     struct vec2 point = vec2_scale(17, vec2_heading(0.3)), still = {0, 0};
-    struct sight sight = sight_of(still, sensor_mps, aside, point, still);
+    struct kinematics sight = kinematics_of(still, sensor_mps, aside, point, still);
     assert_near(clutter_range_rate_mps(sensor_mps, aside, sight.azimuth_rad), sight.range_rate_mps,
                 1e-14);
     assert_close(clutter_range_rate_mps(still, ahead, 1), 0, 0);

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "audit.h"
+#include "frame_account.h"
 #include "frame.h"
 #include "frame_text.h"
 #include "sample.h"
@@ -62,10 +62,10 @@ static void a_whole_account_passes(void **state)
     struct arena arena = {0};
     struct frame frame = accounted_frame(&arena);
     struct diag diag = {0};
-    assert_int_equal(audit_frame(&frame, &diag), 0);
+    assert_int_equal(frame_account_check(&frame, &diag), 0);
     frame_order(&frame);
     assert_int_equal(frame_check(&frame, &diag), 0);
-    assert_int_equal(audit_frame(&frame, &diag), 0);
+    assert_int_equal(frame_account_check(&frame, &diag), 0);
     arena_free(&arena);
 }
 
@@ -78,7 +78,7 @@ static void an_echo_may_feed_several_targets(void **state)
     struct cell cell = cell_of(&arena, "left", 1, (struct contributor[]){from("b", "corner")});
     frame_add_target(&frame, &cell, 2);
     frame_add_target(&frame, &cell, 1);
-    assert_int_equal(audit_frame(&frame, &diag), 0);
+    assert_int_equal(frame_account_check(&frame, &diag), 0);
     arena_free(&arena);
 }
 
@@ -150,7 +150,7 @@ static void planted_faults_in_the_account_are_caught(void **state)
         struct frame frame = accounted_frame(&arena);
         struct diag diag = {0};
         cases[i].plant(&frame);
-        assert_int_equal(audit_frame(&frame, &diag), -1);
+        assert_int_equal(frame_account_check(&frame, &diag), -1);
         assert_string_equal(diag.text, cases[i].message);
         assert_int_equal(diag.code, DIAG_INTERNAL);
         arena_free(&arena);

@@ -4,15 +4,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "direct.h"
+#include "direct_echoes.h"
 #include "frame_text.h"
 #include "occlusion.h"
 #include "sample.h"
 #include "units.h"
-#include "ways.h"
+#include "line_of_sight.h"
 
 /* A frame in which object "e" carries a sensor with a view all around ahead. */
-struct scene {
+struct playback {
     struct arena arena;
     struct frame frame;
     struct sensor sensor;
@@ -24,7 +24,7 @@ static const struct selection automatic = {.allowed = EFFECT_BIT(EFFECT_COUNT) -
 
 static int make_scene(void **state)
 {
-    struct scene *scene = calloc(1, sizeof *scene);
+    struct playback *scene = calloc(1, sizeof *scene);
     assert_non_null(scene);
     scene->frame =
         (struct frame){.scene = "s", .ego = "e", .time_s = 10, .interval_s = 1, .account = true};
@@ -39,13 +39,13 @@ static int make_scene(void **state)
 
 static int remove_scene(void **state)
 {
-    struct scene *scene = *state;
+    struct playback *scene = *state;
     arena_free(&scene->arena);
     free(scene);
     return 0;
 }
 
-static struct object *add_object(struct scene *scene, const char *id, double x_m, double y_m)
+static struct object *add_object(struct playback *scene, const char *id, double x_m, double y_m)
 {
     struct object *object = list_add(&scene->frame.objects, &scene->arena);
     *object = (struct object){
@@ -53,7 +53,7 @@ static struct object *add_object(struct scene *scene, const char *id, double x_m
     return object;
 }
 
-static struct reflector_set *add_set(struct scene *scene, const char *worn_by)
+static struct reflector_set *add_set(struct playback *scene, const char *worn_by)
 {
     struct reflector_set *set = list_add(&scene->frame.reflectors, &scene->arena);
     *set = (struct reflector_set){.model = worn_by, .blocks = true};
@@ -61,7 +61,7 @@ static struct reflector_set *add_set(struct scene *scene, const char *worn_by)
     return set;
 }
 
-static struct point_reflector *add_point(struct scene *scene, struct reflector_set *set)
+static struct point_reflector *add_point(struct playback *scene, struct reflector_set *set)
 {
     struct point_reflector *point = list_add(&set->points, &scene->arena);
     *point = (struct point_reflector){
@@ -69,18 +69,18 @@ static struct point_reflector *add_point(struct scene *scene, struct reflector_s
     return point;
 }
 
-static struct look look_around_at(struct scene *scene, double time_s)
+static struct look look_around_at(struct playback *scene, double time_s)
 {
     struct look look;
     struct diag diag = {0};
     if (look_begin(&look, &scene->frame, &scene->sensor, &everything, time_s, &diag) != 0)
         fail_msg("%s", diag.text);
-    direct_look(&look);
+    direct_echoes_add(&look);
     return look;
 }
 
 /* The one loss of a frame with no echo. */
-static const struct lost_group *only_loss(const struct scene *scene)
+static const struct lost_group *only_loss(const struct playback *scene)
 {
     assert_int_equal(scene->frame.echoes.count, 0);
     assert_int_equal(scene->frame.lost.count, 1);
@@ -90,7 +90,7 @@ static const struct lost_group *only_loss(const struct scene *scene)
 
 static void the_sensor_moves_with_the_lever_arm_of_a_turning_ego(void **state)
 {
-    struct scene *scene = *state;
+    struct playback *scene = *state;
     struct object *ego = scene->frame.objects.items;
     ego->x_m = 100;
     ego->y_m = 50;
@@ -120,7 +120,7 @@ static void the_sensor_moves_with_the_lever_arm_of_a_turning_ego(void **state)
 
 static void a_late_look_shows_where_everything_was(void **state)
 {
-    struct scene *scene = *state;
+    struct playback *scene = *state;
     struct object *ego = scene->frame.objects.items;
     ego->vx_mps = 20;
     add_point(scene, add_set(scene, "a"));
@@ -150,7 +150,7 @@ static void a_late_look_shows_where_everything_was(void **state)
 
 static void the_first_blocker_by_id_is_named(void **state)
 {
-    struct scene *scene = *state;
+    struct playback *scene = *state;
     add_point(scene, add_set(scene, "far"))->ercs = 1;
     add_set(scene, "y");
     add_set(scene, "x");
@@ -173,7 +173,7 @@ static void the_first_blocker_by_id_is_named(void **state)
 
 static void an_object_does_not_block_itself_and_the_ego_blocks_nothing(void **state)
 {
-    struct scene *scene = *state;
+    struct playback *scene = *state;
     struct reflector_set *set = add_set(scene, "a");
     add_point(scene, set)->x = 0.5; /* the far end */
     add_object(scene, "a", 20, 0);
@@ -185,7 +185,7 @@ static void an_object_does_not_block_itself_and_the_ego_blocks_nothing(void **st
 
 static void wheel_houses_are_seen_under_raised_vehicles_only(void **state)
 {
-    struct scene *scene = *state;
+    struct playback *scene = *state;
     struct reflector_set *set = add_set(scene, "far");
     add_point(scene, set)->name = "corner";
     struct point_reflector *wheel = add_point(scene, set);
@@ -227,7 +227,7 @@ static void every_loss_has_its_reason(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         void *place;
         make_scene(&place);
-        struct scene *scene = place;
+        struct playback *scene = place;
         scene->sensor.field_of_view_rad = PI / 2;
         struct point_reflector *point = add_point(scene, add_set(scene, "a"));
         point->facing_rad = cases[i].facing_rad;
@@ -241,7 +241,7 @@ static void every_loss_has_its_reason(void **state)
 
 static void planes_mirror_from_the_foot_of_the_perpendicular(void **state)
 {
-    struct scene *scene = *state;
+    struct playback *scene = *state;
     struct reflector_set *set = add_set(scene, "a");
     *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
         .name = "rear", .from_x = -0.5, .from_y = 0.5, .to_x = -0.5, .to_y = -0.5, .ercs = 0.7};
@@ -260,7 +260,7 @@ static void planes_mirror_from_the_foot_of_the_perpendicular(void **state)
 /* Two walls of 4 m in line, the sensor before their joint, then a hair to either side. */
 static void the_joint_of_two_walls_mirrors_once(void **state)
 {
-    struct scene *scene = *state;
+    struct playback *scene = *state;
     struct reflector_set *set = add_set(scene, "a");
     *list_add(&set->worn_by, &scene->arena) = "b";
     *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
@@ -290,7 +290,7 @@ static double lobe_of(double off_degrees, double below_degrees)
 
 static void a_lobe_is_seen_from_where_the_sensor_stands_and_how_high(void **state)
 {
-    struct scene *scene = *state;
+    struct playback *scene = *state;
     struct object *object = add_object(scene, "o", 10, 0);
     struct point_reflector *point = add_point(scene, add_set(scene, "o"));
     point->z = 1;
@@ -349,7 +349,7 @@ static void rows_are_expanded_in_range_and_no_post_is_missed(void **state)
 
 static void posts_become_echoes_with_their_numbers(void **state)
 {
-    struct scene *scene = *state;
+    struct playback *scene = *state;
     struct reflector_set *set = add_set(scene, "rail");
     set->blocks = false;
     *list_add(&set->rows, &scene->arena) = (struct post_row){.name = "post",
@@ -381,7 +381,7 @@ static void posts_become_echoes_with_their_numbers(void **state)
 }
 
 /* The echo's or the loss's, in a scene with one reflector. */
-static struct margins only_margins(const struct scene *scene)
+static struct margins only_margins(const struct playback *scene)
 {
     return scene->frame.echoes.count == 1 ? scene->frame.echoes.items[0].margins
                                           : only_loss(scene)->echoes.items[0].margins;
@@ -412,7 +412,7 @@ static void a_reflector_tells_how_near_it_was_to_another_answer(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         void *place;
         make_scene(&place);
-        struct scene *scene = place;
+        struct playback *scene = place;
         scene->frame.margins = true;
         scene->sensor.field_of_view_rad = PI / 2;
         scene->sensor.range_min_m = 1;
@@ -457,7 +457,7 @@ static void what_passes_under_a_vehicle_is_near_to_both_answers(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         void *place;
         make_scene(&place);
-        struct scene *scene = place;
+        struct playback *scene = place;
         scene->frame.margins = true;
         add_point(scene, add_set(scene, "pole"))->under_vehicles = 0.5;
         add_set(scene, "truck")->raised = true;
@@ -473,7 +473,7 @@ static void what_passes_under_a_vehicle_is_near_to_both_answers(void **state)
 
 static void a_plane_tells_how_near_its_foot_was_to_its_ends(void **state)
 {
-    struct scene *scene = *state;
+    struct playback *scene = *state;
     scene->frame.margins = true;
     struct reflector_set *set = add_set(scene, "a");
     *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
@@ -490,7 +490,7 @@ static void a_plane_tells_how_near_its_foot_was_to_its_ends(void **state)
 
 static void without_margins_nothing_is_told(void **state)
 {
-    struct scene *scene = *state;
+    struct playback *scene = *state;
     add_point(scene, add_set(scene, "a"));
     add_point(scene, add_set(scene, "b"))->zero_rad = 1;
     add_object(scene, "a", 20, 0);
@@ -502,7 +502,7 @@ static void without_margins_nothing_is_told(void **state)
 
 static void a_set_on_nobody_is_refused(void **state)
 {
-    struct scene *scene = *state;
+    struct playback *scene = *state;
     struct look look;
     struct diag diag = {0};
     add_set(scene, "ghost");
@@ -512,7 +512,7 @@ static void a_set_on_nobody_is_refused(void **state)
 }
 
 /* Around the sensor, touching each other, of all heights, at the border of its range and view. */
-static void crowd(struct scene *scene, uint64_t *random)
+static void crowd(struct playback *scene, uint64_t *random)
 {
     static const char *const ids[] = {"a", "b", "c", "d", "f", "g", "h", "i", "j", "k", "l",
                                       "m", "n", "o", "p", "q", "r", "s", "t", "u", "v", "w"};
@@ -575,14 +575,14 @@ static void who_asks_for_less_sees_the_same(void **state)
     for (int i = 0; i < 3000; i++) {
         void *place;
         make_scene(&place);
-        struct scene *scene = place;
+        struct playback *scene = place;
         crowd(scene, &random);
         struct look all = look_around_at(scene, 10), some;
         struct frame *frame = &scene->frame, accounted = *frame;
         frame->account = false;
         memset(&frame->echoes, 0, sizeof frame->echoes);
         assert_int_equal(look_begin(&some, frame, &scene->sensor, &automatic, 10, NULL), 0);
-        direct_look(&some);
+        direct_echoes_add(&some);
         assert_int_equal(some.pairs, all.pairs);
         assert_int_equal(some.echoes, all.echoes);
         assert_same_echoes(frame->echoes.items, accounted.echoes.items, (size_t)some.echoes);
@@ -596,7 +596,7 @@ static void who_asks_for_less_sees_the_same(void **state)
 /* A side that a body holds out of its box, in line with one behind the body. */
 static void a_body_hides_nothing_of_a_wall_that_it_joins(void **state)
 {
-    struct scene *scene = *state;
+    struct playback *scene = *state;
     struct reflector_set *wall = add_set(scene, "wall"), *front = add_set(scene, "front");
     *list_add(&wall->planes, &scene->arena) = (struct plane_reflector){
         .name = "right", .from_x = -0.5, .from_y = -0.5, .to_x = 0.5, .to_y = -0.5, .ercs = 1};
@@ -613,7 +613,7 @@ static void a_body_hides_nothing_of_a_wall_that_it_joins(void **state)
         front->planes.count = (size_t)joined;
         struct look look;
         assert_int_equal(look_begin(&look, &scene->frame, &scene->sensor, &automatic, 10, NULL), 0);
-        direct_look(&look);
+        direct_echoes_add(&look);
         assert_int_equal(look.echoes, joined);
     }
 }
@@ -627,20 +627,20 @@ static void a_way_is_blocked_where_an_outline_is_touched(void **state)
     for (int i = 0; i < 2000; i++) {
         void *place;
         make_scene(&place);
-        struct scene *scene = place;
+        struct playback *scene = place;
         crowd(scene, &random);
         scene->sensor.mount_z_m = 0;
         scene->sensor.diffraction = false;
         struct look look = look_around_at(scene, 10);
         for (int k = 0; k < 50; k++) {
             struct vec2 far = {sample_between(&random, -60, 60), sample_between(&random, -60, 60)};
-            const struct passage_line line = {.from = look.position_m, .to = far};
+            const struct obstruction_line line = {.from = look.position_m, .to = far};
             const struct look_body *by = NULL;
             for (size_t j = look.body_count; j-- > 0;)
                 if (look.bodies[j].blocks &&
                     occlusion_outline_blocks(look.bodies[j].corner, 4, line.from, line.to))
                     by = &look.bodies[j];
-            struct way way = ways_along(&look, &line, NULL, 0);
+            struct way way = line_of_sight_along(&look, &line, NULL, 0);
             assert_ptr_equal(way.by, by);
             assert_true(way.factor == (by == NULL));
             blocked += by != NULL;

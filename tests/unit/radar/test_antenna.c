@@ -432,7 +432,7 @@ static void no_gain_between_two_azimuths_is_out_of_bounds(void **state)
             least = fmin(least, gain);
             most = fmax(most, gain);
         }
-        struct bounds bounds = antenna_gain_bounds(antenna, low, high);
+        struct interval bounds = antenna_gain_bounds(antenna, low, high);
         assert_true(bounds.least <= least * (1 + 1e-12) && bounds.most * (1 + 1e-12) >= most);
         assert_close(bounds.least, least, 5e-3);
         assert_close(bounds.most, most, 5e-3);

@@ -12,13 +12,13 @@ enum { MOST = 8 };
 static const struct target_cell cell = {0.5, 0.1, 0.25, 2};
 
 /* One radar's frame with these targets. */
-struct scene {
+struct playback {
     struct sensor_view view;
     struct target targets[MOST];
     struct frame frame;
 };
 
-static void fill(struct scene *scene, size_t count)
+static void fill(struct playback *scene, size_t count)
 {
     scene->view = (struct sensor_view){
         .name = "front", .cell_range_m = 1, .cell_range_rate_mps = 1, .measured = true};
@@ -35,7 +35,7 @@ static struct target draw_target(uint64_t *sample)
                            .amplitude_db = sample_between(sample, 6, 30)};
 }
 
-static void draw(struct scene *scene, uint64_t *sample)
+static void draw(struct playback *scene, uint64_t *sample)
 {
     size_t count = sample_bits(sample) % (MOST + 1);
     for (size_t i = 0; i < count; i++)
@@ -43,7 +43,7 @@ static void draw(struct scene *scene, uint64_t *sample)
     fill(scene, count);
 }
 
-static struct score score_scan(const struct scene *truth, const struct scene *listed,
+static struct score score_scan(const struct playback *truth, const struct playback *listed,
                                struct arena *arena)
 {
     struct score_tally tally = {.sensor = "front"};
@@ -85,8 +85,8 @@ static void azimuths_differ_the_short_way_round(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct scene left = {.targets = {{.sensor = "front", .azimuth_rad = PI - 0.01}}};
-    struct scene right = {.targets = {{.sensor = "front", .azimuth_rad = 0.02 - PI}}};
+    struct playback left = {.targets = {{.sensor = "front", .azimuth_rad = PI - 0.01}}};
+    struct playback right = {.targets = {{.sensor = "front", .azimuth_rad = 0.02 - PI}}};
     fill(&left, 1);
     fill(&right, 1);
     assert_close(target_score_distance(&left.targets[0], &right.targets[0], &cell), 0.3, 1e-14);
@@ -101,7 +101,7 @@ static void the_order_of_targets_changes_no_bit(void **state)
     struct arena arena = {0};
     uint64_t sample = 1;
     for (int round = 0; round < 2000; round++) {
-        struct scene truth, listed, turned;
+        struct playback truth, listed, turned;
         draw(&truth, &sample);
         draw(&listed, &sample);
         size_t count = listed.frame.targets.count;
@@ -123,7 +123,7 @@ static void scores_are_symmetric(void **state)
     struct arena arena = {0};
     uint64_t sample = 2;
     for (int round = 0; round < 2000; round++) {
-        struct scene truth, listed;
+        struct playback truth, listed;
         draw(&truth, &sample);
         draw(&listed, &sample);
         struct score there = score_scan(&truth, &listed, &arena);
@@ -148,7 +148,7 @@ static void a_list_is_nothing_from_itself(void **state)
     struct arena arena = {0};
     uint64_t sample = 3;
     for (int round = 0; round < 200; round++) {
-        struct scene scene;
+        struct playback scene;
         draw(&scene, &sample);
         struct score score = score_scan(&scene, &scene, &arena);
         assert_close(score.gospa, 0, 0);
@@ -164,8 +164,8 @@ static void other_sensors_targets_do_not_count(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct scene truth = {.targets = {{.sensor = "front", .range_m = 5}}};
-    struct scene listed = {
+    struct playback truth = {.targets = {{.sensor = "front", .range_m = 5}}};
+    struct playback listed = {
         .targets = {{.sensor = "front", .range_m = 5}, {.sensor = "rear", .range_m = 5}}};
     fill(&truth, 1);
     fill(&listed, 2);
@@ -179,8 +179,8 @@ static void tallies_add_up(void **state)
     (void)state;
     struct arena arena = {0};
     struct score_tally near = {.sensor = "front"}, far = {.sensor = "front"}, both = {0};
-    struct scene truth = {.targets = {{.sensor = "front", .range_m = 5}}};
-    struct scene one = {.targets = {{.sensor = "front", .range_m = 5.25}}};
+    struct playback truth = {.targets = {{.sensor = "front", .range_m = 5}}};
+    struct playback one = {.targets = {{.sensor = "front", .range_m = 5.25}}};
     fill(&truth, 1);
     fill(&one, 1);
     target_score_scan(&near, &truth.frame, &one.frame, &cell, &arena);

@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "escalation.h"
-#include "rain.h"
+#include "attenuation.h"
 #include "units.h"
 
 /* Cells of 1 m by 1 m/s to either side, a threshold of 1, in phase from the array's centre. */

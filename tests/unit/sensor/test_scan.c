@@ -79,7 +79,7 @@ static void check_cell(const struct scan *scan, size_t number, const char *names
 static struct scan scan_without(struct bench *bench, uint64_t without)
 {
     struct reception reception =
-        reception_begin(&bench->frame, &bench->sensor, bench->selection.allowed);
+        received_echo_begin(&bench->frame, &bench->sensor, bench->selection.allowed);
     return scan_make(&reception, &bench->selection, without);
 }
 

@@ -28,7 +28,7 @@ static const struct echo parent = {
     .heading_rad = 1,
 };
 
-struct scene {
+struct playback {
     struct arena arena;
     struct object ego;
     struct sensor_view view;
@@ -36,9 +36,9 @@ struct scene {
     struct frame frame;
 };
 
-static void prepare(struct scene *scene, struct echo echo, double per_m2)
+static void prepare(struct playback *scene, struct echo echo, double per_m2)
 {
-    *scene = (struct scene){
+    *scene = (struct playback){
         .ego = {.id = "ego", .vx_mps = 10},
         .view = {.name = "s", .measured = true},
         .echo = echo,
@@ -53,9 +53,9 @@ static void prepare(struct scene *scene, struct echo echo, double per_m2)
     frame->objects.count = frame->sensors.list.count = frame->echoes.count = 1;
 }
 
-static struct echo_span scatter(struct scene *scene, uint64_t effects)
+static struct echo_span scatter(struct playback *scene, uint64_t effects)
 {
-    struct reception reception = reception_begin(&scene->frame, &sensor, effects);
+    struct reception reception = received_echo_begin(&scene->frame, &sensor, effects);
     return scatterers_of(&reception);
 }
 
@@ -73,7 +73,7 @@ static void rates_of_parts_are_within_their_bounds(void **state)
         {MOVING_LIMBS, PATH_LIMB, EFFECT_LIMBS, -1, 1.5, 800, 1200},
     };
     for (size_t i = 0; i < 2; i++) {
-        struct scene scene;
+        struct playback scene;
         struct echo moving = parent;
         size_t all = 0;
         moving.moving_part = cases[i].part;
@@ -104,7 +104,7 @@ static void what_does_not_move_along_the_sight_line_has_no_parts(void **state)
     plain.moving_part = MOVING_NONE;
     const struct echo echoes[] = {still, plain};
     for (size_t i = 0; i < 2; i++) {
-        struct scene scene;
+        struct playback scene;
         prepare(&scene, echoes[i], 0);
         for (scene.frame.frame = 0; scene.frame.frame < FRAMES; scene.frame.frame++)
             assert_int_equal(scatter(&scene, UINT64_MAX).count, 0);
@@ -115,7 +115,7 @@ static void what_does_not_move_along_the_sight_line_has_no_parts(void **state)
 static void clutter_is_bounded_and_the_rest_of_it_stays(void **state)
 {
     (void)state;
-    struct scene some, many;
+    struct playback some, many;
     prepare(&some, (struct echo){.sensor = "s", .object = "o", .reflector = "r"}, 0.5);
     prepare(&many, some.echo, 10);
     struct echo_span few = scatter(&some, UINT64_MAX), most = scatter(&many, UINT64_MAX);
@@ -135,7 +135,7 @@ static void clutter_is_bounded_and_the_rest_of_it_stays(void **state)
 static void a_sensor_that_does_not_measure_has_no_clutter(void **state)
 {
     (void)state;
-    struct scene scene;
+    struct playback scene;
     prepare(&scene, parent, 0.5);
     scene.view.measured = false;
     scene.frame.echoes.count = 0;
@@ -147,7 +147,7 @@ static void the_road_needs_a_height(void **state)
 {
     (void)state;
     struct sensor radar = sensor;
-    struct scene scene;
+    struct playback scene;
     radar.carrier_hz = 76.5e9;
     radar.amplitude_law = (struct radar_equation){.law = RADAR_POWER_LAW,
                                                   .exponent = 2,
@@ -161,15 +161,15 @@ static void the_road_needs_a_height(void **state)
     high.height_m = extended.height_m = 0.6;
     extended.extent_m = 0.6;
     scene.echo = high;
-    struct reception reception = reception_begin(&scene.frame, &radar, UINT64_MAX);
-    struct ray flat = reception_ray(&reception, &parent), one = reception_ray(&reception, &high),
-               mean = reception_ray(&reception, &extended);
+    struct reception reception = received_echo_begin(&scene.frame, &radar, UINT64_MAX);
+    struct ray flat = received_echo_ray(&reception, &parent), one = received_echo_ray(&reception, &high),
+               mean = received_echo_ray(&reception, &extended);
     assert_int_equal(flat.effects & EFFECT_BIT(EFFECT_TWO_RAY), 0);
     assert_true((one.effects & EFFECT_BIT(EFFECT_TWO_RAY)) != 0);
     assert_true(mean.amplitude > flat.amplitude && mean.amplitude < sqrt(6) * flat.amplitude);
     assert_true(one.amplitude != mean.amplitude && one.amplitude <= 4 * flat.amplitude);
     scene.echo = parent;
-    assert_int_equal(reception_described(&scene.frame, &radar) & EFFECT_BIT(EFFECT_TWO_RAY), 0);
+    assert_int_equal(received_echo_described(&scene.frame, &radar) & EFFECT_BIT(EFFECT_TWO_RAY), 0);
     arena_free(&scene.arena);
 }
 

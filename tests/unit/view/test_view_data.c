@@ -344,14 +344,14 @@ static void a_pool_numbers_pieces_as_they_come(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct pool pool = {0};
+    struct numbering pool = {0};
     char word[16];
     for (int round = 0; round < 2; round++)
         for (unsigned i = 0; i < 5000; i++) {
             snprintf(word, sizeof word, "w%u", i);
-            assert_int_equal(pool_word(&pool, word, &arena), i);
+            assert_int_equal(numbering_of_word(&pool, word, &arena), i);
         }
-    assert_int_equal(pool_number(&pool, "w1\0x", 4, &arena), 5000);
+    assert_int_equal(numbering_of(&pool, "w1\0x", 4, &arena), 5000);
     arena_free(&arena);
 }
 

@@ -1,0 +1,119 @@
+#include "arena.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "diag.h"
+
+enum { BLOCK_SIZE = 64 * 1024, ALIGNMENT = 16 };
+
+struct arena_block {
+    _Alignas(ALIGNMENT) struct arena_block *older;
+    size_t size; /* of the bytes behind this header */
+};
+
+_Static_assert(sizeof(struct arena_block) % ALIGNMENT == 0, "blocks keep their bytes aligned");
+
+static void *grant(void *memory, size_t size)
+{
+    if (memory == NULL && size > 0) {
+        fprintf(stderr, "glint: out of memory: %zu bytes were refused\n", size);
+        exit(DIAG_MEMORY);
+    }
+    return memory;
+}
+
+void *memory_get(size_t size)
+{
+    return grant(malloc(size), size);
+}
+
+void *memory_resize(void *memory, size_t size)
+{
+    return grant(realloc(memory, size), size);
+}
+
+static void add_block(struct arena *arena, size_t size)
+{
+    struct arena_block *block = memory_get(sizeof *block + size);
+    block->older = arena->blocks;
+    block->size = size;
+    arena->blocks = block;
+    arena->used = 0;
+}
+
+static size_t round_up(size_t size)
+{
+    return (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+}
+
+void *arena_room(struct arena *arena, size_t size)
+{
+    if (size > SIZE_MAX / 4)
+        grant(NULL, size);
+    size = round_up(size);
+    if (arena->blocks == NULL || arena->blocks->size - arena->used < size)
+        add_block(arena, size > BLOCK_SIZE ? size : BLOCK_SIZE);
+    char *memory = (char *)(arena->blocks + 1) + arena->used;
+    arena->used += size;
+    return memory;
+}
+
+void *arena_get(struct arena *arena, size_t size)
+{
+    return memset(arena_room(arena, size), 0, size);
+}
+
+char *arena_text(struct arena *arena, const char *text, size_t length)
+{
+    char *copy = arena_room(arena, length + 1);
+    if (length > 0)
+        memcpy(copy, text, length);
+    copy[length] = '\0';
+    return copy;
+}
+
+void arena_clear(struct arena *arena)
+{
+    arena->used = 0;
+    if (arena->blocks == NULL || arena->blocks->older == NULL)
+        return;
+    size_t whole = 0;
+    for (struct arena_block *block = arena->blocks; block != NULL; block = block->older)
+        whole += block->size;
+    arena_free(arena);
+    add_block(arena, whole + whole / 2);
+}
+
+void arena_free(struct arena *arena)
+{
+    while (arena->blocks != NULL) {
+        struct arena_block *older = arena->blocks->older;
+        free(arena->blocks);
+        arena->blocks = older;
+    }
+    arena->used = 0;
+}
+
+/* What the arena gave last grows where it is, if the block has room. */
+static bool grow_in_place(struct arena *arena, const void *memory, size_t size, size_t more)
+{
+    size_t old = round_up(size), rest = round_up(size + more) - old;
+    if (memory == NULL || (const char *)memory + old != (char *)(arena->blocks + 1) + arena->used ||
+        arena->blocks->size - arena->used < rest)
+        return false;
+    arena->used += rest;
+    return true;
+}
+
+void *list_grow(struct arena *arena, void *items, size_t count, size_t *room, size_t size)
+{
+    *room = count < 4 ? 8 : 2 * count;
+    if (grow_in_place(arena, items, count * size, (*room - count) * size))
+        return items;
+    void *larger = arena_room(arena, *room * size);
+    return count > 0 ? memcpy(larger, items, count * size) : larger;
+}

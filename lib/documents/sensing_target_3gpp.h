@@ -1,0 +1,18 @@
+/* The sensing targets of 3GPP TR 38.901, 7.9.2: a vehicle of five scattering points, each in the
+ * middle of a face and each with a lobe and a floor that is seen from everywhere, and a human of
+ * one (EFFECTS 2.3). Incoherent means over the fluctuation of 3.41 and 3.94 dB, which a sensor's
+ * `fluctuation` adds. */
+#ifndef SENSING_TARGET_3GPP_H
+#define SENSING_TARGET_3GPP_H
+
+#include "reflectors.h"
+
+enum sensing_target_3gpp { SENSING_TARGET_3GPP_NONE, SENSING_TARGET_3GPP_VEHICLE, SENSING_TARGET_3GPP_HUMAN };
+extern const char *const sensing_target_3gpp_names[]; /* ending with NULL */
+
+/* Puts the target's points in place of the set's points, planes and rows; mirrors and what its
+ * outline hides stay. Not for SENSING_TARGET_3GPP_NONE. */
+void sensing_target_3gpp_describe(enum sensing_target_3gpp target, struct reflector_set *set,
+                             struct arena *arena);
+
+#endif

@@ -1,0 +1,90 @@
+#include "attenuation.h"
+
+#include "elementary.h"
+#include "units.h"
+
+#define LN_2 0.693147180559945309417
+
+/* A sum of bells and a straight line over the logarithm of the frequency in GHz. */
+struct fit {
+    struct {
+        double height, centre, width;
+    } bells[5];
+    double slope, offset;
+};
+
+/* ITU-R P.838-3, tables 1 to 4: lg k and alpha by polarization. */
+static const struct fit LG_K[] = {
+    [POLARIZATION_HORIZONTAL] = {{{-5.33980, -0.10008, 1.13098},
+                                  {-0.35351, 1.26970, 0.45400},
+                                  {-0.23789, 0.86036, 0.15354},
+                                  {-0.94158, 0.64552, 0.16817},
+                                  {0, 0, 1}},
+                                 -0.18961,
+                                 0.71147},
+    [POLARIZATION_VERTICAL] = {{{-3.80595, 0.56934, 0.81061},
+                                {-3.44965, -0.22911, 0.51059},
+                                {-0.39902, 0.73042, 0.11899},
+                                {0.50167, 1.07319, 0.27195},
+                                {0, 0, 1}},
+                               -0.16398,
+                               0.63297},
+};
+static const struct fit ALPHA[] = {
+    [POLARIZATION_HORIZONTAL] = {{{-0.14318, 1.82442, -0.55187},
+                                  {0.29591, 0.77564, 0.19822},
+                                  {0.32177, 0.63773, 0.13164},
+                                  {-5.37610, -0.96230, 1.47828},
+                                  {16.1721, -3.29980, 3.43990}},
+                                 0.67849,
+                                 -1.95537},
+    [POLARIZATION_VERTICAL] = {{{-0.07771, 2.33840, -0.76284},
+                                {0.56727, 0.95545, 0.54039},
+                                {-0.20238, 1.14520, 0.26809},
+                                {-48.2991, 0.791669, 0.116226},
+                                {48.5833, 0.791459, 0.116479}},
+                               -0.053739,
+                               0.83433},
+};
+
+static double fit_at(const struct fit *fit, double lg_ghz)
+{
+    double sum = fit->slope * lg_ghz + fit->offset;
+    for (int i = 0; i < 5; i++) {
+        double widths = (lg_ghz - fit->bells[i].centre) / fit->bells[i].width;
+        sum += fit->bells[i].height * elementary_exp(-widths * widths);
+    }
+    return sum;
+}
+
+struct attenuation_law attenuation_rain_law(double carrier_hz, enum polarization polarization)
+{
+    double lg_ghz = elementary_log10(carrier_hz / 1e9);
+    return (struct attenuation_law){elementary_pow(10, fit_at(&LG_K[polarization], lg_ghz)),
+                             fit_at(&ALPHA[polarization], lg_ghz)};
+}
+
+double attenuation_rain_dbpkm(struct attenuation_law law, double rate_mmph)
+{
+    return law.k * elementary_pow(rate_mmph, law.alpha);
+}
+
+double attenuation_fog_dbpkm(double carrier_hz, double temperature_c, double water_gpm3)
+{
+    double ghz = carrier_hz / 1e9;
+    double excess = 300 / (273.15 + temperature_c) - 1;
+    double still = 77.66 + 103.3 * excess, between = 0.0671 * still, fast = 3.52;
+    double primary_ghz = 20.20 - 146 * excess + 316 * excess * excess;
+    double primary = ghz / primary_ghz, secondary = primary / 39.8;
+    double primary_part = (still - between) / (1 + primary * primary);
+    double secondary_part = (between - fast) / (1 + secondary * secondary);
+    double re = primary_part + secondary_part + fast;
+    double loss = primary * primary_part + secondary * secondary_part;
+    double eta = (2 + re) / loss;
+    return 0.819 * ghz / (loss * (1 + eta * eta)) * water_gpm3;
+}
+
+double attenuation_amplitude_factor(double attenuation_dbpkm, double range_m)
+{
+    return units_amplitude_from_db(-2 * attenuation_dbpkm * range_m / 1000);
+}

@@ -1,0 +1,242 @@
+#include "line_of_sight.h"
+
+#include <math.h>
+
+#include "sight_margins.h"
+#include "elementary.h"
+#include "knife_edge.h"
+#include "occlusion.h"
+#include "predicates.h"
+
+/* Both ends of a line beyond the same side of a body. */
+static bool passes_beside(double from_m, double to_m, double reach_m)
+{
+    return (from_m > reach_m && to_m > reach_m) || (from_m < -reach_m && to_m < -reach_m);
+}
+
+/* How a sight line and a body's outline lie to each other: told from circles where it is plain. */
+enum meeting { MEETING_UNSURE, MEETING_NONE, MEETING_THROUGH };
+
+/* A sight line that stays clear of the circle around a body, or has both ends beyond one of its
+ * sides, cannot touch its outline; one with both ends outside that circle that runs through the
+ * circle within its sides must. The slack covers the rounding of this test, so the exact one is
+ * only spared where it would say the same. */
+static enum meeting meeting_of(const struct look_body *body, struct vec2 from, struct vec2 to,
+                               double bend_m)
+{
+    struct vec2 line = vec2_sub(to, from), centre = vec2_sub(body->box.motion.position_m, from);
+    double square = vec2_dot(line, line), length_m = sqrt(square), along = vec2_dot(line, centre);
+    double aside = fabs(vec2_cross(line, centre)), slack_m = 1e-6 + bend_m;
+    double reach = (body->radius_m + slack_m) * (1 + 1e-9) * length_m;
+    if (aside > reach || along < -reach || along > square + reach)
+        return MEETING_NONE;
+    double inner_m =
+        0.5 * elementary_least(body->box.length_m, body->box.width_m) * (1 - 1e-9) - slack_m;
+    if (aside < inner_m * length_m && along > reach && along < square - reach)
+        return MEETING_THROUGH;
+    struct vec2 ahead = body->box.heading, rest = vec2_sub(centre, line);
+    slack_m += 1e-9 * (length_m + body->radius_m);
+    bool beside = passes_beside(vec2_cross(ahead, centre), vec2_cross(ahead, rest),
+                                0.5 * body->box.width_m + slack_m) ||
+                  passes_beside(vec2_dot(ahead, centre), vec2_dot(ahead, rest),
+                                0.5 * body->box.length_m + slack_m);
+    return beside ? MEETING_NONE : MEETING_UNSURE;
+}
+
+/* The same of a line from the sensor to a place. */
+static enum meeting meeting_before(const struct look_body *body, const struct silhouette *place)
+{
+    if (!silhouette_overlaps(&body->shadow.silhouette, place))
+        return MEETING_NONE;
+    return silhouette_covers(&body->shadow.silhouette, place) ? MEETING_THROUGH : MEETING_UNSURE;
+}
+
+struct side line_of_sight_side(const struct look_body *body, const struct plane_reflector *plane)
+{
+    return (struct side){.from = reflectors_place(&body->box, plane->from_x, plane->from_y),
+                         .to = reflectors_place(&body->box, plane->to_x, plane->to_y),
+                         .along = reflectors_along(&body->box, plane)};
+}
+
+/* Has the body a side in line with this one that begins where it ends (or ends where it begins),
+ * but for so much? */
+static bool joins(const struct look_body *body, const struct side *side, bool begins,
+                  double within_m)
+{
+    for (size_t i = 0; body->worn != NULL && i < body->worn->set->planes.count; i++) {
+        const struct plane_reflector *plane = &body->worn->set->planes.items[i];
+        if (plane->margin_m != 0 || !vec2_same(reflectors_along(&body->box, plane), side->along))
+            continue;
+        struct vec2 gap =
+            begins ? vec2_sub(reflectors_place(&body->box, plane->from_x, plane->from_y), side->to)
+                   : vec2_sub(reflectors_place(&body->box, plane->to_x, plane->to_y), side->from);
+        if (vec2_length(gap) <= within_m)
+            return true;
+    }
+    return false;
+}
+
+bool line_of_sight_next_side_has_foot(const struct look *look, const struct side *side)
+{
+    if (predicates_along(side->to, look->position_m, side->along) != 0)
+        return false;
+    for (size_t i = 0; i < look->body_count; i++)
+        if (joins(&look->bodies[i], side, true, 0))
+            return true;
+    return false;
+}
+
+void line_of_sight_find_blockers(struct look *look, const struct look_body *own,
+                        const struct look_extent *wanted)
+{
+    const struct selection *selection = look->selection;
+    int64_t begin = effects_begin(selection);
+    look->blocker_count = 0;
+    if (!effects_may(selection, EFFECT_OCCLUSION))
+        return;
+    bool all = effects_must(selection, EFFECT_OCCLUSION);
+    struct azimuth_index_span span = all ? azimuth_index_everywhere : wanted->span;
+    size_t count = azimuth_index_find(&look->bearings, span);
+    for (size_t i = 0; i < count; i++) {
+        const struct look_body *body = &look->bodies[look->bearings.found[i]];
+        /* Without a branch, which would go either way too often to be foreseen. */
+        look->blockers[look->blocker_count] = body;
+        look->blocker_count +=
+            (size_t)((body != own) &
+                     (all | silhouette_overlaps(&body->shadow.silhouette, &wanted->silhouette)));
+    }
+    bool some = all || look->blocker_count > 0;
+    effects_note(selection, EFFECT_OCCLUSION, some);
+    effects_note(selection, EFFECT_HEIGHT, look->over && some);
+    effects_note(selection, EFFECT_DIFFRACTION, look->wavelength_m > 0 && some);
+    effects_end(selection, EFFECT_OCCLUSION, begin);
+}
+
+/* Does whatever has a line run through it hide all? */
+static bool hides_all(const struct look *look)
+{
+    return look->wavelength_m == 0 && !look->over;
+}
+
+bool line_of_sight_all_hidden(const struct look *look, const struct look_set *set,
+                     const struct look_extent *wanted)
+{
+    /* What keeps within its box and ends before the set begins has no side that joins one of it. */
+    for (size_t i = 0; i < look->blocker_count && hides_all(look); i++) {
+        const struct look_body *body = look->blockers[i];
+        if (silhouette_covers(&body->shadow.silhouette, &wanted->silhouette) &&
+            body->worn->shape->share == 1 && !(set->shape->under && body->raised))
+            return true;
+    }
+    return false;
+}
+
+/* What one body lets through that a line meets so, and which effects beside occlusion matter to
+ * it. */
+static struct way past(const struct look *look, const struct look_body *body,
+                       const struct obstruction_line *line, enum meeting meeting)
+{
+    if (meeting == MEETING_NONE)
+        return (struct way){.factor = 1};
+    if (meeting == MEETING_THROUGH && hides_all(look))
+        return (struct way){.factor = 0, .by = body};
+    struct obstruction passage =
+        obstruction_of(body->corner, 4, look_top_m(look, body), line, look->wavelength_m);
+    return (struct way){
+        .factor = passage.factor,
+        .by = passage.factor == 0 ? body : NULL,
+        .effects = (passage.bent ? EFFECT_BIT(EFFECT_DIFFRACTION) : 0) |
+                   (passage.over ? EFFECT_BIT(EFFECT_HEIGHT) : 0),
+    };
+}
+
+struct way line_of_sight_past_blockers(const struct look *look, const struct side *side,
+                              const struct obstruction_line *line, bool solid)
+{
+    struct way all = {.factor = 1};
+    struct silhouette place = silhouette_of_place(vec2_sub(line->to, look->position_m));
+    bool exact = effects_must(look->selection, EFFECT_OCCLUSION);
+    for (size_t i = 0; i < look->blocker_count; i++) {
+        const struct look_body *body = look->blockers[i];
+        if (solid && body->raised)
+            continue;
+        enum meeting meeting = exact ? meeting_of(body, line->from, line->to, look->bend_m)
+                                     : meeting_before(body, &place);
+        struct way way = past(look, body, line, meeting);
+        if ((way.factor == 1 && way.effects == 0) ||
+            (side != NULL &&
+             (joins(body, side, true, LINE_OF_SIGHT_JOINT_M) || joins(body, side, false, LINE_OF_SIGHT_JOINT_M))))
+            continue;
+        if (way.by != NULL)
+            return way;
+        all.factor *= way.factor;
+        all.effects |= way.effects;
+    }
+    return all;
+}
+
+static bool is_among(const struct look_body *body, const struct look_body *const *bodies,
+                     size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (bodies[i] == body)
+            return true;
+    return false;
+}
+
+struct way line_of_sight_along(const struct look *look, const struct obstruction_line *line,
+                      const struct look_body *const *but, size_t count)
+{
+    struct way all = {.factor = 1};
+    if (!effects_may(look->selection, EFFECT_OCCLUSION))
+        return all;
+    struct azimuth_index_span span = effects_must(look->selection, EFFECT_OCCLUSION)
+                                    ? azimuth_index_everywhere
+                                    : azimuth_index_between(vec2_sub(line->from, look->position_m),
+                                                       vec2_sub(line->to, look->position_m));
+    size_t near = azimuth_index_find(&look->bearings, span);
+    for (size_t i = 0; i < near; i++) {
+        const struct look_body *body = &look->bodies[look->bearings.found[i]];
+        if (is_among(body, but, count))
+            continue;
+        struct way way =
+            past(look, body, line, meeting_of(body, line->from, line->to, look->bend_m));
+        if (way.by != NULL)
+            return way;
+        all.factor *= way.factor;
+        all.effects |= way.effects;
+    }
+    return all;
+}
+
+double line_of_sight_margin_m(const struct look *look, const struct look_body *const *but, size_t count,
+                     const struct obstruction_line *line, bool solid, bool blocked)
+{
+    double nearest_m = (double)INFINITY, deepest_m = 0;
+    double length_m = vec2_length(vec2_sub(line->to, line->from));
+    double soft_m = 2 * knife_edge_reach_m(length_m, look->wavelength_m);
+    for (size_t i = 0; i < look->body_count; i++) {
+        const struct look_body *body = &look->bodies[i];
+        const struct vec2 *corner = body->corner, from = line->from, to = line->to;
+        if (!body->blocks || (solid && body->raised) || is_among(body, but, count))
+            continue;
+        if (!occlusion_outline_blocks(corner, 4, from, to)) {
+            nearest_m = elementary_least(nearest_m, sight_margins_outline_m(corner, 4, from, to));
+            continue;
+        }
+        double above_m = obstruction_above_m(corner, 4, look_top_m(look, body), line);
+        if (above_m > 0 || soft_m > 0)
+            nearest_m = elementary_least(nearest_m, elementary_most(above_m, 0));
+        double depth_m = elementary_least(sight_margins_depth_m(corner, 4, from, to), -above_m);
+        deepest_m = elementary_most(deepest_m, depth_m - soft_m);
+    }
+    return blocked ? deepest_m : nearest_m;
+}
+
+double line_of_sight_clearance_m(const struct look *look, const struct obstruction_line *line,
+                        const struct look_body *const *but, size_t count)
+{
+    return effects_may(look->selection, EFFECT_OCCLUSION)
+               ? line_of_sight_margin_m(look, but, count, line, false, false)
+               : (double)INFINITY;
+}

@@ -1,0 +1,113 @@
+#include "target_list.h"
+
+#include <math.h>
+
+#include "elementary.h"
+#include "frame_order.h"
+#include "sort.h"
+#include "units.h"
+
+/* Doubles from here on are whole, and infinity is among them: there is nothing to round. */
+#define WHOLE_STEPS 0x1p52
+
+struct reading target_list_measure(const struct cell *cell)
+{
+    return (struct reading){
+        .cell = cell,
+        .range_m = cell->range_m,
+        .azimuth_rad = cell->azimuth_rad,
+        .range_rate_mps = cell->range_rate_mps,
+        .amplitude = elementary_hypot(cell->sum_re, cell->sum_im),
+        .sign_undecided = cell->sign_undecided,
+        .effects = cell->effects,
+        .margins = cell->margins,
+    };
+}
+
+double target_list_step(double value, double step)
+{
+    double steps = step > 0 ? value / step : (double)INFINITY;
+    return fabs(steps) < WHOLE_STEPS ? step * round(steps) : value;
+}
+
+static int compare_leaders(const struct reading *a, const struct reading *b)
+{
+    return frame_order_tied(a->cell->members.items, b->cell->members.items);
+}
+
+static int compare_strength(const void *left, const void *right)
+{
+    const struct reading *a = left, *b = right;
+    if (a->amplitude != b->amplitude)
+        return a->amplitude > b->amplitude ? -1 : 1;
+    return compare_leaders(a, b);
+}
+
+static int compare_range(const void *left, const void *right)
+{
+    const struct reading *a = left, *b = right;
+    if (a->range_m != b->range_m)
+        return a->range_m < b->range_m ? -1 : 1;
+    return compare_strength(left, right);
+}
+
+static void note_limit(struct reading *readings, size_t count, enum list_order order, int64_t limit)
+{
+    const struct reading *last = NULL, *next = NULL;
+    int64_t listed = 0;
+    for (size_t i = 0; i < count && next == NULL; i++)
+        if (readings[i].amplitude > 0)
+            *(listed++ < limit ? &last : &next) = &readings[i];
+    for (size_t i = 0; i < count && next != NULL; i++) {
+        struct reading *reading = &readings[i];
+        const struct reading *across = reading <= last ? next : last;
+        if (!(reading->amplitude > 0))
+            continue;
+        if (order == LIST_STRONGEST)
+            margins_note(&reading->margins, MARGIN_LIMIT_DB,
+                         margins_between_db(across->amplitude, reading->amplitude));
+        else
+            margins_note(&reading->margins, MARGIN_LIMIT_M,
+                         fabs(across->range_m - reading->range_m));
+    }
+}
+
+void target_list_make(struct frame *frame, const char *stage, const struct sensor *sensor,
+                   struct reading *readings, size_t count, int64_t limit)
+{
+    sort_items(readings, count, sizeof *readings,
+               sensor->list_order == LIST_STRONGEST ? compare_strength : compare_range,
+               frame->arena);
+    if (frame->margins && limit > 0)
+        note_limit(readings, count, sensor->list_order, limit);
+    int64_t listed = 0;
+    for (size_t i = 0; i < count; i++) {
+        const struct reading *reading = &readings[i];
+        if (!(reading->amplitude > 0)) {
+            frame_lose_cell(frame, stage, reading->cell, LOSS_NO_AMPLITUDE, 0, &reading->margins);
+        } else if (limit > 0 && listed == limit) {
+            frame_lose_cell(frame, stage, reading->cell, LOSS_LIST_LIMIT, 0, &reading->margins);
+        } else {
+            struct target *target =
+                frame_add_target(frame, reading->cell, units_amplitude_db(reading->amplitude));
+            target->range_m = reading->range_m;
+            target->azimuth_rad = reading->azimuth_rad;
+            target->range_rate_mps = reading->range_rate_mps;
+            target->sign_undecided = reading->sign_undecided;
+            target->effects = reading->effects;
+            target->margins = reading->margins;
+            listed++;
+        }
+    }
+}
+
+void target_list_round(struct target *target, const struct sensor *sensor)
+{
+    struct target exact = *target;
+    target->range_m = target_list_step(exact.range_m, sensor->range_step_m);
+    target->azimuth_rad = units_wrap_rad(target_list_step(exact.azimuth_rad, sensor->azimuth_step_rad));
+    target->range_rate_mps = target_list_step(exact.range_rate_mps, sensor->range_rate_step_mps);
+    if (target->range_m != exact.range_m || target->azimuth_rad != exact.azimuth_rad ||
+        target->range_rate_mps != exact.range_rate_mps)
+        target->effects |= EFFECT_BIT(EFFECT_QUANTISATION);
+}

@@ -1,0 +1,39 @@
+#include "scan_timing.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+
+#include "elementary.h"
+
+/* The number of the latest instant at or before time_s; -1 before the first. */
+static double latest_instant(double cycle_s, double time_s)
+{
+    double cycles = time_s / cycle_s;
+    return elementary_most(floor(cycles + 1e-9 + 4 * DBL_EPSILON * fabs(cycles)), -1);
+}
+
+/* Cycles are decimals, so their multiples are too: 4.392, not 4.3919999999999995. */
+static double decimal(double time_s)
+{
+    return fabs(time_s) < 1e6 ? round(time_s * 1e9) / 1e9 : time_s;
+}
+
+enum scan_timing_answer scan_timing_instant_s(double cycle_s, double time_s, double interval_s,
+                                  double *instant_s)
+{
+    if (cycle_s == 0) {
+        *instant_s = time_s;
+        return SCAN_TIMING_ONE;
+    }
+    double latest = latest_instant(cycle_s, time_s);
+    double fresh = latest - latest_instant(cycle_s, time_s - interval_s);
+    if (fresh > 1)
+        return SCAN_TIMING_SEVERAL;
+    if (fresh < 1)
+        return SCAN_TIMING_NONE;
+    double slack_s = 1e-9 * cycle_s + 4 * DBL_EPSILON * fabs(time_s);
+    bool at_the_frame = fabs(latest * cycle_s - time_s) <= slack_s;
+    *instant_s = at_the_frame ? time_s : decimal(latest * cycle_s);
+    return SCAN_TIMING_ONE;
+}

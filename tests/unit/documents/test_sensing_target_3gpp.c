@@ -1,0 +1,93 @@
+#include "check.h"
+
+#include <string.h>
+
+#include "radar_equation.h"
+#include "sensing_target_3gpp.h"
+#include "units.h"
+
+#define DEGREE (PI / 180)
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+/* The incoherent sum of all points from a direction in the target's frame, far away. */
+static double cross_section_dbsm(enum sensing_target_3gpp target, double azimuth, double zenith)
+{
+    struct arena arena = {0};
+    struct reflector_set set = {.model = "m"};
+    const struct box box = {.heading = {1, 0}, .length_m = 5, .width_m = 2};
+    const struct vec2 middle = {0, 0}, direction = {cos(azimuth * DEGREE), sin(azimuth * DEGREE)};
+    double total_m2 = 0;
+    sensing_target_3gpp_describe(target, &set, &arena);
+    for (size_t i = 0; i < set.points.count; i++) {
+        const struct point_reflector *point = &set.points.items[i];
+        double factor =
+            reflectors_visibility(&box, point, vec2_heading(point->facing_rad), middle, direction);
+        factor *= reflectors_lobe(&box, point, middle, direction, zenith * DEGREE);
+        total_m2 += radar_cross_section_m2(factor * point->ercs);
+    }
+    arena_free(&arena);
+    return 10 * log10(total_m2);
+}
+
+static void a_vehicle_has_the_published_cross_sections(void **state)
+{
+    (void)state;
+    static const double level[][2] = {{0, 11.684341},  {45, 7.067702},   {75, 16.626177},
+                                      {90, 20.129911}, {165, 12.142018}, {180, 13.762731}};
+    for (size_t i = 0; i < COUNT(level); i++) {
+        double azimuth = level[i][0], expected = level[i][1];
+        assert_close(cross_section_dbsm(SENSING_TARGET_3GPP_VEHICLE, azimuth, 90), expected, 5.1e-7);
+        assert_close(cross_section_dbsm(SENSING_TARGET_3GPP_VEHICLE, -azimuth, 90), expected, 5.1e-7);
+    }
+}
+
+/* From straight above the roof stands out; the other faces are at their floors. */
+static void from_above_the_roof_is_seen(void **state)
+{
+    (void)state;
+    double floors_m2 = 2 * pow(10, 0.008) + 2 * pow(10, 0.008);
+    assert_close(cross_section_dbsm(SENSING_TARGET_3GPP_VEHICLE, 33, 0),
+                 10 * log10(pow(10, 2.112) + floors_m2), 1e-12);
+}
+
+static void a_human_is_the_same_from_everywhere(void **state)
+{
+    (void)state;
+    for (double azimuth = -180; azimuth <= 180; azimuth += 30)
+        assert_close(cross_section_dbsm(SENSING_TARGET_3GPP_HUMAN, azimuth, 80), -1.37, 1e-12);
+}
+
+static void the_points_take_the_place_of_the_documents(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct point_reflector corner = {.name = "corner"};
+    struct plane_reflector side = {.name = "side"};
+    struct mirror_plane mirror = {.reflection = 0.5};
+    struct reflector_set set = {.model = "m", .blocks = true};
+    set.points.items = &corner;
+    set.planes.items = &side;
+    set.mirrors.items = &mirror;
+    set.points.count = set.planes.count = set.mirrors.count = 1;
+    sensing_target_3gpp_describe(SENSING_TARGET_3GPP_VEHICLE, &set, &arena);
+    assert_int_equal(set.points.count, 5);
+    assert_int_equal(set.planes.count, 0);
+    assert_int_equal(set.mirrors.count, 1);
+    assert_true(set.blocks);
+    assert_string_equal(corner.name, "corner");
+    assert_null(reflectors_name_twice(&set));
+    struct diag diag = {0};
+    assert_int_equal(field_check(&reflector_set_record, &set, &diag), 0);
+    arena_free(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_vehicle_has_the_published_cross_sections),
+        cmocka_unit_test(from_above_the_roof_is_seen),
+        cmocka_unit_test(a_human_is_the_same_from_everywhere),
+        cmocka_unit_test(the_points_take_the_place_of_the_documents),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,176 @@
+#include "check.h"
+
+#include "ghost_path.h"
+#include "sample.h"
+#include "units.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+#define DEGREE (PI / 180)
+
+/* A sensor, an object and a wall, each on its own way. */
+struct playback {
+    struct motion sensor;
+    struct mirror_image object;
+    struct mirror mirror;
+};
+
+/* EFFECTS 7. */
+static const struct playback STANDARD = {.object = {{30, -2}, {-5, 0}},
+                                      .mirror = {.a = {-10, 4}, .b = {50, 4}}};
+
+static struct kinematics look_at(const struct playback *scene, const struct mirror_image *thing)
+{
+    return kinematics_of(scene->sensor.position_m, scene->sensor.velocity_mps, (struct vec2){1, 0},
+                    thing->place_m, thing->velocity_mps);
+}
+
+static struct mirror_image image_in(const struct playback *scene)
+{
+    return mirror_image(&scene->mirror, scene->object.place_m, scene->object.velocity_mps);
+}
+
+static double power_db(const struct ghost_path *ghost, const struct kinematics *direct)
+{
+    double ratio = direct->range_m / ghost->sight.range_m;
+    return 20 * log10(ghost->ercs_factor * ratio * ratio);
+}
+
+static void effects_7_has_its_ghosts(void **state)
+{
+    (void)state;
+    struct mirror_image image = image_in(&STANDARD);
+    struct kinematics direct = look_at(&STANDARD, &STANDARD.object);
+    struct kinematics mirrored = look_at(&STANDARD, &image);
+    const struct {
+        struct ghost_path ghost;
+        double range_m, azimuth_deg, range_rate_mps, power_db;
+    } cases[] = {
+        {{direct, 1}, 30.066593, -3.814075, -4.988926, 0},
+        {ghost_path_out(0.9, &direct, &mirrored), 30.844685, -3.814075, -4.866171, -1.353466},
+        {ghost_path_back(0.9, &direct, &mirrored), 30.844685, 18.434949, -4.866171, -1.353466},
+        {ghost_path_both(0.9, &mirrored), 31.622777, 18.434949, -4.743416, -2.706931},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        const struct kinematics *seen = &cases[i].ghost.sight;
+        assert_close(seen->range_m, cases[i].range_m, 1.1e-6);
+        assert_close(seen->azimuth_rad / DEGREE, cases[i].azimuth_deg, 5e-7);
+        assert_close(seen->range_rate_mps, cases[i].range_rate_mps, 1.1e-6);
+        assert_close(power_db(&cases[i].ghost, &direct), cases[i].power_db, 5e-7);
+    }
+}
+
+static void what_reflects_nothing_is_zero_and_never_nan(void **state)
+{
+    (void)state;
+    struct mirror_image image = image_in(&STANDARD);
+    struct kinematics direct = look_at(&STANDARD, &STANDARD.object);
+    struct kinematics mirrored = look_at(&STANDARD, &image);
+    const double factors[] = {
+        ghost_path_out(0, &direct, &mirrored).ercs_factor,
+        ghost_path_back(0, &direct, &mirrored).ercs_factor,
+        ghost_path_both(0, &mirrored).ercs_factor,
+    };
+    for (size_t i = 0; i < COUNT(factors); i++)
+        assert_close(factors[i], 0, 0);
+}
+
+static struct vec2 random_place(uint64_t *sample, double bound)
+{
+    return (struct vec2){sample_between(sample, -bound, bound),
+                         sample_between(sample, -bound, bound)};
+}
+
+static struct playback random_scene(uint64_t *sample)
+{
+    struct playback scene = {
+        .sensor = {.position_m = random_place(sample, 40),
+                   .velocity_mps = random_place(sample, 30)},
+        .object = {random_place(sample, 40), random_place(sample, 30)},
+        .mirror = {.a = random_place(sample, 40), .b = random_place(sample, 40)},
+    };
+    scene.mirror.body = (struct motion){.position_m = random_place(sample, 40),
+                                        .velocity_mps = random_place(sample, 30),
+                                        .yaw_rate_radps = sample_between(sample, -1, 1)};
+    return scene;
+}
+
+static struct vec2 carried(const struct motion *from, const struct motion *to, struct vec2 place)
+{
+    struct vec2 turn = vec2_heading(to->yaw_rad - from->yaw_rad);
+    return vec2_add(to->position_m, vec2_turn(vec2_sub(place, from->position_m), turn));
+}
+
+static struct playback scene_after(const struct playback *scene, double t)
+{
+    struct playback later = *scene;
+    later.sensor = motion_after(scene->sensor, t);
+    later.object.place_m =
+        vec2_add(scene->object.place_m, vec2_scale(t, scene->object.velocity_mps));
+    later.mirror.body = motion_after(scene->mirror.body, t);
+    later.mirror.a = carried(&scene->mirror.body, &later.mirror.body, scene->mirror.a);
+    later.mirror.b = carried(&scene->mirror.body, &later.mirror.body, scene->mirror.b);
+    return later;
+}
+
+static double leg_m(struct vec2 from, struct vec2 to)
+{
+    return vec2_length(vec2_sub(to, from));
+}
+
+enum { OUT, BOTH, PATHS };
+
+/* Half the way, leg by leg. False if a path does not exist or is ill-conditioned. */
+static bool measure(const struct playback *scene, double range_m[PATHS])
+{
+    struct vec2 sensor = scene->sensor.position_m, object = scene->object.place_m, bounce;
+    if (leg_m(scene->mirror.a, scene->mirror.b) < 5 ||
+        !mirror_bounce(&scene->mirror, sensor, object, &bounce) || leg_m(sensor, object) < 2 ||
+        leg_m(object, bounce) < 1 || leg_m(sensor, bounce) < 1)
+        return false;
+    range_m[OUT] = (leg_m(sensor, bounce) + leg_m(bounce, object) + leg_m(object, sensor)) / 2;
+    range_m[BOTH] = leg_m(sensor, bounce) + leg_m(bounce, object);
+    return true;
+}
+
+/* The wall turns and drives, so do the sensor and the object. */
+static void ranges_are_half_the_legs_and_rates_their_derivatives(void **state)
+{
+    (void)state;
+    static const double steps_s[] = {1e-3, 1e-4, 1e-5};
+    uint64_t sample = 78;
+    int found = 0;
+    for (int i = 0; i < 30000; i++) {
+        struct playback scene = random_scene(&sample);
+        double range_m[PATHS], before_m[PATHS], after_m[PATHS];
+        if (!measure(&scene, range_m))
+            continue;
+        struct mirror_image image = image_in(&scene);
+        struct kinematics direct = look_at(&scene, &scene.object), mirrored = look_at(&scene, &image);
+        struct kinematics seen[PATHS] = {ghost_path_out(1, &direct, &mirrored).sight,
+                                    ghost_path_both(1, &mirrored).sight};
+        for (int path = 0; path < PATHS; path++)
+            assert_near(seen[path].range_m, range_m[path], 1e-13);
+        for (size_t k = 0; k < COUNT(steps_s); k++) {
+            struct playback before = scene_after(&scene, -steps_s[k]);
+            struct playback after = scene_after(&scene, steps_s[k]);
+            if (!measure(&before, before_m) || !measure(&after, after_m))
+                continue;
+            found++;
+            for (int path = 0; path < PATHS; path++)
+                assert_close((after_m[path] - before_m[path]) / (2 * steps_s[k]),
+                             seen[path].range_rate_mps,
+                             3e4 * steps_s[k] * steps_s[k] + 1e-12 / steps_s[k]);
+        }
+    }
+    assert_true(found > 3000);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(effects_7_has_its_ghosts),
+        cmocka_unit_test(what_reflects_nothing_is_zero_and_never_nan),
+        cmocka_unit_test(ranges_are_half_the_legs_and_rates_their_derivatives),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,228 @@
+#include "check.h"
+
+#include "knife_edge.h"
+#include "occlusion.h"
+#include "obstruction.h"
+#include "sample.h"
+
+#define HIGH ((double)INFINITY)
+#define WAVELENGTH_M 0.0124
+
+/* 4 m by 2 m, from (8, -1) to (12, 1). */
+static const struct vec2 car[] = {{12, 1}, {8, 1}, {8, -1}, {12, -1}};
+
+static struct vec2 somewhere(uint64_t *random, double reach_m)
+{
+    return (struct vec2){sample_between(random, -reach_m, reach_m),
+                         sample_between(random, -reach_m, reach_m)};
+}
+
+/* A box anywhere within 10 m, and a line anywhere within 20 m. */
+static struct obstruction_line random_case(uint64_t *random, struct vec2 corners[4])
+{
+    static const double x[] = {1, -1, -1, 1}, y[] = {1, 1, -1, -1};
+    struct vec2 heading = vec2_heading(sample_between(random, 0, 7));
+    struct vec2 middle = somewhere(random, 10);
+    double length_m = sample_between(random, 0.01, 5), width_m = sample_between(random, 0.01, 3);
+    for (int i = 0; i < 4; i++)
+        corners[i] =
+            vec2_add(middle, vec2_turn((struct vec2){x[i] * length_m, y[i] * width_m}, heading));
+    return (struct obstruction_line){somewhere(random, 20), somewhere(random, 20),
+                                 sample_between(random, 0, 3), sample_between(random, 0, 3)};
+}
+
+static void a_flat_world_knows_only_outlines(void **state)
+{
+    (void)state;
+    uint64_t random = 1;
+    int blocked = 0;
+    for (int i = 0; i < 100000; i++) {
+        struct vec2 corners[4];
+        struct obstruction_line line = random_case(&random, corners);
+        bool touches = occlusion_outline_blocks(corners, 4, line.from, line.to);
+        blocked += touches;
+        assert_close(obstruction_of(corners, 4, HIGH, &line, 0).factor, touches ? 0 : 1, 0);
+    }
+    assert_true(blocked > 10000);
+}
+
+static void what_is_above_the_top_all_along_is_seen(void **state)
+{
+    static const struct {
+        struct obstruction_line line;
+        double top_m, above_m;
+    } cases[] = {
+        {{{0, 0}, {20, 0}, 1, 1}, 0.9, 0.1},
+        {{{0, 0}, {20, 0}, 1, 1}, 1, 0},
+        {{{0, 0}, {20, 0}, 0, 4}, 1.5, 0.1},  /* lowest where it enters, 1.6 */
+        {{{0, 0}, {20, 0}, 4, 0}, 1.5, 0.1},  /* lowest where it leaves */
+        {{{20, 0}, {0, 0}, 4, 0}, 1.7, -0.1}, /* the other way round */
+        {{{0, 0}, {10, 0}, 4, 1}, 1.5, -0.5}, /* it ends inside */
+        {{{10, 0}, {20, 0}, 1, 9}, 1.5, -0.5},
+        {{{8, -5}, {8, 5}, 0, 10}, 3.9, 0.1}, /* along an end, over its whole width */
+        {{{7, 0}, {9, 2}, 0, 2}, 0.9, 0.1},   /* through a corner */
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        assert_close(obstruction_above_m(car, 4, cases[i].top_m, &cases[i].line), cases[i].above_m,
+                     1e-14);
+        assert_close(obstruction_of(car, 4, cases[i].top_m, &cases[i].line, 0).factor,
+                     cases[i].above_m > 0 ? 1 : 0, 0);
+    }
+}
+
+static bool contains(const struct vec2 *corners, struct vec2 place)
+{
+    for (int i = 0; i < 4; i++)
+        if (vec2_cross(vec2_sub(corners[(i + 1) % 4], corners[i]), vec2_sub(place, corners[i])) < 0)
+            return false;
+    return true;
+}
+
+/* Against the lowest of many places on the line that are inside. */
+static void the_lowest_place_over_a_body_counts(void **state)
+{
+    (void)state;
+    enum { STEPS = 500 };
+    uint64_t random = 2;
+    int over = 0;
+    for (int i = 0; i < 4000; i++) {
+        struct vec2 corners[4];
+        struct obstruction_line line = random_case(&random, corners);
+        double lowest_m = HIGH;
+        for (int k = 0; k <= STEPS; k++) {
+            double share = (double)k / STEPS;
+            struct vec2 place =
+                vec2_add(vec2_scale(1 - share, line.from), vec2_scale(share, line.to));
+            if (contains(corners, place))
+                lowest_m =
+                    fmin(lowest_m, (1 - share) * line.from_height_m + share * line.to_height_m);
+        }
+        if (lowest_m == HIGH)
+            continue;
+        over++;
+        double above_m = obstruction_above_m(corners, 4, 0, &line);
+        assert_true(above_m <= lowest_m + 1e-12 && above_m > lowest_m - 3.01 / STEPS);
+    }
+    assert_true(over > 500);
+}
+
+static void a_line_inside_from_end_to_end_is_free(void **state)
+{
+    (void)state;
+    const struct obstruction_line line = {{9, 0.5}, {11, -0.9}, 1, 1};
+    assert_close(obstruction_of(car, 4, HIGH, &line, 0).factor, 1, 0);
+    assert_close(obstruction_of(car, 4, HIGH, &line, WAVELENGTH_M).factor, 1, 0);
+}
+
+static void soft_shadows_begin_where_hard_ones_do(void **state)
+{
+    (void)state;
+    uint64_t random = 3;
+    double edge = knife_edge_amplitude_factor(0);
+    int soft = 0;
+    for (int i = 0; i < 300000; i++) {
+        struct vec2 corners[4];
+        struct obstruction_line line = random_case(&random, corners);
+        double top_m = i % 2 ? HIGH : sample_between(&random, 0, 3);
+        double hard = obstruction_of(corners, 4, top_m, &line, 0).factor;
+        double factor = obstruction_of(corners, 4, top_m, &line, WAVELENGTH_M).factor;
+        assert_true(factor >= 0 && factor <= 1);
+        assert_true(hard == 1 ? factor > edge - 1e-6 : factor < edge + 1e-6);
+        soft += factor > 0 && factor < 1;
+    }
+    assert_true(soft > 3000);
+}
+
+/* Without the one, or without an end of the body: asked apart. */
+static void what_diffraction_and_height_change_is_told(void **state)
+{
+    (void)state;
+    uint64_t random = 6;
+    int bent = 0, over = 0;
+    for (int i = 0; i < 100000; i++) {
+        struct vec2 corners[4];
+        struct obstruction_line line = random_case(&random, corners);
+        double top_m = i % 4 == 0 ? HIGH : sample_between(&random, 0, 3);
+        double wavelength_m = i % 3 == 0 ? 0 : WAVELENGTH_M;
+        struct obstruction passage = obstruction_of(corners, 4, top_m, &line, wavelength_m);
+        double hard = obstruction_of(corners, 4, top_m, &line, 0).factor;
+        double endless = obstruction_of(corners, 4, HIGH, &line, wavelength_m).factor;
+        assert_int_equal(passage.bent, passage.factor != hard);
+        assert_int_equal(passage.over, passage.factor != endless);
+        bent += passage.bent;
+        over += passage.over;
+    }
+    assert_true(bent > 500 && over > 500);
+}
+
+/* Sideways past a pole, and upwards over a wall: no step is larger than the steepest slope. */
+static void shadows_change_without_jumps(void **state)
+{
+    (void)state;
+    const struct vec2 pole[] = {{10, 0.3}, {9.9, 0.3}, {9.9, -0.3}, {10, -0.3}};
+    const double steps_m = 1e-4;
+    double last = knife_edge_amplitude_factor(2 * sqrt(2));
+    for (int upwards = 0; upwards < 2; upwards++) {
+        double before = 1;
+        for (double shift_m = 2; shift_m > -2; shift_m -= steps_m) {
+            struct obstruction_line line = {{0, 0}, {20, 0}, 1, 1};
+            if (!upwards)
+                line.from.y = line.to.y = shift_m;
+            double top_m = upwards ? 1 - shift_m : HIGH;
+            double factor = obstruction_of(upwards ? car : pole, 4, top_m, &line, WAVELENGTH_M).factor;
+            assert_true(fabs(factor - before) < 0.005 || (before < 1.01 * last && factor == 0) ||
+                        (factor < 1.01 * last && before == 0));
+            before = factor;
+        }
+    }
+}
+
+/* The reason for which auto may leave out bodies. */
+static void edges_out_of_reach_change_nothing(void **state)
+{
+    (void)state;
+    uint64_t random = 4;
+    int clear = 0;
+    for (int i = 0; i < 300000; i++) {
+        struct vec2 corners[4];
+        struct obstruction_line line = random_case(&random, corners);
+        struct vec2 way = vec2_sub(line.to, line.from);
+        double length_m = vec2_length(way), nearest_m = HIGH;
+        for (int k = 0; k < 4; k++) {
+            struct vec2 offset = vec2_sub(corners[k], line.from);
+            double share = fmin(fmax(vec2_dot(offset, way) / length_m / length_m, 0), 1);
+            nearest_m = fmin(nearest_m, vec2_length(vec2_sub(offset, vec2_scale(share, way))));
+        }
+        if (nearest_m < knife_edge_reach_m(length_m, WAVELENGTH_M) ||
+            occlusion_outline_blocks(corners, 4, line.from, line.to))
+            continue;
+        clear++;
+        assert_close(obstruction_of(corners, 4, HIGH, &line, WAVELENGTH_M).factor, 1, 0);
+    }
+    assert_true(clear > 100000);
+}
+
+static void no_way_at_all_is_as_hard_as_it_was(void **state)
+{
+    (void)state;
+    const struct obstruction_line inside = {{10, 0}, {10, 0}, 1, 1}, corner = {{8, 1}, {8, 1}, 1, 1};
+    assert_close(obstruction_of(car, 4, HIGH, &inside, WAVELENGTH_M).factor, 1, 0);
+    assert_close(obstruction_of(car, 4, HIGH, &corner, WAVELENGTH_M).factor, 0, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_flat_world_knows_only_outlines),
+        cmocka_unit_test(what_is_above_the_top_all_along_is_seen),
+        cmocka_unit_test(the_lowest_place_over_a_body_counts),
+        cmocka_unit_test(a_line_inside_from_end_to_end_is_free),
+        cmocka_unit_test(soft_shadows_begin_where_hard_ones_do),
+        cmocka_unit_test(what_diffraction_and_height_change_is_told),
+        cmocka_unit_test(shadows_change_without_jumps),
+        cmocka_unit_test(edges_out_of_reach_change_nothing),
+        cmocka_unit_test(no_way_at_all_is_as_hard_as_it_was),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,704 @@
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "direct_echoes.h"
+#include "frame_order.h"
+#include "ghost_echoes.h"
+#include "obstruction.h"
+#include "sample.h"
+#include "sort.h"
+#include "units.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+#define DEGREE (PI / 180)
+#define EVERYTHING (EFFECT_BIT(EFFECT_COUNT) - 1)
+
+/* A sensor at the origin that looks along +x over a half plane, as EFFECTS 7 has it. */
+struct playback {
+    struct arena arena;
+    struct frame frame;
+    struct sensor sensor;
+    struct selection selection;
+};
+
+static void clear_scene(struct playback *scene)
+{
+    arena_clear(&scene->arena);
+    scene->frame = (struct frame){.scene = "s", .ego = "e", .time_s = 10, .account = true};
+    scene->frame.arena = &scene->arena;
+    scene->sensor = (struct sensor){.name = "front",
+                                    .range_min_m = 0.1,
+                                    .range_max_m = 100,
+                                    .field_of_view_rad = PI,
+                                    .bounces = 3};
+    scene->selection = (struct selection){.allowed = EVERYTHING};
+    *list_add(&scene->frame.objects, &scene->arena) =
+        (struct object){.id = "e", .class = "car", .length_m = 4, .width_m = 2};
+}
+
+static int make_scene(void **state)
+{
+    struct playback *scene = calloc(1, sizeof *scene);
+    assert_non_null(scene);
+    clear_scene(scene);
+    *state = scene;
+    return 0;
+}
+
+static int remove_scene(void **state)
+{
+    struct playback *scene = *state;
+    arena_free(&scene->arena);
+    free(scene);
+    return 0;
+}
+
+static struct object *add_object(struct playback *scene, const char *id, double x_m, double y_m,
+                                 double length_m, double width_m)
+{
+    struct object *object = list_add(&scene->frame.objects, &scene->arena);
+    *object = (struct object){
+        .id = id, .class = id, .x_m = x_m, .y_m = y_m, .length_m = length_m, .width_m = width_m};
+    return object;
+}
+
+static struct reflector_set *add_set(struct playback *scene, const char *worn_by, bool blocks)
+{
+    struct reflector_set *set = list_add(&scene->frame.reflectors, &scene->arena);
+    *set = (struct reflector_set){.model = worn_by, .blocks = blocks};
+    *list_add(&set->worn_by, &scene->arena) = worn_by;
+    return set;
+}
+
+/* Mirrors on the right side of an object along the x axis, facing -y. */
+static void add_right_mirror(struct playback *scene, struct reflector_set *set, double reflection)
+{
+    *list_add(&set->mirrors, &scene->arena) =
+        (struct mirror_plane){-0.5, -0.5, 0.5, -0.5, reflection};
+}
+
+static struct object *add_wall(struct playback *scene, const char *id, double from_x_m, double to_x_m,
+                               double y_m)
+{
+    struct object *wall =
+        add_object(scene, id, (from_x_m + to_x_m) / 2, y_m + 0.25, to_x_m - from_x_m, 0.5);
+    add_right_mirror(scene, add_set(scene, id, true), 0.9);
+    return wall;
+}
+
+static struct point_reflector *add_point(struct playback *scene, struct reflector_set *set)
+{
+    struct point_reflector *point = list_add(&set->points, &scene->arena);
+    *point = (struct point_reflector){
+        .name = "pole", .full_rad = PI, .zero_rad = PI, .shape = VISIBILITY_HARD, .ercs = 1};
+    return point;
+}
+
+static void add_standard_pole(struct playback *scene)
+{
+    add_object(scene, "o", 30, -2, 0.2, 0.2)->vx_mps = -5;
+    add_point(scene, add_set(scene, "o", true));
+}
+
+static struct look ghosts_at(struct playback *scene, double time_s)
+{
+    struct look look;
+    struct diag diag = {0};
+    struct frame *frame = &scene->frame;
+    frame->echoes.count = 0;
+    frame->counts.count = 0;
+    if (look_begin(&look, frame, &scene->sensor, &scene->selection, time_s, &diag) != 0)
+        fail_msg("%s", diag.text);
+    ghost_echoes_add(&look);
+    sort_list(&frame->echoes, frame_order_echoes, &scene->arena);
+    return look;
+}
+
+static const struct echo *ghost_of(const struct playback *scene, enum path path)
+{
+    for (size_t i = 0; i < scene->frame.echoes.count; i++)
+        if (scene->frame.echoes.items[i].path == path)
+            return &scene->frame.echoes.items[i];
+    return NULL;
+}
+
+#define OUT (1 << PATH_WALL_OBJECT)
+#define BACK (1 << PATH_OBJECT_WALL)
+#define BOTH (1 << PATH_WALL_OBJECT_WALL)
+
+static int paths_of(struct playback *scene)
+{
+    int paths = 0;
+    ghosts_at(scene, 10);
+    for (size_t i = 0; i < scene->frame.echoes.count; i++)
+        paths |= 1 << scene->frame.echoes.items[i].path;
+    return paths;
+}
+
+static void effects_7_has_its_ghosts(void **state)
+{
+    struct playback *scene = *state;
+    add_standard_pole(scene);
+    add_wall(scene, "w", -10, 50, 4);
+    ghosts_at(scene, 10);
+    static const struct {
+        enum path path;
+        double range_m, rate_mps, azimuth_deg, departure_deg, relative_db;
+    } cases[] = {
+        {PATH_WALL_OBJECT, 30.844685, -4.866171, -3.814075, 18.434949, -1.353466},
+        {PATH_OBJECT_WALL, 30.844685, -4.866171, 18.434949, -3.814075, -1.353466},
+        {PATH_WALL_OBJECT_WALL, 31.622777, -4.743416, 18.434949, 18.434949, -2.706931},
+    };
+    assert_int_equal(scene->frame.echoes.count, COUNT(cases));
+    assert_int_equal(scene->frame.counts.items[0].paths.count, COUNT(cases));
+    assert_int_equal(scene->frame.lost.count, 0);
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        const struct echo *ghost = &scene->frame.echoes.items[i];
+        assert_int_equal(ghost->path, cases[i].path);
+        assert_string_equal(ghost->object, "o");
+        assert_string_equal(ghost->reflector, "pole");
+        assert_string_equal(ghost->mirror, "w");
+        assert_int_equal(ghost->number, 1);
+        assert_close(ghost->range_m, cases[i].range_m, 1e-6);
+        assert_close(ghost->range_rate_mps, cases[i].rate_mps, 1e-6);
+        assert_close(ghost->azimuth_rad / DEGREE, cases[i].azimuth_deg, 1e-6);
+        assert_close((ghost->azimuth_rad + ghost->departure_rad) / DEGREE, cases[i].departure_deg,
+                     1e-6);
+        double spread = sqrt(904) / ghost->range_m;
+        assert_close(20 * log10(ghost->ercs * spread * spread), cases[i].relative_db, 1e-6);
+        assert_close(ghost->time_s, 10, 0);
+        assert_true(ghost->effects == EFFECT_BIT(EFFECT_GHOSTS));
+        assert_int_equal(scene->frame.counts.items[0].paths.items[i].echoes, 1);
+    }
+}
+
+static void bounces_and_the_selection_say_which_ghosts_there_are(void **state)
+{
+    struct playback *scene = *state;
+    static const int paths[] = {0, 0, OUT | BACK, OUT | BACK | BOTH};
+    add_standard_pole(scene);
+    add_wall(scene, "w", -10, 50, 4);
+    for (int bounces = 0; bounces <= 3; bounces++) {
+        scene->sensor.bounces = bounces;
+        assert_int_equal(paths_of(scene), paths[bounces]);
+    }
+    scene->selection.allowed &= ~EFFECT_BIT(EFFECT_GHOSTS);
+    assert_int_equal(paths_of(scene), 0);
+}
+
+/* The ways of the standard case: (0, 0) to (12, 4), on to (30, -2), and back. */
+static void every_way_must_be_free(void **state)
+{
+    struct playback *scene = *state;
+    static const struct {
+        double x_m, y_m;
+        int paths;
+    } cases[] = {
+        {6, 2, 0},        {21, 1, 0},      {15, -1, BOTH}, {15, 8, 7 << 1},
+        {25, -8, 7 << 1}, {15, 1, 7 << 1}, {12, 3.9, 0},   {12, 2.9, 7 << 1},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        clear_scene(scene);
+        add_standard_pole(scene);
+        add_wall(scene, "w", -10, 50, 4);
+        add_object(scene, "b", cases[i].x_m, cases[i].y_m, 0.4, 0.4);
+        add_set(scene, "b", true);
+        if (paths_of(scene) != cases[i].paths)
+            fail_msg("a blocker at (%g, %g) leaves %x", cases[i].x_m, cases[i].y_m,
+                     paths_of(scene));
+        scene->selection.allowed &= ~EFFECT_BIT(EFFECT_OCCLUSION);
+        assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+        scene->frame.reflectors.items[2].blocks = false;
+        scene->selection.allowed = EVERYTHING;
+        assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    }
+}
+
+/* A box with a pole at its far left corner, (12, 2), whose image is (12, 6). */
+static void an_object_hides_its_own_bounce_but_not_its_reflectors(void **state)
+{
+    struct playback *scene = *state;
+    add_wall(scene, "w", -10, 50, 4);
+    struct object *box = add_object(scene, "o", 10, 0, 4, 4);
+    struct reflector_set *set = add_set(scene, "o", true);
+    struct point_reflector *point = add_point(scene, set);
+    point->x = point->y = 0.5;
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    /* From here the way to the bounce touches its near corner, and then a smaller one does not. */
+    scene->frame.objects.items->y_m = -6;
+    assert_int_equal(paths_of(scene), 0);
+    box->y_m = -0.01;
+    box->width_m = 3.98;
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    scene->frame.objects.items->y_m = -8;
+    assert_int_equal(paths_of(scene), 0);
+    set->blocks = false;
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+}
+
+static void a_body_does_not_mirror_itself_and_two_mirror_twice(void **state)
+{
+    struct playback *scene = *state;
+    add_standard_pole(scene);
+    add_right_mirror(scene, &scene->frame.reflectors.items[0], 0.9);
+    assert_int_equal(paths_of(scene), 0);
+    add_wall(scene, "w", -10, 50, 4);
+    add_wall(scene, "x", -10, 50, 4.6);
+    struct reflector_set *inner = &scene->frame.reflectors.items[1];
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    assert_int_equal(scene->frame.echoes.count, 3);
+    inner->blocks = false;
+    ghosts_at(scene, 10);
+    assert_int_equal(scene->frame.echoes.count, 6);
+    /* Two of one body are told apart by their numbers. */
+    add_right_mirror(scene, inner, 0.3);
+    ghosts_at(scene, 10);
+    assert_int_equal(scene->frame.echoes.count, 9);
+    assert_string_equal(scene->frame.echoes.items[0].mirror, "w");
+    assert_int_equal(scene->frame.echoes.items[0].number, 1);
+    assert_string_equal(scene->frame.echoes.items[1].mirror, "w");
+    assert_int_equal(scene->frame.echoes.items[1].number, 2);
+    assert_near(scene->frame.echoes.items[1].ercs, scene->frame.echoes.items[0].ercs / 3, 1e-15);
+}
+
+static void two_walls_in_line_are_one(void **state)
+{
+    struct playback *scene = *state;
+    for (int step = -4; step <= 4; step++) {
+        clear_scene(scene);
+        add_standard_pole(scene);
+        add_wall(scene, "v", -12, 12, 4);
+        add_wall(scene, "w", 12, 36, 4);
+        /* The bounce passes over the joint as the object passes by. */
+        scene->frame.objects.items[1].x_m = 30 + (double)step * 0x1p-48;
+        assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+        assert_int_equal(scene->frame.echoes.count, 3);
+        assert_string_equal(scene->frame.echoes.items[0].mirror, step < 0 ? "v" : "w");
+    }
+}
+
+static double raised_cosine(double full_rad, double zero_rad, double delta_rad)
+{
+    return 0.5 * (1 + cos(PI * (delta_rad - full_rad) / (zero_rad - full_rad)));
+}
+
+static void one_way_is_seen_as_well_as_the_other(void **state)
+{
+    struct playback *scene = *state;
+    add_standard_pole(scene);
+    add_wall(scene, "w", -10, 50, 4);
+    struct point_reflector *pole = scene->frame.reflectors.items[0].points.items;
+    pole->shape = VISIBILITY_RAISED_COSINE;
+    pole->facing_rad = 160 * DEGREE;
+    pole->full_rad = 0;
+    pole->zero_rad = 60 * DEGREE;
+    ghosts_at(scene, 10);
+    /* Seen from the sensor at 180 - 3.814 degrees, from the bounce at 180 - 18.435. */
+    double sensor = raised_cosine(0, 60, 176.185925166 - 160);
+    double bounce = raised_cosine(0, 60, 161.565051177 - 160);
+    const struct echo *out = ghost_of(scene, PATH_WALL_OBJECT);
+    const struct echo *back = ghost_of(scene, PATH_OBJECT_WALL);
+    const struct echo *both = ghost_of(scene, PATH_WALL_OBJECT_WALL);
+    double way = 0.9 * out->range_m * out->range_m / sqrt(904 * 1000.);
+    assert_close(out->ercs, sqrt(sensor * bounce) * way, 1e-9);
+    assert_close(back->ercs, out->ercs, 0);
+    assert_close(both->ercs, bounce * 0.81, 1e-9);
+    assert_true((out->effects & EFFECT_BIT(EFFECT_VISIBILITY)) != 0);
+    /* Facing away from the sensor but not from the wall. */
+    pole->facing_rad = 100 * DEGREE;
+    pole->zero_rad = 70 * DEGREE;
+    assert_int_equal(paths_of(scene), BOTH);
+    pole->zero_rad = 50 * DEGREE;
+    assert_int_equal(paths_of(scene), 0);
+    scene->selection.allowed &= ~EFFECT_BIT(EFFECT_VISIBILITY);
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+}
+
+static void limits_hold_for_the_ghost_and_its_last_leg(void **state)
+{
+    struct playback *scene = *state;
+    static const struct {
+        double range_min_m, range_max_m, view_deg;
+        int paths;
+    } cases[] = {
+        {0, 100, 180, OUT | BACK | BOTH},
+        {0, 31.7, 180, OUT | BACK | BOTH},
+        {0, 31.6, 180, OUT | BACK},
+        {0, 30.8, 180, 0},
+        {30.9, 100, 180, BOTH},
+        {31.7, 100, 180, 0},
+        {0, 100, 37, OUT | BACK | BOTH},
+        {0, 100, 36, OUT},
+        {0, 100, 7.7, OUT},
+        {0, 100, 7.6, 0},
+    };
+    add_standard_pole(scene);
+    add_wall(scene, "w", -10, 50, 4);
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        scene->sensor.range_min_m = cases[i].range_min_m;
+        scene->sensor.range_max_m = cases[i].range_max_m;
+        scene->sensor.field_of_view_rad = cases[i].view_deg * DEGREE;
+        if (paths_of(scene) != cases[i].paths)
+            fail_msg("case %zu has the paths %x", i, paths_of(scene));
+    }
+    /* The antenna has no pattern behind the sensor. */
+    scene->sensor =
+        (struct sensor){.name = "front", .range_max_m = 100, .field_of_view_rad = PI, .bounces = 3};
+    scene->sensor.mount_yaw_rad = 100 * DEGREE;
+    assert_int_equal(paths_of(scene), BOTH);
+}
+
+static void planes_are_seen_by_their_foot_from_the_image(void **state)
+{
+    struct playback *scene = *state;
+    add_wall(scene, "w", -10, 50, 4);
+    /* A side at x = 12 that faces -x cannot be square to a way from the wall; one that is turned by
+     * the image's bearing is. The image of the sensor is (0, 8), the foot (12, -8). */
+    struct object *box = add_object(scene, "o", 0, 0, 2, 2);
+    struct reflector_set *set = add_set(scene, "o", true);
+    *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
+        .name = "front", .from_x = 0.5, .from_y = -0.5, .to_x = 0.5, .to_y = 0.5, .ercs = 0.7};
+    double bearing_rad = atan2(16, -12);
+    box->yaw_rad = bearing_rad;
+    box->x_m = 12 - cos(bearing_rad);
+    box->y_m = -8 - sin(bearing_rad);
+    box->vx_mps = 3;
+    box->vy_mps = 1;
+    assert_int_equal(paths_of(scene), BOTH);
+    const struct echo *ghost = scene->frame.echoes.items;
+    assert_close(ghost->range_m, 20, 1e-12);
+    assert_close(ghost->azimuth_rad, atan2(16, 12), 1e-12);
+    assert_close(ghost->range_rate_mps, 3 * 0.6 - 1 * 0.8, 1e-12);
+    assert_near(ghost->ercs, 0.81 * 0.7, 1e-12);
+    assert_true(ghost->effects ==
+                (EFFECT_BIT(EFFECT_GHOSTS) | EFFECT_BIT(EFFECT_PLANE_REFLECTION)));
+    /* With a rail's profile, and at half of 6 m, 2.5 m above the sensor. */
+    struct plane_reflector *front = set->planes.items;
+    scene->sensor.curved_sides = true;
+    front->profile_radius_m = 0.04;
+    ghosts_at(scene, 10);
+    assert_near(ghost->ercs, 0.81 * sqrt(PI * 0.04 * 400 / 20.04 / 10), 1e-12);
+    assert_true((ghost->effects & EFFECT_BIT(EFFECT_CURVATURE)) != 0);
+    scene->sensor.mount_z_m = 0.5;
+    front->z = 0.5;
+    scene->frame.objects.items[2].height_m = 6;
+    ghosts_at(scene, 10);
+    assert_close(ghost->range_m, hypot(20, 2.5), 1e-12);
+    scene->selection.allowed &= ~EFFECT_BIT(EFFECT_PLANE_REFLECTION);
+    assert_int_equal(paths_of(scene), 0);
+    scene->selection.allowed = EVERYTHING;
+    scene->sensor.bounces = 2;
+    assert_int_equal(paths_of(scene), 0);
+    scene->sensor.bounces = 3;
+    box->yaw_rad = bearing_rad + 0.2;
+    assert_int_equal(paths_of(scene), 0);
+}
+
+static void posts_have_ghosts_by_their_names(void **state)
+{
+    struct playback *scene = *state;
+    add_wall(scene, "w", -10, 50, 4);
+    add_object(scene, "r", 20, -3, 40, 0.2);
+    struct reflector_set *rail = add_set(scene, "r", false);
+    *list_add(&rail->rows, &scene->arena) = (struct post_row){.name = "post",
+                                                              .from_x = -0.5,
+                                                              .to_x = 0.5,
+                                                              .spacing_m = 10,
+                                                              .full_rad = PI,
+                                                              .zero_rad = PI,
+                                                              .shape = VISIBILITY_HARD,
+                                                              .ercs = 0.2};
+    scene->sensor.range_max_m = 30;
+    ghosts_at(scene, 10);
+    /* Posts at x = 0, 10, 20, 30, of which the last has no ghost nearer than its 30.15 m; that of
+     * the first arrives square to boresight, at the border of the view, but one way goes past. */
+    static const char *const names[] = {"post_1", "post_1", "post_1", "post_2", "post_2", "post_2"};
+    assert_int_equal(scene->frame.echoes.count, COUNT(names));
+    for (size_t i = 0; i < COUNT(names); i++)
+        assert_string_equal(scene->frame.echoes.items[i].reflector, names[i]);
+    assert_close(scene->frame.echoes.items[5].range_m, sqrt(400 + 121), 1e-12);
+    scene->selection.allowed &= ~EFFECT_BIT(EFFECT_ROWS);
+    assert_int_equal(paths_of(scene), 0);
+}
+
+static void set_motion(struct object *object, uint64_t *sample)
+{
+    object->vx_mps = sample_between(sample, -20, 20);
+    object->vy_mps = sample_between(sample, -3, 3);
+    object->yaw_rate_radps = sample_between(sample, -0.5, 0.5);
+}
+
+/* Sensor, wall and object on their ways, all turning: a rate is the derivative of its range. */
+static void rates_are_derivatives_of_ranges(void **state)
+{
+    struct playback *scene = *state;
+    uint64_t sample = 1;
+    int compared = 0;
+    for (int round = 0; round < 300; round++) {
+        clear_scene(scene);
+        add_standard_pole(scene);
+        scene->frame.reflectors.items[0].points.items->x = 0.5;
+        struct object *wall = add_wall(scene, "w", -10, 50, 4);
+        wall->yaw_rad = sample_between(&sample, -0.1, 0.1);
+        for (size_t i = 0; i < 3; i++)
+            set_motion(&scene->frame.objects.items[i], &sample);
+        double step_s = 1e-4, range_m[2][16], rate_mps[16];
+        size_t counts[3];
+        for (int side = 0; side < 2; side++) {
+            ghosts_at(scene, 10 + (side - 0.5) * step_s);
+            counts[side] = scene->frame.echoes.count;
+            for (size_t i = 0; i < counts[side]; i++)
+                range_m[side][i] = scene->frame.echoes.items[i].range_m;
+        }
+        ghosts_at(scene, 10);
+        counts[2] = scene->frame.echoes.count;
+        for (size_t i = 0; i < counts[2]; i++)
+            rate_mps[i] = scene->frame.echoes.items[i].range_rate_mps;
+        if (counts[0] != counts[1] || counts[0] != counts[2])
+            continue;
+        for (size_t i = 0; i < counts[0]; i++, compared++)
+            assert_close((range_m[1][i] - range_m[0][i]) / step_s, rate_mps[i], 1e-5);
+    }
+    assert_true(compared > 500);
+}
+
+/* Boxes with poles at their corners and mirrors on their sides. */
+static void add_random_bodies(struct playback *scene, uint64_t *sample)
+{
+    static const char *const ids[] = {"a", "b", "c", "d", "f", "g"};
+    for (size_t i = 0; i < COUNT(ids); i++) {
+        struct object *box = add_object(
+            scene, ids[i], sample_between(sample, -10, 60), sample_between(sample, -15, 15),
+            sample_between(sample, 0.5, 20), sample_between(sample, 0.2, 3));
+        box->yaw_rad = sample_between(sample, -4, 4);
+        struct reflector_set *set = add_set(scene, ids[i], i % 3 != 0);
+        struct point_reflector *point = add_point(scene, set);
+        point->x = 0.5;
+        point->y = 0.5;
+        add_right_mirror(scene, set, 0.5);
+        *list_add(&set->mirrors, &scene->arena) = (struct mirror_plane){0.5, 0.5, -0.5, 0.5, 0.5};
+        *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
+            .name = "rear", .from_x = -0.5, .from_y = 0.5, .to_x = -0.5, .to_y = -0.5, .ercs = 1};
+        *list_add(&set->rows, &scene->arena) = (struct post_row){.name = "post",
+                                                                 .from_x = -0.9,
+                                                                 .to_x = 0.9,
+                                                                 .spacing_m = 4,
+                                                                 .full_rad = PI,
+                                                                 .zero_rad = PI,
+                                                                 .shape = VISIBILITY_HARD,
+                                                                 .ercs = 1};
+    }
+}
+
+static int64_t no_time(void)
+{
+    return 0;
+}
+
+static void auto_leaves_out_no_ghost(void **state)
+{
+    struct playback *scene = *state;
+    uint64_t sample = 2;
+    size_t ghosts = 0;
+    struct effect_log log = {.clock_ns = no_time};
+    for (int round = 0; round < 500; round++) {
+        clear_scene(scene);
+        add_random_bodies(scene, &sample);
+        ghosts_at(scene, 10);
+        size_t count = scene->frame.echoes.count;
+        struct echo *all = arena_get(&scene->arena, (count + 1) * sizeof *all);
+        if (count > 0)
+            memcpy(all, scene->frame.echoes.items, count * sizeof *all);
+        scene->selection.automatic = true;
+        ghosts_at(scene, 10);
+        assert_int_equal(scene->frame.echoes.count, count);
+        for (size_t i = 0; i < count; i++) {
+            assert_int_equal(frame_order_echoes(&all[i], &scene->frame.echoes.items[i]), 0);
+            assert_close(all[i].range_m, scene->frame.echoes.items[i].range_m, 0);
+        }
+        ghosts += count;
+    }
+    assert_true(ghosts > 2000);
+    /* And it does leave out what is in no reach. */
+    clear_scene(scene);
+    add_standard_pole(scene);
+    add_wall(scene, "w", -10, 5, 4);
+    scene->selection.automatic = true;
+    scene->selection.log = &log;
+    ghosts_at(scene, 10);
+    assert_true(log.simulated == 0 && log.left_out == EFFECT_BIT(EFFECT_GHOSTS));
+}
+
+static void margins_tell_how_near_a_ghost_is_to_vanishing(void **state)
+{
+    struct playback *scene = *state;
+    add_standard_pole(scene);
+    add_wall(scene, "w", -10, 50, 4);
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    assert_int_equal(scene->frame.echoes.items[0].margins.told, 0);
+    scene->frame.margins = true;
+    /* What is nearest: the sensor's 4 m to the wall's line, a blocker beside the direct way or
+     * beside the one to the wall, the wall's end past the bounce. */
+    const struct {
+        double end_x_m, x_m, y_m, one_way_m, both_m;
+    } cases[] = {
+        {50, 15, -20, 4, 4},
+        {50, 15, -2.2, 36 / sqrt(904), 4},
+        {50, 6, 1, 12 / sqrt(160), 12 / sqrt(160)},
+        {12.5, 15, -20, 0.5, 0.5},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        clear_scene(scene);
+        scene->frame.margins = true;
+        add_standard_pole(scene);
+        add_wall(scene, "w", -10, cases[i].end_x_m, 4);
+        add_object(scene, "b", cases[i].x_m, cases[i].y_m, 0, 0);
+        add_set(scene, "b", true);
+        assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+        double one_way_m = ghost_of(scene, PATH_OBJECT_WALL)->margins.sight_m;
+        assert_close(one_way_m, cases[i].one_way_m, 1e-12);
+        assert_close(ghost_of(scene, PATH_WALL_OBJECT)->margins.sight_m, one_way_m, 0);
+        assert_close(ghost_of(scene, PATH_WALL_OBJECT_WALL)->margins.sight_m, cases[i].both_m,
+                     1e-12);
+    }
+}
+
+static void a_late_look_says_so_where_the_wall_has_moved(void **state)
+{
+    struct playback *scene = *state;
+    add_standard_pole(scene);
+    scene->frame.objects.items[1].vx_mps = 0;
+    struct object *wall = add_wall(scene, "w", -10, 50, 4);
+    ghosts_at(scene, 9);
+    assert_true(scene->frame.echoes.items->effects == EFFECT_BIT(EFFECT_GHOSTS));
+    wall->vy_mps = 1;
+    ghosts_at(scene, 9);
+    uint64_t late = EFFECT_BIT(EFFECT_GHOSTS) | EFFECT_BIT(EFFECT_LATENCY);
+    assert_true(scene->frame.echoes.items->effects == late);
+    /* The wall stood at y = 3 and moved away from both. */
+    const struct echo *both = ghost_of(scene, PATH_WALL_OBJECT_WALL);
+    assert_close(both->time_s, 9, 0);
+    assert_close(both->range_m, sqrt(900 + 64), 1e-12);
+    assert_close(both->range_rate_mps, 2 * 8 / sqrt(900 + 64), 1e-12);
+}
+
+/* Sensor and wall as before; what is h above the sensor is that much farther on every way. */
+static void heights_count_on_every_way(void **state)
+{
+    struct playback *scene = *state;
+    add_standard_pole(scene);
+    add_wall(scene, "w", -10, 50, 4);
+    scene->sensor.mount_z_m = 0.5;
+    scene->sensor.elevation_half_width_rad = 0.1;
+    struct object *pole = &scene->frame.objects.items[1], *wall = pole + 1;
+    pole->height_m = 4;
+    wall->height_m = 2;
+    scene->frame.reflectors.items[0].points.items->z = 0.875;
+    /* 3.5 m is 3 m up: the way by the wall is at 0.5 + 3 * 0.4 there, below its top. */
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    double direct_m = sqrt(904 + 9), image_m = sqrt(1000 + 9);
+    double direct_rad = atan2(3, sqrt(904)), image_rad = atan2(3, sqrt(1000));
+    double direct = exp2(-100 * direct_rad * direct_rad);
+    double image = exp2(-100 * image_rad * image_rad);
+    const struct echo *out = ghost_of(scene, PATH_WALL_OBJECT);
+    const struct echo *both = ghost_of(scene, PATH_WALL_OBJECT_WALL);
+    assert_near(out->range_m, (direct_m + image_m) / 2, 1e-15);
+    assert_near(out->range_rate_mps, (-150 / direct_m - 150 / image_m) / 2, 1e-14);
+    assert_near(both->range_m, image_m, 1e-15);
+    assert_near(sin(both->azimuth_rad), 10 / image_m, 1e-14);
+    assert_near(sin(out->azimuth_rad), -2 / direct_m, 1e-14);
+    assert_near(both->ercs, 0.81 * image, 1e-12);
+    assert_near(out->ercs,
+                0.9 * sqrt(direct * image) * out->range_m * out->range_m / (direct_m * image_m),
+                1e-12);
+    assert_true((out->effects & EFFECT_BIT(EFFECT_ELEVATION)) != 0);
+    wall->height_m = 1.7 + 1e-9;
+    scene->frame.margins = true;
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    assert_close(ghost_of(scene, PATH_OBJECT_WALL)->margins.sight_m, 1e-9, 1e-15);
+    wall->height_m = 1.7 - 1e-9;
+    assert_int_equal(paths_of(scene), 0);
+    wall->height_m = 0;
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    /* Over what is low: the direct way is at 2 m half way, the other one at 1.1 m before the wall.
+     */
+    struct object *box = add_object(scene, "b", 15, -1, 0.4, 0.4);
+    add_set(scene, "b", true);
+    box->height_m = 1.9;
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    box->height_m = 2.1;
+    assert_int_equal(paths_of(scene), BOTH);
+    box->x_m = 6;
+    box->y_m = 2;
+    box->height_m = 1;
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    assert_true((ghost_of(scene, PATH_OBJECT_WALL)->effects & EFFECT_BIT(EFFECT_HEIGHT)) != 0);
+    scene->selection.allowed &= ~EFFECT_BIT(EFFECT_HEIGHT);
+    assert_int_equal(paths_of(scene), 0);
+}
+
+/* Knife edges count once on a way that is taken once. */
+static void soft_shadows_count_once_for_every_leg(void **state)
+{
+    struct playback *scene = *state;
+    static const struct {
+        double x_m, y_m;
+        struct obstruction_line leg;
+        double one_way, both; /* exponents of the leg's factor */
+    } cases[] = {
+        {15, -1.2, {{0, 0}, {30, -2}, 0, 0}, 0.5, 0},
+        {6, 1.75, {{0, 0}, {12, 4}, 0, 0}, 0.5, 1},
+        {21, 0.75, {{12, 4}, {30, -2}, 0, 0}, 0.5, 1},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        double ercs[2][2];
+        for (int soft = 0; soft < 2; soft++) {
+            clear_scene(scene);
+            scene->sensor.carrier_hz = 77e9;
+            scene->sensor.diffraction = soft == 1;
+            add_standard_pole(scene);
+            add_wall(scene, "w", -10, 50, 4);
+            add_object(scene, "b", cases[i].x_m, cases[i].y_m, 0.3, 0.3);
+            add_set(scene, "b", soft == 1);
+            assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+            ercs[soft][0] = ghost_of(scene, PATH_OBJECT_WALL)->ercs;
+            ercs[soft][1] = ghost_of(scene, PATH_WALL_OBJECT_WALL)->ercs;
+        }
+        struct vec2 corner[4];
+        struct box box = {.length_m = 0.3, .width_m = 0.3, .heading = {1, 0}};
+        box.motion.position_m = (struct vec2){cases[i].x_m, cases[i].y_m};
+        reflectors_outline(&box, corner);
+        double factor =
+            obstruction_of(corner, 4, (double)INFINITY, &cases[i].leg, units_wavelength_m(77e9)).factor;
+        assert_true(factor > 0.01 && factor < 0.99);
+        assert_near(ercs[1][0] / ercs[0][0], pow(factor, cases[i].one_way), 1e-9);
+        assert_near(ercs[1][1] / ercs[0][1], pow(factor, cases[i].both), 1e-9);
+    }
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, make_scene, remove_scene)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(effects_7_has_its_ghosts),
+        TEST(bounces_and_the_selection_say_which_ghosts_there_are),
+        TEST(every_way_must_be_free),
+        TEST(an_object_hides_its_own_bounce_but_not_its_reflectors),
+        TEST(a_body_does_not_mirror_itself_and_two_mirror_twice),
+        TEST(two_walls_in_line_are_one),
+        TEST(one_way_is_seen_as_well_as_the_other),
+        TEST(limits_hold_for_the_ghost_and_its_last_leg),
+        TEST(planes_are_seen_by_their_foot_from_the_image),
+        TEST(posts_have_ghosts_by_their_names),
+        TEST(rates_are_derivatives_of_ranges),
+        TEST(auto_leaves_out_no_ghost),
+        TEST(margins_tell_how_near_a_ghost_is_to_vanishing),
+        TEST(a_late_look_says_so_where_the_wall_has_moved),
+        TEST(heights_count_on_every_way),
+        TEST(soft_shadows_count_once_for_every_leg),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

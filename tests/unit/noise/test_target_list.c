@@ -1,0 +1,249 @@
+#include "check.h"
+
+#include <string.h>
+
+#include "target_list.h"
+#include "sample.h"
+#include "units.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+struct list {
+    struct arena arena;
+    struct frame frame;
+    struct sensor sensor;
+    struct cell cells[8];
+    struct reading readings[8];
+    size_t count;
+};
+
+static void begin_list(struct list *list, enum list_order order)
+{
+    *list = (struct list){.sensor = {.name = "s", .list_order = order}};
+    list->frame.arena = &list->arena;
+    list->frame.account = true;
+}
+
+static void add_reading(struct list *list, const char *object, double range_m, double amplitude)
+{
+    struct cell *cell = &list->cells[list->count];
+    *cell = (struct cell){.sensor = "s", .range_m = range_m, .sum_re = amplitude};
+    *list_add(&cell->members, &list->arena) =
+        (struct contributor){.object = object, .reflector = "r", .range_m = range_m, .weight = 1};
+    list->readings[list->count++] = target_list_measure(cell);
+}
+
+/* The objects behind the targets, in their order. */
+static void assert_listed(struct list *list, int64_t limit, const char *objects)
+{
+    target_list_make(&list->frame, "noise", &list->sensor, list->readings, list->count, limit);
+    assert_int_equal(list->frame.targets.count, strlen(objects));
+    for (size_t i = 0; i < list->frame.targets.count; i++)
+        assert_int_equal(list->frame.targets.items[i].contributors.items[0].object[0], objects[i]);
+}
+
+static void add_all(struct list *list)
+{
+    add_reading(list, "a", 30, 5);
+    add_reading(list, "b", 10, 2);
+    add_reading(list, "c", 20, 5);
+    add_reading(list, "d", 10, 3);
+    add_reading(list, "e", 40, 0);
+    add_reading(list, "f", 10, 3);
+}
+
+static void targets_come_strongest_or_nearest_first(void **state)
+{
+    (void)state;
+    static const struct {
+        enum list_order order;
+        int64_t limit;
+        const char *objects;
+    } cases[] = {{LIST_STRONGEST, 0, "cadfb"}, {LIST_NEAREST, 0, "dfbca"},
+                 {LIST_STRONGEST, 2, "ca"},    {LIST_NEAREST, 4, "dfbc"},
+                 {LIST_STRONGEST, 5, "cadfb"}, {LIST_STRONGEST, 9, "cadfb"}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct list list;
+        begin_list(&list, cases[i].order);
+        add_all(&list);
+        assert_listed(&list, cases[i].limit, cases[i].objects);
+        /* What is not listed is lost: without amplitude, or beyond the limit. */
+        size_t beyond = 5 - strlen(cases[i].objects);
+        assert_int_equal(list.frame.lost.count, beyond > 0 ? 2 : 1);
+        for (size_t j = 0; j < list.frame.lost.count; j++) {
+            const struct lost_group *group = &list.frame.lost.items[j];
+            assert_string_equal(group->stage, "noise");
+            bool mute = group->reason == LOSS_NO_AMPLITUDE;
+            assert_true(mute || group->reason == LOSS_LIST_LIMIT);
+            assert_int_equal(group->echoes.count, mute ? 1 : beyond);
+        }
+        arena_free(&list.arena);
+    }
+}
+
+static void the_order_of_the_readings_does_not_matter(void **state)
+{
+    (void)state;
+    uint64_t random = 2;
+    for (int round = 0; round < 200; round++) {
+        struct list list;
+        begin_list(&list, round % 2 ? LIST_STRONGEST : LIST_NEAREST);
+        add_all(&list);
+        for (size_t i = list.count; i > 1; i--) {
+            size_t j = sample_bits(&random) % i;
+            struct reading kept = list.readings[j];
+            list.readings[j] = list.readings[i - 1];
+            list.readings[i - 1] = kept;
+        }
+        assert_listed(&list, 3, round % 2 ? "cad" : "dfb");
+        arena_free(&list.arena);
+    }
+}
+
+static void a_target_has_the_reading_and_the_label_of_its_cell(void **state)
+{
+    (void)state;
+    struct list list;
+    begin_list(&list, LIST_STRONGEST);
+    add_reading(&list, "a", 10, 3);
+    list.cells[0].sum_im = -4;
+    list.cells[0].azimuth_rad = 0.1;
+    list.cells[0].range_rate_mps = -3;
+    list.cells[0].amplitude = 9;
+    list.cells[0].sign_undecided = true;
+    list.readings[0] = target_list_measure(&list.cells[0]);
+    assert_close(list.readings[0].amplitude, 5, 0);
+    assert_true(list.readings[0].sign_undecided);
+    list.readings[0].range_m = 10.25;
+    list.readings[0].azimuth_rad = 0.15;
+    list.readings[0].range_rate_mps = -2.5;
+    list.readings[0].amplitude = 10;
+    list.readings[0].sign_undecided = false;
+    assert_listed(&list, 0, "a");
+    const struct target *target = list.frame.targets.items;
+    assert_close(target->range_m, 10.25, 0);
+    assert_close(target->azimuth_rad, 0.15, 0);
+    assert_close(target->range_rate_mps, -2.5, 0);
+    assert_close(target->amplitude_db, 20, 1e-13);
+    assert_false(target->sign_undecided);
+    assert_close(target->cell_range_m, 10, 0);
+    assert_close(target->cell_azimuth_rad, 0.1, 0);
+    assert_close(target->cell_range_rate_mps, -3, 0);
+    assert_close(target->cell_amplitude, 9, 0);
+    assert_int_equal(list.frame.lost.count, 0);
+    arena_free(&list.arena);
+}
+
+/* Amplitudes 5, 5, 3, 3, 2 and ranges 10, 10, 10, 20, 30 in order. */
+static void the_limit_tells_how_near_it_cut(void **state)
+{
+    (void)state;
+    const double db = 20 * log10(5.0 / 3), two = 20 * log10(3.0 / 2), all = 20 * log10(2.5);
+    const struct {
+        enum list_order order;
+        int64_t limit;
+        unsigned told;
+        double listed[4], lost[3];
+    } cases[] = {
+        {LIST_STRONGEST, 2, MARGIN_LIMIT_DB, {db, db}, {db, db, all}},
+        {LIST_STRONGEST, 4, MARGIN_LIMIT_DB, {all, all, two, two}, {two}},
+        {LIST_STRONGEST, 1, MARGIN_LIMIT_DB, {0}, {0}},
+        {LIST_NEAREST, 3, MARGIN_LIMIT_M, {10, 10, 10}, {10, 20}},
+        {LIST_NEAREST, 4, MARGIN_LIMIT_M, {20, 20, 20, 10}, {10}},
+        {LIST_STRONGEST, 5, 0, {0}, {0}},
+        {LIST_NEAREST, 0, 0, {0}, {0}},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct list list;
+        begin_list(&list, cases[i].order);
+        list.frame.margins = true;
+        add_all(&list);
+        target_list_make(&list.frame, "noise", &list.sensor, list.readings, list.count,
+                      cases[i].limit);
+        bool db_told = cases[i].told == MARGIN_LIMIT_DB;
+        for (size_t j = 0; j < list.frame.targets.count; j++) {
+            const struct margins *margins = &list.frame.targets.items[j].margins;
+            assert_int_equal(margins->told, cases[i].told);
+            if (margins->told != 0 && cases[i].limit > 1)
+                assert_close(db_told ? margins->limit_db : margins->limit_m, cases[i].listed[j],
+                             1e-13);
+        }
+        for (size_t j = 0; j < list.frame.lost.count; j++) {
+            const struct lost_group *group = &list.frame.lost.items[j];
+            for (size_t k = 0; k < group->echoes.count && k < COUNT(cases[i].lost); k++) {
+                const struct margins *margins = &group->echoes.items[k].margins;
+                bool mute = group->reason == LOSS_NO_AMPLITUDE;
+                assert_int_equal(margins->told, mute ? 0 : cases[i].told);
+                if (!mute && cases[i].limit > 1)
+                    assert_close(db_told ? margins->limit_db : margins->limit_m, cases[i].lost[k],
+                                 1e-13);
+            }
+        }
+        arena_free(&list.arena);
+    }
+}
+
+static void no_number_among_the_amplitudes_makes_no_target(void **state)
+{
+    (void)state;
+    struct list list;
+    begin_list(&list, LIST_STRONGEST);
+    add_reading(&list, "a", 10, (double)NAN);
+    assert_listed(&list, 0, "");
+    arena_free(&list.arena);
+}
+
+static void steps_round_to_the_nearest_multiple(void **state)
+{
+    (void)state;
+    static const double cases[][3] = {{12.3456, 0, 12.3456}, {12.34, 0.25, 12.25},
+                                      {12.4, 0.25, 12.5},    {-12.4, 0.25, -12.5},
+                                      {0.125, 0.25, 0.25},   {-0.125, 0.25, -0.25},
+                                      {0.1, 0.25, 0},        {7, 2, 8},
+                                      {1e6, 1000, 1e6},      {3, 1, 3},
+                                      {1e6, 5e-324, 1e6},    {-0.3, 1e-320, -0.3},
+                                      {0, 5e-324, 0},        {5e-324, 1e3, 0}};
+    for (size_t i = 0; i < COUNT(cases); i++)
+        assert_close(target_list_step(cases[i][0], cases[i][1]), cases[i][2], 0);
+}
+
+static void a_listed_target_is_rounded_and_its_label_is_not(void **state)
+{
+    (void)state;
+    const struct sensor sensor = {
+        .range_step_m = 0.5, .range_rate_step_mps = 0.25, .azimuth_step_rad = 1.1};
+    static const struct {
+        double azimuth_rad, reported_rad;
+    } cases[] = {{0.4, 0}, {-1, -1.1}, {3.1, 3.3 - 2 * PI}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct target target = {.range_m = 10.3,
+                                .azimuth_rad = cases[i].azimuth_rad,
+                                .range_rate_mps = -3.2,
+                                .cell_range_m = 10.3,
+                                .amplitude_db = 7.7};
+        target_list_round(&target, &sensor);
+        assert_close(target.range_m, 10.5, 0);
+        assert_close(target.azimuth_rad, cases[i].reported_rad, 1e-15);
+        assert_close(target.range_rate_mps, -3.25, 0);
+        assert_close(target.cell_range_m, 10.3, 0);
+        assert_close(target.amplitude_db, 7.7, 0);
+        assert_int_equal(target.effects, EFFECT_BIT(EFFECT_QUANTISATION));
+    }
+    struct target even = {.range_m = 10.5, .range_rate_mps = -3.25};
+    target_list_round(&even, &sensor);
+    assert_int_equal(even.effects, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(targets_come_strongest_or_nearest_first),
+        cmocka_unit_test(the_order_of_the_readings_does_not_matter),
+        cmocka_unit_test(a_target_has_the_reading_and_the_label_of_its_cell),
+        cmocka_unit_test(the_limit_tells_how_near_it_cut),
+        cmocka_unit_test(no_number_among_the_amplitudes_makes_no_target),
+        cmocka_unit_test(steps_round_to_the_nearest_multiple),
+        cmocka_unit_test(a_listed_target_is_rounded_and_its_label_is_not),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

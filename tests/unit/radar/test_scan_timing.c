@@ -1,0 +1,130 @@
+#include "scan_timing.h"
+
+#include "check.h"
+
+static void known_frames_have_known_instants(void **state)
+{
+    (void)state;
+    static const struct {
+        double cycle_s, time_s, interval_s;
+        enum scan_timing_answer answer;
+        double instant_s;
+    } cases[] = {
+        /* once a frame */
+        {0, 12.34, 0.05, SCAN_TIMING_ONE, 12.34},
+        {0, 0, 0.05, SCAN_TIMING_ONE, 0},
+        /* the frame at time 0 holds the first instant and none before it */
+        {0.05, 0, 0.05, SCAN_TIMING_ONE, 0},
+        {0.04, 0, 0.1, SCAN_TIMING_ONE, 0},
+        {0.04, -0.02, 0.05, SCAN_TIMING_NONE, 0},
+        {0.04, -0.2, 0.1, SCAN_TIMING_NONE, 0},
+        {0.04, 0.02, 0.1, SCAN_TIMING_ONE, 0},
+        /* open at the start, closed at the end */
+        {0.5, 1.0, 0.25, SCAN_TIMING_ONE, 1.0},
+        {0.5, 1.25, 0.25, SCAN_TIMING_NONE, 0},
+        {0.5, 1.125, 0.25, SCAN_TIMING_ONE, 1.0},
+        {0.5, 1.0, 0.5, SCAN_TIMING_ONE, 1.0},
+        {0.5, 1.0, 0.75, SCAN_TIMING_SEVERAL, 0},
+        {0.5, 1.0, 0, SCAN_TIMING_NONE, 0},
+        /* 1e-9 of a cycle counts as on it */
+        {0.5, 1 - 0.4e-9, 0.25, SCAN_TIMING_ONE, 1.0},
+        {0.5, 1 - 0.6e-9, 0.25, SCAN_TIMING_NONE, 0},
+        {0.5, 1.25, 0.25 + 0.4e-9, SCAN_TIMING_NONE, 0},
+        {0.5, 1.25, 0.25 + 0.6e-9, SCAN_TIMING_ONE, 1.0},
+        /* too slow a frame rate */
+        {0.04, 0.1, 0.1, SCAN_TIMING_SEVERAL, 0},
+        {0.04, 0.2, 0.1, SCAN_TIMING_SEVERAL, 0},
+        {0.001, 100, 0.1, SCAN_TIMING_SEVERAL, 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        double instant_s = 0;
+        assert_int_equal(
+            scan_timing_instant_s(cases[i].cycle_s, cases[i].time_s, cases[i].interval_s, &instant_s),
+            cases[i].answer);
+        assert_close(instant_s, cases[i].instant_s, 1e-9 * cases[i].cycle_s);
+    }
+}
+
+static void instants_are_the_decimals_they_should_be(void **state)
+{
+    (void)state;
+    double instant_s = 0;
+    /* 61 * 0.072 is 4.3919999999999995 in doubles. */
+    assert_int_equal(scan_timing_instant_s(0.072, 4.4, 0.04, &instant_s), SCAN_TIMING_ONE);
+    assert_true(instant_s == 4.392);
+    /* On the frame's own time, the instant is that time: nothing then has to be moved. */
+    assert_int_equal(scan_timing_instant_s(0.04, 7.0 / 25, 0.04, &instant_s), SCAN_TIMING_ONE);
+    assert_true(instant_s == 7.0 / 25);
+}
+
+static void seconds_since_1970_lose_no_scan(void **state)
+{
+    (void)state;
+    int scans = 0;
+    for (int i = 0; i < 2000; i++) {
+        double instant_s;
+        scans += scan_timing_instant_s(0.05, 1.7e9 + i / 20.0, 0.05, &instant_s) == SCAN_TIMING_ONE;
+    }
+    assert_int_equal(scans, 2000);
+}
+
+/* Frames at i / rate, a cycle of ticks thousandths of a second: instant k belongs to the frame
+ * i = ceil(k ticks rate / 1000), counted in whole numbers. */
+static void every_instant_is_delivered_exactly_once(void **state)
+{
+    (void)state;
+    static const struct {
+        int64_t rate_hz, ticks;
+    } cases[] = {{20, 66}, {25, 40},  {20, 50},  {10, 100}, {30, 35},
+                 {17, 60}, {20, 100}, {10, 700}, {50, 66},  {60, 50}};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        double rate_hz = (double)cases[c].rate_hz;
+        double cycle_s = (double)cases[c].ticks / 1000;
+        int64_t next = 0;
+        for (int64_t i = 0; i < 1000000; i++) {
+            int64_t due = (next * cases[c].ticks * cases[c].rate_hz + 999) / 1000;
+            double instant_s = -1;
+            enum scan_timing_answer answer =
+                scan_timing_instant_s(cycle_s, (double)i / rate_hz, 1 / rate_hz, &instant_s);
+            assert_int_equal(answer, i == due ? SCAN_TIMING_ONE : SCAN_TIMING_NONE);
+            if (answer != SCAN_TIMING_ONE)
+                continue;
+            assert_close(instant_s, (double)next * cycle_s, 1e-9 * cycle_s);
+            next++;
+        }
+        assert_int_equal(next, INT64_C(999999000) / (cases[c].ticks * cases[c].rate_hz) + 1);
+    }
+}
+
+static void frames_slower_than_the_cycle_say_so(void **state)
+{
+    (void)state;
+    for (int64_t i = 1; i < 1000000; i++) {
+        double instant_s;
+        assert_int_equal(scan_timing_instant_s(0.04, (double)i / 10, 0.1, &instant_s), SCAN_TIMING_SEVERAL);
+    }
+}
+
+/* 20 Hz and 0.04 s: five instants in four frames, so one frame in four holds two. */
+static void a_slightly_slow_frame_rate_is_caught_within_a_beat(void **state)
+{
+    (void)state;
+    for (int64_t i = 1; i < 1000000; i++) {
+        double instant_s;
+        enum scan_timing_answer expected = i % 4 == 0 ? SCAN_TIMING_SEVERAL : SCAN_TIMING_ONE;
+        assert_int_equal(scan_timing_instant_s(0.04, (double)i / 20, 0.05, &instant_s), expected);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(known_frames_have_known_instants),
+        cmocka_unit_test(every_instant_is_delivered_exactly_once),
+        cmocka_unit_test(instants_are_the_decimals_they_should_be),
+        cmocka_unit_test(seconds_since_1970_lose_no_scan),
+        cmocka_unit_test(frames_slower_than_the_cycle_say_so),
+        cmocka_unit_test(a_slightly_slow_frame_rate_is_caught_within_a_beat),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,164 @@
+#define SCRATCH_FILE "lines.jsonl"
+#include "scratch.h"
+
+#include "reference_stream.h"
+#include "sample.h"
+
+enum { SCENES = 4, FRAMES = 25 };
+
+static void write_line(FILE *file, int scene, int frame)
+{
+    fprintf(
+        file,
+        "{\"scene\":\"scene %d\",\"frame\":%d,\"tracks\":[{\"id\":\"%d.%d\",\"x_m\":0,\"y_m\":0,"
+        "\"vx_mps\":0,\"vy_mps\":0}]}\n",
+        scene, frame, scene, frame);
+}
+
+/* Asks for a frame: 1 if its own line is found, else what the counterpart answers. */
+static int ask(struct reference_stream *counterpart, int scene, int64_t number, struct diag *diag)
+{
+    struct arena arena = {0};
+    char name[32], id[32];
+    snprintf(name, sizeof name, "scene %d", scene);
+    snprintf(id, sizeof id, "%d.%d", scene, (int)number);
+    struct frame frame = {.scene = name, .frame = number, .arena = &arena};
+    struct track_list tracks;
+    int found = reference_stream_tracks(counterpart, &frame, &tracks, diag);
+    if (found == 1) {
+        assert_int_equal(tracks.tracks.count, 1);
+        assert_string_equal(tracks.tracks.items[0].id, id);
+    }
+    arena_free(&arena);
+    return found;
+}
+
+/* The scenes' frames in some order that ascends within each: scene numbers. */
+static void interleave(uint64_t *sample, int order[SCENES * FRAMES])
+{
+    int left[SCENES];
+    for (int i = 0; i < SCENES; i++)
+        left[i] = FRAMES;
+    for (int i = 0; i < SCENES * FRAMES; i++) {
+        int scene;
+        do
+            scene = (int)(sample_bits(sample) % SCENES);
+        while (left[scene] == 0);
+        left[scene]--;
+        order[i] = scene;
+    }
+}
+
+static void every_interleaving_meets_every_other(void **state)
+{
+    struct scratch *scratch = *state;
+    uint64_t sample = 1;
+    for (int round = 0; round < 50; round++) {
+        int order[SCENES * FRAMES], next[SCENES] = {0};
+        FILE *file = fopen(scratch->path, "w");
+        interleave(&sample, order);
+        for (int i = 0; i < SCENES * FRAMES; i++)
+            write_line(file, order[i], next[order[i]]++);
+        fclose(file);
+        struct diag diag = {0};
+        struct reference_stream *counterpart = reference_stream_open(scratch->path, false, &diag);
+        interleave(&sample, order);
+        memset(next, 0, sizeof next);
+        for (int i = 0; i < SCENES * FRAMES; i++)
+            assert_int_equal(ask(counterpart, order[i], next[order[i]]++, &diag), 1);
+        assert_int_equal(reference_stream_finish(counterpart, &diag), 0);
+        assert_int_equal(reference_stream_left(counterpart), 0);
+        assert_int_equal(reference_stream_absent(counterpart), 0);
+        reference_stream_close(counterpart);
+    }
+}
+
+/* Both lack frames of their own; all others meet, and each lacking one is counted once. */
+static void frames_of_one_side_alone_are_counted(void **state)
+{
+    struct scratch *scratch = *state;
+    uint64_t sample = 2;
+    for (int round = 0; round < 50; round++) {
+        int order[SCENES * FRAMES], next[SCENES] = {0};
+        bool there[SCENES][FRAMES], asked[SCENES][FRAMES];
+        int64_t left = 0, absent = 0;
+        for (int i = 0; i < SCENES * FRAMES; i++) {
+            there[i % SCENES][i / SCENES] = sample_bits(&sample) % 4 != 0;
+            asked[i % SCENES][i / SCENES] = sample_bits(&sample) % 4 != 0;
+            left += there[i % SCENES][i / SCENES] && !asked[i % SCENES][i / SCENES];
+            absent += !there[i % SCENES][i / SCENES] && asked[i % SCENES][i / SCENES];
+        }
+        FILE *file = fopen(scratch->path, "w");
+        interleave(&sample, order);
+        for (int i = 0; i < SCENES * FRAMES; i++, next[order[i - 1]]++)
+            if (there[order[i]][next[order[i]]])
+                write_line(file, order[i], next[order[i]]);
+        fclose(file);
+        struct diag diag = {0};
+        struct reference_stream *counterpart = reference_stream_open(scratch->path, true, &diag);
+        interleave(&sample, order);
+        memset(next, 0, sizeof next);
+        for (int i = 0; i < SCENES * FRAMES; i++, next[order[i - 1]]++)
+            if (asked[order[i]][next[order[i]]])
+                assert_int_equal(ask(counterpart, order[i], next[order[i]], &diag),
+                                 there[order[i]][next[order[i]]]);
+        assert_int_equal(reference_stream_finish(counterpart, &diag), 0);
+        assert_int_equal(reference_stream_left(counterpart), left);
+        assert_int_equal(reference_stream_absent(counterpart), absent);
+        reference_stream_close(counterpart);
+    }
+}
+
+static void a_frame_without_a_line_is_refused(void **state)
+{
+    struct scratch *scratch = *state;
+    FILE *file = fopen(scratch->path, "w");
+    write_line(file, 0, 0);
+    write_line(file, 0, 2);
+    fclose(file);
+    struct diag diag = {0};
+    struct reference_stream *counterpart = reference_stream_open(scratch->path, false, &diag);
+    assert_int_equal(ask(counterpart, 0, 0, &diag), 1);
+    assert_int_equal(ask(counterpart, 0, 1, &diag), -1);
+    assert_int_equal(diag.code, DIAG_DATA);
+    assert_non_null(strstr(diag.text, "lines.jsonl has no frame 1 of scene \"scene 0\""));
+    reference_stream_close(counterpart);
+}
+
+static void a_line_without_a_frame_is_refused_with_its_place(void **state)
+{
+    struct scratch *scratch = *state;
+    FILE *file = fopen(scratch->path, "w");
+    for (int scene = 0; scene < SCENES; scene++)
+        write_line(file, scene, 3);
+    fclose(file);
+    struct diag diag = {0};
+    struct reference_stream *counterpart = reference_stream_open(scratch->path, false, &diag);
+    assert_int_equal(ask(counterpart, 3, 3, &diag), 1);
+    assert_int_equal(ask(counterpart, 0, 3, &diag), 1);
+    assert_int_equal(reference_stream_finish(counterpart, &diag), -1);
+    assert_non_null(strstr(diag.text, "lines.jsonl:2: frame 3 of scene \"scene 1\" is not in"));
+    reference_stream_close(counterpart);
+}
+
+static void a_file_that_is_not_there_is_refused(void **state)
+{
+    struct scratch *scratch = *state;
+    struct diag diag = {0};
+    unlink(scratch->path);
+    assert_null(reference_stream_open(scratch->path, false, &diag));
+    assert_int_equal(diag.code, DIAG_NO_INPUT);
+    reference_stream_close(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_interleaving_meets_every_other),
+        cmocka_unit_test(frames_of_one_side_alone_are_counted),
+        cmocka_unit_test(a_frame_without_a_line_is_refused),
+        cmocka_unit_test(a_line_without_a_frame_is_refused_with_its_place),
+        cmocka_unit_test(a_file_that_is_not_there_is_refused),
+    };
+    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}

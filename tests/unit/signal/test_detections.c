@@ -1,0 +1,185 @@
+#include "check.h"
+
+#include <string.h>
+
+#include "detections.h"
+
+#define PI 3.14159265358979323846
+
+enum { SAMPLES = 32, REPETITIONS = 32 };
+
+/* A spectrum made of kernels, cells of 1 m and 0.25 m/s, a threshold of 2, echoes on boresight. */
+struct bench {
+    struct sensor sensor;
+    struct signal_cube signal;
+    struct range_doppler spectrum;
+    struct phasor samples[2 * SAMPLES * REPETITIONS];
+    double power[SAMPLES * REPETITIONS];
+    struct margins margins;
+    struct ray rays[4];
+    size_t count;
+    struct arena arena;
+    struct frame frame;
+};
+
+static void begin(struct bench *bench)
+{
+    memset(bench, 0, sizeof *bench);
+    field_clear(&waveform_record, &bench->sensor.waveform);
+    bench->sensor.name = "front";
+    bench->sensor.cell_range_m = 1;
+    bench->sensor.cell_range_rate_mps = 0.25;
+    bench->sensor.threshold = 2;
+    bench->sensor.antenna.pattern = ANTENNA_DIPOLE_PAIR;
+    bench->sensor.angle_estimator = MONOPULSE_RATIO;
+    bench->sensor.waveform.samples = SAMPLES;
+    bench->sensor.waveform.repetitions = REPETITIONS;
+    bench->signal = signal_cube_of(&bench->sensor);
+    bench->signal.cube = bench->samples;
+    bench->frame.arena = &bench->arena;
+    bench->frame.account = true;
+}
+
+/* Echoes come strongest first. */
+static void receive(struct bench *bench, const char *name, double range_m, double rate_mps,
+                    double amplitude)
+{
+    bench->rays[bench->count++] = (struct ray){
+        .echo = {.object = name, .reflector = "centre", .range_m = range_m},
+        .strength = amplitude,
+        .amplitude = amplitude,
+        .range_m = range_m,
+        .range_rate_mps = rate_mps,
+        .margins = &bench->margins,
+    };
+}
+
+static void show(struct bench *bench, double range_m, double rate_mps, double amplitude)
+{
+    for (int row = 0; row < REPETITIONS; row++)
+        for (int column = 0; column < SAMPLES; column++) {
+            double size =
+                point_response_value(POINT_RESPONSE_HANN, range_doppler_distance(column, range_m, SAMPLES)) *
+                point_response_value(POINT_RESPONSE_HANN, range_doppler_distance(row, rate_mps / 0.25, REPETITIONS));
+            double sign = (row + column) % 2 == 0 ? 1 : -1;
+            bench->samples[row * SAMPLES + column].re += sign * amplitude * size;
+        }
+}
+
+static struct detections sight(struct bench *bench)
+{
+    const struct reception reception = {.frame = &bench->frame, .sensor = &bench->sensor};
+    const struct clustered_rays received = {.rays = bench->rays, .count = bench->count};
+    bench->spectrum = signal_cube_spectrum(&bench->signal, &bench->arena);
+    struct detections sightings = detections_of(&bench->signal, &bench->spectrum, &reception);
+    detections_label(&sightings, &bench->frame, "test", &received);
+    return sightings;
+}
+
+static const char *leader_of(const struct sighting *sighting)
+{
+    return sighting->cell.members.items[0].object;
+}
+
+static void an_echo_belongs_to_the_peak_that_shows_most_of_it(void **state)
+{
+    (void)state;
+    static struct bench bench;
+    begin(&bench);
+    receive(&bench, "far", 20.25, 1, 60);
+    receive(&bench, "near", 10.5, 0, 50);
+    receive(&bench, "beside", 10.75, 0, 10);
+    for (size_t i = 0; i < bench.count; i++)
+        show(&bench, bench.rays[i].range_m, bench.rays[i].range_rate_mps, bench.rays[i].amplitude);
+    struct detections seen = sight(&bench);
+    assert_int_equal(seen.list.count, 2);
+    assert_string_equal(leader_of(&seen.list.items[0]), "far");
+    assert_int_equal(seen.list.items[0].cell.members.count, 1);
+    assert_close(seen.list.items[0].range_m, 20.25, 0.005);
+    assert_string_equal(leader_of(&seen.list.items[1]), "near");
+    assert_int_equal(seen.list.items[1].cell.members.count, 2);
+    assert_close(seen.list.items[1].cell.members.items[1].weight, 1. / 6, 1e-15);
+    assert_int_equal(bench.frame.lost.count, 0);
+    arena_free(&bench.arena);
+}
+
+static void a_rate_is_the_one_of_its_aliases_next_to_its_echo(void **state)
+{
+    (void)state;
+    static struct bench bench;
+    begin(&bench);
+    receive(&bench, "fast", 10, -29.75, 50);
+    show(&bench, 10, -29.75, 50);
+    struct detections seen = sight(&bench);
+    assert_int_equal(seen.list.count, 1);
+    assert_close(seen.list.items[0].range_rate_mps, -29.75, 1e-9);
+    arena_free(&bench.arena);
+}
+
+static void a_peak_of_nothing_is_a_false_alarm_and_counted(void **state)
+{
+    (void)state;
+    static struct bench bench;
+    begin(&bench);
+    receive(&bench, "echo", 10, 0, 50);
+    show(&bench, 10, 0, 50);
+    show(&bench, 25, 3, 5);
+    struct detections seen = sight(&bench);
+    assert_int_equal(seen.list.count, 2);
+    assert_int_equal(seen.list.items[1].cell.members.items[0].path, PATH_FALSE_ALARM);
+    assert_int_equal(bench.frame.counts.count, 1);
+    assert_int_equal(bench.frame.counts.items[0].paths.items[0].echoes, 1);
+    arena_free(&bench.arena);
+}
+
+/* Peaks to both sides of an echo, too far off to be its own. */
+static void a_peak_that_one_echo_makes_half_of_has_its_label_too(void **state)
+{
+    (void)state;
+    static struct bench bench;
+    begin(&bench);
+    receive(&bench, "echo", 10.4, 0, 50);
+    show(&bench, 9, 0, 20);
+    show(&bench, 12, 0, 2.2);
+    struct detections seen = sight(&bench);
+    assert_int_equal(seen.list.count, 2);
+    for (size_t i = 0; i < 2; i++)
+        assert_string_equal(leader_of(&seen.list.items[i]), "echo");
+    assert_int_equal(bench.frame.lost.count, 0);
+    arena_free(&bench.arena);
+}
+
+static void what_is_seen_nowhere_is_lost_for_its_reason(void **state)
+{
+    (void)state;
+    static struct bench bench;
+    static const enum loss reasons[] = {LOSS_MASKED, LOSS_BELOW_FINAL, LOSS_BELOW_THRESHOLD};
+    begin(&bench);
+    receive(&bench, "strong", 10, 0, 1000);
+    receive(&bench, "masked", 12, 0, 20);
+    receive(&bench, "faded", 20, 0, 3);
+    receive(&bench, "weak", 25, 0, 1);
+    show(&bench, 10, 0, 1000);
+    show(&bench, 12, 0, 20);
+    show(&bench, 20, 0, 1);
+    struct detections seen = sight(&bench);
+    assert_int_equal(seen.list.count, 1);
+    assert_int_equal(bench.frame.lost.count, 3);
+    for (size_t i = 0; i < 3; i++)
+        assert_int_equal(bench.frame.lost.items[i].reason, reasons[i]);
+    assert_close(bench.frame.lost.items[1].echoes.items[0].shortfall_db, 20 * log10(2), 1e-2);
+    assert_close(bench.frame.lost.items[2].echoes.items[0].shortfall_db, 20 * log10(2), 1e-9);
+    arena_free(&bench.arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_echo_belongs_to_the_peak_that_shows_most_of_it),
+        cmocka_unit_test(a_rate_is_the_one_of_its_aliases_next_to_its_echo),
+        cmocka_unit_test(a_peak_of_nothing_is_a_false_alarm_and_counted),
+        cmocka_unit_test(a_peak_that_one_echo_makes_half_of_has_its_label_too),
+        cmocka_unit_test(what_is_seen_nowhere_is_lost_for_its_reason),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

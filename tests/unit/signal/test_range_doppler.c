@@ -1,0 +1,186 @@
+#include "check.h"
+
+#include "range_doppler.h"
+
+enum { WIDTH = 32, HEIGHT = 64 };
+
+static const struct cfar quiet = {CFAR_ORDERED, 16, 2, 8, 0};
+
+struct sky {
+    struct range_doppler spectrum;
+    struct phasor samples[WIDTH * HEIGHT];
+    double power[WIDTH * HEIGHT];
+    struct arena arena;
+};
+
+static double window_value(enum point_response kernel, double bins, int bin)
+{
+    return (kernel != POINT_RESPONSE_PULSE && bin % 2 != 0 ? -1 : 1) * point_response_value(kernel, bins);
+}
+
+static void begin(struct sky *sky, enum point_response range_kernel, enum point_response rate_kernel)
+{
+    *sky = (struct sky){.spectrum = {.range_bins = WIDTH,
+                                     .rate_bins = HEIGHT,
+                                     .channels = 1,
+                                     .range_kernel = range_kernel,
+                                     .rate_kernel = rate_kernel}};
+    sky->spectrum.samples = sky->samples;
+    sky->spectrum.power = sky->power;
+}
+
+static void add(struct sky *sky, double range, double rate, double amplitude, double phase)
+{
+    for (int row = 0; row < HEIGHT; row++)
+        for (int column = 0; column < WIDTH; column++) {
+            double away = range_doppler_distance(column, range, WIDTH);
+            double size =
+                window_value(sky->spectrum.range_kernel, away, column) *
+                window_value(sky->spectrum.rate_kernel, range_doppler_distance(row, rate, HEIGHT), row);
+            sky->samples[row * WIDTH + column].re += amplitude * size * cos(phase);
+            sky->samples[row * WIDTH + column].im += amplitude * size * sin(phase);
+        }
+}
+
+static size_t search(struct sky *sky, const struct cfar *cfar, double threshold,
+                     struct range_doppler_peak **peaks)
+{
+    for (size_t i = 0; i < WIDTH * HEIGHT; i++)
+        sky->power[i] =
+            sky->samples[i].re * sky->samples[i].re + sky->samples[i].im * sky->samples[i].im;
+    return range_doppler_peaks(&sky->spectrum, cfar, threshold, &sky->arena, peaks);
+}
+
+/* A cell of an echo and its side lobes alone shows one peak: where it is, as strong as it is. */
+static void one_echo_is_one_peak_where_it_stands(void **state)
+{
+    (void)state;
+    static const enum point_response kernels[][2] = {{POINT_RESPONSE_HANN, POINT_RESPONSE_HANN},
+                                             {POINT_RESPONSE_RECTANGULAR, POINT_RESPONSE_RECTANGULAR},
+                                             {POINT_RESPONSE_PULSE, POINT_RESPONSE_HANN}};
+    for (size_t i = 0; i < 3; i++)
+        for (double part = 0; part < 1; part += 0.24) {
+            struct sky sky;
+            struct range_doppler_peak *peaks;
+            begin(&sky, kernels[i][0], kernels[i][1]);
+            add(&sky, 10 + part, -7 - part / 2, 1000, 1);
+            assert_int_equal(search(&sky, &quiet, 2, &peaks), 1);
+            assert_close(peaks[0].range, 10 + part, 0.02);
+            assert_close(peaks[0].rate, -7 - part / 2, 0.01);
+            assert_near(peaks[0].amplitude, 1000., 0.02);
+            arena_free(&sky.arena);
+        }
+}
+
+/* EFFECTS 4b, Hann: 1 bin apart a pair in phase is one peak at its middle, 4.60 dB up, 1.59 dB in
+ * quadrature, and in antiphase two with their peaks outside. 2 bins apart it is always two, between
+ * which no bin may be weaker: 3 bins apart two are seen. */
+static void two_equal_echoes_are_one_peak_or_two_as_effects_4b_says(void **state)
+{
+    (void)state;
+    struct sky sky;
+    struct range_doppler_peak *peaks;
+    static const double gains[] = {4.60, 1.59};
+    for (int quarter = 0; quarter <= 2; quarter++) {
+        begin(&sky, POINT_RESPONSE_HANN, POINT_RESPONSE_HANN);
+        add(&sky, 9.5, 3, 100, 0);
+        add(&sky, 10.5, 3, 100, quarter * 3.14159265358979323846 / 2);
+        size_t count = search(&sky, &quiet, 2, &peaks);
+        assert_int_equal(count, quarter < 2 ? 1 : 2);
+        if (quarter < 2) {
+            assert_close(peaks[0].range, 10, 1e-12);
+            assert_close(20 * log10(peaks[0].amplitude / 100), gains[quarter], 0.006);
+        }
+        arena_free(&sky.arena);
+        begin(&sky, POINT_RESPONSE_HANN, POINT_RESPONSE_HANN);
+        add(&sky, 9, 3, 100, 0);
+        add(&sky, 12, 3, 100, quarter * 3.14159265358979323846 / 2);
+        assert_int_equal(search(&sky, &quiet, 2, &peaks), 2);
+        arena_free(&sky.arena);
+    }
+}
+
+/* EFFECTS 5: near each other, two echoes of ratio rho and phase psi stand at g half separations
+ * from their middle, toward the stronger one. */
+static void a_close_pair_stands_where_effects_5_says(void **state)
+{
+    (void)state;
+    static const struct {
+        double rho, degrees, g;
+    } cases[] = {{0.5, 0, 0.333333}, {0.5, 90, 0.6},      {0.5, 150, 1.953254}, {0.5, 180, 3},
+                 {0.9, 0, 0.052632}, {0.9, 90, 0.104972}, {0.9, 150, 0.756507}};
+    const double half = 0.005;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct sky sky;
+        struct range_doppler_peak *peaks;
+        begin(&sky, POINT_RESPONSE_HANN, POINT_RESPONSE_HANN);
+        add(&sky, 10 + half, 3 + half, 100, 0);
+        add(&sky, 10 - half, 3 - half, 100 * cases[i].rho,
+            cases[i].degrees * 3.14159265358979 / 180);
+        assert_int_equal(search(&sky, &quiet, 2, &peaks), 1);
+        assert_close((peaks[0].range - 10) / half, cases[i].g, 0.01 * cases[i].g);
+        assert_close((peaks[0].rate - 3) / half, cases[i].g, 0.01 * cases[i].g);
+        arena_free(&sky.arena);
+    }
+}
+
+static void a_weak_echo_is_found_outside_the_side_lobes_of_a_strong_one_only(void **state)
+{
+    (void)state;
+    struct sky sky;
+    struct range_doppler_peak *peaks;
+    begin(&sky, POINT_RESPONSE_HANN, POINT_RESPONSE_HANN);
+    add(&sky, 10, 3, 1000, 0);
+    add(&sky, 13, 3, 10, 1); /* envelope 0.0133 */
+    add(&sky, 20, 30, 10, 1);
+    assert_int_equal(search(&sky, &quiet, 2, &peaks), 2);
+    assert_close(peaks[1].range, 20, 0.01);
+    assert_close(peaks[1].rate, 30, 0.01);
+    arena_free(&sky.arena);
+}
+
+/* Every rate of a range as strong as 2: a peak must stand out from that by the factor. */
+static void a_peak_must_stand_out_among_the_rates_of_its_range(void **state)
+{
+    (void)state;
+    for (double factor = 1; factor <= 100; factor *= 100) {
+        struct sky sky;
+        struct range_doppler_peak *peaks;
+        struct cfar cfar = {CFAR_MEAN, 16, 2, 0, factor};
+        begin(&sky, POINT_RESPONSE_RECTANGULAR, POINT_RESPONSE_RECTANGULAR);
+        for (int rate = 0; rate < HEIGHT; rate++)
+            add(&sky, 5, rate, 2, rate);
+        add(&sky, 5, 30, 10, 30);
+        assert_int_equal(search(&sky, &cfar, 8, &peaks), factor == 1 ? 1 : 0);
+        arena_free(&sky.arena);
+    }
+}
+
+static void rings_close_at_both_ends(void **state)
+{
+    (void)state;
+    struct sky sky;
+    struct range_doppler_peak *peaks;
+    begin(&sky, POINT_RESPONSE_HANN, POINT_RESPONSE_HANN);
+    add(&sky, 0.25, -32, 100, 0);
+    assert_int_equal(search(&sky, &quiet, 2, &peaks), 1);
+    assert_close(peaks[0].range, 0.25, 0.01);
+    assert_close(peaks[0].rate, -32, 0.01);
+    assert_close(range_doppler_distance(31, 1, 32), -2, 0);
+    assert_near(range_doppler_amplitude(&sky.spectrum, 32, 32), 100 * point_response_value(POINT_RESPONSE_HANN, 0.25),
+                1e-2);
+    arena_free(&sky.arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_echo_is_one_peak_where_it_stands),
+        cmocka_unit_test(two_equal_echoes_are_one_peak_or_two_as_effects_4b_says),
+        cmocka_unit_test(a_close_pair_stands_where_effects_5_says),
+        cmocka_unit_test(a_weak_echo_is_found_outside_the_side_lobes_of_a_strong_one_only),
+        cmocka_unit_test(a_peak_must_stand_out_among_the_rates_of_its_range),
+        cmocka_unit_test(rings_close_at_both_ends),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,280 @@
+#define SCRATCH_FILE "table.csv"
+#include "scratch.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <zlib.h>
+
+#include "csv_table.h"
+
+static int read_bytes(struct scratch *scratch, const char *bytes, size_t length,
+                      struct csv_table *table, struct diag *diag)
+{
+    FILE *file = fopen(scratch->path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, length, file), length);
+    assert_int_equal(fclose(file), 0);
+    *diag = (struct diag){0};
+    return csv_table_read(scratch->path, table, &scratch->arena, diag);
+}
+
+static struct csv_table table_of(struct scratch *scratch, const char *text)
+{
+    struct csv_table table;
+    struct diag diag;
+    if (read_bytes(scratch, text, strlen(text), &table, &diag) != 0)
+        fail_msg("%s", diag.text);
+    return table;
+}
+
+static void every_spelling_of_a_table_is_the_same_table(void **state)
+{
+    static const char *const spellings[] = {
+        "a,b\n1,2\n3,4\n",
+        "a,b\n1,2\n3,4",
+        "a,b\r\n1,2\r\n3,4\r\n",
+        "a,b\r1,2\r3,4\r",
+        ("\xef\xbb\xbf"
+         "a,b\n1,2\n3,4\n"),
+        "\xef\xbb\xbf\"a\",b\n1,2\n3,4\n",
+        "\n\na,b\n\n1,2\r\n  \n\n3,4\n\n",
+        "a , b\n 1,\t2\n3 ,4 \n",
+        "\"a\",\"b\"\n\"1\",2\n3,\"4\"\n",
+    };
+    for (size_t i = 0; i < sizeof spellings / sizeof spellings[0]; i++) {
+        struct csv_table table = table_of(*state, spellings[i]);
+        assert_int_equal(table.columns, 2);
+        assert_int_equal(table.rows, 2);
+        assert_string_equal(table.header[0], "a");
+        assert_string_equal(table.header[1], "b");
+        assert_string_equal(csv_table_cell(&table, 0, 0), "1");
+        assert_string_equal(csv_table_cell(&table, 0, 1), "2");
+        assert_string_equal(csv_table_cell(&table, 1, 0), "3");
+        assert_string_equal(csv_table_cell(&table, 1, 1), "4");
+    }
+}
+
+static void quotes_keep_commas_line_breaks_blanks_and_quotes(void **state)
+{
+    struct csv_table table =
+        table_of(*state, "a,b,c,d,e\n\"1,2\",\"x\ny\",\" z \",\"say \"\"no\"\"\",\n");
+    static const char *const cells[] = {"1,2", "x\ny", " z ", "say \"no\"", ""};
+    assert_int_equal(table.rows, 1);
+    for (size_t i = 0; i < 5; i++)
+        assert_string_equal(csv_table_cell(&table, 0, i), cells[i]);
+}
+
+static void a_header_alone_is_a_table_without_rows(void **state)
+{
+    struct csv_table table = table_of(*state, "a,b\n");
+    assert_int_equal(table.columns, 2);
+    assert_int_equal(table.rows, 0);
+}
+
+static void a_table_in_gzip_is_read_like_a_plain_one(void **state)
+{
+    struct scratch *scratch = *state;
+    gzFile file = gzopen(scratch->path, "wb");
+    assert_non_null(file);
+    assert_true(gzputs(file, "\xef\xbb\xbfx,y\n") > 0);
+    for (int i = 0; i < 50000; i++)
+        assert_true(gzprintf(file, "%d,%d\n", i, -i) > 0);
+    assert_int_equal(gzclose(file), Z_OK);
+    struct csv_table table;
+    struct diag diag = {0};
+    assert_int_equal(csv_table_read(scratch->path, &table, &scratch->arena, &diag), 0);
+    assert_int_equal(table.rows, 50000);
+    for (size_t i = 0; i < table.rows; i++) {
+        double x, y;
+        assert_int_equal(csv_table_number(&table, i, 0, -1e6, 1e6, &x, &diag), 0);
+        assert_int_equal(csv_table_number(&table, i, 1, -1e6, 1e6, &y, &diag), 0);
+        assert_close(x, (double)i, 0);
+        assert_close(y, -(double)i, 0);
+        assert_int_equal(table.numbers[i], i + 2);
+    }
+}
+
+static void long_cells_are_read_whole(void **state)
+{
+    enum { LENGTH = 100000 };
+    char *text = malloc(LENGTH + 8);
+    assert_non_null(text);
+    memcpy(text, "a,b\n", 4);
+    memset(text + 4, 'x', LENGTH);
+    strcpy(text + 4 + LENGTH, ",1\n");
+    struct csv_table table = table_of(*state, text);
+    assert_int_equal(strlen(csv_table_cell(&table, 0, 0)), LENGTH);
+    assert_string_equal(csv_table_cell(&table, 0, 1), "1");
+    free(text);
+}
+
+static void rows_have_the_numbers_that_a_spreadsheet_shows(void **state)
+{
+    static const struct {
+        const char *text;
+        size_t numbers[2];
+    } cases[] = {
+        {"a,b\n1,2\n3,4\n", {2, 3}},
+        {"a,b\r\n1,2\r\n3,4\r\n", {2, 3}},
+        {"a,b\r1,2\r3,4", {2, 3}},
+        {"a,b\n\n\n1,2\n\n3,4\n", {4, 6}},
+        {"a,b\r\n\r\n1,2\r\n\r\n\r\n3,4", {3, 6}},
+        {"a,b\r\r1,2\r\r3,4", {3, 5}},
+        {"\n\na,b\n \t\n1,2\n3,4\n", {5, 6}},
+        {"a,b\n\"1\n\n\n\",2\n3,4\n", {2, 3}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct csv_table table = table_of(*state, cases[i].text);
+        assert_int_equal(table.rows, 2);
+        assert_int_equal(table.numbers[0], cases[i].numbers[0]);
+        assert_int_equal(table.numbers[1], cases[i].numbers[1]);
+    }
+}
+
+static void damaged_tables_are_refused(void **state)
+{
+#define QUOTE_MESSAGE                                                                              \
+    "a misplaced quote; expected quotes around the whole cell, and those inside it doubled"
+    static const struct {
+        const char *text, *message;
+    } cases[] = {
+        {"", "the table is empty; expected a header"},
+        {"\xef\xbb\xbf", "the table is empty; expected a header"},
+        {"\n \r\n\n", "the table is empty; expected a header"},
+        {"a,b\n1,2\n3\n", "row 3: 1 cell; expected 2 as in the header"},
+        {"a,b\n1,2\n3,4,5\n", "row 3: 3 cells; expected 2 as in the header"},
+        {"a,b\r\n\r\n1,2\r\n3,4,", "row 4: 3 cells; expected 2 as in the header"},
+        {"a;b\n1;2\n", "the columns are separated by semicolons; expected commas"},
+        {"a,b,a\n1,2,3\n", "columns 1 and 3 are both named \"a\""},
+        {"a,,\n1,2,3\n", "columns 2 and 3 are both named \"\""},
+        {"a,b\n1,2\n\"3,4\n5,6\n", "row 3: a quote opens a cell and nothing closes it"},
+        {"a,b\n1,2\n3,4\"5\n", "row 3: " QUOTE_MESSAGE},
+        {"a,b\n\n\"1\" 2,3\n", "row 3: " QUOTE_MESSAGE},
+        {"a,b\n1\n\"1\" 2,3\n", "row 2: 1 cell; expected 2 as in the header"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct csv_table table;
+        struct diag diag;
+        assert_int_equal(read_bytes(*state, cases[i].text, strlen(cases[i].text), &table, &diag),
+                         -1);
+        assert_string_equal(diag.text, cases[i].message);
+        assert_int_equal(diag.code, DIAG_DATA);
+    }
+}
+
+static void a_nul_byte_is_refused_wherever_it_is(void **state)
+{
+    static const char text[] = "ab,c\r\n1,2\r\n3,4\r\n";
+    for (size_t i = 0; i < sizeof text - 1; i++) {
+        char bytes[sizeof text];
+        memcpy(bytes, text, sizeof text);
+        if (bytes[i] == '\r' || bytes[i] == '\n' || bytes[i] == ',')
+            continue;
+        bytes[i] = '\0';
+        struct csv_table table;
+        struct diag diag;
+        assert_int_equal(read_bytes(*state, bytes, sizeof text - 1, &table, &diag), -1);
+        char message[64];
+        snprintf(message, sizeof message, "row %d: a NUL byte; expected text",
+                 i < 6    ? 1
+                 : i < 11 ? 2
+                          : 3);
+        assert_string_equal(diag.text, message);
+    }
+}
+
+static void a_file_that_is_not_there_is_no_input(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct csv_table table;
+    struct diag diag = {0};
+    assert_int_equal(csv_table_read("/nonexistent/table.csv", &table, &arena, &diag), -1);
+    assert_int_equal(diag.code, DIAG_NO_INPUT);
+    arena_free(&arena);
+}
+
+static void columns_are_found_by_their_whole_name(void **state)
+{
+    struct csv_table table = table_of(*state, "x,xx,vx,X\n1,2,3,4\n");
+    struct diag diag = {0};
+    size_t column;
+    assert_int_equal(csv_table_column(&table, "vx", &column, &diag), 0);
+    assert_int_equal(column, 2);
+    assert_int_equal(csv_table_column(&table, "x", &column, &diag), 0);
+    assert_int_equal(column, 0);
+    assert_int_equal(csv_table_column(&table, "y", &column, &diag), -1);
+    assert_string_equal(diag.text, "column \"y\" is missing; the header is: x, xx, vx, X");
+    assert_int_equal(diag.code, DIAG_DATA);
+}
+
+static void numbers_are_read_to_the_last_digit(void **state)
+{
+    struct csv_table table = table_of(
+        *state, "x\n0\n-0\n12.5\n-7.25e-3\n1E2\n0.1\n5335123.4567\n2.2250738585072011e-308\n");
+    static const double values[] = {0,   -0.0, 12.5,         -7.25e-3,
+                                    100, 0.1,  5335123.4567, 0x0.fffffffffffffp-1022};
+    struct diag diag = {0};
+    assert_int_equal(table.rows, sizeof values / sizeof values[0]);
+    for (size_t i = 0; i < table.rows; i++) {
+        double value;
+        assert_int_equal(csv_table_number(&table, i, 0, -1e9, 1e9, &value, &diag), 0);
+        assert_memory_equal(&value, &values[i], sizeof value);
+    }
+}
+
+static void what_is_no_number_is_refused(void **state)
+{
+    static const char *const cells[] = {"abc",    "12abc",  "\"\"",     "nan",    "NaN",   "-nan",
+                                        "inf",    "-inf",   "Infinity", "0x10",   "0x1p3", "1e",
+                                        "1.",     ".5",     "+1",       "-",      "--1",   "1 2",
+                                        "\" 1\"", "\"1 \"", "\"1,5\"",  "1e5000", "007",   "1_000"};
+    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; i++) {
+        char text[64], message[96], bare[32] = "";
+        snprintf(text, sizeof text, "id,x\n7,%s\n", cells[i]);
+        struct csv_table table = table_of(*state, text);
+        strcpy(bare, csv_table_cell(&table, 0, 1));
+        snprintf(message, sizeof message, "row 2, column \"x\": \"%s\" is not a number", bare);
+        double value;
+        struct diag diag = {0};
+        assert_int_equal(csv_table_number(&table, 0, 1, -1e300, 1e300, &value, &diag), -1);
+        assert_string_equal(diag.text, message);
+    }
+}
+
+static void numbers_outside_their_bounds_are_refused(void **state)
+{
+    struct csv_table table = table_of(*state, "azimuth_rad,x\n\n-0.5,2\n");
+    double value;
+    struct diag diag = {0};
+    assert_int_equal(csv_table_number(&table, 0, 0, -0.5, 0, &value, &diag), 0);
+    assert_int_equal(csv_table_number(&table, 0, 1, 0, 2, &value, &diag), 0);
+    assert_int_equal(csv_table_number(&table, 0, 0, 0, 3, &value, &diag), -1);
+    assert_string_equal(diag.text, "row 3, column \"azimuth_rad\": -0.5 is outside [0, 3] rad");
+    diag = (struct diag){0};
+    assert_int_equal(csv_table_number(&table, 0, 1, -1, 1.5, &value, &diag), -1);
+    assert_string_equal(diag.text, "row 3, column \"x\": 2 is outside [-1, 1.5]");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_spelling_of_a_table_is_the_same_table),
+        cmocka_unit_test(quotes_keep_commas_line_breaks_blanks_and_quotes),
+        cmocka_unit_test(a_header_alone_is_a_table_without_rows),
+        cmocka_unit_test(a_table_in_gzip_is_read_like_a_plain_one),
+        cmocka_unit_test(long_cells_are_read_whole),
+        cmocka_unit_test(rows_have_the_numbers_that_a_spreadsheet_shows),
+        cmocka_unit_test(damaged_tables_are_refused),
+        cmocka_unit_test(a_nul_byte_is_refused_wherever_it_is),
+        cmocka_unit_test(a_file_that_is_not_there_is_no_input),
+        cmocka_unit_test(columns_are_found_by_their_whole_name),
+        cmocka_unit_test(numbers_are_read_to_the_last_digit),
+        cmocka_unit_test(what_is_no_number_is_refused),
+        cmocka_unit_test(numbers_outside_their_bounds_are_refused),
+    };
+    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}

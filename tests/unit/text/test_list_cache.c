@@ -1,0 +1,289 @@
+#include "check.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "frame_text.h"
+#include "list_cache.h"
+
+static const char HEAD[] =
+    "{\"version\":0,\"scene\":\"s\",\"frame\":0,\"time_s\":0,\"interval_s\":1,\"seed\":\"1\","
+    "\"ego\":\"e\",\"objects\":[],\"reflectors\":[{\"model\":\"m\",\"worn_by\":[],\"points\":";
+
+static const char *point_of(const char *name, double x)
+{
+    static char text[256];
+    snprintf(text, sizeof text,
+             "{\"name\":\"%s\",\"x\":%g,\"y\":0,\"facing_rad\":0,\"full_rad\":1,\"zero_rad\":2,"
+             "\"shape\":\"hard\",\"ercs\":0.5}",
+             name, x);
+    return text;
+}
+
+static void line_of(struct text *line, const char *points)
+{
+    line->length = 0;
+    text_format(line, "%s%s}]}", HEAD, points);
+}
+
+static int read_points(struct frame *frame, const char *points, struct diag *diag)
+{
+    struct text line = {0};
+    line_of(&line, points);
+    int result = frame_text_read(line.bytes, line.length, frame, diag);
+    text_free(&line);
+    return result;
+}
+
+static void the_same_text_is_the_same_list(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct list_cache repeats = {0};
+    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct diag diag = {0};
+    char one[512], other[512];
+    snprintf(one, sizeof one, "[%s]", point_of("a", 0.25));
+    snprintf(other, sizeof other, "[%s ]", point_of("a", 0.5));
+    const void *first[2];
+    for (int i = 0; i < 6; i++) {
+        assert_int_equal(read_points(&frame, i % 2 ? other : one, &diag), 0);
+        assert_int_equal(frame.reflectors.items[0].points.count, 1);
+        const struct point_reflector *point = &frame.reflectors.items[0].points.items[0];
+        assert_string_equal(point->name, "a");
+        assert_close(point->x, i % 2 ? 0.5 : 0.25, 0);
+        if (i < 2)
+            first[i] = point;
+        assert_ptr_equal(point, first[i % 2]);
+    }
+    assert_int_equal(repeats.kept.count, 2);
+    list_cache_free(&repeats);
+    arena_free(&arena);
+}
+
+static void what_is_wrong_in_a_list_is_wrong_every_time(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct list_cache repeats = {0};
+    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    char wrong[512];
+    snprintf(wrong, sizeof wrong, "[%s,%s]", point_of("a", 0.25), "{\"name\":\"\"}");
+    for (int i = 0; i < 3; i++) {
+        struct diag diag = {0};
+        assert_int_equal(read_points(&frame, wrong, &diag), -1);
+        assert_string_equal(diag.text, "reflectors[0].points[1].name: a name of 0 bytes; expected "
+                                       "1 to 1024");
+    }
+    assert_int_equal(repeats.kept.count, 0);
+    list_cache_free(&repeats);
+    arena_free(&arena);
+}
+
+static void lists_that_never_come_again_are_kept_up_to_a_limit(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct list_cache repeats = {0};
+    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct diag diag = {0};
+    for (int i = 0; i < 3 * LIST_CACHE_MOST; i++) {
+        char points[512];
+        snprintf(points, sizeof points, "[%s]", point_of("a", i * 0.001));
+        assert_int_equal(read_points(&frame, points, &diag), 0);
+        assert_close(frame.reflectors.items[0].points.items[0].x, i * 0.001, 1e-9);
+    }
+    assert_int_equal(repeats.kept.count, LIST_CACHE_MOST);
+    list_cache_free(&repeats);
+    arena_free(&arena);
+}
+
+/* So that a stream's memory stays constant whatever its lines hold. */
+static void long_lists_are_kept_up_to_a_limit_too(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct list_cache repeats = {0};
+    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct diag diag = {0};
+    struct text points = {0};
+    for (int i = 0; i < 40; i++) {
+        points.length = 0;
+        text_format(&points, "[%s", point_of("a", i * 0.001));
+        for (int j = 0; j < 1000; j++) {
+            char name[16];
+            snprintf(name, sizeof name, "b%d", j % 1000);
+            text_format(&points, ",%s", point_of(name, 0.25));
+        }
+        text_add(&points, "]", 2);
+        assert_int_equal(read_points(&frame, points.bytes, &diag), 0);
+        assert_int_equal(frame.reflectors.items[0].points.count, 1001);
+    }
+    assert_true(repeats.size >= LIST_CACHE_SIZE && repeats.size < 2 * LIST_CACHE_SIZE);
+    assert_true(repeats.kept.count < 40);
+    text_free(&points);
+    list_cache_free(&repeats);
+    arena_free(&arena);
+}
+
+static void a_list_that_grows_leaves_the_kept_one_alone(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct list_cache repeats = {0};
+    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct diag diag = {0};
+    char points[512];
+    snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(read_points(&frame, points, &diag), 0);
+        struct reflector_set *set = &frame.reflectors.items[0];
+        assert_int_equal(set->points.count, 1);
+        if (i > 0)
+            *list_add(&set->points, &arena) = (struct point_reflector){.name = "b"};
+    }
+    list_cache_free(&repeats);
+    arena_free(&arena);
+}
+
+/* What a frame with this set's reflectors says, with and without anything kept. */
+static void write_set(struct list_cache *repeats, struct reflector_set *set, struct text *line)
+{
+    struct frame frame = {.scene = "s", .ego = "e", .present = SECTION_REFLECTORS};
+    struct diag diag = {0};
+    struct text plain = {0};
+    frame.reflectors.items = set;
+    frame.reflectors.count = 1;
+    assert_int_equal(frame_text_write(&frame, &plain, &diag), 0);
+    frame.repeats = repeats;
+    line->length = 0;
+    assert_int_equal(frame_text_write(&frame, line, &diag), 0);
+    assert_int_equal(line->length, plain.length);
+    assert_memory_equal(line->bytes, plain.bytes, plain.length);
+    text_free(&plain);
+}
+
+static struct reflector_set document_of(struct point_reflector *points, size_t count)
+{
+    struct reflector_set document = {.model = "m"};
+    document.points.items = points;
+    document.points.count = count;
+    return document;
+}
+
+static void the_text_of_a_documents_list_is_kept(void **state)
+{
+    (void)state;
+    struct list_cache repeats = {0};
+    struct text line = {0};
+    struct point_reflector points[] = {{.name = "a", .x = 0.25}, {.name = "b", .x = 0.5}};
+    struct reflector_set document = document_of(points, 2), set = document;
+    set.document = &document;
+    const char *kept = NULL;
+    for (int i = 0; i < 3; i++) {
+        write_set(&repeats, &set, &line);
+        assert_int_equal(repeats.kept.count, 1);
+        if (i > 0)
+            assert_ptr_equal(repeats.kept.items[0].written.bytes, kept);
+        kept = repeats.kept.items[0].written.bytes;
+    }
+    text_free(&line);
+    list_cache_free(&repeats);
+}
+
+/* A frame's memory holds another list at the same place in the next frame. */
+static void a_frames_own_list_is_written_every_time(void **state)
+{
+    (void)state;
+    struct list_cache repeats = {0};
+    struct text line = {0};
+    struct point_reflector own[] = {{.name = "a"}, {.name = "b"}}, read[] = {{.name = "a"}};
+    struct reflector_set document = document_of(read, 1), set = document_of(own, 2);
+    for (int i = 0; i < 6; i++) {
+        own[1].x = 0.125 * i;
+        set.points.count = 1 + (size_t)i % 2;
+        set.document = i < 4 ? &document : NULL;
+        write_set(&repeats, &set, &line);
+    }
+    assert_int_equal(repeats.kept.count, 0);
+    text_free(&line);
+    list_cache_free(&repeats);
+}
+
+static void a_list_of_a_document_that_changed_is_written_anew(void **state)
+{
+    (void)state;
+    struct list_cache repeats = {0};
+    struct text line = {0};
+    struct point_reflector points[] = {{.name = "a"}, {.name = "b"}}, other[] = {{.name = "c"}};
+    struct reflector_set document = document_of(points, 2), set = document;
+    set.document = &document;
+    write_set(&repeats, &set, &line);
+    set.points.count = 1;
+    write_set(&repeats, &set, &line);
+    set.points.items = other;
+    write_set(&repeats, &set, &line);
+    assert_int_equal(repeats.kept.count, 1);
+    text_free(&line);
+    list_cache_free(&repeats);
+}
+
+static void what_was_read_is_written_as_lines_have_it(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct list_cache repeats = {0};
+    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct diag diag = {0};
+    struct text line = {0};
+    char points[512], loose[512];
+    snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
+    snprintf(loose, sizeof loose, "[ %s ]", point_of("a", 25e-2));
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(read_points(&frame, i % 2 ? points : loose, &diag), 0);
+        write_set(&repeats, &frame.reflectors.items[0], &line);
+        line.bytes[line.length - 1] = '\0';
+        assert_non_null(strstr(line.bytes, points));
+    }
+    assert_int_equal(repeats.kept.count, 2);
+    text_free(&line);
+    list_cache_free(&repeats);
+    arena_free(&arena);
+}
+
+static void text_that_was_written_is_kept_up_to_a_limit(void **state)
+{
+    (void)state;
+    enum { MANY = 1000, DOCUMENTS = 40 };
+    static struct point_reflector points[DOCUMENTS][MANY];
+    struct list_cache repeats = {0};
+    struct text line = {0};
+    for (int i = 0; i < 2 * DOCUMENTS; i++) {
+        for (int j = 0; j < MANY; j++)
+            points[i % DOCUMENTS][j] = (struct point_reflector){.name = "a", .x = j * 0.001};
+        struct reflector_set document = document_of(points[i % DOCUMENTS], MANY), set = document;
+        set.document = &document;
+        write_set(&repeats, &set, &line);
+    }
+    assert_true(repeats.size >= LIST_CACHE_SIZE && repeats.size < 2 * LIST_CACHE_SIZE);
+    assert_true(repeats.kept.count < DOCUMENTS);
+    text_free(&line);
+    list_cache_free(&repeats);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_same_text_is_the_same_list),
+        cmocka_unit_test(what_is_wrong_in_a_list_is_wrong_every_time),
+        cmocka_unit_test(lists_that_never_come_again_are_kept_up_to_a_limit),
+        cmocka_unit_test(long_lists_are_kept_up_to_a_limit_too),
+        cmocka_unit_test(a_list_that_grows_leaves_the_kept_one_alone),
+        cmocka_unit_test(the_text_of_a_documents_list_is_kept),
+        cmocka_unit_test(a_frames_own_list_is_written_every_time),
+        cmocka_unit_test(a_list_of_a_document_that_changed_is_written_anew),
+        cmocka_unit_test(what_was_read_is_written_as_lines_have_it),
+        cmocka_unit_test(text_that_was_written_is_kept_up_to_a_limit),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,312 @@
+#include "check.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "catalogue.h"
+#include "random_traffic.h"
+
+#define SNAPSHOTS 400
+
+struct bench {
+    struct arena documents, scratch;
+    struct random_traffic scene;
+    struct frame frame;
+};
+
+static int make_bench(void **state)
+{
+    struct bench *bench = calloc(1, sizeof *bench);
+    assert_non_null(bench);
+    bench->frame.arena = &bench->scratch;
+    for (enum random_class class = 0; class < RANDOM_CLASSES; class ++) {
+        struct diag diag = {0};
+        const struct vehicle *vehicle =
+            catalogue_vehicle(random_traffic_class_name(class), &bench->documents, &diag);
+        if (vehicle == NULL)
+            fail_msg("%s", diag.text);
+        bench->scene.models[class] =
+            (struct random_model){vehicle->length_m, vehicle->width_m, &vehicle->reflectors};
+    }
+    *state = bench;
+    return 0;
+}
+
+static int remove_bench(void **state)
+{
+    struct bench *bench = *state;
+    arena_free(&bench->documents);
+    arena_free(&bench->scratch);
+    free(bench);
+    return 0;
+}
+
+static const struct frame *snapshot(struct bench *bench, enum random_density density, uint64_t seed,
+                                    int64_t number)
+{
+    frame_clear(&bench->frame);
+    bench->frame.seed = seed;
+    bench->scene.density = density;
+    random_traffic_fill(&bench->scene, number, &bench->frame);
+    return &bench->frame;
+}
+
+static enum random_class class_of(const struct object *object)
+{
+    enum random_class class = 0;
+    while (class < RANDOM_CLASSES && strcmp(object->class, random_traffic_class_name(class)) != 0)
+        class ++;
+    assert_true(class < RANDOM_CLASSES);
+    return class;
+}
+
+static void every_vehicle_document_has_a_share(void **state)
+{
+    (void)state;
+    DIR *folder = opendir("data/vehicles");
+    assert_non_null(folder);
+    int documents = 0;
+    for (const struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder))
+        documents += strstr(entry->d_name, ".json") != NULL;
+    closedir(folder);
+    assert_int_equal(documents, RANDOM_CLASSES);
+    double sum = 0;
+    for (enum random_class class = 0; class < RANDOM_CLASSES; class ++) {
+        assert_true(random_traffic_class_share(class) > 0);
+        sum += random_traffic_class_share(class);
+    }
+    assert_close(sum, 1, 1e-12);
+}
+
+static void classes_come_in_their_shares(void **state)
+{
+    double hits[RANDOM_CLASSES] = {0}, objects = 0;
+    for (int64_t number = 0; number < 2000; number++) {
+        const struct frame *frame = snapshot(*state, RANDOM_DENSE, 1, number);
+        for (size_t i = 1; i < frame->objects.count; i++) {
+            hits[class_of(&frame->objects.items[i])]++;
+            objects++;
+        }
+    }
+    for (enum random_class class = 0; class < RANDOM_CLASSES; class ++) {
+        double expected = objects * random_traffic_class_share(class);
+        assert_close(hits[class], expected, 5 * sqrt(expected));
+    }
+}
+
+/* The counts and radii of NUMERICS C4, all of them used. */
+static void densities_keep_to_their_numbers_and_radii(void **state)
+{
+    static const struct {
+        enum random_density density;
+        size_t least, most;
+        double radius_m;
+    } cases[] = {
+        {RANDOM_SPARSE, 0, 3, 120},
+        {RANDOM_MEDIUM, 0, 8, 60},
+        {RANDOM_DENSE, 4, 15, 25},
+        {RANDOM_ADVERSARIAL, 0, 3, 60},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        size_t least = SIZE_MAX, most = 0;
+        double farthest_m = 0;
+        for (int64_t number = 0; number < SNAPSHOTS; number++) {
+            const struct frame *frame = snapshot(*state, cases[i].density, 1, number);
+            const struct object *object = frame->objects.items;
+            size_t count = frame->objects.count - 1;
+            least = count < least ? count : least;
+            most = count > most ? count : most;
+            for (size_t k = 1; k <= count; k++)
+                farthest_m = fmax(farthest_m, hypot(object[k].x_m - object[0].x_m,
+                                                    object[k].y_m - object[0].y_m));
+        }
+        assert_int_equal(least, cases[i].least);
+        assert_int_equal(most, cases[i].most);
+        assert_true(farthest_m <= cases[i].radius_m + 1e-9);
+        assert_true(farthest_m > 0.95 * cases[i].radius_m);
+    }
+}
+
+static void size_of(const struct bench *bench, const struct object *object, double *length_m,
+                    double *width_m)
+{
+    const struct random_model *model = &bench->scene.models[class_of(object)];
+    *length_m = object->length_m > 0 ? object->length_m : model->length_m;
+    *width_m = object->width_m > 0 ? object->width_m : model->width_m;
+}
+
+/* Does a point of a grid 0.1 m wide over one box lie in the other? */
+static bool covers(const struct bench *bench, const struct object *one, const struct object *other)
+{
+    double length_m, width_m, other_length_m, other_width_m;
+    size_of(bench, one, &length_m, &width_m);
+    size_of(bench, other, &other_length_m, &other_width_m);
+    int columns = (int)ceil(length_m / 0.1), rows = (int)ceil(width_m / 0.1);
+    for (int i = 0; i <= columns; i++)
+        for (int k = 0; k <= rows; k++) {
+            double x = length_m * ((double)i / columns - 0.5);
+            double y = width_m * ((double)k / rows - 0.5);
+            double dx = one->x_m + x * cos(one->yaw_rad) - y * sin(one->yaw_rad) - other->x_m;
+            double dy = one->y_m + x * sin(one->yaw_rad) + y * cos(one->yaw_rad) - other->y_m;
+            double along = dx * cos(other->yaw_rad) + dy * sin(other->yaw_rad);
+            double aside = dy * cos(other->yaw_rad) - dx * sin(other->yaw_rad);
+            if (fabs(along) < other_length_m / 2 && fabs(aside) < other_width_m / 2)
+                return true;
+        }
+    return false;
+}
+
+static void nothing_stands_on_the_ego(void **state)
+{
+    for (enum random_density density = 0; density <= RANDOM_ADVERSARIAL; density++)
+        for (int64_t number = 0; number < SNAPSHOTS; number++) {
+            const struct frame *frame = snapshot(*state, density, 1, number);
+            const struct object *object = frame->objects.items;
+            for (size_t i = 1; i < frame->objects.count; i++)
+                assert_false(covers(*state, &object[0], &object[i]));
+        }
+}
+
+static void overlaps_happen_but_rarely(void **state)
+{
+    double overlaps = 0, objects = 0;
+    for (int64_t number = 0; number < 2 * SNAPSHOTS; number++) {
+        const struct frame *frame = snapshot(*state, RANDOM_DENSE, 1, number);
+        const struct object *object = frame->objects.items;
+        for (size_t i = 1; i < frame->objects.count; i++) {
+            size_t k = 1;
+            while (k < i && !covers(*state, &object[k], &object[i]))
+                k++;
+            overlaps += k < i;
+            objects++;
+        }
+    }
+    assert_true(overlaps > 0 && overlaps < 0.05 * objects);
+}
+
+static void assert_same_objects(const struct frame *a, const struct frame *b)
+{
+    assert_int_equal(a->objects.count, b->objects.count);
+    for (size_t i = 0; i < a->objects.count; i++) {
+        struct object one = a->objects.items[i], other = b->objects.items[i];
+        assert_string_equal(one.id, other.id);
+        assert_string_equal(one.class, other.class);
+        one.id = other.id;
+        one.class = other.class;
+        assert_memory_equal(&one, &other, sizeof one);
+    }
+}
+
+static void a_snapshot_is_drawn_by_its_number_alone(void **state)
+{
+    void *other;
+    make_bench(&other);
+    const struct frame *alone = snapshot(other, RANDOM_DENSE, 5, 13);
+    for (int64_t number = 0; number < 13; number++)
+        snapshot(*state, RANDOM_DENSE, 5, number);
+    assert_same_objects(snapshot(*state, RANDOM_DENSE, 5, 13), alone);
+    remove_bench(&other);
+}
+
+static void seed_number_and_density_each_make_another_snapshot(void **state)
+{
+    const double x_m = snapshot(*state, RANDOM_DENSE, 5, 13)->objects.items[0].x_m;
+    assert_true(fabs(snapshot(*state, RANDOM_DENSE, 6, 13)->objects.items[0].x_m - x_m) > 0);
+    assert_true(fabs(snapshot(*state, RANDOM_DENSE, 5, 14)->objects.items[0].x_m - x_m) > 0);
+    assert_true(fabs(snapshot(*state, RANDOM_MEDIUM, 5, 13)->objects.items[0].x_m - x_m) > 0);
+}
+
+static const struct frame *in_conditions(struct bench *bench, enum random_density density,
+                                         int64_t number)
+{
+    snapshot(bench, density, 1, number);
+    random_traffic_conditions(&bench->scene, number, &bench->frame);
+    return &bench->frame;
+}
+
+static void check_interferers(const struct frame *frame)
+{
+    const struct interferer *interferers = frame->conditions.interferers.items;
+    size_t count = frame->conditions.interferers.count;
+    assert_true(count <= 2 && count < frame->objects.count);
+    for (size_t i = 0; i < count; i++) {
+        assert_non_null(frame_object(frame, interferers[i].object));
+        assert_string_not_equal(interferers[i].object, frame->ego);
+        assert_true(interferers[i].eirp_dbm > 0 && interferers[i].eirp_dbm < 40);
+        assert_true(fabs(interferers[i].slope_hzps) > 1e12);
+        assert_true(fabs(interferers[i].slope_hzps) < 5e13);
+        assert_true(interferers[i].hit_share > 0 && interferers[i].hit_share < 0.3);
+    }
+    if (count == 2)
+        assert_string_not_equal(interferers[0].object, interferers[1].object);
+}
+
+static void conditions_come_in_their_shares(void **state)
+{
+    enum { FRAMES = 20000, RAIN, HEAVY, FOG, ASPHALT, CONCRETE, ONE, TWO, CLUTTER, KINDS };
+    static const double shares[KINDS] = {
+        [RAIN] = 0.4,      [HEAVY] = 0.2,   [FOG] = 0.15,    [ASPHALT] = 0.25,
+        [CONCRETE] = 0.25, [ONE] = 0.2 / 2, [TWO] = 0.2 / 2, [CLUTTER] = 0.2};
+    int hits[KINDS] = {0};
+    for (int64_t number = 0; number < FRAMES; number++) {
+        const struct frame *frame = in_conditions(*state, RANDOM_DENSE, number);
+        const struct conditions *drawn = &frame->conditions;
+        hits[RAIN] += drawn->rain_mmph > 0;
+        hits[HEAVY] += drawn->rain_mmph > sqrt(0.05 * 100); /* half way in the logarithm */
+        hits[FOG] += drawn->fog_gpm3 > 0;
+        hits[ASPHALT] += drawn->road == ROAD_ASPHALT;
+        hits[CONCRETE] += drawn->road == ROAD_CONCRETE;
+        hits[ONE] += drawn->interferers.count == 1;
+        hits[CLUTTER] += drawn->clutter_per_m2 > 0 && drawn->clutter_ercs > 0;
+        hits[TWO] += drawn->interferers.count == 2;
+        assert_true(drawn->rain_mmph == 0 || (drawn->rain_mmph > 0.05 && drawn->rain_mmph < 100));
+        assert_true(drawn->fog_gpm3 == 0 || (drawn->fog_gpm3 > 0.005 && drawn->fog_gpm3 < 1));
+        check_interferers(frame);
+    }
+    for (int kind = RAIN; kind < KINDS; kind++)
+        assert_close((double)hits[kind] / FRAMES, shares[kind],
+                     5 * sqrt(shares[kind] * (1 - shares[kind]) / FRAMES));
+}
+
+static void conditions_of_few_objects_have_few_interferers(void **state)
+{
+    int64_t alone = 0, single = 0;
+    for (int64_t number = 0; number < 3000; number++) {
+        const struct frame *frame = in_conditions(*state, RANDOM_SPARSE, number);
+        check_interferers(frame);
+        alone += frame->objects.count == 1;
+        single += frame->objects.count == 2 && frame->conditions.interferers.count == 1;
+    }
+    assert_true(alone > 0 && single > 0);
+}
+
+static void conditions_are_drawn_by_number_and_move_nothing_else(void **state)
+{
+    for (int64_t number = 0; number < 50; number++) {
+        double x_m = snapshot(*state, RANDOM_DENSE, 1, number)->objects.items[1].x_m;
+        double rain_mmph = in_conditions(*state, RANDOM_DENSE, number)->conditions.rain_mmph;
+        in_conditions(*state, RANDOM_DENSE, number + 1);
+        const struct frame *again = in_conditions(*state, RANDOM_DENSE, number);
+        assert_close(again->objects.items[1].x_m, x_m, 0);
+        assert_close(again->conditions.rain_mmph, rain_mmph, 0);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_vehicle_document_has_a_share),
+        cmocka_unit_test(classes_come_in_their_shares),
+        cmocka_unit_test(densities_keep_to_their_numbers_and_radii),
+        cmocka_unit_test(nothing_stands_on_the_ego),
+        cmocka_unit_test(overlaps_happen_but_rarely),
+        cmocka_unit_test(a_snapshot_is_drawn_by_its_number_alone),
+        cmocka_unit_test(seed_number_and_density_each_make_another_snapshot),
+        cmocka_unit_test(conditions_come_in_their_shares),
+        cmocka_unit_test(conditions_of_few_objects_have_few_interferers),
+        cmocka_unit_test(conditions_are_drawn_by_number_and_move_nothing_else),
+    };
+    return cmocka_run_group_tests(tests, make_bench, remove_bench);
+}
