@@ -41,7 +41,7 @@ static struct sensor_view view_of(const struct sensor *sensor, bool measured)
 
 static double latency_s(const struct sensor *sensor, const struct selection *selection)
 {
-    bool late = sensor->latency_s > 0 && effects_may(selection, EFFECT_LATENCY);
+    bool late = sensor->latency_s > 0 && effects_enabled(selection, EFFECT_LATENCY);
     effects_note(selection, EFFECT_LATENCY, late);
     return late ? sensor->latency_s : 0;
 }

@@ -7,52 +7,52 @@
 #include "cell_margins.h"
 #include "measurement_noise.h"
 #include "elementary.h"
-#include "false_alarms.h"
+#include "noise_targets.h"
 #include "stage.h"
-#include "superposition.h"
+#include "resolution_cell.h"
 #include "units.h"
 
 /* False if there is nothing to read an angle off. */
 static bool measure(const struct frame *frame, const struct measurement_noise *by,
                     const struct random_address *scan, const struct cell *cell,
-                    struct reading *reading)
+                    struct measurement *measurement)
 {
     const struct sensor *sensor = by->sensor;
-    struct random_address address = draw_address_in(*scan, SUBJECT_OF(&cell->members.items[0]));
+    struct random_address address = draw_address_in(*scan, ECHO_ID_OF(&cell->members.items[0]));
     struct antenna_pointers pointers = measurement_noise_pointers(by, &address, cell);
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
-    *reading = target_list_measure(cell);
-    reading->azimuth_rad = angle.azimuth_rad;
-    reading->amplitude = elementary_hypot(creal(pointers.sum), cimag(pointers.sum));
-    reading->sign_undecided = angle.sign_undecided;
+    *measurement = target_list_measure(cell);
+    measurement->azimuth_rad = angle.azimuth_rad;
+    measurement->amplitude = elementary_hypot(creal(pointers.sum), cimag(pointers.sum));
+    measurement->sign_undecided = angle.sign_undecided;
     if (by->pointers)
-        reading->effects |= EFFECT_BIT(EFFECT_ANGLE_NOISE);
-    measurement_noise_range(by, &address, reading);
-    measurement_noise_azimuth(by, reading);
+        measurement->effects |= EFFECT_BIT(EFFECT_ANGLE_NOISE);
+    measurement_noise_range(by, &address, measurement);
+    measurement_noise_azimuth(by, measurement);
     if (frame->margins)
-        cell_margins_add_noisy(sensor, cell, pointers, reading->amplitude, by->final_threshold,
-                               &reading->margins);
+        cell_margins_add_noisy(sensor, cell, pointers, measurement->amplitude, by->final_threshold,
+                               &measurement->margins);
     return angle.valid;
 }
 
-/* The readings of all cells that are still a target after noise. */
+/* The measurements of all cells that are still a target after noise. */
 static size_t read_cells(struct frame *frame, const struct measurement_noise *by,
                          const struct random_address *scan, struct cell_span cells,
-                         struct reading *readings)
+                         struct measurement *measurements)
 {
     const struct sensor *sensor = by->sensor;
     size_t count = 0;
     for (size_t i = 0; i < cells.count; i++) {
         const struct cell *cell = &cells.items[i];
-        struct reading *reading = &readings[count];
-        bool has_angle = measure(frame, by, scan, cell, reading);
-        double threshold = superposition_threshold(sensor, cell);
-        if (by->final_threshold && reading->amplitude < threshold)
+        struct measurement *measurement = &measurements[count];
+        bool has_angle = measure(frame, by, scan, cell, measurement);
+        double threshold = resolution_cell_threshold(sensor, cell);
+        if (by->final_threshold && measurement->amplitude < threshold)
             frame_lose_cell(frame, "noise", cell, LOSS_BELOW_FINAL,
-                            units_shortfall_db(threshold, reading->amplitude), &reading->margins);
+                            units_shortfall_db(threshold, measurement->amplitude), &measurement->margins);
         else if (!has_angle)
-            frame_lose_cell(frame, "noise", cell, LOSS_NO_ANGLE, 0, &reading->margins);
+            frame_lose_cell(frame, "noise", cell, LOSS_NO_ANGLE, 0, &measurement->margins);
         else
             count++;
     }
@@ -63,17 +63,17 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
                          const struct selection *selection)
 {
     struct measurement_noise by = measurement_noise_of(sensor, selection);
-    struct contributor noise = false_alarms_contributor(0);
-    struct random_address scan = draw_address_of(frame, sensor->name, SUBJECT_OF(&noise));
-    struct cell_span alarms = false_alarms_of(frame, sensor, selection, by.false_alarms, &scan);
+    struct contributor noise = noise_targets_contributor(0);
+    struct random_address scan = draw_address_of(frame, sensor->name, ECHO_ID_OF(&noise));
+    struct cell_span alarms = noise_targets_of(frame, sensor, selection, by.false_alarms, &scan);
     struct cell_span cells = frame_cells_of(frame, sensor->name);
-    struct reading *readings =
-        arena_get(frame->arena, (cells.count + alarms.count + 1) * sizeof *readings);
-    size_t count = read_cells(frame, &by, &scan, cells, readings);
+    struct measurement *measurements =
+        arena_get(frame->arena, (cells.count + alarms.count + 1) * sizeof *measurements);
+    size_t count = read_cells(frame, &by, &scan, cells, measurements);
     for (size_t i = 0; i < alarms.count; i++)
-        readings[count++] = target_list_measure(&alarms.items[i]);
+        measurements[count++] = target_list_measure(&alarms.items[i]);
     size_t first = frame->targets.count;
-    target_list_make(frame, "noise", sensor, readings, count, by.list_limit);
+    target_list_make(frame, "noise", sensor, measurements, count, by.list_limit);
     for (size_t i = first; i < frame->targets.count && by.steps; i++)
         target_list_round(&frame->targets.items[i], sensor);
 }

@@ -7,20 +7,20 @@
 #include "stage.h"
 #include "units.h"
 
-static struct reading measure(const struct frame *frame, const struct sensor *sensor,
+static struct measurement measure(const struct frame *frame, const struct sensor *sensor,
                               const struct cell *cell)
 {
     struct random_address address =
-        draw_address_of(frame, sensor->name, SUBJECT_OF(&cell->members.items[0]));
+        draw_address_of(frame, sensor->name, ECHO_ID_OF(&cell->members.items[0]));
     double straight[2], across[2];
     random_gaussian_pair(&address, RANDOM_RANGE_RATE, 0, straight);
     random_gaussian_pair(&address, RANDOM_AZIMUTH, 0, across);
-    struct reading reading = target_list_measure(cell);
-    reading.range_m = elementary_most(reading.range_m + sensor->range_sigma_m * straight[0], 0);
-    reading.range_rate_mps += sensor->range_rate_sigma_mps * straight[1];
-    reading.azimuth_rad =
-        units_wrap_rad(reading.azimuth_rad + sensor->azimuth_sigma_rad * across[0]);
-    return reading;
+    struct measurement measurement = target_list_measure(cell);
+    measurement.range_m = elementary_max(measurement.range_m + sensor->range_sigma_m * straight[0], 0);
+    measurement.range_rate_mps += sensor->range_rate_sigma_mps * straight[1];
+    measurement.azimuth_rad =
+        units_wrap_rad(measurement.azimuth_rad + sensor->azimuth_sigma_rad * across[0]);
+    return measurement;
 }
 
 static void list_targets(struct frame *frame, const struct sensor *sensor,
@@ -28,10 +28,10 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
 {
     (void)selection;
     struct cell_span cells = frame_cells_of(frame, sensor->name);
-    struct reading *readings = arena_get(frame->arena, cells.count * sizeof *readings);
+    struct measurement *measurements = arena_get(frame->arena, cells.count * sizeof *measurements);
     for (size_t i = 0; i < cells.count; i++)
-        readings[i] = measure(frame, sensor, &cells.items[i]);
-    target_list_make(frame, "noise-gauss", sensor, readings, cells.count, 0);
+        measurements[i] = measure(frame, sensor, &cells.items[i]);
+    target_list_make(frame, "noise-gauss", sensor, measurements, cells.count, 0);
 }
 
 static int noise_gauss_step(void *state, struct frame *frame, struct runner *runner)

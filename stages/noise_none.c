@@ -7,10 +7,10 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
 {
     (void)selection;
     struct cell_span cells = frame_cells_of(frame, sensor->name);
-    struct reading *readings = arena_get(frame->arena, cells.count * sizeof *readings);
+    struct measurement *measurements = arena_get(frame->arena, cells.count * sizeof *measurements);
     for (size_t i = 0; i < cells.count; i++)
-        readings[i] = target_list_measure(&cells.items[i]);
-    target_list_make(frame, "noise-none", sensor, readings, cells.count, 0);
+        measurements[i] = target_list_measure(&cells.items[i]);
+    target_list_make(frame, "noise-none", sensor, measurements, cells.count, 0);
 }
 
 static int noise_none_step(void *state, struct frame *frame, struct runner *runner)

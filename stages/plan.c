@@ -51,17 +51,17 @@ static int plan_start(void *state, struct runner *runner)
     return 0;
 }
 
-static int rehearse(struct plan_state *own, int at, struct frame *frame, struct runner *runner)
+static int try_stage(struct plan_state *own, int at, struct frame *frame, struct runner *runner)
 {
     struct plan_position *position = &own->plan.positions[at];
     struct frame copy = *frame;
     frame_drop(&copy, SECTION_LOST | SECTION_COUNTS);
-    if (runner_rehearse(runner, chain[at].stage, at == PLAN_IDEAL ? &own->choice : NULL,
+    if (runner_try_stage(runner, chain[at].stage, at == PLAN_IDEAL ? &own->choice : NULL,
                         &position->log, frame) != 0)
         return -1;
     if (position->stand_in == NULL || position->differs)
         return 0;
-    if (runner_rehearse(runner, chain[at].stand_in, NULL, NULL, &copy) != 0)
+    if (runner_try_stage(runner, chain[at].stand_in, NULL, NULL, &copy) != 0)
         return -1;
     plan_compare(position, frame, &copy, runner_arena(runner));
     return 0;
@@ -74,10 +74,10 @@ static int plan_step(void *state, struct frame *frame, struct runner *runner)
     frame_drop(frame, SECTION_SENSORS | SECTION_ECHOES | SECTION_CELLS | SECTION_TARGETS |
                           SECTION_LOST | SECTION_COUNTS);
     if ((frame->present & SECTION_REFLECTORS) == 0 &&
-        runner_rehearse(runner, &stage_extract, NULL, NULL, frame) != 0)
+        runner_try_stage(runner, &stage_extract, NULL, NULL, frame) != 0)
         return -1;
     for (int i = 0; i < PLAN_POSITIONS; i++)
-        if (rehearse(own, i, frame, runner) != 0)
+        if (try_stage(own, i, frame, runner) != 0)
             return -1;
     return 0;
 }

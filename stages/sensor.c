@@ -6,18 +6,18 @@
 #include "stage.h"
 #include "units.h"
 
-/* The cell of these rays. False if it has no angle. */
+/* The cell of these received echoes. False if it has no angle. */
 static bool superpose(const struct scan *scan, const struct selection *selection,
-                      const struct ray *members, size_t count, struct cell *cell)
+                      const struct received_echo *members, size_t count, struct cell *cell)
 {
     const struct sensor *sensor = scan->reception.sensor;
     bool superposed =
-        effects_must(selection, EFFECT_SUPERPOSITION) ||
-        (effects_may(selection, EFFECT_SUPERPOSITION) && count > 1 &&
+        effects_forced(selection, EFFECT_SUPERPOSITION) ||
+        (effects_enabled(selection, EFFECT_SUPERPOSITION) && count > 1 &&
          !escalation_spares_superposition(sensor, members, count, &selection->tolerance));
     int64_t begin = effects_begin(selection);
     bool has_angle =
-        superposition_cell(sensor, members, count, superposed, scan->reception.frame->arena, cell);
+        resolution_cell_of(sensor, members, count, superposed, scan->reception.frame->arena, cell);
     cell->interference = scan->reception.interference;
     if (cell->interference > 0)
         cell->effects |= EFFECT_BIT(EFFECT_INTERFERENCE);
@@ -32,14 +32,14 @@ static void report(struct frame *frame, const struct scan *scan, const struct se
     const struct sensor *sensor = scan->reception.sensor;
     struct cell cell;
     size_t count;
-    const struct ray *members = scan_members(scan, number, &count);
+    const struct received_echo *members = scan_members(scan, number, &count);
     bool has_angle = superpose(scan, selection, members, count, &cell);
-    double threshold = superposition_threshold(sensor, &cell);
+    double threshold = resolution_cell_threshold(sensor, &cell);
     if (frame->margins) {
         cell.margins = cell_margins_of(sensor, &scan->resolved, number);
         cell_margins_add(sensor, &cell);
     }
-    if (effects_may(selection, EFFECT_THRESHOLD) && cell.amplitude < threshold)
+    if (effects_enabled(selection, EFFECT_THRESHOLD) && cell.amplitude < threshold)
         frame_lose_cell(frame, "sensor", &cell, LOSS_BELOW_THRESHOLD,
                         units_shortfall_db(threshold, cell.amplitude), &cell.margins);
     else if (!has_angle)

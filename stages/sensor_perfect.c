@@ -1,16 +1,16 @@
 /* A perfect sensor: one exact cell per visible echo. Nothing merges and nothing is too weak. */
 #include "stage.h"
-#include "superposition.h"
+#include "resolution_cell.h"
 
 static void keep(struct frame *frame, const struct sensor *sensor, const struct echo *echo)
 {
-    struct ray ray = superposition_ray(sensor, echo, 0);
+    struct received_echo received = received_echo_in_free_space(sensor, echo, 0);
     struct cell cell;
-    if (!(ray.amplitude > 0)) {
+    if (!(received.amplitude > 0)) {
         frame_lose_echo(frame, "sensor-perfect", echo, LOSS_NO_AMPLITUDE);
         return;
     }
-    superposition_cell(sensor, &ray, 1, true, frame->arena, &cell);
+    resolution_cell_of(sensor, &received, 1, true, frame->arena, &cell);
     cell.azimuth_rad = echo->azimuth_rad;
     cell.sign_undecided = false;
     cell.margins = echo->margins;

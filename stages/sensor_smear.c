@@ -11,7 +11,7 @@ static struct margins margins_of(const struct smear *smear, size_t number, struc
 {
     for (size_t i = 0; i < smear->count; i++)
         if (smear->cell[i] == number)
-            margins_merge(&cell->margins, smear->rays[i].margins);
+            margins_merge(&cell->margins, smear->received_echoes[i].margins);
     cell_margins_add(smear->sensor, cell);
     return cell->margins;
 }
@@ -24,10 +24,10 @@ static void report(struct frame *frame, const struct selection *selection,
     cell.interference = interference;
     if (interference > 0)
         cell.effects |= EFFECT_BIT(EFFECT_INTERFERENCE);
-    double threshold = superposition_threshold(smear->sensor, &cell);
+    double threshold = resolution_cell_threshold(smear->sensor, &cell);
     if (frame->margins)
         cell.margins = margins_of(smear, number, &cell);
-    if (effects_may(selection, EFFECT_THRESHOLD) && cell.amplitude < threshold)
+    if (effects_enabled(selection, EFFECT_THRESHOLD) && cell.amplitude < threshold)
         frame_lose_cell(frame, "sensor-smear", &cell, LOSS_BELOW_THRESHOLD,
                         units_shortfall_db(threshold, cell.amplitude), &cell.margins);
     else if (!has_angle)
@@ -36,13 +36,13 @@ static void report(struct frame *frame, const struct selection *selection,
         *list_add(&frame->cells, frame->arena) = cell;
 }
 
-/* Without merging every ray has a transform of its own. */
+/* Without merging every received echo has a transform of its own. */
 static void sense(struct frame *frame, const struct sensor *sensor,
                   const struct selection *selection)
 {
     struct reception reception = received_echo_begin(frame, sensor, selection->allowed);
     struct scan scan = scan_receive(&reception);
-    bool merge = effects_may(selection, EFFECT_MERGING);
+    bool merge = effects_enabled(selection, EFFECT_MERGING);
     size_t count = scan.resolved.count, together = merge ? count : 1;
     received_echo_note(&reception, selection);
     effects_note(selection, EFFECT_MERGING, merge);
@@ -54,7 +54,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
                            LOSS_NO_AMPLITUDE);
     for (size_t first = 0; first < count; first += together) {
         int64_t begin = effects_begin(selection);
-        struct smear smear = smear_make(sensor, &scan.resolved.rays[first], together, frame->arena);
+        struct smear smear = smear_make(sensor, &scan.resolved.received_echoes[first], together, frame->arena);
         effects_end(selection, EFFECT_MERGING, begin);
         for (size_t number = 0; number < smear.cells; number++)
             report(frame, selection, &smear, number, reception.interference);

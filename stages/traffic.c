@@ -58,7 +58,7 @@ static int traffic_next(void *state, struct frame *frame, struct runner *runner)
     return 1;
 }
 
-static int traffic_blame(void *state, const struct frame *frame, struct runner *runner)
+static int traffic_locate_fault(void *state, const struct frame *frame, struct runner *runner)
 {
     const struct traffic *traffic = state;
     if (playback_check(&traffic->played, frame->frame, frame, runner_diag(runner)) != 0)
@@ -97,5 +97,5 @@ const struct stage stage_traffic = {
     .writes = SECTION_OBJECTS,
     .start = traffic_start,
     .next = traffic_next,
-    .blame = traffic_blame,
+    .locate_fault = traffic_locate_fault,
 };

@@ -67,12 +67,12 @@ static inline double elementary_scaled(double x, int exponent)
 
 /* The lesser and the greater of two numbers, and the first of equal ones: of two zeros that differ
  * in sign fmin and fmax take either. Of a NaN and a number the number. */
-static inline double elementary_least(double a, double b)
+static inline double elementary_min(double a, double b)
 {
     return b < a || isnan(a) ? b : a;
 }
 
-static inline double elementary_most(double a, double b)
+static inline double elementary_max(double a, double b)
 {
     return b > a || isnan(a) ? b : a;
 }

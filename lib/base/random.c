@@ -10,7 +10,7 @@ void random_uniform(const struct random_address *address, enum random_purpose pu
                     uint32_t index, double uniform[4])
 {
     philox4x64_ctr_t counter = {
-        {address->frame, address->sensor, address->subject, (uint64_t)purpose << 32 | index}};
+        {address->frame, address->sensor, address->item, (uint64_t)purpose << 32 | index}};
     philox4x64_key_t key = {{address->seed, address->scene}};
     philox4x64_ctr_t bits = philox4x64(counter, key);
     for (int i = 0; i < 4; i++)

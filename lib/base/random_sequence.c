@@ -24,7 +24,7 @@ double random_sequence_between(struct random_sequence *draws, double low, double
 int64_t random_sequence_whole(struct random_sequence *draws, int64_t least, int64_t most)
 {
     double choices = (double)(most - least + 1);
-    return least + (int64_t)elementary_least(choices * random_sequence_next(draws), choices - 1);
+    return least + (int64_t)elementary_min(choices * random_sequence_next(draws), choices - 1);
 }
 
 bool random_sequence_chance(struct random_sequence *draws, double probability)

@@ -10,7 +10,7 @@ double units_amplitude_db(double amplitude)
 double units_shortfall_db(double threshold, double amplitude)
 {
     double db = units_amplitude_db(threshold) - units_amplitude_db(amplitude);
-    return elementary_least(elementary_most(db, 0), 1e4);
+    return elementary_min(elementary_max(db, 0), 1e4);
 }
 
 double units_amplitude_from_db(double db)

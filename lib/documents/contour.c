@@ -34,7 +34,7 @@ int contour_check(const struct contour *contour, struct diag *diag)
     for (const struct field *field = contour_fields; field->name != NULL; field++)
         if ((contour->given & field->section) == 0)
             return diag_fail(diag, DIAG_CONFIG, "%s: missing; expected all four", field->name);
-    double least = elementary_least(elementary_least(contour->front_dbsm, contour->rear_dbsm),
+    double least = elementary_min(elementary_min(contour->front_dbsm, contour->rear_dbsm),
                                     contour->side_dbsm);
     if (contour->oblique_dbsm > least + CONTOUR_OBLIQUE_DB)
         return diag_fail(diag, DIAG_CONFIG,
@@ -47,7 +47,7 @@ struct contour_view contour_view(double face_dbsm, double oblique_dbsm)
 {
     /* The root of the face's share in the oblique cross section. */
     double half_way =
-        elementary_least(units_amplitude_from_db(oblique_dbsm - face_dbsm) / sqrt(2), 1);
+        elementary_min(units_amplitude_from_db(oblique_dbsm - face_dbsm) / sqrt(2), 1);
     double cosine = 2 * half_way - 1;
     double turns = elementary_atan2(sqrt((1 - cosine) * (1 + cosine)), cosine) / PI;
     if (turns >= 0.5)

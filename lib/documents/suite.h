@@ -8,7 +8,7 @@
 #include "antenna.h"
 #include "effects.h"
 #include "field.h"
-#include "fluctuation.h"
+#include "swerling.h"
 #include "monopulse.h"
 #include "polarization.h"
 #include "radar_equation.h"

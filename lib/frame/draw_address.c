@@ -2,13 +2,13 @@
 
 #include "hash.h"
 
-static uint64_t hash_subject(struct subject subject)
+static uint64_t hash_echo_id(struct echo_id id)
 {
-    uint64_t hash = hash_text(hash_text(HASH_START, subject.object), subject.reflector);
-    hash = hash_bytes(hash, &(char){(char)subject.path}, 1);
-    if (subject.mirror != NULL)
-        hash = hash_text(hash, subject.mirror);
-    for (uint64_t rest = (uint64_t)subject.number; rest > 0; rest >>= 8)
+    uint64_t hash = hash_text(hash_text(HASH_START, id.object), id.reflector);
+    hash = hash_bytes(hash, &(char){(char)id.path}, 1);
+    if (id.mirror != NULL)
+        hash = hash_text(hash, id.mirror);
+    for (uint64_t rest = (uint64_t)id.number; rest > 0; rest >>= 8)
         hash = hash_bytes(hash, &(char){(char)rest}, 1);
     return hash;
 }
@@ -23,14 +23,14 @@ struct random_address draw_address_of_scan(const struct frame *frame, const char
     };
 }
 
-struct random_address draw_address_in(struct random_address scan, struct subject subject)
+struct random_address draw_address_in(struct random_address scan, struct echo_id id)
 {
-    scan.subject = hash_subject(subject);
+    scan.item = hash_echo_id(id);
     return scan;
 }
 
 struct random_address draw_address_of(const struct frame *frame, const char *sensor,
-                                 struct subject subject)
+                                 struct echo_id id)
 {
-    return draw_address_in(draw_address_of_scan(frame, sensor), subject);
+    return draw_address_in(draw_address_of_scan(frame, sensor), id);
 }

@@ -8,9 +8,9 @@
 
 /* Of a whole scan, without a subject, and of a subject in it. */
 struct random_address draw_address_of_scan(const struct frame *frame, const char *sensor);
-struct random_address draw_address_in(struct random_address scan, struct subject subject);
+struct random_address draw_address_in(struct random_address scan, struct echo_id id);
 
 struct random_address draw_address_of(const struct frame *frame, const char *sensor,
-                                 struct subject subject);
+                                 struct echo_id id);
 
 #endif

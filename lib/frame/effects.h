@@ -13,8 +13,8 @@
  *
  * A selection is what a stage works by. Effects are asked about where they are simulated:
  *
- *     bool merge = effects_must(selection, EFFECT_MERGING) ||
- *                  (effects_may(selection, EFFECT_MERGING) && some_echoes_are_close);
+ *     bool merge = effects_forced(selection, EFFECT_MERGING) ||
+ *                  (effects_enabled(selection, EFFECT_MERGING) && some_echoes_are_close);
  *     effects_note(selection, EFFECT_MERGING, merge);
  *
  * so that the test for being called for is only made where it can spare something. */
@@ -104,20 +104,20 @@ struct selection {
  * are the caller's to add. */
 int effects_read(const char *text, struct selection *selection, struct diag *diag);
 
-static inline bool effects_may(const struct selection *selection, enum effect effect)
+static inline bool effects_enabled(const struct selection *selection, enum effect effect)
 {
     return (selection->allowed & EFFECT_BIT(effect)) != 0;
 }
 
-static inline bool effects_must(const struct selection *selection, enum effect effect)
+static inline bool effects_forced(const struct selection *selection, enum effect effect)
 {
-    return effects_may(selection, effect) && !selection->automatic;
+    return effects_enabled(selection, effect) && !selection->automatic;
 }
 
 static inline void effects_note(const struct selection *selection, enum effect effect,
                                 bool simulated)
 {
-    simulated = simulated && effects_may(selection, effect);
+    simulated = simulated && effects_enabled(selection, effect);
     if (selection->log != NULL)
         *(simulated ? &selection->log->simulated : &selection->log->left_out) |= EFFECT_BIT(effect);
 }

@@ -502,14 +502,14 @@ struct cell_span frame_cells_of(const struct frame *frame, const char *sensor)
     return (struct cell_span){frame->cells.items + first, end - first};
 }
 
-struct lost_echo frame_lost(struct subject subject)
+struct lost_echo frame_lost(struct echo_id id)
 {
     return (struct lost_echo){
-        .object = subject.object,
-        .reflector = subject.reflector,
-        .path = subject.path,
-        .mirror = subject.mirror,
-        .number = subject.number,
+        .object = id.object,
+        .reflector = id.reflector,
+        .path = id.path,
+        .mirror = id.mirror,
+        .number = id.number,
     };
 }
 
@@ -553,7 +553,7 @@ void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum
 void frame_lose_echo(struct frame *frame, const char *stage, const struct echo *echo,
                      enum loss reason)
 {
-    struct lost_echo lost = frame_lost(SUBJECT_OF(echo));
+    struct lost_echo lost = frame_lost(ECHO_ID_OF(echo));
     lost.margins = echo->margins;
     frame_lose(frame, stage, echo->sensor, reason, &lost);
 }
@@ -561,7 +561,7 @@ void frame_lose_echo(struct frame *frame, const char *stage, const struct echo *
 void frame_lose_subject(struct frame *frame, const char *stage, const char *sensor,
                         const struct contributor *echo, enum loss reason)
 {
-    struct lost_echo lost = frame_lost(SUBJECT_OF(echo));
+    struct lost_echo lost = frame_lost(ECHO_ID_OF(echo));
     frame_lose(frame, stage, sensor, reason, &lost);
 }
 
@@ -569,7 +569,7 @@ void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *
                      enum loss reason, double shortfall_db, const struct margins *margins)
 {
     for (size_t i = 0; i < cell->members.count; i++) {
-        struct lost_echo lost = frame_lost(SUBJECT_OF(&cell->members.items[i]));
+        struct lost_echo lost = frame_lost(ECHO_ID_OF(&cell->members.items[i]));
         lost.shortfall_db = shortfall_db;
         lost.margins = *margins;
         frame_lose(frame, stage, cell->sensor, reason, &lost);

@@ -88,7 +88,7 @@ enum path {
 };
 
 /* What an echo is of, in one sensor's view. */
-struct subject {
+struct echo_id {
     const char *object;
     const char *reflector;
     enum path path;
@@ -96,8 +96,8 @@ struct subject {
     int64_t number;     /* of several of this kind, from 1; else 0 */
 };
 
-#define SUBJECT_OF(item)                                                                           \
-    ((struct subject){(item)->object, (item)->reflector, (item)->path, (item)->mirror,             \
+#define ECHO_ID_OF(item)                                                                           \
+    ((struct echo_id){(item)->object, (item)->reflector, (item)->path, (item)->mirror,             \
                       (item)->number})
 
 /* One sensor's view of one reflector along one path. */
@@ -253,7 +253,7 @@ static inline bool frame_same_name(const char *a, const char *b)
     return a == b || (*a == *b && strcmp(a, b) == 0);
 }
 
-/* For field_good: a name in a frame stays as it is. */
+/* For field_in_bounds: a name in a frame stays as it is. */
 struct field_names *frame_names(struct frame *frame);
 
 /* Back to an empty frame that keeps its arena's room, and what stays from frame to frame. */
@@ -292,7 +292,7 @@ struct echo_span frame_echoes_of(const struct frame *frame, const char *sensor);
 struct cell_span frame_cells_of(const struct frame *frame, const char *sensor);
 
 /* The entry in lost of what an echo is of. */
-struct lost_echo frame_lost(struct subject subject);
+struct lost_echo frame_lost(struct echo_id id);
 
 /* The contributor that an echo is, with weight 0. */
 struct contributor frame_contributor(const struct echo *echo);

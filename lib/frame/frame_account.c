@@ -9,74 +9,74 @@
 #define LOST SIZE_MAX
 
 /* One place where an echo ended: a target, by its number, or lost. */
-struct ending {
+struct outcome {
     const char *sensor;
-    struct subject subject;
+    struct echo_id id;
     size_t place;
 };
 
 /* Endings are told apart by a hash table, one of each echo, so that the audit's time grows as the
  * frame does. */
 struct account_check {
-    struct ending *endings;
+    struct outcome *outcomes;
     size_t count;
-    struct ending **slots;
+    struct outcome **slots;
     size_t slot_count;            /* a power of two */
-    const struct ending *doubled; /* the first in canonical order */
+    const struct outcome *doubled; /* the first in canonical order */
     struct {
         const char *text;
         uint64_t hash;
     } object; /* the last one: echoes of an object stand together */
 };
 
-static bool same_echo(const struct ending *a, const struct ending *b)
+static bool same_echo(const struct outcome *a, const struct outcome *b)
 {
     return frame_same_name(a->sensor, b->sensor) &&
-           frame_order_subjects(a->subject, b->subject) == 0;
+           frame_order_echo_ids(a->id, b->id) == 0;
 }
 
-static bool stands_before(const struct ending *a, const struct ending *b)
+static bool stands_before(const struct outcome *a, const struct outcome *b)
 {
     int order = strcmp(a->sensor, b->sensor);
-    return order != 0 ? order < 0 : frame_order_subjects(a->subject, b->subject) < 0;
+    return order != 0 ? order < 0 : frame_order_echo_ids(a->id, b->id) < 0;
 }
 
-static struct ending **slot_of(struct account_check *audit, const struct ending *ending)
+static struct outcome **slot_of(struct account_check *audit, const struct outcome *outcome)
 {
-    const struct subject *subject = &ending->subject;
-    if (audit->object.text != subject->object) {
-        audit->object.text = subject->object;
-        audit->object.hash = hash_for_table(HASH_START, subject->object);
+    const struct echo_id *id = &outcome->id;
+    if (audit->object.text != id->object) {
+        audit->object.text = id->object;
+        audit->object.hash = hash_for_table(HASH_START, id->object);
     }
-    uint64_t hash = hash_for_table(audit->object.hash, subject->reflector);
-    if (subject->mirror != NULL)
-        hash = hash_for_table(hash, subject->mirror);
-    hash += (uint64_t)subject->path + 31 * (uint64_t)subject->number;
+    uint64_t hash = hash_for_table(audit->object.hash, id->reflector);
+    if (id->mirror != NULL)
+        hash = hash_for_table(hash, id->mirror);
+    hash += (uint64_t)id->path + 31 * (uint64_t)id->number;
     for (;; hash++) {
-        struct ending **slot = &audit->slots[hash & (audit->slot_count - 1)];
-        if (*slot == NULL || same_echo(*slot, ending))
+        struct outcome **slot = &audit->slots[hash & (audit->slot_count - 1)];
+        if (*slot == NULL || same_echo(*slot, outcome))
             return slot;
     }
 }
 
 /* An echo that feeds several targets is one entry; twice in one target, or lost as well, it is one
  * too many. Targets come first, in their order. True if the echo has not been seen before. */
-static bool note(struct account_check *audit, struct ending ending)
+static bool note(struct account_check *audit, struct outcome outcome)
 {
-    struct ending **slot = slot_of(audit, &ending);
+    struct outcome **slot = slot_of(audit, &outcome);
     if (*slot == NULL) {
-        audit->endings[audit->count] = ending;
-        *slot = &audit->endings[audit->count++];
+        audit->outcomes[audit->count] = outcome;
+        *slot = &audit->outcomes[audit->count++];
         return true;
     }
-    if (((*slot)->place == ending.place || ending.place == LOST) &&
+    if (((*slot)->place == outcome.place || outcome.place == LOST) &&
         (audit->doubled == NULL || stands_before(*slot, audit->doubled)))
         audit->doubled = *slot;
-    (*slot)->place = ending.place;
+    (*slot)->place = outcome.place;
     return false;
 }
 
-static size_t count_endings(const struct frame *frame)
+static size_t count_outcomes(const struct frame *frame)
 {
     size_t count = 0;
     for (size_t i = 0; i < frame->targets.count; i++)
@@ -88,12 +88,12 @@ static size_t count_endings(const struct frame *frame)
 
 static struct account_check begin(const struct frame *frame)
 {
-    size_t count = count_endings(frame);
+    size_t count = count_outcomes(frame);
     struct account_check audit = {.slot_count = 1};
     while (audit.slot_count < 2 * count + 1)
         audit.slot_count *= 2;
-    audit.endings = arena_room(frame->arena, count * sizeof *audit.endings);
-    audit.slots = arena_get(frame->arena, audit.slot_count * sizeof(struct ending *));
+    audit.outcomes = arena_room(frame->arena, count * sizeof *audit.outcomes);
+    audit.slots = arena_get(frame->arena, audit.slot_count * sizeof(struct outcome *));
     return audit;
 }
 
@@ -114,7 +114,7 @@ static void collect(const struct frame *frame, struct account_check *audit, int6
         int64_t added = 0;
         for (size_t j = 0; j < target->contributors.count; j++) {
             const struct contributor *from = &target->contributors.items[j];
-            added += note(audit, (struct ending){target->sensor, SUBJECT_OF(from), i});
+            added += note(audit, (struct outcome){target->sensor, ECHO_ID_OF(from), i});
         }
         add_entries(frame, target->sensor, added, entries);
     }
@@ -123,7 +123,7 @@ static void collect(const struct frame *frame, struct account_check *audit, int6
         int64_t added = 0;
         for (size_t j = 0; j < group->echoes.count; j++) {
             const struct lost_echo *from = &group->echoes.items[j];
-            added += note(audit, (struct ending){group->sensor, SUBJECT_OF(from), LOST});
+            added += note(audit, (struct outcome){group->sensor, ECHO_ID_OF(from), LOST});
         }
         add_entries(frame, group->sensor, added, entries);
     }
@@ -164,7 +164,7 @@ int frame_account_check(const struct frame *frame, struct diag *diag)
         return diag_fail(diag, DIAG_INTERNAL,
                          "account: sensor \"%s\", object \"%s\", reflector \"%s\" has two "
                          "entries",
-                         audit.doubled->sensor, audit.doubled->subject.object,
-                         audit.doubled->subject.reflector);
+                         audit.doubled->sensor, audit.doubled->id.object,
+                         audit.doubled->id.reflector);
     return compare_with_counts(frame, entries, diag);
 }

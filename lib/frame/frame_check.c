@@ -27,7 +27,7 @@ static int check_sets(const struct frame *frame, struct diag *diag)
 {
     for (size_t i = 0; i < frame->reflectors.count; i++) {
         const struct reflector_set *set = &frame->reflectors.items[i];
-        const char *twice = reflectors_as_read(set) ? NULL : reflectors_name_twice(set);
+        const char *twice = reflectors_unchanged(set) ? NULL : reflectors_name_twice(set);
         if (twice == NULL)
             twice = worn_twice(set);
         if (twice != NULL)
@@ -123,8 +123,8 @@ static bool sets_good(const struct frame *frame, struct field_names *names)
     for (size_t i = 0; i < frame->reflectors.count; i++) {
         const struct reflector_set *set = &frame->reflectors.items[i];
         const struct record *record =
-            reflectors_as_read(set) ? &reflector_worn_record : &reflector_set_record;
-        if (!field_good(record, set, 1, ~0U, names))
+            reflectors_unchanged(set) ? &reflector_worn_record : &reflector_set_record;
+        if (!field_in_bounds(record, set, 1, ~0U, names))
             return false;
     }
     return true;
@@ -135,7 +135,7 @@ static bool lost_good(const struct frame *frame, const char *stage, struct field
     for (size_t i = 0; i < frame->lost.count; i++) {
         const struct lost_group *group = &frame->lost.items[i];
         bool own = stage == NULL || frame_same_name(group->stage, stage);
-        if (own && !field_good(&lost_group_record, group, 1, ~0U, names))
+        if (own && !field_in_bounds(&lost_group_record, group, 1, ~0U, names))
             return false;
     }
     return true;
@@ -146,7 +146,7 @@ static bool members_good(struct frame *frame, struct frame_part part)
 {
     const unsigned apart = SECTION_REFLECTORS | SECTION_LOST;
     struct field_names *names = frame_names(frame);
-    return field_good(&frame_record, frame, 1, part.sections & ~apart, names) &&
+    return field_in_bounds(&frame_record, frame, 1, part.sections & ~apart, names) &&
            ((part.sections & SECTION_REFLECTORS) == 0 || sets_good(frame, names)) &&
            ((part.sections & SECTION_LOST) == 0 || lost_good(frame, part.stage, names));
 }

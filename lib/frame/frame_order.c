@@ -14,7 +14,7 @@ static inline int compare_names(const char *a, const char *b)
     return *a == *b ? strcmp(a, b) : (unsigned char)*a - (unsigned char)*b;
 }
 
-static inline int compare_subjects(struct subject a, struct subject b)
+static inline int compare_echo_ids(struct echo_id a, struct echo_id b)
 {
     int order = compare_names(a.object, b.object);
     if (order == 0)
@@ -26,15 +26,15 @@ static inline int compare_subjects(struct subject a, struct subject b)
     return order != 0 ? order : (a.number > b.number) - (a.number < b.number);
 }
 
-int frame_order_subjects(struct subject a, struct subject b)
+int frame_order_echo_ids(struct echo_id a, struct echo_id b)
 {
-    return compare_subjects(a, b);
+    return compare_echo_ids(a, b);
 }
 
 static int compare_contributors(const void *left, const void *right)
 {
     const struct contributor *a = left, *b = right;
-    return compare_subjects(SUBJECT_OF(a), SUBJECT_OF(b));
+    return compare_echo_ids(ECHO_ID_OF(a), ECHO_ID_OF(b));
 }
 
 int frame_order_names(const void *left, const void *right)
@@ -58,7 +58,7 @@ int frame_order_echoes(const void *left, const void *right)
 {
     const struct echo *a = left, *b = right;
     int order = compare_names(a->sensor, b->sensor);
-    return order != 0 ? order : compare_subjects(SUBJECT_OF(a), SUBJECT_OF(b));
+    return order != 0 ? order : compare_echo_ids(ECHO_ID_OF(a), ECHO_ID_OF(b));
 }
 
 int frame_order_cells(const void *left, const void *right)
@@ -73,7 +73,7 @@ int frame_order_cells(const void *left, const void *right)
 static int compare_lost_echoes(const void *left, const void *right)
 {
     const struct lost_echo *a = left, *b = right;
-    return compare_subjects(SUBJECT_OF(a), SUBJECT_OF(b));
+    return compare_echo_ids(ECHO_ID_OF(a), ECHO_ID_OF(b));
 }
 
 static int compare_lost_groups(const void *left, const void *right)

@@ -19,7 +19,7 @@ int frame_order_tied(const struct contributor *a, const struct contributor *b);
 
 /* The canonical order of what echoes of one sensor are of: object, reflector, path, mirror, number.
  */
-int frame_order_subjects(struct subject a, struct subject b);
+int frame_order_echo_ids(struct echo_id a, struct echo_id b);
 
 /* The canonical order of names (const char *), echoes and cells, for sort_items. */
 int frame_order_names(const void *left, const void *right);

@@ -57,5 +57,5 @@ void margins_merge(struct margins *margins, const struct margins *others)
 
 double margins_between_db(double a, double b)
 {
-    return elementary_least(fabs(units_amplitude_db(a) - units_amplitude_db(b)), 1e4);
+    return elementary_min(fabs(units_amplitude_db(a) - units_amplitude_db(b)), 1e4);
 }

@@ -211,11 +211,11 @@ const struct record reflector_worn_record = {
     .fields = reflector_worn_fields,
 };
 
-bool reflectors_as_read(const struct reflector_set *set)
+bool reflectors_unchanged(const struct reflector_set *set)
 {
     const struct record *record = &reflector_set_record;
     for (const struct field *field = record->fields; field->name != NULL; field++)
-        if (field->steady && !field_as_read(record, field, set))
+        if (field->steady && !field_unchanged(record, field, set))
             return false;
     return true;
 }
@@ -276,7 +276,7 @@ static double farthest(double least, double x, double y)
 const struct reflectors_shape *reflectors_shape(const struct reflector_set *set,
                                                 struct arena *arena)
 {
-    if (set->shape != NULL && reflectors_as_read(set))
+    if (set->shape != NULL && reflectors_unchanged(set))
         return set->shape;
     struct reflectors_shape *shape = arena_get(arena, sizeof *shape);
     shape->faces = arena_get(arena, set->points.count * sizeof *shape->faces);
@@ -284,9 +284,9 @@ const struct reflectors_shape *reflectors_shape(const struct reflector_set *set,
     for (size_t i = 0; i < set->points.count; i++) {
         const struct point_reflector *point = &set->points.items[i];
         shape->faces[i] = (struct reflectors_face){vec2_heading(point->facing_rad),
-                                                   visibility_dark_cosine(point->zero_rad)};
+                                                   visibility_range_dark_cosine(point->zero_rad)};
         shape->share = farthest(shape->share, point->x, point->y);
-        shape->inset_m = elementary_most(shape->inset_m, point->inset_m);
+        shape->inset_m = elementary_max(shape->inset_m, point->inset_m);
         shape->under |= point->under_vehicles > 0;
     }
     for (size_t i = 0; i < set->planes.count; i++) {
@@ -341,7 +341,7 @@ struct vec2 reflectors_along(const struct box *box, const struct plane_reflector
 double reflectors_visibility(const struct box *box, const struct point_reflector *point,
                              struct vec2 facing, struct vec2 place, struct vec2 sensor)
 {
-    return visibility_along(point->shape, point->full_rad, point->zero_rad,
+    return visibility_range_along(point->shape, point->full_rad, point->zero_rad,
                             vec2_turn(facing, box->heading), vec2_sub(sensor, place));
 }
 
@@ -361,7 +361,7 @@ double reflectors_lobe(const struct box *box, const struct point_reflector *poin
                        struct vec2 place, struct vec2 sensor, double zenith_rad)
 {
     struct vec2 facing = vec2_turn(vec2_heading(point->facing_rad), box->heading);
-    double off_rad = visibility_angle_rad(facing, vec2_sub(sensor, place));
+    double off_rad = visibility_range_angle_rad(facing, vec2_sub(sensor, place));
     return lobe_amplitude_factor(&point->lobe, off_rad, zenith_rad);
 }
 

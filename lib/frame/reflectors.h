@@ -10,7 +10,7 @@
 #include "field.h"
 #include "lobe.h"
 #include "motion.h"
-#include "visibility.h"
+#include "visibility_range.h"
 
 /* What of an object moves on its own where a point is. */
 enum moving_part { MOVING_NONE, MOVING_WHEEL, MOVING_LIMBS };
@@ -33,7 +33,7 @@ struct point_reflector {
 };
 
 /* A flat side: mirrors the radar from the foot of the perpendicular, with constant ERCS, or, of a
- * side that is curved, with that of its specular point (curvature.h) if the sensor asks for it. Its
+ * side that is curved, with that of its specular point (curved_surface.h) if the sensor asks for it. Its
  * outer face is to the right of from -> to, that is, sides run counter-clockwise around the
  * outline. */
 struct plane_reflector {
@@ -90,7 +90,7 @@ struct reflectors_shape {
 /* Which way a point faces, in the object's frame. */
 struct reflectors_face {
     struct vec2 heading;
-    double dark_cosine; /* visibility.h */
+    double dark_cosine; /* visibility_range.h */
 };
 
 extern const struct record point_record, plane_record, row_record;
@@ -99,7 +99,7 @@ extern const struct record reflector_model_record; /* without: the vehicle docum
 extern const struct record reflector_worn_record;  /* only the model and who wears it */
 
 /* Are all of its lists still those of its document, which was checked when it was read? */
-bool reflectors_as_read(const struct reflector_set *set);
+bool reflectors_unchanged(const struct reflector_set *set);
 
 /* The first name that two reflectors of the set share, or NULL. Beside a row "a" no point or plane
  * may be called a_1, as posts are. */
@@ -146,7 +146,7 @@ static inline bool reflectors_plainly_away(const struct box *box,
     struct vec2 facing = face->heading;
     struct vec2 sight = {sensor.x - point->x * box->length_m + point->inset_m * facing.x,
                          sensor.y - point->y * box->width_m + point->inset_m * facing.y};
-    return visibility_plainly_none(face->dark_cosine, facing, sight, REFLECTORS_PLAIN_M);
+    return visibility_range_plainly_none(face->dark_cosine, facing, sight, REFLECTORS_PLAIN_M);
 }
 bool reflectors_plainly_aside(const struct box *box, const struct plane_reflector *plane,
                               struct vec2 sensor);

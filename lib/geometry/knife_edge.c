@@ -11,8 +11,8 @@
 /* d1 d2/(d1 + d2), without underflow. */
 static double reduced_distance_m(double sensor_side_m, double reflector_side_m)
 {
-    double near = elementary_most(elementary_least(sensor_side_m, reflector_side_m), 0.1);
-    double far = elementary_most(elementary_most(sensor_side_m, reflector_side_m), 0.1);
+    double near = elementary_max(elementary_min(sensor_side_m, reflector_side_m), 0.1);
+    double far = elementary_max(elementary_max(sensor_side_m, reflector_side_m), 0.1);
     return near / (near / far + 1);
 }
 

@@ -2,28 +2,28 @@
 
 #include "elementary.h"
 #include "knife_edge.h"
-#include "occlusion.h"
+#include "outline_crossing.h"
 
 #define DEEPEST 2.82842712474619009760
 
 /* Where a line is inside a convex outline, as shares of its way; for one that only grazes it, where
  * that is, but for rounding. */
-struct stretch {
+struct inside_interval {
     double begin, end;
 };
 
-static struct stretch stretch_of(const struct vec2 *corners, size_t count,
+static struct inside_interval inside_interval_of(const struct vec2 *corners, size_t count,
                                  const struct obstruction_line *line)
 {
-    struct stretch inside = {0, 1};
+    struct inside_interval inside = {0, 1};
     for (size_t i = 0; i < count; i++) {
         struct vec2 edge = vec2_sub(corners[i + 1 < count ? i + 1 : 0], corners[i]);
         double from = vec2_cross(edge, vec2_sub(line->from, corners[i]));
         double to = vec2_cross(edge, vec2_sub(line->to, corners[i]));
         if (from < 0 && to > from)
-            inside.begin = elementary_most(inside.begin, elementary_least(from / (from - to), 1));
+            inside.begin = elementary_max(inside.begin, elementary_min(from / (from - to), 1));
         if (to < 0 && from > to)
-            inside.end = elementary_least(inside.end, elementary_most(from / (from - to), 0));
+            inside.end = elementary_min(inside.end, elementary_max(from / (from - to), 0));
     }
     return inside;
 }
@@ -34,15 +34,15 @@ static double height_m(const struct obstruction_line *line, double share)
 }
 
 /* Of a line with that stretch inside. */
-static double above_m(const struct obstruction_line *line, struct stretch inside, double top_m)
+static double above_m(const struct obstruction_line *line, struct inside_interval inside, double top_m)
 {
-    return elementary_least(height_m(line, inside.begin), height_m(line, inside.end)) - top_m;
+    return elementary_min(height_m(line, inside.begin), height_m(line, inside.end)) - top_m;
 }
 
 double obstruction_above_m(const struct vec2 *corners, size_t count, double top_m,
                        const struct obstruction_line *line)
 {
-    return above_m(line, stretch_of(corners, count, line), top_m);
+    return above_m(line, inside_interval_of(corners, count, line), top_m);
 }
 
 /* nu of the easier way round, to the left or to the right. */
@@ -57,17 +57,17 @@ static double beside(const struct vec2 *corners, size_t count, const struct obst
         double foot_m = vec2_dot(along, offset);
         if (!touched && !(foot_m > 0 && foot_m < length_m))
             continue;
-        double before_m = elementary_least(elementary_most(foot_m, 0), length_m);
+        double before_m = elementary_min(elementary_max(foot_m, 0), length_m);
         double parameter = knife_edge_parameter(vec2_cross(along, offset), before_m,
                                                 length_m - before_m, wavelength_m);
-        left = elementary_most(left, parameter);
-        right = elementary_most(right, -parameter);
+        left = elementary_max(left, parameter);
+        right = elementary_max(right, -parameter);
     }
-    return elementary_least(left, right);
+    return elementary_min(left, right);
 }
 
 /* nu of the way over the top. */
-static double above(const struct obstruction_line *line, struct stretch inside, double top_m,
+static double above(const struct obstruction_line *line, struct inside_interval inside, double top_m,
                     double wavelength_m)
 {
     double length_m = vec2_length(vec2_sub(line->to, line->from));
@@ -76,7 +76,7 @@ static double above(const struct obstruction_line *line, struct stretch inside, 
                              (1 - inside.begin) * length_m, wavelength_m);
     double back = knife_edge_parameter(top_m - height_m(line, inside.end), inside.end * length_m,
                                        (1 - inside.end) * length_m, wavelength_m);
-    return elementary_most(front, back);
+    return elementary_max(front, back);
 }
 
 static double factor_at(double parameter)
@@ -87,17 +87,17 @@ static double factor_at(double parameter)
 struct obstruction obstruction_of(const struct vec2 *corners, size_t count, double top_m,
                           const struct obstruction_line *line, double wavelength_m)
 {
-    bool touched = occlusion_outline_blocks(corners, count, line->from, line->to);
+    bool touched = outline_crossing_blocks(corners, count, line->from, line->to);
     if (wavelength_m == 0 && (!touched || isinf(top_m)))
         return (struct obstruction){.factor = touched ? 0 : 1};
-    struct stretch inside = stretch_of(corners, count, line);
+    struct inside_interval inside = inside_interval_of(corners, count, line);
     double straight = touched && above_m(line, inside, top_m) <= 0 ? 0 : 1;
     if (wavelength_m == 0 || vec2_same(line->from, line->to))
         return (struct obstruction){.factor = straight, .over = touched && straight == 1};
     if (!touched && inside.end - inside.begin == 1)
         return (struct obstruction){.factor = 1};
     double round = beside(corners, count, line, touched, wavelength_m);
-    double factor = factor_at(elementary_least(round, above(line, inside, top_m, wavelength_m)));
+    double factor = factor_at(elementary_min(round, above(line, inside, top_m, wavelength_m)));
     return (struct obstruction){
         .factor = factor, .bent = factor != straight, .over = factor != factor_at(round)};
 }

@@ -3,7 +3,7 @@
  *
  * A body is an upright prism over the convex outline through count corners, counter-clockwise, up
  * to top_m; INFINITY is the flat world, in which nothing is seen over anything. Whether the line
- * touches the outline is exact for the given coordinates (occlusion.h); heights are compared as
+ * touches the outline is exact for the given coordinates (outline_crossing.h); heights are compared as
  * plain doubles, which decide a line that grazes a top by the rounding of its height, some 1e-15
  * m. */
 #ifndef OBSTRUCTION_H

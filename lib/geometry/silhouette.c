@@ -14,8 +14,8 @@ struct silhouette silhouette_of(struct vec2 half_m, struct vec2 heading, struct 
 {
     double length_m = half_m.x + SILHOUETTE_SLACK_M, width_m = half_m.y + SILHOUETTE_SLACK_M;
     double ahead = beyond(viewer_m.x, length_m), aside = beyond(viewer_m.y, width_m);
-    struct vec2 gap = {elementary_most(fabs(viewer_m.x) - length_m, 0),
-                       elementary_most(fabs(viewer_m.y) - width_m, 0)};
+    struct vec2 gap = {elementary_max(fabs(viewer_m.x) - length_m, 0),
+                       elementary_max(fabs(viewer_m.y) - width_m, 0)};
     struct vec2 most = {fabs(viewer_m.x) + length_m, fabs(viewer_m.y) + width_m};
     struct silhouette seen = {.nearest_m = vec2_length(gap), .farthest_m = vec2_length(most)};
     /* Of one side the ends, of two the far ones. */

@@ -31,7 +31,7 @@ static void lose(struct look *look, const struct look_body *body, const char *re
 }
 
 /* One reflector that may face the sensor. */
-struct glimpse {
+struct candidate {
     const char *reflector;
     const struct side *side; /* that it is, or NULL for a point */
     struct vec2 place;
@@ -43,11 +43,11 @@ struct glimpse {
     double margin_m;  /* by which it faces the sensor */
     uint64_t effects; /* that changed something so far */
     bool sought;      /* is the way to it known, */
-    struct way way;
+    struct line_of_sight way;
     bool under; /* and does it lead under what stands there? */
 };
 
-static struct obstruction_line line_to(const struct look *look, const struct glimpse *seen)
+static struct obstruction_line line_to(const struct look *look, const struct candidate *seen)
 {
     return (struct obstruction_line){look->position_m, seen->place, look->height_m, seen->height_m};
 }
@@ -57,12 +57,12 @@ static double sight_margin_m(const struct look *look, const struct look_body *bo
 {
     if (!under)
         return line_of_sight_clearance_m(look, line, &body, 1);
-    return elementary_least(line_of_sight_margin_m(look, &body, 1, line, true, false),
+    return elementary_min(line_of_sight_margin_m(look, &body, 1, line, true, false),
                             line_of_sight_margin_m(look, &body, 1, line, false, true));
 }
 
 /* The way past what stands there, or under it where that lets more through. */
-static void seek_way(const struct look *look, struct glimpse *seen)
+static void seek_way(const struct look *look, struct candidate *seen)
 {
     if (seen->sought)
         return;
@@ -71,7 +71,7 @@ static void seek_way(const struct look *look, struct glimpse *seen)
     seen->sought = true;
     seen->way = line_of_sight_past_blockers(look, seen->side, &line, false);
     if (seen->under_vehicles != 0 && seen->way.factor != 1) {
-        struct way below = line_of_sight_past_blockers(look, seen->side, &line, true);
+        struct line_of_sight below = line_of_sight_past_blockers(look, seen->side, &line, true);
         below.factor *= seen->under_vehicles;
         below.effects |= EFFECT_BIT(EFFECT_OCCLUSION);
         seen->under = below.factor > seen->way.factor;
@@ -82,24 +82,24 @@ static void seek_way(const struct look *look, struct glimpse *seen)
 
 /* That it is out of view or blocked is found with a few products, what it reads with arctangents:
  * the latter are spared unless somebody asks what comes first of the reasons for its loss. */
-static bool is_hidden(const struct look *look, const struct look_body *body, struct glimpse *seen)
+static bool is_hidden(const struct look *look, const struct look_body *body, struct candidate *seen)
 {
     if (look->frame->account)
         return false;
     struct silhouette place = silhouette_of_place(vec2_sub(seen->place, look->position_m));
-    if (look->selection->log == NULL && look_misses(look, body, &place))
+    if (look->selection->log == NULL && look_out_of_reach(look, body, &place))
         return true;
     seek_way(look, seen);
     return seen->way.by != NULL;
 }
 
 /* Is it in range and in view? If not, it is lost. */
-static bool in_reach(struct look *look, const struct look_body *body, struct glimpse *seen,
+static bool in_reach(struct look *look, const struct look_body *body, struct candidate *seen,
                      const struct kinematics *sight)
 {
     const struct sensor *sensor = look->sensor;
     double azimuth = fabs(sight->azimuth_rad);
-    double reach_m = fabs(elementary_least(sight->range_m - sensor->range_min_m,
+    double reach_m = fabs(elementary_min(sight->range_m - sensor->range_min_m,
                                            sensor->range_max_m - sight->range_m));
     double view_m = sight->range_m * fabs(look_border_rad(sensor) - azimuth);
     if (!(sight->range_m > 0 && sight->range_m >= sensor->range_min_m &&
@@ -111,13 +111,13 @@ static bool in_reach(struct look *look, const struct look_body *body, struct gli
         lose(look, body, seen->reflector, LOSS_OUT_OF_VIEW, NULL, view_m);
         return false;
     }
-    seen->margin_m = elementary_least(seen->margin_m, elementary_least(reach_m, view_m));
+    seen->margin_m = elementary_min(seen->margin_m, elementary_min(reach_m, view_m));
     return true;
 }
 
 /* Its height over the road, where that is described, in a world that is not flat. */
 static void tell_height(const struct look *look, const struct look_body *body,
-                        const struct glimpse *seen, struct echo *echo)
+                        const struct candidate *seen, struct echo *echo)
 {
     bool mirrors = look->frame->conditions.road != ROAD_UNKNOWN;
     if (!(mirrors && look->height_m > 0 && seen->z > 0))
@@ -129,7 +129,7 @@ static void tell_height(const struct look *look, const struct look_body *body,
 /* How a part moves that turns or swings: its motion over ground has the same share of the range
  * rate along the line on which it is seen as in the plane. */
 static void tell_motion(const struct look *look, const struct look_body *body,
-                        const struct glimpse *seen, struct vec2 velocity, struct echo *echo)
+                        const struct candidate *seen, struct vec2 velocity, struct echo *echo)
 {
     struct vec2 still = {0, 0}, boresight = look->boresight, heading = body->box.heading;
     if (!look->sensor->micro_motion || seen->moving_part == MOVING_NONE)
@@ -142,12 +142,12 @@ static void tell_motion(const struct look *look, const struct look_body *body,
 }
 
 /* An echo if it is in range, in view and not blocked. */
-static void look_at(struct look *look, const struct look_body *body, struct glimpse *seen)
+static void look_at(struct look *look, const struct look_body *body, struct candidate *seen)
 {
     bool tell = look->frame->margins;
     struct vec2 velocity = motion_velocity_at(&body->box.motion, seen->place);
     double gain;
-    struct kinematics sight = look_lifted(
+    struct kinematics sight = look_slant(
         look, seen->height_m,
         kinematics_of(look->position_m, look->velocity_mps, look->boresight, seen->place, velocity),
         &gain, &seen->effects);
@@ -163,7 +163,7 @@ static void look_at(struct look *look, const struct look_body *body, struct glim
     }
     if (tell)
         seen->margin_m =
-            elementary_least(seen->margin_m, sight_margin_m(look, body, &line, seen->under));
+            elementary_min(seen->margin_m, sight_margin_m(look, body, &line, seen->under));
     look->echoes++;
     struct echo *echo = list_add(&look->frame->echoes, look->frame->arena);
     *echo = (struct echo){
@@ -188,7 +188,7 @@ static void look_at_point(struct look *look, const struct look_body *body,
                           struct vec2 place)
 {
     look->pairs++;
-    struct glimpse seen = {
+    struct candidate seen = {
         .reflector = point->name,
         .place = place,
         .height_m = look_height_m(look, body, point->z),
@@ -197,12 +197,12 @@ static void look_at_point(struct look *look, const struct look_body *body,
         .moving_part = point->moving_part,
         .under_vehicles = point->under_vehicles,
         .margin_m = (double)INFINITY,
-        .effects = look_aged(look, body),
+        .effects = look_latency_effect(look, body),
     };
     if (is_hidden(look, body, &seen))
         return;
     double visible = look_visibility(look, body, point, facing, place, look->position_m);
-    if (look->frame->margins && effects_may(look->selection, EFFECT_VISIBILITY))
+    if (look->frame->margins && effects_enabled(look->selection, EFFECT_VISIBILITY))
         seen.margin_m = sight_margins_facing_m(&body->box, point->shape, point->facing_rad,
                                            point->zero_rad, place, look->position_m);
     if (visible == 0) {
@@ -218,7 +218,7 @@ static void look_at_plane(struct look *look, const struct look_body *body,
                           const struct plane_reflector *plane)
 {
     look->pairs++;
-    if (!effects_may(look->selection, EFFECT_PLANE_REFLECTION)) {
+    if (!effects_enabled(look->selection, EFFECT_PLANE_REFLECTION)) {
         lose(look, body, plane->name, LOSS_SWITCHED_OFF, NULL, (double)INFINITY);
         return;
     }
@@ -229,7 +229,7 @@ static void look_at_plane(struct look *look, const struct look_body *body,
                                            : 0;
     if (specular_point_foot(side.from, side.to, side.along, plane->margin_m, look->position_m, &foot) &&
         !line_of_sight_next_side_has_foot(look, &side)) {
-        struct glimpse seen = {
+        struct candidate seen = {
             .reflector = plane->name,
             .side = &side,
             .place = foot,
@@ -237,7 +237,7 @@ static void look_at_plane(struct look *look, const struct look_body *body,
             .z = plane->z,
             .extent = plane->extent,
             .margin_m = margin_m,
-            .effects = look_aged(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
+            .effects = look_latency_effect(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
         };
         if (is_hidden(look, body, &seen))
             return;
@@ -274,10 +274,10 @@ static bool passed_over(struct look *look, const struct look_body *body,
 {
     struct look_extent seen = look_reflectors(look, body, worn);
     bool plain = unasked(look, worn);
-    if (plain && look_misses(look, body, &seen.silhouette))
+    if (plain && look_out_of_reach(look, body, &seen.silhouette))
         return true;
     line_of_sight_find_blockers(look, body, &seen);
-    return plain && !effects_must(look->selection, EFFECT_OCCLUSION) &&
+    return plain && !effects_forced(look->selection, EFFECT_OCCLUSION) &&
            line_of_sight_all_hidden(look, worn, &seen);
 }
 
@@ -321,9 +321,9 @@ static void look_at_body(struct look *look, const struct look_body *body,
     effects_note(selection, EFFECT_PLANE_REFLECTION, set->planes.count > 0);
     effects_note(selection, EFFECT_ROWS, set->rows.count > 0);
     bool asked = look->frame->account;
-    look_at_points(look, body, worn, asked || !effects_may(selection, EFFECT_VISIBILITY));
+    look_at_points(look, body, worn, asked || !effects_enabled(selection, EFFECT_VISIBILITY));
     look_at_planes(look, body, set, asked);
-    for (size_t i = 0; i < set->rows.count && effects_may(selection, EFFECT_ROWS); i++)
+    for (size_t i = 0; i < set->rows.count && effects_enabled(selection, EFFECT_ROWS); i++)
         look_along_row(look, body, &set->rows.items[i]);
 }
 

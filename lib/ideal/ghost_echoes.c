@@ -16,7 +16,7 @@ enum { ONE_WAY = 2, BOTH_WAYS = 3 };
 enum { PIECE = 8 };
 
 /* A mirror in the world. */
-struct facet {
+struct mirror_face {
     const struct look_body *body;
     int64_t number;
     struct mirror mirror;
@@ -26,17 +26,17 @@ struct facet {
     bool shares_end;                        /* bit by bit, with the mirror of after */
 };
 
-struct facets {
-    struct facet *items;
+struct mirror_faces {
+    struct mirror_face *items;
     size_t count;
 };
 
-static struct facet facet_of(const struct look_body *body, size_t index)
+static struct mirror_face mirror_face_of(const struct look_body *body, size_t index)
 {
     const struct mirror_plane *plane = &body->worn->set->mirrors.items[index];
     const struct plane_reflector side = {
         .from_x = plane->from_x, .from_y = plane->from_y, .to_x = plane->to_x, .to_y = plane->to_y};
-    return (struct facet){
+    return (struct mirror_face){
         .body = body,
         .number = (int64_t)index + 1,
         .mirror = {.a = reflectors_place(&body->box, plane->from_x, plane->from_y),
@@ -52,11 +52,11 @@ static size_t mirrors_of(const struct look_body *body)
     return body->worn != NULL ? body->worn->set->mirrors.count : 0;
 }
 
-static void join(struct facets *facets)
+static void join(struct mirror_faces *mirror_faces)
 {
-    for (size_t i = 0; i < facets->count; i++)
-        for (size_t j = 0; j < facets->count; j++) {
-            struct facet *first = &facets->items[i], *second = &facets->items[j];
+    for (size_t i = 0; i < mirror_faces->count; i++)
+        for (size_t j = 0; j < mirror_faces->count; j++) {
+            struct mirror_face *first = &mirror_faces->items[i], *second = &mirror_faces->items[j];
             struct vec2 gap = vec2_sub(second->mirror.a, first->mirror.b);
             if (vec2_length(gap) <= LINE_OF_SIGHT_JOINT_M && vec2_same(first->along, second->along)) {
                 first->after = second->body;
@@ -66,22 +66,22 @@ static void join(struct facets *facets)
         }
 }
 
-static struct facets facets_of(const struct look *look)
+static struct mirror_faces mirror_faces_of(const struct look *look)
 {
-    struct facets facets = {0};
+    struct mirror_faces mirror_faces = {0};
     size_t count = 0;
     for (size_t i = 0; i < look->body_count; i++)
         count += mirrors_of(&look->bodies[i]);
-    facets.items = arena_get(look->frame->arena, (count + 1) * sizeof *facets.items);
+    mirror_faces.items = arena_get(look->frame->arena, (count + 1) * sizeof *mirror_faces.items);
     for (size_t i = 0; i < look->body_count; i++)
         for (size_t j = 0; j < mirrors_of(&look->bodies[i]); j++)
-            facets.items[facets.count++] = facet_of(&look->bodies[i], j);
-    join(&facets);
-    return facets;
+            mirror_faces.items[mirror_faces.count++] = mirror_face_of(&look->bodies[i], j);
+    join(&mirror_faces);
+    return mirror_faces;
 }
 
 /* One of two ways between the sensor and a reflector: straight, or by the mirror. */
-struct course {
+struct leg {
     struct kinematics sight;
     double factor; /* on amplitude, for there and back */
     double margin_m;
@@ -89,104 +89,104 @@ struct course {
 };
 
 /* A reflector and how a mirror shows it. */
-struct reflex {
-    const struct facet *facet;
+struct ghost_candidate {
+    const struct mirror_face *mirror_face;
     const struct look_body *body;
     const char *reflector;
     struct vec2 place, bounce;
     double height_m;
     double ercs;
-    struct course direct, mirrored;
+    struct leg direct, mirrored;
 };
 
-static struct course course_to(const struct look *look, struct vec2 place, struct vec2 velocity,
+static struct leg leg_to(const struct look *look, struct vec2 place, struct vec2 velocity,
                                double height_m)
 {
-    struct course course = {.margin_m = (double)INFINITY};
+    struct leg leg = {.margin_m = (double)INFINITY};
     struct kinematics sight =
         kinematics_of(look->position_m, look->velocity_mps, look->boresight, place, velocity);
-    course.sight = look_lifted(look, height_m, sight, &course.factor, &course.effects);
-    return course;
+    leg.sight = look_slant(look, height_m, sight, &leg.factor, &leg.effects);
+    return leg;
 }
 
-static struct reflex reflex_of(const struct look *look, const struct facet *facet,
+static struct ghost_candidate ghost_candidate_of(const struct look *look, const struct mirror_face *mirror_face,
                                const struct look_body *body, struct vec2 place, double z,
                                struct vec2 bounce)
 {
     struct vec2 velocity = motion_velocity_at(&body->box.motion, place);
-    struct mirror_image image = mirror_image(&facet->mirror, place, velocity);
+    struct mirror_image image = mirror_image(&mirror_face->mirror, place, velocity);
     double height_m = look_height_m(look, body, z);
-    return (struct reflex){
-        .facet = facet,
+    return (struct ghost_candidate){
+        .mirror_face = mirror_face,
         .body = body,
         .place = place,
         .bounce = bounce,
         .height_m = height_m,
-        .direct = course_to(look, place, velocity, height_m),
-        .mirrored = course_to(look, image.place_m, image.velocity_mps, height_m),
+        .direct = leg_to(look, place, velocity, height_m),
+        .mirrored = leg_to(look, image.place_m, image.velocity_mps, height_m),
     };
 }
 
-static bool bounces(const struct look *look, const struct facet *facet, struct vec2 place,
+static bool bounces(const struct look *look, const struct mirror_face *mirror_face, struct vec2 place,
                     struct vec2 *bounce)
 {
-    if (!mirror_bounce(&facet->mirror, look->position_m, place, bounce))
+    if (!mirror_bounce(&mirror_face->mirror, look->position_m, place, bounce))
         return false;
-    if (!facet->shares_end)
+    if (!mirror_face->shares_end)
         return true;
-    struct vec2 image = mirror_image(&facet->mirror, place, (struct vec2){0, 0}).place_m;
-    return predicates_orientation(look->position_m, image, facet->mirror.b) != 0;
+    struct vec2 image = mirror_image(&mirror_face->mirror, place, (struct vec2){0, 0}).place_m;
+    return predicates_orientation(look->position_m, image, mirror_face->mirror.b) != 0;
 }
 
 /* Of the bounce from the mirror's ends, and of the sensor and the reflector from its line. */
-static double bounce_margin_m(const struct look *look, const struct reflex *reflex)
+static double bounce_margin_m(const struct look *look, const struct ghost_candidate *ghost_candidate)
 {
-    const struct facet *facet = reflex->facet;
-    struct vec2 a = facet->mirror.a, b = facet->mirror.b, along = facet->along;
-    double ends_m = elementary_least(fabs(vec2_dot(vec2_sub(reflex->bounce, a), along)),
-                                     fabs(vec2_dot(vec2_sub(b, reflex->bounce), along)));
-    double line_m = elementary_least(fabs(vec2_cross(along, vec2_sub(look->position_m, a))),
-                                     fabs(vec2_cross(along, vec2_sub(reflex->place, a))));
-    return elementary_least(ends_m, line_m);
+    const struct mirror_face *mirror_face = ghost_candidate->mirror_face;
+    struct vec2 a = mirror_face->mirror.a, b = mirror_face->mirror.b, along = mirror_face->along;
+    double ends_m = elementary_min(fabs(vec2_dot(vec2_sub(ghost_candidate->bounce, a), along)),
+                                     fabs(vec2_dot(vec2_sub(b, ghost_candidate->bounce), along)));
+    double line_m = elementary_min(fabs(vec2_cross(along, vec2_sub(look->position_m, a))),
+                                     fabs(vec2_cross(along, vec2_sub(ghost_candidate->place, a))));
+    return elementary_min(ends_m, line_m);
 }
 
 /* Adds one leg to a course. False if nothing comes through. */
-static bool pass(const struct look *look, struct course *course, struct obstruction_line line,
+static bool pass(const struct look *look, struct leg *leg, struct obstruction_line line,
                  const struct look_body *const *but, size_t count)
 {
-    struct way way = line_of_sight_along(look, &line, but, count);
-    course->factor *= way.factor;
-    course->effects |= way.effects;
+    struct line_of_sight way = line_of_sight_along(look, &line, but, count);
+    leg->factor *= way.factor;
+    leg->effects |= way.effects;
     if (look->frame->margins && way.factor > 0)
-        course->margin_m =
-            elementary_least(course->margin_m, line_of_sight_clearance_m(look, &line, but, count));
-    return course->factor > 0;
+        leg->margin_m =
+            elementary_min(leg->margin_m, line_of_sight_clearance_m(look, &line, but, count));
+    return leg->factor > 0;
 }
 
-static bool pass_directly(const struct look *look, struct reflex *reflex)
+static bool pass_directly(const struct look *look, struct ghost_candidate *ghost_candidate)
 {
-    struct obstruction_line line = {look->position_m, reflex->place, look->height_m, reflex->height_m};
-    return pass(look, &reflex->direct, line, &reflex->body, 1);
+    struct obstruction_line line = {look->position_m, ghost_candidate->place, look->height_m, ghost_candidate->height_m};
+    return pass(look, &ghost_candidate->direct, line, &ghost_candidate->body, 1);
 }
 
-static bool pass_by_mirror(const struct look *look, struct reflex *reflex)
+static bool pass_by_mirror(const struct look *look, struct ghost_candidate *ghost_candidate)
 {
-    const struct facet *facet = reflex->facet;
-    const struct look_body *touched[] = {facet->body, facet->before, facet->after, reflex->body};
-    double out_m = vec2_length(vec2_sub(reflex->bounce, look->position_m));
-    double on_m = vec2_length(vec2_sub(reflex->place, reflex->bounce));
+    const struct mirror_face *mirror_face = ghost_candidate->mirror_face;
+    const struct look_body *touched[] = {mirror_face->body, mirror_face->before, mirror_face->after, ghost_candidate->body};
+    double out_m = vec2_length(vec2_sub(ghost_candidate->bounce, look->position_m));
+    double on_m = vec2_length(vec2_sub(ghost_candidate->place, ghost_candidate->bounce));
     double height_m =
-        look->height_m + (reflex->height_m - look->height_m) * (out_m / (out_m + on_m));
-    double below_m = look_top_m(look, facet->body) - height_m;
-    struct course *course = &reflex->mirrored;
-    struct obstruction_line out = {look->position_m, reflex->bounce, look->height_m, height_m};
-    struct obstruction_line on = {reflex->bounce, reflex->place, height_m, reflex->height_m};
-    if (!(course->factor > 0 && below_m >= 0) || !pass(look, course, out, touched, 3) ||
-        !pass(look, course, on, touched, 4))
+        look->height_m + (ghost_candidate->height_m - look->height_m) * (out_m / (out_m + on_m));
+    double below_m = look_top_m(look, mirror_face->body) - height_m;
+    struct leg *leg = &ghost_candidate->mirrored;
+    struct obstruction_line out = {look->position_m, ghost_candidate->bounce, look->height_m, height_m};
+    struct obstruction_line on = {ghost_candidate->bounce, ghost_candidate->place, height_m, ghost_candidate->height_m};
+    if (!(leg->factor > 0 && below_m >= 0) || !pass(look, leg, out, touched, 3) ||
+        !pass(look, leg, on, touched, 4))
         return false;
     if (look->frame->margins)
-        course->margin_m = elementary_least(
-            course->margin_m, elementary_least(bounce_margin_m(look, reflex), below_m));
+        leg->margin_m = elementary_min(
+            leg->margin_m, elementary_min(bounce_margin_m(look, ghost_candidate), below_m));
     return true;
 }
 
@@ -199,56 +199,56 @@ static bool is_listed(const struct sensor *sensor, const struct kinematics *sigh
 static double limits_margin_m(const struct sensor *sensor, const struct kinematics *sight,
                               double departure_rad)
 {
-    double view_rad = elementary_least(look_border_rad(sensor) - fabs(sight->azimuth_rad),
+    double view_rad = elementary_min(look_border_rad(sensor) - fabs(sight->azimuth_rad),
                                        PI / 2 - fabs(departure_rad));
-    return elementary_least(elementary_least(sight->range_m - sensor->range_min_m,
+    return elementary_min(elementary_min(sight->range_m - sensor->range_min_m,
                                              sensor->range_max_m - sight->range_m),
                             sight->range_m * view_rad);
 }
 
 static struct margins margins_of(const struct look *look, const struct kinematics *sight,
-                                 const struct course *out, const struct course *back)
+                                 const struct leg *out, const struct leg *back)
 {
     struct margins margins = {0};
     double limits_m = limits_margin_m(look->sensor, sight, out->sight.azimuth_rad);
     if (look->frame->margins)
         margins_note(&margins, MARGIN_SIGHT,
-                     elementary_least(limits_m, elementary_least(out->margin_m, back->margin_m)));
+                     elementary_min(limits_m, elementary_min(out->margin_m, back->margin_m)));
     return margins;
 }
 
-static void add(struct look *look, const struct reflex *reflex, enum path path, struct ghost_path ghost,
-                const struct course *out, const struct course *back)
+static void add(struct look *look, const struct ghost_candidate *ghost_candidate, enum path path, struct ghost_path ghost,
+                const struct leg *out, const struct leg *back)
 {
     double departure_rad = out->sight.azimuth_rad;
     frame_count_echoes(look->frame, look->sensor->name, path, 1);
     *list_add(&look->frame->echoes, look->frame->arena) = (struct echo){
         .sensor = look->sensor->name,
-        .object = reflex->body->object->id,
-        .reflector = reflex->reflector,
+        .object = ghost_candidate->body->object->id,
+        .reflector = ghost_candidate->reflector,
         .path = path,
-        .mirror = reflex->facet->body->object->id,
-        .number = reflex->facet->number,
+        .mirror = ghost_candidate->mirror_face->body->object->id,
+        .number = ghost_candidate->mirror_face->number,
         .range_m = ghost.sight.range_m,
         .azimuth_rad = ghost.sight.azimuth_rad,
         .range_rate_mps = ghost.sight.range_rate_mps,
-        .ercs = sqrt(out->factor * back->factor) * reflex->ercs * ghost.ercs_factor,
+        .ercs = sqrt(out->factor * back->factor) * ghost_candidate->ercs * ghost.ercs_factor,
         .departure_rad = departure_rad - ghost.sight.azimuth_rad,
         .time_s = look->time_s,
         .effects = EFFECT_BIT(EFFECT_GHOSTS) | out->effects | back->effects |
-                   look_aged(look, reflex->body) | look_aged(look, reflex->facet->body),
+                   look_latency_effect(look, ghost_candidate->body) | look_latency_effect(look, ghost_candidate->mirror_face->body),
         .margins = margins_of(look, &ghost.sight, out, back),
     };
 }
 
 /* Whatever of the reflector's paths there is. What stands in their way is only asked where the
  * sensor would list one. */
-static void add_paths(struct look *look, struct reflex *reflex, bool one_way)
+static void add_paths(struct look *look, struct ghost_candidate *ghost_candidate, bool one_way)
 {
     const struct sensor *sensor = look->sensor;
-    const struct course *direct = &reflex->direct, *mirrored = &reflex->mirrored;
+    const struct leg *direct = &ghost_candidate->direct, *mirrored = &ghost_candidate->mirrored;
     const struct kinematics *straight = &direct->sight, *image = &mirrored->sight;
-    double reflection = reflex->facet->reflection;
+    double reflection = ghost_candidate->mirror_face->reflection;
     struct ghost_path both = ghost_path_both(reflection, image), out = both, back = both;
     one_way = one_way && direct->factor > 0 && straight->range_m > 0;
     if (one_way) {
@@ -259,33 +259,33 @@ static void add_paths(struct look *look, struct reflex *reflex, bool one_way)
         sensor->bounces >= BOTH_WAYS && is_listed(sensor, &both.sight, image->azimuth_rad);
     bool has_out = one_way && is_listed(sensor, &out.sight, image->azimuth_rad);
     bool has_back = one_way && is_listed(sensor, &back.sight, straight->azimuth_rad);
-    if (!(has_both || has_out || has_back) || !pass_by_mirror(look, reflex))
+    if (!(has_both || has_out || has_back) || !pass_by_mirror(look, ghost_candidate))
         return;
     if (has_both)
-        add(look, reflex, PATH_WALL_OBJECT_WALL, both, mirrored, mirrored);
-    if (!(has_out || has_back) || !pass_directly(look, reflex))
+        add(look, ghost_candidate, PATH_WALL_OBJECT_WALL, both, mirrored, mirrored);
+    if (!(has_out || has_back) || !pass_directly(look, ghost_candidate))
         return;
     if (has_out)
-        add(look, reflex, PATH_WALL_OBJECT, out, mirrored, direct);
+        add(look, ghost_candidate, PATH_WALL_OBJECT, out, mirrored, direct);
     if (has_back)
-        add(look, reflex, PATH_OBJECT_WALL, back, direct, mirrored);
+        add(look, ghost_candidate, PATH_OBJECT_WALL, back, direct, mirrored);
 }
 
 /* What a viewer at the sensor or the bounce sees of a point. */
-static void show(const struct look *look, const struct reflex *reflex,
+static void show(const struct look *look, const struct ghost_candidate *ghost_candidate,
                  const struct point_reflector *point, struct vec2 facing, struct vec2 viewer,
-                 struct course *course)
+                 struct leg *leg)
 {
-    const struct box *box = &reflex->body->box;
-    if (!effects_may(look->selection, EFFECT_VISIBILITY))
+    const struct box *box = &ghost_candidate->body->box;
+    if (!effects_enabled(look->selection, EFFECT_VISIBILITY))
         return;
-    double visible = look_visibility(look, reflex->body, point, facing, reflex->place, viewer);
-    course->factor *= visible;
+    double visible = look_visibility(look, ghost_candidate->body, point, facing, ghost_candidate->place, viewer);
+    leg->factor *= visible;
     if (visible < 1)
-        course->effects |= EFFECT_BIT(EFFECT_VISIBILITY);
+        leg->effects |= EFFECT_BIT(EFFECT_VISIBILITY);
     if (look->frame->margins)
-        course->margin_m = sight_margins_facing_m(box, point->shape, point->facing_rad, point->zero_rad,
-                                              reflex->place, viewer);
+        leg->margin_m = sight_margins_facing_m(box, point->shape, point->facing_rad, point->zero_rad,
+                                              ghost_candidate->place, viewer);
 }
 
 /* Can the sensor list any path of the point, as far as ranges and its face tell? Asked before what
@@ -298,123 +298,123 @@ static bool may_list(const struct look *look, const struct look_body *body,
     double on_m = vec2_length(vec2_sub(place, bounce));
     double straight_m = vec2_length(vec2_sub(place, look->position_m));
     return out_m + on_m + straight_m <= 2 * look->sensor->range_max_m + 1e-6 &&
-           (!effects_may(look->selection, EFFECT_VISIBILITY) ||
+           (!effects_enabled(look->selection, EFFECT_VISIBILITY) ||
             reflectors_visibility(&body->box, point, facing, place, bounce) > 0);
 }
 
-static void add_point(struct look *look, const struct facet *facet, const struct look_body *body,
+static void add_point(struct look *look, const struct mirror_face *mirror_face, const struct look_body *body,
                       const struct point_reflector *point, struct vec2 facing, struct vec2 place,
                       struct vec2 bounce)
 {
     if (!may_list(look, body, point, facing, place, bounce))
         return;
-    struct reflex reflex = reflex_of(look, facet, body, place, point->z, bounce);
-    reflex.reflector = point->name;
-    reflex.ercs = point->ercs;
-    show(look, &reflex, point, facing, look->position_m, &reflex.direct);
-    show(look, &reflex, point, facing, bounce, &reflex.mirrored);
-    add_paths(look, &reflex, true);
+    struct ghost_candidate ghost_candidate = ghost_candidate_of(look, mirror_face, body, place, point->z, bounce);
+    ghost_candidate.reflector = point->name;
+    ghost_candidate.ercs = point->ercs;
+    show(look, &ghost_candidate, point, facing, look->position_m, &ghost_candidate.direct);
+    show(look, &ghost_candidate, point, facing, bounce, &ghost_candidate.mirrored);
+    add_paths(look, &ghost_candidate, true);
 }
 
-static void add_points(struct look *look, const struct facet *facet, const struct look_body *body)
+static void add_points(struct look *look, const struct mirror_face *mirror_face, const struct look_body *body)
 {
     const struct reflector_set *set = body->worn->set;
     for (size_t i = 0; i < set->points.count; i++) {
         const struct point_reflector *point = &set->points.items[i];
         struct vec2 place = reflectors_point_place(&body->box, point), bounce;
-        if (bounces(look, facet, place, &bounce))
-            add_point(look, facet, body, point, body->worn->shape->faces[i].heading, place, bounce);
+        if (bounces(look, mirror_face, place, &bounce))
+            add_point(look, mirror_face, body, point, body->worn->shape->faces[i].heading, place, bounce);
     }
 }
 
 /* Can the mirror show any of the posts from first to last? */
-static bool may_show(const struct look *look, const struct facet *facet,
+static bool may_show(const struct look *look, const struct mirror_face *mirror_face,
                      const struct look_body *body, const struct post_row *row, int64_t first,
                      int64_t last)
 {
     struct vec2 from = reflectors_post_place(&body->box, row, first);
     struct vec2 to = reflectors_post_place(&body->box, row, last);
     struct vec2 centre = vec2_scale(0.5, vec2_add(from, to));
-    return mirror_may_bounce(&facet->mirror, look->position_m, centre,
+    return mirror_may_bounce(&mirror_face->mirror, look->position_m, centre,
                              0.5 * vec2_length(vec2_sub(to, from)) + 1e-6);
 }
 
-static void add_post(struct look *look, const struct facet *facet, const struct look_body *body,
+static void add_post(struct look *look, const struct mirror_face *mirror_face, const struct look_body *body,
                      const struct post_row *row, struct vec2 facing, int64_t number)
 {
     struct vec2 place = reflectors_post_place(&body->box, row, number), bounce;
-    if (!bounces(look, facet, place, &bounce))
+    if (!bounces(look, mirror_face, place, &bounce))
         return;
     struct point_reflector post = look_post(look, row, number);
-    add_point(look, facet, body, &post, facing, place, bounce);
+    add_point(look, mirror_face, body, &post, facing, place, bounce);
 }
 
 /* No path is shorter than the direct one: posts out of its range have no ghost in range. A row is
  * longer than most mirrors: of most of its pieces they can show nothing. */
-static void add_row(struct look *look, const struct facet *facet, const struct look_body *body,
+static void add_row(struct look *look, const struct mirror_face *mirror_face, const struct look_body *body,
                     const struct post_row *row)
 {
-    bool all = effects_must(look->selection, EFFECT_GHOSTS);
+    bool all = effects_forced(look->selection, EFFECT_GHOSTS);
     struct vec2 facing = vec2_heading(row->facing_rad);
     int64_t first, end;
     reflectors_posts_within(&body->box, row, look->position_m, look->sensor->range_max_m, &first,
                             &end);
     for (int64_t next; first < end; first = next) {
         next = first + PIECE < end ? first + PIECE : end;
-        if (all || may_show(look, facet, body, row, first, next - 1))
+        if (all || may_show(look, mirror_face, body, row, first, next - 1))
             for (int64_t number = first; number < next; number++)
-                add_post(look, facet, body, row, facing, number);
+                add_post(look, mirror_face, body, row, facing, number);
     }
 }
 
-static void add_plane(struct look *look, const struct facet *facet, const struct look_body *body,
+static void add_plane(struct look *look, const struct mirror_face *mirror_face, const struct look_body *body,
                       const struct plane_reflector *plane)
 {
     struct vec2 a = reflectors_place(&body->box, plane->from_x, plane->from_y);
     struct vec2 b = reflectors_place(&body->box, plane->to_x, plane->to_y);
-    struct vec2 eye = mirror_image(&facet->mirror, look->position_m, (struct vec2){0, 0}).place_m;
+    struct vec2 eye = mirror_image(&mirror_face->mirror, look->position_m, (struct vec2){0, 0}).place_m;
     struct vec2 along = reflectors_along(&body->box, plane), foot, bounce;
     if (!specular_point_foot(a, b, along, plane->margin_m, eye, &foot) ||
-        !bounces(look, facet, foot, &bounce))
+        !bounces(look, mirror_face, foot, &bounce))
         return;
-    struct reflex reflex = reflex_of(look, facet, body, foot, plane->z, bounce);
-    struct course *course = &reflex.mirrored;
+    struct ghost_candidate ghost_candidate = ghost_candidate_of(look, mirror_face, body, foot, plane->z, bounce);
+    struct leg *leg = &ghost_candidate.mirrored;
     double range_m = vec2_length(vec2_sub(foot, eye));
-    reflex.reflector = plane->name;
-    reflex.ercs = look_plane_ercs(look, plane, range_m, &course->effects);
-    course->effects |= EFFECT_BIT(EFFECT_PLANE_REFLECTION);
+    ghost_candidate.reflector = plane->name;
+    ghost_candidate.ercs = look_plane_ercs(look, plane, range_m, &leg->effects);
+    leg->effects |= EFFECT_BIT(EFFECT_PLANE_REFLECTION);
     if (look->frame->margins)
-        course->margin_m = sight_margins_foot_m(a, b, along, plane->margin_m, eye);
-    add_paths(look, &reflex, false);
+        leg->margin_m = sight_margins_foot_m(a, b, along, plane->margin_m, eye);
+    add_paths(look, &ghost_candidate, false);
 }
 
-static void add_body(struct look *look, const struct facet *facet, const struct look_body *body)
+static void add_body(struct look *look, const struct mirror_face *mirror_face, const struct look_body *body)
 {
     const struct reflector_set *set = body->worn->set;
     bool planes =
-        look->sensor->bounces >= BOTH_WAYS && effects_may(look->selection, EFFECT_PLANE_REFLECTION);
-    bool rows = effects_may(look->selection, EFFECT_ROWS);
-    add_points(look, facet, body);
+        look->sensor->bounces >= BOTH_WAYS && effects_enabled(look->selection, EFFECT_PLANE_REFLECTION);
+    bool rows = effects_enabled(look->selection, EFFECT_ROWS);
+    add_points(look, mirror_face, body);
     for (size_t i = 0; i < set->planes.count && planes; i++)
-        add_plane(look, facet, body, &set->planes.items[i]);
+        add_plane(look, mirror_face, body, &set->planes.items[i]);
     for (size_t i = 0; i < set->rows.count && rows; i++)
-        add_row(look, facet, body, &set->rows.items[i]);
+        add_row(look, mirror_face, body, &set->rows.items[i]);
 }
 
-static void add_all(struct look *look, const struct facets *facets, const struct look_body *body)
+static void add_all(struct look *look, const struct mirror_faces *mirror_faces, const struct look_body *body)
 {
     const struct selection *selection = look->selection;
-    bool all = effects_must(selection, EFFECT_GHOSTS);
+    bool all = effects_forced(selection, EFFECT_GHOSTS);
     struct vec2 centre = body->box.motion.position_m;
     double radius_m = look_reflectors_radius_m(body, body->worn);
-    for (size_t i = 0; i < facets->count; i++) {
-        const struct facet *facet = &facets->items[i];
-        if (facet->body == body)
+    for (size_t i = 0; i < mirror_faces->count; i++) {
+        const struct mirror_face *mirror_face = &mirror_faces->items[i];
+        if (mirror_face->body == body)
             continue;
-        bool reach = all || mirror_may_bounce(&facet->mirror, look->position_m, centre, radius_m);
+        bool reach = all || mirror_may_bounce(&mirror_face->mirror, look->position_m, centre, radius_m);
         effects_note(selection, EFFECT_GHOSTS, reach);
         if (reach)
-            add_body(look, facet, body);
+            add_body(look, mirror_face, body);
     }
 }
 
@@ -422,12 +422,12 @@ void ghost_echoes_add(struct look *look)
 {
     const struct selection *selection = look->selection;
     effects_note(selection, EFFECT_GHOSTS, false);
-    if (look->sensor->bounces < ONE_WAY || !effects_may(selection, EFFECT_GHOSTS))
+    if (look->sensor->bounces < ONE_WAY || !effects_enabled(selection, EFFECT_GHOSTS))
         return;
     int64_t begin = effects_begin(selection);
-    struct facets facets = facets_of(look);
-    for (size_t i = 0; i < look->body_count && facets.count > 0; i++)
+    struct mirror_faces mirror_faces = mirror_faces_of(look);
+    for (size_t i = 0; i < look->body_count && mirror_faces.count > 0; i++)
         if (look->bodies[i].worn != NULL)
-            add_all(look, &facets, &look->bodies[i]);
+            add_all(look, &mirror_faces, &look->bodies[i]);
     effects_end(selection, EFFECT_GHOSTS, begin);
 }

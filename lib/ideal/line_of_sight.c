@@ -5,7 +5,7 @@
 #include "sight_margins.h"
 #include "elementary.h"
 #include "knife_edge.h"
-#include "occlusion.h"
+#include "outline_crossing.h"
 #include "predicates.h"
 
 /* Both ends of a line beyond the same side of a body. */
@@ -31,7 +31,7 @@ static enum meeting meeting_of(const struct look_body *body, struct vec2 from, s
     if (aside > reach || along < -reach || along > square + reach)
         return MEETING_NONE;
     double inner_m =
-        0.5 * elementary_least(body->box.length_m, body->box.width_m) * (1 - 1e-9) - slack_m;
+        0.5 * elementary_min(body->box.length_m, body->box.width_m) * (1 - 1e-9) - slack_m;
     if (aside < inner_m * length_m && along > reach && along < square - reach)
         return MEETING_THROUGH;
     struct vec2 ahead = body->box.heading, rest = vec2_sub(centre, line);
@@ -92,9 +92,9 @@ void line_of_sight_find_blockers(struct look *look, const struct look_body *own,
     const struct selection *selection = look->selection;
     int64_t begin = effects_begin(selection);
     look->blocker_count = 0;
-    if (!effects_may(selection, EFFECT_OCCLUSION))
+    if (!effects_enabled(selection, EFFECT_OCCLUSION))
         return;
-    bool all = effects_must(selection, EFFECT_OCCLUSION);
+    bool all = effects_forced(selection, EFFECT_OCCLUSION);
     struct azimuth_index_span span = all ? azimuth_index_everywhere : wanted->span;
     size_t count = azimuth_index_find(&look->bearings, span);
     for (size_t i = 0; i < count; i++) {
@@ -133,16 +133,16 @@ bool line_of_sight_all_hidden(const struct look *look, const struct look_set *se
 
 /* What one body lets through that a line meets so, and which effects beside occlusion matter to
  * it. */
-static struct way past(const struct look *look, const struct look_body *body,
+static struct line_of_sight past(const struct look *look, const struct look_body *body,
                        const struct obstruction_line *line, enum meeting meeting)
 {
     if (meeting == MEETING_NONE)
-        return (struct way){.factor = 1};
+        return (struct line_of_sight){.factor = 1};
     if (meeting == MEETING_THROUGH && hides_all(look))
-        return (struct way){.factor = 0, .by = body};
+        return (struct line_of_sight){.factor = 0, .by = body};
     struct obstruction passage =
         obstruction_of(body->corner, 4, look_top_m(look, body), line, look->wavelength_m);
-    return (struct way){
+    return (struct line_of_sight){
         .factor = passage.factor,
         .by = passage.factor == 0 ? body : NULL,
         .effects = (passage.bent ? EFFECT_BIT(EFFECT_DIFFRACTION) : 0) |
@@ -150,19 +150,19 @@ static struct way past(const struct look *look, const struct look_body *body,
     };
 }
 
-struct way line_of_sight_past_blockers(const struct look *look, const struct side *side,
+struct line_of_sight line_of_sight_past_blockers(const struct look *look, const struct side *side,
                               const struct obstruction_line *line, bool solid)
 {
-    struct way all = {.factor = 1};
+    struct line_of_sight all = {.factor = 1};
     struct silhouette place = silhouette_of_place(vec2_sub(line->to, look->position_m));
-    bool exact = effects_must(look->selection, EFFECT_OCCLUSION);
+    bool exact = effects_forced(look->selection, EFFECT_OCCLUSION);
     for (size_t i = 0; i < look->blocker_count; i++) {
         const struct look_body *body = look->blockers[i];
         if (solid && body->raised)
             continue;
         enum meeting meeting = exact ? meeting_of(body, line->from, line->to, look->bend_m)
                                      : meeting_before(body, &place);
-        struct way way = past(look, body, line, meeting);
+        struct line_of_sight way = past(look, body, line, meeting);
         if ((way.factor == 1 && way.effects == 0) ||
             (side != NULL &&
              (joins(body, side, true, LINE_OF_SIGHT_JOINT_M) || joins(body, side, false, LINE_OF_SIGHT_JOINT_M))))
@@ -184,13 +184,13 @@ static bool is_among(const struct look_body *body, const struct look_body *const
     return false;
 }
 
-struct way line_of_sight_along(const struct look *look, const struct obstruction_line *line,
+struct line_of_sight line_of_sight_along(const struct look *look, const struct obstruction_line *line,
                       const struct look_body *const *but, size_t count)
 {
-    struct way all = {.factor = 1};
-    if (!effects_may(look->selection, EFFECT_OCCLUSION))
+    struct line_of_sight all = {.factor = 1};
+    if (!effects_enabled(look->selection, EFFECT_OCCLUSION))
         return all;
-    struct azimuth_index_span span = effects_must(look->selection, EFFECT_OCCLUSION)
+    struct azimuth_index_span span = effects_forced(look->selection, EFFECT_OCCLUSION)
                                     ? azimuth_index_everywhere
                                     : azimuth_index_between(vec2_sub(line->from, look->position_m),
                                                        vec2_sub(line->to, look->position_m));
@@ -199,7 +199,7 @@ struct way line_of_sight_along(const struct look *look, const struct obstruction
         const struct look_body *body = &look->bodies[look->bearings.found[i]];
         if (is_among(body, but, count))
             continue;
-        struct way way =
+        struct line_of_sight way =
             past(look, body, line, meeting_of(body, line->from, line->to, look->bend_m));
         if (way.by != NULL)
             return way;
@@ -220,15 +220,15 @@ double line_of_sight_margin_m(const struct look *look, const struct look_body *c
         const struct vec2 *corner = body->corner, from = line->from, to = line->to;
         if (!body->blocks || (solid && body->raised) || is_among(body, but, count))
             continue;
-        if (!occlusion_outline_blocks(corner, 4, from, to)) {
-            nearest_m = elementary_least(nearest_m, sight_margins_outline_m(corner, 4, from, to));
+        if (!outline_crossing_blocks(corner, 4, from, to)) {
+            nearest_m = elementary_min(nearest_m, sight_margins_outline_m(corner, 4, from, to));
             continue;
         }
         double above_m = obstruction_above_m(corner, 4, look_top_m(look, body), line);
         if (above_m > 0 || soft_m > 0)
-            nearest_m = elementary_least(nearest_m, elementary_most(above_m, 0));
-        double depth_m = elementary_least(sight_margins_depth_m(corner, 4, from, to), -above_m);
-        deepest_m = elementary_most(deepest_m, depth_m - soft_m);
+            nearest_m = elementary_min(nearest_m, elementary_max(above_m, 0));
+        double depth_m = elementary_min(sight_margins_depth_m(corner, 4, from, to), -above_m);
+        deepest_m = elementary_max(deepest_m, depth_m - soft_m);
     }
     return blocked ? deepest_m : nearest_m;
 }
@@ -236,7 +236,7 @@ double line_of_sight_margin_m(const struct look *look, const struct look_body *c
 double line_of_sight_clearance_m(const struct look *look, const struct obstruction_line *line,
                         const struct look_body *const *but, size_t count)
 {
-    return effects_may(look->selection, EFFECT_OCCLUSION)
+    return effects_enabled(look->selection, EFFECT_OCCLUSION)
                ? line_of_sight_margin_m(look, but, count, line, false, false)
                : (double)INFINITY;
 }

@@ -15,7 +15,7 @@
 #define LINE_OF_SIGHT_JOINT_M 1e-6
 
 /* What comes through to a place and back, there along a straight line. */
-struct way {
+struct line_of_sight {
     double factor;              /* on amplitude; 0 if it is blocked */
     const struct look_body *by; /* by the first of these by id; NULL if it is not */
     uint64_t effects;           /* that changed the factor */
@@ -43,12 +43,12 @@ bool line_of_sight_all_hidden(const struct look *look, const struct look_set *se
 
 /* What comes through to a place on the body whose blockers were found, on a side of it or not
  * (NULL); only those objects count that no radar can look under if solid. */
-struct way line_of_sight_past_blockers(const struct look *look, const struct side *side,
+struct line_of_sight line_of_sight_past_blockers(const struct look *look, const struct side *side,
                               const struct obstruction_line *line, bool solid);
 
 /* What comes along a line past all bodies that block; of the count bodies of but, any of which may
  * be NULL, none does. All of it where occlusion is not selected. */
-struct way line_of_sight_along(const struct look *look, const struct obstruction_line *line,
+struct line_of_sight line_of_sight_along(const struct look *look, const struct obstruction_line *line,
                       const struct look_body *const *but, size_t count);
 
 /* Of all objects that can be in the way: how near the sight line comes to the nearest that lets it

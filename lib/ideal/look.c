@@ -5,14 +5,14 @@
 
 #include "sight_margins.h"
 #include "elementary.h"
-#include "elevation.h"
+#include "slant.h"
 #include "frame_order.h"
 #include "knife_edge.h"
-#include "occlusion.h"
+#include "outline_crossing.h"
 #include "predicates.h"
 #include "specular_point.h"
 #include "kinematics.h"
-#include "curvature.h"
+#include "curved_surface.h"
 #include "units.h"
 
 /* The border of a field of view is outside, and this wide: the foot on a wall that is parallel to
@@ -24,7 +24,7 @@
 #define LONGEST_WAY 2
 
 /* What is LEVEL times as far as it is high is seen at an azimuth whose sine is less than it would
- * be in the plane, by a factor of 1 / LIFTED at least (elevation.h). */
+ * be in the plane, by a factor of 1 / LIFTED at least (slant.h). */
 #define LEVEL 5
 #define LIFTED 1.02
 
@@ -89,7 +89,7 @@ static struct look_set set_of(const struct reflector_set *set, struct arena *are
     return shared;
 }
 
-static int dress_bodies(struct look *look, struct diag *diag)
+static int attach_reflectors(struct look *look, struct diag *diag)
 {
     const struct frame *frame = look->frame;
     look->sets = arena_get(frame->arena, frame->reflectors.count * sizeof *look->sets);
@@ -158,13 +158,13 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
     look->velocity_mps = motion_velocity_at(&ego.motion, look->position_m);
     look->boresight = vec2_turn(vec2_heading(sensor->mount_yaw_rad), ego.heading);
     look->height_m = sensor->mount_z_m;
-    look->over = look->height_m > 0 && effects_may(selection, EFFECT_HEIGHT);
-    if (sensor->diffraction && effects_may(selection, EFFECT_DIFFRACTION))
+    look->over = look->height_m > 0 && effects_enabled(selection, EFFECT_HEIGHT);
+    if (sensor->diffraction && effects_enabled(selection, EFFECT_DIFFRACTION))
         look->wavelength_m = units_wavelength_m(sensor->carrier_hz);
     look->bend_m = knife_edge_reach_m(LONGEST_WAY * sensor->range_max_m, look->wavelength_m);
     open_view(look);
     place_bodies(look, age_s);
-    if (dress_bodies(look, diag) != 0)
+    if (attach_reflectors(look, diag) != 0)
         return -1;
     enter_blockers(look);
     return 0;
@@ -182,11 +182,11 @@ struct look_extent look_reflectors(const struct look *look, const struct look_bo
     return in_shadow ? body->shadow : extent_around(body, set->shape->share, set->shape->inset_m);
 }
 
-bool look_misses(const struct look *look, const struct look_body *body,
+bool look_out_of_reach(const struct look *look, const struct look_body *body,
                  const struct silhouette *silhouette)
 {
     double rise_m =
-        look->height_m > 0 ? elementary_most(look->height_m, 2 * body->object->height_m) : 0;
+        look->height_m > 0 ? elementary_max(look->height_m, 2 * body->object->height_m) : 0;
     return silhouette->nearest_m > look->sensor->range_max_m + PLAIN ||
            (silhouette->nearest_m > LEVEL * rise_m &&
             silhouette_outside(silhouette, look->view_right, look->view_left));
@@ -202,32 +202,32 @@ double look_height_m(const struct look *look, const struct look_body *body, doub
     return z > 0 ? z * body->object->height_m : look->height_m;
 }
 
-uint64_t look_aged(const struct look *look, const struct look_body *body)
+uint64_t look_latency_effect(const struct look *look, const struct look_body *body)
 {
     return look->moved || body->moved ? EFFECT_BIT(EFFECT_LATENCY) : 0;
 }
 
-struct kinematics look_lifted(const struct look *look, double reflector_m, struct kinematics sight,
+struct kinematics look_slant(const struct look *look, double reflector_m, struct kinematics sight,
                          double *gain, uint64_t *effects)
 {
     const struct selection *selection = look->selection;
     double height_m = reflector_m - look->height_m;
     *gain = 1;
-    bool lift = look->height_m > 0 && effects_may(selection, EFFECT_ELEVATION) &&
-                (effects_must(selection, EFFECT_ELEVATION) || height_m != 0);
+    bool lift = look->height_m > 0 && effects_enabled(selection, EFFECT_ELEVATION) &&
+                (effects_forced(selection, EFFECT_ELEVATION) || height_m != 0);
     effects_note(selection, EFFECT_ELEVATION, lift);
     if (!lift)
         return sight;
     int64_t begin = effects_begin(selection);
-    struct elevation elevation = elevation_of(sight.range_m, height_m);
+    struct slant elevation = slant_of(sight.range_m, height_m);
     struct kinematics slant = {
         .range_m = elevation.range_m,
-        .azimuth_rad = elevation_azimuth_rad(elevation, sight.azimuth_rad),
+        .azimuth_rad = slant_azimuth_rad(elevation, sight.azimuth_rad),
         .range_rate_mps = elevation.cosine * sight.range_rate_mps,
     };
     double half_width_rad = look->sensor->elevation_half_width_rad;
     if (half_width_rad > 0)
-        *gain = elevation_amplitude_factor(elevation, half_width_rad);
+        *gain = slant_amplitude_factor(elevation, half_width_rad);
     if (slant.range_m != sight.range_m || slant.azimuth_rad != sight.azimuth_rad ||
         slant.range_rate_mps != sight.range_rate_mps || *gain != 1)
         *effects |= EFFECT_BIT(EFFECT_ELEVATION);
@@ -239,12 +239,12 @@ double look_plane_ercs(const struct look *look, const struct plane_reflector *pl
                        uint64_t *effects)
 {
     bool curved = look->sensor->curved_sides && plane->profile_radius_m > 0 &&
-                  effects_may(look->selection, EFFECT_CURVATURE);
+                  effects_enabled(look->selection, EFFECT_CURVATURE);
     effects_note(look->selection, EFFECT_CURVATURE, curved);
     if (!curved)
         return plane->ercs;
     double radius_m = plane->radius_m > 0 ? plane->radius_m : (double)INFINITY;
-    double ercs = curvature_ercs(plane->profile_radius_m, radius_m, range_m);
+    double ercs = curved_surface_ercs(plane->profile_radius_m, radius_m, range_m);
     if (ercs != plane->ercs)
         *effects |= EFFECT_BIT(EFFECT_CURVATURE);
     return ercs;
@@ -255,12 +255,12 @@ double look_visibility(const struct look *look, const struct look_body *body,
                        struct vec2 viewer)
 {
     const struct box *box = &body->box;
-    if (!effects_may(look->selection, EFFECT_VISIBILITY))
+    if (!effects_enabled(look->selection, EFFECT_VISIBILITY))
         return 1;
     double visible = reflectors_visibility(box, point, facing, place, viewer);
     if (point->lobe.depth_db == 0 || visible == 0)
         return visible;
-    bool level = !(look->height_m > 0 && effects_may(look->selection, EFFECT_ELEVATION));
+    bool level = !(look->height_m > 0 && effects_enabled(look->selection, EFFECT_ELEVATION));
     double range_m =
         vec2_length(vec2_sub(viewer, place)) + vec2_length(vec2_sub(look->position_m, viewer));
     double rise_m = level ? 0 : look->height_m - look_height_m(look, body, point->z);

@@ -77,7 +77,7 @@ double look_top_m(const struct look *look, const struct look_body *body);
 
 /* What a sensor reads of a reflector at that height which it would see so in the plane, with the
  * factor on amplitude of its beam; adds to effects. */
-struct kinematics look_lifted(const struct look *look, double reflector_m, struct kinematics sight,
+struct kinematics look_slant(const struct look *look, double reflector_m, struct kinematics sight,
                          double *gain, uint64_t *effects);
 
 /* The cross section of a side at its specular point, range_m away in the plane; adds to effects. */
@@ -90,7 +90,7 @@ struct look_extent look_reflectors(const struct look *look, const struct look_bo
                                    const struct look_set *set);
 
 /* True only if nothing of the body within that silhouette can be in range and in view. */
-bool look_misses(const struct look *look, const struct look_body *body,
+bool look_out_of_reach(const struct look *look, const struct look_body *body,
                  const struct silhouette *silhouette);
 
 /* How much of a point is seen from the viewer, the sensor itself or a bounce on the way to it: its
@@ -103,7 +103,7 @@ double look_visibility(const struct look *look, const struct look_body *body,
 struct point_reflector look_post(const struct look *look, const struct post_row *row, int64_t post);
 
 /* EFFECT_BIT of latency if it changes how the sensor sees this body, else 0. */
-uint64_t look_aged(const struct look *look, const struct look_body *body);
+uint64_t look_latency_effect(const struct look *look, const struct look_body *body);
 
 /* Azimuths from here on, to either side, are outside the sensor's view. */
 double look_border_rad(const struct sensor *sensor);

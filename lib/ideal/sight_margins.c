@@ -1,7 +1,7 @@
 #include "sight_margins.h"
 
 #include "elementary.h"
-#include "occlusion.h"
+#include "outline_crossing.h"
 #include "units.h"
 
 double sight_margins_facing_m(const struct box *box, enum visibility_shape shape, double facing_rad,
@@ -11,7 +11,7 @@ double sight_margins_facing_m(const struct box *box, enum visibility_shape shape
         return (double)INFINITY;
     struct vec2 facing = vec2_turn(vec2_heading(facing_rad), box->heading);
     struct vec2 sight = vec2_sub(sensor, place);
-    return fabs(zero_rad - visibility_angle_rad(facing, sight)) * vec2_length(sight);
+    return fabs(zero_rad - visibility_range_angle_rad(facing, sight)) * vec2_length(sight);
 }
 
 double sight_margins_foot_m(struct vec2 a, struct vec2 b, struct vec2 along, double margin_m,
@@ -22,7 +22,7 @@ double sight_margins_foot_m(struct vec2 a, struct vec2 b, struct vec2 along, dou
     double before_m = -vec2_cross(along, vec2_sub(sensor, a));
     double from_a_m = vec2_dot(vec2_sub(sensor, a), along) - margin_m;
     double from_b_m = vec2_dot(vec2_sub(b, sensor), along) - margin_m;
-    return fabs(elementary_least(before_m, elementary_least(from_a_m, from_b_m)));
+    return fabs(elementary_min(before_m, elementary_min(from_a_m, from_b_m)));
 }
 
 static double to_line_m(struct vec2 a, struct vec2 b, struct vec2 point)
@@ -46,8 +46,8 @@ static double to_segment_m(struct vec2 a, struct vec2 b, struct vec2 point)
 static double least_m(double (*distance_m)(struct vec2 a, struct vec2 b, struct vec2 point),
                       struct vec2 p, struct vec2 q, struct vec2 a, struct vec2 b)
 {
-    return elementary_least(elementary_least(distance_m(p, q, a), distance_m(p, q, b)),
-                            elementary_least(distance_m(a, b, p), distance_m(a, b, q)));
+    return elementary_min(elementary_min(distance_m(p, q, a), distance_m(p, q, b)),
+                            elementary_min(distance_m(a, b, p), distance_m(a, b, q)));
 }
 
 double sight_margins_outline_m(const struct vec2 *corners, size_t count, struct vec2 from,
@@ -55,7 +55,7 @@ double sight_margins_outline_m(const struct vec2 *corners, size_t count, struct 
 {
     double nearest_m = (double)INFINITY;
     for (size_t i = 0; i < count; i++)
-        nearest_m = elementary_least(
+        nearest_m = elementary_min(
             nearest_m, least_m(to_segment_m, from, to, corners[i], corners[(i + 1) % count]));
     return nearest_m;
 }
@@ -65,8 +65,8 @@ double sight_margins_depth_m(const struct vec2 *corners, size_t count, struct ve
     double deepest_m = 0;
     for (size_t i = 0; i < count; i++) {
         struct vec2 next = corners[(i + 1) % count];
-        if (occlusion_segments_touch(from, to, corners[i], next))
-            deepest_m = elementary_most(deepest_m, least_m(to_line_m, from, to, corners[i], next));
+        if (outline_crossing_segments_touch(from, to, corners[i], next))
+            deepest_m = elementary_max(deepest_m, least_m(to_line_m, from, to, corners[i], next));
     }
     return deepest_m;
 }

@@ -3,15 +3,15 @@
 #include <complex.h>
 #include <math.h>
 
-#include "accuracy.h"
+#include "snr_sigma.h"
 #include "elementary.h"
-#include "interference.h"
-#include "misalignment.h"
-#include "superposition.h"
+#include "interferer.h"
+#include "boresight_error.h"
+#include "resolution_cell.h"
 
 static bool on(const struct selection *selection, enum effect effect, bool described)
 {
-    bool simulated = described && effects_may(selection, effect);
+    bool simulated = described && effects_enabled(selection, effect);
     effects_note(selection, effect, simulated);
     return simulated;
 }
@@ -42,9 +42,9 @@ struct antenna_pointers measurement_noise_pointers(const struct measurement_nois
                                              const struct random_address *address,
                                              const struct cell *cell)
 {
-    struct antenna_pointers pointers = superposition_pointers(cell);
+    struct antenna_pointers pointers = resolution_cell_pointers(cell);
     double draw[4], sigma = by->sensor->pointer_sigma * sqrt(0.5) *
-                            interference_noise_factor(cell->interference);
+                            interferer_noise_factor(cell->interference);
     if (!by->pointers)
         return pointers;
     random_gaussian(address, RANDOM_POINTERS, 0, draw);
@@ -57,14 +57,14 @@ struct antenna_pointers measurement_noise_pointers(const struct measurement_nois
 static double sigma_by_snr(const struct sensor *sensor, double amplitude, double cell, double floor)
 {
     double ratio = amplitude / sensor->pointer_sigma;
-    struct accuracy accuracy = {.cell = cell, .factor = sensor->window_factor, .floor = floor};
-    return accuracy_sigma(&accuracy, ratio * ratio);
+    struct snr_sigma accuracy = {.cell = cell, .factor = sensor->window_factor, .floor = floor};
+    return snr_sigma_of(&accuracy, ratio * ratio);
 }
 
 struct deviation measurement_noise_deviation(const struct measurement_noise *by, const struct cell *cell)
 {
     const struct sensor *sensor = by->sensor;
-    double amplitude = cell->amplitude / interference_noise_factor(cell->interference);
+    double amplitude = cell->amplitude / interferer_noise_factor(cell->interference);
     struct deviation fixed = {sensor->range_sigma_m, sensor->range_rate_sigma_mps};
     if (!by->accuracy)
         return fixed;
@@ -72,42 +72,42 @@ struct deviation measurement_noise_deviation(const struct measurement_noise *by,
         return (struct deviation){
             sigma_by_snr(sensor, amplitude, sensor->cell_range_m, fixed.range_m),
             sigma_by_snr(sensor, amplitude, sensor->cell_range_rate_mps, fixed.range_rate_mps)};
-    double part = elementary_least(sensor->threshold / amplitude, 1);
+    double part = elementary_min(sensor->threshold / amplitude, 1);
     return (struct deviation){part * fixed.range_m, part * fixed.range_rate_mps};
 }
 
 void measurement_noise_range(const struct measurement_noise *by, const struct random_address *address,
-                       struct reading *reading)
+                       struct measurement *measurement)
 {
     const struct sensor *sensor = by->sensor;
     double draw[2];
     if (!by->range)
         return;
-    struct deviation sigma = measurement_noise_deviation(by, reading->cell);
+    struct deviation sigma = measurement_noise_deviation(by, measurement->cell);
     random_gaussian_pair(address, RANDOM_RANGE_RATE, 0, draw);
-    reading->range_m = elementary_most(reading->range_m + sigma.range_m * draw[0], 0);
-    reading->range_rate_mps += sigma.range_rate_mps * draw[1];
-    if (reading->range_m != reading->cell->range_m ||
-        reading->range_rate_mps != reading->cell->range_rate_mps)
-        reading->effects |= EFFECT_BIT(EFFECT_RANGE_NOISE);
+    measurement->range_m = elementary_max(measurement->range_m + sigma.range_m * draw[0], 0);
+    measurement->range_rate_mps += sigma.range_rate_mps * draw[1];
+    if (measurement->range_m != measurement->cell->range_m ||
+        measurement->range_rate_mps != measurement->cell->range_rate_mps)
+        measurement->effects |= EFFECT_BIT(EFFECT_RANGE_NOISE);
     if (sigma.range_m != sensor->range_sigma_m ||
         sigma.range_rate_mps != sensor->range_rate_sigma_mps)
-        reading->effects |= EFFECT_BIT(EFFECT_ACCURACY);
+        measurement->effects |= EFFECT_BIT(EFFECT_ACCURACY);
 }
 
-void measurement_noise_azimuth(const struct measurement_noise *by, struct reading *reading)
+void measurement_noise_azimuth(const struct measurement_noise *by, struct measurement *measurement)
 {
     const struct sensor *sensor = by->sensor;
     if (!by->misalignment)
         return;
-    struct misalignment misalignment = {
+    struct boresight_error misalignment = {
         .yaw_error_rad = sensor->misalignment_rad,
         .bias_rad = sensor->radome_bias_rad,
         .bias_period_rad = sensor->radome_period_rad,
         .bias_phase_rad = sensor->radome_phase_rad,
     };
-    double azimuth_rad = misalignment_reported_rad(&misalignment, reading->azimuth_rad);
-    if (azimuth_rad != reading->azimuth_rad)
-        reading->effects |= EFFECT_BIT(EFFECT_MISALIGNMENT);
-    reading->azimuth_rad = azimuth_rad;
+    double azimuth_rad = boresight_error_reported_rad(&misalignment, measurement->azimuth_rad);
+    if (azimuth_rad != measurement->azimuth_rad)
+        measurement->effects |= EFFECT_BIT(EFFECT_MISALIGNMENT);
+    measurement->azimuth_rad = azimuth_rad;
 }

@@ -31,15 +31,15 @@ struct deviation {
 /* Of a cell, whose noise-free amplitude counts over its noise, by the sensor's sigma_law:
  *     fixed          as the document says;
  *     by_amplitude   that times threshold / amplitude, at most 1;
- *     by_snr         accuracy.h's, for the cell's size and (amplitude / pointer_sigma)^2, with the
+ *     by_snr         snr_sigma.h's, for the cell's size and (amplitude / pointer_sigma)^2, with the
  *                    document's as floor. */
 struct deviation measurement_noise_deviation(const struct measurement_noise *by, const struct cell *cell);
 
 /* Noise on range and range rate; no range is below 0. */
 void measurement_noise_range(const struct measurement_noise *by, const struct random_address *address,
-                       struct reading *reading);
+                       struct measurement *measurement);
 
-/* Misalignment and radome (misalignment.h). */
-void measurement_noise_azimuth(const struct measurement_noise *by, struct reading *reading);
+/* Misalignment and radome (boresight_error.h). */
+void measurement_noise_azimuth(const struct measurement_noise *by, struct measurement *measurement);
 
 #endif

@@ -10,9 +10,9 @@
 /* Doubles from here on are whole, and infinity is among them: there is nothing to round. */
 #define WHOLE_STEPS 0x1p52
 
-struct reading target_list_measure(const struct cell *cell)
+struct measurement target_list_measure(const struct cell *cell)
 {
-    return (struct reading){
+    return (struct measurement){
         .cell = cell,
         .range_m = cell->range_m,
         .azimuth_rad = cell->azimuth_rad,
@@ -30,14 +30,14 @@ double target_list_step(double value, double step)
     return fabs(steps) < WHOLE_STEPS ? step * round(steps) : value;
 }
 
-static int compare_leaders(const struct reading *a, const struct reading *b)
+static int compare_leaders(const struct measurement *a, const struct measurement *b)
 {
     return frame_order_tied(a->cell->members.items, b->cell->members.items);
 }
 
 static int compare_strength(const void *left, const void *right)
 {
-    const struct reading *a = left, *b = right;
+    const struct measurement *a = left, *b = right;
     if (a->amplitude != b->amplitude)
         return a->amplitude > b->amplitude ? -1 : 1;
     return compare_leaders(a, b);
@@ -45,57 +45,57 @@ static int compare_strength(const void *left, const void *right)
 
 static int compare_range(const void *left, const void *right)
 {
-    const struct reading *a = left, *b = right;
+    const struct measurement *a = left, *b = right;
     if (a->range_m != b->range_m)
         return a->range_m < b->range_m ? -1 : 1;
     return compare_strength(left, right);
 }
 
-static void note_limit(struct reading *readings, size_t count, enum list_order order, int64_t limit)
+static void note_limit(struct measurement *measurements, size_t count, enum list_order order, int64_t limit)
 {
-    const struct reading *last = NULL, *next = NULL;
+    const struct measurement *last = NULL, *next = NULL;
     int64_t listed = 0;
     for (size_t i = 0; i < count && next == NULL; i++)
-        if (readings[i].amplitude > 0)
-            *(listed++ < limit ? &last : &next) = &readings[i];
+        if (measurements[i].amplitude > 0)
+            *(listed++ < limit ? &last : &next) = &measurements[i];
     for (size_t i = 0; i < count && next != NULL; i++) {
-        struct reading *reading = &readings[i];
-        const struct reading *across = reading <= last ? next : last;
-        if (!(reading->amplitude > 0))
+        struct measurement *measurement = &measurements[i];
+        const struct measurement *across = measurement <= last ? next : last;
+        if (!(measurement->amplitude > 0))
             continue;
         if (order == LIST_STRONGEST)
-            margins_note(&reading->margins, MARGIN_LIMIT_DB,
-                         margins_between_db(across->amplitude, reading->amplitude));
+            margins_note(&measurement->margins, MARGIN_LIMIT_DB,
+                         margins_between_db(across->amplitude, measurement->amplitude));
         else
-            margins_note(&reading->margins, MARGIN_LIMIT_M,
-                         fabs(across->range_m - reading->range_m));
+            margins_note(&measurement->margins, MARGIN_LIMIT_M,
+                         fabs(across->range_m - measurement->range_m));
     }
 }
 
 void target_list_make(struct frame *frame, const char *stage, const struct sensor *sensor,
-                   struct reading *readings, size_t count, int64_t limit)
+                   struct measurement *measurements, size_t count, int64_t limit)
 {
-    sort_items(readings, count, sizeof *readings,
+    sort_items(measurements, count, sizeof *measurements,
                sensor->list_order == LIST_STRONGEST ? compare_strength : compare_range,
                frame->arena);
     if (frame->margins && limit > 0)
-        note_limit(readings, count, sensor->list_order, limit);
+        note_limit(measurements, count, sensor->list_order, limit);
     int64_t listed = 0;
     for (size_t i = 0; i < count; i++) {
-        const struct reading *reading = &readings[i];
-        if (!(reading->amplitude > 0)) {
-            frame_lose_cell(frame, stage, reading->cell, LOSS_NO_AMPLITUDE, 0, &reading->margins);
+        const struct measurement *measurement = &measurements[i];
+        if (!(measurement->amplitude > 0)) {
+            frame_lose_cell(frame, stage, measurement->cell, LOSS_NO_AMPLITUDE, 0, &measurement->margins);
         } else if (limit > 0 && listed == limit) {
-            frame_lose_cell(frame, stage, reading->cell, LOSS_LIST_LIMIT, 0, &reading->margins);
+            frame_lose_cell(frame, stage, measurement->cell, LOSS_LIST_LIMIT, 0, &measurement->margins);
         } else {
             struct target *target =
-                frame_add_target(frame, reading->cell, units_amplitude_db(reading->amplitude));
-            target->range_m = reading->range_m;
-            target->azimuth_rad = reading->azimuth_rad;
-            target->range_rate_mps = reading->range_rate_mps;
-            target->sign_undecided = reading->sign_undecided;
-            target->effects = reading->effects;
-            target->margins = reading->margins;
+                frame_add_target(frame, measurement->cell, units_amplitude_db(measurement->amplitude));
+            target->range_m = measurement->range_m;
+            target->azimuth_rad = measurement->azimuth_rad;
+            target->range_rate_mps = measurement->range_rate_mps;
+            target->sign_undecided = measurement->sign_undecided;
+            target->effects = measurement->effects;
+            target->margins = measurement->margins;
             listed++;
         }
     }

@@ -6,7 +6,7 @@
 #include "suite.h"
 
 /* One entry of the list before it is one. */
-struct reading {
+struct measurement {
     const struct cell *cell;
     double range_m, azimuth_rad, range_rate_mps;
     double amplitude; /* linear */
@@ -16,18 +16,18 @@ struct reading {
 };
 
 /* The cell's own noise-free values and margins; the amplitude is that of its sum pointer. */
-struct reading target_list_measure(const struct cell *cell);
+struct measurement target_list_measure(const struct cell *cell);
 
 /* Rounds value to the nearest multiple of step; 0 leaves it as it is. */
 double target_list_step(double value, double step);
 
-/* Writes count readings of one sensor as targets: strongest or nearest first, ties by the frame's
- * total order, at most limit of them (0: all). The rest is lost for the stage. A reading without
- * amplitude is lost too: it has no decibels. In a frame with margins, those of the readings get
+/* Writes count measurements of one sensor as targets: strongest or nearest first, ties by the frame's
+ * total order, at most limit of them (0: all). The rest is lost for the stage. A measurement without
+ * amplitude is lost too: it has no decibels. In a frame with margins, those of the measurements get
  * that of the limit, if it cuts the list: from what is listed to the first that is not, and from
  * that to the last listed. */
 void target_list_make(struct frame *frame, const char *stage, const struct sensor *sensor,
-                   struct reading *readings, size_t count, int64_t limit);
+                   struct measurement *measurements, size_t count, int64_t limit);
 
 /* Rounds the values of a listed target to the sensor's steps; its label keeps the exact ones. The
  * last of all: a sensor orders and cuts its list by what it has itself (EFFECTS 15). */

@@ -116,7 +116,7 @@ static double table_azimuth(const struct antenna *antenna, struct antenna_pair p
     double below = -row_cross(pair, &rows[high]);
     double azimuth_rad = mix(rows[low].azimuth_rad, below / (above + below), rows[high].azimuth_rad,
                              above / (above + below));
-    return elementary_least(elementary_most(azimuth_rad, rows[low].azimuth_rad),
+    return elementary_min(elementary_max(azimuth_rad, rows[low].azimuth_rad),
                             rows[high].azimuth_rad);
 }
 
@@ -158,15 +158,15 @@ double antenna_gain(const struct antenna *antenna, double azimuth_rad)
 struct interval antenna_gain_bounds(const struct antenna *antenna, double low_rad, double high_rad)
 {
     double low = antenna_gain(antenna, low_rad), high = antenna_gain(antenna, high_rad);
-    struct interval gain = {elementary_least(low, high), elementary_most(low, high)};
+    struct interval gain = {elementary_min(low, high), elementary_max(low, high)};
     if (antenna->pattern == ANTENNA_DIPOLE_PAIR && low_rad < 0 && high_rad > 0)
         gain.most = antenna_gain(antenna, 0);
     for (size_t i = 0; antenna->pattern == ANTENNA_TABLE && i < antenna->row_count; i++) {
         const struct antenna_row *row = &antenna->rows[i];
         if (row->azimuth_rad < low_rad || row->azimuth_rad > high_rad)
             continue;
-        gain.least = elementary_least(gain.least, row->sum);
-        gain.most = elementary_most(gain.most, row->sum);
+        gain.least = elementary_min(gain.least, row->sum);
+        gain.most = elementary_max(gain.most, row->sum);
     }
     return gain;
 }
@@ -175,7 +175,7 @@ double antenna_azimuth_rad(const struct antenna *antenna, double delta, double s
 {
     /* By a power of two, which changes neither ratio nor rounding. */
     int exponent;
-    frexp(elementary_most(fabs(delta), sum), &exponent);
+    frexp(elementary_max(fabs(delta), sum), &exponent);
     struct antenna_pair pair = {elementary_scaled(sum, -exponent),
                                 elementary_scaled(delta, -exponent)};
     return antenna->pattern == ANTENNA_TABLE ? table_azimuth(antenna, pair) : dipole_azimuth(pair);

@@ -17,7 +17,7 @@ struct scaled_pointer {
 static struct scaled_pointer scale_pointer(double _Complex pointer)
 {
     struct scaled_pointer scaled;
-    frexp(elementary_most(fabs(creal(pointer)), fabs(cimag(pointer))), &scaled.exponent);
+    frexp(elementary_max(fabs(creal(pointer)), fabs(cimag(pointer))), &scaled.exponent);
     scaled.real = elementary_scaled(creal(pointer), -scaled.exponent);
     scaled.imag = elementary_scaled(cimag(pointer), -scaled.exponent);
     scaled.size = elementary_hypot(scaled.real, scaled.imag);

@@ -40,8 +40,8 @@ double point_response_envelope(enum point_response kernel, double bins)
     if (kernel == POINT_RESPONSE_PULSE)
         return gaussian(d);
     if (kernel == POINT_RESPONSE_HANN)
-        return d > 1 ? elementary_least(1 / (PI * d * (d * d - 1)), 1) : 1;
-    return elementary_least(1 / (PI * d), 1);
+        return d > 1 ? elementary_min(1 / (PI * d * (d * d - 1)), 1) : 1;
+    return elementary_min(1 / (PI * d), 1);
 }
 
 static double log_power(const struct phasor *samples, size_t channels, size_t stride)
@@ -86,5 +86,5 @@ double point_response_offset(enum point_response kernel, const struct phasor *be
         offset =
             windowed(kernel, in_phase(before, at, channels, stride),
                      in_phase(at, at, channels, stride), in_phase(after, at, channels, stride));
-    return isfinite(offset) ? elementary_least(elementary_most(offset, -FARTHEST), FARTHEST) : 0;
+    return isfinite(offset) ? elementary_min(elementary_max(offset, -FARTHEST), FARTHEST) : 0;
 }

@@ -28,7 +28,7 @@ static double table_amplitude(const struct radar_equation *law, double range_m)
 
 double radar_reference_amplitude(const struct radar_equation *law, double range_m)
 {
-    double counted_m = elementary_most(range_m, law->range_floor_m);
+    double counted_m = elementary_max(range_m, law->range_floor_m);
     if (law->law == RADAR_TABLE)
         return table_amplitude(law, counted_m);
     return law->threshold / law->calibration_ercs *

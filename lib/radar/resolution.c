@@ -108,9 +108,9 @@ double resolution_mean(const double *values, const double *weights, size_t count
         double weight = weights[i] / weights[0];
         shift += weight * (values[i] - values[0]);
         total += weight;
-        least = elementary_least(least, values[i]);
-        most = elementary_most(most, values[i]);
+        least = elementary_min(least, values[i]);
+        most = elementary_max(most, values[i]);
     }
     /* Rounding may carry the anchored mean one step past the farthest value. */
-    return elementary_least(elementary_most(values[0] + shift / total, least), most);
+    return elementary_min(elementary_max(values[0] + shift / total, least), most);
 }

@@ -10,7 +10,7 @@
 static double latest_instant(double cycle_s, double time_s)
 {
     double cycles = time_s / cycle_s;
-    return elementary_most(floor(cycles + 1e-9 + 4 * DBL_EPSILON * fabs(cycles)), -1);
+    return elementary_max(floor(cycles + 1e-9 + 4 * DBL_EPSILON * fabs(cycles)), -1);
 }
 
 /* Cycles are decimals, so their multiples are too: 4.392, not 4.3919999999999995. */

@@ -17,7 +17,7 @@ double window_hann(double bins)
 
 double window_hann_offset(double before, double peak, double after)
 {
-    double ratio = elementary_most(before, after) / peak;
-    double bins = elementary_most((2 * ratio - 1) / (ratio + 1), 0);
+    double ratio = elementary_max(before, after) / peak;
+    double bins = elementary_max((2 * ratio - 1) / (ratio + 1), 0);
     return before > after ? -bins : before < after ? bins : 0;
 }

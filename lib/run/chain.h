@@ -9,7 +9,7 @@
 #include "runner.h"
 
 /* Where the time of a chain went, in nanoseconds of CPU time, which other processes do not count
- * into; what reading the clock takes is off. */
+ * into; what measurement the clock takes is off. */
 struct chain_times {
     int64_t frames, bytes_read, bytes_written;
     int64_t clock_ns;

@@ -41,7 +41,7 @@ static double align_azimuths(const struct frame *made, struct frame *other)
     double most_rad = 0;
     for (size_t i = 0; i < made->cells.count && i < other->cells.count; i++) {
         double azimuth_rad = made->cells.items[i].azimuth_rad;
-        most_rad = elementary_most(most_rad, fabs(other->cells.items[i].azimuth_rad - azimuth_rad));
+        most_rad = elementary_max(most_rad, fabs(other->cells.items[i].azimuth_rad - azimuth_rad));
         other->cells.items[i].azimuth_rad = azimuth_rad;
     }
     return most_rad;
@@ -52,7 +52,7 @@ void plan_compare(struct plan_position *position, const struct frame *made,
 {
     double off_rad = align_azimuths(made, stand_in_made);
     if (same_bytes(made, stand_in_made, position->section)) {
-        position->azimuth_off_rad = elementary_most(position->azimuth_off_rad, off_rad);
+        position->azimuth_off_rad = elementary_max(position->azimuth_off_rad, off_rad);
         return;
     }
     position->differs = true;

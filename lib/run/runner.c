@@ -308,7 +308,7 @@ static int refuse(struct runner *runner, const struct frame *frame)
     const struct stage *stage = runner->stage;
     struct diag nonsense = runner->diag;
     runner->diag = (struct diag){0};
-    if (stage->blame != NULL && stage->blame(runner->state, frame, runner) != 0)
+    if (stage->locate_fault != NULL && stage->locate_fault(runner->state, frame, runner) != 0)
         return -1;
     runner->diag = nonsense;
     runner->diag.code = DIAG_INTERNAL;
@@ -318,7 +318,7 @@ static int refuse(struct runner *runner, const struct frame *frame)
 /* What follows every step: sections that were used up go, what the stage wrote is ordered and
  * checked, so that the stage that makes nonsense fails, not its neighbour. The rest was checked
  * before, by the reader or after an earlier stage. */
-static int conclude(struct runner *runner, struct frame *frame)
+static int finish_step(struct runner *runner, struct frame *frame)
 {
     const struct stage *stage = runner->stage;
     const struct frame_part written = {stage->writes, stage->name};
@@ -358,7 +358,7 @@ int runner_next(struct runner *runner, struct frame *frame)
     frame->version = FRAME_VERSION;
     frame->seed = runner->common.seed;
     int more = told(runner, runner->stage->next(runner->state, frame, runner));
-    return more == 1 && conclude(runner, frame) != 0 ? -1 : more;
+    return more == 1 && finish_step(runner, frame) != 0 ? -1 : more;
 }
 
 int runner_step(struct runner *runner, struct frame *frame)
@@ -370,7 +370,7 @@ int runner_step(struct runner *runner, struct frame *frame)
          frame_sequence_follow(&runner->completeness, frame, &runner->arena, &runner->diag) != 0) ||
         told(runner, runner->stage->step(runner->state, frame, runner)) != 0)
         return -1;
-    return runner->stage->sink ? 0 : conclude(runner, frame);
+    return runner->stage->sink ? 0 : finish_step(runner, frame);
 }
 
 static struct runner *rehearsing(struct runner *runner, const struct stage *stage,
@@ -390,7 +390,7 @@ static struct runner *rehearsing(struct runner *runner, const struct stage *stag
     return other;
 }
 
-int runner_rehearse(struct runner *runner, const struct stage *stage,
+int runner_try_stage(struct runner *runner, const struct stage *stage,
                     const struct suite_choice *choice, struct effect_log *log, struct frame *frame)
 {
     struct runner *other = rehearsing(runner, stage, choice, log);

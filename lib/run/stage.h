@@ -39,7 +39,7 @@ struct stage {
     int (*step)(void *state, struct frame *frame, struct runner *runner);
     /* Of a source, for a frame that is refused: -1 after a message that names the place in what it
      * read, 0 if that is not to blame; NULL: it never is. */
-    int (*blame)(void *state, const struct frame *frame, struct runner *runner);
+    int (*locate_fault)(void *state, const struct frame *frame, struct runner *runner);
     int (*stop)(void *state, struct runner *runner); /* after the last frame; NULL: nothing */
     /* Frees what a library made for the state, after a failure too; NULL: nothing. */
     void (*release)(void *state);
@@ -118,7 +118,7 @@ int runner_extract(struct runner *runner, struct frame *frame,
  * for nothing given; only stages whose state begins with a suite_choice take others), its effects
  * noted in a log that has a clock (or NULL), and all the checks of a run. Started at its first
  * rehearsal and kept. A stage that rehearses others names them as they are defined, `extern`. */
-int runner_rehearse(struct runner *runner, const struct stage *stage,
+int runner_try_stage(struct runner *runner, const struct stage *stage,
                     const struct suite_choice *choice, struct effect_log *log, struct frame *frame);
 
 /* A sink's way out. */

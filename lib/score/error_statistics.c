@@ -41,7 +41,7 @@ double error_statistics_wasserstein(double *one, size_t one_count, double *other
 {
     sort(one, one_count, arena);
     sort(other, other_count, arena);
-    double area = 0, from = elementary_least(one[0], other[0]);
+    double area = 0, from = elementary_min(one[0], other[0]);
     size_t i = 0, j = 0; /* how many of each are at most `from` */
     while (i < one_count || j < other_count) {
         bool first = j == other_count || (i < one_count && one[i] <= other[j]);

@@ -12,7 +12,7 @@ size_t gospa_pair(const double *distance, size_t truths, size_t listed, double c
 {
     double *cost = arena_get(arena, truths * listed * sizeof *cost);
     for (size_t i = 0; i < truths * listed; i++) {
-        double near = elementary_least(distance[i], cutoff);
+        double near = elementary_min(distance[i], cutoff);
         cost[i] = near * near;
     }
     assignment_least(cost, truths, listed, item_of, arena);

@@ -158,7 +158,7 @@ void score_count(struct score_tally *tally, double squares, size_t pairs, size_t
     tally->listed += (int64_t)listed;
     tally->pairs += (int64_t)pairs;
     tally->gospa_sum += gospa.value;
-    tally->gospa_max = elementary_most(tally->gospa_max, gospa.value);
+    tally->gospa_max = elementary_max(tally->gospa_max, gospa.value);
     tally->localisation += gospa.localisation;
     tally->missed_part += gospa.missed_part;
     tally->false_part += gospa.false_part;
@@ -185,7 +185,7 @@ static void sum(struct score_tally *tally, const struct score_tally *other)
     tally->listed += other->listed;
     tally->pairs += other->pairs;
     tally->gospa_sum += other->gospa_sum;
-    tally->gospa_max = elementary_most(tally->gospa_max, other->gospa_max);
+    tally->gospa_max = elementary_max(tally->gospa_max, other->gospa_max);
     tally->localisation += other->localisation;
     tally->missed_part += other->missed_part;
     tally->false_part += other->false_part;

@@ -6,17 +6,17 @@
 #include "elementary.h"
 
 /* By how many half cells other lies beyond the edge of a cell around leader; negative inside. */
-static double beyond_edge(const struct sensor *sensor, const struct ray *leader,
-                          const struct ray *other)
+static double beyond_edge(const struct sensor *sensor, const struct received_echo *leader,
+                          const struct received_echo *other)
 {
     double range_m = fabs(other->range_m - leader->range_m);
     double rate_mps = fabs(other->range_rate_mps - leader->range_rate_mps);
-    return elementary_most((range_m - sensor->half_range_m) / sensor->half_range_m,
+    return elementary_max((range_m - sensor->half_range_m) / sensor->half_range_m,
                            (rate_mps - sensor->half_range_rate_mps) / sensor->half_range_rate_mps);
 }
 
-static void note_pair(const struct sensor *sensor, const struct ray *leader,
-                      const struct ray *other, struct margins *margins)
+static void note_pair(const struct sensor *sensor, const struct received_echo *leader,
+                      const struct received_echo *other, struct margins *margins)
 {
     double beyond = beyond_edge(sensor, leader, other);
     margins_note(margins, MARGIN_CELL_EDGE, fabs(beyond));
@@ -25,7 +25,7 @@ static void note_pair(const struct sensor *sensor, const struct ray *leader,
                      margins_between_db(leader->amplitude, other->amplitude));
 }
 
-struct margins cell_margins_of(const struct sensor *sensor, const struct clustered_rays *all,
+struct margins cell_margins_of(const struct sensor *sensor, const struct clustered_echoes *all,
                                size_t number)
 {
     struct margins margins = {0};
@@ -33,12 +33,12 @@ struct margins cell_margins_of(const struct sensor *sensor, const struct cluster
     for (size_t i = 0; i < all->count; i++) {
         size_t own = all->cell[i];
         if (own == number)
-            margins_merge(&margins, all->rays[i].margins);
+            margins_merge(&margins, all->received_echoes[i].margins);
         bool leads = own == opened;
         opened += leads;
         for (size_t j = i + 1; j < all->count && leads && own <= number; j++)
             if (all->cell[j] == number || (own == number && all->cell[j] > number))
-                note_pair(sensor, &all->rays[i], &all->rays[j], &margins);
+                note_pair(sensor, &all->received_echoes[i], &all->received_echoes[j], &margins);
     }
     return margins;
 }
@@ -53,8 +53,8 @@ static void note_sign(const struct sensor *sensor, struct antenna_pointers point
 void cell_margins_add(const struct sensor *sensor, struct cell *cell)
 {
     margins_note(&cell->margins, MARGIN_THRESHOLD,
-                 margins_between_db(cell->amplitude, superposition_threshold(sensor, cell)));
-    note_sign(sensor, superposition_pointers(cell), &cell->margins);
+                 margins_between_db(cell->amplitude, resolution_cell_threshold(sensor, cell)));
+    note_sign(sensor, resolution_cell_pointers(cell), &cell->margins);
 }
 
 void cell_margins_add_noisy(const struct sensor *sensor, const struct cell *cell,
@@ -63,6 +63,6 @@ void cell_margins_add_noisy(const struct sensor *sensor, const struct cell *cell
 {
     if (final_threshold)
         margins_note(margins, MARGIN_THRESHOLD,
-                     margins_between_db(amplitude, superposition_threshold(sensor, cell)));
+                     margins_between_db(amplitude, resolution_cell_threshold(sensor, cell)));
     note_sign(sensor, pointers, margins);
 }

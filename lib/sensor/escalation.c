@@ -53,10 +53,10 @@ uint64_t escalation_spared(const struct reception *reception, const struct selec
 static bool thresholds_hold(const struct scan *scan, double alone)
 {
     const struct cell quiet = {.interference = scan->reception.interference};
-    double threshold = superposition_threshold(scan->reception.sensor, &quiet);
+    double threshold = resolution_cell_threshold(scan->reception.sensor, &quiet);
     for (size_t number = 0; number < scan->cells; number++) {
         size_t count;
-        const struct ray *members = scan_members(scan, number, &count);
+        const struct received_echo *members = scan_members(scan, number, &count);
         double amplitude = 0;
         for (size_t i = 0; i < count; i++)
             amplitude += members[i].amplitude;
@@ -66,7 +66,7 @@ static bool thresholds_hold(const struct scan *scan, double alone)
     return true;
 }
 
-static bool in_reach(const struct sensor *sensor, const struct ray *a, const struct ray *b)
+static bool in_reach(const struct sensor *sensor, const struct received_echo *a, const struct received_echo *b)
 {
     return fabs(a->range_m - b->range_m) <= 2 * sensor->half_range_m * (1 + SLACK) &&
            fabs(a->range_rate_mps - b->range_rate_mps) <=
@@ -77,22 +77,22 @@ static bool in_reach(const struct sensor *sensor, const struct ray *a, const str
  * the first one with a new number leads. */
 static bool leaders_hold(const struct scan *scan, double between)
 {
-    const struct clustered_rays *all = &scan->resolved;
+    const struct clustered_echoes *all = &scan->resolved;
     size_t opened = 0;
     for (size_t i = 0; i < all->count; i++) {
         if (all->cell[i] != opened)
             continue;
         opened++;
         for (size_t j = i + 1; j < all->count; j++)
-            if (in_reach(scan->reception.sensor, &all->rays[i], &all->rays[j]) &&
-                !(all->rays[i].amplitude > between * all->rays[j].amplitude))
+            if (in_reach(scan->reception.sensor, &all->received_echoes[i], &all->received_echoes[j]) &&
+                !(all->received_echoes[i].amplitude > between * all->received_echoes[j].amplitude))
                 return false;
     }
     return true;
 }
 
 /* Do pointers add in phase and have a real ratio, so that what is read lies between the members? */
-static bool adds_in_phase(const struct sensor *sensor, const struct ray *members, size_t count)
+static bool adds_in_phase(const struct sensor *sensor, const struct received_echo *members, size_t count)
 {
     for (size_t i = 0; i < count; i++)
         if (members[i].phase_rad != 0)
@@ -106,17 +106,17 @@ struct span {
 
 static struct span widen(struct span span, double value)
 {
-    return (struct span){elementary_least(span.least, value), elementary_most(span.most, value)};
+    return (struct span){elementary_min(span.least, value), elementary_max(span.most, value)};
 }
 
 /* Delta over sum, signed, of a pointer from the array's centre: sum is real, delta imaginary. */
-static double ratio_of(const struct sensor *sensor, const struct ray *ray)
+static double ratio_of(const struct sensor *sensor, const struct received_echo *received)
 {
-    struct antenna_pointers pointers = antenna_pointers(&sensor->antenna, ray->echo.azimuth_rad);
+    struct antenna_pointers pointers = antenna_pointers(&sensor->antenna, received->echo.azimuth_rad);
     return -cimag(pointers.delta) / creal(pointers.sum);
 }
 
-static bool angle_holds(const struct sensor *sensor, const struct ray *members, size_t count,
+static bool angle_holds(const struct sensor *sensor, const struct received_echo *members, size_t count,
                         double part, double limit_rad)
 {
     double weighted = 0, total = 0;
@@ -130,15 +130,15 @@ static bool angle_holds(const struct sensor *sensor, const struct ray *members, 
     double ratio = weighted / total, shift = part * (span.most - span.least);
     double azimuth = antenna_azimuth_rad(&sensor->antenna, ratio, 1);
     double high =
-        antenna_azimuth_rad(&sensor->antenna, elementary_least(ratio + shift, span.most), 1);
+        antenna_azimuth_rad(&sensor->antenna, elementary_min(ratio + shift, span.most), 1);
     double low =
-        antenna_azimuth_rad(&sensor->antenna, elementary_most(ratio - shift, span.least), 1);
-    return elementary_most(high - azimuth, azimuth - low) * (1 + SLACK) <= limit_rad;
+        antenna_azimuth_rad(&sensor->antenna, elementary_max(ratio - shift, span.least), 1);
+    return elementary_max(high - azimuth, azimuth - low) * (1 + SLACK) <= limit_rad;
 }
 
 /* M4 and M5: a weighted mean over [0, 1] whose weights change by factors within [1/g, g] moves by
  * at most (g - 1)/(g + 1). */
-static bool means_hold(const struct sensor *sensor, const struct ray *members, size_t count,
+static bool means_hold(const struct sensor *sensor, const struct received_echo *members, size_t count,
                        double between, const struct tolerance *tolerance)
 {
     struct span range = {(double)INFINITY, -(double)INFINITY}, rate = range;
@@ -160,7 +160,7 @@ bool escalation_holds(const struct scan *scan, struct weakening weakening,
         return false;
     for (size_t number = 0; number < scan->cells; number++) {
         size_t count;
-        const struct ray *members = scan_members(scan, number, &count);
+        const struct received_echo *members = scan_members(scan, number, &count);
         if (count > 1 &&
             !means_hold(scan->reception.sensor, members, count, weakening.between, tolerance))
             return false;
@@ -168,7 +168,7 @@ bool escalation_holds(const struct scan *scan, struct weakening weakening,
     return true;
 }
 
-bool escalation_spares_superposition(const struct sensor *sensor, const struct ray *members,
+bool escalation_spares_superposition(const struct sensor *sensor, const struct received_echo *members,
                                      size_t count, const struct tolerance *tolerance)
 {
     struct span azimuth = {(double)INFINITY, -(double)INFINITY};

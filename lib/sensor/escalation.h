@@ -31,9 +31,9 @@ uint64_t escalation_spared(const struct reception *reception, const struct selec
 bool escalation_holds(const struct scan *scan, struct weakening weakening,
                       const struct tolerance *tolerance);
 
-/* Can the cell of these rays be read at their mean azimuth, with no value off by more than
+/* Can the cell of these received echoes be read at their mean azimuth, with no value off by more than
  * superposition's share? Only where pointers add in phase, from the array's centre. */
-bool escalation_spares_superposition(const struct sensor *sensor, const struct ray *members,
+bool escalation_spares_superposition(const struct sensor *sensor, const struct received_echo *members,
                                      size_t count, const struct tolerance *tolerance);
 
 #endif

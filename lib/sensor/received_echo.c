@@ -3,12 +3,12 @@
 #include <math.h>
 
 #include "draw_address.h"
-#include "ambiguity.h"
+#include "folding.h"
 #include "carrier.h"
 #include "elementary.h"
-#include "fluctuation.h"
-#include "interference.h"
-#include "two_ray.h"
+#include "swerling.h"
+#include "interferer.h"
+#include "road_mirror.h"
 #include "units.h"
 
 #define FOG_C 10
@@ -93,22 +93,22 @@ static double interference_of(const struct frame *frame, const struct sensor *se
     if (!(pattern > 0))
         return 0;
     double gain_db = sensor->antenna_gain_dbi + units_amplitude_db(pattern) / 2;
-    return interference_ratio(
-        interference_power_dbm(other->eirp_dbm, gain_db, units_wavelength_m(sensor->carrier_hz),
+    return interferer_ratio(
+        interferer_power_dbm(other->eirp_dbm, gain_db, units_wavelength_m(sensor->carrier_hz),
                                range_m),
-        interference_noise_dbm(sensor->receiver_bandwidth_hz, sensor->noise_figure_db),
-        interference_overlap(sensor->receiver_bandwidth_hz,
+        interferer_noise_dbm(sensor->receiver_bandwidth_hz, sensor->noise_figure_db),
+        interferer_overlap(sensor->receiver_bandwidth_hz,
                              sensor->chirp_slope_hzps - other->slope_hzps, sensor->chirp_s),
         other->hit_share);
 }
 
 /* Asphalt is assumed, concrete ITU-R P.2040's. */
-static struct two_ray_road road_of(enum road road, double carrier_hz)
+static struct road_mirror_road road_of(enum road road, double carrier_hz)
 {
     if (road == ROAD_ASPHALT)
-        return (struct two_ray_road){5, 0.25, 1e-3};
+        return (struct road_mirror_road){5, 0.25, 1e-3};
     double conductivity_spm = 0.0462 * elementary_pow(carrier_hz / 1e9, 0.7822);
-    return (struct two_ray_road){5.24, 17.98 * conductivity_spm / (carrier_hz / 1e9), 3e-4};
+    return (struct road_mirror_road){5.24, 17.98 * conductivity_spm / (carrier_hz / 1e9), 3e-4};
 }
 
 struct reception received_echo_begin(const struct frame *frame, const struct sensor *sensor,
@@ -151,7 +151,7 @@ void received_echo_note(const struct reception *reception, const struct selectio
 static double phase_of(const struct reception *reception, const struct echo *echo)
 {
     const struct sensor *sensor = reception->sensor;
-    struct random_address address = draw_address_in(reception->address, SUBJECT_OF(echo));
+    struct random_address address = draw_address_in(reception->address, ECHO_ID_OF(echo));
     double uniform[4];
     if (sensor->cell_phase == CELL_RANDOM_PHASE) {
         random_uniform(&address, RANDOM_PHASE, 0, uniform);
@@ -162,12 +162,12 @@ static double phase_of(const struct reception *reception, const struct echo *ech
     return 2 * PI * (uniform[0] - carrier_phase_turns(echo->range_m, sensor->carrier_hz));
 }
 
-static void scale(struct ray *ray, double factor, enum effect effect)
+static void scale(struct received_echo *received, double factor, enum effect effect)
 {
-    ray->strength *= factor;
-    ray->amplitude *= factor;
+    received->strength *= factor;
+    received->amplitude *= factor;
     if (factor != 1)
-        ray->effects |= EFFECT_BIT(effect);
+        received->effects |= EFFECT_BIT(effect);
 }
 
 /* Along the road, of a range that elevation has made slant, or not. */
@@ -176,57 +176,57 @@ static double distance_m(const struct sensor *sensor, const struct echo *echo)
     double up_m = fabs(echo->height_m - sensor->mount_z_m);
     if ((echo->effects & EFFECT_BIT(EFFECT_ELEVATION)) == 0)
         return echo->range_m;
-    return sqrt(elementary_most(echo->range_m - up_m, 0) * (echo->range_m + up_m));
+    return sqrt(elementary_max(echo->range_m - up_m, 0) * (echo->range_m + up_m));
 }
 
-static void mirror(const struct reception *reception, const struct echo *echo, struct ray *ray)
+static void mirror(const struct reception *reception, const struct echo *echo, struct received_echo *received)
 {
     const struct sensor *sensor = reception->sensor;
-    const struct two_ray_ends ends = {sensor->mount_z_m, echo->height_m, echo->extent_m,
+    const struct road_mirror_ends ends = {sensor->mount_z_m, echo->height_m, echo->extent_m,
                                       distance_m(sensor, echo)};
-    scale(ray,
-          two_ray_amplitude_factor(&reception->road, sensor->polarization,
+    scale(received,
+          road_mirror_amplitude_factor(&reception->road, sensor->polarization,
                                    units_wavelength_m(sensor->carrier_hz), &ends),
           EFFECT_TWO_RAY);
 }
 
-static void fluctuate(const struct reception *reception, const struct echo *echo, struct ray *ray)
+static void fluctuate(const struct reception *reception, const struct echo *echo, struct received_echo *received)
 {
     const struct sensor *sensor = reception->sensor;
-    struct random_address address = draw_address_in(reception->address, SUBJECT_OF(echo));
+    struct random_address address = draw_address_in(reception->address, ECHO_ID_OF(echo));
     double uniform[4];
     random_uniform(&address, RANDOM_FLUCTUATION, 0, uniform);
-    scale(ray,
-          fluctuation_amplitude_factor(sensor->fluctuation, sensor->fluctuation_sigma_db, uniform),
+    scale(received,
+          swerling_amplitude_factor(sensor->fluctuation, sensor->fluctuation_sigma_db, uniform),
           EFFECT_FLUCTUATION);
 }
 
-static void fold(const struct sensor *sensor, struct ray *ray)
+static void fold(const struct sensor *sensor, struct received_echo *received)
 {
-    double range_m = ray->range_m, rate_mps = ray->range_rate_mps;
+    double range_m = received->range_m, rate_mps = received->range_rate_mps;
     if (sensor->unambiguous_range_m > 0)
-        ray->range_m = ambiguity_range_m(range_m, sensor->unambiguous_range_m);
+        received->range_m = folding_range_m(range_m, sensor->unambiguous_range_m);
     if (sensor->unambiguous_rate_mps > 0)
-        ray->range_rate_mps = ambiguity_range_rate_mps(rate_mps, sensor->unambiguous_rate_mps);
-    if (ray->range_m != range_m || ray->range_rate_mps != rate_mps)
-        ray->effects |= EFFECT_BIT(EFFECT_AMBIGUITY);
+        received->range_rate_mps = folding_range_rate_mps(rate_mps, sensor->unambiguous_rate_mps);
+    if (received->range_m != range_m || received->range_rate_mps != rate_mps)
+        received->effects |= EFFECT_BIT(EFFECT_AMBIGUITY);
 }
 
-struct ray received_echo_ray(const struct reception *reception, const struct echo *echo)
+struct received_echo received_echo_of(const struct reception *reception, const struct echo *echo)
 {
     const struct sensor *sensor = reception->sensor;
-    struct ray ray = superposition_ray(sensor, echo, 0);
+    struct received_echo received = received_echo_in_free_space(sensor, echo, 0);
     if (simulates(reception, EFFECT_COHERENCE))
-        ray.phase_rad = phase_of(reception, echo);
+        received.phase_rad = phase_of(reception, echo);
     if (echo->height_m > 0 && simulates(reception, EFFECT_TWO_RAY))
-        mirror(reception, echo, &ray);
+        mirror(reception, echo, &received);
     if (simulates(reception, EFFECT_FLUCTUATION))
-        fluctuate(reception, echo, &ray);
+        fluctuate(reception, echo, &received);
     if (simulates(reception, EFFECT_RAIN))
-        scale(&ray, attenuation_amplitude_factor(reception->rain_dbpkm, echo->range_m), EFFECT_RAIN);
+        scale(&received, attenuation_amplitude_factor(reception->rain_dbpkm, echo->range_m), EFFECT_RAIN);
     if (simulates(reception, EFFECT_FOG))
-        scale(&ray, attenuation_amplitude_factor(reception->fog_dbpkm, echo->range_m), EFFECT_FOG);
+        scale(&received, attenuation_amplitude_factor(reception->fog_dbpkm, echo->range_m), EFFECT_FOG);
     if (simulates(reception, EFFECT_AMBIGUITY))
-        fold(sensor, &ray);
-    return ray;
+        fold(sensor, &received);
+    return received;
 }

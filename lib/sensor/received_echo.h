@@ -16,8 +16,8 @@
 
 #include "draw_address.h"
 #include "attenuation.h"
-#include "superposition.h"
-#include "two_ray.h"
+#include "resolution_cell.h"
+#include "road_mirror.h"
 
 struct reception {
     const struct frame *frame;
@@ -25,7 +25,7 @@ struct reception {
     double time_s;    /* of the measurement */
     uint64_t effects; /* to simulate */
     double rain_dbpkm, fog_dbpkm;
-    struct two_ray_road road;
+    struct road_mirror_road road;
     struct random_address address; /* of the scan */
     double interference;           /* of all other radars, over the noise, in power */
 };
@@ -44,6 +44,6 @@ bool received_echo_rolls(const struct echo *echo);
 bool received_echo_walks(const struct echo *echo);
 
 /* The echo as it is received. */
-struct ray received_echo_ray(const struct reception *reception, const struct echo *echo);
+struct received_echo received_echo_of(const struct reception *reception, const struct echo *echo);
 
 #endif

@@ -10,35 +10,35 @@ struct scan scan_receive(const struct reception *reception)
     struct echo_span echoes = frame_echoes_of(frame, reception->sensor->name);
     struct echo_span scatterers = scatterers_of(reception);
     size_t all = echoes.count + scatterers.count, count = all;
-    struct ray *rays = arena_get(frame->arena, (all + 1) * sizeof *rays);
+    struct received_echo *received_echoes = arena_get(frame->arena, (all + 1) * sizeof *received_echoes);
     for (size_t i = 0; i < echoes.count; i++)
-        rays[i] = received_echo_ray(reception, &echoes.items[i]);
+        received_echoes[i] = received_echo_of(reception, &echoes.items[i]);
     for (size_t i = 0; i < scatterers.count; i++)
-        rays[echoes.count + i] = received_echo_ray(reception, &scatterers.items[i]);
-    sort_items(rays, count, sizeof *rays, superposition_compare, frame->arena);
-    while (count > 0 && !(rays[count - 1].amplitude > 0))
+        received_echoes[echoes.count + i] = received_echo_of(reception, &scatterers.items[i]);
+    sort_items(received_echoes, count, sizeof *received_echoes, resolution_cell_compare, frame->arena);
+    while (count > 0 && !(received_echoes[count - 1].amplitude > 0))
         count--;
     scan.scatterers = scatterers;
-    scan.resolved.rays = rays;
+    scan.resolved.received_echoes = received_echoes;
     scan.resolved.count = count;
-    scan.silent = rays + count;
+    scan.silent = received_echoes + count;
     scan.silent_count = all - count;
     return scan;
 }
 
-/* Counts the rays of every cell, and puts each behind those that came before it. */
+/* Counts the received echoes of every cell, and puts each behind those that came before it. */
 static void group(struct scan *scan)
 {
     struct arena *arena = scan->reception.frame->arena;
-    const struct clustered_rays *all = &scan->resolved;
-    struct ray *by_cell = arena_get(arena, all->count * sizeof *by_cell);
+    const struct clustered_echoes *all = &scan->resolved;
+    struct received_echo *by_cell = arena_get(arena, all->count * sizeof *by_cell);
     size_t *first = arena_get(arena, (scan->cells + 2) * sizeof *first);
     for (size_t i = 0; i < all->count; i++)
         first[all->cell[i] + 2]++;
     for (size_t number = 0; number < scan->cells; number++)
         first[number + 2] += first[number + 1];
     for (size_t i = 0; i < all->count; i++)
-        by_cell[first[all->cell[i] + 1]++] = all->rays[i];
+        by_cell[first[all->cell[i] + 1]++] = all->received_echoes[i];
     scan->by_cell = by_cell;
     scan->first = first;
 }
@@ -48,17 +48,17 @@ static void resolve(struct scan *scan, const struct selection *selection)
     const struct sensor *sensor = scan->reception.sensor;
     struct arena *arena = scan->reception.frame->arena;
     double half_range_m = sensor->half_range_m, half_rate_mps = sensor->half_range_rate_mps;
-    const struct ray *rays = scan->resolved.rays;
+    const struct received_echo *received_echoes = scan->resolved.received_echoes;
     size_t count = scan->resolved.count;
     int64_t begin = effects_begin(selection);
     struct resolution_echo *echoes = arena_get(arena, 2 * (count + 1) * sizeof *echoes);
     size_t *cell = arena_get(arena, (count + 1) * sizeof *cell);
     for (size_t i = 0; i < count; i++)
         echoes[i] =
-            (struct resolution_echo){rays[i].range_m, rays[i].range_rate_mps, rays[i].amplitude};
+            (struct resolution_echo){received_echoes[i].range_m, received_echoes[i].range_rate_mps, received_echoes[i].amplitude};
     bool merge =
-        effects_must(selection, EFFECT_MERGING) ||
-        (effects_may(selection, EFFECT_MERGING) &&
+        effects_forced(selection, EFFECT_MERGING) ||
+        (effects_enabled(selection, EFFECT_MERGING) &&
          resolution_close(echoes, count, half_range_m, half_rate_mps, echoes + count, arena));
     scan->cells = count;
     if (merge)
@@ -81,7 +81,7 @@ struct scan scan_make(const struct reception *reception, const struct selection 
     return scan;
 }
 
-const struct ray *scan_members(const struct scan *scan, size_t number, size_t *count)
+const struct received_echo *scan_members(const struct scan *scan, size_t number, size_t *count)
 {
     *count = scan->first[number + 1] - scan->first[number];
     return scan->by_cell + scan->first[number];

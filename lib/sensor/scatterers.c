@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "draw_address.h"
-#include "clutter.h"
+#include "ground_return.h"
 #include "elementary.h"
 #include "limbs.h"
 #include "look.h"
@@ -20,9 +20,9 @@ static bool simulates(const struct reception *reception, enum effect effect)
     return (reception->effects & EFFECT_BIT(effect)) != 0;
 }
 
-static struct random_address address_at(const struct reception *reception, struct subject subject)
+static struct random_address address_at(const struct reception *reception, struct echo_id id)
 {
-    return draw_address_in(reception->address, subject);
+    return draw_address_in(reception->address, id);
 }
 
 static void add(struct additions *additions, const struct echo *echo)
@@ -48,7 +48,7 @@ static struct echo part_of(const struct echo *parent, enum path path, int64_t nu
 
 static void add_wheel(struct additions *additions, const struct echo *hub)
 {
-    struct random_address address = address_at(additions->reception, SUBJECT_OF(hub));
+    struct random_address address = address_at(additions->reception, ECHO_ID_OF(hub));
     double uniform[4];
     random_uniform(&address, RANDOM_WHEELS, 0, uniform);
     int64_t count = wheel_count(uniform[0]);
@@ -72,7 +72,7 @@ static void shift(struct echo *part, double offset_m)
 
 static void add_limbs(struct additions *additions, const struct echo *torso)
 {
-    struct random_address address = address_at(additions->reception, SUBJECT_OF(torso));
+    struct random_address address = address_at(additions->reception, ECHO_ID_OF(torso));
     double uniform[4];
     random_uniform(&address, RANDOM_LIMBS, 0, uniform);
     int64_t count = limbs_count(uniform[0]);
@@ -102,11 +102,11 @@ static void add_parts(struct additions *additions)
 
 /* How fast the sensor moves, and where it looks. A body that turns keeps its velocity in its own
  * frame (motion_after), so that latency makes no difference to how the ground passes by. */
-struct gaze {
+struct sensor_pose {
     struct vec2 velocity_mps, boresight;
 };
 
-static struct gaze gaze_of(const struct frame *frame, const struct sensor *sensor)
+static struct sensor_pose sensor_pose_of(const struct frame *frame, const struct sensor *sensor)
 {
     const struct object *ego = frame_object(frame, frame->ego);
     const struct motion motion = {
@@ -117,7 +117,7 @@ static struct gaze gaze_of(const struct frame *frame, const struct sensor *senso
     };
     struct vec2 heading = vec2_heading(ego->yaw_rad);
     struct vec2 mount = vec2_turn((struct vec2){sensor->mount_x_m, sensor->mount_y_m}, heading);
-    return (struct gaze){
+    return (struct sensor_pose){
         .velocity_mps = motion_velocity_at(&motion, vec2_add(motion.position_m, mount)),
         .boresight = vec2_turn(vec2_heading(sensor->mount_yaw_rad), heading),
     };
@@ -128,21 +128,21 @@ static int64_t clutter_count(const struct reception *reception, double uniform)
     const struct sensor *sensor = reception->sensor;
     const struct conditions *conditions = &reception->frame->conditions;
     double area_m2 =
-        clutter_area_m2(sensor->range_min_m, sensor->range_max_m, sensor->field_of_view_rad);
+        ground_return_area_m2(sensor->range_min_m, sensor->range_max_m, sensor->field_of_view_rad);
     int64_t count = poisson_overdispersed_count(conditions->clutter_per_m2 * area_m2,
                                                 conditions->clutter_overdispersion, uniform);
     return count < SCATTERERS_MOST_CLUTTER ? count : SCATTERERS_MOST_CLUTTER;
 }
 
 /* Its power has an exponential law. */
-static struct echo clutter_at(const struct reception *reception, const struct gaze *gaze,
+static struct echo clutter_at(const struct reception *reception, const struct sensor_pose *sensor_pose,
                               struct echo ground, const double uniform[3])
 {
     const struct sensor *sensor = reception->sensor;
-    ground.range_m = clutter_range_m(sensor->range_min_m, sensor->range_max_m, uniform[0]);
+    ground.range_m = ground_return_range_m(sensor->range_min_m, sensor->range_max_m, uniform[0]);
     ground.azimuth_rad = sensor->field_of_view_rad * (uniform[1] - 0.5);
     ground.range_rate_mps =
-        clutter_range_rate_mps(gaze->velocity_mps, gaze->boresight, ground.azimuth_rad);
+        ground_return_range_rate_mps(sensor_pose->velocity_mps, sensor_pose->boresight, ground.azimuth_rad);
     ground.ercs = reception->frame->conditions.clutter_ercs * sqrt(-elementary_log(uniform[2]));
     return ground;
 }
@@ -150,7 +150,7 @@ static struct echo clutter_at(const struct reception *reception, const struct ga
 static void add_clutter(struct additions *additions)
 {
     const struct reception *reception = additions->reception;
-    struct gaze gaze = gaze_of(reception->frame, reception->sensor);
+    struct sensor_pose sensor_pose = sensor_pose_of(reception->frame, reception->sensor);
     struct echo ground = {
         .sensor = reception->sensor->name,
         .object = "clutter",
@@ -159,13 +159,13 @@ static void add_clutter(struct additions *additions)
         .time_s = reception->time_s,
         .effects = EFFECT_BIT(EFFECT_CLUTTER),
     };
-    struct random_address address = address_at(reception, SUBJECT_OF(&ground));
+    struct random_address address = address_at(reception, ECHO_ID_OF(&ground));
     double uniform[4];
     random_uniform(&address, RANDOM_CLUTTER, 0, uniform);
     int64_t count = clutter_count(reception, uniform[0]);
     for (ground.number = 1; ground.number <= count; ground.number++) {
         random_uniform(&address, RANDOM_CLUTTER, (uint32_t)ground.number, uniform);
-        struct echo point = clutter_at(reception, &gaze, ground, uniform);
+        struct echo point = clutter_at(reception, &sensor_pose, ground, uniform);
         add(additions, &point);
     }
 }

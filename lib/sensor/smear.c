@@ -6,7 +6,7 @@
 #include "elementary.h"
 #include "window.h"
 
-/* Samples in a bin, samples to either side of a ray's own, and in a row. */
+/* Samples in a bin, samples to either side of a received echo's own, and in a row. */
 enum { BIN = 2, REACH = 3 * BIN, TAPS = 2 * REACH + 1 };
 
 /* The sample next to a value, and how many bins behind it the value lies, in [-1/4, 1/4]. */
@@ -53,14 +53,14 @@ static struct smear_sample *touch(struct smear *smear, int64_t range, int64_t ra
     return &smear->samples[*slot - 1];
 }
 
-static struct place range_place(const struct smear *smear, const struct ray *ray)
+static struct place range_place(const struct smear *smear, const struct received_echo *received)
 {
-    return place_of(ray->range_m, smear->sensor->cell_range_m);
+    return place_of(received->range_m, smear->sensor->cell_range_m);
 }
 
-static struct place rate_place(const struct smear *smear, const struct ray *ray)
+static struct place rate_place(const struct smear *smear, const struct received_echo *received)
 {
-    return place_of(ray->range_rate_mps, smear->sensor->cell_range_rate_mps);
+    return place_of(received->range_rate_mps, smear->sensor->cell_range_rate_mps);
 }
 
 static double _Complex turn_of(double phase_rad)
@@ -69,13 +69,13 @@ static double _Complex turn_of(double phase_rad)
     return phase.cos + phase.sin * (double _Complex)I;
 }
 
-static void spread(struct smear *smear, const struct ray *ray)
+static void spread(struct smear *smear, const struct received_echo *received)
 {
-    struct place range = range_place(smear, ray), rate = rate_place(smear, ray);
-    struct antenna_pointers one = antenna_pointers(&smear->sensor->antenna, ray->echo.azimuth_rad);
-    double _Complex strength = ray->strength * turn_of(ray->phase_rad);
-    bool turned = ray->phase_rad != smear->rays[0].phase_rad;
-    uint64_t effects = ray->effects | (turned ? EFFECT_BIT(EFFECT_COHERENCE) : 0);
+    struct place range = range_place(smear, received), rate = rate_place(smear, received);
+    struct antenna_pointers one = antenna_pointers(&smear->sensor->antenna, received->echo.azimuth_rad);
+    double _Complex strength = received->strength * turn_of(received->phase_rad);
+    bool turned = received->phase_rad != smear->received_echoes[0].phase_rad;
+    uint64_t effects = received->effects | (turned ? EFFECT_BIT(EFFECT_COHERENCE) : 0);
     double across[TAPS];
     for (int j = 0; j < TAPS; j++)
         across[j] = window_hann((double)(j - REACH) / BIN - rate.offset);
@@ -91,13 +91,13 @@ static void spread(struct smear *smear, const struct ray *ray)
                 touch(smear, range.sample + i - REACH, rate.sample + j - REACH);
             sample->pointers.sum += weight * one.sum;
             sample->pointers.delta += weight * one.delta;
-            sample->rays++;
+            sample->received_echoes++;
             sample->effects |= effects;
         }
     }
 }
 
-/* Of the sum channel; 0 where no ray reaches. */
+/* Of the sum channel; 0 where no received echo reaches. */
 static double magnitude(const struct smear_sample *sample)
 {
     return sample != NULL
@@ -122,19 +122,19 @@ static const struct smear_sample *step(const struct smear *smear, const struct s
     return best;
 }
 
-static size_t peak_of(const struct smear *smear, const struct ray *ray)
+static size_t peak_of(const struct smear *smear, const struct received_echo *received)
 {
     const struct smear_sample *at =
-        find(smear, range_place(smear, ray).sample, rate_place(smear, ray).sample);
+        find(smear, range_place(smear, received).sample, rate_place(smear, received).sample);
     for (const struct smear_sample *next = step(smear, at); next != at; next = step(smear, at))
         at = next;
     return (size_t)(at - smear->samples);
 }
 
-struct smear smear_make(const struct sensor *sensor, const struct ray *rays, size_t count,
+struct smear smear_make(const struct sensor *sensor, const struct received_echo *received_echoes, size_t count,
                         struct arena *arena)
 {
-    struct smear smear = {.sensor = sensor, .rays = rays, .count = count, .slots = 2};
+    struct smear smear = {.sensor = sensor, .received_echoes = received_echoes, .count = count, .slots = 2};
     size_t most = count * TAPS * TAPS;
     while (smear.slots < 2 * most)
         smear.slots *= 2;
@@ -143,9 +143,9 @@ struct smear smear_make(const struct sensor *sensor, const struct ray *rays, siz
     smear.cell = arena_get(arena, 2 * (count + 1) * sizeof *smear.cell);
     smear.peak = smear.cell + count + 1;
     for (size_t i = 0; i < count; i++)
-        spread(&smear, &rays[i]);
+        spread(&smear, &received_echoes[i]);
     for (size_t i = 0; i < count; i++) {
-        size_t peak = peak_of(&smear, &rays[i]), number = 0;
+        size_t peak = peak_of(&smear, &received_echoes[i]), number = 0;
         while (number < smear.cells && smear.peak[number] != peak)
             number++;
         smear.cell[i] = number;
@@ -166,14 +166,14 @@ static double offset_of(const struct smear *smear, const struct smear_sample *pe
         return 0;
     double before = magnitude(find(smear, peak->range - range, peak->rate - rate));
     double after = magnitude(find(smear, peak->range + range, peak->rate + rate));
-    return elementary_most(elementary_least(window_hann_offset(before, here, after), most), least);
+    return elementary_max(elementary_min(window_hann_offset(before, here, after), most), least);
 }
 
-/* Where there is one ray alone, nothing merges. */
+/* Where there is one received echo alone, nothing merges. */
 static uint64_t effects_of(const struct smear_sample *peak)
 {
     uint64_t together = EFFECT_BIT(EFFECT_MERGING) | EFFECT_BIT(EFFECT_SUPERPOSITION);
-    return peak->rays > 1 ? peak->effects | together
+    return peak->received_echoes > 1 ? peak->effects | together
                           : peak->effects & ~EFFECT_BIT(EFFECT_COHERENCE);
 }
 
@@ -183,12 +183,12 @@ static void add_members(const struct smear *smear, size_t number, struct arena *
     double total = 0;
     for (size_t i = 0; i < smear->count; i++)
         if (smear->cell[i] == number)
-            total += smear->rays[i].amplitude;
+            total += smear->received_echoes[i].amplitude;
     for (size_t i = 0; i < smear->count; i++)
         if (smear->cell[i] == number) {
             struct contributor *member = list_add(&cell->members, arena);
-            *member = smear->rays[i].echo;
-            member->weight = smear->rays[i].amplitude / total;
+            *member = smear->received_echoes[i].echo;
+            member->weight = smear->received_echoes[i].amplitude / total;
         }
 }
 
@@ -197,8 +197,8 @@ bool smear_cell(const struct smear *smear, size_t number, struct arena *arena, s
     const struct sensor *sensor = smear->sensor;
     const struct smear_sample *peak = &smear->samples[smear->peak[number]];
     double range = offset_of(smear, peak, true), rate = offset_of(smear, peak, false);
-    const struct ray *leader = smear->rays;
-    while (smear->cell[leader - smear->rays] != number)
+    const struct received_echo *leader = smear->received_echoes;
+    while (smear->cell[leader - smear->received_echoes] != number)
         leader++;
     double _Complex gain =
         conj(turn_of(leader->phase_rad)) / (window_hann(range) * window_hann(rate));
@@ -207,7 +207,7 @@ bool smear_cell(const struct smear *smear, size_t number, struct arena *arena, s
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
     *cell = (struct cell){
         .sensor = sensor->name,
-        .range_m = elementary_most(((double)peak->range / BIN + range) * sensor->cell_range_m, 0),
+        .range_m = elementary_max(((double)peak->range / BIN + range) * sensor->cell_range_m, 0),
         .azimuth_rad = angle.azimuth_rad,
         .range_rate_mps = ((double)peak->rate / BIN + rate) * sensor->cell_range_rate_mps,
         .amplitude = elementary_hypot(creal(pointers.sum), cimag(pointers.sum)),

@@ -51,7 +51,7 @@ static double power_at(const struct series *series, double turns)
         struct elementary_sincos phase = elementary_sincos_turns((double)k * turns);
         sum += 2 * (series->r[k].re * phase.cos + series->r[k].im * phase.sin);
     }
-    return elementary_most(sum, 0) / (n * n);
+    return elementary_max(sum, 0) / (n * n);
 }
 
 static double slope_at(const struct series *series, double turns)
@@ -90,13 +90,13 @@ size_t beamforming_peaks(const struct beamforming_array *array, const struct pha
     size_t steps = (size_t)ceil(2 * reach / step), count = 0, kept = 0;
     bool rises = false;
     for (size_t i = 0; i <= steps; i++) {
-        double turns = elementary_least((double)i * step, 2 * reach) - reach;
+        double turns = elementary_min((double)i * step, 2 * reach) - reach;
         bool rose = rises;
         rises = slope_at(&series, turns) > 0;
         if (!rose || rises)
             continue;
         double top =
-            summit(&series, elementary_most((double)(i - 1) * step - reach, -reach), turns);
+            summit(&series, elementary_max((double)(i - 1) * step - reach, -reach), turns);
         insert(peaks, &count,
                (struct beamforming_peak){top / array->spacing, sqrt(power_at(&series, top))});
     }

@@ -3,8 +3,8 @@
 #include <math.h>
 
 #include "elementary.h"
-#include "false_alarms.h"
-#include "interference.h"
+#include "noise_targets.h"
+#include "interferer.h"
 #include "units.h"
 
 #define NOWHERE SIZE_MAX
@@ -16,7 +16,7 @@ static struct sighting *add(struct detections *sightings, const struct range_dop
     const struct signal_cube *signal = sightings->signal;
     struct sighting *sighting = list_add(&sightings->list, arena);
     sighting->peak = peak;
-    sighting->range_m = elementary_most(peak->range * signal->range_step_m, 0);
+    sighting->range_m = elementary_max(peak->range * signal->range_step_m, 0);
     sighting->range_rate_mps = peak->rate * signal->rate_step_mps;
     return sighting;
 }
@@ -59,7 +59,7 @@ struct detections detections_of(const struct signal_cube *signal, const struct r
 {
     struct arena *arena = reception->frame->arena;
     double threshold =
-        signal->sensor->threshold * interference_noise_factor(reception->interference);
+        signal->sensor->threshold * interferer_noise_factor(reception->interference);
     struct detections sightings = {signal, spectrum, threshold, reception->time_s, {NULL, 0, 0}};
     struct cfar cfar = waveform_cfar(&signal->sensor->waveform);
     struct range_doppler_peak *peaks;
@@ -76,29 +76,29 @@ struct detections detections_of(const struct signal_cube *signal, const struct r
 }
 
 /* How much of the echo shows at the sighting, in range and rate, and in the sighting's beam. */
-static double part_of(const struct detections *sightings, const struct ray *ray,
+static double part_of(const struct detections *sightings, const struct received_echo *received,
                       const struct sighting *sighting)
 {
     const struct signal_cube *signal = sightings->signal;
     const struct range_doppler *spectrum = sightings->spectrum;
-    double range = range_doppler_distance(ray->range_m / signal->range_step_m, sighting->peak->range,
+    double range = range_doppler_distance(received->range_m / signal->range_step_m, sighting->peak->range,
                                      spectrum->range_bins);
-    double rate = range_doppler_distance(ray->range_rate_mps / signal->rate_step_mps,
+    double rate = range_doppler_distance(received->range_rate_mps / signal->rate_step_mps,
                                     sighting->peak->rate, spectrum->rate_bins);
     double part = fabs(point_response_value(spectrum->range_kernel, range) *
                        point_response_value(spectrum->rate_kernel, rate));
     if (signal->array.elements > 0)
-        part *= beamforming_kernel(&signal->array, elementary_sin(ray->echo.azimuth_rad) -
+        part *= beamforming_kernel(&signal->array, elementary_sin(received->echo.azimuth_rad) -
                                                 elementary_sin(sighting->azimuth_rad));
     return part;
 }
 
-static size_t home_of(const struct detections *sightings, const struct ray *ray)
+static size_t home_of(const struct detections *sightings, const struct received_echo *received)
 {
     size_t home = NOWHERE;
     double most = 0;
     for (size_t i = 0; i < sightings->list.count; i++) {
-        double part = part_of(sightings, ray, &sightings->list.items[i]);
+        double part = part_of(sightings, received, &sightings->list.items[i]);
         if (part >= LEAST_PART && part > most) {
             most = part;
             home = i;
@@ -107,14 +107,14 @@ static size_t home_of(const struct detections *sightings, const struct ray *ray)
     return home;
 }
 
-/* The ray that makes at least half of it, or NOWHERE. */
+/* The received echo that makes at least half of it, or NOWHERE. */
 static size_t maker_of(const struct detections *sightings, const struct sighting *sighting,
-                       const struct ray *rays, size_t count)
+                       const struct received_echo *received_echoes, size_t count)
 {
     size_t maker = NOWHERE;
     double most = LEAST_PART * sighting->amplitude;
     for (size_t i = 0; i < count; i++) {
-        double amplitude = rays[i].amplitude * part_of(sightings, &rays[i], sighting);
+        double amplitude = received_echoes[i].amplitude * part_of(sightings, &received_echoes[i], sighting);
         if (amplitude >= most) {
             most = amplitude;
             maker = i;
@@ -123,21 +123,21 @@ static size_t maker_of(const struct detections *sightings, const struct sighting
     return maker;
 }
 
-static void label(const struct sensor *sensor, struct sighting *sighting, const struct ray *rays,
+static void label(const struct sensor *sensor, struct sighting *sighting, const struct received_echo *received_echoes,
                   size_t count, struct arena *arena)
 {
-    superposition_cell(sensor, rays, count, true, arena, &sighting->cell);
+    resolution_cell_of(sensor, received_echoes, count, true, arena, &sighting->cell);
     for (size_t i = 0; i < count; i++)
-        margins_merge(&sighting->cell.margins, rays[i].margins);
+        margins_merge(&sighting->cell.margins, received_echoes[i].margins);
     double span_mps = (double)sensor->waveform.repetitions * sensor->cell_range_rate_mps;
-    double away_mps = rays[0].range_rate_mps - sighting->range_rate_mps;
+    double away_mps = received_echoes[0].range_rate_mps - sighting->range_rate_mps;
     sighting->range_rate_mps += span_mps * round(away_mps / span_mps);
 }
 
 static void label_false_alarm(const struct sensor *sensor, struct sighting *sighting,
                               int64_t number, double time_s, struct arena *arena)
 {
-    struct contributor noise = false_alarms_contributor(number);
+    struct contributor noise = noise_targets_contributor(number);
     noise.range_m = sighting->range_m;
     noise.azimuth_rad = sighting->azimuth_rad;
     noise.range_rate_mps = sighting->range_rate_mps;
@@ -155,44 +155,44 @@ static void label_false_alarm(const struct sensor *sensor, struct sighting *sigh
 
 /* Too weak alone, too weak among others, or beside stronger ones no peak of its own. */
 static void lose(const struct detections *sightings, struct frame *frame, const char *stage,
-                 const struct ray *ray)
+                 const struct received_echo *received)
 {
     const struct signal_cube *signal = sightings->signal;
-    double shown = range_doppler_amplitude(sightings->spectrum, ray->range_m / signal->range_step_m,
-                                      ray->range_rate_mps / signal->rate_step_mps);
+    double shown = range_doppler_amplitude(sightings->spectrum, received->range_m / signal->range_step_m,
+                                      received->range_rate_mps / signal->rate_step_mps);
     double threshold = sightings->threshold;
-    struct lost_echo lost = frame_lost(SUBJECT_OF(&ray->echo));
+    struct lost_echo lost = frame_lost(ECHO_ID_OF(&received->echo));
     enum loss reason = LOSS_MASKED;
-    if (ray->amplitude < threshold || shown < threshold) {
-        bool alone = ray->amplitude < threshold;
+    if (received->amplitude < threshold || shown < threshold) {
+        bool alone = received->amplitude < threshold;
         reason = alone ? LOSS_BELOW_THRESHOLD : LOSS_BELOW_FINAL;
-        lost.shortfall_db = units_shortfall_db(threshold, alone ? ray->amplitude : shown);
+        lost.shortfall_db = units_shortfall_db(threshold, alone ? received->amplitude : shown);
     }
-    lost.margins = *ray->margins;
+    lost.margins = *received->margins;
     frame_lose(frame, stage, signal->sensor->name, reason, &lost);
 }
 
 void detections_label(struct detections *sightings, struct frame *frame, const char *stage,
-                     const struct clustered_rays *received)
+                     const struct clustered_echoes *resolved)
 {
-    const struct ray *rays = received->rays;
-    size_t count = received->count;
+    const struct received_echo *received_echoes = resolved->received_echoes;
+    size_t count = resolved->count;
     const struct sensor *sensor = sightings->signal->sensor;
     struct arena *arena = frame->arena;
     size_t *home = arena_get(arena, (count + 1) * sizeof *home);
-    struct ray *members = arena_get(arena, (count + 1) * sizeof *members);
+    struct received_echo *members = arena_get(arena, (count + 1) * sizeof *members);
     int64_t alarms = 0;
     for (size_t i = 0; i < count; i++)
-        home[i] = home_of(sightings, &rays[i]);
+        home[i] = home_of(sightings, &received_echoes[i]);
     for (size_t number = 0; number < sightings->list.count; number++) {
         struct sighting *sighting = &sightings->list.items[number];
         size_t own = 0;
         for (size_t i = 0; i < count; i++)
             if (home[i] == number)
-                members[own++] = rays[i];
-        size_t maker = own == 0 ? maker_of(sightings, sighting, rays, count) : NOWHERE;
+                members[own++] = received_echoes[i];
+        size_t maker = own == 0 ? maker_of(sightings, sighting, received_echoes, count) : NOWHERE;
         if (maker != NOWHERE) {
-            members[own++] = rays[maker];
+            members[own++] = received_echoes[maker];
             home[maker] = home[maker] == NOWHERE ? number : home[maker];
         }
         if (own > 0)
@@ -202,36 +202,36 @@ void detections_label(struct detections *sightings, struct frame *frame, const c
     }
     for (size_t i = 0; i < count; i++)
         if (home[i] == NOWHERE)
-            lose(sightings, frame, stage, &rays[i]);
+            lose(sightings, frame, stage, &received_echoes[i]);
     if (alarms > 0)
         frame_count_echoes(frame, sensor->name, PATH_FALSE_ALARM, alarms);
 }
 
-static struct reading reading_at(const struct sighting *sighting)
+static struct measurement reading_at(const struct sighting *sighting)
 {
-    struct reading reading = target_list_measure(&sighting->cell);
-    if (sighting->range_m != reading.range_m || sighting->range_rate_mps != reading.range_rate_mps)
-        reading.effects |= EFFECT_BIT(EFFECT_RANGE_NOISE);
-    if (sighting->azimuth_rad != reading.azimuth_rad)
-        reading.effects |= EFFECT_BIT(EFFECT_ANGLE_NOISE);
-    reading.range_m = sighting->range_m;
-    reading.azimuth_rad = sighting->azimuth_rad;
-    reading.range_rate_mps = sighting->range_rate_mps;
-    reading.amplitude = sighting->amplitude;
-    reading.sign_undecided = sighting->sign_undecided;
-    return reading;
+    struct measurement measurement = target_list_measure(&sighting->cell);
+    if (sighting->range_m != measurement.range_m || sighting->range_rate_mps != measurement.range_rate_mps)
+        measurement.effects |= EFFECT_BIT(EFFECT_RANGE_NOISE);
+    if (sighting->azimuth_rad != measurement.azimuth_rad)
+        measurement.effects |= EFFECT_BIT(EFFECT_ANGLE_NOISE);
+    measurement.range_m = sighting->range_m;
+    measurement.azimuth_rad = sighting->azimuth_rad;
+    measurement.range_rate_mps = sighting->range_rate_mps;
+    measurement.amplitude = sighting->amplitude;
+    measurement.sign_undecided = sighting->sign_undecided;
+    return measurement;
 }
 
 void detections_list(const struct detections *sightings, struct frame *frame, const char *stage,
                     const struct measurement_noise *by)
 {
     size_t first = frame->targets.count, count = sightings->list.count;
-    struct reading *readings = arena_get(frame->arena, (count + 1) * sizeof *readings);
+    struct measurement *measurements = arena_get(frame->arena, (count + 1) * sizeof *measurements);
     for (size_t i = 0; i < count; i++) {
-        readings[i] = reading_at(&sightings->list.items[i]);
-        measurement_noise_azimuth(by, &readings[i]);
+        measurements[i] = reading_at(&sightings->list.items[i]);
+        measurement_noise_azimuth(by, &measurements[i]);
     }
-    target_list_make(frame, stage, by->sensor, readings, count, by->list_limit);
+    target_list_make(frame, stage, by->sensor, measurements, count, by->list_limit);
     for (size_t i = first; i < frame->targets.count && by->steps; i++)
         target_list_round(&frame->targets.items[i], by->sensor);
 }

@@ -32,10 +32,10 @@ struct detections detections_of(const struct signal_cube *signal, const struct r
                               const struct reception *reception);
 
 /* Gives every sighting its cell, and a range rate as near to that of its strongest echo as its
- * ambiguity allows; writes off the rays that no sighting shows, and counts false alarms. Rays come
+ * ambiguity allows; writes off the received echoes that no sighting shows, and counts false alarms. Rays come
  * strongest first. */
 void detections_label(struct detections *sightings, struct frame *frame, const char *stage,
-                     const struct clustered_rays *received);
+                     const struct clustered_echoes *resolved);
 
 /* Writes the list: misaligned, in its order, up to its limit, rounded. */
 void detections_list(const struct detections *sightings, struct frame *frame, const char *stage,

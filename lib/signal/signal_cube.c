@@ -6,8 +6,8 @@
 
 #include "draw_address.h"
 #include "elementary.h"
-#include "false_alarms.h"
-#include "interference.h"
+#include "noise_targets.h"
+#include "interferer.h"
 #include "units.h"
 
 /* Beyond so many bins a pulse is below 2^-36 of itself. */
@@ -62,33 +62,33 @@ struct source {
     double turns, range, rate, walk;
 };
 
-static void weigh_channels(const struct signal_cube *signal, const struct ray *ray,
+static void weigh_channels(const struct signal_cube *signal, const struct received_echo *received,
                            struct phasor *weight)
 {
     struct antenna_pointers pointers =
-        antenna_pointers(&signal->sensor->antenna, ray->echo.azimuth_rad);
-    double sine = elementary_sin(ray->echo.azimuth_rad);
+        antenna_pointers(&signal->sensor->antenna, received->echo.azimuth_rad);
+    double sine = elementary_sin(received->echo.azimuth_rad);
     weight[0] =
-        (struct phasor){ray->strength * creal(pointers.sum), ray->strength * cimag(pointers.sum)};
-    weight[1] = (struct phasor){ray->strength * creal(pointers.delta),
-                                ray->strength * cimag(pointers.delta)};
+        (struct phasor){received->strength * creal(pointers.sum), received->strength * cimag(pointers.sum)};
+    weight[1] = (struct phasor){received->strength * creal(pointers.delta),
+                                received->strength * cimag(pointers.delta)};
     for (size_t element = 0; element < signal->array.elements; element++) {
         struct phasor response = beamforming_response(&signal->array, sine, element);
         weight[element] =
-            (struct phasor){ray->amplitude * response.re, ray->amplitude * response.im};
+            (struct phasor){received->amplitude * response.re, received->amplitude * response.im};
     }
 }
 
-static struct source source_of(const struct signal_cube *signal, const struct ray *ray)
+static struct source source_of(const struct signal_cube *signal, const struct received_echo *received)
 {
     double scan_s = units_wavelength_m(signal->sensor->carrier_hz) / (2 * signal->rate_step_mps);
     struct source source = {
-        .turns = ray->phase_rad / (2 * PI),
-        .range = ray->range_m / signal->range_step_m,
-        .rate = ray->range_rate_mps / signal->rate_step_mps,
-        .walk = ray->range_rate_mps * scan_s / signal->range_step_m,
+        .turns = received->phase_rad / (2 * PI),
+        .range = received->range_m / signal->range_step_m,
+        .rate = received->range_rate_mps / signal->rate_step_mps,
+        .walk = received->range_rate_mps * scan_s / signal->range_step_m,
     };
-    weigh_channels(signal, ray, source.weight);
+    weigh_channels(signal, received, source.weight);
     return source;
 }
 
@@ -106,7 +106,7 @@ static void chirp(struct phasor *tone, size_t count, double cells, struct phasor
 
 static void pulse(struct phasor *tone, size_t count, double bins, struct phasor first)
 {
-    double begin = elementary_most(ceil(bins - PULSE_REACH), 0), end = floor(bins + PULSE_REACH);
+    double begin = elementary_max(ceil(bins - PULSE_REACH), 0), end = floor(bins + PULSE_REACH);
     memset(tone, 0, count * sizeof *tone);
     for (double n = begin; n <= end && n < (double)count; n++) {
         double size = point_response_value(POINT_RESPONSE_PULSE, n - bins);
@@ -142,12 +142,12 @@ static void add_source(const struct signal_cube *signal, const struct source *so
 }
 
 /* One repetition after the other: its samples stay in the cache. */
-void signal_cube_add(const struct signal_cube *signal, const struct ray *rays, size_t count,
+void signal_cube_add(const struct signal_cube *signal, const struct received_echo *received_echoes, size_t count,
                 struct arena *arena)
 {
     struct source *sources = arena_get(arena, (count + 1) * sizeof *sources);
     for (size_t i = 0; i < count; i++)
-        sources[i] = source_of(signal, &rays[i]);
+        sources[i] = source_of(signal, &received_echoes[i]);
     for (size_t m = 0; m < signal->repetitions; m++)
         for (size_t i = 0; i < count; i++)
             add_source(signal, &sources[i], m);
@@ -213,15 +213,15 @@ void signal_cube_weigh(const struct signal_cube *signal)
 void signal_cube_receive(const struct signal_cube *signal, const struct scan *scan, bool noisy)
 {
     const struct reception *reception = &scan->reception;
-    struct contributor noise = false_alarms_contributor(0);
+    struct contributor noise = noise_targets_contributor(0);
     struct random_address address =
-        draw_address_of(reception->frame, reception->sensor->name, SUBJECT_OF(&noise));
+        draw_address_of(reception->frame, reception->sensor->name, ECHO_ID_OF(&noise));
     signal_cube_clear(signal);
-    signal_cube_add(signal, scan->resolved.rays, scan->resolved.count, reception->frame->arena);
+    signal_cube_add(signal, scan->resolved.received_echoes, scan->resolved.count, reception->frame->arena);
     if (noisy)
         signal_cube_add_noise(signal, &address,
                          signal->sensor->pointer_sigma *
-                             interference_noise_factor(reception->interference));
+                             interferer_noise_factor(reception->interference));
     signal_cube_weigh(signal);
 }
 
@@ -237,7 +237,7 @@ static void look(const struct signal_cube *signal, double sine, size_t rate_bin,
             (struct phasor){part * response.re, -part * response.im});
     }
     for (size_t n = 0; n < count; n++)
-        power[n] = elementary_most(power[n], signal->row[n].re * signal->row[n].re +
+        power[n] = elementary_max(power[n], signal->row[n].re * signal->row[n].re +
                                                  signal->row[n].im * signal->row[n].im);
 }
 

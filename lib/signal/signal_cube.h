@@ -39,7 +39,7 @@ size_t signal_cube_size(const struct signal_cube *signal);
 void signal_cube_clear(const struct signal_cube *signal);
 
 /* Adds echoes. Memory comes from the arena. */
-void signal_cube_add(const struct signal_cube *signal, const struct ray *rays, size_t count,
+void signal_cube_add(const struct signal_cube *signal, const struct received_echo *received_echoes, size_t count,
                 struct arena *arena);
 
 /* Adds noise that leaves cells with this RMS in the sum and delta channel, or beams of all

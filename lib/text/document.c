@@ -37,7 +37,7 @@ static const char *own_folder(struct arena *arena)
     return path;
 }
 
-const char *document_find(const char *kind, const char *name, const char *ending,
+const char *document_find(const char *kind, const char *name, const char *outcome,
                           struct arena *arena, struct diag *diag)
 {
     if (strpbrk(name, "/.") != NULL || strcmp(name, "-") == 0)
@@ -53,11 +53,11 @@ const char *document_find(const char *kind, const char *name, const char *ending
     for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
         if (folders[i] == NULL)
             continue;
-        const char *path = join(arena, join(arena, folders[i], kind, "/", ""), name, ending, "");
+        const char *path = join(arena, join(arena, folders[i], kind, "/", ""), name, outcome, "");
         if (access(path, F_OK) == 0)
             return path;
     }
-    diag_fail(diag, DIAG_CONFIG, "there is no %s/%s%s; looked in", kind, name, ending);
+    diag_fail(diag, DIAG_CONFIG, "there is no %s/%s%s; looked in", kind, name, outcome);
     for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
         size_t used = strlen(diag->text);
         if (folders[i] != NULL)

@@ -17,7 +17,7 @@ void document_guard_memory(void);
 
 /* The path that a name stands for, in the arena; NULL after a message that lists the places that
  * were searched. A table is found the same way with ending ".csv" instead of ".json". */
-const char *document_find(const char *kind, const char *name, const char *ending,
+const char *document_find(const char *kind, const char *name, const char *outcome,
                           struct arena *arena, struct diag *diag);
 
 /* Reads a document (standard input for "-") into the struct that the record describes; all it

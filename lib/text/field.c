@@ -19,8 +19,8 @@ const char *field_unit(const char *name)
     };
     size_t length = strlen(name);
     for (size_t i = 0; i < sizeof units / sizeof units[0]; i++) {
-        size_t ending = strlen(units[i][0]);
-        if (length > ending && strcmp(name + length - ending, units[i][0]) == 0)
+        size_t outcome = strlen(units[i][0]);
+        if (length > outcome && strcmp(name + length - outcome, units[i][0]) == 0)
             return units[i][1];
     }
     return "";
@@ -580,7 +580,7 @@ static bool records_good(const struct record *record, const struct items *items,
     return true;
 }
 
-bool field_good(const struct record *record, const void *first, size_t count, unsigned sections,
+bool field_in_bounds(const struct record *record, const void *first, size_t count, unsigned sections,
                 struct field_names *names)
 {
     return records_good(record, &(struct items){first, record->size, count}, sections, names);
@@ -588,7 +588,7 @@ bool field_good(const struct record *record, const void *first, size_t count, un
 
 int field_check(const struct record *record, const void *base, struct diag *diag)
 {
-    return field_good(record, base, 1, ~0U, &(struct field_names){0}) ? 0
+    return field_in_bounds(record, base, 1, ~0U, &(struct field_names){0}) ? 0
                                                                       : walk(record, base, diag);
 }
 
@@ -604,7 +604,7 @@ struct field_list field_list(const struct field *field, const void *base)
     return (struct field_list){list.items, list.count};
 }
 
-bool field_as_read(const struct record *record, const struct field *field, const void *base)
+bool field_unchanged(const struct record *record, const struct field *field, const void *base)
 {
     const void *document;
     memcpy(&document, (const char *)base + record->document_offset, sizeof document);

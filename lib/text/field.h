@@ -172,7 +172,7 @@ struct field_names {
 
 /* Whether field_check passes for count structs side by side, and of the record's own sections only
  * for these. */
-bool field_good(const struct record *record, const void *first, size_t count, unsigned sections,
+bool field_in_bounds(const struct record *record, const void *first, size_t count, unsigned sections,
                 struct field_names *names);
 
 /* A LIST_OF anything, seen without its type. */
@@ -184,7 +184,7 @@ struct field_list {
 struct field_list field_list(const struct field *field, const void *base);
 
 /* Is this steady list still that of the document, which does not change any more? */
-bool field_as_read(const struct record *record, const struct field *field, const void *base);
+bool field_unchanged(const struct record *record, const struct field *field, const void *base);
 
 /* Appends one cleared item to the list member and returns its address. For FIELD_NAMES the item is
  * a const char *. */

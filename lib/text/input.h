@@ -16,7 +16,7 @@
 struct input;
 
 /* Takes the places of closed standard streams, so that no file that is opened later is mistaken for
- * one of them: reading or writing there then fails. Once, in main. */
+ * one of them: measurement or writing there then fails. Once, in main. */
 void input_guard_descriptors(void);
 
 /* Opens a path, or standard input for "-". NULL after a message. Messages do not name the file. */

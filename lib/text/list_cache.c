@@ -68,7 +68,7 @@ struct repeat *list_cache_of(struct list_cache *repeats, const struct record *re
             repeat->record == field->record)
             return found(repeats, repeat);
     }
-    if (!field_as_read(record, field, base) || list_cache_full(repeats))
+    if (!field_unchanged(record, field, base) || list_cache_full(repeats))
         return NULL;
     return add(repeats, field, list);
 }

@@ -5,7 +5,7 @@
 
 #include "elementary.h"
 #include "look.h"
-#include "superposition.h"
+#include "resolution_cell.h"
 #include "units.h"
 
 #define AMPLITUDE_MARGIN 1e-3
@@ -78,7 +78,7 @@ static double amplitude(const struct site *site, const struct spot *spot)
     struct echo echo = {.range_m = spot->range_m,
                         .azimuth_rad = spot->azimuth_rad,
                         .ercs = site->models[spot->class].reflectors->points.items[0].ercs};
-    return superposition_ray(site->sensor, &echo, 0).amplitude;
+    return received_echo_in_free_space(site->sensor, &echo, 0).amplitude;
 }
 
 static enum random_class draw_point_class(struct random_sequence *draws)
@@ -90,11 +90,11 @@ static enum random_class draw_point_class(struct random_sequence *draws)
 static struct spot draw_spot(struct site *site)
 {
     double nearest_m = site->sensor->range_min_m + 3;
-    double farthest_m = elementary_least(0.8 * site->sensor->range_max_m, 30);
+    double farthest_m = elementary_min(0.8 * site->sensor->range_max_m, 30);
     double border = 0.8 * look_border_rad(site->sensor);
     struct spot spot = {
         .class = draw_point_class(&site->draws),
-        .range_m = random_sequence_between(&site->draws, elementary_least(nearest_m, farthest_m), farthest_m),
+        .range_m = random_sequence_between(&site->draws, elementary_min(nearest_m, farthest_m), farthest_m),
         .azimuth_rad = random_sequence_between(&site->draws, -border, border),
         .range_rate_mps = random_sequence_between(&site->draws, -20, 20),
     };
@@ -119,7 +119,7 @@ static double sum_from(const struct site *site, const struct spot *spots, int co
  * is out of reach. Bisection ends on neighbouring doubles. */
 static bool move_to_sum(const struct site *site, struct spot *spots, int count, double wanted)
 {
-    double near_m = elementary_most(site->sensor->range_min_m, site->sensor->range_floor_m) +
+    double near_m = elementary_max(site->sensor->range_min_m, site->sensor->range_floor_m) +
                     2 * site->sensor->half_range_m;
     double far_m = site->sensor->range_max_m - 2 * site->sensor->half_range_m;
     if (sum_from(site, spots, count, near_m) < wanted ||
@@ -376,7 +376,7 @@ void adversarial_traffic_add(const struct random_traffic *scene, const struct su
     struct random_sequence draws = random_sequence_at(address, RANDOM_HARD_CASE);
     int64_t count = random_sequence_whole(&draws, 1, 3);
     for (int64_t i = 1; i <= count; i++) {
-        address.subject = (uint64_t)i;
+        address.item = (uint64_t)i;
         struct site site = {.frame = frame,
                             .models = scene->models,
                             .draws = random_sequence_at(address, RANDOM_HARD_CASE),

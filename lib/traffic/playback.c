@@ -8,10 +8,10 @@
 #include "document.h"
 #include "units.h"
 
-static bool ends_with(const char *text, const char *ending)
+static bool ends_with(const char *text, const char *outcome)
 {
-    size_t length = strlen(text), tail = strlen(ending);
-    return length >= tail && strcmp(text + length - tail, ending) == 0;
+    size_t length = strlen(text), tail = strlen(outcome);
+    return length >= tail && strcmp(text + length - tail, outcome) == 0;
 }
 
 const char *playback_name(const char *source, const char *ego, struct arena *arena)

@@ -171,7 +171,7 @@ static void place(struct random_sequence *draws, const struct regime *regime, co
 static void add_object(const struct random_traffic *scene, int64_t index,
                        struct random_address address, struct frame *frame)
 {
-    address.subject = (uint64_t)index;
+    address.item = (uint64_t)index;
     struct random_sequence draws = random_sequence_at(address, RANDOM_TRAFFIC);
     enum random_class class = draw_class(&draws);
     struct object object = {.class = habits[class].name};

@@ -55,10 +55,10 @@ static struct vec2 to_pixels(const struct still *still, struct vec2 place)
 static void include(struct still *still, struct vec2 place)
 {
     struct vec2 local = to_local(still, place);
-    still->low = (struct vec2){elementary_least(still->low.x, local.x),
-                               elementary_least(still->low.y, local.y)};
-    still->high = (struct vec2){elementary_most(still->high.x, local.x),
-                                elementary_most(still->high.y, local.y)};
+    still->low = (struct vec2){elementary_min(still->low.x, local.x),
+                               elementary_min(still->low.y, local.y)};
+    still->high = (struct vec2){elementary_max(still->high.x, local.x),
+                                elementary_max(still->high.y, local.y)};
 }
 
 static const struct sensor_view *sensor_named(const struct frame *frame, const char *name,
@@ -109,8 +109,8 @@ static void frame_picture(struct still *still)
             include(still, corner[j]);
     }
     struct vec2 size = vec2_sub(still->high, still->low);
-    still->scale = elementary_least((WIDTH - 2 * MARGIN) / elementary_most(size.x, 5),
-                                    (HEIGHT - 2 * MARGIN) / elementary_most(size.y, 5));
+    still->scale = elementary_min((WIDTH - 2 * MARGIN) / elementary_max(size.x, 5),
+                                    (HEIGHT - 2 * MARGIN) / elementary_max(size.y, 5));
 }
 
 static void add_line(struct still *still, const char *class, struct vec2 from, struct vec2 to)

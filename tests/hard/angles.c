@@ -12,7 +12,7 @@
 #include "monopulse.h"
 #include "kinematics.h"
 #include "units.h"
-#include "visibility.h"
+#include "visibility_range.h"
 
 enum { BITS = 400 };
 
@@ -479,7 +479,7 @@ static void parallel_directions_have_an_angle(void **state)
         mpfr_mul_d(part, part, b.y, MPFR_RNDN);
         mpfr_add(dot, dot, part, MPFR_RNDN);
         mpfr_atan2(cross, cross, dot, MPFR_RNDN);
-        mpfr_sub_d(dot, cross, visibility_angle_rad(a, b), MPFR_RNDN);
+        mpfr_sub_d(dot, cross, visibility_range_angle_rad(a, b), MPFR_RNDN);
         ours = hard_worse(ours, fabs(mpfr_get_d(dot, MPFR_RNDN)));
         mpfr_sub_d(dot, cross, acos(vec2_dot(a, b) / (vec2_length(a) * vec2_length(b))), MPFR_RNDN);
         naive = hard_worse(naive, fabs(mpfr_get_d(dot, MPFR_RNDN)));

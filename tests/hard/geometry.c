@@ -4,7 +4,7 @@
 #include <stdbool.h>
 
 #include "direct_echoes.h"
-#include "occlusion.h"
+#include "outline_crossing.h"
 #include "predicates.h"
 #include "specular_point.h"
 #include "kinematics.h"
@@ -86,20 +86,20 @@ static void what_has_no_size_has_a_fixed_answer(void **state)
     const struct {
         double naive, ours, fixed;
     } rows[] = {
-        {1, occlusion_segments_touch(p, p, p, p), 1},
-        {0, occlusion_segments_touch(p, p, q, q), 0},
-        {1, occlusion_segments_touch(p, p, o, q), 1},
-        {1, occlusion_segments_touch(o, q, p, p), 1},
-        {0, occlusion_segments_touch(off, off, o, q), 0},
-        {0, occlusion_segments_touch(o, p, q, q), 0},
-        {1, occlusion_segments_touch(q, q, o, q), 1},
-        {0, occlusion_outline_blocks(point, 4, o, q), 1},
-        {0, occlusion_outline_blocks(point, 4, up, off), 0},
-        {0, occlusion_outline_blocks(point, 4, p, p), 1},
-        {0, occlusion_outline_blocks(line, 4, o, (struct vec2){2, 1}), 1},
-        {0, occlusion_outline_blocks(line, 4, o, up), 0},
-        {0, occlusion_outline_blocks(flat, 4, p, (struct vec2){9, 0}), 1},
-        {0, occlusion_outline_blocks(flat, 4, (struct vec2){3, 0}, (struct vec2){9, 0}), 0},
+        {1, outline_crossing_segments_touch(p, p, p, p), 1},
+        {0, outline_crossing_segments_touch(p, p, q, q), 0},
+        {1, outline_crossing_segments_touch(p, p, o, q), 1},
+        {1, outline_crossing_segments_touch(o, q, p, p), 1},
+        {0, outline_crossing_segments_touch(off, off, o, q), 0},
+        {0, outline_crossing_segments_touch(o, p, q, q), 0},
+        {1, outline_crossing_segments_touch(q, q, o, q), 1},
+        {0, outline_crossing_blocks(point, 4, o, q), 1},
+        {0, outline_crossing_blocks(point, 4, up, off), 0},
+        {0, outline_crossing_blocks(point, 4, p, p), 1},
+        {0, outline_crossing_blocks(line, 4, o, (struct vec2){2, 1}), 1},
+        {0, outline_crossing_blocks(line, 4, o, up), 0},
+        {0, outline_crossing_blocks(flat, 4, p, (struct vec2){9, 0}), 1},
+        {0, outline_crossing_blocks(flat, 4, (struct vec2){3, 0}, (struct vec2){9, 0}), 0},
         {0, predicates_orientation(p, p, off), 0},
         {0, predicates_orientation(off, p, p), 0},
         {0, predicates_orientation(p, off, p), 0},
@@ -114,10 +114,10 @@ static void what_has_no_size_has_a_fixed_answer(void **state)
         {0, here.range_m, 0},
         {no_length / no_length, here.azimuth_rad, 0},
         {no_length / no_length, here.range_rate_mps, 0},
-        {no_length / no_length, visibility_angle_rad(o, up), 0},
-        {no_length / no_length, visibility_angle_rad(o, vec2_scale(-1, o)), 0},
-        {no_length / no_length, visibility(VISIBILITY_LINEAR, 1, 1, 1), 1},
-        {no_length / no_length, visibility(VISIBILITY_RAISED_COSINE, 0, 0, 0), 1},
+        {no_length / no_length, visibility_range_angle_rad(o, up), 0},
+        {no_length / no_length, visibility_range_angle_rad(o, vec2_scale(-1, o)), 0},
+        {no_length / no_length, visibility_range_factor(VISIBILITY_LINEAR, 1, 1, 1), 1},
+        {no_length / no_length, visibility_range_factor(VISIBILITY_RAISED_COSINE, 0, 0, 0), 1},
         {1, (double)posts, 1},
         {no_length / no_length, post.x, 3.6},
         {no_length / no_length, still.position_m.x, 1},
@@ -249,15 +249,15 @@ static void no_ray_leaks_through_a_corner(void **state)
                   !strict_cross(sensor, target, corner[k], after);
         parametric += !parametric_touch(sensor, target, before, corner[k]) &&
                       !parametric_touch(sensor, target, corner[k], after);
-        ours += !occlusion_segments_touch(sensor, target, before, corner[k]) ||
-                !occlusion_segments_touch(sensor, target, corner[k], after) ||
-                !occlusion_outline_blocks(corner, 4, sensor, target);
+        ours += !outline_crossing_segments_touch(sensor, target, before, corner[k]) ||
+                !outline_crossing_segments_touch(sensor, target, corner[k], after) ||
+                !outline_crossing_blocks(corner, 4, sensor, target);
     }
     hard_case("29", "rays through a corner that leak", "wrong", strict, ours, 0);
     hard_case("30", "the same, products contracted", "wrong", parametric, ours, 0);
 }
 
-/* Two rails of at least 4 m that share a rounded vertex, and rays within rounding of it from 1 m
+/* Two rails of at least 4 m that share a rounded vertex, and received echoes within rounding of it from 1 m
  * to either side. */
 static void no_ray_leaks_through_a_joint(void **state)
 {
@@ -273,8 +273,8 @@ static void no_ray_leaks_through_a_joint(void **state)
         struct vec2 sensor = vec2_add(joint, vec2_turn(own, along));
         struct vec2 target = vec2_sub(joint, vec2_sub(sensor, joint));
         naive += !strict_cross(sensor, target, a, joint) && !strict_cross(sensor, target, joint, b);
-        ours += !occlusion_segments_touch(sensor, target, a, joint) &&
-                !occlusion_segments_touch(sensor, target, joint, b);
+        ours += !outline_crossing_segments_touch(sensor, target, a, joint) &&
+                !outline_crossing_segments_touch(sensor, target, joint, b);
     }
     hard_case("31", "rays through a rail's joint that leak", "wrong", naive, ours, 0);
 }
@@ -370,7 +370,7 @@ static void no_object_hides_its_own_outline(void **state)
             double part = sample_between(&random, -0.5, 0.5), side = k % 2 ? 0.5 : -0.5;
             double x = k % 4 < 2 ? part : side, y = k % 4 < 2 ? side : part;
             add_point(&scene, set, x, y);
-            naive += occlusion_outline_blocks(corner, 4, (struct vec2){0, 0},
+            naive += outline_crossing_blocks(corner, 4, (struct vec2){0, 0},
                                               reflectors_place(&box, x, y));
         }
         look(&scene);
@@ -514,8 +514,8 @@ static void an_outline_along_the_sight_line_blocks_the_foot(void **state)
         struct vec2 edge = vec2_sub(b, a);
         double part = vec2_dot(vec2_sub(sensor, a), edge) / vec2_dot(edge, edge);
         struct vec2 plain = vec2_add(a, vec2_scale(part, edge));
-        naive += !occlusion_outline_blocks(corner, 4, sensor, plain);
-        ours += !occlusion_outline_blocks(corner, 4, sensor, foot);
+        naive += !outline_crossing_blocks(corner, 4, sensor, plain);
+        ours += !outline_crossing_blocks(corner, 4, sensor, foot);
     }
     hard_case("foot", "outlines along its sight line missed", "wrong", naive, ours, 0);
 }

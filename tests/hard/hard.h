@@ -6,7 +6,7 @@
 #ifndef HARD_H
 #define HARD_H
 
-#include "../check.h"
+#include "support/check.h"
 #include "../sample.h"
 
 #include <stdlib.h>

@@ -13,7 +13,7 @@
 #include "frame_text.h"
 #include "hash.h"
 #include "runner.h"
-#include "superposition.h"
+#include "resolution_cell.h"
 #include "units.h"
 
 #define DEGREE (PI / 180)
@@ -219,32 +219,32 @@ static void lone_targets_stay_where_they_are(void **state)
     mpfr_clear(exact);
 }
 
-/* The cell of rays in whatever order. */
-static struct cell cell_of(const struct sensor *sensor, struct ray *rays, size_t count,
+/* The cell of received echoes in whatever order. */
+static struct cell cell_of(const struct sensor *sensor, struct received_echo *received_echoes, size_t count,
                            struct arena *arena)
 {
     struct cell cell;
     arena_clear(arena);
-    qsort(rays, count, sizeof *rays, superposition_compare);
-    assert_true(superposition_cell(sensor, rays, count, true, arena, &cell));
+    qsort(received_echoes, count, sizeof *received_echoes, resolution_cell_compare);
+    assert_true(resolution_cell_of(sensor, received_echoes, count, true, arena, &cell));
     return cell;
 }
 
-static struct ray ray_at(const struct sensor *sensor, const char *object, double azimuth_rad,
+static struct received_echo ray_at(const struct sensor *sensor, const char *object, double azimuth_rad,
                          double strength)
 {
-    struct ray ray = {.echo = {.object = object, .reflector = "r", .azimuth_rad = azimuth_rad},
+    struct received_echo received = {.echo = {.object = object, .reflector = "r", .azimuth_rad = azimuth_rad},
                       .strength = strength,
                       .amplitude = strength * antenna_gain(&sensor->antenna, azimuth_rad)};
-    return ray;
+    return received;
 }
 
 static struct cell pair_of(const struct sensor *sensor, double azimuth_rad, double left,
                            double right, struct arena *arena)
 {
-    struct ray rays[] = {ray_at(sensor, "left", azimuth_rad, left),
+    struct received_echo received_echoes[] = {ray_at(sensor, "left", azimuth_rad, left),
                          ray_at(sensor, "right", -azimuth_rad, right)};
-    return cell_of(sensor, rays, 2, arena);
+    return cell_of(sensor, received_echoes, 2, arena);
 }
 
 /* The same through plain sums and the paper's sign as it comes. */
@@ -382,14 +382,14 @@ static void one_ulp_of_an_echo_does_not_make_the_angle_jump(void **state)
 }
 
 /* Sums as plain as can be, in the cell's order. */
-static struct antenna_pointers naive_pointers(const struct sensor *sensor, const struct ray *rays,
+static struct antenna_pointers naive_pointers(const struct sensor *sensor, const struct received_echo *received_echoes,
                                               size_t count)
 {
     struct antenna_pointers total = {0, 0};
     for (size_t i = 0; i < count; i++) {
-        struct antenna_pointers one = antenna_pointers(&sensor->antenna, rays[i].echo.azimuth_rad);
-        total.sum += rays[i].strength * one.sum;
-        total.delta += rays[i].strength * one.delta;
+        struct antenna_pointers one = antenna_pointers(&sensor->antenna, received_echoes[i].echo.azimuth_rad);
+        total.sum += received_echoes[i].strength * one.sum;
+        total.delta += received_echoes[i].strength * one.delta;
     }
     return total;
 }
@@ -408,11 +408,11 @@ static void an_even_cell_has_no_sign(void **state)
     for (int i = 0; i < count; i++) {
         double azimuth_rad = pair_azimuth(i, count, 80 * DEGREE);
         double strength = exp(sample_between(&sample, -7, 7));
-        struct ray rays[2 * SIDE];
+        struct received_echo received_echoes[2 * SIDE];
         for (int k = 0; k < 2 * SIDE; k++)
-            rays[k] = ray_at(&bench.sensor, "o", k < SIDE ? azimuth_rad : -azimuth_rad, strength);
-        ours += !cell_of(&bench.sensor, rays, 2 * SIDE, &arena).sign_undecided;
-        struct antenna_pointers plain = naive_pointers(&bench.sensor, rays, 2 * SIDE);
+            received_echoes[k] = ray_at(&bench.sensor, "o", k < SIDE ? azimuth_rad : -azimuth_rad, strength);
+        ours += !cell_of(&bench.sensor, received_echoes, 2 * SIDE, &arena).sign_undecided;
+        struct antenna_pointers plain = naive_pointers(&bench.sensor, received_echoes, 2 * SIDE);
         naive += !monopulse_angle(&bench.sensor.antenna, MONOPULSE_MAGNITUDE, plain).sign_undecided;
     }
     hard_case("even cell", "20 equal echoes to either side: a sign", "wrong", naive, ours, 0);
@@ -422,13 +422,13 @@ static void an_even_cell_has_no_sign(void **state)
 
 /* The delta sum of the products as they are rounded, and the sum of their sizes. */
 static void set_delta(mpfr_t total, mpfr_t sizes, const struct sensor *sensor,
-                      const struct ray *rays, size_t count)
+                      const struct received_echo *received_echoes, size_t count)
 {
     mpfr_set_zero(total, 1);
     mpfr_set_zero(sizes, 1);
     for (size_t i = 0; i < count; i++) {
-        double term = rays[i].strength *
-                      cimag(antenna_pointers(&sensor->antenna, rays[i].echo.azimuth_rad).delta);
+        double term = received_echoes[i].strength *
+                      cimag(antenna_pointers(&sensor->antenna, received_echoes[i].echo.azimuth_rad).delta);
         mpfr_add_d(total, total, term, MPFR_RNDN);
         mpfr_add_d(sizes, sizes, fabs(term), MPFR_RNDN);
     }
@@ -449,23 +449,23 @@ static void a_weak_target_outlives_strong_ones_that_cancel(void **state)
     double naive = 0, ours = 0;
     int count = hard_points(10000);
     for (int i = 0; i < count; i++) {
-        struct ray rays[ALL];
+        struct received_echo received_echoes[ALL];
         for (int k = 0; k < 3 * GROUPS; k += 3) {
             double azimuth_rad = sample_between(&sample, -1, 1);
             double strength = pow(10, sample_between(&sample, 0, 16));
-            rays[k] = ray_at(&bench.sensor, "one", azimuth_rad, strength);
-            rays[k + 1] = ray_at(&bench.sensor, "half", -azimuth_rad, strength / 2);
-            rays[k + 2] = ray_at(&bench.sensor, "other half", -azimuth_rad, strength / 2);
+            received_echoes[k] = ray_at(&bench.sensor, "one", azimuth_rad, strength);
+            received_echoes[k + 1] = ray_at(&bench.sensor, "half", -azimuth_rad, strength / 2);
+            received_echoes[k + 2] = ray_at(&bench.sensor, "other half", -azimuth_rad, strength / 2);
         }
-        set_delta(exact, sizes, &bench.sensor, rays, 3 * GROUPS);
+        set_delta(exact, sizes, &bench.sensor, received_echoes, 3 * GROUPS);
         double weak = mpfr_get_d(sizes, MPFR_RNDN) * pow(10, sample_between(&sample, -14.9, -1));
-        rays[3 * GROUPS] = ray_at(&bench.sensor, "weak", 0.5, weak / 0.5);
-        struct cell cell = cell_of(&bench.sensor, rays, ALL, &arena);
-        set_delta(exact, sizes, &bench.sensor, rays, ALL);
+        received_echoes[3 * GROUPS] = ray_at(&bench.sensor, "weak", 0.5, weak / 0.5);
+        struct cell cell = cell_of(&bench.sensor, received_echoes, ALL, &arena);
+        set_delta(exact, sizes, &bench.sensor, received_echoes, ALL);
         assert_true(mpfr_get_d(sizes, MPFR_RNDN) < 1e15 * fabs(mpfr_get_d(exact, MPFR_RNDN)));
-        double plain = cimag(naive_pointers(&bench.sensor, rays, ALL).delta);
+        double plain = cimag(naive_pointers(&bench.sensor, received_echoes, ALL).delta);
         naive = hard_worse(naive, hard_ulp(plain, exact));
-        set_delta(exact, sizes, &bench.sensor, rays, ALL);
+        set_delta(exact, sizes, &bench.sensor, received_echoes, ALL);
         ours = hard_worse(ours, hard_ulp(cell.delta_im, exact));
     }
     hard_case("13 cell", "a weak target where strong ones cancel", "ulp", naive, ours, 2);
@@ -531,7 +531,7 @@ static void the_order_of_echoes_does_not_change_a_byte(void **state)
 }
 
 /* Equation (8) with u' = atan(|sum of g sin u| : sum of g cos u), g = G f. */
-static void set_azimuth(mpfr_t azimuth, const struct ray *rays, size_t count)
+static void set_azimuth(mpfr_t azimuth, const struct received_echo *received_echoes, size_t count)
 {
     mpfr_t quarter, u, sine, cosine, delta, sum;
     mpfr_inits2(SUM_BITS, quarter, u, sine, cosine, delta, sum, (mpfr_ptr)0);
@@ -540,13 +540,13 @@ static void set_azimuth(mpfr_t azimuth, const struct ray *rays, size_t count)
     mpfr_set_zero(delta, 1);
     mpfr_set_zero(sum, 1);
     for (size_t i = 0; i < count; i++) {
-        mpfr_set_d(u, rays[i].echo.azimuth_rad, MPFR_RNDN);
+        mpfr_set_d(u, received_echoes[i].echo.azimuth_rad, MPFR_RNDN);
         mpfr_sin_cos(u, azimuth, u, MPFR_RNDN);
         mpfr_mul(u, u, quarter, MPFR_RNDN);
         mpfr_sin_cos(sine, cosine, u, MPFR_RNDN);
         mpfr_div(u, sine, u, MPFR_RNDN);
         mpfr_mul(azimuth, azimuth, u, MPFR_RNDN);
-        mpfr_mul_d(azimuth, azimuth, rays[i].strength, MPFR_RNDN);
+        mpfr_mul_d(azimuth, azimuth, received_echoes[i].strength, MPFR_RNDN);
         mpfr_mul(sine, sine, azimuth, MPFR_RNDN);
         mpfr_mul(cosine, cosine, azimuth, MPFR_RNDN);
         mpfr_add(delta, delta, sine, MPFR_RNDN);
@@ -559,7 +559,7 @@ static void set_azimuth(mpfr_t azimuth, const struct ray *rays, size_t count)
 }
 
 /* Whether two echoes in one cell end as a target or as lost, as the threshold says. */
-static bool two_are_told(struct bench *bench, double first, double second, struct ray rays[2])
+static bool two_are_told(struct bench *bench, double first, double second, struct received_echo received_echoes[2])
 {
     const struct frame *frame = &bench->frame;
     bench_begin(bench);
@@ -568,8 +568,8 @@ static bool two_are_told(struct bench *bench, double first, double second, struc
     count_echoes(&bench->frame);
     bool told = bench_step(bench);
     for (int i = 0; i < 2; i++)
-        rays[i] = superposition_ray(&bench->sensor, &frame->echoes.items[i], 0);
-    size_t targets = rays[0].amplitude + rays[1].amplitude >= bench->sensor.threshold;
+        received_echoes[i] = received_echo_in_free_space(&bench->sensor, &frame->echoes.items[i], 0);
+    size_t targets = received_echoes[0].amplitude + received_echoes[1].amplitude >= bench->sensor.threshold;
     return told && frame->targets.count == targets && frame->lost.count == 1 - targets;
 }
 
@@ -593,14 +593,14 @@ static void every_amplitude_is_a_target_or_told(void **state)
     bench_open(&bench, PHASE_CENTRE, MONOPULSE_RATIO);
     for (int strong = -300; strong <= 300; strong += 10)
         for (int weak = -300; weak <= strong; weak += 10) {
-            struct ray rays[2];
+            struct received_echo received_echoes[2];
             bench.sensor.threshold = weak % 20 == 0 ? 1 : 1e-307;
             bench.sensor.angle_estimator = ESTIMATORS[strong / 10 % 2 == 0];
-            wrong += !two_are_told(&bench, pow(10, strong), pow(10, weak), rays);
-            double tangent = naive_ratio(naive_pointers(&bench.sensor, rays, 2));
+            wrong += !two_are_told(&bench, pow(10, strong), pow(10, weak), received_echoes);
+            double tangent = naive_ratio(naive_pointers(&bench.sensor, received_echoes, 2));
             naive_wrong += !isfinite(tangent);
-            struct cell cell = cell_of(&bench.sensor, rays, 2, &arena);
-            set_azimuth(exact, rays, 2);
+            struct cell cell = cell_of(&bench.sensor, received_echoes, 2, &arena);
+            set_azimuth(exact, received_echoes, 2);
             mpfr_sub_d(error, exact, cell.azimuth_rad, MPFR_RNDN);
             ours = hard_worse(ours, fabs(mpfr_get_d(error, MPFR_RNDN)));
             mpfr_sub_d(error, exact, asin(2 / PI * atan(tangent)), MPFR_RNDN);

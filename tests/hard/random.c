@@ -225,7 +225,7 @@ static void draws_are_philox_at_any_address(void **state)
             words[k] = any_word(&random);
         struct random_address address = {words[0], words[1], words[2], words[3], words[4]};
         uint32_t index = (uint32_t)any_word(&random);
-        uint64_t block[4] = {address.frame, address.sensor, address.subject,
+        uint64_t block[4] = {address.frame, address.sensor, address.item,
                              (uint64_t)RANDOM_AZIMUTH << 32 | index};
         double uniform[4];
         random_uniform(&address, RANDOM_AZIMUTH, index, uniform);

@@ -10,7 +10,7 @@
 #include "target_list.h"
 #include "resolution.h"
 #include "sort.h"
-#include "superposition.h"
+#include "resolution_cell.h"
 #include "units.h"
 
 enum { MOST = 10, PRECISION = 320 };
@@ -165,9 +165,9 @@ static void a_mean_rate_near_zero_is_as_exact_as_its_members(void **state)
 
 static const struct sensor plain_sensor = {.name = "s", .threshold = 1};
 
-static struct ray ray_of(const char *reflector, double range_m, double rate_mps, double amplitude)
+static struct received_echo ray_of(const char *reflector, double range_m, double rate_mps, double amplitude)
 {
-    return (struct ray){.echo = {.object = "o",
+    return (struct received_echo){.echo = {.object = "o",
                                  .reflector = reflector,
                                  .range_m = range_m,
                                  .range_rate_mps = rate_mps},
@@ -177,13 +177,13 @@ static struct ray ray_of(const char *reflector, double range_m, double rate_mps,
                         .amplitude = amplitude};
 }
 
-static void shuffle(uint64_t *random, struct ray *rays, size_t count)
+static void shuffle(uint64_t *random, struct received_echo *received_echoes, size_t count)
 {
     for (size_t i = count - 1; i > 0; i--) {
         size_t k = (size_t)(sample_bits(random) % (i + 1));
-        struct ray ray = rays[i];
-        rays[i] = rays[k];
-        rays[k] = ray;
+        struct received_echo received = received_echoes[i];
+        received_echoes[i] = received_echoes[k];
+        received_echoes[k] = received;
     }
 }
 
@@ -217,33 +217,33 @@ static void a_cell_is_the_same_for_every_order_of_its_echoes(void **state)
     static const char *const names[] = {"a", "b", "c", "d"};
     uint64_t random = 14;
     struct arena arena = {0};
-    struct ray *rays = malloc(ECHOES * sizeof *rays);
+    struct received_echo *received_echoes = malloc(ECHOES * sizeof *received_echoes);
     double *plain = malloc(2 * ORDERS * sizeof *plain), *ours = plain + ORDERS;
-    assert_true(rays != NULL && plain != NULL);
+    assert_true(received_echoes != NULL && plain != NULL);
     for (size_t i = 0; i < ECHOES; i++) {
         double amplitude = floor(sample_between(&random, 1, 50)) / 10;
         double range_m = sample_between(&random, 30, 30.3);
         double rate_mps = sample_between(&random, -0.25, 0.25);
-        rays[i] = ray_of(names[i % 4], range_m, rate_mps, amplitude);
-        rays[i].echo.azimuth_rad = sample_between(&random, -1, 1);
-        rays[i].phase_rad = sample_between(&random, 0, 6.28);
+        received_echoes[i] = ray_of(names[i % 4], range_m, rate_mps, amplitude);
+        received_echoes[i].echo.azimuth_rad = sample_between(&random, -1, 1);
+        received_echoes[i].phase_rad = sample_between(&random, 0, 6.28);
     }
     size_t orders = (size_t)hard_points(ORDERS);
     for (size_t k = 0; k < orders; k++) {
         struct cell cell;
-        shuffle(&random, rays, ECHOES);
+        shuffle(&random, received_echoes, ECHOES);
         plain[k] = 0;
         for (size_t i = 0; i < ECHOES; i++)
-            plain[k] += rays[i].amplitude * rays[i].echo.range_m;
-        sort_items(rays, ECHOES, sizeof *rays, superposition_compare, &arena);
-        superposition_cell(&plain_sensor, rays, ECHOES, true, &arena, &cell);
+            plain[k] += received_echoes[i].amplitude * received_echoes[i].echo.range_m;
+        sort_items(received_echoes, ECHOES, sizeof *received_echoes, resolution_cell_compare, &arena);
+        resolution_cell_of(&plain_sensor, received_echoes, ECHOES, true, &arena, &cell);
         ours[k] = fingerprint(&cell);
         arena_clear(&arena);
     }
     hard_case("14", "cell of 1,000 echoes in 1,000 orders", "results",
               count_distinct(plain, orders), count_distinct(ours, orders), 1);
     free(plain);
-    free(rays);
+    free(received_echoes);
     arena_free(&arena);
 }
 
@@ -257,16 +257,16 @@ static void cells_of_any_amplitude_are_finite_and_exact(void **state)
     double naive = 0, ours = 0;
     for (int i = 0; i < points; i++) {
         double decades = sample_between(&random, -290, 299), powers = 0, power_mean = 0;
-        struct ray rays[4];
+        struct received_echo received_echoes[4];
         struct cell cell;
         for (size_t k = 0; k < 4; k++) {
             double amplitude = pow(10, decades - 2.5 * (double)k);
-            rays[k] = ray_of("r", 30 + 0.05 * (double)k, 0.1 * (double)k, amplitude);
+            received_echoes[k] = ray_of("r", 30 + 0.05 * (double)k, 0.1 * (double)k, amplitude);
             powers += amplitude * amplitude;
-            power_mean += amplitude * amplitude * rays[k].echo.range_m;
+            power_mean += amplitude * amplitude * received_echoes[k].echo.range_m;
         }
         naive += !isfinite(power_mean / powers);
-        superposition_cell(&plain_sensor, rays, 4, true, &arena, &cell);
+        resolution_cell_of(&plain_sensor, received_echoes, 4, true, &arena, &cell);
         double share = 1 + pow(10, -2.5) + pow(10, -5) + pow(10, -7.5);
         double expected_m =
             30 + 0.05 * (pow(10, -2.5) + 2 * pow(10, -5) + 3 * pow(10, -7.5)) / share;
@@ -288,13 +288,13 @@ static void an_amplitude_beyond_the_doubles_is_refused(void **state)
                           .ego = "e",
                           .interval_s = 1,
                           .present = SECTION_OBJECTS | SECTION_CELLS};
-    const struct ray rays[] = {ray_of("a", 10, 0, 1.2e308), ray_of("b", 10, 0, 1.2e308)};
+    const struct received_echo received_echoes[] = {ray_of("a", 10, 0, 1.2e308), ray_of("b", 10, 0, 1.2e308)};
     struct diag alone = {0}, both = {0};
     struct cell *cell = list_add(&frame.cells, &arena);
-    superposition_cell(&plain_sensor, rays, 1, true, &arena, cell);
+    resolution_cell_of(&plain_sensor, received_echoes, 1, true, &arena, cell);
     cell->amplitude = cell->sum_re = 1e307;
     field_check(&frame_record, &frame, &alone);
-    superposition_cell(&plain_sensor, rays, 2, true, &arena, cell);
+    resolution_cell_of(&plain_sensor, received_echoes, 2, true, &arena, cell);
     field_check(&frame_record, &frame, &both);
     hard_case("17", "amplitude sum of 2.4e308 passes unreported", "wrong", 1,
               (alone.code != DIAG_OK) + (both.code == DIAG_OK) +
@@ -355,9 +355,9 @@ static void decibels_in_targets_are_within_two_ulp(void **state)
 static int is_dropped(const struct sensor *sensor, double amplitude)
 {
     struct arena arena = {0};
-    struct ray ray = ray_of("r", 10, 0, amplitude);
+    struct received_echo received = ray_of("r", 10, 0, amplitude);
     struct cell cell;
-    superposition_cell(sensor, &ray, 1, true, &arena, &cell);
+    resolution_cell_of(sensor, &received, 1, true, &arena, &cell);
     arena_free(&arena);
     return cell.amplitude < sensor->threshold;
 }
@@ -385,14 +385,14 @@ static void list_readings(struct frame *frame, const double *amplitudes, size_t 
 {
     const struct sensor sensor = {.name = "s"};
     struct cell *cells = arena_get(frame->arena, count * sizeof *cells);
-    struct reading *readings = arena_get(frame->arena, count * sizeof *readings);
+    struct measurement *measurements = arena_get(frame->arena, count * sizeof *measurements);
     for (size_t i = 0; i < count; i++) {
         cells[i] = (struct cell){.sensor = "s", .sum_re = amplitudes[i]};
         *list_add(&cells[i].members, frame->arena) =
             (struct contributor){.object = "o", .reflector = "r", .weight = 1};
-        readings[i] = target_list_measure(&cells[i]);
+        measurements[i] = target_list_measure(&cells[i]);
     }
-    target_list_make(frame, "noise", &sensor, readings, count, 0);
+    target_list_make(frame, "noise", &sensor, measurements, count, 0);
 }
 
 static void no_amplitude_makes_infinite_decibels(void **state)

@@ -9,7 +9,7 @@
 #include "resolution.h"
 #include "playback.h"
 #include "sort.h"
-#include "superposition.h"
+#include "resolution_cell.h"
 
 enum { FRAMES = 1000000, PRECISION = 320 };
 
@@ -287,13 +287,13 @@ static void shuffle(uint64_t *random, void *items, size_t count, size_t size)
 }
 
 /* Echoes 0 to 0.28 m apart, amplitudes the same or apart_ulp steps apart. */
-static void draw_rays(uint64_t *random, int64_t apart_ulp, struct ray rays[TIED])
+static void draw_rays(uint64_t *random, int64_t apart_ulp, struct received_echo received_echoes[TIED])
 {
     static const char *const names[] = {"a", "b", "c", "d", "e", "f"};
     for (size_t i = 0; i < TIED; i++) {
         double amplitude = 2 * (1 + (double)sample_integer(random, apart_ulp) * 0x1p-52);
         double range_m = 10 + 0.07 * (double)(sample_bits(random) % 5);
-        rays[i] = (struct ray){.echo = {.object = "o", .reflector = names[i], .range_m = range_m},
+        received_echoes[i] = (struct received_echo){.echo = {.object = "o", .reflector = names[i], .range_m = range_m},
                                .range_m = range_m,
                                .strength = amplitude,
                                .amplitude = amplitude};
@@ -301,12 +301,12 @@ static void draw_rays(uint64_t *random, int64_t apart_ulp, struct ray rays[TIED]
 }
 
 /* The means of the cells, in their order. */
-static size_t find_cells(const struct ray rays[TIED], double range_m[TIED])
+static size_t find_cells(const struct received_echo received_echoes[TIED], double range_m[TIED])
 {
     struct resolution_echo echoes[TIED];
     size_t cell[TIED];
     for (size_t i = 0; i < TIED; i++)
-        echoes[i] = (struct resolution_echo){rays[i].echo.range_m, 0, rays[i].amplitude};
+        echoes[i] = (struct resolution_echo){received_echoes[i].echo.range_m, 0, received_echoes[i].amplitude};
     size_t cells = cluster(echoes, TIED, 0.15, 0.25, cell);
     for (size_t number = 0; number < cells; number++) {
         double ranges[TIED], weights[TIED];
@@ -323,15 +323,15 @@ static size_t find_cells(const struct ray rays[TIED], double range_m[TIED])
 
 static int compare_amplitudes(const void *left, const void *right)
 {
-    const struct ray *a = left, *b = right;
+    const struct received_echo *a = left, *b = right;
     return (a->amplitude < b->amplitude) - (a->amplitude > b->amplitude);
 }
 
-/* Whether two orders of the rays make different lists under an order of strength. */
-static bool differ(const struct ray one[TIED], const struct ray other[TIED],
+/* Whether two orders of the received echoes make different lists under an order of strength. */
+static bool differ(const struct received_echo one[TIED], const struct received_echo other[TIED],
                    int (*compare)(const void *, const void *), struct arena *arena)
 {
-    struct ray sorted[2][TIED];
+    struct received_echo sorted[2][TIED];
     double range_m[2][TIED];
     size_t cells[2];
     for (int i = 0; i < 2; i++) {
@@ -351,12 +351,12 @@ static void ties_fall_the_same_way_in_every_order(void **state)
     int points = hard_points(200000);
     double naive = 0, ours = 0;
     for (int i = 0; i < points; i++) {
-        struct ray rays[TIED], shuffled[TIED];
-        draw_rays(&random, 0, rays);
-        memcpy(shuffled, rays, sizeof shuffled);
+        struct received_echo received_echoes[TIED], shuffled[TIED];
+        draw_rays(&random, 0, received_echoes);
+        memcpy(shuffled, received_echoes, sizeof shuffled);
         shuffle(&random, shuffled, TIED, sizeof shuffled[0]);
-        naive += differ(rays, shuffled, compare_amplitudes, &arena);
-        ours += differ(rays, shuffled, superposition_compare, &arena);
+        naive += differ(received_echoes, shuffled, compare_amplitudes, &arena);
+        ours += differ(received_echoes, shuffled, resolution_cell_compare, &arena);
     }
     arena_free(&arena);
     hard_case("45", "cells of tied echoes, input shuffled", "wrong", naive, ours, 0);
@@ -381,17 +381,17 @@ static void near_ties_survive_the_pipe(void **state)
     int points = hard_points(200000);
     double naive = 0, ours = 0;
     for (int i = 0; i < points; i++) {
-        struct ray rays[TIED], rounded[TIED], carried[TIED];
-        draw_rays(&random, 1, rays);
-        memcpy(rounded, rays, sizeof rounded);
-        memcpy(carried, rays, sizeof carried);
+        struct received_echo received_echoes[TIED], rounded[TIED], carried[TIED];
+        draw_rays(&random, 1, received_echoes);
+        memcpy(rounded, received_echoes, sizeof rounded);
+        memcpy(carried, received_echoes, sizeof carried);
         for (size_t k = 0; k < TIED; k++) {
-            rounded[k].amplitude = through_text(rays[k].amplitude, 15);
-            carried[k].amplitude = through_text(rays[k].amplitude, 0);
+            rounded[k].amplitude = through_text(received_echoes[k].amplitude, 15);
+            carried[k].amplitude = through_text(received_echoes[k].amplitude, 0);
         }
         shuffle(&random, carried, TIED, sizeof carried[0]);
-        naive += differ(rays, rounded, superposition_compare, &arena);
-        ours += differ(rays, carried, superposition_compare, &arena);
+        naive += differ(received_echoes, rounded, resolution_cell_compare, &arena);
+        ours += differ(received_echoes, carried, resolution_cell_compare, &arena);
     }
     arena_free(&arena);
     hard_case("46", "ties of 1 ulp through text (naive: 15 digits)", "wrong", naive, ours, 0);

@@ -123,15 +123,15 @@ static double superposed(const struct cell *cell)
     return elementary_hypot(cell->sum_re, cell->sum_im);
 }
 
-static bool same_subject(const struct contributor *a, const struct contributor *b)
+static bool same_echo_id(const struct contributor *a, const struct contributor *b)
 {
-    return frame_order_subjects(SUBJECT_OF(a), SUBJECT_OF(b)) == 0;
+    return frame_order_echo_ids(ECHO_ID_OF(a), ECHO_ID_OF(b)) == 0;
 }
 
 static double weight_of(const struct cell *cell, const struct contributor *member)
 {
     for (size_t i = 0; i < cell->members.count; i++)
-        if (same_subject(&cell->members.items[i], member))
+        if (same_echo_id(&cell->members.items[i], member))
             return cell->members.items[i].weight;
     return 0;
 }
@@ -155,7 +155,7 @@ static int compare_cells(const struct cell *all, const struct cell *chosen,
                          const struct tolerance *tolerance, struct diag *diag)
 {
     if (strcmp(all->sensor, chosen->sensor) != 0 ||
-        !same_subject(all->members.items, chosen->members.items))
+        !same_echo_id(all->members.items, chosen->members.items))
         return diag_fail(diag, DIAG_DATA, "leader");
     double share = 1 - pow(10, -tolerance->amplitude_db / 20);
     if (compare_values("range_m", all->range_m, chosen->range_m, tolerance->range_m, diag) != 0 ||
@@ -176,7 +176,7 @@ static const struct target *target_of(const struct frame *frame, const struct ce
 {
     for (size_t i = 0; i < frame->targets.count; i++) {
         const struct target *target = &frame->targets.items[i];
-        if (same_subject(target->contributors.items, cell->members.items) &&
+        if (same_echo_id(target->contributors.items, cell->members.items) &&
             strcmp(target->sensor, cell->sensor) == 0)
             return target;
     }

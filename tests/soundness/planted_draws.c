@@ -18,7 +18,7 @@ static struct random_address next_of(const struct random_address *address,
         .seed = address->seed, .scene = address->scene, .frame = address->frame};
     if (purpose == RANDOM_TRAFFIC || purpose == RANDOM_HARD_CASE || purpose == RANDOM_CONDITIONS)
         return *address;
-    next.subject = ++drawn;
+    next.item = ++drawn;
     return next;
 }
 

@@ -650,16 +650,16 @@ static void the_lesser_and_the_greater_of_equal_numbers_is_the_first(void **stat
     (void)state;
     static const double pairs[][2] = {{0.0, -0.0}, {-0.0, 0.0}};
     for (size_t i = 0; i < 2; i++) {
-        double least = elementary_least(pairs[i][0], pairs[i][1]);
-        double most = elementary_most(pairs[i][0], pairs[i][1]);
+        double least = elementary_min(pairs[i][0], pairs[i][1]);
+        double most = elementary_max(pairs[i][0], pairs[i][1]);
         assert_true(signbit(least) == signbit(pairs[i][0]));
         assert_true(signbit(most) == signbit(pairs[i][0]));
     }
-    assert_true(elementary_least(1, 2) == 1 && elementary_least(2, 1) == 1);
-    assert_true(elementary_most(1, 2) == 2 && elementary_most(2, 1) == 2);
-    assert_true(elementary_least((double)NAN, 1) == 1 && elementary_least(1, (double)NAN) == 1);
-    assert_true(elementary_most((double)NAN, 1) == 1 && elementary_most(1, (double)NAN) == 1);
-    assert_true(isnan(elementary_least((double)NAN, (double)NAN)));
+    assert_true(elementary_min(1, 2) == 1 && elementary_min(2, 1) == 1);
+    assert_true(elementary_max(1, 2) == 2 && elementary_max(2, 1) == 2);
+    assert_true(elementary_min((double)NAN, 1) == 1 && elementary_min(1, (double)NAN) == 1);
+    assert_true(elementary_max((double)NAN, 1) == 1 && elementary_max(1, (double)NAN) == 1);
+    assert_true(isnan(elementary_min((double)NAN, (double)NAN)));
 }
 
 int main(int argc, char **argv)

@@ -5,7 +5,7 @@
 #define DRAWS 250000
 
 static const struct random_address ADDRESS = {
-    .seed = 1, .scene = 2, .frame = 3, .sensor = 4, .subject = 5};
+    .seed = 1, .scene = 2, .frame = 3, .sensor = 4, .item = 5};
 
 /* Known answers of Philox4x64-10 as published with Random123: counter, key, block. */
 static void draws_are_philox_blocks(void **state)
@@ -33,7 +33,7 @@ static void draws_are_philox_blocks(void **state)
                                          .scene = cases[i].key[1],
                                          .frame = cases[i].counter[0],
                                          .sensor = cases[i].counter[1],
-                                         .subject = cases[i].counter[2]};
+                                         .item = cases[i].counter[2]};
         double uniform[4];
         random_uniform(&address, (enum random_purpose)(cases[i].counter[3] >> 32),
                        (uint32_t)cases[i].counter[3], uniform);
@@ -71,7 +71,7 @@ static void every_bit_of_the_address_counts(void **state)
     for (size_t member = 0; member < 5; member++)
         for (int bit = 0; bit < 64; bit++) {
             uint64_t words[5] = {ADDRESS.seed, ADDRESS.scene, ADDRESS.frame, ADDRESS.sensor,
-                                 ADDRESS.subject};
+                                 ADDRESS.item};
             words[member] ^= UINT64_C(1) << bit;
             struct random_address changed = {words[0], words[1], words[2], words[3], words[4]};
             double uniform[4];

@@ -4,7 +4,7 @@
 
 #define DRAWS 100000
 
-static const struct random_address ADDRESS = {.seed = 1, .scene = 2, .frame = 3, .subject = 4};
+static const struct random_address ADDRESS = {.seed = 1, .scene = 2, .frame = 3, .item = 4};
 
 static void draws_are_the_blocks_of_their_address_in_order(void **state)
 {

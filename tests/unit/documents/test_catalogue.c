@@ -62,10 +62,10 @@ static size_t load_all(const char *kind, void (*load)(const char *name, struct a
     for (struct dirent *entry = readdir(directory); entry != NULL; entry = readdir(directory)) {
         char name[300];
         snprintf(name, sizeof name, "%s", entry->d_name);
-        char *ending = strstr(name, ".json");
-        if (ending == NULL)
+        char *outcome = strstr(name, ".json");
+        if (outcome == NULL)
             continue;
-        *ending = '\0';
+        *outcome = '\0';
         load(name, &arena);
         count++;
     }

@@ -113,7 +113,7 @@ static void a_face_has_half_of_the_oblique_cross_section_at_45_degrees(void **st
     for (double below_db = -CONTOUR_OBLIQUE_DB; below_db < 40; below_db += 0.25) {
         struct contour_view view = contour_view(20, 20 - below_db);
         double half_way =
-            visibility(VISIBILITY_RAISED_COSINE, view.full_rad, view.zero_rad, PI / 4);
+            visibility_range_factor(VISIBILITY_RAISED_COSINE, view.full_rad, view.zero_rad, PI / 4);
         assert_close(20 * log10(half_way), -below_db - 10 * log10(2), 1e-9);
         assert_true(view.full_rad >= 0 && view.full_rad <= view.zero_rad);
         assert_true(view.zero_rad <= PI / 2);
@@ -130,7 +130,7 @@ static double coherent_over_incoherent(const struct reflector_set *set, struct v
     double total_m2 = 0;
     size_t count = posts_of(set, &car_box, sensor, posts, COUNT(posts));
     for (size_t i = 0; i < count; i++) {
-        const struct random_address address = {.seed = seed, .subject = i};
+        const struct random_address address = {.seed = seed, .item = i};
         double uniform[4];
         random_uniform(&address, RANDOM_REFLECTOR_PHASE, 0, uniform);
         double turns = (rough ? uniform[0] : 0) - carrier_phase_turns(posts[i].range_m, 77e9);

@@ -2,13 +2,13 @@
 
 #include "draw_address.h"
 
-static const struct subject SUBJECT = {"car", "front_left", PATH_WALL_OBJECT, "wall", 2};
+static const struct echo_id SUBJECT = {"car", "front_left", PATH_WALL_OBJECT, "wall", 2};
 static const struct frame FRAME = {.seed = 7, .scene = "scene/ego", .frame = 3};
 
 static bool equal(struct random_address a, struct random_address b)
 {
     return a.seed == b.seed && a.scene == b.scene && a.frame == b.frame && a.sensor == b.sensor &&
-           a.subject == b.subject;
+           a.item == b.item;
 }
 
 /* Every part of an address on its own, two parts that run into each other, and bytes that a number
@@ -18,29 +18,29 @@ static void addresses_differ_by_each_of_their_parts(void **state)
     (void)state;
     enum { CASES = 16 };
     struct frame frames[CASES];
-    struct subject subjects[CASES];
+    struct echo_id ids[CASES];
     struct random_address addresses[CASES];
     for (int i = 0; i < CASES; i++) {
         frames[i] = FRAME;
-        subjects[i] = SUBJECT;
+        ids[i] = SUBJECT;
     }
     frames[1].seed = 8;
     frames[2].scene = "scene/ego2";
     frames[3].frame = 4;
-    subjects[5].object = "van";
-    subjects[6].reflector = "front_right";
-    subjects[7].path = PATH_OBJECT_WALL;
-    subjects[8].mirror = "wall2";
-    subjects[9].mirror = NULL;
-    subjects[10].number = 0;
-    subjects[11].number = 3;
-    subjects[12].number = 0x200;
-    subjects[13].object = "carf";
-    subjects[13].reflector = "ront_left";
-    subjects[14].number = 0x302;
-    subjects[15].path = PATH_DIRECT;
+    ids[5].object = "van";
+    ids[6].reflector = "front_right";
+    ids[7].path = PATH_OBJECT_WALL;
+    ids[8].mirror = "wall2";
+    ids[9].mirror = NULL;
+    ids[10].number = 0;
+    ids[11].number = 3;
+    ids[12].number = 0x200;
+    ids[13].object = "carf";
+    ids[13].reflector = "ront_left";
+    ids[14].number = 0x302;
+    ids[15].path = PATH_DIRECT;
     for (int i = 0; i < CASES; i++)
-        addresses[i] = draw_address_of(&frames[i], i == 4 ? "rear" : "front", subjects[i]);
+        addresses[i] = draw_address_of(&frames[i], i == 4 ? "rear" : "front", ids[i]);
     for (int i = 0; i < CASES; i++)
         for (int j = 0; j < CASES; j++)
             if (equal(addresses[i], addresses[j]) != (i == j))
@@ -55,8 +55,8 @@ static void addresses_are_these_on_every_machine(void **state)
     (void)state;
     static const struct {
         const char *sensor;
-        struct subject subject;
-        uint64_t sensor_hash, subject_hash;
+        struct echo_id id;
+        uint64_t sensor_hash, echo_id_hash;
     } cases[] = {
         {"front",
          {"car", "front_left", PATH_DIRECT, NULL, 0},
@@ -72,11 +72,11 @@ static void addresses_are_these_on_every_machine(void **state)
          UINT64_C(0x2ad856944850622b)},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct random_address address = draw_address_of(&FRAME, cases[i].sensor, cases[i].subject);
+        struct random_address address = draw_address_of(&FRAME, cases[i].sensor, cases[i].id);
         assert_true(address.seed == 7 && address.frame == 3);
         assert_true(address.scene == UINT64_C(0x64f84b6fffa5f816));
         assert_true(address.sensor == cases[i].sensor_hash);
-        assert_true(address.subject == cases[i].subject_hash);
+        assert_true(address.item == cases[i].echo_id_hash);
     }
 }
 

@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "azimuth_index.h"
-#include "occlusion.h"
+#include "outline_crossing.h"
 #include "sample.h"
 #include "units.h"
 
@@ -105,7 +105,7 @@ static void whatever_stands_before_a_corner_is_found_in_order(void **state)
             size_t count = azimuth_index_find(&scene.bearings, azimuth_index_of(&scene.seen[behind]));
             for (size_t front = 0; front < scene.count; front++) {
                 struct vec2 corner = scene.corners[behind][sample_bits(&random) % 4];
-                bool block = occlusion_outline_blocks(scene.corners[front], 4, sensor, corner);
+                bool block = outline_crossing_blocks(scene.corners[front], 4, sensor, corner);
                 if (!is_found(&scene.bearings, count, front, &next) && block)
                     fail_msg("scene %d: %zu stands before %zu and is not found", i, front, behind);
                 blocked += block;
@@ -167,7 +167,7 @@ static void whatever_a_line_touches_is_found(void **state)
             any_line(&random, &from, &to);
             size_t count = azimuth_index_find(&scene.bearings, azimuth_index_between(from, to)), next = 0;
             for (size_t j = 0; j < scene.count; j++) {
-                bool touch = occlusion_outline_blocks(scene.corners[j], 4, from, to);
+                bool touch = outline_crossing_blocks(scene.corners[j], 4, from, to);
                 if (!is_found(&scene.bearings, count, j, &next) && touch)
                     fail_msg("scene %d: a line touches %zu, which is not found", i, j);
                 touched += touch;

@@ -293,12 +293,12 @@ static void a_disc_that_touches_the_mirrored_sector_is_not_left_out(void **state
         struct vec2 sensor = {sample_between(&sample, -30, 30), sample_between(&sample, -30, 3.9)};
         /* A point that the sensor sees by way of the end, and a disc beyond it through it. */
         struct vec2 end = i % 2 ? mirror.a : mirror.b;
-        struct vec2 ray = vec2_sub(end, sensor);
+        struct vec2 received = vec2_sub(end, sensor);
         double beyond = sample_between(&sample, 0.01, 3);
-        struct vec2 point = {end.x + beyond * ray.x, end.y - beyond * ray.y};
+        struct vec2 point = {end.x + beyond * received.x, end.y - beyond * received.y};
         double radius_m = sample_between(&sample, 0, 3);
-        struct vec2 outwards = {i % 2 ? -ray.y : ray.y, i % 2 ? -ray.x : ray.x};
-        struct vec2 aside = vec2_scale(radius_m / vec2_length(ray), outwards);
+        struct vec2 outwards = {i % 2 ? -received.y : received.y, i % 2 ? -received.x : received.x};
+        struct vec2 aside = vec2_scale(radius_m / vec2_length(received), outwards);
         assert_true(mirror_may_bounce(&mirror, sensor, vec2_add(point, aside), radius_m));
         assert_false(mirror_may_bounce(&mirror, sensor, vec2_add(point, aside),
                                        radius_m * (1 - 1e-6) - 1e-6));

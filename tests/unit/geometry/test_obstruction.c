@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "knife_edge.h"
-#include "occlusion.h"
+#include "outline_crossing.h"
 #include "obstruction.h"
 #include "sample.h"
 
@@ -39,7 +39,7 @@ static void a_flat_world_knows_only_outlines(void **state)
     for (int i = 0; i < 100000; i++) {
         struct vec2 corners[4];
         struct obstruction_line line = random_case(&random, corners);
-        bool touches = occlusion_outline_blocks(corners, 4, line.from, line.to);
+        bool touches = outline_crossing_blocks(corners, 4, line.from, line.to);
         blocked += touches;
         assert_close(obstruction_of(corners, 4, HIGH, &line, 0).factor, touches ? 0 : 1, 0);
     }
@@ -195,7 +195,7 @@ static void edges_out_of_reach_change_nothing(void **state)
             nearest_m = fmin(nearest_m, vec2_length(vec2_sub(offset, vec2_scale(share, way))));
         }
         if (nearest_m < knife_edge_reach_m(length_m, WAVELENGTH_M) ||
-            occlusion_outline_blocks(corners, 4, line.from, line.to))
+            outline_crossing_blocks(corners, 4, line.from, line.to))
             continue;
         clear++;
         assert_close(obstruction_of(corners, 4, HIGH, &line, WAVELENGTH_M).factor, 1, 0);

@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "occlusion.h"
+#include "outline_crossing.h"
 #include "sample.h"
 #include "silhouette.h"
 #include "units.h"
@@ -28,7 +28,7 @@ static bool blocks(const struct box *box, struct vec2 place)
 {
     const struct vec2 corners[] = {place_in(box, 1, 1), place_in(box, -1, 1), place_in(box, -1, -1),
                                    place_in(box, 1, -1)};
-    return occlusion_outline_blocks(corners, 4, (struct vec2){0, 0}, place);
+    return outline_crossing_blocks(corners, 4, (struct vec2){0, 0}, place);
 }
 
 static void what_stands_before_another_overlaps_it_and_what_is_wider_covers_it(void **state)

@@ -6,7 +6,7 @@
 
 #include "direct_echoes.h"
 #include "frame_text.h"
-#include "occlusion.h"
+#include "outline_crossing.h"
 #include "sample.h"
 #include "units.h"
 #include "line_of_sight.h"
@@ -638,9 +638,9 @@ static void a_way_is_blocked_where_an_outline_is_touched(void **state)
             const struct look_body *by = NULL;
             for (size_t j = look.body_count; j-- > 0;)
                 if (look.bodies[j].blocks &&
-                    occlusion_outline_blocks(look.bodies[j].corner, 4, line.from, line.to))
+                    outline_crossing_blocks(look.bodies[j].corner, 4, line.from, line.to))
                     by = &look.bodies[j];
-            struct way way = line_of_sight_along(&look, &line, NULL, 0);
+            struct line_of_sight way = line_of_sight_along(&look, &line, NULL, 0);
             assert_ptr_equal(way.by, by);
             assert_true(way.factor == (by == NULL));
             blocked += by != NULL;

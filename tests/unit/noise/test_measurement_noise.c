@@ -19,14 +19,14 @@ static const struct sensor radar = {
     .window_factor = 0.68,
 };
 
-static const struct random_address address = {.seed = 1, .subject = 2};
+static const struct random_address address = {.seed = 1, .item = 2};
 
-static struct reading read_cell(const struct measurement_noise *by, const struct cell *cell)
+static struct measurement read_cell(const struct measurement_noise *by, const struct cell *cell)
 {
-    struct reading reading = target_list_measure(cell);
-    measurement_noise_range(by, &address, &reading);
-    measurement_noise_azimuth(by, &reading);
-    return reading;
+    struct measurement measurement = target_list_measure(cell);
+    measurement_noise_range(by, &address, &measurement);
+    measurement_noise_azimuth(by, &measurement);
+    return measurement;
 }
 
 static void what_no_member_describes_is_not_there(void **state)
@@ -39,11 +39,11 @@ static void what_no_member_describes_is_not_there(void **state)
     assert_close(by.false_alarms, 0, 0);
     assert_int_equal(by.list_limit, 0);
     struct cell cell = {.range_m = 10, .azimuth_rad = 0.1, .range_rate_mps = -3, .amplitude = 4};
-    struct reading reading = read_cell(&by, &cell);
-    assert_close(reading.range_m, 10, 0);
-    assert_close(reading.azimuth_rad, 0.1, 0);
-    assert_close(reading.range_rate_mps, -3, 0);
-    assert_int_equal(reading.effects, 0);
+    struct measurement measurement = read_cell(&by, &cell);
+    assert_close(measurement.range_m, 10, 0);
+    assert_close(measurement.azimuth_rad, 0.1, 0);
+    assert_close(measurement.range_rate_mps, -3, 0);
+    assert_int_equal(measurement.effects, 0);
     struct antenna_pointers pointers =
         measurement_noise_pointers(&by, &address, &(struct cell){.sum_re = 3, .delta_re = 1});
     assert_true(pointers.sum == 3 && pointers.delta == 1);
@@ -119,7 +119,7 @@ static void accuracy_scales_the_same_draws(void **state)
     struct cell cell = {.range_m = 10, .amplitude = 5};
     struct measurement_noise plain = measurement_noise_of(&fixed, &everything);
     struct measurement_noise better = measurement_noise_of(&by_snr, &everything);
-    struct reading one = read_cell(&plain, &cell), other = read_cell(&better, &cell);
+    struct measurement one = read_cell(&plain, &cell), other = read_cell(&better, &cell);
     struct deviation sigma = measurement_noise_deviation(&better, &(struct cell){.amplitude = 5});
     assert_true(one.range_m != 10);
     assert_near(other.range_m - 10, (one.range_m - 10) * sigma.range_m / 0.02, 1e-12);
@@ -144,9 +144,9 @@ static void a_misaligned_sensor_turns_what_it_reports(void **state)
                                       .radome_period_rad = 0.5};
         struct measurement_noise by = measurement_noise_of(&sensor, &everything);
         struct cell cell = {.azimuth_rad = cases[i].azimuth_rad};
-        struct reading reading = read_cell(&by, &cell);
-        assert_close(reading.azimuth_rad, cases[i].reported_rad, 1e-15);
-        assert_int_equal(reading.effects, EFFECT_BIT(EFFECT_MISALIGNMENT));
+        struct measurement measurement = read_cell(&by, &cell);
+        assert_close(measurement.azimuth_rad, cases[i].reported_rad, 1e-15);
+        assert_int_equal(measurement.effects, EFFECT_BIT(EFFECT_MISALIGNMENT));
     }
 }
 

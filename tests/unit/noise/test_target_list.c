@@ -13,7 +13,7 @@ struct list {
     struct frame frame;
     struct sensor sensor;
     struct cell cells[8];
-    struct reading readings[8];
+    struct measurement measurements[8];
     size_t count;
 };
 
@@ -30,13 +30,13 @@ static void add_reading(struct list *list, const char *object, double range_m, d
     *cell = (struct cell){.sensor = "s", .range_m = range_m, .sum_re = amplitude};
     *list_add(&cell->members, &list->arena) =
         (struct contributor){.object = object, .reflector = "r", .range_m = range_m, .weight = 1};
-    list->readings[list->count++] = target_list_measure(cell);
+    list->measurements[list->count++] = target_list_measure(cell);
 }
 
 /* The objects behind the targets, in their order. */
 static void assert_listed(struct list *list, int64_t limit, const char *objects)
 {
-    target_list_make(&list->frame, "noise", &list->sensor, list->readings, list->count, limit);
+    target_list_make(&list->frame, "noise", &list->sensor, list->measurements, list->count, limit);
     assert_int_equal(list->frame.targets.count, strlen(objects));
     for (size_t i = 0; i < list->frame.targets.count; i++)
         assert_int_equal(list->frame.targets.items[i].contributors.items[0].object[0], objects[i]);
@@ -91,9 +91,9 @@ static void the_order_of_the_readings_does_not_matter(void **state)
         add_all(&list);
         for (size_t i = list.count; i > 1; i--) {
             size_t j = sample_bits(&random) % i;
-            struct reading kept = list.readings[j];
-            list.readings[j] = list.readings[i - 1];
-            list.readings[i - 1] = kept;
+            struct measurement kept = list.measurements[j];
+            list.measurements[j] = list.measurements[i - 1];
+            list.measurements[i - 1] = kept;
         }
         assert_listed(&list, 3, round % 2 ? "cad" : "dfb");
         arena_free(&list.arena);
@@ -111,14 +111,14 @@ static void a_target_has_the_reading_and_the_label_of_its_cell(void **state)
     list.cells[0].range_rate_mps = -3;
     list.cells[0].amplitude = 9;
     list.cells[0].sign_undecided = true;
-    list.readings[0] = target_list_measure(&list.cells[0]);
-    assert_close(list.readings[0].amplitude, 5, 0);
-    assert_true(list.readings[0].sign_undecided);
-    list.readings[0].range_m = 10.25;
-    list.readings[0].azimuth_rad = 0.15;
-    list.readings[0].range_rate_mps = -2.5;
-    list.readings[0].amplitude = 10;
-    list.readings[0].sign_undecided = false;
+    list.measurements[0] = target_list_measure(&list.cells[0]);
+    assert_close(list.measurements[0].amplitude, 5, 0);
+    assert_true(list.measurements[0].sign_undecided);
+    list.measurements[0].range_m = 10.25;
+    list.measurements[0].azimuth_rad = 0.15;
+    list.measurements[0].range_rate_mps = -2.5;
+    list.measurements[0].amplitude = 10;
+    list.measurements[0].sign_undecided = false;
     assert_listed(&list, 0, "a");
     const struct target *target = list.frame.targets.items;
     assert_close(target->range_m, 10.25, 0);
@@ -158,7 +158,7 @@ static void the_limit_tells_how_near_it_cut(void **state)
         begin_list(&list, cases[i].order);
         list.frame.margins = true;
         add_all(&list);
-        target_list_make(&list.frame, "noise", &list.sensor, list.readings, list.count,
+        target_list_make(&list.frame, "noise", &list.sensor, list.measurements, list.count,
                       cases[i].limit);
         bool db_told = cases[i].told == MARGIN_LIMIT_DB;
         for (size_t j = 0; j < list.frame.targets.count; j++) {

@@ -16,13 +16,13 @@ struct spot {
 /* The margins of each cell that the spots, strongest first, form. */
 static size_t margins_of(const struct spot *spots, size_t count, struct margins *answers)
 {
-    struct ray rays[ALL];
+    struct received_echo received_echoes[ALL];
     struct margins sights[ALL] = {{0}};
     struct resolution_echo echoes[ALL];
     size_t cell[ALL];
     for (size_t i = 0; i < count; i++) {
         margins_note(&sights[i], MARGIN_SIGHT, spots[i].sight_m);
-        rays[i] = (struct ray){.range_m = spots[i].range_m,
+        received_echoes[i] = (struct received_echo){.range_m = spots[i].range_m,
                                .range_rate_mps = spots[i].range_rate_mps,
                                .amplitude = spots[i].amplitude,
                                .margins = &sights[i]};
@@ -33,7 +33,7 @@ static size_t margins_of(const struct spot *spots, size_t count, struct margins 
     size_t cells = resolution_cluster(echoes, count, sensor.half_range_m,
                                       sensor.half_range_rate_mps, cell, &arena);
     arena_free(&arena);
-    const struct clustered_rays all = {rays, cell, count};
+    const struct clustered_echoes all = {received_echoes, cell, count};
     for (size_t number = 0; number < cells; number++)
         answers[number] = cell_margins_of(&sensor, &all, number);
     return cells;

@@ -16,9 +16,9 @@ static const struct sensor sensor = {
 
 static const struct tolerance wide = {0.1, 0.01, 0.1, 1};
 
-static struct ray ray_at(double range_m, double azimuth_rad, double amplitude)
+static struct received_echo ray_at(double range_m, double azimuth_rad, double amplitude)
 {
-    return (struct ray){.echo = {.azimuth_rad = azimuth_rad},
+    return (struct received_echo){.echo = {.azimuth_rad = azimuth_rad},
                         .range_m = range_m,
                         .strength = amplitude,
                         .amplitude = amplitude};
@@ -28,7 +28,7 @@ enum { MOST = 3 };
 
 struct situation {
     const char *what;
-    struct ray rays[MOST];
+    struct received_echo received_echoes[MOST];
     size_t cell[MOST];
     size_t count, cells;
     struct weakening weakening;
@@ -38,7 +38,7 @@ struct situation {
 static void decisions_that_could_turn_are_seen(void **state)
 {
     (void)state;
-    const struct ray straight = ray_at(50, 0, 2);
+    const struct received_echo straight = ray_at(50, 0, 2);
     const struct situation cases[] = {
         {"a strong cell", {straight}, {0}, 1, 1, {1.1, 1.01}, true},
         {"a cell just above", {ray_at(50, 0, 1.05)}, {0}, 1, 1, {1.1, 1.01}, false},
@@ -61,9 +61,9 @@ static void decisions_that_could_turn_are_seen(void **state)
         const size_t one[] = {0, cases[i].count}, each[] = {0, 1, 2};
         const struct scan scan = {
             .reception = {.sensor = &sensor},
-            .resolved = {cases[i].rays, cases[i].cell, cases[i].count},
+            .resolved = {cases[i].received_echoes, cases[i].cell, cases[i].count},
             .cells = cases[i].cells,
-            .by_cell = cases[i].rays,
+            .by_cell = cases[i].received_echoes,
             .first = cases[i].cells == 1 ? one : each,
         };
         if (escalation_holds(&scan, cases[i].weakening, &wide) != cases[i].holds)
@@ -74,29 +74,29 @@ static void decisions_that_could_turn_are_seen(void **state)
 static void echoes_with_phases_are_never_spared(void **state)
 {
     (void)state;
-    struct ray rays[] = {ray_at(50, 0, 3), ray_at(50, 0, 2)};
+    struct received_echo received_echoes[] = {ray_at(50, 0, 3), ray_at(50, 0, 2)};
     const size_t cell[] = {0, 0}, first[] = {0, 2};
     const struct scan scan = {.reception = {.sensor = &sensor},
-                              .resolved = {rays, cell, 2},
+                              .resolved = {received_echoes, cell, 2},
                               .cells = 1,
-                              .by_cell = rays,
+                              .by_cell = received_echoes,
                               .first = first};
     assert_true(escalation_holds(&scan, (struct weakening){1.1, 1.01}, &wide));
-    assert_true(escalation_spares_superposition(&sensor, rays, 2, &wide));
-    rays[1].phase_rad = 1;
+    assert_true(escalation_spares_superposition(&sensor, received_echoes, 2, &wide));
+    received_echoes[1].phase_rad = 1;
     assert_false(escalation_holds(&scan, (struct weakening){1.1, 1.01}, &wide));
-    assert_false(escalation_spares_superposition(&sensor, rays, 2, &wide));
-    rays[1].phase_rad = 0;
+    assert_false(escalation_spares_superposition(&sensor, received_echoes, 2, &wide));
+    received_echoes[1].phase_rad = 0;
     struct sensor element = sensor;
     element.phase_reference = PHASE_ELEMENT;
-    assert_false(escalation_spares_superposition(&element, rays, 2, &wide));
+    assert_false(escalation_spares_superposition(&element, received_echoes, 2, &wide));
 }
 
 static void superposition_is_spared_where_all_look_the_same_way(void **state)
 {
     (void)state;
-    const struct ray near[] = {ray_at(50, 0.1, 3), ray_at(50, 0.104, 2)};
-    const struct ray apart[] = {ray_at(50, 0.1, 3), ray_at(50, 0.106, 2)};
+    const struct received_echo near[] = {ray_at(50, 0.1, 3), ray_at(50, 0.104, 2)};
+    const struct received_echo apart[] = {ray_at(50, 0.1, 3), ray_at(50, 0.106, 2)};
     assert_true(escalation_spares_superposition(&sensor, near, 2, &wide));
     assert_false(escalation_spares_superposition(&sensor, apart, 2, &wide));
     const struct tolerance none = {0}, azimuth = {.azimuth_rad = 0.01};

@@ -4,7 +4,7 @@
 
 #include "draw_address.h"
 #include "escalation.h"
-#include "fluctuation.h"
+#include "swerling.h"
 #include "received_echo.h"
 #include "units.h"
 
@@ -61,7 +61,7 @@ static struct interferer *add_interferer(struct bench *bench, const char *object
     return other;
 }
 
-static struct ray ray_of(const struct bench *bench, uint64_t effects, double range_m)
+static struct received_echo ray_of(const struct bench *bench, uint64_t effects, double range_m)
 {
     struct echo echo = {.sensor = "radar",
                         .object = "other",
@@ -70,7 +70,7 @@ static struct ray ray_of(const struct bench *bench, uint64_t effects, double ran
                         .range_rate_mps = 45,
                         .ercs = range_m * range_m / 100};
     struct reception reception = received_echo_begin(&bench->frame, &bench->sensor, effects);
-    return received_echo_ray(&reception, &echo);
+    return received_echo_of(&reception, &echo);
 }
 
 static double floor_db(const struct bench *bench)
@@ -84,7 +84,7 @@ static void only_what_a_document_describes_is_received(void **state)
     struct sensor *sensor = &bench->sensor;
     struct conditions *conditions = &bench->frame.conditions;
     assert_true(received_echo_described(&bench->frame, sensor) == 0);
-    struct ray plain = ray_of(bench, EVERYTHING, 100);
+    struct received_echo plain = ray_of(bench, EVERYTHING, 100);
     assert_close(plain.amplitude, 1, 1e-15);
     assert_true(plain.effects == 0 && plain.phase_rad == 0);
     uint64_t expected = 0;
@@ -121,8 +121,8 @@ static void factors_multiply_in_their_order_and_ranges_fold_last(void **state)
     sensor->unambiguous_rate_mps = 24.5;
     bench->frame.conditions.rain_mmph = 25;
     bench->frame.conditions.fog_gpm3 = 0.5;
-    struct subject subject = {.object = "other", .reflector = "r"};
-    struct random_address address = draw_address_of(&bench->frame, "radar", subject);
+    struct echo_id id = {.object = "other", .reflector = "r"};
+    struct random_address address = draw_address_of(&bench->frame, "radar", id);
     double uniform[4];
     random_uniform(&address, RANDOM_FLUCTUATION, 0, uniform);
     double drawn = sqrt(-(log(uniform[0]) + log(uniform[1])) / 2);
@@ -141,15 +141,15 @@ static void factors_multiply_in_their_order_and_ranges_fold_last(void **state)
          drawn * rain * fog},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct ray ray = ray_of(bench, cases[i].effects, 100);
+        struct received_echo received = ray_of(bench, cases[i].effects, 100);
         bool folded = (cases[i].effects & EFFECT_BIT(EFFECT_AMBIGUITY)) != 0;
-        assert_true(ray.effects == cases[i].effects);
-        assert_near(ray.amplitude, cases[i].amplitude, 2e-7);
-        assert_near(ray.strength, ray.amplitude, 1e-15);
-        assert_close(ray.range_m, folded ? 40 : 100, 0);
-        assert_close(ray.range_rate_mps, folded ? -4 : 45, 0);
-        assert_close(ray.echo.range_m, 100, 0);
-        assert_close(ray.echo.range_rate_mps, 45, 0);
+        assert_true(received.effects == cases[i].effects);
+        assert_near(received.amplitude, cases[i].amplitude, 2e-7);
+        assert_near(received.strength, received.amplitude, 1e-15);
+        assert_close(received.range_m, folded ? 40 : 100, 0);
+        assert_close(received.range_rate_mps, folded ? -4 : 45, 0);
+        assert_close(received.echo.range_m, 100, 0);
+        assert_close(received.echo.range_rate_mps, 45, 0);
     }
 }
 

@@ -69,7 +69,7 @@ static void add_echo(struct bench *bench, const char *sensor, const char *object
 static void check_cell(const struct scan *scan, size_t number, const char *names)
 {
     size_t count;
-    const struct ray *members = scan_members(scan, number, &count);
+    const struct received_echo *members = scan_members(scan, number, &count);
     assert_int_equal(count, strlen(names));
     for (size_t i = 0; i < count; i++)
         assert_int_equal(members[i].echo.object[0], names[i]);

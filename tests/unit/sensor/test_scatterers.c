@@ -162,8 +162,8 @@ static void the_road_needs_a_height(void **state)
     extended.extent_m = 0.6;
     scene.echo = high;
     struct reception reception = received_echo_begin(&scene.frame, &radar, UINT64_MAX);
-    struct ray flat = received_echo_ray(&reception, &parent), one = received_echo_ray(&reception, &high),
-               mean = received_echo_ray(&reception, &extended);
+    struct received_echo flat = received_echo_of(&reception, &parent), one = received_echo_of(&reception, &high),
+               mean = received_echo_of(&reception, &extended);
     assert_int_equal(flat.effects & EFFECT_BIT(EFFECT_TWO_RAY), 0);
     assert_true((one.effects & EFFECT_BIT(EFFECT_TWO_RAY)) != 0);
     assert_true(mean.amplitude > flat.amplitude && mean.amplitude < sqrt(6) * flat.amplitude);

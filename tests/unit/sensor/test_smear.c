@@ -29,7 +29,7 @@ static struct sensor test_sensor(void)
 struct playback {
     struct arena arena;
     struct sensor sensor;
-    struct ray rays[MOST];
+    struct received_echo received_echoes[MOST];
     size_t count;
     struct smear smear;
     struct cell cells[MOST];
@@ -60,27 +60,27 @@ static void start(struct playback *scene)
     scene->count = 0;
 }
 
-static struct ray *add(struct playback *scene, double range_bins, double rate_bins, double amplitude,
+static struct received_echo *add(struct playback *scene, double range_bins, double rate_bins, double amplitude,
                        double phase_rad)
 {
-    struct ray *ray = &scene->rays[scene->count];
-    *ray = (struct ray){.echo = {.object = "o", .reflector = names[scene->count]},
+    struct received_echo *received = &scene->received_echoes[scene->count];
+    *received = (struct received_echo){.echo = {.object = "o", .reflector = names[scene->count]},
                         .strength = amplitude,
                         .amplitude = amplitude,
                         .range_m = 0.5 * range_bins,
                         .range_rate_mps = 0.25 * rate_bins,
                         .phase_rad = phase_rad};
-    ray->echo.range_m = ray->range_m;
-    ray->echo.range_rate_mps = ray->range_rate_mps;
+    received->echo.range_m = received->range_m;
+    received->echo.range_rate_mps = received->range_rate_mps;
     scene->count++;
-    return ray;
+    return received;
 }
 
 static size_t cells_of(struct playback *scene)
 {
-    sort_items(scene->rays, scene->count, sizeof *scene->rays, superposition_compare,
+    sort_items(scene->received_echoes, scene->count, sizeof *scene->received_echoes, resolution_cell_compare,
                &scene->arena);
-    scene->smear = smear_make(&scene->sensor, scene->rays, scene->count, &scene->arena);
+    scene->smear = smear_make(&scene->sensor, scene->received_echoes, scene->count, &scene->arena);
     for (size_t i = 0; i < scene->smear.cells; i++)
         assert_true(smear_cell(&scene->smear, i, &scene->arena, &scene->cells[i]));
     return scene->smear.cells;
@@ -116,12 +116,12 @@ static void one_echo_alone_is_the_cell_that_it_always_is(void **state)
                                   .range_rate_mps = sample_between(&sample, -60, 60),
                                   .ercs = sample_between(&sample, 0.01, 5),
                                   .effects = EFFECT_BIT(EFFECT_RAIN)};
-        struct ray ray = superposition_ray(&scene->sensor, &echo, sample_between(&sample, -7, 7));
-        struct smear smear = smear_make(&scene->sensor, &ray, 1, &scene->arena);
+        struct received_echo received = received_echo_in_free_space(&scene->sensor, &echo, sample_between(&sample, -7, 7));
+        struct smear smear = smear_make(&scene->sensor, &received, 1, &scene->arena);
         struct cell cell, expected;
         assert_int_equal(smear.cells, 1);
         assert_true(smear_cell(&smear, 0, &scene->arena, &cell));
-        assert_true(superposition_cell(&scene->sensor, &ray, 1, true, &scene->arena, &expected));
+        assert_true(resolution_cell_of(&scene->sensor, &received, 1, true, &scene->arena, &expected));
         assert_same_cell(&cell, &expected);
     }
 }
@@ -136,7 +136,7 @@ static void echoes_that_are_far_apart_do_not_touch(void **state)
     assert_int_equal(cells_of(scene), 3);
     for (size_t i = 0; i < 3; i++) {
         struct cell expected;
-        superposition_cell(&scene->sensor, &scene->rays[i], 1, true, &scene->arena, &expected);
+        resolution_cell_of(&scene->sensor, &scene->received_echoes[i], 1, true, &scene->arena, &expected);
         assert_same_cell(&scene->cells[i], &expected);
     }
 }
@@ -232,7 +232,7 @@ static void echoes_that_cancel_have_no_amplitude(void **state)
     start(scene);
     add(scene, 20, 0, 1, 0);
     add(scene, 20, 0, 1, 0)->strength = -1;
-    scene->smear = smear_make(&scene->sensor, scene->rays, 2, &scene->arena);
+    scene->smear = smear_make(&scene->sensor, scene->received_echoes, 2, &scene->arena);
     assert_int_equal(scene->smear.cells, 1);
     assert_false(smear_cell(&scene->smear, 0, &scene->arena, scene->cells));
     assert_true(scene->cells[0].amplitude == 0);

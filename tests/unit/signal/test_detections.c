@@ -16,7 +16,7 @@ struct bench {
     struct phasor samples[2 * SAMPLES * REPETITIONS];
     double power[SAMPLES * REPETITIONS];
     struct margins margins;
-    struct ray rays[4];
+    struct received_echo received_echoes[4];
     size_t count;
     struct arena arena;
     struct frame frame;
@@ -44,7 +44,7 @@ static void begin(struct bench *bench)
 static void receive(struct bench *bench, const char *name, double range_m, double rate_mps,
                     double amplitude)
 {
-    bench->rays[bench->count++] = (struct ray){
+    bench->received_echoes[bench->count++] = (struct received_echo){
         .echo = {.object = name, .reflector = "centre", .range_m = range_m},
         .strength = amplitude,
         .amplitude = amplitude,
@@ -69,7 +69,7 @@ static void show(struct bench *bench, double range_m, double rate_mps, double am
 static struct detections sight(struct bench *bench)
 {
     const struct reception reception = {.frame = &bench->frame, .sensor = &bench->sensor};
-    const struct clustered_rays received = {.rays = bench->rays, .count = bench->count};
+    const struct clustered_echoes received = {.received_echoes = bench->received_echoes, .count = bench->count};
     bench->spectrum = signal_cube_spectrum(&bench->signal, &bench->arena);
     struct detections sightings = detections_of(&bench->signal, &bench->spectrum, &reception);
     detections_label(&sightings, &bench->frame, "test", &received);
@@ -90,7 +90,7 @@ static void an_echo_belongs_to_the_peak_that_shows_most_of_it(void **state)
     receive(&bench, "near", 10.5, 0, 50);
     receive(&bench, "beside", 10.75, 0, 10);
     for (size_t i = 0; i < bench.count; i++)
-        show(&bench, bench.rays[i].range_m, bench.rays[i].range_rate_mps, bench.rays[i].amplitude);
+        show(&bench, bench.received_echoes[i].range_m, bench.received_echoes[i].range_rate_mps, bench.received_echoes[i].amplitude);
     struct detections seen = sight(&bench);
     assert_int_equal(seen.list.count, 2);
     assert_string_equal(leader_of(&seen.list.items[0]), "far");

@@ -27,11 +27,11 @@ static struct sensor radar(enum waveform_kind kind, enum point_response window, 
     };
 }
 
-static struct ray ray_at(const struct sensor *sensor, double range_m, double rate_mps,
+static struct received_echo ray_at(const struct sensor *sensor, double range_m, double rate_mps,
                          double azimuth_rad, double phase_rad)
 {
     double gain = antenna_gain(&sensor->antenna, azimuth_rad);
-    return (struct ray){
+    return (struct received_echo){
         .echo = {.azimuth_rad = azimuth_rad},
         .strength = 3,
         .amplitude = 3 * gain,
@@ -56,9 +56,9 @@ static void begin(struct bench *bench, struct sensor sensor)
     bench->signal.row = arena_get(&bench->arena, SAMPLES * sizeof(struct phasor));
 }
 
-static void add(struct bench *bench, struct ray ray)
+static void add(struct bench *bench, struct received_echo received)
 {
-    signal_cube_add(&bench->signal, &ray, 1, &bench->arena);
+    signal_cube_add(&bench->signal, &received, 1, &bench->arena);
 }
 
 /* One bin of one channel, by the sum that a transform is. Bins need not be whole. */

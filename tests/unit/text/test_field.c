@@ -448,18 +448,18 @@ static void what_is_missing_among_items_is_found(void **state)
         field_clear(&record, &things[i]);
         things[i].name = "a";
     }
-    assert_true(field_good(&record, things, COUNT(things), ~0U, &names));
+    assert_true(field_in_bounds(&record, things, COUNT(things), ~0U, &names));
     things[13].name = NULL;
-    assert_false(field_good(&record, things, COUNT(things), ~0U, &names));
-    assert_true(field_good(&record, things, 13, ~0U, &names));
+    assert_false(field_in_bounds(&record, things, COUNT(things), ~0U, &names));
+    assert_true(field_in_bounds(&record, things, 13, ~0U, &names));
     things[13].name = "b";
     things[19].maybe_s = 11;
-    assert_false(field_good(&record, things, COUNT(things), ~0U, &names));
+    assert_false(field_in_bounds(&record, things, COUNT(things), ~0U, &names));
     things[19].maybe_s = 0.5;
     things[7].number = -6;
-    assert_false(field_good(&record, things, COUNT(things), ~0U, &names));
+    assert_false(field_in_bounds(&record, things, COUNT(things), ~0U, &names));
     things[7].number = -5;
-    assert_true(field_good(&record, things, COUNT(things), ~0U, &names));
+    assert_true(field_in_bounds(&record, things, COUNT(things), ~0U, &names));
 }
 
 int main(void)

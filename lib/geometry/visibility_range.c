@@ -1,0 +1,66 @@
+#include "visibility_range.h"
+
+#include <math.h>
+
+#include "elementary.h"
+#include "units.h"
+
+/* Of cosines, a million times their rounding. */
+#define SLACK 1e-9
+
+/* Below it squares leave the doubles. */
+#define SHORTEST 1e-100
+
+double visibility_range_angle_rad(struct vec2 a, struct vec2 b)
+{
+    /* + 0.0 turns -0 into 0: a vector of length zero is at angle 0, never at pi. */
+    return elementary_atan2(fabs(vec2_cross(a, b)), vec2_dot(a, b) + 0.0);
+}
+
+double visibility_range_factor(enum visibility_shape shape, double full_rad, double zero_rad, double delta_rad)
+{
+    if (shape == VISIBILITY_HARD)
+        return delta_rad <= zero_rad;
+    double start_rad = shape == VISIBILITY_COSINE ? 0 : full_rad;
+    if (delta_rad <= start_rad)
+        return 1;
+    if (delta_rad >= zero_rad)
+        return 0;
+    /* Counted from the dark end, so that no shape can round to a negative value there. */
+    double rise = (zero_rad - delta_rad) / (zero_rad - start_rad);
+    if (shape == VISIBILITY_LINEAR)
+        return rise;
+    double cosine = elementary_sin(PI / 2 * rise);
+    return shape == VISIBILITY_COSINE ? cosine : cosine * cosine;
+}
+
+/* cos(angle) is no more, and no less: its series, cut after a term of either sign. */
+static double cosine_most(double angle_rad)
+{
+    double square = angle_rad * angle_rad;
+    return 1 + square * (-1.0 / 2 + square / 24);
+}
+
+static double cosine_least(double angle_rad)
+{
+    double square = angle_rad * angle_rad;
+    return 1 + square * (-1.0 / 2 + square * (1.0 / 24 - square / 720));
+}
+
+double visibility_range_dark_cosine(double zero_rad)
+{
+    return cosine_least(zero_rad) - SLACK;
+}
+
+double visibility_range_along(enum visibility_shape shape, double full_rad, double zero_rad,
+                        struct vec2 facing, struct vec2 sight)
+{
+    double start_rad = shape == VISIBILITY_HARD ? zero_rad : full_rad;
+    double length = vec2_length(sight), along = vec2_dot(facing, sight);
+    bool plain = length > SHORTEST;
+    if (plain && along < visibility_range_dark_cosine(zero_rad) * length)
+        return 0;
+    if (plain && shape != VISIBILITY_COSINE && along > (cosine_most(start_rad) + SLACK) * length)
+        return 1;
+    return visibility_range_factor(shape, full_rad, zero_rad, visibility_range_angle_rad(facing, sight));
+}

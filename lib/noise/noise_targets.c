@@ -1,0 +1,67 @@
+#include "noise_targets.h"
+
+#include "ground_return.h"
+#include "poisson.h"
+
+struct contributor noise_targets_contributor(int64_t number)
+{
+    return (struct contributor){
+        .object = "noise",
+        .reflector = "cell",
+        .path = PATH_FALSE_ALARM,
+        .number = number,
+        .weight = 1,
+    };
+}
+
+static struct contributor draw_place(const struct sensor *sensor, int64_t number,
+                                     const double uniform[3])
+{
+    struct contributor drawn = noise_targets_contributor(number);
+    double depth_m = sensor->range_max_m - sensor->range_min_m;
+    drawn.range_m = sensor->range_min_m + depth_m * uniform[0];
+    drawn.azimuth_rad = sensor->field_of_view_rad * (uniform[1] - 0.5);
+    drawn.range_rate_mps = sensor->false_alarm_range_rate_mps * (2 * uniform[2] - 1);
+    return drawn;
+}
+
+static struct cell make_cell(struct frame *frame, const struct sensor *sensor,
+                             const struct contributor *drawn, double amplitude)
+{
+    struct cell cell = {
+        .sensor = sensor->name,
+        .range_m = drawn->range_m,
+        .azimuth_rad = drawn->azimuth_rad,
+        .range_rate_mps = drawn->range_rate_mps,
+        .amplitude = amplitude,
+        .sum_re = amplitude,
+        .effects = EFFECT_BIT(EFFECT_FALSE_ALARMS),
+    };
+    *list_add(&cell.members, frame->arena) = *drawn;
+    return cell;
+}
+
+struct cell_span noise_targets_of(struct frame *frame, const struct sensor *sensor,
+                                 const struct selection *selection, double mean,
+                                 const struct random_address *scan)
+{
+    const struct sensor_view *view = frame_view(frame, sensor->name);
+    double uniform[4];
+    if (!(mean > 0) || view == NULL || !view->measured)
+        return (struct cell_span){0};
+    random_uniform(scan, RANDOM_FALSE_ALARMS, 0, uniform);
+    size_t count = (size_t)poisson_count(mean, uniform[0]);
+    struct cell *cells = arena_get(frame->arena, (count + 1) * sizeof *cells);
+    for (size_t i = 0; i < count; i++) {
+        random_uniform(scan, RANDOM_FALSE_ALARMS, (uint32_t)i + 1, uniform);
+        struct contributor drawn = draw_place(sensor, (int64_t)i + 1, uniform);
+        drawn.time_s = suite_instant_s(sensor, frame->time_s, frame->interval_s,
+                                       effects_enabled(selection, EFFECT_LATENCY));
+        cells[i] = make_cell(
+            frame, sensor, &drawn,
+            noise_targets_amplitude(sensor->threshold, sensor->pointer_sigma, uniform[3]));
+    }
+    if (count > 0)
+        frame_count_echoes(frame, sensor->name, PATH_FALSE_ALARM, (int64_t)count);
+    return (struct cell_span){cells, count};
+}

@@ -1,0 +1,23 @@
+/* False alarms: targets that are nothing but noise above the threshold (EFFECTS 9, MODEL 14.9).
+ *
+ * How many there are in a scan is a Poisson count; each is as likely in every resolution cell, so
+ * even in range, azimuth and range rate, and as strong as noise is that has passed the threshold
+ * (ground_return.h). They are cells of their own, with one contributor: number n, from 1, of the
+ * reflector "cell" of the object "noise", which is no object of the frame. */
+#ifndef NOISE_TARGETS_H
+#define NOISE_TARGETS_H
+
+#include "frame.h"
+#include "random.h"
+#include "suite.h"
+
+/* The n-th of a scan, without values. That of 0 is the subject of the scan's draws. */
+struct contributor noise_targets_contributor(int64_t number);
+
+/* Makes and counts those of one sensor, none if it did not measure in this frame. selection says
+ * whether there is latency. */
+struct cell_span noise_targets_of(struct frame *frame, const struct sensor *sensor,
+                                 const struct selection *selection, double mean,
+                                 const struct random_address *scan);
+
+#endif

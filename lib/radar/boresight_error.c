@@ -1,0 +1,17 @@
+#include "boresight_error.h"
+
+#include <math.h>
+
+#include "elementary.h"
+#include "units.h"
+
+double boresight_error_reported_rad(const struct boresight_error *misalignment, double azimuth_rad)
+{
+    double reported_rad = azimuth_rad + misalignment->yaw_error_rad;
+    if (misalignment->bias_rad != 0) {
+        double turns = azimuth_rad / misalignment->bias_period_rad;
+        double angle_rad = 2 * PI * turns + misalignment->bias_phase_rad;
+        reported_rad += misalignment->bias_rad * elementary_sin(angle_rad);
+    }
+    return units_wrap_rad(reported_rad);
+}

@@ -1,0 +1,170 @@
+#include "resolution_cell.h"
+
+#include <complex.h>
+#include <math.h>
+
+#include "elementary.h"
+#include "frame_order.h"
+#include "interferer.h"
+#include "resolution.h"
+
+/* A ghost leaves in one direction and comes back from another: each way has the root of the
+ * antenna pattern (EFFECTS 7), and the pointers are those of its arrival. */
+static double departure_factor(const struct antenna *antenna, const struct echo *echo,
+                               double arrival_gain)
+{
+    if (echo->departure_rad == 0 || arrival_gain == 0)
+        return 1;
+    double gain = antenna_gain(antenna, echo->azimuth_rad + echo->departure_rad);
+    return sqrt(elementary_max(gain, 0) / arrival_gain);
+}
+
+struct received_echo received_echo_in_free_space(const struct sensor *sensor, const struct echo *echo, double phase_rad)
+{
+    struct received_echo received = {
+        .echo = frame_contributor(echo),
+        .range_m = echo->range_m,
+        .range_rate_mps = echo->range_rate_mps,
+        .phase_rad = phase_rad,
+        .effects = echo->effects,
+        .margins = &echo->margins,
+    };
+    double gain = antenna_gain(&sensor->antenna, echo->azimuth_rad);
+    received.strength = radar_reference_amplitude(&sensor->amplitude_law, echo->range_m) * echo->ercs *
+                   departure_factor(&sensor->antenna, echo, gain);
+    received.amplitude = received.strength * gain;
+    return received;
+}
+
+int resolution_cell_compare(const void *left, const void *right)
+{
+    const struct received_echo *a = left, *b = right;
+    if (a->amplitude != b->amplitude)
+        return a->amplitude > b->amplitude ? -1 : 1;
+    return frame_order_tied(&a->echo, &b->echo);
+}
+
+/* A sum with what its roundings left out (Neumaier; NUMERICS 13, 14): a weak echo outlives strong
+ * ones that cancel. */
+struct compensated {
+    double sum, left_out;
+};
+
+static void add(struct compensated *total, double term)
+{
+    double sum = total->sum + term;
+    total->left_out +=
+        fabs(total->sum) >= fabs(term) ? total->sum - sum + term : term - sum + total->sum;
+    total->sum = sum;
+}
+
+/* A sum beyond the doubles stays infinite, for the bounds check to refuse. */
+static double total(const struct compensated *terms)
+{
+    return isfinite(terms->sum) ? terms->sum + terms->left_out : terms->sum;
+}
+
+struct channel {
+    struct compensated real, imag;
+};
+
+static void add_pointer(struct channel *channel, double _Complex pointer)
+{
+    add(&channel->real, creal(pointer));
+    add(&channel->imag, cimag(pointer));
+}
+
+static double _Complex total_pointer(const struct channel *channel)
+{
+    return total(&channel->real) + total(&channel->imag) * (double _Complex)I;
+}
+
+static struct antenna_pointers add_pointers(const struct sensor *sensor, const struct received_echo *received_echoes,
+                                            size_t count)
+{
+    struct channel sum = {{0, 0}, {0, 0}}, delta = sum;
+    for (size_t i = 0; i < count; i++) {
+        struct antenna_pointers one = antenna_pointers(&sensor->antenna, received_echoes[i].echo.azimuth_rad);
+        struct elementary_sincos phase = elementary_sincos(received_echoes[i].phase_rad - received_echoes[0].phase_rad);
+        double _Complex turn = phase.cos + phase.sin * (double _Complex)I;
+        bool turned = received_echoes[i].phase_rad != received_echoes[0].phase_rad;
+        add_pointer(&sum, received_echoes[i].strength * (turned ? turn * one.sum : one.sum));
+        add_pointer(&delta, received_echoes[i].strength * (turned ? turn * one.delta : one.delta));
+    }
+    return (struct antenna_pointers){total_pointer(&sum), total_pointer(&delta)};
+}
+
+/* All received echoes as one echo at their mean azimuth. */
+static struct received_echo merge(const struct received_echo *received_echoes, size_t count, const double *weight, double *azimuth)
+{
+    struct received_echo merged = received_echoes[0];
+    for (size_t i = 0; i < count; i++)
+        azimuth[i] = received_echoes[i].echo.azimuth_rad;
+    for (size_t i = 1; i < count; i++)
+        merged.strength += received_echoes[i].strength;
+    merged.echo.azimuth_rad = resolution_mean(azimuth, weight, count);
+    return merged;
+}
+
+static uint64_t effects_of(const struct received_echo *received_echoes, size_t count, bool superpose)
+{
+    uint64_t effects = count > 1 ? EFFECT_BIT(EFFECT_MERGING) : 0;
+    if (count > 1 && superpose)
+        effects |= EFFECT_BIT(EFFECT_SUPERPOSITION);
+    for (size_t i = 0; i < count; i++) {
+        effects |= received_echoes[i].effects;
+        if (superpose && received_echoes[i].phase_rad != received_echoes[0].phase_rad)
+            effects |= EFFECT_BIT(EFFECT_COHERENCE);
+    }
+    return effects;
+}
+
+bool resolution_cell_of(const struct sensor *sensor, const struct received_echo *received_echoes, size_t count,
+                        bool superpose, struct arena *arena, struct cell *cell)
+{
+    double *range = arena_get(arena, 4 * count * sizeof *range);
+    double *rate = range + count, *weight = rate + count, *azimuth = weight + count;
+    *cell = (struct cell){
+        .sensor = sensor->name,
+        .effects = effects_of(received_echoes, count, superpose),
+    };
+    for (size_t i = 0; i < count; i++) {
+        range[i] = received_echoes[i].range_m;
+        rate[i] = received_echoes[i].range_rate_mps;
+        weight[i] = received_echoes[i].amplitude;
+        cell->amplitude += received_echoes[i].amplitude;
+    }
+    for (size_t i = 0; i < count; i++) {
+        struct contributor *member = list_add(&cell->members, arena);
+        *member = received_echoes[i].echo;
+        member->weight = received_echoes[i].amplitude / cell->amplitude;
+    }
+    cell->range_m = resolution_mean(range, weight, count);
+    cell->range_rate_mps = resolution_mean(rate, weight, count);
+    struct received_echo merged = superpose ? received_echoes[0] : merge(received_echoes, count, weight, azimuth);
+    struct antenna_pointers pointers =
+        superpose ? add_pointers(sensor, received_echoes, count) : add_pointers(sensor, &merged, 1);
+    struct monopulse_angle angle =
+        monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
+    cell->sum_re = creal(pointers.sum);
+    cell->sum_im = cimag(pointers.sum);
+    cell->delta_re = creal(pointers.delta);
+    cell->delta_im = cimag(pointers.delta);
+    cell->azimuth_rad = angle.azimuth_rad;
+    cell->sign_undecided = angle.sign_undecided;
+    return angle.valid;
+}
+
+double resolution_cell_threshold(const struct sensor *sensor, const struct cell *cell)
+{
+    return sensor->threshold * interferer_noise_factor(cell->interference);
+}
+
+struct antenna_pointers resolution_cell_pointers(const struct cell *cell)
+{
+    const double _Complex i = (double _Complex)I;
+    return (struct antenna_pointers){
+        .sum = cell->sum_re + i * cell->sum_im,
+        .delta = cell->delta_re + i * cell->delta_im,
+    };
+}

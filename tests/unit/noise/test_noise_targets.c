@@ -1,0 +1,106 @@
+#include "check.h"
+
+#include "noise_targets.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+static const struct sensor radar = {
+    .name = "s",
+    .range_min_m = 5,
+    .range_max_m = 25,
+    .field_of_view_rad = 2,
+    .threshold = 2,
+    .pointer_sigma = 0.5,
+    .false_alarm_range_rate_mps = 40,
+    .latency_s = 0.05,
+};
+
+static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
+
+struct scan {
+    struct arena arena;
+    struct frame frame;
+};
+
+static struct cell_span scan_of(struct scan *scan, double mean, uint64_t number, bool measured)
+{
+    *scan = (struct scan){.frame = {.time_s = 3, .interval_s = 0.1, .account = true}};
+    scan->frame.arena = &scan->arena;
+    *list_add(&scan->frame.sensors.list, &scan->arena) =
+        (struct sensor_view){.name = "s", .measured = measured};
+    struct random_address address = {.seed = 1, .frame = number};
+    return noise_targets_of(&scan->frame, &radar, &everything, mean, &address);
+}
+
+static void every_false_alarm_lies_in_the_sensor_s_cells(void **state)
+{
+    (void)state;
+    size_t seen = 0;
+    for (uint64_t i = 0; i < 500; i++) {
+        struct scan scan;
+        struct cell_span alarms = scan_of(&scan, 3, i, true);
+        for (size_t j = 0; j < alarms.count; j++) {
+            const struct cell *cell = &alarms.items[j];
+            assert_true(cell->range_m > 5 && cell->range_m < 25);
+            assert_true(fabs(cell->azimuth_rad) < 1);
+            assert_true(fabs(cell->range_rate_mps) < 40);
+            assert_true(cell->amplitude > 2 && cell->amplitude == cell->sum_re);
+            assert_int_equal(cell->effects, EFFECT_BIT(EFFECT_FALSE_ALARMS));
+            assert_int_equal(cell->members.count, 1);
+            const struct contributor *label = &cell->members.items[0];
+            assert_int_equal(label->path, PATH_FALSE_ALARM);
+            assert_int_equal(label->number, j + 1);
+            assert_close(label->range_m, cell->range_m, 0);
+            assert_close(label->azimuth_rad, cell->azimuth_rad, 0);
+            assert_close(label->range_rate_mps, cell->range_rate_mps, 0);
+            assert_close(label->weight, 1, 0);
+            assert_close(label->time_s, 2.95, 1e-15);
+        }
+        const struct frame *frame = &scan.frame;
+        assert_int_equal(frame->counts.count, alarms.count > 0);
+        if (alarms.count > 0)
+            assert_int_equal(frame->counts.items[0].paths.items[0].echoes, alarms.count);
+        seen += alarms.count;
+        arena_free(&scan.arena);
+    }
+    assert_true(seen > 1400 && seen < 1600);
+}
+
+static void a_larger_mean_adds_to_the_same_false_alarms(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < 100; i++) {
+        struct scan scan, more;
+        struct cell_span few = scan_of(&scan, 2, i, true), many = scan_of(&more, 4, i, true);
+        assert_true(few.count <= many.count);
+        for (size_t j = 0; j < few.count; j++)
+            assert_close(few.items[j].range_m, many.items[j].range_m, 0);
+        arena_free(&scan.arena);
+        arena_free(&more.arena);
+    }
+}
+
+static void a_sensor_that_does_not_measure_has_no_false_alarms(void **state)
+{
+    (void)state;
+    static const struct {
+        double mean;
+        bool measured;
+    } cases[] = {{50, false}, {0, true}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct scan scan;
+        assert_int_equal(scan_of(&scan, cases[i].mean, 1, cases[i].measured).count, 0);
+        assert_int_equal(scan.frame.counts.count, 0);
+        arena_free(&scan.arena);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_false_alarm_lies_in_the_sensor_s_cells),
+        cmocka_unit_test(a_larger_mean_adds_to_the_same_false_alarms),
+        cmocka_unit_test(a_sensor_that_does_not_measure_has_no_false_alarms),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,85 @@
+#include "check.h"
+
+#include "sample.h"
+#include "curved_surface.h"
+#include "units.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+static double dbsm(double cross_section_m2)
+{
+    return 10 * log10(cross_section_m2);
+}
+
+static void effects_2_2_has_these_cross_sections(void **state)
+{
+    (void)state;
+    assert_close(curved_surface_cross_section_m2(0.5, 0.5, 5), 0.649089391, 5e-10);
+    static const struct {
+        double radius_1_m, radius_2_m, range_m, dbsm, tolerance;
+    } cases[] = {
+        {HUGE_VAL, HUGE_VAL, 10, 24.971499, 5e-7},
+        {HUGE_VAL, HUGE_VAL, 30, 34.513924, 5e-7},
+        {HUGE_VAL, HUGE_VAL, 50, 38.950899, 5e-7},
+        {1e9, 1e9, 10, 24.971499, 6e-7},
+        {20, 1.5, 5, 11.6136, 5e-5},
+        {20, 1.5, 10, 14.3645, 5e-5},
+        {20, 1.5, 20, 16.4183, 5e-5},
+        {20, 1.5, 50, 18.1531, 5e-5},
+        {20, 1.5, 1e9, 19.7427, 5e-5},
+        {1.5, 20, 50, 18.1531, 5e-5},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++)
+        assert_close(dbsm(curved_surface_cross_section_m2(cases[i].radius_1_m, cases[i].radius_2_m,
+                                                    cases[i].range_m)),
+                     cases[i].dbsm, cases[i].tolerance);
+}
+
+/* EFFECTS 17: a straight rail with corrugations of 4 cm, nearly pi r2 R. */
+static void a_rail_is_lit_along_a_line(void **state)
+{
+    (void)state;
+    for (double range_m = 0.5; range_m < 200; range_m *= 1.5) {
+        double rail_m2 = PI * 0.04 * range_m * range_m / (0.04 + range_m);
+        assert_near(curved_surface_cross_section_m2(HUGE_VAL, 0.04, range_m), rail_m2, 1e-15);
+        assert_near(curved_surface_cross_section_m2(1e9, 0.04, range_m), rail_m2, 3e-7);
+    }
+}
+
+/* The formula as it stands, in extended precision, over thirty decades. */
+static void no_radius_and_no_range_is_too_large_or_too_small(void **state)
+{
+    (void)state;
+    uint64_t sample = 22;
+    for (int i = 0; i < 100000; i++) {
+        double r1 = pow(10, sample_between(&sample, -9, 12));
+        double r2 = pow(10, sample_between(&sample, -9, 12));
+        double range_m = pow(10, sample_between(&sample, -12, 6));
+        long double a = (long double)r1, b = (long double)r2, r = (long double)range_m;
+        long double exact = 3.14159265358979323846L * a * b * r * r / ((a + r) * (b + r));
+        assert_near(curved_surface_cross_section_m2(r1, r2, range_m), (double)exact, 1e-15);
+        assert_near(curved_surface_ercs(r1, r2, range_m), (double)sqrtl(exact / 10), 1e-15);
+    }
+}
+
+static void nothing_is_zero_and_never_nan(void **state)
+{
+    (void)state;
+    static const double radii_m[] = {0, 1e-300, 1, 1e9, HUGE_VAL};
+    for (size_t i = 0; i < COUNT(radii_m); i++) {
+        assert_close(curved_surface_cross_section_m2(radii_m[i], 0, 0), 0, 0);
+        assert_close(curved_surface_cross_section_m2(0, radii_m[i], 7), 0, 0);
+        assert_close(curved_surface_ercs(radii_m[i], radii_m[i], 0), 0, 0);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(effects_2_2_has_these_cross_sections),
+        cmocka_unit_test(a_rail_is_lit_along_a_line),
+        cmocka_unit_test(no_radius_and_no_range_is_too_large_or_too_small),
+        cmocka_unit_test(nothing_is_zero_and_never_nan),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

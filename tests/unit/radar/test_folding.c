@@ -1,0 +1,84 @@
+#include "check.h"
+
+#include <string.h>
+
+#include "folding.h"
+#include "sample.h"
+#include "units.h"
+
+static void assert_same_bits(double actual, double expected)
+{
+    assert_memory_equal(&actual, &expected, sizeof actual);
+}
+
+/* EFFECTS 10. */
+static void folding_is_as_published(void **state)
+{
+    (void)state;
+    assert_close(folding_range_rate_mps(45, 24.5), -4, 0);
+    assert_close(folding_range_rate_mps(-60, 24.5), -11, 0);
+    assert_close(folding_range_m(100, 59.958492), 40.041508, 5.1e-7);
+}
+
+static void what_lies_inside_comes_back_bit_by_bit(void **state)
+{
+    (void)state;
+    uint64_t sample = 10;
+    for (int i = 0; i < 100000; i++) {
+        double unambiguous = sample_between(&sample, 1e-3, 100);
+        double rate = sample_between(&sample, -unambiguous, unambiguous);
+        assert_same_bits(folding_range_rate_mps(rate, unambiguous), rate);
+        assert_same_bits(folding_range_m(fabs(rate), unambiguous), fabs(rate));
+    }
+    static const double edges[] = {0.0, -0.0, 0x1p-1074, -0x1p-1074, -24.5, 1e-300};
+    for (size_t i = 0; i < sizeof edges / sizeof edges[0]; i++)
+        assert_same_bits(folding_range_rate_mps(edges[i], 24.5), edges[i]);
+    assert_same_bits(folding_range_rate_mps(nextafter(24.5, 0), 24.5), nextafter(24.5, 0));
+    assert_same_bits(folding_range_rate_mps(1e9, (double)INFINITY), 1e9);
+    assert_same_bits(folding_range_m(1e9, (double)INFINITY), 1e9);
+}
+
+static void the_interval_holds_its_lower_end_only(void **state)
+{
+    (void)state;
+    for (int turn = -9; turn <= 9; turn += 2) {
+        double end = turn * 24.5;
+        assert_close(folding_range_rate_mps(end, 24.5), -24.5, 0);
+        assert_true(folding_range_rate_mps(nextafter(end, -1000), 24.5) > 24.4);
+        assert_true(folding_range_rate_mps(nextafter(end, -1000), 24.5) < 24.5);
+    }
+    assert_close(folding_range_m(60, 60), 0, 0);
+    assert_close(folding_range_m(180, 60), 0, 0);
+    assert_true(folding_range_m(nextafter(180, 0), 60) < 60);
+}
+
+/* The formula with floor, which rounds on the way. */
+static void folding_moves_by_whole_intervals(void **state)
+{
+    (void)state;
+    uint64_t sample = 11;
+    for (int i = 0; i < 100000; i++) {
+        double unambiguous = sample_between(&sample, 1, 100);
+        double rate = sample_between(&sample, -500, 500);
+        double folded = folding_range_rate_mps(rate, unambiguous);
+        assert_true(folded >= -unambiguous && folded < unambiguous);
+        double whole = floor((rate + unambiguous) / (2 * unambiguous));
+        assert_close(remainder(folded - (rate - whole * 2 * unambiguous), 2 * unambiguous), 0,
+                     1e-12);
+        double range_m = sample_between(&sample, 0, 500);
+        double folded_m = folding_range_m(range_m, unambiguous);
+        assert_true(folded_m >= 0 && folded_m < unambiguous);
+        assert_close(remainder(folded_m - range_m, unambiguous), 0, 1e-12);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(folding_is_as_published),
+        cmocka_unit_test(what_lies_inside_comes_back_bit_by_bit),
+        cmocka_unit_test(the_interval_holds_its_lower_end_only),
+        cmocka_unit_test(folding_moves_by_whole_intervals),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,73 @@
+#include "check.h"
+
+#include "ground_return.h"
+#include "motion.h"
+#include "sample.h"
+#include "kinematics.h"
+#include "units.h"
+
+#define DEGREE (PI / 180)
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+/* The part of all false alarms above an amplitude is P(amplitude) / P(threshold), and noise alone
+ * passes T with P = exp(-(T / sigma)^2). */
+static void amplitudes_of_false_alarms_are_those_of_noise_above_the_threshold(void **state)
+{
+    (void)state;
+    for (double uniform = 0x1p-53; uniform < 1; uniform = uniform * 1.2 + 1e-4) {
+        double amplitude = noise_targets_amplitude(2, 0.7, uniform);
+        assert_true(amplitude >= 2);
+        assert_near(exp((2 - amplitude) * (2 + amplitude) / (0.7 * 0.7)), uniform, 2e-14);
+    }
+    assert_close(noise_targets_amplitude(2, 0, 0.5), 2, 0);
+    assert_near(noise_targets_amplitude(1e200, 1e200, 0.5), 1e200 * sqrt(1 + log(2)), 1e-15);
+}
+
+static void places_are_even_over_the_area(void **state)
+{
+    (void)state;
+    assert_near(ground_return_area_m2(0, 10, 2 * PI), 100 * PI, 1e-15);
+    assert_near(ground_return_area_m2(5, 10, PI), 37.5 * PI, 1e-15);
+    assert_close(ground_return_area_m2(7, 7, 1), 0, 0);
+    /* As many nearer as there is area nearer. */
+    uint64_t sample = 99;
+    for (int i = 0; i < 10000; i++) {
+        double least_m = sample_between(&sample, 0, 20), most_m = sample_between(&sample, 20, 200);
+        double uniform = sample_between(&sample, 0, 1);
+        double range_m = ground_return_range_m(least_m, most_m, uniform);
+        assert_close(ground_return_area_m2(least_m, range_m, 1) / ground_return_area_m2(least_m, most_m, 1),
+                     uniform, 1e-12);
+    }
+    assert_close(ground_return_range_m(0, 30, 0x1p-53), 0, 1e-6);
+    assert_close(ground_return_range_m(0.3, 30, 1 - 0x1p-53), 30, 1e-13);
+    for (double range_m = 0.1; range_m < 10; range_m += 0.1)
+        assert_close(ground_return_range_m(range_m, range_m, 0.3), range_m, 0);
+}
+
+/* EFFECTS 14: 20 m/s, 0.3 rad/s, a sensor at (3.6, 0.7), the sight line at 40 degrees. */
+static void the_standing_world_moves_as_effects_14_says(void **state)
+{
+    (void)state;
+    struct motion ego = {.velocity_mps = {20, 0}, .yaw_rate_radps = 0.3};
+    struct vec2 sensor_mps = motion_velocity_at(&ego, (struct vec2){3.6, 0.7}), ahead = {1, 0};
+    assert_close(ground_return_range_rate_mps(sensor_mps, ahead, 40 * DEGREE), -15.854230, 5e-7);
+    assert_close(ground_return_range_rate_mps(ego.velocity_mps, ahead, 40 * DEGREE), -15.320889, 5e-7);
+    struct vec2 aside = vec2_heading(65 * DEGREE);
+    assert_close(ground_return_range_rate_mps(sensor_mps, aside, -25 * DEGREE), -15.854230, 5e-7);
+    /* The same as a standing point seen there. */
+    struct vec2 point = vec2_scale(17, vec2_heading(0.3)), still = {0, 0};
+    struct kinematics sight = kinematics_of(still, sensor_mps, aside, point, still);
+    assert_near(ground_return_range_rate_mps(sensor_mps, aside, sight.azimuth_rad), sight.range_rate_mps,
+                1e-14);
+    assert_close(ground_return_range_rate_mps(still, ahead, 1), 0, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(amplitudes_of_false_alarms_are_those_of_noise_above_the_threshold),
+        cmocka_unit_test(places_are_even_over_the_area),
+        cmocka_unit_test(the_standing_world_moves_as_effects_14_says),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,86 @@
+#include "check.h"
+
+#include "interferer.h"
+#include "units.h"
+
+/* EFFECTS 12. */
+static void received_power_is_as_published(void **state)
+{
+    (void)state;
+    static const struct {
+        double eirp_dbm, gain_db, carrier_hz, range_m, power_dbm;
+    } rows[] = {{33, 20, 76.5e9, 10, -37.1210},   {33, 20, 76.5e9, 50, -51.1004},
+                {33, 20, 76.5e9, 100, -57.1210},  {20, 13, 24.125e9, 10, -47.0971},
+                {20, 13, 24.125e9, 50, -61.0765}, {20, 13, 24.125e9, 100, -67.0971}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        assert_close(interferer_power_dbm(rows[i].eirp_dbm, rows[i].gain_db,
+                                            units_wavelength_m(rows[i].carrier_hz),
+                                            rows[i].range_m),
+                     rows[i].power_dbm, 5.1e-5);
+}
+
+/* EFFECTS 0 and 12. */
+static void noise_is_as_published(void **state)
+{
+    (void)state;
+    assert_close(interferer_noise_dbm(1, 0), -173.975187, 5.1e-7);
+    assert_close(interferer_noise_dbm(10e6, 12), -91.9750, 2e-4);
+}
+
+/* EFFECTS 12: slopes of 7.5 and -7.5 MHz/us, 10 MHz in band, chirps of 20 us; in every chirp, and
+ * in one of twenty. */
+static void the_floor_rises_as_published(void **state)
+{
+    (void)state;
+    double noise_dbm = interferer_noise_dbm(10e6, 12);
+    double power_dbm = interferer_power_dbm(33, 20, units_wavelength_m(76.5e9), 50);
+    assert_close(power_dbm - noise_dbm, 40.8746, 2e-4);
+    double overlap = interferer_overlap(10e6, 15e12, 20e-6);
+    assert_close(overlap * 20, 1.333333, 5.1e-7);
+    static const struct {
+        double hit_share, rise_db;
+    } rows[] = {{1, 29.1190}, {0.05, 16.2086}, {0, 0}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        double ratio = interferer_ratio(power_dbm, noise_dbm, overlap, rows[i].hit_share);
+        assert_close(units_amplitude_db(interferer_noise_factor(ratio)), rows[i].rise_db, 2e-4);
+        assert_near(interferer_noise_factor(ratio), pow(10, rows[i].rise_db / 20), 3e-5);
+    }
+}
+
+/* EFFECTS 12: with amplitudes that fall as 1/R^2, 10 dB cost 44 % of the range. */
+static void ranges_shrink_as_published(void **state)
+{
+    (void)state;
+    assert_near(interferer_noise_factor(9), sqrt(10), 1e-15);
+    assert_close(1 / sqrt(interferer_noise_factor(9)), 0.562341, 5.1e-7);
+    assert_close(units_amplitude_db(interferer_noise_factor(pow(10, -0.6))), 0.973, 5.1e-4);
+}
+
+static void equal_slopes_stay_in_band(void **state)
+{
+    (void)state;
+    assert_close(interferer_overlap(10e6, 0, 20e-6), 1, 0);
+    assert_close(interferer_overlap(10e6, 1e3, 20e-6), 1, 0);
+    assert_close(interferer_overlap(10e6, -15e12, 20e-6),
+                 interferer_overlap(10e6, 15e12, 20e-6), 0);
+}
+
+static void silence_leaves_the_noise_alone(void **state)
+{
+    (void)state;
+    assert_close(interferer_noise_factor(0), 1, 0);
+    assert_close(interferer_ratio(-1e4, -90, 1, 1), 0, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(received_power_is_as_published),
+        cmocka_unit_test(noise_is_as_published),
+        cmocka_unit_test(the_floor_rises_as_published),
+        cmocka_unit_test(ranges_shrink_as_published),
+        cmocka_unit_test(equal_slopes_stay_in_band),
+        cmocka_unit_test(silence_leaves_the_noise_alone),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

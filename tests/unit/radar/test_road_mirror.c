@@ -1,0 +1,285 @@
+#include "check.h"
+
+#include "sample.h"
+#include "road_mirror.h"
+#include "units.h"
+
+#define DEGREE (PI / 180)
+
+static const struct road_mirror_road ASPHALT = {5, 0.25, 1e-3};
+static const struct road_mirror_road SMOOTH = {5, 0.25, 0};
+
+static struct road_mirror_ends ends_at(double distance_m)
+{
+    return (struct road_mirror_ends){0.5, 0.6, 0, distance_m};
+}
+
+static double size(double _Complex reflection)
+{
+    return hypot(creal(reflection), cimag(reflection));
+}
+
+static double point_db(double reflection, double carrier_hz, double distance_m)
+{
+    struct road_mirror_ends ends = ends_at(distance_m);
+    struct road_mirror_paths paths = road_mirror_paths(&ends);
+    return units_amplitude_db(
+        road_mirror_point_factor(&paths, reflection, units_wavelength_m(carrier_hz)));
+}
+
+/* EFFECTS 6. */
+static void fading_is_as_published(void **state)
+{
+    (void)state;
+    static const struct {
+        double reflection, carrier_hz, distance_m, factor_db;
+    } rows[] = {
+        {-1, 76.5e9, 20, 10.038205},   {-1, 76.5e9, 50, -16.559920},
+        {-1, 76.5e9, 100, 11.958099},  {-1, 76.5e9, 200, 5.130529},
+        {-0.7, 76.5e9, 20, 7.287194},  {-0.7, 76.5e9, 50, -14.238719},
+        {-0.7, 76.5e9, 100, 9.137532}, {-0.7, 76.5e9, 200, 2.630125},
+        {-1, 24.125e9, 5, 11.689836},  {-1, 24.125e9, 15, 3.828826},
+        {-1, 24.125e9, 30, 10.998261},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        assert_close(point_db(rows[i].reflection, rows[i].carrier_hz, rows[i].distance_m),
+                     rows[i].factor_db, 1e-6);
+}
+
+static void path_difference_is_as_published(void **state)
+{
+    (void)state;
+    struct road_mirror_ends ends = ends_at(10);
+    assert_close(road_mirror_paths(&ends).difference_m, 0.059818099, 5.1e-10);
+}
+
+static void path_difference_keeps_its_digits_far_away(void **state)
+{
+    (void)state;
+    for (double distance_m = 1; distance_m < 1e7; distance_m *= 1.7) {
+        struct road_mirror_ends ends = ends_at(distance_m);
+        long double direct = hypotl((long double)distance_m, 0.5L - (long double)0.6);
+        long double bounced = hypotl((long double)distance_m, 0.5L + (long double)0.6);
+        long double expected = 4 * 0.5L * (long double)0.6 / (direct + bounced);
+        struct road_mirror_paths paths = road_mirror_paths(&ends);
+        assert_near(paths.difference_m, (double)expected, 1e-15);
+        assert_near(paths.direct_m, (double)direct, 4e-16);
+        assert_near(paths.bounced_m, (double)bounced, 4e-16);
+    }
+}
+
+/* EFFECTS 6: nulls at 2 h_s h_r/(n lambda), to first order; the last maximum at twice the first. */
+static void echoes_fade_where_the_paths_differ_by_whole_waves(void **state)
+{
+    (void)state;
+    static const struct {
+        double carrier_hz, null_m[3];
+    } rows[] = {{76.5e9, {153.1059, 76.5530, 51.0353}}, {24.125e9, {48.2834, 24.1417, 16.0945}}};
+    for (size_t i = 0; i < 2; i++) {
+        double wavelength_m = units_wavelength_m(rows[i].carrier_hz);
+        for (int n = 1; n <= 3; n++) {
+            struct road_mirror_ends ends = ends_at(rows[i].null_m[n - 1]);
+            assert_near(road_mirror_paths(&ends).difference_m / wavelength_m, (double)n, 2e-3);
+            assert_true(point_db(-1, rows[i].carrier_hz, rows[i].null_m[n - 1]) < -30);
+        }
+        assert_close(point_db(-1, rows[i].carrier_hz, 2 * rows[i].null_m[0]), 20 * log10(4), 0.01);
+    }
+}
+
+/* EFFECTS 6. */
+static void reflection_is_fresnels(void **state)
+{
+    (void)state;
+    static const struct {
+        double grazing_deg, horizontal, vertical;
+    } rows[] = {{1, 0.982724, 0.916381},
+                {5, 0.916676, 0.642440},
+                {20, 0.711851, 0.085697},
+                {90, 0.382432, 0.382432}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        double sine = sin(rows[i].grazing_deg * DEGREE);
+        assert_close(size(road_mirror_reflection(&SMOOTH, POLARIZATION_HORIZONTAL, 0.004, sine)),
+                     rows[i].horizontal, 5.1e-7);
+        assert_close(size(road_mirror_reflection(&SMOOTH, POLARIZATION_VERTICAL, 0.004, sine)),
+                     rows[i].vertical, 5.1e-7);
+    }
+}
+
+static void reflection_agrees_with_complex_arithmetic(void **state)
+{
+    (void)state;
+    uint64_t sample = 6;
+    for (int i = 0; i < 10000; i++) {
+        struct road_mirror_road road = {sample_between(&sample, 1.01, 40),
+                                    sample_between(&sample, 0, 40),
+                                    sample_between(&sample, 0, 2e-3)};
+        double sine = sample_between(&sample, 0, 1), wavelength_m = 0.004;
+        double _Complex permittivity =
+            road.permittivity - road.permittivity_loss * (double _Complex)I;
+        double _Complex r = csqrt(permittivity - (1 - sine * sine));
+        double rough = exp(-8 * pow(PI * road.roughness_m * sine / wavelength_m, 2));
+        double _Complex horizontal = rough * (sine - r) / (sine + r);
+        double _Complex vertical = rough * (permittivity * sine - r) / (permittivity * sine + r);
+        assert_close(size(road_mirror_reflection(&road, POLARIZATION_HORIZONTAL, wavelength_m, sine) -
+                          horizontal),
+                     0, 1e-14);
+        assert_close(
+            size(road_mirror_reflection(&road, POLARIZATION_VERTICAL, wavelength_m, sine) - vertical),
+            0, 1e-14);
+    }
+}
+
+static void a_bounced_wave_is_late_by_the_path_difference(void **state)
+{
+    (void)state;
+    uint64_t sample = 5;
+    for (int i = 0; i < 10000; i++) {
+        struct road_mirror_paths paths = {10, sample_between(&sample, 10, 12),
+                                      sample_between(&sample, 0, 0.1), 0};
+        double _Complex reflection = sample_between(&sample, -0.7, 0.7) +
+                                     sample_between(&sample, -0.7, 0.7) * (double _Complex)I;
+        double phase = -2 * PI * paths.difference_m / 0.004;
+        double _Complex late = cos(phase) + sin(phase) * (double _Complex)I;
+        double _Complex sum = 1 + reflection * (paths.direct_m / paths.bounced_m) * late;
+        assert_close(road_mirror_point_factor(&paths, reflection, 0.004), pow(size(sum), 2), 1e-12);
+    }
+}
+
+static void grazing_waves_come_back_turned_over(void **state)
+{
+    (void)state;
+    for (int v = 0; v < 2; v++) {
+        double _Complex reflection = road_mirror_reflection(
+            &ASPHALT, v ? POLARIZATION_VERTICAL : POLARIZATION_HORIZONTAL, 0.004, 0);
+        assert_close(creal(reflection), -1, 1e-15);
+        assert_close(cimag(reflection), 0, 1e-15);
+    }
+}
+
+/* EFFECTS 6: 1 mm at 5 deg. */
+static void roughness_scatters_as_published(void **state)
+{
+    (void)state;
+    static const struct {
+        double carrier_hz, share;
+    } rows[] = {{24.125e9, 0.996124}, {76.5e9, 0.961699}};
+    double sine = sin(5 * DEGREE);
+    for (size_t i = 0; i < 2; i++) {
+        double wavelength_m = units_wavelength_m(rows[i].carrier_hz);
+        double rough =
+            size(road_mirror_reflection(&ASPHALT, POLARIZATION_VERTICAL, wavelength_m, sine));
+        double smooth =
+            size(road_mirror_reflection(&SMOOTH, POLARIZATION_VERTICAL, wavelength_m, sine));
+        assert_close(rough / smooth, rows[i].share, 5.1e-7);
+    }
+}
+
+/* EFFECTS 6. */
+static void the_mean_is_as_published(void **state)
+{
+    (void)state;
+    static const struct {
+        double reflection, mean_db;
+    } rows[] = {{1, 7.781513}, {0.9, 6.898503}, {0.7, 5.051635}, {0.5, 3.143940}, {0, 0}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        assert_close(units_amplitude_db(road_mirror_mean_factor(rows[i].reflection)), rows[i].mean_db,
+                     5.1e-7);
+}
+
+static void the_mean_is_that_of_power_over_all_phases(void **state)
+{
+    (void)state;
+    for (double reflection = 0; reflection <= 1; reflection += 0.1) {
+        double power = 0;
+        for (int k = 0; k < 16; k++) {
+            struct road_mirror_paths paths = {1, 1, k / 16.0, 0};
+            power += pow(road_mirror_point_factor(&paths, -reflection, 1), 2) / 16;
+        }
+        assert_near(road_mirror_mean_factor(reflection), sqrt(power), 1e-14);
+    }
+}
+
+/* EFFECTS 6: a lobe is 0.1176 m high at 76.5 GHz, 30 m and 0.5 m. */
+static void reflectors_higher_than_half_a_lobe_get_the_mean(void **state)
+{
+    (void)state;
+    double wavelength_m = units_wavelength_m(76.5e9);
+    struct road_mirror_ends ends = ends_at(30);
+    struct road_mirror_paths paths = road_mirror_paths(&ends);
+    double _Complex reflection =
+        road_mirror_reflection(&ASPHALT, POLARIZATION_VERTICAL, wavelength_m, paths.grazing_sine);
+    double point = road_mirror_point_factor(&paths, reflection, wavelength_m);
+    double mean = road_mirror_mean_factor(size(reflection) * paths.direct_m / paths.bounced_m);
+    assert_true(fabs(point - mean) > 0.01);
+    static const double extents_m[] = {0, 0.1175 / 2, 0.1177 / 2, 2};
+    for (size_t i = 0; i < 4; i++) {
+        ends.extent_m = extents_m[i];
+        assert_near(road_mirror_amplitude_factor(&ASPHALT, POLARIZATION_VERTICAL, wavelength_m, &ends),
+                    i < 2 ? point : mean, 1e-15);
+    }
+}
+
+static void no_echo_leaves_the_bounds(void **state)
+{
+    (void)state;
+    uint64_t sample = 7;
+    for (int i = 0; i < 100000; i++) {
+        struct road_mirror_ends ends = {sample_between(&sample, 0, 1), sample_between(&sample, 0, 3),
+                                    i % 3 ? 0 : sample_between(&sample, 0, 2),
+                                    sample_between(&sample, 0, 200)};
+        struct road_mirror_paths paths = road_mirror_paths(&ends);
+        enum polarization polarization = i % 2 ? POLARIZATION_VERTICAL : POLARIZATION_HORIZONTAL;
+        double reflection =
+            size(road_mirror_reflection(&ASPHALT, polarization, 0.0039, paths.grazing_sine)) *
+            paths.direct_m / paths.bounced_m;
+        assert_true(reflection <= 1 + 1e-15);
+        double least = (1 - reflection) * (1 - reflection);
+        double most = (1 + reflection) * (1 + reflection);
+        double factor = road_mirror_amplitude_factor(&ASPHALT, polarization, 0.0039, &ends);
+        assert_true(factor >= least - 1e-14 && factor <= most + 1e-14);
+    }
+    struct road_mirror_paths in_phase = {1, 1, 0, 0};
+    assert_near(road_mirror_point_factor(&in_phase, 0.4, 1), 1.4 * 1.4, 1e-15);
+    assert_near(road_mirror_point_factor(&in_phase, -0.4, 1), 0.6 * 0.6, 1e-15);
+}
+
+static void a_road_that_reflects_nothing_changes_nothing(void **state)
+{
+    (void)state;
+    struct road_mirror_paths paths = {10, 10.1, 0.3, 0.1};
+    assert_close(road_mirror_point_factor(&paths, 0, 0.004), 1, 0);
+    assert_close(road_mirror_mean_factor(0), 1, 0);
+}
+
+static void ends_on_the_road_give_numbers(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 16; i++) {
+        struct road_mirror_ends ends = {i & 1 ? 0.5 : 0, i & 2 ? 0.5 : 0, i & 4 ? 1 : 0,
+                                    i & 8 ? 20 : 0};
+        double factor = road_mirror_amplitude_factor(&ASPHALT, POLARIZATION_VERTICAL, 0.004, &ends);
+        assert_true(factor >= 0 && factor <= 4);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fading_is_as_published),
+        cmocka_unit_test(path_difference_is_as_published),
+        cmocka_unit_test(path_difference_keeps_its_digits_far_away),
+        cmocka_unit_test(echoes_fade_where_the_paths_differ_by_whole_waves),
+        cmocka_unit_test(reflection_is_fresnels),
+        cmocka_unit_test(reflection_agrees_with_complex_arithmetic),
+        cmocka_unit_test(a_bounced_wave_is_late_by_the_path_difference),
+        cmocka_unit_test(grazing_waves_come_back_turned_over),
+        cmocka_unit_test(roughness_scatters_as_published),
+        cmocka_unit_test(the_mean_is_as_published),
+        cmocka_unit_test(the_mean_is_that_of_power_over_all_phases),
+        cmocka_unit_test(reflectors_higher_than_half_a_lobe_get_the_mean),
+        cmocka_unit_test(no_echo_leaves_the_bounds),
+        cmocka_unit_test(a_road_that_reflects_nothing_changes_nothing),
+        cmocka_unit_test(ends_on_the_road_give_numbers),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
