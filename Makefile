@@ -28,9 +28,8 @@ WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes \
 # Contraction would let a compiler round a*b+c once instead of twice, and so change results.
 # gcc 12's vectorizer does it all the same where a subtraction and an addition stand side by side.
 EXACT = -ffp-contract=off -fno-fast-math -fno-tree-vectorize -fno-tree-slp-vectorize
-rooms = $(addprefix -iquote ,$(patsubst %/,%,$(wildcard lib/*/)))
-HOUSE_C = -std=c11 -D_XOPEN_SOURCE=700 $(EXACT) $(WARNINGS) -iquote lib $(rooms) -MMD -MP $(SANITIZE)
-HOUSE_CXX = -std=c++17 -fno-rtti $(EXACT) -Wall -Wextra -iquote lib $(rooms) -MMD -MP $(SANITIZE)
+HOUSE_C = -std=c11 -D_XOPEN_SOURCE=700 $(EXACT) $(WARNINGS) -iquote lib -MMD -MP $(SANITIZE)
+HOUSE_CXX = -std=c++17 -fno-rtti $(EXACT) -Wall -Wextra -iquote lib -MMD -MP $(SANITIZE)
 # number.cc is the only C++ in it; its library is linked in, so that nobody needs it at run time.
 LINK = $(CXX) -static-libstdc++ -static-libgcc $(SANITIZE) $(LDFLAGS)
 LIBS = -ljansson -lcsv -lz -lm
@@ -73,7 +72,7 @@ $(BUILD)/view_page.html: $(page)/page.html $(view_parts)
 	    while ((getline line < part) > 0) print line; close(part); next } { print }' $< >$@
 
 $(BUILD)/view_page.c: $(BUILD)/view_page.html
-	$(Q){ echo '#include "view_page.h"'; echo 'const char view_page[] = {'; \
+	$(Q){ echo '#include "view/view_page.h"'; echo 'const char view_page[] = {'; \
 	    od -An -v -tu1 $< | sed 's/[0-9]\{1,\}/(char)&,/g'; echo '0};'; \
 	    echo 'const size_t view_page_size = sizeof view_page - 1;'; } >$@
 
@@ -112,7 +111,7 @@ registry = { for s in $(stages); do echo "extern const struct stage stage_$$s;";
     for s in $(stages); do echo "    &stage_$$s,"; done; echo "    NULL,"; echo "};"; }
 $(BUILD)/registry.c: FORCE
 	@mkdir -p $(@D)
-	@{ echo '#include "fused.h"'; $(registry); } > $@.new
+	@{ echo '#include "run/fused.h"'; $(registry); } > $@.new
 	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
 $(BUILD)/registry.o: $(BUILD)/registry.c
@@ -192,7 +191,7 @@ format:
 
 lint:
 	clang-format --dry-run --Werror $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.c tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
-	clang-tidy --quiet $(wildcard lib/*.c lib/*/*.c stages/*.c) -- -std=c11 -D_XOPEN_SOURCE=700 -iquote lib $(rooms)
+	clang-tidy --quiet $(wildcard lib/*.c lib/*/*.c stages/*.c) -- -std=c11 -D_XOPEN_SOURCE=700 -iquote lib
 
 # Man pages are made from --help, by help2man; SOURCE_DATE_EPOCH makes them reproducible.
 man: all

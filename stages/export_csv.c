@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "number.h"
-#include "stage.h"
-#include "csv_table.h"
+#include "base/number.h"
+#include "run/stage.h"
+#include "text/csv_table.h"
 
 struct export_csv {
     bool begun; /* is the header out? */

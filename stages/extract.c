@@ -1,5 +1,5 @@
 /* Vehicle model extraction: objects become reflection centres (MODEL 2). */
-#include "stage.h"
+#include "run/stage.h"
 
 static int extract_step(void *state, struct frame *frame, struct runner *runner)
 {

@@ -1,6 +1,6 @@
 /* Vehicle model extraction by 3GPP: cars become five scattering points with lobes, people one point
  * (MODEL 2.8). */
-#include "stage.h"
+#include "run/stage.h"
 
 static void describe(const void *state, const struct vehicle *vehicle, struct reflector_set *set,
                      struct arena *arena)

@@ -1,10 +1,10 @@
 /* The ideal target list: exact range, azimuth, range rate and cross section of every reflector that
  * a sensor sees (MODEL 2.2 to 2.5, 5). */
-#include "scan_timing.h"
-#include "direct_echoes.h"
-#include "ghost_echoes.h"
-#include "look.h"
-#include "stage.h"
+#include "ideal/direct_echoes.h"
+#include "ideal/ghost_echoes.h"
+#include "ideal/look.h"
+#include "radar/scan_timing.h"
+#include "run/stage.h"
 
 struct ideal {
     struct suite_choice choice; /* first: its options are ideal's */

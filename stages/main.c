@@ -1,6 +1,6 @@
 /* The main of every executable: glint-NAME with -DSTAGE=stage_NAME, glint itself without. */
-#include "chain.h"
-#include "fused.h"
+#include "run/chain.h"
+#include "run/fused.h"
 
 #ifdef STAGE
 

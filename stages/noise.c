@@ -3,14 +3,12 @@
  * the list (10, 11), and the rounding of what is reported. */
 #include <complex.h>
 
-#include "draw_address.h"
-#include "cell_margins.h"
-#include "measurement_noise.h"
-#include "elementary.h"
-#include "noise_targets.h"
-#include "stage.h"
-#include "resolution_cell.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
+#include "frame/draw_address.h"
+#include "noise/measurement_noise.h"
+#include "noise/noise_targets.h"
+#include "run/stage.h"
 
 /* False if there is nothing to read an angle off. */
 static bool measure(const struct frame *frame, const struct measurement_noise *by,
@@ -31,8 +29,8 @@ static bool measure(const struct frame *frame, const struct measurement_noise *b
     measurement_noise_range(by, &address, measurement);
     measurement_noise_azimuth(by, measurement);
     if (frame->margins)
-        cell_margins_add_noisy(sensor, cell, pointers, measurement->amplitude, by->final_threshold,
-                               &measurement->margins);
+        target_list_note_margins(sensor, cell, pointers, measurement->amplitude,
+                                 by->final_threshold, &measurement->margins);
     return angle.valid;
 }
 
@@ -47,10 +45,11 @@ static size_t read_cells(struct frame *frame, const struct measurement_noise *by
         const struct cell *cell = &cells.items[i];
         struct measurement *measurement = &measurements[count];
         bool has_angle = measure(frame, by, scan, cell, measurement);
-        double threshold = resolution_cell_threshold(sensor, cell);
+        double threshold = suite_threshold(sensor, cell->interference);
         if (by->final_threshold && measurement->amplitude < threshold)
             frame_lose_cell(frame, "noise", cell, LOSS_BELOW_FINAL,
-                            units_shortfall_db(threshold, measurement->amplitude), &measurement->margins);
+                            units_shortfall_db(threshold, measurement->amplitude),
+                            &measurement->margins);
         else if (!has_angle)
             frame_lose_cell(frame, "noise", cell, LOSS_NO_ANGLE, 0, &measurement->margins);
         else

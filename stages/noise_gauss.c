@@ -1,14 +1,14 @@
 /* The textbook sensor: independent Gaussian noise on range, azimuth and range rate. */
 
-#include "draw_address.h"
-#include "elementary.h"
-#include "random.h"
-#include "target_list.h"
-#include "stage.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/random.h"
+#include "base/units.h"
+#include "frame/draw_address.h"
+#include "noise/target_list.h"
+#include "run/stage.h"
 
 static struct measurement measure(const struct frame *frame, const struct sensor *sensor,
-                              const struct cell *cell)
+                                  const struct cell *cell)
 {
     struct random_address address =
         draw_address_of(frame, sensor->name, ECHO_ID_OF(&cell->members.items[0]));
@@ -16,7 +16,8 @@ static struct measurement measure(const struct frame *frame, const struct sensor
     random_gaussian_pair(&address, RANDOM_RANGE_RATE, 0, straight);
     random_gaussian_pair(&address, RANDOM_AZIMUTH, 0, across);
     struct measurement measurement = target_list_measure(cell);
-    measurement.range_m = elementary_max(measurement.range_m + sensor->range_sigma_m * straight[0], 0);
+    measurement.range_m =
+        elementary_max(measurement.range_m + sensor->range_sigma_m * straight[0], 0);
     measurement.range_rate_mps += sensor->range_rate_sigma_mps * straight[1];
     measurement.azimuth_rad =
         units_wrap_rad(measurement.azimuth_rad + sensor->azimuth_sigma_rad * across[0]);

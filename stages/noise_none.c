@@ -1,6 +1,6 @@
 /* No noise: the target list of the cells as they are. */
-#include "target_list.h"
-#include "stage.h"
+#include "noise/target_list.h"
+#include "run/stage.h"
 
 static void list_targets(struct frame *frame, const struct sensor *sensor,
                          const struct selection *selection)

@@ -1,7 +1,7 @@
 /* A plan: the pipeline that the frames call for. Rehearses the chain on every frame, the simpler
  * stages beside those they may stand in for, and prints what was needed. */
-#include "plan.h"
-#include "stage.h"
+#include "run/plan.h"
+#include "run/stage.h"
 
 extern const struct stage stage_extract, stage_ideal, stage_sensor, stage_sensor_perfect,
     stage_noise, stage_noise_none;
@@ -57,7 +57,7 @@ static int try_stage(struct plan_state *own, int at, struct frame *frame, struct
     struct frame copy = *frame;
     frame_drop(&copy, SECTION_LOST | SECTION_COUNTS);
     if (runner_try_stage(runner, chain[at].stage, at == PLAN_IDEAL ? &own->choice : NULL,
-                        &position->log, frame) != 0)
+                         &position->log, frame) != 0)
         return -1;
     if (position->stand_in == NULL || position->differs)
         return 0;

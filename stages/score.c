@@ -1,7 +1,7 @@
 /* Scores: how far the targets of this stream are from those of another one, frame by frame. */
-#include "score_table.h"
-#include "stage.h"
-#include "target_score.h"
+#include "run/stage.h"
+#include "score/score_table.h"
+#include "score/target_score.h"
 
 struct score_state {
     const char *truth;
@@ -25,7 +25,7 @@ static int score_step(void *state, struct frame *frame, struct runner *runner)
     struct score_state *own = state;
     const struct frame *truth;
     int found = reference_stream_frame(own->other, frame, SECTION_SENSORS | SECTION_TARGETS, &truth,
-                                  runner_diag(runner));
+                                       runner_diag(runner));
     if (found <= 0)
         return found;
     if (target_score_check(truth, frame, runner_diag(runner)) != 0)

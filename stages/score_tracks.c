@@ -1,7 +1,7 @@
 /* Scores of a tracker: how far its tracks are from the objects that are there, frame by frame. */
-#include "score_table.h"
-#include "stage.h"
-#include "track_score.h"
+#include "run/stage.h"
+#include "score/score_table.h"
+#include "score/track_score.h"
 
 struct score_tracks {
     const char *tracks, *classes;

@@ -1,10 +1,10 @@
 /* The sensor before noise: amplitude of every echo (MODEL 4), what moves on reflectors and what
  * lies on the ground (14), resolution cells (6), threshold on the summed amplitude, superposed sum
  * and delta pointers of each cell (7, 8). */
-#include "cell_margins.h"
-#include "escalation.h"
-#include "stage.h"
-#include "units.h"
+#include "base/units.h"
+#include "run/stage.h"
+#include "sensor/cell_margins.h"
+#include "sensor/escalation.h"
 
 /* The cell of these received echoes. False if it has no angle. */
 static bool superpose(const struct scan *scan, const struct selection *selection,
@@ -34,7 +34,7 @@ static void report(struct frame *frame, const struct scan *scan, const struct se
     size_t count;
     const struct received_echo *members = scan_members(scan, number, &count);
     bool has_angle = superpose(scan, selection, members, count, &cell);
-    double threshold = resolution_cell_threshold(sensor, &cell);
+    double threshold = suite_threshold(sensor, cell.interference);
     if (frame->margins) {
         cell.margins = cell_margins_of(sensor, &scan->resolved, number);
         cell_margins_add(sensor, &cell);

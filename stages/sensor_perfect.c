@@ -1,6 +1,6 @@
 /* A perfect sensor: one exact cell per visible echo. Nothing merges and nothing is too weak. */
-#include "stage.h"
-#include "resolution_cell.h"
+#include "run/stage.h"
+#include "sensor/resolution_cell.h"
 
 static void keep(struct frame *frame, const struct sensor *sensor, const struct echo *echo)
 {

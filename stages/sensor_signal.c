@@ -3,8 +3,8 @@
 /* needs: fftw3 */
 #include <fftw3.h>
 
-#include "detections.h"
-#include "stage.h"
+#include "run/stage.h"
+#include "signal/detections.h"
 
 /* A transform of one sensor's channels, in place, with a positive exponent. */
 struct transform {

@@ -1,10 +1,10 @@
 /* The sensor as a windowed range-Doppler transform shows it: every echo smeared over the bins
  * around it by the window's kernel, cells where the sum of all has its peaks (EFFECTS 4). */
-#include "cell_margins.h"
-#include "scan.h"
-#include "smear.h"
-#include "stage.h"
-#include "units.h"
+#include "base/units.h"
+#include "run/stage.h"
+#include "sensor/cell_margins.h"
+#include "sensor/scan.h"
+#include "sensor/smear.h"
 
 /* Sight of the members, and how far the threshold and the sign were from the other side. */
 static struct margins margins_of(const struct smear *smear, size_t number, struct cell *cell)
@@ -24,7 +24,7 @@ static void report(struct frame *frame, const struct selection *selection,
     cell.interference = interference;
     if (interference > 0)
         cell.effects |= EFFECT_BIT(EFFECT_INTERFERENCE);
-    double threshold = resolution_cell_threshold(smear->sensor, &cell);
+    double threshold = suite_threshold(smear->sensor, cell.interference);
     if (frame->margins)
         cell.margins = margins_of(smear, number, &cell);
     if (effects_enabled(selection, EFFECT_THRESHOLD) && cell.amplitude < threshold)
@@ -54,7 +54,8 @@ static void sense(struct frame *frame, const struct sensor *sensor,
                            LOSS_NO_AMPLITUDE);
     for (size_t first = 0; first < count; first += together) {
         int64_t begin = effects_begin(selection);
-        struct smear smear = smear_make(sensor, &scan.resolved.received_echoes[first], together, frame->arena);
+        struct smear smear =
+            smear_make(sensor, &scan.resolved.received_echoes[first], together, frame->arena);
         effects_end(selection, EFFECT_MERGING, begin);
         for (size_t number = 0; number < smear.cells; number++)
             report(frame, selection, &smear, number, reception.interference);

@@ -2,9 +2,9 @@
 #include <inttypes.h>
 #include <string.h>
 
-#include "sort.h"
-#include "stage.h"
-#include "text.h"
+#include "base/sort.h"
+#include "base/text.h"
+#include "run/stage.h"
 
 /* How often something was counted, by name. */
 struct tally {

@@ -1,9 +1,9 @@
 /* Traffic: plays a scenario document or a recorded trajectory table, frame by frame. */
 #include <math.h>
 
-#include "elementary.h"
-#include "playback.h"
-#include "stage.h"
+#include "base/elementary.h"
+#include "run/stage.h"
+#include "traffic/playback.h"
 
 struct traffic {
     const char *source;
@@ -19,8 +19,8 @@ static int traffic_start(void *state, struct runner *runner)
 {
     struct traffic *traffic = state;
     struct arena *arena = runner_arena(runner);
-    if (playback_open(&traffic->played, traffic->source, traffic->ego, arena, runner_diag(runner)) !=
-        0)
+    if (playback_open(&traffic->played, traffic->source, traffic->ego, arena,
+                      runner_diag(runner)) != 0)
         return -1;
     if (traffic->scene == NULL)
         traffic->scene = playback_name(traffic->source, traffic->played.ego, arena);

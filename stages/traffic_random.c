@@ -3,9 +3,9 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "adversarial_traffic.h"
-#include "random_traffic.h"
-#include "stage.h"
+#include "run/stage.h"
+#include "traffic/adversarial_traffic.h"
+#include "traffic/random_traffic.h"
 
 struct traffic_random {
     enum random_density density;
@@ -45,8 +45,8 @@ static const char *name_of(const struct traffic_random *traffic, const struct fr
 {
     enum { SIZE = 80 };
     char *name = arena_get(frame->arena, SIZE);
-    snprintf(name, SIZE, "random-%s/%" PRIu64 "/%" PRId64, random_traffic_densities[traffic->density],
-             frame->seed, number);
+    snprintf(name, SIZE, "random-%s/%" PRIu64 "/%" PRId64,
+             random_traffic_densities[traffic->density], frame->seed, number);
     return name;
 }
 

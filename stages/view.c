@@ -2,11 +2,11 @@
  * one frame as an SVG still. */
 #include <string.h>
 
-#include "stage.h"
-#include "view_data.h"
-#include "view_head.h"
-#include "view_page.h"
-#include "view_svg.h"
+#include "run/stage.h"
+#include "view/view_data.h"
+#include "view/view_head.h"
+#include "view/view_page.h"
+#include "view/view_svg.h"
 
 struct view {
     bool svg;

@@ -1,4 +1,4 @@
-#include "elementary.h"
+#include "base/elementary.h"
 
 #include <float.h>
 #include <math.h>

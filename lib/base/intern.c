@@ -1,9 +1,9 @@
-#include "intern.h"
+#include "base/intern.h"
 
 #include <stdbool.h>
 #include <string.h>
 
-#include "text.h"
+#include "base/text.h"
 
 enum { TRIES = 4 };
 
@@ -64,7 +64,7 @@ const char *intern_keep(struct intern *names, const char *text, size_t length)
 }
 
 const char *intern_keep_quoted(struct intern *names, const char *text, const char *end,
-                              size_t *length)
+                               size_t *length)
 {
     size_t plain = text_plain(text, (size_t)(end - text));
     if (plain == 0 || text + plain == end || text[plain] != '"')

@@ -8,7 +8,7 @@
 
 #include <stdint.h>
 
-#include "arena.h"
+#include "base/arena.h"
 
 struct intern {
     struct arena *arena;
@@ -25,6 +25,6 @@ const char *intern_keep(struct intern *names, const char *text, size_t length);
 /* The same of the plain characters with which [text, end) begins, up to a quote; NULL if there are
  * none, or they end otherwise. */
 const char *intern_keep_quoted(struct intern *names, const char *text, const char *end,
-                              size_t *length);
+                               size_t *length);
 
 #endif

@@ -1,4 +1,4 @@
-#include "number.h"
+#include "base/number.h"
 
 #include <charconv>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 extern "C" {
-#include "text.h"
+#include "base/text.h"
 }
 
 namespace {

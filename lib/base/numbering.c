@@ -1,11 +1,12 @@
-#include "numbering.h"
+#include "base/numbering.h"
 
 #include <string.h>
 
-#include "hash.h"
+#include "base/hash.h"
 
 /* The slot that holds these bytes, or the free one where they belong. */
-static uint32_t *slot_of(const struct numbering *pool, const void *bytes, size_t length, uint64_t hash)
+static uint32_t *slot_of(const struct numbering *pool, const void *bytes, size_t length,
+                         uint64_t hash)
 {
     for (size_t at = hash % pool->slot_count;; at = (at + 1) % pool->slot_count) {
         uint32_t *slot = &pool->slots[at];

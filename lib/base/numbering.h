@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#include "arena.h"
+#include "base/arena.h"
 
 struct numbering_piece {
     const char *bytes; /* NUL-terminated */
@@ -19,7 +19,8 @@ struct numbering {
     size_t slot_count;
 };
 
-uint32_t numbering_of(struct numbering *pool, const void *bytes, size_t length, struct arena *arena);
+uint32_t numbering_of(struct numbering *pool, const void *bytes, size_t length,
+                      struct arena *arena);
 uint32_t numbering_of_word(struct numbering *pool, const char *word, struct arena *arena);
 
 #endif

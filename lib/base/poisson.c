@@ -1,8 +1,8 @@
-#include "poisson.h"
+#include "base/poisson.h"
 
 #include <math.h>
 
-#include "elementary.h"
+#include "base/elementary.h"
 
 #define NEGLIGIBLE 0x1p-75
 

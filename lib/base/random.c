@@ -1,10 +1,10 @@
-#include "random.h"
+#include "base/random.h"
 
 #include <math.h>
 
 #include <Random123/philox.h>
 
-#include "elementary.h"
+#include "base/elementary.h"
 
 void random_uniform(const struct random_address *address, enum random_purpose purpose,
                     uint32_t index, double uniform[4])

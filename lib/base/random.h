@@ -28,10 +28,10 @@ enum random_purpose {
 
 struct random_address {
     uint64_t seed;
-    uint64_t scene;   /* hash of the scene's name */
-    uint64_t frame;   /* frame number */
-    uint64_t sensor;  /* hash of the sensor's name */
-    uint64_t item; /* hash of object, reflector and path; a cell draws by its leader */
+    uint64_t scene;  /* hash of the scene's name */
+    uint64_t frame;  /* frame number */
+    uint64_t sensor; /* hash of the sensor's name */
+    uint64_t item;   /* hash of object, reflector and path; a cell draws by its leader */
 };
 
 /* The extremes of uniform draws: what a draw can lead to is bounded by what these lead to. */

@@ -1,8 +1,9 @@
-#include "random_sequence.h"
+#include "base/random_sequence.h"
 
-#include "elementary.h"
+#include "base/elementary.h"
 
-struct random_sequence random_sequence_at(struct random_address address, enum random_purpose purpose)
+struct random_sequence random_sequence_at(struct random_address address,
+                                          enum random_purpose purpose)
 {
     return (struct random_sequence){.address = address, .purpose = purpose};
 }

@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "random.h"
+#include "base/random.h"
 
 struct random_sequence {
     struct random_address address;
@@ -14,7 +14,8 @@ struct random_sequence {
     double block[4];
 };
 
-struct random_sequence random_sequence_at(struct random_address address, enum random_purpose purpose);
+struct random_sequence random_sequence_at(struct random_address address,
+                                          enum random_purpose purpose);
 
 /* In (0, 1). */
 double random_sequence_next(struct random_sequence *draws);

@@ -5,7 +5,7 @@
 #ifndef SORT_H
 #define SORT_H
 
-#include "arena.h"
+#include "base/arena.h"
 
 /* Sorts count items of size bytes; compare as for qsort. */
 void sort_items(void *items, size_t count, size_t size, int (*compare)(const void *, const void *),

@@ -1,6 +1,6 @@
-#include "units.h"
+#include "base/units.h"
 
-#include "elementary.h"
+#include "base/elementary.h"
 
 double units_amplitude_db(double amplitude)
 {

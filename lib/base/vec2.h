@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "elementary.h"
+#include "base/elementary.h"
 
 struct vec2 {
     double x, y;

@@ -1,10 +1,10 @@
-#include "contour.h"
+#include "documents/contour.h"
 
 #include <math.h>
 
-#include "elementary.h"
-#include "radar_equation.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
+#include "radar/radar_equation.h"
 
 #define DBSM(bit, member, help)                                                                    \
     {                                                                                              \
@@ -34,8 +34,8 @@ int contour_check(const struct contour *contour, struct diag *diag)
     for (const struct field *field = contour_fields; field->name != NULL; field++)
         if ((contour->given & field->section) == 0)
             return diag_fail(diag, DIAG_CONFIG, "%s: missing; expected all four", field->name);
-    double least = elementary_min(elementary_min(contour->front_dbsm, contour->rear_dbsm),
-                                    contour->side_dbsm);
+    double least =
+        elementary_min(elementary_min(contour->front_dbsm, contour->rear_dbsm), contour->side_dbsm);
     if (contour->oblique_dbsm > least + CONTOUR_OBLIQUE_DB)
         return diag_fail(diag, DIAG_CONFIG,
                          "oblique_dbsm: %g is more than %g dB above %g, the least of the others",

@@ -11,7 +11,7 @@
 #ifndef CONTOUR_H
 #define CONTOUR_H
 
-#include "reflectors.h"
+#include "frame/reflectors.h"
 
 /* Means over scans, of one aspect each; left and right are alike. */
 struct contour {

@@ -1,14 +1,14 @@
-#include "sensing_target_3gpp.h"
+#include "documents/sensing_target_3gpp.h"
 
-#include "radar_equation.h"
-#include "units.h"
+#include "base/units.h"
+#include "radar/radar_equation.h"
 
 #define DEGREE (PI / 180)
 
 const char *const sensing_target_3gpp_names[] = {[SENSING_TARGET_3GPP_NONE] = "none",
-                                            [SENSING_TARGET_3GPP_VEHICLE] = "vehicle",
-                                            [SENSING_TARGET_3GPP_HUMAN] = "human",
-                                            NULL};
+                                                 [SENSING_TARGET_3GPP_VEHICLE] = "vehicle",
+                                                 [SENSING_TARGET_3GPP_HUMAN] = "human",
+                                                 NULL};
 
 /* One row of the report's tables for several scattering points, angles in degrees. */
 struct scattering_point {
@@ -49,7 +49,7 @@ static struct point_reflector point_of(const struct scattering_point *point)
 }
 
 void sensing_target_3gpp_describe(enum sensing_target_3gpp target, struct reflector_set *set,
-                             struct arena *arena)
+                                  struct arena *arena)
 {
     bool is_human = target == SENSING_TARGET_3GPP_HUMAN;
     const struct scattering_point *points = is_human ? &human : vehicle;

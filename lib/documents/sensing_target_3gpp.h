@@ -5,14 +5,18 @@
 #ifndef SENSING_TARGET_3GPP_H
 #define SENSING_TARGET_3GPP_H
 
-#include "reflectors.h"
+#include "frame/reflectors.h"
 
-enum sensing_target_3gpp { SENSING_TARGET_3GPP_NONE, SENSING_TARGET_3GPP_VEHICLE, SENSING_TARGET_3GPP_HUMAN };
+enum sensing_target_3gpp {
+    SENSING_TARGET_3GPP_NONE,
+    SENSING_TARGET_3GPP_VEHICLE,
+    SENSING_TARGET_3GPP_HUMAN
+};
 extern const char *const sensing_target_3gpp_names[]; /* ending with NULL */
 
 /* Puts the target's points in place of the set's points, planes and rows; mirrors and what its
  * outline hides stay. Not for SENSING_TARGET_3GPP_NONE. */
 void sensing_target_3gpp_describe(enum sensing_target_3gpp target, struct reflector_set *set,
-                             struct arena *arena);
+                                  struct arena *arena);
 
 #endif

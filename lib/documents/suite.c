@@ -1,9 +1,14 @@
-#include "suite.h"
+#include "documents/suite.h"
 
 #include <string.h>
 
-#include "scan_timing.h"
-#include "units.h"
+#include "base/units.h"
+#include "radar/interferer.h"
+#include "radar/scan_timing.h"
+
+/* The border of a field of view is outside, and this wide: the foot on a wall that is parallel to
+ * boresight lies at 90 degrees but for its rounding. */
+#define BORDER_RAD 1e-9
 
 static const char *const extents[] = {
     [CELL_WIDTH] = "width", [CELL_HALF_WIDTH] = "half_width", NULL};
@@ -192,6 +197,22 @@ void suite_derive(struct sensor *sensor)
     sensor->amplitude_law.calibration_range_m = sensor->calibration_range_m;
     sensor->amplitude_law.range_floor_m = sensor->range_floor_m;
     sensor->amplitude_law.threshold = sensor->threshold;
+}
+
+double suite_border_rad(const struct sensor *sensor)
+{
+    return sensor->field_of_view_rad / 2 - BORDER_RAD;
+}
+
+double suite_threshold(const struct sensor *sensor, double interference)
+{
+    return sensor->threshold * interferer_noise_factor(interference);
+}
+
+double suite_amplitude(const struct sensor *sensor, double range_m, double azimuth_rad, double ercs)
+{
+    return radar_reference_amplitude(&sensor->amplitude_law, range_m) * ercs *
+           antenna_gain(&sensor->antenna, azimuth_rad);
 }
 
 int suite_check(const struct sensor *sensor, struct diag *diag)

@@ -5,14 +5,14 @@
 #ifndef SUITE_H
 #define SUITE_H
 
-#include "antenna.h"
-#include "effects.h"
-#include "field.h"
-#include "swerling.h"
-#include "monopulse.h"
-#include "polarization.h"
-#include "radar_equation.h"
-#include "waveform.h"
+#include "documents/waveform.h"
+#include "frame/effects.h"
+#include "radar/antenna.h"
+#include "radar/carrier.h"
+#include "radar/monopulse.h"
+#include "radar/radar_equation.h"
+#include "radar/swerling.h"
+#include "text/field.h"
 
 enum cell_extent { CELL_WIDTH, CELL_HALF_WIDTH };
 enum cell_phase { CELL_IN_PHASE, CELL_RANDOM_PHASE, CELL_PHASE_BY_PATH };
@@ -93,5 +93,16 @@ void suite_derive(struct sensor *sensor);
 
 /* Refuses members that are fine alone and wrong together. */
 int suite_check(const struct sensor *sensor, struct diag *diag);
+
+/* Azimuths from here on, to either side, are outside the sensor's field of view. */
+double suite_border_rad(const struct sensor *sensor);
+
+/* The detection threshold on an amplitude: it rises with interference, the power of other radars
+ * over the sensor's own noise. */
+double suite_threshold(const struct sensor *sensor, double interference);
+
+/* The amplitude of a direct echo without effects, equation (2): A_ref(R) ERCS A_phi. */
+double suite_amplitude(const struct sensor *sensor, double range_m, double azimuth_rad,
+                       double ercs);
 
 #endif

@@ -1,4 +1,4 @@
-#include "waveform.h"
+#include "documents/waveform.h"
 
 #include <math.h>
 

@@ -5,9 +5,9 @@
 #ifndef WAVEFORM_H
 #define WAVEFORM_H
 
-#include "cfar.h"
-#include "field.h"
-#include "point_response.h"
+#include "radar/cfar.h"
+#include "radar/point_response.h"
+#include "text/field.h"
 
 enum waveform_kind { WAVEFORM_CHIRP, WAVEFORM_PULSE };
 

@@ -1,4 +1,4 @@
-#include "conditions.h"
+#include "frame/conditions.h"
 
 static const char *const roads[] = {
     [ROAD_UNKNOWN] = "unknown", [ROAD_ASPHALT] = "asphalt", [ROAD_CONCRETE] = "concrete", NULL};

@@ -3,7 +3,7 @@
 #ifndef CONDITIONS_H
 #define CONDITIONS_H
 
-#include "field.h"
+#include "text/field.h"
 
 enum road { ROAD_UNSAID = -1, ROAD_UNKNOWN, ROAD_ASPHALT, ROAD_CONCRETE };
 

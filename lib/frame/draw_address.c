@@ -1,6 +1,6 @@
-#include "draw_address.h"
+#include "frame/draw_address.h"
 
-#include "hash.h"
+#include "base/hash.h"
 
 static uint64_t hash_echo_id(struct echo_id id)
 {
@@ -30,7 +30,7 @@ struct random_address draw_address_in(struct random_address scan, struct echo_id
 }
 
 struct random_address draw_address_of(const struct frame *frame, const char *sensor,
-                                 struct echo_id id)
+                                      struct echo_id id)
 {
     return draw_address_in(draw_address_of_scan(frame, sensor), id);
 }

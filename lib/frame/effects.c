@@ -1,8 +1,8 @@
-#include "effects.h"
+#include "frame/effects.h"
 
 #include <string.h>
 
-#include "units.h"
+#include "base/units.h"
 
 const char *const effects_names[] = {
     [EFFECT_LATENCY] = "latency",

@@ -21,7 +21,7 @@
 #ifndef EFFECTS_H
 #define EFFECTS_H
 
-#include "field.h"
+#include "text/field.h"
 
 /* In the order of the chain. */
 enum effect {

@@ -1,8 +1,10 @@
-#include "frame.h"
+#include "frame/frame.h"
+
+#include <complex.h>
 
 #include <string.h>
 
-#include "units.h"
+#include "base/units.h"
 
 static const char *const paths[] = {
     [PATH_DIRECT] = "direct",
@@ -622,4 +624,13 @@ struct target *frame_add_target(struct frame *frame, const struct cell *cell, do
     target->contributors.items = cell->members.items;
     target->contributors.count = cell->members.count;
     return target;
+}
+
+struct antenna_pointers frame_cell_pointers(const struct cell *cell)
+{
+    const double _Complex i = (double _Complex)I;
+    return (struct antenna_pointers){
+        .sum = cell->sum_re + i * cell->sum_im,
+        .delta = cell->delta_re + i * cell->delta_im,
+    };
 }

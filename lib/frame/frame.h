@@ -15,11 +15,12 @@
 
 #include <string.h>
 
-#include "conditions.h"
-#include "effects.h"
-#include "field.h"
-#include "margins.h"
-#include "reflectors.h"
+#include "frame/conditions.h"
+#include "frame/effects.h"
+#include "frame/margins.h"
+#include "frame/reflectors.h"
+#include "radar/antenna.h"
+#include "text/field.h"
 
 enum { FRAME_VERSION = 0 };
 
@@ -233,9 +234,9 @@ struct frame {
     const char *extra;
     unsigned present; /* enum section */
     struct arena *arena;
-    struct list_cache *repeats;   /* what frames repeat; NULL: nothing is kept from one to the next */
-    struct field_names *names; /* that were good; NULL: none yet */
-    struct object **by_id;     /* ranked_count objects from ranked on (frame_order_objects) */
+    struct list_cache *repeats; /* what frames repeat; NULL: nothing is kept from one to the next */
+    struct field_names *names;  /* that were good; NULL: none yet */
+    struct object **by_id;      /* ranked_count objects from ranked on (frame_order_objects) */
     struct object *ranked;
     size_t ranked_count;
     struct arena *kept;      /* what stays from frame to frame; NULL: nothing */
@@ -290,6 +291,9 @@ struct cell_span {
 };
 struct echo_span frame_echoes_of(const struct frame *frame, const char *sensor);
 struct cell_span frame_cells_of(const struct frame *frame, const char *sensor);
+
+/* The noise-free sum and delta pointers of a cell. */
+struct antenna_pointers frame_cell_pointers(const struct cell *cell);
 
 /* The entry in lost of what an echo is of. */
 struct lost_echo frame_lost(struct echo_id id);

@@ -1,10 +1,10 @@
-#include "frame_account.h"
+#include "frame/frame_account.h"
 
 #include <stdint.h>
 #include <string.h>
 
-#include "frame_order.h"
-#include "hash.h"
+#include "base/hash.h"
+#include "frame/frame_order.h"
 
 #define LOST SIZE_MAX
 
@@ -21,7 +21,7 @@ struct account_check {
     struct outcome *outcomes;
     size_t count;
     struct outcome **slots;
-    size_t slot_count;            /* a power of two */
+    size_t slot_count;             /* a power of two */
     const struct outcome *doubled; /* the first in canonical order */
     struct {
         const char *text;
@@ -31,8 +31,7 @@ struct account_check {
 
 static bool same_echo(const struct outcome *a, const struct outcome *b)
 {
-    return frame_same_name(a->sensor, b->sensor) &&
-           frame_order_echo_ids(a->id, b->id) == 0;
+    return frame_same_name(a->sensor, b->sensor) && frame_order_echo_ids(a->id, b->id) == 0;
 }
 
 static bool stands_before(const struct outcome *a, const struct outcome *b)

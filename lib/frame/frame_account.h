@@ -7,7 +7,7 @@
 #ifndef FRAME_ACCOUNT_H
 #define FRAME_ACCOUNT_H
 
-#include "frame.h"
+#include "frame/frame.h"
 
 /* Refuses with DIAG_INTERNAL and the first entry that is doubled or the first sensor whose entries
  * are not what is due. For frames with targets and account. */

@@ -1,8 +1,8 @@
-#include "frame_check.h"
+#include "frame/frame_check.h"
 
 #include <string.h>
 
-#include "frame_order.h"
+#include "frame/frame_order.h"
 
 static int check_objects(struct frame *frame, struct diag *diag)
 {

@@ -2,7 +2,7 @@
 #ifndef FRAME_CHECK_H
 #define FRAME_CHECK_H
 
-#include "frame.h"
+#include "frame/frame.h"
 
 /* For a frame in canonical order: ids, names, sensors, echoes and leaders stand once, the ego is
  * among the objects, echoes, cells and targets are of listed sensors, and every cell and target has

@@ -1,8 +1,8 @@
-#include "frame_order.h"
+#include "frame/frame_order.h"
 
 #include <string.h>
 
-#include "sort.h"
+#include "base/sort.h"
 
 /* strcmp, spared for names that are one pointer or differ at once; NULL comes first. */
 static inline int compare_names(const char *a, const char *b)

@@ -2,7 +2,7 @@
 #ifndef FRAME_ORDER_H
 #define FRAME_ORDER_H
 
-#include "frame.h"
+#include "frame/frame.h"
 
 /* Brings the sections into canonical order: ids, names and paths ascending, a cell's leader first.
  * Objects stay as they are; targets, in the order of their sensor's list, are grouped by sensor. */

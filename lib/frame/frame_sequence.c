@@ -1,4 +1,4 @@
-#include "frame_sequence.h"
+#include "frame/frame_sequence.h"
 
 static struct scene_progress *progress_of(struct frame_sequence *completeness, const char *name,
                                           struct arena *arena)
@@ -10,7 +10,7 @@ static struct scene_progress *progress_of(struct frame_sequence *completeness, c
 }
 
 int frame_sequence_follow(struct frame_sequence *completeness, const struct frame *frame,
-                        struct arena *arena, struct diag *diag)
+                          struct arena *arena, struct diag *diag)
 {
     struct scene_progress *scene = progress_of(completeness, frame->scene, arena);
     if (scene->closed || frame->frame != scene->frame + 1)

@@ -4,8 +4,8 @@
 #ifndef FRAME_SEQUENCE_H
 #define FRAME_SEQUENCE_H
 
-#include "frame.h"
-#include "numbering.h"
+#include "base/numbering.h"
+#include "frame/frame.h"
 
 struct scene_progress {
     int64_t frame; /* the last one seen */
@@ -20,7 +20,7 @@ struct frame_sequence {
 
 /* Both return 0, or -1 after a message (DIAG_DATA). The arena keeps the names. */
 int frame_sequence_follow(struct frame_sequence *completeness, const struct frame *frame,
-                        struct arena *arena, struct diag *diag);
+                          struct arena *arena, struct diag *diag);
 int frame_sequence_end(const struct frame_sequence *completeness, struct diag *diag);
 
 #endif

@@ -1,12 +1,12 @@
-#include "frame_text.h"
+#include "frame/frame_text.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#include "json_scan.h"
-#include "intern.h"
-#include "number.h"
-#include "list_cache.h"
+#include "base/intern.h"
+#include "base/number.h"
+#include "text/json_scan.h"
+#include "text/list_cache.h"
 
 #define LOAD(type, member) (*(type *)memcpy(&(type){0}, (member), sizeof(type)))
 #define STORE(type, member, value) memcpy((member), &(type){(value)}, sizeof(type))

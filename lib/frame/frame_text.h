@@ -6,8 +6,8 @@
 #ifndef FRAME_TEXT_H
 #define FRAME_TEXT_H
 
-#include "frame.h"
-#include "text.h"
+#include "base/text.h"
+#include "frame/frame.h"
 
 enum { FRAME_TEXT_SIZE = 16 * 1024 * 1024 };
 

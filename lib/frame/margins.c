@@ -1,9 +1,9 @@
-#include "margins.h"
+#include "frame/margins.h"
 
 #include <math.h>
 
-#include "elementary.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
 
 #define MARGIN(member, bit, high, help)                                                            \
     {                                                                                              \
@@ -26,7 +26,7 @@ const struct record margins_record = {
     .help = "How close decisions came to going the other way; absent: there was none.",
     .size = sizeof(struct margins),
     .fields = margin_fields,
-    .present_offset = offsetof(struct margins, told),
+    .present_offset = offsetof(struct margins, present),
 };
 
 static double *member(struct margins *margins, enum margin which)
@@ -42,20 +42,27 @@ void margins_note(struct margins *margins, enum margin which, double value)
     if (!isfinite(value))
         return;
     double *least = member(margins, which);
-    if ((margins->told & which) == 0 || value < *least)
+    if ((margins->present & which) == 0 || value < *least)
         *least = value;
-    margins->told |= which;
+    margins->present |= which;
 }
 
 void margins_merge(struct margins *margins, const struct margins *others)
 {
     struct margins other = *others;
-    for (unsigned which = 1; which <= other.told; which <<= 1)
-        if ((other.told & which) != 0)
+    for (unsigned which = 1; which <= other.present; which <<= 1)
+        if ((other.present & which) != 0)
             margins_note(margins, which, *member(&other, which));
 }
 
 double margins_between_db(double a, double b)
 {
     return elementary_min(fabs(units_amplitude_db(a) - units_amplitude_db(b)), 1e4);
+}
+
+void margins_note_sign(struct margins *margins, enum monopulse_estimator estimator,
+                       struct antenna_pointers pointers)
+{
+    if (estimator == MONOPULSE_MAGNITUDE)
+        margins_note(margins, MARGIN_SIGN, monopulse_sign_margin(pointers));
 }

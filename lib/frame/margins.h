@@ -7,7 +7,8 @@
 #ifndef MARGINS_H
 #define MARGINS_H
 
-#include "field.h"
+#include "radar/monopulse.h"
+#include "text/field.h"
 
 enum margin {
     MARGIN_SIGHT = 1 << 0,
@@ -26,7 +27,7 @@ struct margins {
     double cell_edge;         /* in half cells */
     double sign;              /* sine of the phase between sum and delta: 0 undecided, 1 clear */
     double limit_db, limit_m; /* to the list's limit, in what orders the list */
-    unsigned told;            /* enum margin: the members that are there */
+    unsigned present;         /* enum margin: the members that are there */
 };
 
 extern const struct record margins_record;
@@ -39,5 +40,11 @@ void margins_merge(struct margins *margins, const struct margins *others);
 
 /* |20 log10(a/b)| of two amplitudes >= 0, b positive; at most 1e4, which also stands for a = 0. */
 double margins_between_db(double a, double b);
+
+/* How clear the sign of an azimuth was, which only the magnitude rule decides
+ * (MONOPULSE_MAGNITUDE).
+ */
+void margins_note_sign(struct margins *margins, enum monopulse_estimator estimator,
+                       struct antenna_pointers pointers);
 
 #endif

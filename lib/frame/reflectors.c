@@ -1,10 +1,10 @@
-#include "reflectors.h"
+#include "frame/reflectors.h"
 
 #include <string.h>
 
-#include "elementary.h"
-#include "hash.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/hash.h"
+#include "base/units.h"
 
 static const char *const shapes[] = {
     [VISIBILITY_RAISED_COSINE] = "raised_cosine",
@@ -342,7 +342,7 @@ double reflectors_visibility(const struct box *box, const struct point_reflector
                              struct vec2 facing, struct vec2 place, struct vec2 sensor)
 {
     return visibility_range_along(point->shape, point->full_rad, point->zero_rad,
-                            vec2_turn(facing, box->heading), vec2_sub(sensor, place));
+                                  vec2_turn(facing, box->heading), vec2_sub(sensor, place));
 }
 
 bool reflectors_plainly_aside(const struct box *box, const struct plane_reflector *plane,

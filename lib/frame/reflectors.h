@@ -7,10 +7,10 @@
 #ifndef REFLECTORS_H
 #define REFLECTORS_H
 
-#include "field.h"
-#include "lobe.h"
-#include "motion.h"
-#include "visibility_range.h"
+#include "geometry/lobe.h"
+#include "geometry/motion.h"
+#include "geometry/visibility_range.h"
+#include "text/field.h"
 
 /* What of an object moves on its own where a point is. */
 enum moving_part { MOVING_NONE, MOVING_WHEEL, MOVING_LIMBS };
@@ -33,8 +33,8 @@ struct point_reflector {
 };
 
 /* A flat side: mirrors the radar from the foot of the perpendicular, with constant ERCS, or, of a
- * side that is curved, with that of its specular point (curved_surface.h) if the sensor asks for it. Its
- * outer face is to the right of from -> to, that is, sides run counter-clockwise around the
+ * side that is curved, with that of its specular point (curved_surface.h) if the sensor asks for
+ * it. Its outer face is to the right of from -> to, that is, sides run counter-clockwise around the
  * outline. */
 struct plane_reflector {
     const char *name;

@@ -1,4 +1,4 @@
-#include "azimuth_index.h"
+#include "geometry/azimuth_index.h"
 
 #include <math.h>
 
@@ -59,20 +59,23 @@ struct azimuth_index azimuth_index_begin(size_t count, struct arena *arena)
 }
 
 /* The same span, counted in sets. */
-static struct azimuth_index_span sets_of(const struct azimuth_index *bearings, struct azimuth_index_span span)
+static struct azimuth_index_span sets_of(const struct azimuth_index *bearings,
+                                         struct azimuth_index_span span)
 {
     unsigned shift = bearings->shift, all = (unsigned)SLICES >> shift, first = span.first >> shift;
     unsigned count = ((span.first + span.count - 1) >> shift) - first + 1;
     return (struct azimuth_index_span){first, count < all ? count : all};
 }
 
-static uint64_t *set_of(const struct azimuth_index *bearings, struct azimuth_index_span sets, unsigned i)
+static uint64_t *set_of(const struct azimuth_index *bearings, struct azimuth_index_span sets,
+                        unsigned i)
 {
     unsigned last = (SLICES - 1U) >> bearings->shift; /* all ones */
     return bearings->sets + ((sets.first + i) & last) * bearings->words;
 }
 
-void azimuth_index_enter(struct azimuth_index *bearings, size_t number, struct azimuth_index_span span)
+void azimuth_index_enter(struct azimuth_index *bearings, size_t number,
+                         struct azimuth_index_span span)
 {
     struct azimuth_index_span sets = sets_of(bearings, span);
     for (unsigned i = 0; i < sets.count; i++)
@@ -80,7 +83,8 @@ void azimuth_index_enter(struct azimuth_index *bearings, size_t number, struct a
 }
 
 /* Numbers of a whole word, in that word of each of these sets. */
-static uint64_t word_of(const struct azimuth_index *bearings, struct azimuth_index_span sets, size_t word)
+static uint64_t word_of(const struct azimuth_index *bearings, struct azimuth_index_span sets,
+                        size_t word)
 {
     uint64_t bits = 0;
     for (unsigned i = 0; i < sets.count; i++)

@@ -9,8 +9,8 @@
 
 #include <stdint.h>
 
-#include "arena.h"
-#include "silhouette.h"
+#include "base/arena.h"
+#include "geometry/silhouette.h"
 
 struct azimuth_index {
     unsigned shift; /* from a slice's number to its set's */
@@ -36,7 +36,8 @@ struct azimuth_index_span azimuth_index_between(struct vec2 from_m, struct vec2 
 /* Empty sets of numbers below count. */
 struct azimuth_index azimuth_index_begin(size_t count, struct arena *arena);
 
-void azimuth_index_enter(struct azimuth_index *bearings, size_t number, struct azimuth_index_span span);
+void azimuth_index_enter(struct azimuth_index *bearings, size_t number,
+                         struct azimuth_index_span span);
 
 /* Finds all that were entered into any slice of the span, and says how many. */
 size_t azimuth_index_find(const struct azimuth_index *bearings, struct azimuth_index_span span);

@@ -1,8 +1,8 @@
-#include "ghost_path.h"
+#include "geometry/ghost_path.h"
 
 /* One way direct and one way by the wall. */
 static struct ghost_path one_way(double reflection, const struct kinematics *direct,
-                            const struct kinematics *image, double azimuth_rad)
+                                 const struct kinematics *image, double azimuth_rad)
 {
     double range_m = (direct->range_m + image->range_m) / 2;
     return (struct ghost_path){
@@ -11,12 +11,14 @@ static struct ghost_path one_way(double reflection, const struct kinematics *dir
     };
 }
 
-struct ghost_path ghost_path_out(double reflection, const struct kinematics *direct, const struct kinematics *image)
+struct ghost_path ghost_path_out(double reflection, const struct kinematics *direct,
+                                 const struct kinematics *image)
 {
     return one_way(reflection, direct, image, direct->azimuth_rad);
 }
 
-struct ghost_path ghost_path_back(double reflection, const struct kinematics *direct, const struct kinematics *image)
+struct ghost_path ghost_path_back(double reflection, const struct kinematics *direct,
+                                  const struct kinematics *image)
 {
     return one_way(reflection, direct, image, image->azimuth_rad);
 }

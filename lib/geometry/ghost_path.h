@@ -17,18 +17,20 @@
 #ifndef GHOST_PATH_H
 #define GHOST_PATH_H
 
-#include "mirror.h"
-#include "kinematics.h"
+#include "geometry/kinematics.h"
+#include "geometry/mirror.h"
 
 struct ghost_path {
     struct kinematics sight;
     double ercs_factor; /* >= 0 */
 };
 
-/* Direct and image are O and O' (mirror_image) as kinematics_of has them, R > 0; these paths exist where
- * mirror_bounce says so. The bistatic loss is not in. */
-struct ghost_path ghost_path_out(double reflection, const struct kinematics *direct, const struct kinematics *image);
-struct ghost_path ghost_path_back(double reflection, const struct kinematics *direct, const struct kinematics *image);
+/* Direct and image are O and O' (mirror_image) as kinematics_of has them, R > 0; these paths exist
+ * where mirror_bounce says so. The bistatic loss is not in. */
+struct ghost_path ghost_path_out(double reflection, const struct kinematics *direct,
+                                 const struct kinematics *image);
+struct ghost_path ghost_path_back(double reflection, const struct kinematics *direct,
+                                  const struct kinematics *image);
 struct ghost_path ghost_path_both(double reflection, const struct kinematics *image);
 
 #endif

@@ -1,10 +1,10 @@
-#include "kinematics.h"
+#include "geometry/kinematics.h"
 
-#include "elementary.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
 
 struct kinematics kinematics_of(struct vec2 sensor_m, struct vec2 sensor_mps, struct vec2 boresight,
-                      struct vec2 point_m, struct vec2 point_mps)
+                                struct vec2 point_m, struct vec2 point_mps)
 {
     struct vec2 line_m = vec2_sub(point_m, sensor_m);
     double range_m = vec2_length(line_m);

@@ -3,7 +3,7 @@
 #ifndef KINEMATICS_H
 #define KINEMATICS_H
 
-#include "vec2.h"
+#include "base/vec2.h"
 
 struct kinematics {
     double range_m;
@@ -15,6 +15,6 @@ struct kinematics {
  * vector. The range rate is (v · r) / R with the products exact, so that nearly tangential motion
  * keeps its sign (NUMERICS 35). */
 struct kinematics kinematics_of(struct vec2 sensor_m, struct vec2 sensor_mps, struct vec2 boresight,
-                      struct vec2 point_m, struct vec2 point_mps);
+                                struct vec2 point_m, struct vec2 point_mps);
 
 #endif

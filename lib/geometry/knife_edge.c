@@ -1,9 +1,9 @@
-#include "knife_edge.h"
+#include "geometry/knife_edge.h"
 
 #include <math.h>
 
-#include "elementary.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
 
 #define LIT (-0.78)
 #define TEN_TO_MINUS_069 0.204173794466952965

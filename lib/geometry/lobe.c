@@ -1,7 +1,7 @@
-#include "lobe.h"
+#include "geometry/lobe.h"
 
-#include "elementary.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
 
 static double drop_db(double off_rad, double width_rad, double depth_db)
 {

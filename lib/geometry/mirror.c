@@ -1,6 +1,6 @@
-#include "mirror.h"
+#include "geometry/mirror.h"
 
-#include "predicates.h"
+#include "geometry/predicates.h"
 
 /* Towards the outer side; zero for a wall of length zero. */
 static struct vec2 normal_of(const struct mirror *mirror)
@@ -50,7 +50,8 @@ bool mirror_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec
     if (sensor_height_m <= 0 || point_height_m <= 0)
         return false;
     struct vec2 image_m = flipped(point_m, point_height_m, normal);
-    if (predicates_orientation(sensor_m, image_m, a) < 0 || predicates_orientation(sensor_m, image_m, b) > 0)
+    if (predicates_orientation(sensor_m, image_m, a) < 0 ||
+        predicates_orientation(sensor_m, image_m, b) > 0)
         return false;
     double part = sensor_height_m / (sensor_height_m + point_height_m);
     *bounce_m = vec2_add(sensor_m, vec2_scale(part, vec2_sub(image_m, sensor_m)));

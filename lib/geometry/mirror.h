@@ -1,17 +1,17 @@
 /* A straight wall as a mirror: what stands before it is seen a second time behind it (EFFECTS 7).
  *
  * The wall is the segment a to b with its outer face to the right of a -> b, like every flat side
- * (specular_point.h), and only that face mirrors: a guardrail has two. It may move and turn with the
- * body that carries it. With the unit normal n and a point o at the height h = n · (o - a),
- *     o' = o - 2 h n,   v' = V(o') + w - 2 (n · w) n,   w = v - V(o),
- * where V is the velocity of the body's material at a place: seen from the wall, the image of the
- * velocity is the velocity of the image. Metres and metres per second, in one plane. */
+ * (specular_point.h), and only that face mirrors: a guardrail has two. It may move and turn with
+ * the body that carries it. With the unit normal n and a point o at the height h = n · (o - a), o'
+ * = o - 2 h n,   v' = V(o') + w - 2 (n · w) n,   w = v - V(o), where V is the velocity of the
+ * body's material at a place: seen from the wall, the image of the velocity is the velocity of the
+ * image. Metres and metres per second, in one plane. */
 #ifndef MIRROR_H
 #define MIRROR_H
 
 #include <stdbool.h>
 
-#include "motion.h"
+#include "geometry/motion.h"
 
 struct mirror {
     struct vec2 a, b;   /* a != b */

@@ -1,7 +1,7 @@
-#include "motion.h"
+#include "geometry/motion.h"
 
-#include "elementary.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
 
 /* j1(h) = (si h - cos h) / h. Below 1.5 the difference cancels and the power series
  * h/3 (1 - h^2/(2 5) (1 - h^2/(4 7) (1 - h^2/(6 9) ...))) takes its place; the first term left out

@@ -8,7 +8,7 @@
 #ifndef MOTION_H
 #define MOTION_H
 
-#include "vec2.h"
+#include "base/vec2.h"
 
 /* Velocity is that of the position; it need not point along the yaw (crabbing is allowed) and
  * turns with yaw_rate_radps. */

@@ -1,8 +1,8 @@
-#include "obstruction.h"
+#include "geometry/obstruction.h"
 
-#include "elementary.h"
-#include "knife_edge.h"
-#include "outline_crossing.h"
+#include "base/elementary.h"
+#include "geometry/knife_edge.h"
+#include "geometry/outline_crossing.h"
 
 #define DEEPEST 2.82842712474619009760
 
@@ -13,7 +13,7 @@ struct inside_interval {
 };
 
 static struct inside_interval inside_interval_of(const struct vec2 *corners, size_t count,
-                                 const struct obstruction_line *line)
+                                                 const struct obstruction_line *line)
 {
     struct inside_interval inside = {0, 1};
     for (size_t i = 0; i < count; i++) {
@@ -34,13 +34,14 @@ static double height_m(const struct obstruction_line *line, double share)
 }
 
 /* Of a line with that stretch inside. */
-static double above_m(const struct obstruction_line *line, struct inside_interval inside, double top_m)
+static double above_m(const struct obstruction_line *line, struct inside_interval inside,
+                      double top_m)
 {
     return elementary_min(height_m(line, inside.begin), height_m(line, inside.end)) - top_m;
 }
 
 double obstruction_above_m(const struct vec2 *corners, size_t count, double top_m,
-                       const struct obstruction_line *line)
+                           const struct obstruction_line *line)
 {
     return above_m(line, inside_interval_of(corners, count, line), top_m);
 }
@@ -67,8 +68,8 @@ static double beside(const struct vec2 *corners, size_t count, const struct obst
 }
 
 /* nu of the way over the top. */
-static double above(const struct obstruction_line *line, struct inside_interval inside, double top_m,
-                    double wavelength_m)
+static double above(const struct obstruction_line *line, struct inside_interval inside,
+                    double top_m, double wavelength_m)
 {
     double length_m = vec2_length(vec2_sub(line->to, line->from));
     double front =
@@ -85,7 +86,7 @@ static double factor_at(double parameter)
 }
 
 struct obstruction obstruction_of(const struct vec2 *corners, size_t count, double top_m,
-                          const struct obstruction_line *line, double wavelength_m)
+                                  const struct obstruction_line *line, double wavelength_m)
 {
     bool touched = outline_crossing_blocks(corners, count, line->from, line->to);
     if (wavelength_m == 0 && (!touched || isinf(top_m)))

@@ -3,8 +3,8 @@
  *
  * A body is an upright prism over the convex outline through count corners, counter-clockwise, up
  * to top_m; INFINITY is the flat world, in which nothing is seen over anything. Whether the line
- * touches the outline is exact for the given coordinates (outline_crossing.h); heights are compared as
- * plain doubles, which decide a line that grazes a top by the rounding of its height, some 1e-15
+ * touches the outline is exact for the given coordinates (outline_crossing.h); heights are compared
+ * as plain doubles, which decide a line that grazes a top by the rounding of its height, some 1e-15
  * m. */
 #ifndef OBSTRUCTION_H
 #define OBSTRUCTION_H
@@ -12,7 +12,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "vec2.h"
+#include "base/vec2.h"
 
 /* A straight line between two places and their heights. */
 struct obstruction_line {
@@ -23,7 +23,7 @@ struct obstruction_line {
 /* How far the line stays above the body's top where it is over it, at its lowest; negative below
  * the top. Only of a line that touches the outline. */
 double obstruction_above_m(const struct vec2 *corners, size_t count, double top_m,
-                       const struct obstruction_line *line);
+                           const struct obstruction_line *line);
 
 struct obstruction {
     double factor; /* on amplitude, there and back, in [0, 1] */
@@ -43,6 +43,6 @@ struct obstruction {
  * on the line from both ends; beside a body only corners between both ends count. From two Fresnel
  * radii inside the shadow on, nu >= 2 sqrt(2), nothing is left. */
 struct obstruction obstruction_of(const struct vec2 *corners, size_t count, double top_m,
-                          const struct obstruction_line *line, double wavelength_m);
+                                  const struct obstruction_line *line, double wavelength_m);
 
 #endif

@@ -1,6 +1,6 @@
-#include "outline_crossing.h"
+#include "geometry/outline_crossing.h"
 
-#include "predicates.h"
+#include "geometry/predicates.h"
 
 static bool intervals_touch(double p, double q, double a, double b)
 {
@@ -26,9 +26,10 @@ bool outline_crossing_segments_touch(struct vec2 p, struct vec2 q, struct vec2 a
 }
 
 bool outline_crossing_blocks(const struct vec2 *corners, size_t count, struct vec2 from,
-                              struct vec2 to)
+                             struct vec2 to)
 {
-    /* Edge by edge as outline_crossing_segments_touch, but every corner's side is asked for once. */
+    /* Edge by edge as outline_crossing_segments_touch, but every corner's side is asked for once.
+     */
     int first = predicates_orientation(from, to, corners[0]), side = first;
     for (size_t i = 0; i < count; i++) {
         bool last = i + 1 == count;

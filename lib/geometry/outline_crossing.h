@@ -10,13 +10,13 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "vec2.h"
+#include "base/vec2.h"
 
 /* Do the closed segments p-q and a-b share a point? Segments of length zero are points. */
 bool outline_crossing_segments_touch(struct vec2 p, struct vec2 q, struct vec2 a, struct vec2 b);
 
 /* Does the closed segment from-to touch the closed polygon line through the count corners? */
 bool outline_crossing_blocks(const struct vec2 *corners, size_t count, struct vec2 from,
-                              struct vec2 to);
+                             struct vec2 to);
 
 #endif

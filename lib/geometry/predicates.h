@@ -8,7 +8,7 @@
 #ifndef PREDICATES_H
 #define PREDICATES_H
 
-#include "vec2.h"
+#include "base/vec2.h"
 
 /* Rounding costs a difference of two products at most (3 + 16u)u of the sum of their sizes, u =
  * 2^-53 (NUMERICS 27). 4u leaves room for a bound that is itself rounded among the subnormals. */

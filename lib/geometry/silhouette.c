@@ -1,8 +1,8 @@
-#include "silhouette.h"
+#include "geometry/silhouette.h"
 
 #include <math.h>
 
-#include "elementary.h"
+#include "base/elementary.h"
 
 /* 1 beyond the one end, -1 beyond the other, 0 between both. */
 static double beyond(double place, double half)

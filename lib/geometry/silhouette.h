@@ -6,7 +6,7 @@
 
 #include <stdbool.h>
 
-#include "vec2.h"
+#include "base/vec2.h"
 
 /* Boxes are taken this much larger to every side: far more than the rounding of a place. */
 #define SILHOUETTE_SLACK_M 1e-6

@@ -1,8 +1,8 @@
-#include "slant.h"
+#include "geometry/slant.h"
 
 #include <math.h>
 
-#include "elementary.h"
+#include "base/elementary.h"
 
 #define LN_2 0.693147180559945309417
 

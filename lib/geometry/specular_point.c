@@ -1,9 +1,9 @@
-#include "specular_point.h"
+#include "geometry/specular_point.h"
 
-#include "predicates.h"
+#include "geometry/predicates.h"
 
 bool specular_point_foot(struct vec2 a, struct vec2 b, struct vec2 along, double margin_m,
-                     struct vec2 sensor, struct vec2 *foot)
+                         struct vec2 sensor, struct vec2 *foot)
 {
     struct vec2 across = vec2_left(vec2_sub(b, a));
     double square = vec2_dot(across, across);

@@ -15,7 +15,7 @@
 
 #include <stdbool.h>
 
-#include "vec2.h"
+#include "base/vec2.h"
 
 /* True, and the foot, if the specular point exists. along is the unit vector from a to b. A segment
  * of length zero (below 1e-160 m) has none.
@@ -24,6 +24,6 @@
  * last bit, so that an outline it touches blocks it; else it passes within 2 ulp of the largest
  * coordinate or distance, and an outline that it only touches may be missed by that. */
 bool specular_point_foot(struct vec2 a, struct vec2 b, struct vec2 along, double margin_m,
-                     struct vec2 sensor, struct vec2 *foot);
+                         struct vec2 sensor, struct vec2 *foot);
 
 #endif

@@ -1,9 +1,9 @@
-#include "visibility_range.h"
+#include "geometry/visibility_range.h"
 
 #include <math.h>
 
-#include "elementary.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
 
 /* Of cosines, a million times their rounding. */
 #define SLACK 1e-9
@@ -17,7 +17,8 @@ double visibility_range_angle_rad(struct vec2 a, struct vec2 b)
     return elementary_atan2(fabs(vec2_cross(a, b)), vec2_dot(a, b) + 0.0);
 }
 
-double visibility_range_factor(enum visibility_shape shape, double full_rad, double zero_rad, double delta_rad)
+double visibility_range_factor(enum visibility_shape shape, double full_rad, double zero_rad,
+                               double delta_rad)
 {
     if (shape == VISIBILITY_HARD)
         return delta_rad <= zero_rad;
@@ -53,7 +54,7 @@ double visibility_range_dark_cosine(double zero_rad)
 }
 
 double visibility_range_along(enum visibility_shape shape, double full_rad, double zero_rad,
-                        struct vec2 facing, struct vec2 sight)
+                              struct vec2 facing, struct vec2 sight)
 {
     double start_rad = shape == VISIBILITY_HARD ? zero_rad : full_rad;
     double length = vec2_length(sight), along = vec2_dot(facing, sight);
@@ -62,5 +63,6 @@ double visibility_range_along(enum visibility_shape shape, double full_rad, doub
         return 0;
     if (plain && shape != VISIBILITY_COSINE && along > (cosine_most(start_rad) + SLACK) * length)
         return 1;
-    return visibility_range_factor(shape, full_rad, zero_rad, visibility_range_angle_rad(facing, sight));
+    return visibility_range_factor(shape, full_rad, zero_rad,
+                                   visibility_range_angle_rad(facing, sight));
 }

@@ -1,11 +1,11 @@
-#include "direct_echoes.h"
+#include "ideal/direct_echoes.h"
 
 #include <math.h>
 
-#include "sight_margins.h"
-#include "elementary.h"
-#include "specular_point.h"
-#include "line_of_sight.h"
+#include "base/elementary.h"
+#include "geometry/specular_point.h"
+#include "ideal/line_of_sight.h"
+#include "ideal/sight_margins.h"
 
 /* Losses name the stage whose work this is. */
 static const char stage_name[] = "ideal";
@@ -58,7 +58,7 @@ static double sight_margin_m(const struct look *look, const struct look_body *bo
     if (!under)
         return line_of_sight_clearance_m(look, line, &body, 1);
     return elementary_min(line_of_sight_margin_m(look, &body, 1, line, true, false),
-                            line_of_sight_margin_m(look, &body, 1, line, false, true));
+                          line_of_sight_margin_m(look, &body, 1, line, false, true));
 }
 
 /* The way past what stands there, or under it where that lets more through. */
@@ -99,15 +99,15 @@ static bool in_reach(struct look *look, const struct look_body *body, struct can
 {
     const struct sensor *sensor = look->sensor;
     double azimuth = fabs(sight->azimuth_rad);
-    double reach_m = fabs(elementary_min(sight->range_m - sensor->range_min_m,
-                                           sensor->range_max_m - sight->range_m));
-    double view_m = sight->range_m * fabs(look_border_rad(sensor) - azimuth);
+    double reach_m = fabs(
+        elementary_min(sight->range_m - sensor->range_min_m, sensor->range_max_m - sight->range_m));
+    double view_m = sight->range_m * fabs(suite_border_rad(sensor) - azimuth);
     if (!(sight->range_m > 0 && sight->range_m >= sensor->range_min_m &&
           sight->range_m <= sensor->range_max_m)) {
         lose(look, body, seen->reflector, LOSS_OUT_OF_RANGE, NULL, reach_m);
         return false;
     }
-    if (!(azimuth < look_border_rad(sensor))) {
+    if (!(azimuth < suite_border_rad(sensor))) {
         lose(look, body, seen->reflector, LOSS_OUT_OF_VIEW, NULL, view_m);
         return false;
     }
@@ -134,7 +134,8 @@ static void tell_motion(const struct look *look, const struct look_body *body,
     struct vec2 still = {0, 0}, boresight = look->boresight, heading = body->box.heading;
     if (!look->sensor->micro_motion || seen->moving_part == MOVING_NONE)
         return;
-    struct kinematics ground = kinematics_of(look->position_m, still, boresight, seen->place, velocity);
+    struct kinematics ground =
+        kinematics_of(look->position_m, still, boresight, seen->place, velocity);
     echo->moving_part = seen->moving_part;
     echo->ground_rate_mps = ground.range_rate_mps * (ground.range_m / echo->range_m);
     echo->heading_rad =
@@ -158,7 +159,8 @@ static void look_at(struct look *look, const struct look_body *body, struct cand
     seek_way(look, seen);
     if (seen->way.by != NULL) {
         lose(look, body, seen->reflector, LOSS_BLOCKED, seen->way.by,
-             tell ? line_of_sight_margin_m(look, &body, 1, &line, seen->under_vehicles > 0, true) : 0);
+             tell ? line_of_sight_margin_m(look, &body, 1, &line, seen->under_vehicles > 0, true)
+                  : 0);
         return;
     }
     if (tell)
@@ -204,7 +206,7 @@ static void look_at_point(struct look *look, const struct look_body *body,
     double visible = look_visibility(look, body, point, facing, place, look->position_m);
     if (look->frame->margins && effects_enabled(look->selection, EFFECT_VISIBILITY))
         seen.margin_m = sight_margins_facing_m(&body->box, point->shape, point->facing_rad,
-                                           point->zero_rad, place, look->position_m);
+                                               point->zero_rad, place, look->position_m);
     if (visible == 0) {
         lose(look, body, point->name, LOSS_FACING_AWAY, NULL, seen.margin_m);
         return;
@@ -225,9 +227,10 @@ static void look_at_plane(struct look *look, const struct look_body *body,
     struct side side = line_of_sight_side(body, plane);
     struct vec2 foot;
     double margin_m = look->frame->margins ? sight_margins_foot_m(side.from, side.to, side.along,
-                                                              plane->margin_m, look->position_m)
+                                                                  plane->margin_m, look->position_m)
                                            : 0;
-    if (specular_point_foot(side.from, side.to, side.along, plane->margin_m, look->position_m, &foot) &&
+    if (specular_point_foot(side.from, side.to, side.along, plane->margin_m, look->position_m,
+                            &foot) &&
         !line_of_sight_next_side_has_foot(look, &side)) {
         struct candidate seen = {
             .reflector = plane->name,

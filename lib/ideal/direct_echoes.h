@@ -6,7 +6,7 @@
 #ifndef DIRECT_ECHOES_H
 #define DIRECT_ECHOES_H
 
-#include "look.h"
+#include "ideal/look.h"
 
 /* Every reflector of every object: adds echoes, losses and the sensor's count to the frame. */
 void direct_echoes_add(struct look *look);

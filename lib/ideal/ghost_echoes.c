@@ -1,14 +1,14 @@
-#include "ghost_echoes.h"
+#include "ideal/ghost_echoes.h"
 
 #include <math.h>
 
-#include "sight_margins.h"
-#include "elementary.h"
-#include "ghost_path.h"
-#include "predicates.h"
-#include "specular_point.h"
-#include "units.h"
-#include "line_of_sight.h"
+#include "base/elementary.h"
+#include "base/units.h"
+#include "geometry/ghost_path.h"
+#include "geometry/predicates.h"
+#include "geometry/specular_point.h"
+#include "ideal/line_of_sight.h"
+#include "ideal/sight_margins.h"
 
 enum { ONE_WAY = 2, BOTH_WAYS = 3 };
 
@@ -58,7 +58,8 @@ static void join(struct mirror_faces *mirror_faces)
         for (size_t j = 0; j < mirror_faces->count; j++) {
             struct mirror_face *first = &mirror_faces->items[i], *second = &mirror_faces->items[j];
             struct vec2 gap = vec2_sub(second->mirror.a, first->mirror.b);
-            if (vec2_length(gap) <= LINE_OF_SIGHT_JOINT_M && vec2_same(first->along, second->along)) {
+            if (vec2_length(gap) <= LINE_OF_SIGHT_JOINT_M &&
+                vec2_same(first->along, second->along)) {
                 first->after = second->body;
                 second->before = first->body;
                 first->shares_end |= vec2_same(first->mirror.b, second->mirror.a);
@@ -100,7 +101,7 @@ struct ghost_candidate {
 };
 
 static struct leg leg_to(const struct look *look, struct vec2 place, struct vec2 velocity,
-                               double height_m)
+                         double height_m)
 {
     struct leg leg = {.margin_m = (double)INFINITY};
     struct kinematics sight =
@@ -109,9 +110,10 @@ static struct leg leg_to(const struct look *look, struct vec2 place, struct vec2
     return leg;
 }
 
-static struct ghost_candidate ghost_candidate_of(const struct look *look, const struct mirror_face *mirror_face,
-                               const struct look_body *body, struct vec2 place, double z,
-                               struct vec2 bounce)
+static struct ghost_candidate ghost_candidate_of(const struct look *look,
+                                                 const struct mirror_face *mirror_face,
+                                                 const struct look_body *body, struct vec2 place,
+                                                 double z, struct vec2 bounce)
 {
     struct vec2 velocity = motion_velocity_at(&body->box.motion, place);
     struct mirror_image image = mirror_image(&mirror_face->mirror, place, velocity);
@@ -127,8 +129,8 @@ static struct ghost_candidate ghost_candidate_of(const struct look *look, const 
     };
 }
 
-static bool bounces(const struct look *look, const struct mirror_face *mirror_face, struct vec2 place,
-                    struct vec2 *bounce)
+static bool bounces(const struct look *look, const struct mirror_face *mirror_face,
+                    struct vec2 place, struct vec2 *bounce)
 {
     if (!mirror_bounce(&mirror_face->mirror, look->position_m, place, bounce))
         return false;
@@ -139,14 +141,15 @@ static bool bounces(const struct look *look, const struct mirror_face *mirror_fa
 }
 
 /* Of the bounce from the mirror's ends, and of the sensor and the reflector from its line. */
-static double bounce_margin_m(const struct look *look, const struct ghost_candidate *ghost_candidate)
+static double bounce_margin_m(const struct look *look,
+                              const struct ghost_candidate *ghost_candidate)
 {
     const struct mirror_face *mirror_face = ghost_candidate->mirror_face;
     struct vec2 a = mirror_face->mirror.a, b = mirror_face->mirror.b, along = mirror_face->along;
     double ends_m = elementary_min(fabs(vec2_dot(vec2_sub(ghost_candidate->bounce, a), along)),
-                                     fabs(vec2_dot(vec2_sub(b, ghost_candidate->bounce), along)));
+                                   fabs(vec2_dot(vec2_sub(b, ghost_candidate->bounce), along)));
     double line_m = elementary_min(fabs(vec2_cross(along, vec2_sub(look->position_m, a))),
-                                     fabs(vec2_cross(along, vec2_sub(ghost_candidate->place, a))));
+                                   fabs(vec2_cross(along, vec2_sub(ghost_candidate->place, a))));
     return elementary_min(ends_m, line_m);
 }
 
@@ -165,22 +168,26 @@ static bool pass(const struct look *look, struct leg *leg, struct obstruction_li
 
 static bool pass_directly(const struct look *look, struct ghost_candidate *ghost_candidate)
 {
-    struct obstruction_line line = {look->position_m, ghost_candidate->place, look->height_m, ghost_candidate->height_m};
+    struct obstruction_line line = {look->position_m, ghost_candidate->place, look->height_m,
+                                    ghost_candidate->height_m};
     return pass(look, &ghost_candidate->direct, line, &ghost_candidate->body, 1);
 }
 
 static bool pass_by_mirror(const struct look *look, struct ghost_candidate *ghost_candidate)
 {
     const struct mirror_face *mirror_face = ghost_candidate->mirror_face;
-    const struct look_body *touched[] = {mirror_face->body, mirror_face->before, mirror_face->after, ghost_candidate->body};
+    const struct look_body *touched[] = {mirror_face->body, mirror_face->before, mirror_face->after,
+                                         ghost_candidate->body};
     double out_m = vec2_length(vec2_sub(ghost_candidate->bounce, look->position_m));
     double on_m = vec2_length(vec2_sub(ghost_candidate->place, ghost_candidate->bounce));
     double height_m =
         look->height_m + (ghost_candidate->height_m - look->height_m) * (out_m / (out_m + on_m));
     double below_m = look_top_m(look, mirror_face->body) - height_m;
     struct leg *leg = &ghost_candidate->mirrored;
-    struct obstruction_line out = {look->position_m, ghost_candidate->bounce, look->height_m, height_m};
-    struct obstruction_line on = {ghost_candidate->bounce, ghost_candidate->place, height_m, ghost_candidate->height_m};
+    struct obstruction_line out = {look->position_m, ghost_candidate->bounce, look->height_m,
+                                   height_m};
+    struct obstruction_line on = {ghost_candidate->bounce, ghost_candidate->place, height_m,
+                                  ghost_candidate->height_m};
     if (!(leg->factor > 0 && below_m >= 0) || !pass(look, leg, out, touched, 3) ||
         !pass(look, leg, on, touched, 4))
         return false;
@@ -190,20 +197,21 @@ static bool pass_by_mirror(const struct look *look, struct ghost_candidate *ghos
     return true;
 }
 
-static bool is_listed(const struct sensor *sensor, const struct kinematics *sight, double departure_rad)
+static bool is_listed(const struct sensor *sensor, const struct kinematics *sight,
+                      double departure_rad)
 {
     return sight->range_m >= sensor->range_min_m && sight->range_m <= sensor->range_max_m &&
-           fabs(sight->azimuth_rad) < look_border_rad(sensor) && fabs(departure_rad) <= PI / 2;
+           fabs(sight->azimuth_rad) < suite_border_rad(sensor) && fabs(departure_rad) <= PI / 2;
 }
 
 static double limits_margin_m(const struct sensor *sensor, const struct kinematics *sight,
                               double departure_rad)
 {
-    double view_rad = elementary_min(look_border_rad(sensor) - fabs(sight->azimuth_rad),
-                                       PI / 2 - fabs(departure_rad));
-    return elementary_min(elementary_min(sight->range_m - sensor->range_min_m,
-                                             sensor->range_max_m - sight->range_m),
-                            sight->range_m * view_rad);
+    double view_rad = elementary_min(suite_border_rad(sensor) - fabs(sight->azimuth_rad),
+                                     PI / 2 - fabs(departure_rad));
+    return elementary_min(
+        elementary_min(sight->range_m - sensor->range_min_m, sensor->range_max_m - sight->range_m),
+        sight->range_m * view_rad);
 }
 
 static struct margins margins_of(const struct look *look, const struct kinematics *sight,
@@ -217,8 +225,8 @@ static struct margins margins_of(const struct look *look, const struct kinematic
     return margins;
 }
 
-static void add(struct look *look, const struct ghost_candidate *ghost_candidate, enum path path, struct ghost_path ghost,
-                const struct leg *out, const struct leg *back)
+static void add(struct look *look, const struct ghost_candidate *ghost_candidate, enum path path,
+                struct ghost_path ghost, const struct leg *out, const struct leg *back)
 {
     double departure_rad = out->sight.azimuth_rad;
     frame_count_echoes(look->frame, look->sensor->name, path, 1);
@@ -236,7 +244,8 @@ static void add(struct look *look, const struct ghost_candidate *ghost_candidate
         .departure_rad = departure_rad - ghost.sight.azimuth_rad,
         .time_s = look->time_s,
         .effects = EFFECT_BIT(EFFECT_GHOSTS) | out->effects | back->effects |
-                   look_latency_effect(look, ghost_candidate->body) | look_latency_effect(look, ghost_candidate->mirror_face->body),
+                   look_latency_effect(look, ghost_candidate->body) |
+                   look_latency_effect(look, ghost_candidate->mirror_face->body),
         .margins = margins_of(look, &ghost.sight, out, back),
     };
 }
@@ -279,13 +288,14 @@ static void show(const struct look *look, const struct ghost_candidate *ghost_ca
     const struct box *box = &ghost_candidate->body->box;
     if (!effects_enabled(look->selection, EFFECT_VISIBILITY))
         return;
-    double visible = look_visibility(look, ghost_candidate->body, point, facing, ghost_candidate->place, viewer);
+    double visible =
+        look_visibility(look, ghost_candidate->body, point, facing, ghost_candidate->place, viewer);
     leg->factor *= visible;
     if (visible < 1)
         leg->effects |= EFFECT_BIT(EFFECT_VISIBILITY);
     if (look->frame->margins)
-        leg->margin_m = sight_margins_facing_m(box, point->shape, point->facing_rad, point->zero_rad,
-                                              ghost_candidate->place, viewer);
+        leg->margin_m = sight_margins_facing_m(box, point->shape, point->facing_rad,
+                                               point->zero_rad, ghost_candidate->place, viewer);
 }
 
 /* Can the sensor list any path of the point, as far as ranges and its face tell? Asked before what
@@ -302,13 +312,14 @@ static bool may_list(const struct look *look, const struct look_body *body,
             reflectors_visibility(&body->box, point, facing, place, bounce) > 0);
 }
 
-static void add_point(struct look *look, const struct mirror_face *mirror_face, const struct look_body *body,
-                      const struct point_reflector *point, struct vec2 facing, struct vec2 place,
-                      struct vec2 bounce)
+static void add_point(struct look *look, const struct mirror_face *mirror_face,
+                      const struct look_body *body, const struct point_reflector *point,
+                      struct vec2 facing, struct vec2 place, struct vec2 bounce)
 {
     if (!may_list(look, body, point, facing, place, bounce))
         return;
-    struct ghost_candidate ghost_candidate = ghost_candidate_of(look, mirror_face, body, place, point->z, bounce);
+    struct ghost_candidate ghost_candidate =
+        ghost_candidate_of(look, mirror_face, body, place, point->z, bounce);
     ghost_candidate.reflector = point->name;
     ghost_candidate.ercs = point->ercs;
     show(look, &ghost_candidate, point, facing, look->position_m, &ghost_candidate.direct);
@@ -316,14 +327,16 @@ static void add_point(struct look *look, const struct mirror_face *mirror_face, 
     add_paths(look, &ghost_candidate, true);
 }
 
-static void add_points(struct look *look, const struct mirror_face *mirror_face, const struct look_body *body)
+static void add_points(struct look *look, const struct mirror_face *mirror_face,
+                       const struct look_body *body)
 {
     const struct reflector_set *set = body->worn->set;
     for (size_t i = 0; i < set->points.count; i++) {
         const struct point_reflector *point = &set->points.items[i];
         struct vec2 place = reflectors_point_place(&body->box, point), bounce;
         if (bounces(look, mirror_face, place, &bounce))
-            add_point(look, mirror_face, body, point, body->worn->shape->faces[i].heading, place, bounce);
+            add_point(look, mirror_face, body, point, body->worn->shape->faces[i].heading, place,
+                      bounce);
     }
 }
 
@@ -339,8 +352,9 @@ static bool may_show(const struct look *look, const struct mirror_face *mirror_f
                              0.5 * vec2_length(vec2_sub(to, from)) + 1e-6);
 }
 
-static void add_post(struct look *look, const struct mirror_face *mirror_face, const struct look_body *body,
-                     const struct post_row *row, struct vec2 facing, int64_t number)
+static void add_post(struct look *look, const struct mirror_face *mirror_face,
+                     const struct look_body *body, const struct post_row *row, struct vec2 facing,
+                     int64_t number)
 {
     struct vec2 place = reflectors_post_place(&body->box, row, number), bounce;
     if (!bounces(look, mirror_face, place, &bounce))
@@ -351,8 +365,8 @@ static void add_post(struct look *look, const struct mirror_face *mirror_face, c
 
 /* No path is shorter than the direct one: posts out of its range have no ghost in range. A row is
  * longer than most mirrors: of most of its pieces they can show nothing. */
-static void add_row(struct look *look, const struct mirror_face *mirror_face, const struct look_body *body,
-                    const struct post_row *row)
+static void add_row(struct look *look, const struct mirror_face *mirror_face,
+                    const struct look_body *body, const struct post_row *row)
 {
     bool all = effects_forced(look->selection, EFFECT_GHOSTS);
     struct vec2 facing = vec2_heading(row->facing_rad);
@@ -367,17 +381,19 @@ static void add_row(struct look *look, const struct mirror_face *mirror_face, co
     }
 }
 
-static void add_plane(struct look *look, const struct mirror_face *mirror_face, const struct look_body *body,
-                      const struct plane_reflector *plane)
+static void add_plane(struct look *look, const struct mirror_face *mirror_face,
+                      const struct look_body *body, const struct plane_reflector *plane)
 {
     struct vec2 a = reflectors_place(&body->box, plane->from_x, plane->from_y);
     struct vec2 b = reflectors_place(&body->box, plane->to_x, plane->to_y);
-    struct vec2 eye = mirror_image(&mirror_face->mirror, look->position_m, (struct vec2){0, 0}).place_m;
+    struct vec2 eye =
+        mirror_image(&mirror_face->mirror, look->position_m, (struct vec2){0, 0}).place_m;
     struct vec2 along = reflectors_along(&body->box, plane), foot, bounce;
     if (!specular_point_foot(a, b, along, plane->margin_m, eye, &foot) ||
         !bounces(look, mirror_face, foot, &bounce))
         return;
-    struct ghost_candidate ghost_candidate = ghost_candidate_of(look, mirror_face, body, foot, plane->z, bounce);
+    struct ghost_candidate ghost_candidate =
+        ghost_candidate_of(look, mirror_face, body, foot, plane->z, bounce);
     struct leg *leg = &ghost_candidate.mirrored;
     double range_m = vec2_length(vec2_sub(foot, eye));
     ghost_candidate.reflector = plane->name;
@@ -388,11 +404,12 @@ static void add_plane(struct look *look, const struct mirror_face *mirror_face, 
     add_paths(look, &ghost_candidate, false);
 }
 
-static void add_body(struct look *look, const struct mirror_face *mirror_face, const struct look_body *body)
+static void add_body(struct look *look, const struct mirror_face *mirror_face,
+                     const struct look_body *body)
 {
     const struct reflector_set *set = body->worn->set;
-    bool planes =
-        look->sensor->bounces >= BOTH_WAYS && effects_enabled(look->selection, EFFECT_PLANE_REFLECTION);
+    bool planes = look->sensor->bounces >= BOTH_WAYS &&
+                  effects_enabled(look->selection, EFFECT_PLANE_REFLECTION);
     bool rows = effects_enabled(look->selection, EFFECT_ROWS);
     add_points(look, mirror_face, body);
     for (size_t i = 0; i < set->planes.count && planes; i++)
@@ -401,7 +418,8 @@ static void add_body(struct look *look, const struct mirror_face *mirror_face, c
         add_row(look, mirror_face, body, &set->rows.items[i]);
 }
 
-static void add_all(struct look *look, const struct mirror_faces *mirror_faces, const struct look_body *body)
+static void add_all(struct look *look, const struct mirror_faces *mirror_faces,
+                    const struct look_body *body)
 {
     const struct selection *selection = look->selection;
     bool all = effects_forced(selection, EFFECT_GHOSTS);
@@ -411,7 +429,8 @@ static void add_all(struct look *look, const struct mirror_faces *mirror_faces, 
         const struct mirror_face *mirror_face = &mirror_faces->items[i];
         if (mirror_face->body == body)
             continue;
-        bool reach = all || mirror_may_bounce(&mirror_face->mirror, look->position_m, centre, radius_m);
+        bool reach =
+            all || mirror_may_bounce(&mirror_face->mirror, look->position_m, centre, radius_m);
         effects_note(selection, EFFECT_GHOSTS, reach);
         if (reach)
             add_body(look, mirror_face, body);

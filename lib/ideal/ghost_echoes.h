@@ -28,7 +28,7 @@
 #ifndef GHOST_ECHOES_H
 #define GHOST_ECHOES_H
 
-#include "look.h"
+#include "ideal/look.h"
 
 /* Every ghost of the look's sensor: adds echoes and the sensor's counts to the frame, after
  * look_around. An echo's mirror is the id of the mirror's object, its number which of the mirrors

@@ -1,12 +1,12 @@
-#include "line_of_sight.h"
+#include "ideal/line_of_sight.h"
 
 #include <math.h>
 
-#include "sight_margins.h"
-#include "elementary.h"
-#include "knife_edge.h"
-#include "outline_crossing.h"
-#include "predicates.h"
+#include "base/elementary.h"
+#include "geometry/knife_edge.h"
+#include "geometry/outline_crossing.h"
+#include "geometry/predicates.h"
+#include "ideal/sight_margins.h"
 
 /* Both ends of a line beyond the same side of a body. */
 static bool passes_beside(double from_m, double to_m, double reach_m)
@@ -87,7 +87,7 @@ bool line_of_sight_next_side_has_foot(const struct look *look, const struct side
 }
 
 void line_of_sight_find_blockers(struct look *look, const struct look_body *own,
-                        const struct look_extent *wanted)
+                                 const struct look_extent *wanted)
 {
     const struct selection *selection = look->selection;
     int64_t begin = effects_begin(selection);
@@ -119,7 +119,7 @@ static bool hides_all(const struct look *look)
 }
 
 bool line_of_sight_all_hidden(const struct look *look, const struct look_set *set,
-                     const struct look_extent *wanted)
+                              const struct look_extent *wanted)
 {
     /* What keeps within its box and ends before the set begins has no side that joins one of it. */
     for (size_t i = 0; i < look->blocker_count && hides_all(look); i++) {
@@ -134,7 +134,7 @@ bool line_of_sight_all_hidden(const struct look *look, const struct look_set *se
 /* What one body lets through that a line meets so, and which effects beside occlusion matter to
  * it. */
 static struct line_of_sight past(const struct look *look, const struct look_body *body,
-                       const struct obstruction_line *line, enum meeting meeting)
+                                 const struct obstruction_line *line, enum meeting meeting)
 {
     if (meeting == MEETING_NONE)
         return (struct line_of_sight){.factor = 1};
@@ -151,7 +151,7 @@ static struct line_of_sight past(const struct look *look, const struct look_body
 }
 
 struct line_of_sight line_of_sight_past_blockers(const struct look *look, const struct side *side,
-                              const struct obstruction_line *line, bool solid)
+                                                 const struct obstruction_line *line, bool solid)
 {
     struct line_of_sight all = {.factor = 1};
     struct silhouette place = silhouette_of_place(vec2_sub(line->to, look->position_m));
@@ -164,8 +164,8 @@ struct line_of_sight line_of_sight_past_blockers(const struct look *look, const 
                                      : meeting_before(body, &place);
         struct line_of_sight way = past(look, body, line, meeting);
         if ((way.factor == 1 && way.effects == 0) ||
-            (side != NULL &&
-             (joins(body, side, true, LINE_OF_SIGHT_JOINT_M) || joins(body, side, false, LINE_OF_SIGHT_JOINT_M))))
+            (side != NULL && (joins(body, side, true, LINE_OF_SIGHT_JOINT_M) ||
+                              joins(body, side, false, LINE_OF_SIGHT_JOINT_M))))
             continue;
         if (way.by != NULL)
             return way;
@@ -184,16 +184,18 @@ static bool is_among(const struct look_body *body, const struct look_body *const
     return false;
 }
 
-struct line_of_sight line_of_sight_along(const struct look *look, const struct obstruction_line *line,
-                      const struct look_body *const *but, size_t count)
+struct line_of_sight line_of_sight_along(const struct look *look,
+                                         const struct obstruction_line *line,
+                                         const struct look_body *const *but, size_t count)
 {
     struct line_of_sight all = {.factor = 1};
     if (!effects_enabled(look->selection, EFFECT_OCCLUSION))
         return all;
-    struct azimuth_index_span span = effects_forced(look->selection, EFFECT_OCCLUSION)
-                                    ? azimuth_index_everywhere
-                                    : azimuth_index_between(vec2_sub(line->from, look->position_m),
-                                                       vec2_sub(line->to, look->position_m));
+    struct azimuth_index_span span =
+        effects_forced(look->selection, EFFECT_OCCLUSION)
+            ? azimuth_index_everywhere
+            : azimuth_index_between(vec2_sub(line->from, look->position_m),
+                                    vec2_sub(line->to, look->position_m));
     size_t near = azimuth_index_find(&look->bearings, span);
     for (size_t i = 0; i < near; i++) {
         const struct look_body *body = &look->bodies[look->bearings.found[i]];
@@ -209,8 +211,9 @@ struct line_of_sight line_of_sight_along(const struct look *look, const struct o
     return all;
 }
 
-double line_of_sight_margin_m(const struct look *look, const struct look_body *const *but, size_t count,
-                     const struct obstruction_line *line, bool solid, bool blocked)
+double line_of_sight_margin_m(const struct look *look, const struct look_body *const *but,
+                              size_t count, const struct obstruction_line *line, bool solid,
+                              bool blocked)
 {
     double nearest_m = (double)INFINITY, deepest_m = 0;
     double length_m = vec2_length(vec2_sub(line->to, line->from));
@@ -234,7 +237,7 @@ double line_of_sight_margin_m(const struct look *look, const struct look_body *c
 }
 
 double line_of_sight_clearance_m(const struct look *look, const struct obstruction_line *line,
-                        const struct look_body *const *but, size_t count)
+                                 const struct look_body *const *but, size_t count)
 {
     return effects_enabled(look->selection, EFFECT_OCCLUSION)
                ? line_of_sight_margin_m(look, but, count, line, false, false)

@@ -1,23 +1,19 @@
-#include "look.h"
+#include "ideal/look.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "sight_margins.h"
-#include "elementary.h"
-#include "slant.h"
-#include "frame_order.h"
-#include "knife_edge.h"
-#include "outline_crossing.h"
-#include "predicates.h"
-#include "specular_point.h"
-#include "kinematics.h"
-#include "curved_surface.h"
-#include "units.h"
-
-/* The border of a field of view is outside, and this wide: the foot on a wall that is parallel to
- * boresight lies at 90 degrees but for its rounding. */
-#define BORDER_RAD 1e-9
+#include "base/elementary.h"
+#include "base/units.h"
+#include "frame/frame_order.h"
+#include "geometry/kinematics.h"
+#include "geometry/knife_edge.h"
+#include "geometry/outline_crossing.h"
+#include "geometry/predicates.h"
+#include "geometry/slant.h"
+#include "geometry/specular_point.h"
+#include "ideal/sight_margins.h"
+#include "radar/curved_surface.h"
 
 /* In ranges of the sensor, of all ways that are asked for: by a mirror and straight back, a thing
  * in range is at most twice as far by the mirror. */
@@ -30,11 +26,6 @@
 
 /* Of metres and sines, far more than rounding. */
 #define PLAIN 1e-6
-
-double look_border_rad(const struct sensor *sensor)
-{
-    return sensor->field_of_view_rad / 2 - BORDER_RAD;
-}
 
 static struct box box_at(const struct object *object, double age_s)
 {
@@ -135,7 +126,7 @@ static void enter_blockers(struct look *look)
 
 static void open_view(struct look *look)
 {
-    double border_rad = look_border_rad(look->sensor), lift = look->height_m > 0 ? LIFTED : 1;
+    double border_rad = suite_border_rad(look->sensor), lift = look->height_m > 0 ? LIFTED : 1;
     double sine = border_rad < PI / 2 ? lift * elementary_sin(border_rad) + PLAIN : 1;
     if (!(sine < 1))
         return;
@@ -183,7 +174,7 @@ struct look_extent look_reflectors(const struct look *look, const struct look_bo
 }
 
 bool look_out_of_reach(const struct look *look, const struct look_body *body,
-                 const struct silhouette *silhouette)
+                       const struct silhouette *silhouette)
 {
     double rise_m =
         look->height_m > 0 ? elementary_max(look->height_m, 2 * body->object->height_m) : 0;
@@ -208,7 +199,7 @@ uint64_t look_latency_effect(const struct look *look, const struct look_body *bo
 }
 
 struct kinematics look_slant(const struct look *look, double reflector_m, struct kinematics sight,
-                         double *gain, uint64_t *effects)
+                             double *gain, uint64_t *effects)
 {
     const struct selection *selection = look->selection;
     double height_m = reflector_m - look->height_m;

@@ -11,10 +11,10 @@
 #ifndef LOOK_H
 #define LOOK_H
 
-#include "azimuth_index.h"
-#include "frame.h"
-#include "kinematics.h"
-#include "suite.h"
+#include "documents/suite.h"
+#include "frame/frame.h"
+#include "geometry/azimuth_index.h"
+#include "geometry/kinematics.h"
 
 /* A set of the frame, and what all who wear it share. */
 struct look_set {
@@ -58,7 +58,7 @@ struct look {
     struct look_body *bodies; /* all objects but the ego, by id */
     size_t body_count;
     struct look_set *sets;             /* of the frame */
-    struct azimuth_index bearings;          /* of the bodies that block, as they are numbered here */
+    struct azimuth_index bearings;     /* of the bodies that block, as they are numbered here */
     const struct look_body **blockers; /* of the body that is looked at, by id */
     size_t blocker_count;
     int64_t pairs, echoes;
@@ -78,7 +78,7 @@ double look_top_m(const struct look *look, const struct look_body *body);
 /* What a sensor reads of a reflector at that height which it would see so in the plane, with the
  * factor on amplitude of its beam; adds to effects. */
 struct kinematics look_slant(const struct look *look, double reflector_m, struct kinematics sight,
-                         double *gain, uint64_t *effects);
+                             double *gain, uint64_t *effects);
 
 /* The cross section of a side at its specular point, range_m away in the plane; adds to effects. */
 double look_plane_ercs(const struct look *look, const struct plane_reflector *plane, double range_m,
@@ -91,7 +91,7 @@ struct look_extent look_reflectors(const struct look *look, const struct look_bo
 
 /* True only if nothing of the body within that silhouette can be in range and in view. */
 bool look_out_of_reach(const struct look *look, const struct look_body *body,
-                 const struct silhouette *silhouette);
+                       const struct silhouette *silhouette);
 
 /* How much of a point is seen from the viewer, the sensor itself or a bounce on the way to it: its
  * visibility, and its lobe at the sensor's elevation. 1 without the effect visibility. */
@@ -104,8 +104,5 @@ struct point_reflector look_post(const struct look *look, const struct post_row 
 
 /* EFFECT_BIT of latency if it changes how the sensor sees this body, else 0. */
 uint64_t look_latency_effect(const struct look *look, const struct look_body *body);
-
-/* Azimuths from here on, to either side, are outside the sensor's view. */
-double look_border_rad(const struct sensor *sensor);
 
 #endif

@@ -1,11 +1,11 @@
-#include "sight_margins.h"
+#include "ideal/sight_margins.h"
 
-#include "elementary.h"
-#include "outline_crossing.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
+#include "geometry/outline_crossing.h"
 
 double sight_margins_facing_m(const struct box *box, enum visibility_shape shape, double facing_rad,
-                          double zero_rad, struct vec2 place, struct vec2 sensor)
+                              double zero_rad, struct vec2 place, struct vec2 sensor)
 {
     if (shape == VISIBILITY_HARD && zero_rad >= PI)
         return (double)INFINITY;
@@ -15,7 +15,7 @@ double sight_margins_facing_m(const struct box *box, enum visibility_shape shape
 }
 
 double sight_margins_foot_m(struct vec2 a, struct vec2 b, struct vec2 along, double margin_m,
-                        struct vec2 sensor)
+                            struct vec2 sensor)
 {
     if (vec2_same(a, b))
         return (double)NAN;
@@ -47,11 +47,11 @@ static double least_m(double (*distance_m)(struct vec2 a, struct vec2 b, struct 
                       struct vec2 p, struct vec2 q, struct vec2 a, struct vec2 b)
 {
     return elementary_min(elementary_min(distance_m(p, q, a), distance_m(p, q, b)),
-                            elementary_min(distance_m(a, b, p), distance_m(a, b, q)));
+                          elementary_min(distance_m(a, b, p), distance_m(a, b, q)));
 }
 
 double sight_margins_outline_m(const struct vec2 *corners, size_t count, struct vec2 from,
-                           struct vec2 to)
+                               struct vec2 to)
 {
     double nearest_m = (double)INFINITY;
     for (size_t i = 0; i < count; i++)
@@ -60,7 +60,8 @@ double sight_margins_outline_m(const struct vec2 *corners, size_t count, struct 
     return nearest_m;
 }
 
-double sight_margins_depth_m(const struct vec2 *corners, size_t count, struct vec2 from, struct vec2 to)
+double sight_margins_depth_m(const struct vec2 *corners, size_t count, struct vec2 from,
+                             struct vec2 to)
 {
     double deepest_m = 0;
     for (size_t i = 0; i < count; i++) {

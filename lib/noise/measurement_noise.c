@@ -1,13 +1,12 @@
-#include "measurement_noise.h"
+#include "noise/measurement_noise.h"
 
 #include <complex.h>
 #include <math.h>
 
-#include "snr_sigma.h"
-#include "elementary.h"
-#include "interferer.h"
-#include "boresight_error.h"
-#include "resolution_cell.h"
+#include "base/elementary.h"
+#include "radar/boresight_error.h"
+#include "radar/interferer.h"
+#include "radar/snr_sigma.h"
 
 static bool on(const struct selection *selection, enum effect effect, bool described)
 {
@@ -16,7 +15,8 @@ static bool on(const struct selection *selection, enum effect effect, bool descr
     return simulated;
 }
 
-struct measurement_noise measurement_noise_of(const struct sensor *sensor, const struct selection *selection)
+struct measurement_noise measurement_noise_of(const struct sensor *sensor,
+                                              const struct selection *selection)
 {
     bool range = sensor->range_sigma_m > 0 || sensor->range_rate_sigma_mps > 0 ||
                  sensor->sigma_law == SIGMA_BY_SNR;
@@ -39,12 +39,12 @@ struct measurement_noise measurement_noise_of(const struct sensor *sensor, const
 }
 
 struct antenna_pointers measurement_noise_pointers(const struct measurement_noise *by,
-                                             const struct random_address *address,
-                                             const struct cell *cell)
+                                                   const struct random_address *address,
+                                                   const struct cell *cell)
 {
-    struct antenna_pointers pointers = resolution_cell_pointers(cell);
-    double draw[4], sigma = by->sensor->pointer_sigma * sqrt(0.5) *
-                            interferer_noise_factor(cell->interference);
+    struct antenna_pointers pointers = frame_cell_pointers(cell);
+    double draw[4],
+        sigma = by->sensor->pointer_sigma * sqrt(0.5) * interferer_noise_factor(cell->interference);
     if (!by->pointers)
         return pointers;
     random_gaussian(address, RANDOM_POINTERS, 0, draw);
@@ -61,7 +61,8 @@ static double sigma_by_snr(const struct sensor *sensor, double amplitude, double
     return snr_sigma_of(&accuracy, ratio * ratio);
 }
 
-struct deviation measurement_noise_deviation(const struct measurement_noise *by, const struct cell *cell)
+struct deviation measurement_noise_deviation(const struct measurement_noise *by,
+                                             const struct cell *cell)
 {
     const struct sensor *sensor = by->sensor;
     double amplitude = cell->amplitude / interferer_noise_factor(cell->interference);
@@ -76,8 +77,8 @@ struct deviation measurement_noise_deviation(const struct measurement_noise *by,
     return (struct deviation){part * fixed.range_m, part * fixed.range_rate_mps};
 }
 
-void measurement_noise_range(const struct measurement_noise *by, const struct random_address *address,
-                       struct measurement *measurement)
+void measurement_noise_range(const struct measurement_noise *by,
+                             const struct random_address *address, struct measurement *measurement)
 {
     const struct sensor *sensor = by->sensor;
     double draw[2];

@@ -1,7 +1,7 @@
-#include "noise_targets.h"
+#include "noise/noise_targets.h"
 
-#include "ground_return.h"
-#include "poisson.h"
+#include "base/poisson.h"
+#include "radar/ground_return.h"
 
 struct contributor noise_targets_contributor(int64_t number)
 {
@@ -42,8 +42,8 @@ static struct cell make_cell(struct frame *frame, const struct sensor *sensor,
 }
 
 struct cell_span noise_targets_of(struct frame *frame, const struct sensor *sensor,
-                                 const struct selection *selection, double mean,
-                                 const struct random_address *scan)
+                                  const struct selection *selection, double mean,
+                                  const struct random_address *scan)
 {
     const struct sensor_view *view = frame_view(frame, sensor->name);
     double uniform[4];

@@ -7,9 +7,9 @@
 #ifndef NOISE_TARGETS_H
 #define NOISE_TARGETS_H
 
-#include "frame.h"
-#include "random.h"
-#include "suite.h"
+#include "base/random.h"
+#include "documents/suite.h"
+#include "frame/frame.h"
 
 /* The n-th of a scan, without values. That of 0 is the subject of the scan's draws. */
 struct contributor noise_targets_contributor(int64_t number);
@@ -17,7 +17,7 @@ struct contributor noise_targets_contributor(int64_t number);
 /* Makes and counts those of one sensor, none if it did not measure in this frame. selection says
  * whether there is latency. */
 struct cell_span noise_targets_of(struct frame *frame, const struct sensor *sensor,
-                                 const struct selection *selection, double mean,
-                                 const struct random_address *scan);
+                                  const struct selection *selection, double mean,
+                                  const struct random_address *scan);
 
 #endif

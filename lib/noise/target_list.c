@@ -1,11 +1,11 @@
-#include "target_list.h"
+#include "noise/target_list.h"
 
 #include <math.h>
 
-#include "elementary.h"
-#include "frame_order.h"
-#include "sort.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/sort.h"
+#include "base/units.h"
+#include "frame/frame_order.h"
 
 /* Doubles from here on are whole, and infinity is among them: there is nothing to round. */
 #define WHOLE_STEPS 0x1p52
@@ -22,6 +22,16 @@ struct measurement target_list_measure(const struct cell *cell)
         .effects = cell->effects,
         .margins = cell->margins,
     };
+}
+
+void target_list_note_margins(const struct sensor *sensor, const struct cell *cell,
+                              struct antenna_pointers pointers, double amplitude,
+                              bool final_threshold, struct margins *margins)
+{
+    if (final_threshold)
+        margins_note(margins, MARGIN_THRESHOLD,
+                     margins_between_db(amplitude, suite_threshold(sensor, cell->interference)));
+    margins_note_sign(margins, sensor->angle_estimator, pointers);
 }
 
 double target_list_step(double value, double step)
@@ -51,7 +61,8 @@ static int compare_range(const void *left, const void *right)
     return compare_strength(left, right);
 }
 
-static void note_limit(struct measurement *measurements, size_t count, enum list_order order, int64_t limit)
+static void note_limit(struct measurement *measurements, size_t count, enum list_order order,
+                       int64_t limit)
 {
     const struct measurement *last = NULL, *next = NULL;
     int64_t listed = 0;
@@ -73,7 +84,7 @@ static void note_limit(struct measurement *measurements, size_t count, enum list
 }
 
 void target_list_make(struct frame *frame, const char *stage, const struct sensor *sensor,
-                   struct measurement *measurements, size_t count, int64_t limit)
+                      struct measurement *measurements, size_t count, int64_t limit)
 {
     sort_items(measurements, count, sizeof *measurements,
                sensor->list_order == LIST_STRONGEST ? compare_strength : compare_range,
@@ -84,12 +95,14 @@ void target_list_make(struct frame *frame, const char *stage, const struct senso
     for (size_t i = 0; i < count; i++) {
         const struct measurement *measurement = &measurements[i];
         if (!(measurement->amplitude > 0)) {
-            frame_lose_cell(frame, stage, measurement->cell, LOSS_NO_AMPLITUDE, 0, &measurement->margins);
+            frame_lose_cell(frame, stage, measurement->cell, LOSS_NO_AMPLITUDE, 0,
+                            &measurement->margins);
         } else if (limit > 0 && listed == limit) {
-            frame_lose_cell(frame, stage, measurement->cell, LOSS_LIST_LIMIT, 0, &measurement->margins);
+            frame_lose_cell(frame, stage, measurement->cell, LOSS_LIST_LIMIT, 0,
+                            &measurement->margins);
         } else {
-            struct target *target =
-                frame_add_target(frame, measurement->cell, units_amplitude_db(measurement->amplitude));
+            struct target *target = frame_add_target(frame, measurement->cell,
+                                                     units_amplitude_db(measurement->amplitude));
             target->range_m = measurement->range_m;
             target->azimuth_rad = measurement->azimuth_rad;
             target->range_rate_mps = measurement->range_rate_mps;
@@ -105,7 +118,8 @@ void target_list_round(struct target *target, const struct sensor *sensor)
 {
     struct target exact = *target;
     target->range_m = target_list_step(exact.range_m, sensor->range_step_m);
-    target->azimuth_rad = units_wrap_rad(target_list_step(exact.azimuth_rad, sensor->azimuth_step_rad));
+    target->azimuth_rad =
+        units_wrap_rad(target_list_step(exact.azimuth_rad, sensor->azimuth_step_rad));
     target->range_rate_mps = target_list_step(exact.range_rate_mps, sensor->range_rate_step_mps);
     if (target->range_m != exact.range_m || target->azimuth_rad != exact.azimuth_rad ||
         target->range_rate_mps != exact.range_rate_mps)

@@ -1,9 +1,9 @@
-#include "antenna.h"
+#include "radar/antenna.h"
 
 #include <math.h>
 
-#include "elementary.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
 
 /* The two pointers before they turn by e: sum and -j delta. */
 struct antenna_pair {
@@ -117,7 +117,7 @@ static double table_azimuth(const struct antenna *antenna, struct antenna_pair p
     double azimuth_rad = mix(rows[low].azimuth_rad, below / (above + below), rows[high].azimuth_rad,
                              above / (above + below));
     return elementary_min(elementary_max(azimuth_rad, rows[low].azimuth_rad),
-                            rows[high].azimuth_rad);
+                          rows[high].azimuth_rad);
 }
 
 /* NUMERICS 7: arcsin only where it is well conditioned. */

@@ -18,7 +18,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "interval.h"
+#include "base/interval.h"
 
 enum antenna_pattern { ANTENNA_DIPOLE_PAIR, ANTENNA_TABLE };
 enum antenna_phase { PHASE_CENTRE, PHASE_ELEMENT };

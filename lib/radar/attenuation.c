@@ -1,7 +1,7 @@
-#include "attenuation.h"
+#include "radar/attenuation.h"
 
-#include "elementary.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
 
 #define LN_2 0.693147180559945309417
 
@@ -61,7 +61,7 @@ struct attenuation_law attenuation_rain_law(double carrier_hz, enum polarization
 {
     double lg_ghz = elementary_log10(carrier_hz / 1e9);
     return (struct attenuation_law){elementary_pow(10, fit_at(&LG_K[polarization], lg_ghz)),
-                             fit_at(&ALPHA[polarization], lg_ghz)};
+                                    fit_at(&ALPHA[polarization], lg_ghz)};
 }
 
 double attenuation_rain_dbpkm(struct attenuation_law law, double rate_mmph)

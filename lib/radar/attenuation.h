@@ -6,7 +6,7 @@
 #ifndef ATTENUATION_H
 #define ATTENUATION_H
 
-#include "polarization.h"
+#include "radar/carrier.h"
 
 struct attenuation_law {
     double k, alpha;

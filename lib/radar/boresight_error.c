@@ -1,9 +1,9 @@
-#include "boresight_error.h"
+#include "radar/boresight_error.h"
 
 #include <math.h>
 
-#include "elementary.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
 
 double boresight_error_reported_rad(const struct boresight_error *misalignment, double azimuth_rad)
 {

@@ -1,4 +1,4 @@
-#include "carrier.h"
+#include "radar/carrier.h"
 
 #include <math.h>
 

@@ -1,8 +1,8 @@
-#include "cfar.h"
+#include "radar/cfar.h"
 
 #include <math.h>
 
-#include "elementary.h"
+#include "base/elementary.h"
 
 static double ordered_false_alarm(size_t cells, size_t rank, double factor)
 {

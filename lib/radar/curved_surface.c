@@ -1,7 +1,7 @@
-#include "curved_surface.h"
+#include "radar/curved_surface.h"
 
-#include "radar_equation.h"
-#include "units.h"
+#include "base/units.h"
+#include "radar/radar_equation.h"
 
 /* r R / (r + R), finite for any r. */
 static double shortened_m(double radius_m, double range_m)

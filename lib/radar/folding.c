@@ -1,4 +1,4 @@
-#include "folding.h"
+#include "radar/folding.h"
 
 #include <math.h>
 

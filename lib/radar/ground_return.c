@@ -1,6 +1,6 @@
-#include "ground_return.h"
+#include "radar/ground_return.h"
 
-#include "elementary.h"
+#include "base/elementary.h"
 
 double noise_targets_amplitude(double threshold, double noise_sigma, double uniform)
 {
@@ -18,7 +18,8 @@ double ground_return_range_m(double range_min_m, double range_max_m, double unif
     return elementary_min(elementary_max(sqrt(square), range_min_m), range_max_m);
 }
 
-double ground_return_range_rate_mps(struct vec2 sensor_mps, struct vec2 boresight, double azimuth_rad)
+double ground_return_range_rate_mps(struct vec2 sensor_mps, struct vec2 boresight,
+                                    double azimuth_rad)
 {
     return -vec2_dot_accurate(sensor_mps, vec2_turn(vec2_heading(azimuth_rad), boresight));
 }

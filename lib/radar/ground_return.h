@@ -4,7 +4,7 @@
 #ifndef GROUND_RETURN_H
 #define GROUND_RETURN_H
 
-#include "vec2.h"
+#include "base/vec2.h"
 
 /* The amplitude of noise that has passed the threshold. Its power is without memory,
  * threshold^2 + sigma^2 Exp(1), so this is threshold itself without noise. */
@@ -18,6 +18,7 @@ double ground_return_range_m(double range_min_m, double range_max_m, double unif
 
 /* The range rate of what stands on the ground in that azimuth, from the velocity of the sensor
  * itself (mount and turn rate included, motion_velocity_at): -v_s · u. */
-double ground_return_range_rate_mps(struct vec2 sensor_mps, struct vec2 boresight, double azimuth_rad);
+double ground_return_range_rate_mps(struct vec2 sensor_mps, struct vec2 boresight,
+                                    double azimuth_rad);
 
 #endif

@@ -1,9 +1,9 @@
-#include "interferer.h"
+#include "radar/interferer.h"
 
 #include <math.h>
 
-#include "elementary.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
 
 #define BOLTZMANN_JPK 1.380649e-23
 #define REFERENCE_K 290

@@ -1,8 +1,8 @@
-#include "monopulse.h"
+#include "radar/monopulse.h"
 
 #include <math.h>
 
-#include "elementary.h"
+#include "base/elementary.h"
 
 /* Im(delta conj(sum)) to this part of |delta| |sum| is rounding, not phase. */
 #define UNDECIDED 0x1p-47

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "antenna.h"
+#include "radar/antenna.h"
 
 enum monopulse_estimator {
     /* The paper's: magnitude from |delta| and |sum| (the additive sensing ratio, equation 7), sign

@@ -1,10 +1,9 @@
-#include "point_response.h"
+#include "radar/point_response.h"
 
 #include <math.h>
 
-#include "elementary.h"
-#include "units.h"
-#include "window.h"
+#include "base/elementary.h"
+#include "base/units.h"
 
 #define FARTHEST 0.75
 
@@ -21,6 +20,16 @@ double point_response_noise(enum point_response kernel, size_t count)
     return sqrt((kernel == POINT_RESPONSE_HANN ? 1.5 : 1) / (double)count);
 }
 
+double point_response_hann(double bins)
+{
+    double d = fabs(bins);
+    if (d == 0)
+        return 1;
+    if (d == 1)
+        return 0.5;
+    return elementary_sincos_turns(d / 2).sin / (PI * d * ((1 - d) * (1 + d)));
+}
+
 static double gaussian(double d)
 {
     return elementary_exp(-0.25 * d * d * elementary_log(2));
@@ -31,7 +40,7 @@ double point_response_value(enum point_response kernel, double bins)
     double d = fabs(bins);
     if (kernel == POINT_RESPONSE_PULSE)
         return gaussian(d);
-    return kernel == POINT_RESPONSE_HANN ? window_hann(d) : units_si(PI * d);
+    return kernel == POINT_RESPONSE_HANN ? point_response_hann(d) : units_si(PI * d);
 }
 
 double point_response_envelope(enum point_response kernel, double bins)
@@ -75,8 +84,9 @@ static double windowed(enum point_response kernel, double before, double at, dou
     return 2 * ratio / (sqrt(8 * ratio * ratio + 1) + 1);
 }
 
-double point_response_offset(enum point_response kernel, const struct phasor *before, const struct phasor *at,
-                     const struct phasor *after, size_t channels, size_t stride)
+double point_response_offset(enum point_response kernel, const struct phasor *before,
+                             const struct phasor *at, const struct phasor *after, size_t channels,
+                             size_t stride)
 {
     double offset;
     if (kernel == POINT_RESPONSE_PULSE)
@@ -87,4 +97,11 @@ double point_response_offset(enum point_response kernel, const struct phasor *be
             windowed(kernel, in_phase(before, at, channels, stride),
                      in_phase(at, at, channels, stride), in_phase(after, at, channels, stride));
     return isfinite(offset) ? elementary_min(elementary_max(offset, -FARTHEST), FARTHEST) : 0;
+}
+
+double point_response_hann_offset(double before, double peak, double after)
+{
+    double ratio = elementary_max(before, after) / peak;
+    double bins = elementary_max((2 * ratio - 1) / (ratio + 1), 0);
+    return before > after ? -bins : before < after ? bins : 0;
 }

@@ -1,8 +1,8 @@
-#include "radar_equation.h"
+#include "radar/radar_equation.h"
 
 #include <math.h>
 
-#include "elementary.h"
+#include "base/elementary.h"
 
 /* The cross section of a reflector with an ERCS of 1 (MODEL 3). */
 #define ERCS_UNIT_M2 10.0

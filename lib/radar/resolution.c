@@ -1,11 +1,11 @@
-#include "resolution.h"
+#include "radar/resolution.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-#include "elementary.h"
-#include "sort.h"
+#include "base/elementary.h"
+#include "base/sort.h"
 
 #define NO_CELL SIZE_MAX
 

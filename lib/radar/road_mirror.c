@@ -1,10 +1,10 @@
-#include "road_mirror.h"
+#include "radar/road_mirror.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-#include "elementary.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
 
 struct parts {
     double re, im;
@@ -35,12 +35,13 @@ struct road_mirror_paths road_mirror_paths(const struct road_mirror_ends *ends)
     if (bounced_m == 0)
         return (struct road_mirror_paths){0, 0, 0, 1};
     return (struct road_mirror_paths){direct_m, bounced_m,
-                                  4 * sensor_m * reflector_m / (direct_m + bounced_m),
-                                  (sensor_m + reflector_m) / bounced_m};
+                                      4 * sensor_m * reflector_m / (direct_m + bounced_m),
+                                      (sensor_m + reflector_m) / bounced_m};
 }
 
-double _Complex road_mirror_reflection(const struct road_mirror_road *road, enum polarization polarization,
-                                   double wavelength_m, double grazing_sine)
+double _Complex road_mirror_reflection(const struct road_mirror_road *road,
+                                       enum polarization polarization, double wavelength_m,
+                                       double grazing_sine)
 {
     double cosine_squared = (1 - grazing_sine) * (1 + grazing_sine);
     struct parts r = root(road->permittivity - cosine_squared, road->permittivity_loss);
@@ -61,7 +62,7 @@ static double spreading(const struct road_mirror_paths *paths)
 }
 
 double road_mirror_point_factor(const struct road_mirror_paths *paths, double _Complex reflection,
-                            double wavelength_m)
+                                double wavelength_m)
 {
     struct elementary_sincos turn = elementary_sincos_turns(-paths->difference_m / wavelength_m);
     double re = creal(reflection) * turn.cos - cimag(reflection) * turn.sin;
@@ -82,14 +83,15 @@ static bool averages(const struct road_mirror_ends *ends, double wavelength_m)
     return 4 * ends->sensor_height_m * ends->extent_m > wavelength_m * ends->distance_m;
 }
 
-double road_mirror_amplitude_factor(const struct road_mirror_road *road, enum polarization polarization,
-                                double wavelength_m, const struct road_mirror_ends *ends)
+double road_mirror_amplitude_factor(const struct road_mirror_road *road,
+                                    enum polarization polarization, double wavelength_m,
+                                    const struct road_mirror_ends *ends)
 {
     struct road_mirror_paths paths = road_mirror_paths(ends);
     double _Complex reflection =
         road_mirror_reflection(road, polarization, wavelength_m, paths.grazing_sine);
     if (averages(ends, wavelength_m))
         return road_mirror_mean_factor(spreading(&paths) *
-                                   elementary_hypot(creal(reflection), cimag(reflection)));
+                                       elementary_hypot(creal(reflection), cimag(reflection)));
     return road_mirror_point_factor(&paths, reflection, wavelength_m);
 }

@@ -16,7 +16,7 @@
 
 #include <complex.h>
 
-#include "polarization.h"
+#include "radar/carrier.h"
 
 /* Dry asphalt is about 5 - j 0.25 with 1 mm; concrete 5.24 - j 0.42 at 24 and 5.24 - j 0.32 at
  * 77 GHz with 0.3 mm. */
@@ -43,12 +43,13 @@ struct road_mirror_paths {
 struct road_mirror_paths road_mirror_paths(const struct road_mirror_ends *ends);
 
 /* g, of size at most 1 and -1 at grazing incidence; wavelength > 0. */
-double _Complex road_mirror_reflection(const struct road_mirror_road *road, enum polarization polarization,
-                                   double wavelength_m, double grazing_sine);
+double _Complex road_mirror_reflection(const struct road_mirror_road *road,
+                                       enum polarization polarization, double wavelength_m,
+                                       double grazing_sine);
 
 /* F^2 of a point for any g. */
 double road_mirror_point_factor(const struct road_mirror_paths *paths, double _Complex reflection,
-                            double wavelength_m);
+                                double wavelength_m);
 
 /* sqrt(<F^4>) = sqrt(1 + 4 g^2 + g^4) of a reflector so high that the phases average out;
  * reflection is |g| R1/R2. */
@@ -57,7 +58,8 @@ double road_mirror_mean_factor(double reflection);
 /* All of the above: the factor on an echo's amplitude. The mean where the reflector's extent is
  * more than half a lobe, whose height at the reflector is lambda R/(2 h_s), else that of a point.
  */
-double road_mirror_amplitude_factor(const struct road_mirror_road *road, enum polarization polarization,
-                                double wavelength_m, const struct road_mirror_ends *ends);
+double road_mirror_amplitude_factor(const struct road_mirror_road *road,
+                                    enum polarization polarization, double wavelength_m,
+                                    const struct road_mirror_ends *ends);
 
 #endif

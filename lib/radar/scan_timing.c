@@ -1,10 +1,10 @@
-#include "scan_timing.h"
+#include "radar/scan_timing.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
 
-#include "elementary.h"
+#include "base/elementary.h"
 
 /* The number of the latest instant at or before time_s; -1 before the first. */
 static double latest_instant(double cycle_s, double time_s)
@@ -20,7 +20,7 @@ static double decimal(double time_s)
 }
 
 enum scan_timing_answer scan_timing_instant_s(double cycle_s, double time_s, double interval_s,
-                                  double *instant_s)
+                                              double *instant_s)
 {
     if (cycle_s == 0) {
         *instant_s = time_s;

@@ -11,8 +11,9 @@
 enum scan_timing_answer { SCAN_TIMING_NONE, SCAN_TIMING_ONE, SCAN_TIMING_SEVERAL };
 
 /* Whether the frame holds an instant of the cycle, and which. cycle_s = 0 means once a frame, at
- * time_s. SCAN_TIMING_SEVERAL (the frame rate is too low for the sensor) leaves the instant unset. */
+ * time_s. SCAN_TIMING_SEVERAL (the frame rate is too low for the sensor) leaves the instant unset.
+ */
 enum scan_timing_answer scan_timing_instant_s(double cycle_s, double time_s, double interval_s,
-                                  double *instant_s);
+                                              double *instant_s);
 
 #endif

@@ -1,10 +1,10 @@
-#include "swerling.h"
+#include "radar/swerling.h"
 
 #include <math.h>
 
-#include "elementary.h"
-#include "random.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/random.h"
+#include "base/units.h"
 
 #define LN_10 2.30258509299404568402
 
@@ -21,8 +21,7 @@ static double log_normal(double sigma_db, double gaussian)
     return units_amplitude_from_db(mean_db + sigma_db * gaussian);
 }
 
-double swerling_amplitude_factor(enum fluctuation_law law, double sigma_db,
-                                    const double uniform[4])
+double swerling_amplitude_factor(enum fluctuation_law law, double sigma_db, const double uniform[4])
 {
     switch (law) {
     case FLUCTUATION_SWERLING_1:

@@ -22,6 +22,6 @@ enum fluctuation_law {
 /* uniform is a block of random_uniform; sigma_db >= 0 counts for the log-normal law only. Exactly 1
  * without fluctuation and for a log-normal of 0 dB. */
 double swerling_amplitude_factor(enum fluctuation_law law, double sigma_db,
-                                    const double uniform[4]);
+                                 const double uniform[4]);
 
 #endif

@@ -1,15 +1,15 @@
-#include "chain.h"
+#include "run/chain.h"
 
 #include <stdio.h>
 #include <time.h>
 
-#include "document.h"
-#include "frame_check.h"
-#include "frame_order.h"
-#include "frame_text.h"
-#include "input.h"
-#include "progress.h"
-#include "list_cache.h"
+#include "frame/frame_check.h"
+#include "frame/frame_order.h"
+#include "frame/frame_text.h"
+#include "run/progress.h"
+#include "text/document.h"
+#include "text/input.h"
+#include "text/list_cache.h"
 
 struct chain {
     struct runner *runners;

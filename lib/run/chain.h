@@ -6,7 +6,7 @@
 #ifndef CHAIN_H
 #define CHAIN_H
 
-#include "runner.h"
+#include "run/runner.h"
 
 /* Where the time of a chain went, in nanoseconds of CPU time, which other processes do not count
  * into; what measurement the clock takes is off. */

@@ -1,4 +1,4 @@
-#include "explain.h"
+#include "run/explain.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -7,7 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "text.h"
+#include "base/text.h"
 
 static int64_t clock_ns(void)
 {

@@ -2,7 +2,7 @@
 #ifndef EXPLAIN_H
 #define EXPLAIN_H
 
-#include "effects.h"
+#include "frame/effects.h"
 
 /* An empty log with a clock. */
 struct effect_log *explain_begin(struct arena *arena);

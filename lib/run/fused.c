@@ -1,14 +1,14 @@
-#include "fused.h"
+#include "run/fused.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "chain.h"
-#include "document.h"
-#include "input.h"
-#include "pipeline.h"
-#include "schema.h"
+#include "run/chain.h"
+#include "run/pipeline.h"
+#include "run/schema.h"
+#include "text/document.h"
+#include "text/input.h"
 
 static const char usage[] =
     "Usage: glint FILE\n"

@@ -2,7 +2,7 @@
 #ifndef FUSED_H
 #define FUSED_H
 
-#include "stage.h"
+#include "run/stage.h"
 
 /* Every stage of the build, NULL at the end: made from the listing of stages/ by the Makefile. */
 extern const struct stage *const stages[];

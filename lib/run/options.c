@@ -1,4 +1,4 @@
-#include "options.h"
+#include "run/options.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,8 +2,8 @@
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
-#include "stage.h"
-#include "text.h"
+#include "base/text.h"
+#include "run/stage.h"
 
 #define GLINT_VERSION "0.1.0"
 

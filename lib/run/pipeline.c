@@ -1,9 +1,9 @@
-#include "pipeline.h"
+#include "run/pipeline.h"
 
 #include <stdbool.h>
 #include <string.h>
 
-#include "text.h"
+#include "base/text.h"
 
 struct parser {
     const char *at, *end;

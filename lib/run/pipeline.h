@@ -5,8 +5,8 @@
 #ifndef PIPELINE_H
 #define PIPELINE_H
 
-#include "diag.h"
-#include "arena.h"
+#include "base/arena.h"
+#include "base/diag.h"
 
 struct command {
     LIST_OF(const char *) words; /* the first is the program */

@@ -1,11 +1,11 @@
-#include "plan.h"
+#include "run/plan.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
-#include "elementary.h"
-#include "frame_text.h"
+#include "base/elementary.h"
+#include "frame/frame_text.h"
 
 const char *plan_request(uint64_t allowed, struct arena *arena)
 {

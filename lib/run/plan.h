@@ -7,8 +7,8 @@
 #ifndef PLAN_H
 #define PLAN_H
 
-#include "frame.h"
-#include "text.h"
+#include "base/text.h"
+#include "frame/frame.h"
 
 struct plan_position {
     const char *stage;     /* "sensor" */

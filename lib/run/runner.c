@@ -1,13 +1,13 @@
-#include "runner.h"
+#include "run/runner.h"
 
 #include <string.h>
 
-#include "frame_account.h"
-#include "explain.h"
-#include "frame_check.h"
-#include "frame_order.h"
-#include "frame_text.h"
-#include "sort.h"
+#include "base/sort.h"
+#include "frame/frame_account.h"
+#include "frame/frame_check.h"
+#include "frame/frame_order.h"
+#include "frame/frame_text.h"
+#include "run/explain.h"
 
 struct arena *runner_arena(struct runner *runner)
 {
@@ -205,7 +205,7 @@ const struct vehicle *runner_vehicle(struct runner *runner, const char *class)
     for (size_t i = 0; i < runner->vehicles.count; i++)
         if (frame_same_name(runner->vehicles.items[i]->reflectors.model, class))
             return runner->vehicles.items[i];
-    const struct vehicle *vehicle = catalogue_vehicle(class, &runner->arena, &runner->diag);
+    const struct vehicle *vehicle = vehicle_load(class, &runner->arena, &runner->diag);
     if (vehicle == NULL)
         return NULL;
     *list_add(&runner->vehicles, &runner->arena) = vehicle;
@@ -391,7 +391,7 @@ static struct runner *rehearsing(struct runner *runner, const struct stage *stag
 }
 
 int runner_try_stage(struct runner *runner, const struct stage *stage,
-                    const struct suite_choice *choice, struct effect_log *log, struct frame *frame)
+                     const struct suite_choice *choice, struct effect_log *log, struct frame *frame)
 {
     struct runner *other = rehearsing(runner, stage, choice, log);
     if (other->diag.code == DIAG_OK && runner_step(other, frame) == 0)

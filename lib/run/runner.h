@@ -3,10 +3,10 @@
 #ifndef RUNNER_H
 #define RUNNER_H
 
-#include "frame_sequence.h"
-#include "options.h"
-#include "output.h"
-#include "stage.h"
+#include "frame/frame_sequence.h"
+#include "run/options.h"
+#include "run/stage.h"
+#include "text/output.h"
 
 struct runner {
     const struct stage *stage;
@@ -17,11 +17,11 @@ struct runner {
     struct output *output; /* of the last stage in a chain, else NULL */
     LIST_OF(const struct suite *) suites;
     LIST_OF(const struct vehicle *) vehicles; /* by class */
-    struct frame_sequence completeness;         /* followed only under --complete */
+    struct frame_sequence completeness;       /* followed only under --complete */
     int64_t expected_frames;                  /* 0 if the source does not say */
     struct effect_log *log;                   /* NULL unless --explain was given */
     LIST_OF(struct runner *) rehearsing;      /* other stages, inside this one */
-    struct reference_stream *counterpart;          /* NULL: none was asked for */
+    struct reference_stream *counterpart;     /* NULL: none was asked for */
 };
 
 /* All return 0, or -1 after a message in runner->diag; runner_next returns 1 with a frame and 0 at

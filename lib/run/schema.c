@@ -1,11 +1,13 @@
-#include "schema.h"
+#include "run/schema.h"
 
 #include <string.h>
 
-#include "catalogue.h"
-#include "frame.h"
-#include "score.h"
-#include "track.h"
+#include "documents/catalogue.h"
+#include "documents/vehicle.h"
+#include "frame/frame.h"
+#include "score/score.h"
+#include "score/track.h"
+#include "traffic/scenario.h"
 
 static const struct {
     const char *name;

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "text.h"
+#include "base/text.h"
 
 /* "frame", "scenario", ...: one a line. */
 void schema_list(struct text *text);

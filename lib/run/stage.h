@@ -14,10 +14,11 @@
 #ifndef STAGE_H
 #define STAGE_H
 
-#include "catalogue.h"
-#include "reference_stream.h"
-#include "frame.h"
-#include "units.h"
+#include "base/units.h"
+#include "documents/catalogue.h"
+#include "documents/vehicle.h"
+#include "frame/frame.h"
+#include "score/reference_stream.h"
 
 struct runner;
 
@@ -119,7 +120,8 @@ int runner_extract(struct runner *runner, struct frame *frame,
  * noted in a log that has a clock (or NULL), and all the checks of a run. Started at its first
  * rehearsal and kept. A stage that rehearses others names them as they are defined, `extern`. */
 int runner_try_stage(struct runner *runner, const struct stage *stage,
-                    const struct suite_choice *choice, struct effect_log *log, struct frame *frame);
+                     const struct suite_choice *choice, struct effect_log *log,
+                     struct frame *frame);
 
 /* A sink's way out. */
 int runner_write(struct runner *runner, const char *bytes, size_t length);

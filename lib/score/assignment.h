@@ -2,7 +2,7 @@
 #ifndef ASSIGNMENT_H
 #define ASSIGNMENT_H
 
-#include "arena.h"
+#include "base/arena.h"
 
 #define ASSIGNMENT_NONE ((size_t)-1)
 

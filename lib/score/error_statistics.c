@@ -1,10 +1,10 @@
-#include "error_statistics.h"
+#include "score/error_statistics.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-#include "elementary.h"
-#include "sort.h"
+#include "base/elementary.h"
+#include "base/sort.h"
 
 static int ascending(const void *left, const void *right)
 {
@@ -36,8 +36,8 @@ struct error_statistics error_statistics_of(double *differences, size_t count, s
     };
 }
 
-double error_statistics_wasserstein(double *one, size_t one_count, double *other, size_t other_count,
-                              struct arena *arena)
+double error_statistics_wasserstein(double *one, size_t one_count, double *other,
+                                    size_t other_count, struct arena *arena)
 {
     sort(one, one_count, arena);
     sort(other, other_count, arena);

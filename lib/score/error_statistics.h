@@ -2,7 +2,7 @@
 #ifndef ERROR_STATISTICS_H
 #define ERROR_STATISTICS_H
 
-#include "arena.h"
+#include "base/arena.h"
 
 struct error_statistics {
     double mean;     /* signed: the bias */
@@ -16,7 +16,7 @@ struct error_statistics error_statistics_of(double *differences, size_t count, s
 /* The Wasserstein-1 distance of two samples that were not paired: the area between their cumulative
  * distributions, which is how far their values must move on average to become the others. Counts
  * > 0; both are sorted on the way. A sample that is shifted by s is at |s|. */
-double error_statistics_wasserstein(double *one, size_t one_count, double *other, size_t other_count,
-                              struct arena *arena);
+double error_statistics_wasserstein(double *one, size_t one_count, double *other,
+                                    size_t other_count, struct arena *arena);
 
 #endif

@@ -1,9 +1,9 @@
-#include "gospa.h"
+#include "score/gospa.h"
 
 #include <math.h>
 
-#include "assignment.h"
-#include "elementary.h"
+#include "base/elementary.h"
+#include "score/assignment.h"
 
 /* With costs of at most c^2 every item of the shorter list gets a partner; one at the cut-off costs
  * what two items left alone do, and is none. */

@@ -11,7 +11,7 @@
 #ifndef GOSPA_H
 #define GOSPA_H
 
-#include "arena.h"
+#include "base/arena.h"
 
 struct gospa {
     double value;                                 /* the square root of the sum of: */

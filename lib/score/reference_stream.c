@@ -1,14 +1,14 @@
-#include "reference_stream.h"
+#include "score/reference_stream.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame_check.h"
-#include "frame_order.h"
-#include "frame_text.h"
-#include "input.h"
-#include "json_scan.h"
+#include "frame/frame_check.h"
+#include "frame/frame_order.h"
+#include "frame/frame_text.h"
+#include "text/input.h"
+#include "text/json_scan.h"
 
 /* Streams of the same scenes agree in time but for how it was written. */
 static const double same_time_s = 1e-6;
@@ -149,8 +149,8 @@ static void hold(struct reference_stream *counterpart, const struct key *key)
     counterpart->last = &line->next;
 }
 
-static int leave(struct reference_stream *counterpart, size_t number, const char *scene, int64_t frame,
-                 struct diag *diag)
+static int leave(struct reference_stream *counterpart, size_t number, const char *scene,
+                 int64_t frame, struct diag *diag)
 {
     counterpart->left++;
     if (counterpart->partial)
@@ -252,8 +252,8 @@ static int check_time(const struct frame *frame, double time_s, struct diag *dia
         frame->time_s);
 }
 
-int reference_stream_frame(struct reference_stream *counterpart, const struct frame *frame, unsigned sections,
-                      const struct frame **other, struct diag *diag)
+int reference_stream_frame(struct reference_stream *counterpart, const struct frame *frame,
+                           unsigned sections, const struct frame **other, struct diag *diag)
 {
     int found = find(counterpart, frame, diag);
     if (found <= 0)
@@ -273,7 +273,7 @@ int reference_stream_frame(struct reference_stream *counterpart, const struct fr
 }
 
 int reference_stream_tracks(struct reference_stream *counterpart, const struct frame *frame,
-                       struct track_list *tracks, struct diag *diag)
+                            struct track_list *tracks, struct diag *diag)
 {
     int found = find(counterpart, frame, diag);
     if (found <= 0)
@@ -282,7 +282,7 @@ int reference_stream_tracks(struct reference_stream *counterpart, const struct f
     if (frame_text_read_record(counterpart->line, counterpart->length, &track_list_record, tracks,
                                frame->arena, diag) != 0 ||
         track_order(tracks, frame->arena, diag) != 0 ||
-        ((tracks->told & TRACK_TIME) != 0 && check_time(frame, tracks->time_s, diag) != 0))
+        ((tracks->present & TRACK_TIME) != 0 && check_time(frame, tracks->time_s, diag) != 0))
         return place(counterpart, diag);
     return 1;
 }

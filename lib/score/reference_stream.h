@@ -6,8 +6,8 @@
 #ifndef REFERENCE_STREAM_H
 #define REFERENCE_STREAM_H
 
-#include "frame.h"
-#include "track.h"
+#include "frame/frame.h"
+#include "score/track.h"
 
 struct reference_stream;
 
@@ -19,12 +19,12 @@ void reference_stream_close(struct reference_stream *counterpart);
 /* The line for this frame's scene and number, read as a frame that has these sections and the same
  * time, in canonical order and checked. It belongs to the counterpart and stays until the next
  * call. 1, 0 if there is none, -1. */
-int reference_stream_frame(struct reference_stream *counterpart, const struct frame *frame, unsigned sections,
-                      const struct frame **other, struct diag *diag);
+int reference_stream_frame(struct reference_stream *counterpart, const struct frame *frame,
+                           unsigned sections, const struct frame **other, struct diag *diag);
 
 /* The same, read as tracks, in the order of their ids; all lies in the frame's arena. */
 int reference_stream_tracks(struct reference_stream *counterpart, const struct frame *frame,
-                       struct track_list *tracks, struct diag *diag);
+                            struct track_list *tracks, struct diag *diag);
 
 /* Reads on to the end. Without partial, refuses lines that nobody asked for. */
 int reference_stream_finish(struct reference_stream *counterpart, struct diag *diag);

@@ -1,11 +1,11 @@
-#include "score.h"
+#include "score/score.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "error_statistics.h"
-#include "elementary.h"
-#include "sort.h"
+#include "base/elementary.h"
+#include "base/sort.h"
+#include "score/error_statistics.h"
 
 #define COUNT(owner, member, help)                                                                 \
     {                                                                                              \
@@ -35,7 +35,7 @@ static const struct record differences_record = {
     .help = "In the component's unit; absent where there are no pairs, or a list is empty.",
     .size = sizeof(struct score_differences),
     .fields = differences_fields,
-    .present_offset = offsetof(struct score_differences, told),
+    .present_offset = offsetof(struct score_differences, present),
 };
 
 #define COMPONENT(name_, which, help_)                                                             \
@@ -225,9 +225,9 @@ static struct score_differences differences_of(const struct score_tally *tallies
         differences = (struct score_differences){of.mean, of.rms, of.p95, of.max, 0, SCORE_PAIRS};
     }
     if (truth.list.count > 0 && list.list.count > 0) {
-        differences.wasserstein = error_statistics_wasserstein(truth.list.items, truth.list.count,
-                                                         list.list.items, list.list.count, arena);
-        differences.told |= SCORE_LISTS;
+        differences.wasserstein = error_statistics_wasserstein(
+            truth.list.items, truth.list.count, list.list.items, list.list.count, arena);
+        differences.present |= SCORE_LISTS;
     }
     return differences;
 }

@@ -5,8 +5,8 @@
 #ifndef SCORE_H
 #define SCORE_H
 
-#include "field.h"
-#include "gospa.h"
+#include "score/gospa.h"
+#include "text/field.h"
 
 enum score_component {
     SCORE_RANGE,
@@ -24,7 +24,7 @@ enum { SCORE_PAIRS = 1 << 0, SCORE_LISTS = 1 << 1 };
 struct score_differences {
     double mean, rms, p95, max; /* listed less true, over the pairs */
     double wasserstein;         /* of the two lists, unpaired */
-    unsigned told;              /* SCORE_PAIRS, SCORE_LISTS: there were any */
+    unsigned present;           /* SCORE_PAIRS, SCORE_LISTS: there were any */
 };
 
 struct score {

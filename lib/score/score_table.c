@@ -1,4 +1,4 @@
-#include "score_table.h"
+#include "score/score_table.h"
 
 #include <inttypes.h>
 #include <string.h>

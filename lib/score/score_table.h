@@ -2,8 +2,8 @@
 #ifndef SCORE_TABLE_H
 #define SCORE_TABLE_H
 
-#include "score.h"
-#include "text.h"
+#include "base/text.h"
+#include "score/score.h"
 
 /* The heads are printed above the columns; as many as there are scores. */
 void score_table_write(const struct score *scores, const char *const *heads, size_t count,

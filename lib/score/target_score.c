@@ -1,10 +1,10 @@
-#include "target_score.h"
+#include "score/target_score.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "sort.h"
-#include "units.h"
+#include "base/sort.h"
+#include "base/units.h"
 
 enum { COMPONENTS = SCORE_AMPLITUDE + 1 };
 

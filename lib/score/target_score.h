@@ -7,8 +7,8 @@
 #ifndef TARGET_SCORE_H
 #define TARGET_SCORE_H
 
-#include "frame.h"
-#include "score.h"
+#include "frame/frame.h"
+#include "score/score.h"
 
 /* What counts as one cell, all positive, and from how many cells on targets are no pair. */
 struct target_cell {

@@ -1,8 +1,8 @@
-#include "track.h"
+#include "score/track.h"
 
 #include <string.h>
 
-#include "sort.h"
+#include "base/sort.h"
 
 static const struct field track_fields[] = {
     {FIELD_NAME_OF(struct track, id, "unique in the line; stays with its object")},
@@ -36,7 +36,7 @@ const struct record track_list_record = {
     .help = "What a tracker says of one frame: a line for glint-score-tracks.",
     .size = sizeof(struct track_list),
     .fields = list_fields,
-    .present_offset = offsetof(struct track_list, told),
+    .present_offset = offsetof(struct track_list, present),
 };
 
 static int compare(const void *left, const void *right)

@@ -2,7 +2,7 @@
 #ifndef TRACK_H
 #define TRACK_H
 
-#include "field.h"
+#include "text/field.h"
 
 /* Where the tracker has an object, in the frame's coordinates and as frames give objects: the
  * centre of its box and that one's velocity over ground, relative to the frame's origin. */
@@ -20,7 +20,7 @@ struct track_list {
     double time_s;
     LIST_OF(struct track) tracks;
     const char *extra;
-    unsigned told; /* TRACK_TIME: time_s is there */
+    unsigned present; /* TRACK_TIME: time_s is there */
 };
 
 extern const struct record track_list_record;

@@ -1,12 +1,12 @@
-#include "track_score.h"
+#include "score/track_score.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "assignment.h"
-#include "sort.h"
-#include "units.h"
-#include "vec2.h"
+#include "base/sort.h"
+#include "base/units.h"
+#include "base/vec2.h"
+#include "score/assignment.h"
 
 const char *const track_truths[] = {[TRACK_TRUTH_IN_VIEW] = "in_view",
                                     [TRACK_TRUTH_DETECTED] = "detected",

@@ -6,9 +6,9 @@
 #ifndef TRACK_SCORE_H
 #define TRACK_SCORE_H
 
-#include "frame.h"
-#include "score.h"
-#include "track.h"
+#include "frame/frame.h"
+#include "score/score.h"
+#include "score/track.h"
 
 /* Which objects a tracker is expected to have. The ego never is one. */
 enum track_truth {

@@ -1,9 +1,9 @@
-#include "cell_margins.h"
+#include "sensor/cell_margins.h"
 
 #include <complex.h>
 #include <math.h>
 
-#include "elementary.h"
+#include "base/elementary.h"
 
 /* By how many half cells other lies beyond the edge of a cell around leader; negative inside. */
 static double beyond_edge(const struct sensor *sensor, const struct received_echo *leader,
@@ -12,7 +12,7 @@ static double beyond_edge(const struct sensor *sensor, const struct received_ech
     double range_m = fabs(other->range_m - leader->range_m);
     double rate_mps = fabs(other->range_rate_mps - leader->range_rate_mps);
     return elementary_max((range_m - sensor->half_range_m) / sensor->half_range_m,
-                           (rate_mps - sensor->half_range_rate_mps) / sensor->half_range_rate_mps);
+                          (rate_mps - sensor->half_range_rate_mps) / sensor->half_range_rate_mps);
 }
 
 static void note_pair(const struct sensor *sensor, const struct received_echo *leader,
@@ -43,26 +43,9 @@ struct margins cell_margins_of(const struct sensor *sensor, const struct cluster
     return margins;
 }
 
-static void note_sign(const struct sensor *sensor, struct antenna_pointers pointers,
-                      struct margins *margins)
-{
-    if (sensor->angle_estimator == MONOPULSE_MAGNITUDE)
-        margins_note(margins, MARGIN_SIGN, monopulse_sign_margin(pointers));
-}
-
 void cell_margins_add(const struct sensor *sensor, struct cell *cell)
 {
     margins_note(&cell->margins, MARGIN_THRESHOLD,
-                 margins_between_db(cell->amplitude, resolution_cell_threshold(sensor, cell)));
-    note_sign(sensor, resolution_cell_pointers(cell), &cell->margins);
-}
-
-void cell_margins_add_noisy(const struct sensor *sensor, const struct cell *cell,
-                            struct antenna_pointers pointers, double amplitude,
-                            bool final_threshold, struct margins *margins)
-{
-    if (final_threshold)
-        margins_note(margins, MARGIN_THRESHOLD,
-                     margins_between_db(amplitude, resolution_cell_threshold(sensor, cell)));
-    note_sign(sensor, pointers, margins);
+                 margins_between_db(cell->amplitude, suite_threshold(sensor, cell->interference)));
+    margins_note_sign(&cell->margins, sensor->angle_estimator, frame_cell_pointers(cell));
 }

@@ -2,7 +2,7 @@
 #ifndef CELL_MARGINS_H
 #define CELL_MARGINS_H
 
-#include "resolution_cell.h"
+#include "sensor/resolution_cell.h"
 
 /* Rays as the sensor clustered them, strongest first, each with the number of its cell. */
 struct clustered_echoes {
@@ -21,10 +21,5 @@ struct margins cell_margins_of(const struct sensor *sensor, const struct cluster
 /* Adds what was decided about the cell as a whole: the threshold on its summed amplitude, and the
  * sign of its azimuth, which only the magnitude rule decides. */
 void cell_margins_add(const struct sensor *sensor, struct cell *cell);
-
-/* The same for what noise made of it: the final threshold, if it is tested, and the sign. */
-void cell_margins_add_noisy(const struct sensor *sensor, const struct cell *cell,
-                            struct antenna_pointers pointers, double amplitude,
-                            bool final_threshold, struct margins *margins);
 
 #endif

@@ -1,11 +1,11 @@
-#include "escalation.h"
+#include "sensor/escalation.h"
 
 #include <complex.h>
 #include <math.h>
 
-#include "elementary.h"
-#include "attenuation.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
+#include "radar/attenuation.h"
 
 #define WEATHER (EFFECT_BIT(EFFECT_RAIN) | EFFECT_BIT(EFFECT_FOG))
 #define WEATHER_AZIMUTH 0.5
@@ -52,8 +52,7 @@ uint64_t escalation_spared(const struct reception *reception, const struct selec
 /* M1: no cell is above the threshold that weather might take below it. */
 static bool thresholds_hold(const struct scan *scan, double alone)
 {
-    const struct cell quiet = {.interference = scan->reception.interference};
-    double threshold = resolution_cell_threshold(scan->reception.sensor, &quiet);
+    double threshold = suite_threshold(scan->reception.sensor, scan->reception.interference);
     for (size_t number = 0; number < scan->cells; number++) {
         size_t count;
         const struct received_echo *members = scan_members(scan, number, &count);
@@ -66,7 +65,8 @@ static bool thresholds_hold(const struct scan *scan, double alone)
     return true;
 }
 
-static bool in_reach(const struct sensor *sensor, const struct received_echo *a, const struct received_echo *b)
+static bool in_reach(const struct sensor *sensor, const struct received_echo *a,
+                     const struct received_echo *b)
 {
     return fabs(a->range_m - b->range_m) <= 2 * sensor->half_range_m * (1 + SLACK) &&
            fabs(a->range_rate_mps - b->range_rate_mps) <=
@@ -84,7 +84,8 @@ static bool leaders_hold(const struct scan *scan, double between)
             continue;
         opened++;
         for (size_t j = i + 1; j < all->count; j++)
-            if (in_reach(scan->reception.sensor, &all->received_echoes[i], &all->received_echoes[j]) &&
+            if (in_reach(scan->reception.sensor, &all->received_echoes[i],
+                         &all->received_echoes[j]) &&
                 !(all->received_echoes[i].amplitude > between * all->received_echoes[j].amplitude))
                 return false;
     }
@@ -92,7 +93,8 @@ static bool leaders_hold(const struct scan *scan, double between)
 }
 
 /* Do pointers add in phase and have a real ratio, so that what is read lies between the members? */
-static bool adds_in_phase(const struct sensor *sensor, const struct received_echo *members, size_t count)
+static bool adds_in_phase(const struct sensor *sensor, const struct received_echo *members,
+                          size_t count)
 {
     for (size_t i = 0; i < count; i++)
         if (members[i].phase_rad != 0)
@@ -112,12 +114,13 @@ static struct span widen(struct span span, double value)
 /* Delta over sum, signed, of a pointer from the array's centre: sum is real, delta imaginary. */
 static double ratio_of(const struct sensor *sensor, const struct received_echo *received)
 {
-    struct antenna_pointers pointers = antenna_pointers(&sensor->antenna, received->echo.azimuth_rad);
+    struct antenna_pointers pointers =
+        antenna_pointers(&sensor->antenna, received->echo.azimuth_rad);
     return -cimag(pointers.delta) / creal(pointers.sum);
 }
 
-static bool angle_holds(const struct sensor *sensor, const struct received_echo *members, size_t count,
-                        double part, double limit_rad)
+static bool angle_holds(const struct sensor *sensor, const struct received_echo *members,
+                        size_t count, double part, double limit_rad)
 {
     double weighted = 0, total = 0;
     struct span span = {(double)INFINITY, -(double)INFINITY};
@@ -138,8 +141,8 @@ static bool angle_holds(const struct sensor *sensor, const struct received_echo 
 
 /* M4 and M5: a weighted mean over [0, 1] whose weights change by factors within [1/g, g] moves by
  * at most (g - 1)/(g + 1). */
-static bool means_hold(const struct sensor *sensor, const struct received_echo *members, size_t count,
-                       double between, const struct tolerance *tolerance)
+static bool means_hold(const struct sensor *sensor, const struct received_echo *members,
+                       size_t count, double between, const struct tolerance *tolerance)
 {
     struct span range = {(double)INFINITY, -(double)INFINITY}, rate = range;
     for (size_t i = 0; i < count; i++) {
@@ -168,8 +171,9 @@ bool escalation_holds(const struct scan *scan, struct weakening weakening,
     return true;
 }
 
-bool escalation_spares_superposition(const struct sensor *sensor, const struct received_echo *members,
-                                     size_t count, const struct tolerance *tolerance)
+bool escalation_spares_superposition(const struct sensor *sensor,
+                                     const struct received_echo *members, size_t count,
+                                     const struct tolerance *tolerance)
 {
     struct span azimuth = {(double)INFINITY, -(double)INFINITY};
     if (!tolerant(tolerance) || !adds_in_phase(sensor, members, count))

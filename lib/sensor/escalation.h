@@ -11,7 +11,7 @@
 #ifndef ESCALATION_H
 #define ESCALATION_H
 
-#include "scan.h"
+#include "sensor/scan.h"
 
 /* What weather may do to the amplitude of an echo, and to that of one echo against another that is
  * no farther from it than two echoes of one cell can be: factors >= 1 at most, and their inverses
@@ -31,9 +31,10 @@ uint64_t escalation_spared(const struct reception *reception, const struct selec
 bool escalation_holds(const struct scan *scan, struct weakening weakening,
                       const struct tolerance *tolerance);
 
-/* Can the cell of these received echoes be read at their mean azimuth, with no value off by more than
- * superposition's share? Only where pointers add in phase, from the array's centre. */
-bool escalation_spares_superposition(const struct sensor *sensor, const struct received_echo *members,
-                                     size_t count, const struct tolerance *tolerance);
+/* Can the cell of these received echoes be read at their mean azimuth, with no value off by more
+ * than superposition's share? Only where pointers add in phase, from the array's centre. */
+bool escalation_spares_superposition(const struct sensor *sensor,
+                                     const struct received_echo *members, size_t count,
+                                     const struct tolerance *tolerance);
 
 #endif

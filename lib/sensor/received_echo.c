@@ -1,15 +1,15 @@
-#include "received_echo.h"
+#include "sensor/received_echo.h"
 
 #include <math.h>
 
-#include "draw_address.h"
-#include "folding.h"
-#include "carrier.h"
-#include "elementary.h"
-#include "swerling.h"
-#include "interferer.h"
-#include "road_mirror.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
+#include "frame/draw_address.h"
+#include "radar/carrier.h"
+#include "radar/folding.h"
+#include "radar/interferer.h"
+#include "radar/road_mirror.h"
+#include "radar/swerling.h"
 
 #define FOG_C 10
 #define AT_HOME                                                                                    \
@@ -95,10 +95,10 @@ static double interference_of(const struct frame *frame, const struct sensor *se
     double gain_db = sensor->antenna_gain_dbi + units_amplitude_db(pattern) / 2;
     return interferer_ratio(
         interferer_power_dbm(other->eirp_dbm, gain_db, units_wavelength_m(sensor->carrier_hz),
-                               range_m),
+                             range_m),
         interferer_noise_dbm(sensor->receiver_bandwidth_hz, sensor->noise_figure_db),
         interferer_overlap(sensor->receiver_bandwidth_hz,
-                             sensor->chirp_slope_hzps - other->slope_hzps, sensor->chirp_s),
+                           sensor->chirp_slope_hzps - other->slope_hzps, sensor->chirp_s),
         other->hit_share);
 }
 
@@ -112,7 +112,7 @@ static struct road_mirror_road road_of(enum road road, double carrier_hz)
 }
 
 struct reception received_echo_begin(const struct frame *frame, const struct sensor *sensor,
-                                 uint64_t effects)
+                                     uint64_t effects)
 {
     bool late = (effects & EFFECT_BIT(EFFECT_LATENCY)) != 0;
     double age_s = frame->time_s - suite_instant_s(sensor, frame->time_s, frame->interval_s, late);
@@ -127,8 +127,9 @@ struct reception received_echo_begin(const struct frame *frame, const struct sen
     if (simulates(&reception, EFFECT_TWO_RAY))
         reception.road = road_of(frame->conditions.road, sensor->carrier_hz);
     if (simulates(&reception, EFFECT_RAIN))
-        reception.rain_dbpkm = attenuation_rain_dbpkm(
-            attenuation_rain_law(sensor->carrier_hz, sensor->polarization), frame->conditions.rain_mmph);
+        reception.rain_dbpkm =
+            attenuation_rain_dbpkm(attenuation_rain_law(sensor->carrier_hz, sensor->polarization),
+                                   frame->conditions.rain_mmph);
     if (simulates(&reception, EFFECT_FOG))
         reception.fog_dbpkm =
             attenuation_fog_dbpkm(sensor->carrier_hz, FOG_C, frame->conditions.fog_gpm3);
@@ -179,18 +180,20 @@ static double distance_m(const struct sensor *sensor, const struct echo *echo)
     return sqrt(elementary_max(echo->range_m - up_m, 0) * (echo->range_m + up_m));
 }
 
-static void mirror(const struct reception *reception, const struct echo *echo, struct received_echo *received)
+static void mirror(const struct reception *reception, const struct echo *echo,
+                   struct received_echo *received)
 {
     const struct sensor *sensor = reception->sensor;
     const struct road_mirror_ends ends = {sensor->mount_z_m, echo->height_m, echo->extent_m,
-                                      distance_m(sensor, echo)};
+                                          distance_m(sensor, echo)};
     scale(received,
           road_mirror_amplitude_factor(&reception->road, sensor->polarization,
-                                   units_wavelength_m(sensor->carrier_hz), &ends),
+                                       units_wavelength_m(sensor->carrier_hz), &ends),
           EFFECT_TWO_RAY);
 }
 
-static void fluctuate(const struct reception *reception, const struct echo *echo, struct received_echo *received)
+static void fluctuate(const struct reception *reception, const struct echo *echo,
+                      struct received_echo *received)
 {
     const struct sensor *sensor = reception->sensor;
     struct random_address address = draw_address_in(reception->address, ECHO_ID_OF(echo));
@@ -223,9 +226,11 @@ struct received_echo received_echo_of(const struct reception *reception, const s
     if (simulates(reception, EFFECT_FLUCTUATION))
         fluctuate(reception, echo, &received);
     if (simulates(reception, EFFECT_RAIN))
-        scale(&received, attenuation_amplitude_factor(reception->rain_dbpkm, echo->range_m), EFFECT_RAIN);
+        scale(&received, attenuation_amplitude_factor(reception->rain_dbpkm, echo->range_m),
+              EFFECT_RAIN);
     if (simulates(reception, EFFECT_FOG))
-        scale(&received, attenuation_amplitude_factor(reception->fog_dbpkm, echo->range_m), EFFECT_FOG);
+        scale(&received, attenuation_amplitude_factor(reception->fog_dbpkm, echo->range_m),
+              EFFECT_FOG);
     if (simulates(reception, EFFECT_AMBIGUITY))
         fold(sensor, &received);
     return received;

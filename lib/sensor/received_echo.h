@@ -14,10 +14,10 @@
 #ifndef RECEIVED_ECHO_H
 #define RECEIVED_ECHO_H
 
-#include "draw_address.h"
-#include "attenuation.h"
-#include "resolution_cell.h"
-#include "road_mirror.h"
+#include "frame/draw_address.h"
+#include "radar/attenuation.h"
+#include "radar/road_mirror.h"
+#include "sensor/resolution_cell.h"
 
 struct reception {
     const struct frame *frame;
@@ -34,7 +34,7 @@ struct reception {
 uint64_t received_echo_described(const struct frame *frame, const struct sensor *sensor);
 
 struct reception received_echo_begin(const struct frame *frame, const struct sensor *sensor,
-                                 uint64_t effects);
+                                     uint64_t effects);
 
 /* Notes every effect that is at home here: all that is described and may be is simulated. */
 void received_echo_note(const struct reception *reception, const struct selection *selection);

@@ -1,12 +1,11 @@
-#include "resolution_cell.h"
+#include "sensor/resolution_cell.h"
 
 #include <complex.h>
 #include <math.h>
 
-#include "elementary.h"
-#include "frame_order.h"
-#include "interferer.h"
-#include "resolution.h"
+#include "base/elementary.h"
+#include "frame/frame_order.h"
+#include "radar/resolution.h"
 
 /* A ghost leaves in one direction and comes back from another: each way has the root of the
  * antenna pattern (EFFECTS 7), and the pointers are those of its arrival. */
@@ -19,7 +18,8 @@ static double departure_factor(const struct antenna *antenna, const struct echo 
     return sqrt(elementary_max(gain, 0) / arrival_gain);
 }
 
-struct received_echo received_echo_in_free_space(const struct sensor *sensor, const struct echo *echo, double phase_rad)
+struct received_echo received_echo_in_free_space(const struct sensor *sensor,
+                                                 const struct echo *echo, double phase_rad)
 {
     struct received_echo received = {
         .echo = frame_contributor(echo),
@@ -30,8 +30,8 @@ struct received_echo received_echo_in_free_space(const struct sensor *sensor, co
         .margins = &echo->margins,
     };
     double gain = antenna_gain(&sensor->antenna, echo->azimuth_rad);
-    received.strength = radar_reference_amplitude(&sensor->amplitude_law, echo->range_m) * echo->ercs *
-                   departure_factor(&sensor->antenna, echo, gain);
+    received.strength = radar_reference_amplitude(&sensor->amplitude_law, echo->range_m) *
+                        echo->ercs * departure_factor(&sensor->antenna, echo, gain);
     received.amplitude = received.strength * gain;
     return received;
 }
@@ -79,13 +79,15 @@ static double _Complex total_pointer(const struct channel *channel)
     return total(&channel->real) + total(&channel->imag) * (double _Complex)I;
 }
 
-static struct antenna_pointers add_pointers(const struct sensor *sensor, const struct received_echo *received_echoes,
-                                            size_t count)
+static struct antenna_pointers
+add_pointers(const struct sensor *sensor, const struct received_echo *received_echoes, size_t count)
 {
     struct channel sum = {{0, 0}, {0, 0}}, delta = sum;
     for (size_t i = 0; i < count; i++) {
-        struct antenna_pointers one = antenna_pointers(&sensor->antenna, received_echoes[i].echo.azimuth_rad);
-        struct elementary_sincos phase = elementary_sincos(received_echoes[i].phase_rad - received_echoes[0].phase_rad);
+        struct antenna_pointers one =
+            antenna_pointers(&sensor->antenna, received_echoes[i].echo.azimuth_rad);
+        struct elementary_sincos phase =
+            elementary_sincos(received_echoes[i].phase_rad - received_echoes[0].phase_rad);
         double _Complex turn = phase.cos + phase.sin * (double _Complex)I;
         bool turned = received_echoes[i].phase_rad != received_echoes[0].phase_rad;
         add_pointer(&sum, received_echoes[i].strength * (turned ? turn * one.sum : one.sum));
@@ -95,7 +97,8 @@ static struct antenna_pointers add_pointers(const struct sensor *sensor, const s
 }
 
 /* All received echoes as one echo at their mean azimuth. */
-static struct received_echo merge(const struct received_echo *received_echoes, size_t count, const double *weight, double *azimuth)
+static struct received_echo merge(const struct received_echo *received_echoes, size_t count,
+                                  const double *weight, double *azimuth)
 {
     struct received_echo merged = received_echoes[0];
     for (size_t i = 0; i < count; i++)
@@ -106,7 +109,8 @@ static struct received_echo merge(const struct received_echo *received_echoes, s
     return merged;
 }
 
-static uint64_t effects_of(const struct received_echo *received_echoes, size_t count, bool superpose)
+static uint64_t effects_of(const struct received_echo *received_echoes, size_t count,
+                           bool superpose)
 {
     uint64_t effects = count > 1 ? EFFECT_BIT(EFFECT_MERGING) : 0;
     if (count > 1 && superpose)
@@ -119,8 +123,8 @@ static uint64_t effects_of(const struct received_echo *received_echoes, size_t c
     return effects;
 }
 
-bool resolution_cell_of(const struct sensor *sensor, const struct received_echo *received_echoes, size_t count,
-                        bool superpose, struct arena *arena, struct cell *cell)
+bool resolution_cell_of(const struct sensor *sensor, const struct received_echo *received_echoes,
+                        size_t count, bool superpose, struct arena *arena, struct cell *cell)
 {
     double *range = arena_get(arena, 4 * count * sizeof *range);
     double *rate = range + count, *weight = rate + count, *azimuth = weight + count;
@@ -141,7 +145,8 @@ bool resolution_cell_of(const struct sensor *sensor, const struct received_echo 
     }
     cell->range_m = resolution_mean(range, weight, count);
     cell->range_rate_mps = resolution_mean(rate, weight, count);
-    struct received_echo merged = superpose ? received_echoes[0] : merge(received_echoes, count, weight, azimuth);
+    struct received_echo merged =
+        superpose ? received_echoes[0] : merge(received_echoes, count, weight, azimuth);
     struct antenna_pointers pointers =
         superpose ? add_pointers(sensor, received_echoes, count) : add_pointers(sensor, &merged, 1);
     struct monopulse_angle angle =
@@ -153,18 +158,4 @@ bool resolution_cell_of(const struct sensor *sensor, const struct received_echo 
     cell->azimuth_rad = angle.azimuth_rad;
     cell->sign_undecided = angle.sign_undecided;
     return angle.valid;
-}
-
-double resolution_cell_threshold(const struct sensor *sensor, const struct cell *cell)
-{
-    return sensor->threshold * interferer_noise_factor(cell->interference);
-}
-
-struct antenna_pointers resolution_cell_pointers(const struct cell *cell)
-{
-    const double _Complex i = (double _Complex)I;
-    return (struct antenna_pointers){
-        .sum = cell->sum_re + i * cell->sum_im,
-        .delta = cell->delta_re + i * cell->delta_im,
-    };
 }

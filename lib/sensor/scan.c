@@ -1,7 +1,7 @@
-#include "scan.h"
+#include "sensor/scan.h"
 
-#include "resolution.h"
-#include "sort.h"
+#include "base/sort.h"
+#include "radar/resolution.h"
 
 struct scan scan_receive(const struct reception *reception)
 {
@@ -10,12 +10,14 @@ struct scan scan_receive(const struct reception *reception)
     struct echo_span echoes = frame_echoes_of(frame, reception->sensor->name);
     struct echo_span scatterers = scatterers_of(reception);
     size_t all = echoes.count + scatterers.count, count = all;
-    struct received_echo *received_echoes = arena_get(frame->arena, (all + 1) * sizeof *received_echoes);
+    struct received_echo *received_echoes =
+        arena_get(frame->arena, (all + 1) * sizeof *received_echoes);
     for (size_t i = 0; i < echoes.count; i++)
         received_echoes[i] = received_echo_of(reception, &echoes.items[i]);
     for (size_t i = 0; i < scatterers.count; i++)
         received_echoes[echoes.count + i] = received_echo_of(reception, &scatterers.items[i]);
-    sort_items(received_echoes, count, sizeof *received_echoes, resolution_cell_compare, frame->arena);
+    sort_items(received_echoes, count, sizeof *received_echoes, resolution_cell_compare,
+               frame->arena);
     while (count > 0 && !(received_echoes[count - 1].amplitude > 0))
         count--;
     scan.scatterers = scatterers;
@@ -55,7 +57,8 @@ static void resolve(struct scan *scan, const struct selection *selection)
     size_t *cell = arena_get(arena, (count + 1) * sizeof *cell);
     for (size_t i = 0; i < count; i++)
         echoes[i] =
-            (struct resolution_echo){received_echoes[i].range_m, received_echoes[i].range_rate_mps, received_echoes[i].amplitude};
+            (struct resolution_echo){received_echoes[i].range_m, received_echoes[i].range_rate_mps,
+                                     received_echoes[i].amplitude};
     bool merge =
         effects_forced(selection, EFFECT_MERGING) ||
         (effects_enabled(selection, EFFECT_MERGING) &&

@@ -1,18 +1,19 @@
-/* One scan of one sensor before noise: the received echoes that it received, and which of them share a cell.
+/* One scan of one sensor before noise: the received echoes that it received, and which of them
+ * share a cell.
  */
 #ifndef SCAN_H
 #define SCAN_H
 
-#include "cell_margins.h"
-#include "scatterers.h"
+#include "sensor/cell_margins.h"
+#include "sensor/scatterers.h"
 
 struct scan {
     struct reception reception;
     struct echo_span scatterers; /* beyond the frame's echoes */
     struct clustered_echoes resolved;
-    size_t cells;              /* numbered in the order of their leaders */
+    size_t cells;                        /* numbered in the order of their leaders */
     const struct received_echo *by_cell; /* the same received echoes, those of a cell together */
-    const size_t *first;       /* of each cell among them, and behind the last */
+    const size_t *first;                 /* of each cell among them, and behind the last */
     const struct received_echo *silent;  /* without amplitude: they are in no cell */
     size_t silent_count;
 };
@@ -21,7 +22,8 @@ struct scan {
 struct scan scan_receive(const struct reception *reception);
 
 /* Receives the echoes and resolves them, with all effects of the reception but those of without;
- * merging may be left out where no two received echoes are close. Memory comes from the frame's arena. */
+ * merging may be left out where no two received echoes are close. Memory comes from the frame's
+ * arena. */
 struct scan scan_make(const struct reception *reception, const struct selection *selection,
                       uint64_t without);
 

@@ -1,14 +1,12 @@
-#include "scatterers.h"
+#include "sensor/scatterers.h"
 
 #include <math.h>
 
-#include "draw_address.h"
-#include "ground_return.h"
-#include "elementary.h"
-#include "limbs.h"
-#include "look.h"
-#include "poisson.h"
-#include "wheel.h"
+#include "base/elementary.h"
+#include "base/poisson.h"
+#include "frame/draw_address.h"
+#include "radar/ground_return.h"
+#include "radar/micro_doppler.h"
 
 struct additions {
     const struct reception *reception;
@@ -29,7 +27,7 @@ static void add(struct additions *additions, const struct echo *echo)
 {
     const struct sensor *sensor = additions->reception->sensor;
     if (echo->range_m > 0 && echo->range_m >= sensor->range_min_m &&
-        echo->range_m <= sensor->range_max_m && fabs(echo->azimuth_rad) < look_border_rad(sensor))
+        echo->range_m <= sensor->range_max_m && fabs(echo->azimuth_rad) < suite_border_rad(sensor))
         *list_add(&additions->echoes, additions->reception->frame->arena) = *echo;
 }
 
@@ -51,12 +49,13 @@ static void add_wheel(struct additions *additions, const struct echo *hub)
     struct random_address address = address_at(additions->reception, ECHO_ID_OF(hub));
     double uniform[4];
     random_uniform(&address, RANDOM_WHEELS, 0, uniform);
-    int64_t count = wheel_count(uniform[0]);
+    int64_t count = micro_doppler_wheel_count(uniform[0]);
     for (int64_t number = 1; number <= count; number++) {
-        struct echo part = part_of(hub, PATH_WHEEL, number, WHEEL_AMPLITUDE_FACTOR, EFFECT_WHEELS);
+        struct echo part =
+            part_of(hub, PATH_WHEEL, number, MICRO_DOPPLER_WHEEL_FACTOR, EFFECT_WHEELS);
         random_uniform(&address, RANDOM_WHEELS, (uint32_t)number, uniform);
-        part.range_rate_mps =
-            wheel_range_rate_mps(hub->range_rate_mps, hub->ground_rate_mps, wheel_point(uniform));
+        part.range_rate_mps = micro_doppler_wheel_rate_mps(
+            hub->range_rate_mps, hub->ground_rate_mps, micro_doppler_wheel_point(uniform));
         add(additions, &part);
     }
 }
@@ -75,13 +74,14 @@ static void add_limbs(struct additions *additions, const struct echo *torso)
     struct random_address address = address_at(additions->reception, ECHO_ID_OF(torso));
     double uniform[4];
     random_uniform(&address, RANDOM_LIMBS, 0, uniform);
-    int64_t count = limbs_count(uniform[0]);
+    int64_t count = micro_doppler_limb_count(uniform[0]);
     for (int64_t number = 1; number <= count; number++) {
-        struct echo part = part_of(torso, PATH_LIMB, number, LIMBS_AMPLITUDE_FACTOR, EFFECT_LIMBS);
+        struct echo part =
+            part_of(torso, PATH_LIMB, number, MICRO_DOPPLER_LIMB_FACTOR, EFFECT_LIMBS);
         random_uniform(&address, RANDOM_LIMBS, (uint32_t)number, uniform);
-        struct limb limb = limbs_limb(uniform);
+        struct limb limb = micro_doppler_limb(uniform);
         part.range_rate_mps =
-            limbs_range_rate_mps(torso->range_rate_mps, torso->ground_rate_mps, limb);
+            micro_doppler_limb_rate_mps(torso->range_rate_mps, torso->ground_rate_mps, limb);
         shift(&part, limb.offset_m);
         add(additions, &part);
     }
@@ -135,14 +135,15 @@ static int64_t clutter_count(const struct reception *reception, double uniform)
 }
 
 /* Its power has an exponential law. */
-static struct echo clutter_at(const struct reception *reception, const struct sensor_pose *sensor_pose,
-                              struct echo ground, const double uniform[3])
+static struct echo clutter_at(const struct reception *reception,
+                              const struct sensor_pose *sensor_pose, struct echo ground,
+                              const double uniform[3])
 {
     const struct sensor *sensor = reception->sensor;
     ground.range_m = ground_return_range_m(sensor->range_min_m, sensor->range_max_m, uniform[0]);
     ground.azimuth_rad = sensor->field_of_view_rad * (uniform[1] - 0.5);
-    ground.range_rate_mps =
-        ground_return_range_rate_mps(sensor_pose->velocity_mps, sensor_pose->boresight, ground.azimuth_rad);
+    ground.range_rate_mps = ground_return_range_rate_mps(
+        sensor_pose->velocity_mps, sensor_pose->boresight, ground.azimuth_rad);
     ground.ercs = reception->frame->conditions.clutter_ercs * sqrt(-elementary_log(uniform[2]));
     return ground;
 }

@@ -10,7 +10,7 @@
 #ifndef SCATTERERS_H
 #define SCATTERERS_H
 
-#include "received_echo.h"
+#include "sensor/received_echo.h"
 
 /* Points of clutter in a scan: of more, those with higher numbers are left out, so that it is
  * thinner everywhere alike. */

@@ -1,10 +1,10 @@
-#include "smear.h"
+#include "sensor/smear.h"
 
 #include <complex.h>
 #include <math.h>
 
-#include "elementary.h"
-#include "window.h"
+#include "base/elementary.h"
+#include "radar/point_response.h"
 
 /* Samples in a bin, samples to either side of a received echo's own, and in a row. */
 enum { BIN = 2, REACH = 3 * BIN, TAPS = 2 * REACH + 1 };
@@ -72,17 +72,18 @@ static double _Complex turn_of(double phase_rad)
 static void spread(struct smear *smear, const struct received_echo *received)
 {
     struct place range = range_place(smear, received), rate = rate_place(smear, received);
-    struct antenna_pointers one = antenna_pointers(&smear->sensor->antenna, received->echo.azimuth_rad);
+    struct antenna_pointers one =
+        antenna_pointers(&smear->sensor->antenna, received->echo.azimuth_rad);
     double _Complex strength = received->strength * turn_of(received->phase_rad);
     bool turned = received->phase_rad != smear->received_echoes[0].phase_rad;
     uint64_t effects = received->effects | (turned ? EFFECT_BIT(EFFECT_COHERENCE) : 0);
     double across[TAPS];
     for (int j = 0; j < TAPS; j++)
-        across[j] = window_hann((double)(j - REACH) / BIN - rate.offset);
+        across[j] = point_response_hann((double)(j - REACH) / BIN - rate.offset);
     one.sum *= strength;
     one.delta *= strength;
     for (int i = 0; i < TAPS; i++) {
-        double along = window_hann((double)(i - REACH) / BIN - range.offset);
+        double along = point_response_hann((double)(i - REACH) / BIN - range.offset);
         for (int j = 0; j < TAPS; j++) {
             double weight = along * across[j];
             if (weight == 0)
@@ -131,10 +132,11 @@ static size_t peak_of(const struct smear *smear, const struct received_echo *rec
     return (size_t)(at - smear->samples);
 }
 
-struct smear smear_make(const struct sensor *sensor, const struct received_echo *received_echoes, size_t count,
-                        struct arena *arena)
+struct smear smear_make(const struct sensor *sensor, const struct received_echo *received_echoes,
+                        size_t count, struct arena *arena)
 {
-    struct smear smear = {.sensor = sensor, .received_echoes = received_echoes, .count = count, .slots = 2};
+    struct smear smear = {
+        .sensor = sensor, .received_echoes = received_echoes, .count = count, .slots = 2};
     size_t most = count * TAPS * TAPS;
     while (smear.slots < 2 * most)
         smear.slots *= 2;
@@ -166,7 +168,8 @@ static double offset_of(const struct smear *smear, const struct smear_sample *pe
         return 0;
     double before = magnitude(find(smear, peak->range - range, peak->rate - rate));
     double after = magnitude(find(smear, peak->range + range, peak->rate + rate));
-    return elementary_max(elementary_min(window_hann_offset(before, here, after), most), least);
+    return elementary_max(elementary_min(point_response_hann_offset(before, here, after), most),
+                          least);
 }
 
 /* Where there is one received echo alone, nothing merges. */
@@ -174,7 +177,7 @@ static uint64_t effects_of(const struct smear_sample *peak)
 {
     uint64_t together = EFFECT_BIT(EFFECT_MERGING) | EFFECT_BIT(EFFECT_SUPERPOSITION);
     return peak->received_echoes > 1 ? peak->effects | together
-                          : peak->effects & ~EFFECT_BIT(EFFECT_COHERENCE);
+                                     : peak->effects & ~EFFECT_BIT(EFFECT_COHERENCE);
 }
 
 static void add_members(const struct smear *smear, size_t number, struct arena *arena,
@@ -201,7 +204,7 @@ bool smear_cell(const struct smear *smear, size_t number, struct arena *arena, s
     while (smear->cell[leader - smear->received_echoes] != number)
         leader++;
     double _Complex gain =
-        conj(turn_of(leader->phase_rad)) / (window_hann(range) * window_hann(rate));
+        conj(turn_of(leader->phase_rad)) / (point_response_hann(range) * point_response_hann(rate));
     struct antenna_pointers pointers = {gain * peak->pointers.sum, gain * peak->pointers.delta};
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);

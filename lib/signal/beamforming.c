@@ -1,10 +1,10 @@
-#include "beamforming.h"
+#include "signal/beamforming.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-#include "elementary.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
 
 /* Side lobes have 0.22 of their peak; noise and other echoes may lift them to twice of that. */
 #define LEAST_OF_STRONGEST 0.5
@@ -18,7 +18,8 @@ struct series {
     struct phasor r[BEAMFORMING_MOST_ELEMENTS];
 };
 
-struct phasor beamforming_response(const struct beamforming_array *array, double sine, size_t element)
+struct phasor beamforming_response(const struct beamforming_array *array, double sine,
+                                   size_t element)
 {
     double place = (double)element - (double)(array->elements - 1) / 2;
     struct elementary_sincos phase = elementary_sincos_turns(array->spacing * place * sine);
@@ -81,8 +82,8 @@ static void insert(struct beamforming_peak *peaks, size_t *count, struct beamfor
     peaks[place] = peak;
 }
 
-size_t beamforming_peaks(const struct beamforming_array *array, const struct phasor *samples, size_t stride,
-                  double limit, double least, struct beamforming_peak *peaks)
+size_t beamforming_peaks(const struct beamforming_array *array, const struct phasor *samples,
+                         size_t stride, double limit, double least, struct beamforming_peak *peaks)
 {
     struct series series = series_of(samples, array->elements, stride);
     double reach = array->spacing * limit;
@@ -95,8 +96,7 @@ size_t beamforming_peaks(const struct beamforming_array *array, const struct pha
         rises = slope_at(&series, turns) > 0;
         if (!rose || rises)
             continue;
-        double top =
-            summit(&series, elementary_max((double)(i - 1) * step - reach, -reach), turns);
+        double top = summit(&series, elementary_max((double)(i - 1) * step - reach, -reach), turns);
         insert(peaks, &count,
                (struct beamforming_peak){top / array->spacing, sqrt(power_at(&series, top))});
     }

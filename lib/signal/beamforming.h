@@ -4,7 +4,7 @@
 #ifndef BEAMFORMING_H
 #define BEAMFORMING_H
 
-#include "point_response.h"
+#include "radar/point_response.h"
 
 enum { BEAMFORMING_MOST_ELEMENTS = 64, BEAMFORMING_MOST_PEAKS = 16 };
 
@@ -18,7 +18,8 @@ struct beamforming_peak {
 };
 
 /* What the element receives of an echo of amplitude 1 and phase 0 in the array's middle. */
-struct phasor beamforming_response(const struct beamforming_array *array, double sine, size_t element);
+struct phasor beamforming_response(const struct beamforming_array *array, double sine,
+                                   size_t element);
 
 /* |sin(N x)/(N sin x)|, x = pi spacing times the distance of two sines: how much of an echo a beam
  * beside it shows. */
@@ -26,9 +27,9 @@ double beamforming_kernel(const struct beamforming_array *array, double distance
 
 /* The peaks of B between sines of -limit and limit, strongest first, that are at least `least` in
  * amplitude and at least half of the strongest: weaker ones may be its side lobes. The elements'
- * samples are stride apart. Returns how many there are, at most BEAMFORMING_MOST_PEAKS; where B only falls
- * or rises there is none. */
-size_t beamforming_peaks(const struct beamforming_array *array, const struct phasor *samples, size_t stride,
-                  double limit, double least, struct beamforming_peak *peaks);
+ * samples are stride apart. Returns how many there are, at most BEAMFORMING_MOST_PEAKS; where B
+ * only falls or rises there is none. */
+size_t beamforming_peaks(const struct beamforming_array *array, const struct phasor *samples,
+                         size_t stride, double limit, double least, struct beamforming_peak *peaks);
 
 #endif

@@ -1,11 +1,11 @@
-#include "detections.h"
+#include "signal/detections.h"
 
 #include <math.h>
 
-#include "elementary.h"
-#include "noise_targets.h"
-#include "interferer.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
+#include "noise/noise_targets.h"
+#include "radar/interferer.h"
 
 #define NOWHERE SIZE_MAX
 #define LEAST_PART 0.5
@@ -45,8 +45,8 @@ static void add_beams(struct detections *sightings, const struct range_doppler_p
     const struct signal_cube *signal = sightings->signal;
     struct beamforming_peak beams[BEAMFORMING_MOST_PEAKS];
     double limit = elementary_sin(signal->sensor->field_of_view_rad / 2);
-    size_t count =
-        beamforming_peaks(&signal->array, at, stride, limit, sightings->threshold * peak->gain, beams);
+    size_t count = beamforming_peaks(&signal->array, at, stride, limit,
+                                     sightings->threshold * peak->gain, beams);
     for (size_t i = 0; i < count; i++) {
         struct sighting *sighting = add(sightings, peak, arena);
         sighting->azimuth_rad = elementary_asin(beams[i].sine);
@@ -54,12 +54,12 @@ static void add_beams(struct detections *sightings, const struct range_doppler_p
     }
 }
 
-struct detections detections_of(const struct signal_cube *signal, const struct range_doppler *spectrum,
-                              const struct reception *reception)
+struct detections detections_of(const struct signal_cube *signal,
+                                const struct range_doppler *spectrum,
+                                const struct reception *reception)
 {
     struct arena *arena = reception->frame->arena;
-    double threshold =
-        signal->sensor->threshold * interferer_noise_factor(reception->interference);
+    double threshold = signal->sensor->threshold * interferer_noise_factor(reception->interference);
     struct detections sightings = {signal, spectrum, threshold, reception->time_s, {NULL, 0, 0}};
     struct cfar cfar = waveform_cfar(&signal->sensor->waveform);
     struct range_doppler_peak *peaks;
@@ -81,15 +81,15 @@ static double part_of(const struct detections *sightings, const struct received_
 {
     const struct signal_cube *signal = sightings->signal;
     const struct range_doppler *spectrum = sightings->spectrum;
-    double range = range_doppler_distance(received->range_m / signal->range_step_m, sighting->peak->range,
-                                     spectrum->range_bins);
+    double range = range_doppler_distance(received->range_m / signal->range_step_m,
+                                          sighting->peak->range, spectrum->range_bins);
     double rate = range_doppler_distance(received->range_rate_mps / signal->rate_step_mps,
-                                    sighting->peak->rate, spectrum->rate_bins);
+                                         sighting->peak->rate, spectrum->rate_bins);
     double part = fabs(point_response_value(spectrum->range_kernel, range) *
                        point_response_value(spectrum->rate_kernel, rate));
     if (signal->array.elements > 0)
         part *= beamforming_kernel(&signal->array, elementary_sin(received->echo.azimuth_rad) -
-                                                elementary_sin(sighting->azimuth_rad));
+                                                       elementary_sin(sighting->azimuth_rad));
     return part;
 }
 
@@ -114,7 +114,8 @@ static size_t maker_of(const struct detections *sightings, const struct sighting
     size_t maker = NOWHERE;
     double most = LEAST_PART * sighting->amplitude;
     for (size_t i = 0; i < count; i++) {
-        double amplitude = received_echoes[i].amplitude * part_of(sightings, &received_echoes[i], sighting);
+        double amplitude =
+            received_echoes[i].amplitude * part_of(sightings, &received_echoes[i], sighting);
         if (amplitude >= most) {
             most = amplitude;
             maker = i;
@@ -123,8 +124,8 @@ static size_t maker_of(const struct detections *sightings, const struct sighting
     return maker;
 }
 
-static void label(const struct sensor *sensor, struct sighting *sighting, const struct received_echo *received_echoes,
-                  size_t count, struct arena *arena)
+static void label(const struct sensor *sensor, struct sighting *sighting,
+                  const struct received_echo *received_echoes, size_t count, struct arena *arena)
 {
     resolution_cell_of(sensor, received_echoes, count, true, arena, &sighting->cell);
     for (size_t i = 0; i < count; i++)
@@ -158,8 +159,9 @@ static void lose(const struct detections *sightings, struct frame *frame, const 
                  const struct received_echo *received)
 {
     const struct signal_cube *signal = sightings->signal;
-    double shown = range_doppler_amplitude(sightings->spectrum, received->range_m / signal->range_step_m,
-                                      received->range_rate_mps / signal->rate_step_mps);
+    double shown =
+        range_doppler_amplitude(sightings->spectrum, received->range_m / signal->range_step_m,
+                                received->range_rate_mps / signal->rate_step_mps);
     double threshold = sightings->threshold;
     struct lost_echo lost = frame_lost(ECHO_ID_OF(&received->echo));
     enum loss reason = LOSS_MASKED;
@@ -173,7 +175,7 @@ static void lose(const struct detections *sightings, struct frame *frame, const 
 }
 
 void detections_label(struct detections *sightings, struct frame *frame, const char *stage,
-                     const struct clustered_echoes *resolved)
+                      const struct clustered_echoes *resolved)
 {
     const struct received_echo *received_echoes = resolved->received_echoes;
     size_t count = resolved->count;
@@ -210,7 +212,8 @@ void detections_label(struct detections *sightings, struct frame *frame, const c
 static struct measurement reading_at(const struct sighting *sighting)
 {
     struct measurement measurement = target_list_measure(&sighting->cell);
-    if (sighting->range_m != measurement.range_m || sighting->range_rate_mps != measurement.range_rate_mps)
+    if (sighting->range_m != measurement.range_m ||
+        sighting->range_rate_mps != measurement.range_rate_mps)
         measurement.effects |= EFFECT_BIT(EFFECT_RANGE_NOISE);
     if (sighting->azimuth_rad != measurement.azimuth_rad)
         measurement.effects |= EFFECT_BIT(EFFECT_ANGLE_NOISE);
@@ -223,7 +226,7 @@ static struct measurement reading_at(const struct sighting *sighting)
 }
 
 void detections_list(const struct detections *sightings, struct frame *frame, const char *stage,
-                    const struct measurement_noise *by)
+                     const struct measurement_noise *by)
 {
     size_t first = frame->targets.count, count = sightings->list.count;
     struct measurement *measurements = arena_get(frame->arena, (count + 1) * sizeof *measurements);

@@ -7,8 +7,8 @@
 #ifndef DETECTIONS_H
 #define DETECTIONS_H
 
-#include "measurement_noise.h"
-#include "signal_cube.h"
+#include "noise/measurement_noise.h"
+#include "signal/signal_cube.h"
 
 struct sighting {
     const struct range_doppler_peak *peak;
@@ -28,17 +28,18 @@ struct detections {
 
 /* Every peak that meets the threshold, which rises with what other radars add to the noise, in
  * every beam: range, azimuth, rate and amplitude. Memory comes from the frame's arena. */
-struct detections detections_of(const struct signal_cube *signal, const struct range_doppler *spectrum,
-                              const struct reception *reception);
+struct detections detections_of(const struct signal_cube *signal,
+                                const struct range_doppler *spectrum,
+                                const struct reception *reception);
 
 /* Gives every sighting its cell, and a range rate as near to that of its strongest echo as its
- * ambiguity allows; writes off the received echoes that no sighting shows, and counts false alarms. Rays come
- * strongest first. */
+ * ambiguity allows; writes off the received echoes that no sighting shows, and counts false alarms.
+ * Rays come strongest first. */
 void detections_label(struct detections *sightings, struct frame *frame, const char *stage,
-                     const struct clustered_echoes *resolved);
+                      const struct clustered_echoes *resolved);
 
 /* Writes the list: misaligned, in its order, up to its limit, rounded. */
 void detections_list(const struct detections *sightings, struct frame *frame, const char *stage,
-                    const struct measurement_noise *by);
+                     const struct measurement_noise *by);
 
 #endif

@@ -1,9 +1,9 @@
-#include "range_doppler.h"
+#include "signal/range_doppler.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-#include "sort.h"
+#include "base/sort.h"
 
 /* How far noise and other echoes may lift a side lobe. */
 #define SIDE_LOBE_MARGIN 2
@@ -35,19 +35,20 @@ static double signed_bin(size_t bin, size_t bins)
 }
 
 static struct range_doppler_peak peak_at(const struct range_doppler *spectrum, size_t rate_bin,
-                                    size_t range_bin)
+                                         size_t range_bin)
 {
     size_t width = spectrum->range_bins, height = spectrum->rate_bins, stride = width * height;
     const struct phasor *row = spectrum->samples + rate_bin * width;
     const struct phasor *at = row + range_bin;
-    double range = point_response_offset(spectrum->range_kernel, row + (range_bin + width - 1) % width, at,
-                                 row + (range_bin + 1) % width, spectrum->channels, stride);
+    double range =
+        point_response_offset(spectrum->range_kernel, row + (range_bin + width - 1) % width, at,
+                              row + (range_bin + 1) % width, spectrum->channels, stride);
     const struct phasor *column = spectrum->samples + range_bin;
-    double rate =
-        point_response_offset(spectrum->rate_kernel, column + (rate_bin + height - 1) % height * width, at,
-                      column + (rate_bin + 1) % height * width, spectrum->channels, stride);
-    double gain =
-        point_response_value(spectrum->range_kernel, range) * point_response_value(spectrum->rate_kernel, rate);
+    double rate = point_response_offset(
+        spectrum->rate_kernel, column + (rate_bin + height - 1) % height * width, at,
+        column + (rate_bin + 1) % height * width, spectrum->channels, stride);
+    double gain = point_response_value(spectrum->range_kernel, range) *
+                  point_response_value(spectrum->rate_kernel, rate);
     return (struct range_doppler_peak){
         .range_bin = range_bin,
         .rate_bin = rate_bin,
@@ -73,7 +74,8 @@ double range_doppler_distance(double to, double from, size_t bins)
     return remainder(to - from, (double)bins);
 }
 
-static bool is_side_lobe(const struct range_doppler *spectrum, const struct range_doppler_peak *peak,
+static bool is_side_lobe(const struct range_doppler *spectrum,
+                         const struct range_doppler_peak *peak,
                          const struct range_doppler_peak *stronger)
 {
     double range = range_doppler_distance(peak->range, stronger->range, spectrum->range_bins);
@@ -83,8 +85,8 @@ static bool is_side_lobe(const struct range_doppler *spectrum, const struct rang
     return peak->amplitude < SIDE_LOBE_MARGIN * most;
 }
 
-static size_t drop_side_lobes(const struct range_doppler *spectrum, struct range_doppler_peak *peaks,
-                              size_t count)
+static size_t drop_side_lobes(const struct range_doppler *spectrum,
+                              struct range_doppler_peak *peaks, size_t count)
 {
     size_t kept = 0;
     for (size_t i = 0; i < count; i++) {
@@ -97,8 +99,8 @@ static size_t drop_side_lobes(const struct range_doppler *spectrum, struct range
     return kept;
 }
 
-size_t range_doppler_peaks(const struct range_doppler *spectrum, const struct cfar *cfar, double threshold,
-                      struct arena *arena, struct range_doppler_peak **peaks)
+size_t range_doppler_peaks(const struct range_doppler *spectrum, const struct cfar *cfar,
+                           double threshold, struct arena *arena, struct range_doppler_peak **peaks)
 {
     size_t width = spectrum->range_bins;
     struct peak_list found = {{NULL, 0, 0}};

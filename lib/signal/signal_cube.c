@@ -1,14 +1,14 @@
-#include "signal_cube.h"
+#include "signal/signal_cube.h"
 
 #include <complex.h>
 #include <math.h>
 #include <string.h>
 
-#include "draw_address.h"
-#include "elementary.h"
-#include "noise_targets.h"
-#include "interferer.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
+#include "frame/draw_address.h"
+#include "noise/noise_targets.h"
+#include "radar/interferer.h"
 
 /* Beyond so many bins a pulse is below 2^-36 of itself. */
 #define PULSE_REACH 12
@@ -68,8 +68,8 @@ static void weigh_channels(const struct signal_cube *signal, const struct receiv
     struct antenna_pointers pointers =
         antenna_pointers(&signal->sensor->antenna, received->echo.azimuth_rad);
     double sine = elementary_sin(received->echo.azimuth_rad);
-    weight[0] =
-        (struct phasor){received->strength * creal(pointers.sum), received->strength * cimag(pointers.sum)};
+    weight[0] = (struct phasor){received->strength * creal(pointers.sum),
+                                received->strength * cimag(pointers.sum)};
     weight[1] = (struct phasor){received->strength * creal(pointers.delta),
                                 received->strength * cimag(pointers.delta)};
     for (size_t element = 0; element < signal->array.elements; element++) {
@@ -79,7 +79,8 @@ static void weigh_channels(const struct signal_cube *signal, const struct receiv
     }
 }
 
-static struct source source_of(const struct signal_cube *signal, const struct received_echo *received)
+static struct source source_of(const struct signal_cube *signal,
+                               const struct received_echo *received)
 {
     double scan_s = units_wavelength_m(signal->sensor->carrier_hz) / (2 * signal->rate_step_mps);
     struct source source = {
@@ -142,8 +143,8 @@ static void add_source(const struct signal_cube *signal, const struct source *so
 }
 
 /* One repetition after the other: its samples stay in the cache. */
-void signal_cube_add(const struct signal_cube *signal, const struct received_echo *received_echoes, size_t count,
-                struct arena *arena)
+void signal_cube_add(const struct signal_cube *signal, const struct received_echo *received_echoes,
+                     size_t count, struct arena *arena)
 {
     struct source *sources = arena_get(arena, (count + 1) * sizeof *sources);
     for (size_t i = 0; i < count; i++)
@@ -171,7 +172,7 @@ static void filter(struct phasor *row, const struct phasor *noise, size_t count)
 }
 
 void signal_cube_add_noise(const struct signal_cube *signal, const struct random_address *address,
-                      double sigma)
+                           double sigma)
 {
     size_t count = signal->samples, rows = signal->channels * signal->repetitions;
     double through = point_response_noise(signal->sensor->waveform.window, signal->repetitions) *
@@ -198,11 +199,12 @@ void signal_cube_weigh(const struct signal_cube *signal)
 {
     size_t count = signal->samples, rows = signal->channels * signal->repetitions;
     for (size_t n = 0; n < count; n++)
-        signal->row[n].re = pulsed(signal) ? 1 : point_response_weight(signal->range_kernel, n, count);
+        signal->row[n].re =
+            pulsed(signal) ? 1 : point_response_weight(signal->range_kernel, n, count);
     for (size_t row = 0; row < rows; row++) {
         struct phasor *samples = signal->cube + row * count;
-        double slow = point_response_weight(signal->sensor->waveform.window, row % signal->repetitions,
-                                    signal->repetitions);
+        double slow = point_response_weight(signal->sensor->waveform.window,
+                                            row % signal->repetitions, signal->repetitions);
         for (size_t n = 0; n < count; n++) {
             samples[n].re *= slow * signal->row[n].re;
             samples[n].im *= slow * signal->row[n].re;
@@ -217,11 +219,12 @@ void signal_cube_receive(const struct signal_cube *signal, const struct scan *sc
     struct random_address address =
         draw_address_of(reception->frame, reception->sensor->name, ECHO_ID_OF(&noise));
     signal_cube_clear(signal);
-    signal_cube_add(signal, scan->resolved.received_echoes, scan->resolved.count, reception->frame->arena);
+    signal_cube_add(signal, scan->resolved.received_echoes, scan->resolved.count,
+                    reception->frame->arena);
     if (noisy)
         signal_cube_add_noise(signal, &address,
-                         signal->sensor->pointer_sigma *
-                             interferer_noise_factor(reception->interference));
+                              signal->sensor->pointer_sigma *
+                                  interferer_noise_factor(reception->interference));
     signal_cube_weigh(signal);
 }
 
@@ -238,7 +241,7 @@ static void look(const struct signal_cube *signal, double sine, size_t rate_bin,
     }
     for (size_t n = 0; n < count; n++)
         power[n] = elementary_max(power[n], signal->row[n].re * signal->row[n].re +
-                                                 signal->row[n].im * signal->row[n].im);
+                                                signal->row[n].im * signal->row[n].im);
 }
 
 static void look_around(const struct signal_cube *signal, double *power)

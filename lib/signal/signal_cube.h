@@ -16,17 +16,17 @@
 #ifndef SIGNAL_CUBE_H
 #define SIGNAL_CUBE_H
 
-#include "beamforming.h"
-#include "random.h"
-#include "scan.h"
-#include "range_doppler.h"
+#include "base/random.h"
+#include "sensor/scan.h"
+#include "signal/beamforming.h"
+#include "signal/range_doppler.h"
 
 struct signal_cube {
     const struct sensor *sensor;
     size_t samples, repetitions, channels;
     enum point_response range_kernel;
     double range_step_m, rate_step_mps; /* from bin to bin */
-    struct beamforming_array array;            /* elements 0: sum and delta channel */
+    struct beamforming_array array;     /* elements 0: sum and delta channel */
     struct phasor *cube;                /* [channel][repetition][sample] */
     struct phasor *row;                 /* room for one repetition of samples */
 };
@@ -39,13 +39,13 @@ size_t signal_cube_size(const struct signal_cube *signal);
 void signal_cube_clear(const struct signal_cube *signal);
 
 /* Adds echoes. Memory comes from the arena. */
-void signal_cube_add(const struct signal_cube *signal, const struct received_echo *received_echoes, size_t count,
-                struct arena *arena);
+void signal_cube_add(const struct signal_cube *signal, const struct received_echo *received_echoes,
+                     size_t count, struct arena *arena);
 
 /* Adds noise that leaves cells with this RMS in the sum and delta channel, or beams of all
  * elements. */
 void signal_cube_add_noise(const struct signal_cube *signal, const struct random_address *address,
-                      double sigma);
+                           double sigma);
 
 /* Applies the windows. */
 void signal_cube_weigh(const struct signal_cube *signal);

@@ -1,13 +1,13 @@
-#include "csv_table.h"
+#include "text/csv_table.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include <csv.h>
 
-#include "field.h"
-#include "input.h"
-#include "json_scan.h"
+#include "text/field.h"
+#include "text/input.h"
+#include "text/json_scan.h"
 
 struct reader {
     struct csv_table *table;
@@ -126,7 +126,7 @@ static int read_text(const struct text *text, struct reader *reader)
 }
 
 int csv_table_parse(const struct text *text, struct csv_table *table, struct arena *arena,
-                struct diag *diag)
+                    struct diag *diag)
 {
     *table = (struct csv_table){0};
     struct reader reader = {.table = table, .arena = arena, .diag = diag, .row = 1};
@@ -137,7 +137,8 @@ int csv_table_parse(const struct text *text, struct csv_table *table, struct are
     return done;
 }
 
-int csv_table_read(const char *path, struct csv_table *table, struct arena *arena, struct diag *diag)
+int csv_table_read(const char *path, struct csv_table *table, struct arena *arena,
+                   struct diag *diag)
 {
     *table = (struct csv_table){0};
     struct text text = {0};
@@ -148,7 +149,8 @@ int csv_table_read(const char *path, struct csv_table *table, struct arena *aren
     return done;
 }
 
-int csv_table_column(const struct csv_table *table, const char *name, size_t *column, struct diag *diag)
+int csv_table_column(const struct csv_table *table, const char *name, size_t *column,
+                     struct diag *diag)
 {
     for (size_t i = 0; i < table->columns; i++)
         if (strcmp(table->header[i], name) == 0) {
@@ -179,8 +181,8 @@ static bool number_of(const char *text, double *value)
     return json_scan_number(&scan, value) == 0 && scan.at == scan.end;
 }
 
-int csv_table_number(const struct csv_table *table, size_t row, size_t column, double low, double high,
-                 double *value, struct diag *diag)
+int csv_table_number(const struct csv_table *table, size_t row, size_t column, double low,
+                     double high, double *value, struct diag *diag)
 {
     const char *text = csv_table_cell(table, row, column);
     const char *name = table->header[column];

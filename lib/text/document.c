@@ -1,4 +1,4 @@
-#include "document.h"
+#include "text/document.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 
 #include <jansson.h>
 
-#include "input.h"
+#include "text/input.h"
 
 void document_guard_memory(void)
 {

@@ -7,8 +7,8 @@
 #ifndef DOCUMENT_H
 #define DOCUMENT_H
 
-#include "field.h"
-#include "text.h"
+#include "base/text.h"
+#include "text/field.h"
 
 enum { DOCUMENT_SIZE = 64 * 1024 * 1024 };
 

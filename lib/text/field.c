@@ -1,11 +1,11 @@
-#include "field.h"
+#include "text/field.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "number.h"
-#include "text.h"
+#include "base/number.h"
+#include "base/text.h"
 
 const struct field field_none[] = {{0}};
 
@@ -580,16 +580,17 @@ static bool records_good(const struct record *record, const struct items *items,
     return true;
 }
 
-bool field_in_bounds(const struct record *record, const void *first, size_t count, unsigned sections,
-                struct field_names *names)
+bool field_in_bounds(const struct record *record, const void *first, size_t count,
+                     unsigned sections, struct field_names *names)
 {
     return records_good(record, &(struct items){first, record->size, count}, sections, names);
 }
 
 int field_check(const struct record *record, const void *base, struct diag *diag)
 {
-    return field_in_bounds(record, base, 1, ~0U, &(struct field_names){0}) ? 0
-                                                                      : walk(record, base, diag);
+    return field_in_bounds(record, base, 1, ~0U, &(struct field_names){0})
+               ? 0
+               : walk(record, base, diag);
 }
 
 /* The layout of every LIST_OF, whatever its items. */

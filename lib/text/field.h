@@ -12,8 +12,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "diag.h"
-#include "arena.h"
+#include "base/arena.h"
+#include "base/diag.h"
 
 enum field_kind {
     FIELD_REAL,    /* double: finite, in [low, high] */
@@ -172,8 +172,8 @@ struct field_names {
 
 /* Whether field_check passes for count structs side by side, and of the record's own sections only
  * for these. */
-bool field_in_bounds(const struct record *record, const void *first, size_t count, unsigned sections,
-                struct field_names *names);
+bool field_in_bounds(const struct record *record, const void *first, size_t count,
+                     unsigned sections, struct field_names *names);
 
 /* A LIST_OF anything, seen without its type. */
 struct field_list {

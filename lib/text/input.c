@@ -1,4 +1,4 @@
-#include "input.h"
+#include "text/input.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -8,7 +8,7 @@
 
 #include <zlib.h>
 
-#include "arena.h"
+#include "base/arena.h"
 
 enum { RAW_SIZE = 64 * 1024, LINE_STEP = 64 * 1024 };
 

@@ -10,8 +10,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "diag.h"
-#include "text.h"
+#include "base/diag.h"
+#include "base/text.h"
 
 struct input;
 

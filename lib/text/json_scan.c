@@ -1,11 +1,11 @@
-#include "json_scan.h"
+#include "text/json_scan.h"
 
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "number.h"
-#include "text.h"
+#include "base/number.h"
+#include "base/text.h"
 
 int json_scan_unexpected(struct json_scan *scan, const char *what)
 {

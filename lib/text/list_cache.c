@@ -1,4 +1,4 @@
-#include "list_cache.h"
+#include "text/list_cache.h"
 
 #include <string.h>
 
@@ -21,7 +21,7 @@ static bool begins_with(const char *text, const char *end, struct list_cache_tex
 }
 
 const struct repeat *list_cache_find(struct list_cache *repeats, const struct record *record,
-                                  const char *text, const char *end)
+                                     const char *text, const char *end)
 {
     for (size_t i = 0; i < repeats->kept.count; i++) {
         struct repeat *repeat = likeliest(repeats, i);
@@ -53,13 +53,13 @@ static struct repeat *add(struct list_cache *repeats, const struct field *field,
 }
 
 void list_cache_keep(struct list_cache *repeats, const struct field *field, const void *base,
-                  const char *text, size_t length)
+                     const char *text, size_t length)
 {
     add(repeats, field, field_list(field, base))->read = copy(repeats, text, length);
 }
 
 struct repeat *list_cache_of(struct list_cache *repeats, const struct record *record,
-                          const struct field *field, const void *base)
+                             const struct field *field, const void *base)
 {
     struct field_list list = field_list(field, base);
     for (size_t i = 0; i < repeats->kept.count; i++) {
@@ -74,7 +74,7 @@ struct repeat *list_cache_of(struct list_cache *repeats, const struct record *re
 }
 
 void list_cache_keep_written(struct list_cache *repeats, struct repeat *repeat, const char *text,
-                          size_t length)
+                             size_t length)
 {
     if (repeats->size < LIST_CACHE_SIZE)
         repeat->written = copy(repeats, text, length);

@@ -1,4 +1,4 @@
-#include "output.h"
+#include "text/output.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -11,7 +11,7 @@
 
 #include <zlib.h>
 
-#include "arena.h"
+#include "base/arena.h"
 
 /* What a pipe takes at once. */
 enum { PIECE_SIZE = 64 * 1024 };

@@ -9,8 +9,8 @@
 
 #include <stddef.h>
 
-#include "diag.h"
-#include "text.h"
+#include "base/diag.h"
+#include "base/text.h"
 
 struct output;
 

@@ -1,12 +1,10 @@
-#include "adversarial_traffic.h"
+#include "traffic/adversarial_traffic.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "elementary.h"
-#include "look.h"
-#include "resolution_cell.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
 
 #define AMPLITUDE_MARGIN 1e-3
 #define SPACING_MARGIN 1e-6
@@ -75,10 +73,8 @@ static struct object *add_box(struct site *site, enum random_class class, double
 
 static double amplitude(const struct site *site, const struct spot *spot)
 {
-    struct echo echo = {.range_m = spot->range_m,
-                        .azimuth_rad = spot->azimuth_rad,
-                        .ercs = site->models[spot->class].reflectors->points.items[0].ercs};
-    return received_echo_in_free_space(site->sensor, &echo, 0).amplitude;
+    double ercs = site->models[spot->class].reflectors->points.items[0].ercs;
+    return suite_amplitude(site->sensor, spot->range_m, spot->azimuth_rad, ercs);
 }
 
 static enum random_class draw_point_class(struct random_sequence *draws)
@@ -91,10 +87,11 @@ static struct spot draw_spot(struct site *site)
 {
     double nearest_m = site->sensor->range_min_m + 3;
     double farthest_m = elementary_min(0.8 * site->sensor->range_max_m, 30);
-    double border = 0.8 * look_border_rad(site->sensor);
+    double border = 0.8 * suite_border_rad(site->sensor);
     struct spot spot = {
         .class = draw_point_class(&site->draws),
-        .range_m = random_sequence_between(&site->draws, elementary_min(nearest_m, farthest_m), farthest_m),
+        .range_m = random_sequence_between(&site->draws, elementary_min(nearest_m, farthest_m),
+                                           farthest_m),
         .azimuth_rad = random_sequence_between(&site->draws, -border, border),
         .range_rate_mps = random_sequence_between(&site->draws, -20, 20),
     };
@@ -144,11 +141,12 @@ static void build_threshold(struct site *site)
     int count = (int)random_sequence_whole(&site->draws, 1, 3);
     for (int i = 1; i < count; i++) {
         spots[i] = draw_spot(site);
-        spots[i].range_m =
-            spots[0].range_m + site->sensor->half_range_m * random_sequence_between(&site->draws, -0.4, 0.4);
+        spots[i].range_m = spots[0].range_m + site->sensor->half_range_m *
+                                                  random_sequence_between(&site->draws, -0.4, 0.4);
         spots[i].range_rate_mps = spots[0].range_rate_mps;
     }
-    double wanted = site->sensor->threshold * (1 + random_sequence_margin(&site->draws, AMPLITUDE_MARGIN));
+    double wanted =
+        site->sensor->threshold * (1 + random_sequence_margin(&site->draws, AMPLITUDE_MARGIN));
     for (int i = 0; i < 8 && !move_to_sum(site, spots, count, wanted); i++)
         for (int k = 0; k < count; k++)
             spots[k].azimuth_rad /= 2;
@@ -162,7 +160,7 @@ static bool turn_to_amplitude(const struct site *site, struct spot *spot, double
 {
     struct spot turned = *spot;
     double side = copysign(1, spot->azimuth_rad), strong_rad = 0,
-           weak_rad = look_border_rad(site->sensor);
+           weak_rad = suite_border_rad(site->sensor);
     double middle_rad = weak_rad / 2;
     while (middle_rad > strong_rad && middle_rad < weak_rad) {
         turned.azimuth_rad = side * middle_rad;
@@ -171,7 +169,7 @@ static bool turn_to_amplitude(const struct site *site, struct spot *spot, double
         weak_rad = strong ? weak_rad : middle_rad;
         middle_rad = strong_rad + (weak_rad - strong_rad) / 2;
     }
-    if (strong_rad < 1e-3 || strong_rad > 0.99 * look_border_rad(site->sensor))
+    if (strong_rad < 1e-3 || strong_rad > 0.99 * suite_border_rad(site->sensor))
         return false;
     spot->azimuth_rad = side * strong_rad;
     return true;
@@ -180,12 +178,13 @@ static bool turn_to_amplitude(const struct site *site, struct spot *spot, double
 static void build_tie(struct site *site)
 {
     struct spot first = draw_spot(site), second = draw_spot(site);
-    double wanted = amplitude(site, &first) * (1 + random_sequence_margin(&site->draws, AMPLITUDE_MARGIN));
+    double wanted =
+        amplitude(site, &first) * (1 + random_sequence_margin(&site->draws, AMPLITUDE_MARGIN));
     if (random_sequence_chance(&site->draws, 0.5)) {
         second.class = first.class;
         second.range_rate_mps = first.range_rate_mps;
-        second.range_m =
-            first.range_m + site->sensor->half_range_m * random_sequence_between(&site->draws, -3, 3);
+        second.range_m = first.range_m +
+                         site->sensor->half_range_m * random_sequence_between(&site->draws, -3, 3);
         if (!turn_to_amplitude(site, &second, wanted))
             second.azimuth_rad = -first.azimuth_rad;
     }
@@ -238,7 +237,7 @@ static void build_view(struct site *site)
     struct spot spot = draw_spot(site);
     double margin_rad = random_sequence_margin(&site->draws, 1e-7);
     bool border = random_sequence_chance(&site->draws, 0.6);
-    spot.azimuth_rad = border ? copysign(look_border_rad(site->sensor), spot.azimuth_rad) : 0;
+    spot.azimuth_rad = border ? copysign(suite_border_rad(site->sensor), spot.azimuth_rad) : 0;
     spot.azimuth_rad += margin_rad;
     add_spot(site, &spot);
 }
@@ -299,7 +298,7 @@ static void build_touch(struct site *site)
 {
     const struct object *ego = &site->frame->objects.items[0];
     bool exact = ego->x_m == 0 && ego->y_m == 0 && ego->yaw_rad == 0;
-    if (exact && fabs(site->sensor->mount_yaw_rad) < look_border_rad(site->sensor) &&
+    if (exact && fabs(site->sensor->mount_yaw_rad) < suite_border_rad(site->sensor) &&
         random_sequence_chance(&site->draws, 0.5))
         build_along_side(site);
     else
@@ -314,7 +313,8 @@ static void build_facing(struct site *site)
     struct spot spot = draw_spot(site);
     struct vec2 line = direction_to(site, spot.azimuth_rad);
     double edge_rad = random_sequence_chance(&site->draws, 0.5) ? point->full_rad : point->zero_rad;
-    double off_rad = random_sequence_sign(&site->draws) * (edge_rad + random_sequence_margin(&site->draws, 1e-6));
+    double off_rad = random_sequence_sign(&site->draws) *
+                     (edge_rad + random_sequence_margin(&site->draws, 1e-6));
     add_box(site, RANDOM_CAR, elementary_atan2(-line.y, -line.x) - point->facing_rad - off_rad,
             point->x, point->y, place_at(site, spot.range_m, spot.azimuth_rad));
 }
@@ -334,7 +334,8 @@ static void build_against(struct site *site)
     struct spot spot = draw_spot(site);
     struct vec2 line = direction_to(site, spot.azimuth_rad);
     add_box(site, RANDOM_CAR, elementary_atan2(line.y, line.x), -0.5,
-            random_sequence_between(&site->draws, -0.4, 0.4), place_at(site, spot.range_m, spot.azimuth_rad));
+            random_sequence_between(&site->draws, -0.4, 0.4),
+            place_at(site, spot.range_m, spot.azimuth_rad));
     spot.range_m += random_sequence_margin(&site->draws, 1e-8);
     add_spot(site, &spot);
 }
@@ -369,8 +370,8 @@ static void build(struct site *site, const struct suite *suite)
     cases[sort].build(site);
 }
 
-void adversarial_traffic_add(const struct random_traffic *scene, const struct suite *suite, int64_t number,
-                    struct frame *frame)
+void adversarial_traffic_add(const struct random_traffic *scene, const struct suite *suite,
+                             int64_t number, struct frame *frame)
 {
     struct random_address address = random_traffic_address(scene, frame->seed, number);
     struct random_sequence draws = random_sequence_at(address, RANDOM_HARD_CASE);

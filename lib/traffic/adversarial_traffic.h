@@ -20,12 +20,12 @@
 #ifndef ADVERSARIAL_TRAFFIC_H
 #define ADVERSARIAL_TRAFFIC_H
 
-#include "random_traffic.h"
-#include "suite.h"
+#include "documents/suite.h"
+#include "traffic/random_traffic.h"
 
 /* Appends one to three cases to the frame, which has its ego, by draws for snapshot number. Ids
  * are "CASE-NUMBER-OBJECT", for instance "touch-2-1". */
-void adversarial_traffic_add(const struct random_traffic *scene, const struct suite *suite, int64_t number,
-                    struct frame *frame);
+void adversarial_traffic_add(const struct random_traffic *scene, const struct suite *suite,
+                             int64_t number, struct frame *frame);
 
 #endif

@@ -1,12 +1,11 @@
-#include "playback.h"
+#include "traffic/playback.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "catalogue.h"
-#include "document.h"
-#include "units.h"
+#include "base/units.h"
+#include "text/document.h"
 
 static bool ends_with(const char *text, const char *outcome)
 {
@@ -47,7 +46,7 @@ static const struct actor *find_actor(const struct scenario *scenario, const cha
 static int open_scenario(struct playback *scene, const char *source, struct arena *arena,
                          struct diag *diag)
 {
-    struct scenario *scenario = catalogue_scenario(source, arena, diag);
+    struct scenario *scenario = scenario_load(source, arena, diag);
     if (scenario == NULL)
         return -1;
     if (scene->ego == NULL)
@@ -72,7 +71,8 @@ static const struct recorded_state *find_state(const struct recorded_step *step,
     return NULL;
 }
 
-static int open_table(struct playback *scene, const char *path, struct arena *arena, struct diag *diag)
+static int open_table(struct playback *scene, const char *path, struct arena *arena,
+                      struct diag *diag)
 {
     struct trajectories table;
     if (scene->ego == NULL)
@@ -101,7 +101,7 @@ static const char *find_table(const char *name, struct arena *arena)
 }
 
 int playback_open(struct playback *scene, const char *source, const char *ego, struct arena *arena,
-               struct diag *diag)
+                  struct diag *diag)
 {
     *scene = (struct playback){.ego = ego};
     bool table = ends_with(source, ".csv") || ends_with(source, ".csv.gz");
@@ -185,7 +185,7 @@ static int refuse(const struct playback *scene, int64_t number, const char *id, 
 }
 
 int playback_check(const struct playback *scene, int64_t number, const struct frame *frame,
-                struct diag *diag)
+                   struct diag *diag)
 {
     for (size_t i = 0; i < frame->objects.count; i++) {
         const struct object *object = &frame->objects.items[i];

@@ -3,9 +3,9 @@
 #ifndef PLAYBACK_H
 #define PLAYBACK_H
 
-#include "frame.h"
-#include "scenario.h"
-#include "trajectory.h"
+#include "frame/frame.h"
+#include "traffic/scenario.h"
+#include "traffic/trajectory.h"
 
 struct playback {
     const char *ego;
@@ -19,7 +19,7 @@ struct playback {
  * (or path), else the table of that name. ego may be NULL if a scenario names its own. What the
  * scene holds lies in the arena. */
 int playback_open(struct playback *scene, const char *source, const char *ego, struct arena *arena,
-               struct diag *diag);
+                  struct diag *diag);
 
 /* "tracks/7" for ../tracks.csv.gz and ego 7. */
 const char *playback_name(const char *source, const char *ego, struct arena *arena);
@@ -31,6 +31,6 @@ void playback_frame(const struct playback *scene, int64_t number, struct frame *
  * or turn too fast, and names their row (DIAG_DATA) or their object in the scenario (DIAG_CONFIG).
  */
 int playback_check(const struct playback *scene, int64_t number, const struct frame *frame,
-                struct diag *diag);
+                   struct diag *diag);
 
 #endif

@@ -1,12 +1,12 @@
-#include "random_traffic.h"
+#include "traffic/random_traffic.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "elementary.h"
-#include "hash.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/hash.h"
+#include "base/units.h"
 
 #define LANE_M 3.5
 #define TRIES 32
@@ -77,9 +77,9 @@ static struct vec2 draw_place(struct random_sequence *draws, double radius_m, bo
         struct vec2 direction = vec2_heading(random_sequence_between(draws, -PI, PI));
         return vec2_scale(radius_m * sqrt(random_sequence_next(draws)), direction);
     }
-    double aside =
-        beside ? random_sequence_sign(draws) * random_sequence_between(draws, 4, 12)
-               : LANE_M * (double)random_sequence_whole(draws, -2, 2) + random_sequence_between(draws, -0.5, 0.5);
+    double aside = beside ? random_sequence_sign(draws) * random_sequence_between(draws, 4, 12)
+                          : LANE_M * (double)random_sequence_whole(draws, -2, 2) +
+                                random_sequence_between(draws, -0.5, 0.5);
     double ahead = sqrt((radius_m - aside) * (radius_m + aside));
     return (struct vec2){ahead * random_sequence_between(draws, -1, 1), aside};
 }
@@ -93,15 +93,18 @@ static double draw_yaw_rad(struct random_sequence *draws, double aside_m, bool b
     if (wanted < 0.3 && !beside)
         return random_sequence_sign(draws) * PI / 2 + random_sequence_between(draws, -0.05, 0.05);
     double along = !beside && aside_m > LANE_M / 2 ? PI : 0;
-    return along + (random_sequence_chance(draws, 0.5) ? random_sequence_between(draws, -0.05, 0.05) : 0);
+    return along +
+           (random_sequence_chance(draws, 0.5) ? random_sequence_between(draws, -0.05, 0.05) : 0);
 }
 
-static void draw_motion(struct random_sequence *draws, const struct habit *habit, struct object *object)
+static void draw_motion(struct random_sequence *draws, const struct habit *habit,
+                        struct object *object)
 {
     if (habit->beside || random_sequence_chance(draws, 0.2))
         return;
     double speed_mps = habit->top_mps * random_sequence_next(draws);
-    double crab_rad = random_sequence_chance(draws, 0.05) ? random_sequence_between(draws, -0.2, 0.2) : 0;
+    double crab_rad =
+        random_sequence_chance(draws, 0.05) ? random_sequence_between(draws, -0.2, 0.2) : 0;
     struct vec2 velocity = vec2_scale(speed_mps, vec2_heading(object->yaw_rad + crab_rad));
     object->vx_mps = velocity.x;
     object->vy_mps = velocity.y;
@@ -157,8 +160,8 @@ static int overlaps(const struct random_traffic *scene, const struct frame *fram
     return worst;
 }
 
-static void place(struct random_sequence *draws, const struct regime *regime, const struct habit *habit,
-                  const struct object *ego, struct object *object)
+static void place(struct random_sequence *draws, const struct regime *regime,
+                  const struct habit *habit, const struct object *ego, struct object *object)
 {
     struct vec2 local = draw_place(draws, regime->radius_m, habit->beside);
     struct vec2 world = vec2_turn(local, vec2_heading(ego->yaw_rad));
@@ -176,7 +179,8 @@ static void add_object(const struct random_traffic *scene, int64_t index,
     enum random_class class = draw_class(&draws);
     struct object object = {.class = habits[class].name};
     if (random_sequence_chance(&draws, 0.8)) {
-        object.length_m = scene->models[class].length_m * random_sequence_between(&draws, 0.85, 1.15);
+        object.length_m =
+            scene->models[class].length_m * random_sequence_between(&draws, 0.85, 1.15);
         object.width_m = scene->models[class].width_m * random_sequence_between(&draws, 0.9, 1.1);
     }
     bool careless = random_sequence_chance(&draws, 0.03);
@@ -195,11 +199,12 @@ static void add_object(const struct random_traffic *scene, int64_t index,
 }
 
 struct random_address random_traffic_address(const struct random_traffic *scene, uint64_t seed,
-                                           int64_t number)
+                                             int64_t number)
 {
     return (struct random_address){
         .seed = seed,
-        .scene = hash_text(hash_text(HASH_START, "random"), random_traffic_densities[scene->density]),
+        .scene =
+            hash_text(hash_text(HASH_START, "random"), random_traffic_densities[scene->density]),
         .frame = (uint64_t)number,
     };
 }
@@ -214,7 +219,8 @@ static struct object draw_ego(struct random_sequence *draws, double top_mps, boo
     }
     if (random_sequence_chance(draws, 0.15))
         return ego;
-    struct vec2 velocity = vec2_scale(top_mps * random_sequence_next(draws), vec2_heading(ego.yaw_rad));
+    struct vec2 velocity =
+        vec2_scale(top_mps * random_sequence_next(draws), vec2_heading(ego.yaw_rad));
     ego.vx_mps = velocity.x;
     ego.vy_mps = velocity.y;
     if (random_sequence_chance(draws, 0.3))
@@ -264,7 +270,8 @@ static double draw_size(struct random_sequence *draws, double least, double most
     return least * elementary_pow(most / least, random_sequence_next(draws));
 }
 
-void random_traffic_conditions(const struct random_traffic *scene, int64_t number, struct frame *frame)
+void random_traffic_conditions(const struct random_traffic *scene, int64_t number,
+                               struct frame *frame)
 {
     struct conditions *conditions = &frame->conditions;
     struct random_address address = random_traffic_address(scene, frame->seed, number);

@@ -8,8 +8,8 @@
 #ifndef RANDOM_TRAFFIC_H
 #define RANDOM_TRAFFIC_H
 
-#include "random_sequence.h"
-#include "frame.h"
+#include "base/random_sequence.h"
+#include "frame/frame.h"
 
 /* How many objects within what radius of the ego (NUMERICS C4): 0 to 3 in 120 m, 0 to 8 in 60 m,
  * 4 to 15 in 25 m. Around hard cases (adversarial_traffic.h) 0 to 3 in 60 m. */
@@ -49,7 +49,7 @@ struct random_traffic {
 
 /* The address of draws for one frame; the density counts, its seed is the frame's. */
 struct random_address random_traffic_address(const struct random_traffic *scene, uint64_t seed,
-                                           int64_t number);
+                                             int64_t number);
 
 /* Fills ego and objects of the frame, whose seed is set, with snapshot number >= 0. The ego is
  * "ego", the others "o1", "o2" and so on. In every other adversarial frame the ego stands at the
@@ -62,6 +62,7 @@ void random_traffic_fill(const struct random_traffic *scene, int64_t number, str
  * 3e-3 points per m^2 of 0.01 to 1 ERCS, likewise, up to four times overdispersed), one or two
  * interferers in 20 % (fewer where there are not that many objects beside the ego; 0 to 40 dBm, 1
  * to 50 MHz/us up or down, up to 30 % of the chirps hit). */
-void random_traffic_conditions(const struct random_traffic *scene, int64_t number, struct frame *frame);
+void random_traffic_conditions(const struct random_traffic *scene, int64_t number,
+                               struct frame *frame);
 
 #endif

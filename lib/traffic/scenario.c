@@ -1,9 +1,10 @@
-#include "scenario.h"
+#include "traffic/scenario.h"
 
 #include <string.h>
 
-#include "elementary.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
+#include "text/document.h"
 
 #define REAL(owner, member, low, high, help)                                                       \
     {                                                                                              \
@@ -325,4 +326,18 @@ struct motion scenario_motion(const struct actor *actor, double time_s, double *
 int64_t scenario_frames(const struct scenario *scenario)
 {
     return (int64_t)floor(scenario->duration_s * scenario->rate_hz * (1 + 1e-15)) + 1;
+}
+
+struct scenario *scenario_load(const char *name, struct arena *arena, struct diag *diag)
+{
+    const char *path = document_find("scenarios", name, ".json", arena, diag);
+    struct scenario *scenario = arena_get(arena, sizeof *scenario);
+    if (path == NULL || document_read(path, &scenario_record, scenario, arena, diag) != 0)
+        return NULL;
+    if (scenario_check(scenario, diag) != 0) {
+        diag->code = DIAG_CONFIG;
+        diag_prefix(diag, "%s: ", path);
+        return NULL;
+    }
+    return scenario;
 }

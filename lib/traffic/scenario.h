@@ -10,9 +10,9 @@
 #ifndef SCENARIO_H
 #define SCENARIO_H
 
-#include "conditions.h"
-#include "field.h"
-#include "motion.h"
+#include "frame/conditions.h"
+#include "geometry/motion.h"
+#include "text/field.h"
 
 struct segment {
     double duration_s;
@@ -62,5 +62,9 @@ struct motion scenario_motion(const struct actor *actor, double time_s, double *
 /* Frames are numbered 0 to this - 1; frame i is at i / rate_hz, the last not after duration_s but
  * for rounding. */
 int64_t scenario_frames(const struct scenario *scenario);
+
+/* Finds, reads and checks the scenario of that name or path. All it holds lies in the arena; NULL
+ * after a message (DIAG_CONFIG). */
+struct scenario *scenario_load(const char *name, struct arena *arena, struct diag *diag);
 
 #endif

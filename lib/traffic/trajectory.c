@@ -1,14 +1,14 @@
-#include "trajectory.h"
+#include "traffic/trajectory.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "elementary.h"
-#include "field.h"
-#include "sort.h"
-#include "csv_table.h"
-#include "units.h"
-#include "vec2.h"
+#include "base/elementary.h"
+#include "base/sort.h"
+#include "base/units.h"
+#include "base/vec2.h"
+#include "text/csv_table.h"
+#include "text/field.h"
 
 struct column {
     const char *name;
@@ -80,7 +80,8 @@ static int read_numbers(const struct csv_table *table, size_t row, const struct 
 {
     for (size_t i = 0; i < count; i++) {
         double value;
-        if (csv_table_number(table, row, found[i], columns[i].low, columns[i].high, &value, diag) != 0)
+        if (csv_table_number(table, row, found[i], columns[i].low, columns[i].high, &value, diag) !=
+            0)
             return -1;
         memcpy((char *)state + columns[i].offset, &value, sizeof value);
     }

@@ -11,8 +11,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "diag.h"
-#include "arena.h"
+#include "base/arena.h"
+#include "base/diag.h"
 
 /* A road user at one instant. The yaw lies in (-pi, pi]; its rate is the difference to the track's
  * next state (for the last one, to the state before; 0 if there is no other); the way travelled

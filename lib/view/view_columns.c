@@ -1,4 +1,4 @@
-#include "view_columns.h"
+#include "view/view_columns.h"
 
 #include <string.h>
 

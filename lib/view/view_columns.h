@@ -5,8 +5,8 @@
 
 #include <stdint.h>
 
-#include "arena.h"
-#include "text.h"
+#include "base/arena.h"
+#include "base/text.h"
 
 /* Real columns first. */
 enum view_column {

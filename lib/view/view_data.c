@@ -1,8 +1,8 @@
-#include "view_data.h"
+#include "view/view_data.h"
 
 #include <string.h>
 
-#include "sort.h"
+#include "base/sort.h"
 
 /* A lost reflector as patterns hold it. */
 struct item {

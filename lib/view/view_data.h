@@ -10,10 +10,10 @@
 #ifndef VIEW_DATA_H
 #define VIEW_DATA_H
 
-#include "frame.h"
-#include "numbering.h"
-#include "view_columns.h"
-#include "view_frame.h"
+#include "base/numbering.h"
+#include "frame/frame.h"
+#include "view/view_columns.h"
+#include "view/view_frame.h"
 
 struct view_scene {
     uint32_t name, ego, suite; /* names */

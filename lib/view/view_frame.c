@@ -1,8 +1,8 @@
-#include "view_frame.h"
+#include "view/view_frame.h"
 
 #include <string.h>
 
-#include "scan_timing.h"
+#include "radar/scan_timing.h"
 
 static struct motion motion_of(const struct object *object)
 {
@@ -22,7 +22,8 @@ static double age_s(const struct frame *frame, const struct sensor_view *sensor)
             return frame->time_s - frame->targets.items[i].contributors.items[0].time_s;
     double instant_s;
     if (!sensor->measured ||
-        scan_timing_instant_s(sensor->cycle_s, frame->time_s, frame->interval_s, &instant_s) != SCAN_TIMING_ONE)
+        scan_timing_instant_s(sensor->cycle_s, frame->time_s, frame->interval_s, &instant_s) !=
+            SCAN_TIMING_ONE)
         return 0;
     return frame->time_s - instant_s;
 }
@@ -69,6 +70,6 @@ const struct vehicle *view_frame_vehicle(struct view_models *models, const char 
     struct diag unused = {0};
     struct view_model *model = list_add(&models->list, models->arena);
     model->class = arena_text(models->arena, class, strlen(class));
-    model->vehicle = catalogue_vehicle(class, models->arena, &unused);
+    model->vehicle = vehicle_load(class, models->arena, &unused);
     return model->vehicle;
 }

@@ -3,8 +3,9 @@
 #ifndef VIEW_FRAME_H
 #define VIEW_FRAME_H
 
-#include "catalogue.h"
-#include "frame.h"
+#include "documents/catalogue.h"
+#include "documents/vehicle.h"
+#include "frame/frame.h"
 
 /* A sensor at the instant of its measurement, in the frame's coordinates. */
 struct view_scan {

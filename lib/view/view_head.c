@@ -1,9 +1,9 @@
-#include "view_head.h"
+#include "view/view_head.h"
 
 #include <inttypes.h>
 #include <string.h>
 
-#include "number.h"
+#include "base/number.h"
 
 static void write_word(struct text *text, const char *word)
 {

@@ -2,7 +2,7 @@
 #ifndef VIEW_HEAD_H
 #define VIEW_HEAD_H
 
-#include "view_data.h"
+#include "view/view_data.h"
 
 /* JSON without any `<`, so that no name can end the script element that it stands in: names,
  * scenes, sensors, classes, and where each column lies. open_frame is where the page is to start;

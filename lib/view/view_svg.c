@@ -1,10 +1,10 @@
-#include "view_svg.h"
+#include "view/view_svg.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "elementary.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/units.h"
 
 enum { WIDTH = 1200, HEIGHT = 800, MARGIN = 60 };
 
@@ -55,8 +55,8 @@ static struct vec2 to_pixels(const struct still *still, struct vec2 place)
 static void include(struct still *still, struct vec2 place)
 {
     struct vec2 local = to_local(still, place);
-    still->low = (struct vec2){elementary_min(still->low.x, local.x),
-                               elementary_min(still->low.y, local.y)};
+    still->low =
+        (struct vec2){elementary_min(still->low.x, local.x), elementary_min(still->low.y, local.y)};
     still->high = (struct vec2){elementary_max(still->high.x, local.x),
                                 elementary_max(still->high.y, local.y)};
 }
@@ -110,7 +110,7 @@ static void frame_picture(struct still *still)
     }
     struct vec2 size = vec2_sub(still->high, still->low);
     still->scale = elementary_min((WIDTH - 2 * MARGIN) / elementary_max(size.x, 5),
-                                    (HEIGHT - 2 * MARGIN) / elementary_max(size.y, 5));
+                                  (HEIGHT - 2 * MARGIN) / elementary_max(size.y, 5));
 }
 
 static void add_line(struct still *still, const char *class, struct vec2 from, struct vec2 to)

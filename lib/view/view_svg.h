@@ -2,8 +2,8 @@
 #ifndef VIEW_SVG_H
 #define VIEW_SVG_H
 
-#include "text.h"
-#include "view_frame.h"
+#include "base/text.h"
+#include "view/view_frame.h"
 
 /* The ego, everything that lies near the sensors or made a target, the targets with the reflection
  * centres behind them, and what was nearly one. x points right. */

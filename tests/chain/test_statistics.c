@@ -1,6 +1,6 @@
 #include "check.h"
-#include "frame_check.h"
-#include "frame_order.h"
+#include "frame/frame_check.h"
+#include "frame/frame_order.h"
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -8,8 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "runner.h"
-#include "units.h"
+#include "base/units.h"
+#include "run/runner.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 

@@ -6,13 +6,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "antenna.h"
-#include "elementary.h"
-#include "frame_text.h"
-#include "monopulse.h"
-#include "kinematics.h"
-#include "units.h"
-#include "visibility_range.h"
+#include "base/elementary.h"
+#include "base/units.h"
+#include "frame/frame_text.h"
+#include "geometry/kinematics.h"
+#include "geometry/visibility_range.h"
+#include "radar/antenna.h"
+#include "radar/monopulse.h"
 
 enum { BITS = 400 };
 

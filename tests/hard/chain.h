@@ -8,9 +8,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "frame_text.h"
-#include "fused.h"
-#include "runner.h"
+#include "frame/frame_text.h"
+#include "run/fused.h"
+#include "run/runner.h"
 
 enum { CHAIN_STAGES = 5 };
 

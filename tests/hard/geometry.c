@@ -3,12 +3,12 @@
 
 #include <stdbool.h>
 
-#include "direct_echoes.h"
-#include "outline_crossing.h"
-#include "predicates.h"
-#include "specular_point.h"
-#include "kinematics.h"
-#include "units.h"
+#include "base/units.h"
+#include "geometry/kinematics.h"
+#include "geometry/outline_crossing.h"
+#include "geometry/predicates.h"
+#include "geometry/specular_point.h"
+#include "ideal/direct_echoes.h"
 
 __extension__ typedef __int128 wide;
 
@@ -164,7 +164,8 @@ static void near_collinear_points_have_their_side(void **state)
         struct vec2 a = {(double)x, (double)y}, b = {(double)(x + bx), (double)(y + by)};
         struct vec2 c = {(double)(x + cx), (double)(y + cy)};
         naive += plain_sign(a, b, c) != exact;
-        ours += predicates_orientation(a, b, c) != exact || predicates_orientation(c, b, a) != -exact;
+        ours +=
+            predicates_orientation(a, b, c) != exact || predicates_orientation(c, b, a) != -exact;
     }
     hard_case("27", "sides of 1e6 near-collinear triples", "wrong", naive, ours, 0);
 }
@@ -257,8 +258,8 @@ static void no_ray_leaks_through_a_corner(void **state)
     hard_case("30", "the same, products contracted", "wrong", parametric, ours, 0);
 }
 
-/* Two rails of at least 4 m that share a rounded vertex, and received echoes within rounding of it from 1 m
- * to either side. */
+/* Two rails of at least 4 m that share a rounded vertex, and received echoes within rounding of it
+ * from 1 m to either side. */
 static void no_ray_leaks_through_a_joint(void **state)
 {
     (void)state;
@@ -371,7 +372,7 @@ static void no_object_hides_its_own_outline(void **state)
             double x = k % 4 < 2 ? part : side, y = k % 4 < 2 ? side : part;
             add_point(&scene, set, x, y);
             naive += outline_crossing_blocks(corner, 4, (struct vec2){0, 0},
-                                              reflectors_place(&box, x, y));
+                                             reflectors_place(&box, x, y));
         }
         look(&scene);
         ours += (double)(20 - scene.frame.echoes.count);
@@ -390,7 +391,8 @@ static int plain_feet(struct vec2 a, struct vec2 joint, struct vec2 b, struct ve
 }
 
 /* A wall in two pieces: of one object, or of two whose ends coincide as doubles. */
-static struct vec2 build_wall(struct playback *scene, uint64_t *random, bool straight, double yaw_rad)
+static struct vec2 build_wall(struct playback *scene, uint64_t *random, bool straight,
+                              double yaw_rad)
 {
     struct object one = {.id = "a",
                          .class = "wall",
@@ -589,8 +591,8 @@ static void nothing_at_range_zero_is_infinite(void **state)
         struct vec2 sensor = i % 3 ? (struct vec2){0, 0} : draw_place(&random, 1e3);
         struct vec2 beside = {ldexp(1, -(i % 1075)), i % 2 ? 0 : ldexp(-1, -(i % 1074))};
         struct vec2 point = i % 4 ? vec2_add(sensor, beside) : sensor;
-        struct kinematics sight = kinematics_of(sensor, draw_place(&random, 50), (struct vec2){1, 0}, point,
-                                      draw_place(&random, 50));
+        struct kinematics sight = kinematics_of(
+            sensor, draw_place(&random, 50), (struct vec2){1, 0}, point, draw_place(&random, 50));
         struct vec2 line = vec2_sub(point, sensor);
         naive += !isfinite(line.y / vec2_length(line)) || !isfinite(1 / vec2_dot(line, line));
         ours += !isfinite(sight.range_m) || !isfinite(sight.azimuth_rad) ||

@@ -4,11 +4,11 @@
 
 #include "hard.h"
 
-#include "motion.h"
-#include "scenario.h"
-#include "playback.h"
-#include "kinematics.h"
-#include "units.h"
+#include "base/units.h"
+#include "geometry/kinematics.h"
+#include "geometry/motion.h"
+#include "traffic/playback.h"
+#include "traffic/scenario.h"
 
 /* |actual - exact|, which is used up. */
 static double distance(double actual, mpfr_t exact)
@@ -121,8 +121,8 @@ static void utm_places_keep_a_nanometre(void **state)
         for (int i = 0; i < TRACKS; i++) {
             const struct object *object = &frame.objects.items[i];
             struct vec2 place_m = {object->x_m, object->y_m};
-            struct kinematics sight = kinematics_of(ego_m, (struct vec2){0, 0}, (struct vec2){1, 0}, place_m,
-                                          (struct vec2){0, 0});
+            struct kinematics sight = kinematics_of(ego_m, (struct vec2){0, 0}, (struct vec2){1, 0},
+                                                    place_m, (struct vec2){0, 0});
             ours = fmax(ours, local_error_m(place_m.x, now[i].x_um, origin_m.x, work[0]));
             ours = fmax(ours, local_error_m(place_m.y, now[i].y_um, origin_m.y, work[0]));
             ours = fmax(ours, range_error_m(sight.range_m, now[0], now[i], work));

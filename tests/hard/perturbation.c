@@ -10,15 +10,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "catalogue.h"
-#include "direct_echoes.h"
-#include "frame_order.h"
-#include "fused.h"
-#include "adversarial_traffic.h"
-#include "hash.h"
-#include "runner.h"
-#include "sort.h"
-#include "units.h"
+#include "base/hash.h"
+#include "base/sort.h"
+#include "base/units.h"
+#include "documents/catalogue.h"
+#include "documents/vehicle.h"
+#include "frame/frame_order.h"
+#include "ideal/direct_echoes.h"
+#include "run/fused.h"
+#include "run/runner.h"
+#include "traffic/adversarial_traffic.h"
 
 enum { SENSORS = 2, SCENES = 6250 };
 
@@ -134,7 +135,7 @@ static int make_bench(void **state)
     struct diag diag = {0};
     for (enum random_class class = 0; class < RANDOM_CLASSES; class ++) {
         const struct vehicle *vehicle =
-            catalogue_vehicle(random_traffic_class_name(class), &bench->documents, &diag);
+            vehicle_load(random_traffic_class_name(class), &bench->documents, &diag);
         if (vehicle == NULL)
             fail_msg("%s", diag.text);
         bench->scene.models[class] =
@@ -443,7 +444,7 @@ static void compare_values(struct bench *bench, const struct value *before,
                            const struct margins *margins)
 {
     const double may[QUANTITIES] = {error->range_m, error->rate_mps, azimuth_rad, error->pointer};
-    bool undecided = (margins->told & MARGIN_SIGN) != 0 && margins->sign <= SIGN_OVERRUN;
+    bool undecided = (margins->present & MARGIN_SIGN) != 0 && margins->sign <= SIGN_OVERRUN;
     for (int i = 0; i < QUANTITIES; i++) {
         bool either_side = i == AZIMUTH && undecided;
         double was = either_side ? fabs(before->of[i]) : before->of[i];
@@ -494,7 +495,7 @@ static double nearness(const struct margins *margins)
     for (int i = 0; i < KINDS; i++) {
         double margin;
         memcpy(&margin, (const char *)margins + overrun[i].offset, sizeof margin);
-        if ((margins->told & overrun[i].kind) != 0)
+        if ((margins->present & overrun[i].kind) != 0)
             least = fmin(least, margin / overrun[i].bound);
     }
     return least;

@@ -6,15 +6,15 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "carrier.h"
-#include "direct_echoes.h"
-#include "elementary.h"
-#include "frame_order.h"
-#include "frame_text.h"
-#include "hash.h"
-#include "runner.h"
-#include "resolution_cell.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/hash.h"
+#include "base/units.h"
+#include "frame/frame_order.h"
+#include "frame/frame_text.h"
+#include "ideal/direct_echoes.h"
+#include "radar/carrier.h"
+#include "run/runner.h"
+#include "sensor/resolution_cell.h"
 
 #define DEGREE (PI / 180)
 
@@ -220,8 +220,8 @@ static void lone_targets_stay_where_they_are(void **state)
 }
 
 /* The cell of received echoes in whatever order. */
-static struct cell cell_of(const struct sensor *sensor, struct received_echo *received_echoes, size_t count,
-                           struct arena *arena)
+static struct cell cell_of(const struct sensor *sensor, struct received_echo *received_echoes,
+                           size_t count, struct arena *arena)
 {
     struct cell cell;
     arena_clear(arena);
@@ -230,12 +230,13 @@ static struct cell cell_of(const struct sensor *sensor, struct received_echo *re
     return cell;
 }
 
-static struct received_echo ray_at(const struct sensor *sensor, const char *object, double azimuth_rad,
-                         double strength)
+static struct received_echo ray_at(const struct sensor *sensor, const char *object,
+                                   double azimuth_rad, double strength)
 {
-    struct received_echo received = {.echo = {.object = object, .reflector = "r", .azimuth_rad = azimuth_rad},
-                      .strength = strength,
-                      .amplitude = strength * antenna_gain(&sensor->antenna, azimuth_rad)};
+    struct received_echo received = {
+        .echo = {.object = object, .reflector = "r", .azimuth_rad = azimuth_rad},
+        .strength = strength,
+        .amplitude = strength * antenna_gain(&sensor->antenna, azimuth_rad)};
     return received;
 }
 
@@ -243,7 +244,7 @@ static struct cell pair_of(const struct sensor *sensor, double azimuth_rad, doub
                            double right, struct arena *arena)
 {
     struct received_echo received_echoes[] = {ray_at(sensor, "left", azimuth_rad, left),
-                         ray_at(sensor, "right", -azimuth_rad, right)};
+                                              ray_at(sensor, "right", -azimuth_rad, right)};
     return cell_of(sensor, received_echoes, 2, arena);
 }
 
@@ -382,12 +383,14 @@ static void one_ulp_of_an_echo_does_not_make_the_angle_jump(void **state)
 }
 
 /* Sums as plain as can be, in the cell's order. */
-static struct antenna_pointers naive_pointers(const struct sensor *sensor, const struct received_echo *received_echoes,
+static struct antenna_pointers naive_pointers(const struct sensor *sensor,
+                                              const struct received_echo *received_echoes,
                                               size_t count)
 {
     struct antenna_pointers total = {0, 0};
     for (size_t i = 0; i < count; i++) {
-        struct antenna_pointers one = antenna_pointers(&sensor->antenna, received_echoes[i].echo.azimuth_rad);
+        struct antenna_pointers one =
+            antenna_pointers(&sensor->antenna, received_echoes[i].echo.azimuth_rad);
         total.sum += received_echoes[i].strength * one.sum;
         total.delta += received_echoes[i].strength * one.delta;
     }
@@ -410,7 +413,8 @@ static void an_even_cell_has_no_sign(void **state)
         double strength = exp(sample_between(&sample, -7, 7));
         struct received_echo received_echoes[2 * SIDE];
         for (int k = 0; k < 2 * SIDE; k++)
-            received_echoes[k] = ray_at(&bench.sensor, "o", k < SIDE ? azimuth_rad : -azimuth_rad, strength);
+            received_echoes[k] =
+                ray_at(&bench.sensor, "o", k < SIDE ? azimuth_rad : -azimuth_rad, strength);
         ours += !cell_of(&bench.sensor, received_echoes, 2 * SIDE, &arena).sign_undecided;
         struct antenna_pointers plain = naive_pointers(&bench.sensor, received_echoes, 2 * SIDE);
         naive += !monopulse_angle(&bench.sensor.antenna, MONOPULSE_MAGNITUDE, plain).sign_undecided;
@@ -427,8 +431,9 @@ static void set_delta(mpfr_t total, mpfr_t sizes, const struct sensor *sensor,
     mpfr_set_zero(total, 1);
     mpfr_set_zero(sizes, 1);
     for (size_t i = 0; i < count; i++) {
-        double term = received_echoes[i].strength *
-                      cimag(antenna_pointers(&sensor->antenna, received_echoes[i].echo.azimuth_rad).delta);
+        double term =
+            received_echoes[i].strength *
+            cimag(antenna_pointers(&sensor->antenna, received_echoes[i].echo.azimuth_rad).delta);
         mpfr_add_d(total, total, term, MPFR_RNDN);
         mpfr_add_d(sizes, sizes, fabs(term), MPFR_RNDN);
     }
@@ -455,7 +460,8 @@ static void a_weak_target_outlives_strong_ones_that_cancel(void **state)
             double strength = pow(10, sample_between(&sample, 0, 16));
             received_echoes[k] = ray_at(&bench.sensor, "one", azimuth_rad, strength);
             received_echoes[k + 1] = ray_at(&bench.sensor, "half", -azimuth_rad, strength / 2);
-            received_echoes[k + 2] = ray_at(&bench.sensor, "other half", -azimuth_rad, strength / 2);
+            received_echoes[k + 2] =
+                ray_at(&bench.sensor, "other half", -azimuth_rad, strength / 2);
         }
         set_delta(exact, sizes, &bench.sensor, received_echoes, 3 * GROUPS);
         double weak = mpfr_get_d(sizes, MPFR_RNDN) * pow(10, sample_between(&sample, -14.9, -1));
@@ -559,7 +565,8 @@ static void set_azimuth(mpfr_t azimuth, const struct received_echo *received_ech
 }
 
 /* Whether two echoes in one cell end as a target or as lost, as the threshold says. */
-static bool two_are_told(struct bench *bench, double first, double second, struct received_echo received_echoes[2])
+static bool two_are_told(struct bench *bench, double first, double second,
+                         struct received_echo received_echoes[2])
 {
     const struct frame *frame = &bench->frame;
     bench_begin(bench);
@@ -568,8 +575,10 @@ static bool two_are_told(struct bench *bench, double first, double second, struc
     count_echoes(&bench->frame);
     bool told = bench_step(bench);
     for (int i = 0; i < 2; i++)
-        received_echoes[i] = received_echo_in_free_space(&bench->sensor, &frame->echoes.items[i], 0);
-    size_t targets = received_echoes[0].amplitude + received_echoes[1].amplitude >= bench->sensor.threshold;
+        received_echoes[i] =
+            received_echo_in_free_space(&bench->sensor, &frame->echoes.items[i], 0);
+    size_t targets =
+        received_echoes[0].amplitude + received_echoes[1].amplitude >= bench->sensor.threshold;
     return told && frame->targets.count == targets && frame->lost.count == 1 - targets;
 }
 

@@ -3,10 +3,10 @@
 
 #include <stdlib.h>
 
-#include "elementary.h"
-#include "hash.h"
-#include "random.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/hash.h"
+#include "base/random.h"
+#include "base/units.h"
 
 enum { PRECISION = 200 };
 

@@ -5,13 +5,13 @@
 #include <float.h>
 #include <string.h>
 
-#include "hash.h"
-#include "number.h"
-#include "target_list.h"
-#include "resolution.h"
-#include "sort.h"
-#include "resolution_cell.h"
-#include "units.h"
+#include "base/hash.h"
+#include "base/number.h"
+#include "base/sort.h"
+#include "base/units.h"
+#include "noise/target_list.h"
+#include "radar/resolution.h"
+#include "sensor/resolution_cell.h"
 
 enum { MOST = 10, PRECISION = 320 };
 
@@ -165,16 +165,17 @@ static void a_mean_rate_near_zero_is_as_exact_as_its_members(void **state)
 
 static const struct sensor plain_sensor = {.name = "s", .threshold = 1};
 
-static struct received_echo ray_of(const char *reflector, double range_m, double rate_mps, double amplitude)
+static struct received_echo ray_of(const char *reflector, double range_m, double rate_mps,
+                                   double amplitude)
 {
     return (struct received_echo){.echo = {.object = "o",
-                                 .reflector = reflector,
-                                 .range_m = range_m,
-                                 .range_rate_mps = rate_mps},
-                        .range_m = range_m,
-                        .range_rate_mps = rate_mps,
-                        .strength = amplitude,
-                        .amplitude = amplitude};
+                                           .reflector = reflector,
+                                           .range_m = range_m,
+                                           .range_rate_mps = rate_mps},
+                                  .range_m = range_m,
+                                  .range_rate_mps = rate_mps,
+                                  .strength = amplitude,
+                                  .amplitude = amplitude};
 }
 
 static void shuffle(uint64_t *random, struct received_echo *received_echoes, size_t count)
@@ -235,7 +236,8 @@ static void a_cell_is_the_same_for_every_order_of_its_echoes(void **state)
         plain[k] = 0;
         for (size_t i = 0; i < ECHOES; i++)
             plain[k] += received_echoes[i].amplitude * received_echoes[i].echo.range_m;
-        sort_items(received_echoes, ECHOES, sizeof *received_echoes, resolution_cell_compare, &arena);
+        sort_items(received_echoes, ECHOES, sizeof *received_echoes, resolution_cell_compare,
+                   &arena);
         resolution_cell_of(&plain_sensor, received_echoes, ECHOES, true, &arena, &cell);
         ours[k] = fingerprint(&cell);
         arena_clear(&arena);
@@ -288,7 +290,8 @@ static void an_amplitude_beyond_the_doubles_is_refused(void **state)
                           .ego = "e",
                           .interval_s = 1,
                           .present = SECTION_OBJECTS | SECTION_CELLS};
-    const struct received_echo received_echoes[] = {ray_of("a", 10, 0, 1.2e308), ray_of("b", 10, 0, 1.2e308)};
+    const struct received_echo received_echoes[] = {ray_of("a", 10, 0, 1.2e308),
+                                                    ray_of("b", 10, 0, 1.2e308)};
     struct diag alone = {0}, both = {0};
     struct cell *cell = list_add(&frame.cells, &arena);
     resolution_cell_of(&plain_sensor, received_echoes, 1, true, &arena, cell);

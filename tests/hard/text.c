@@ -9,11 +9,11 @@
 #include <csv.h>
 #include <jansson.h>
 
-#include "document.h"
-#include "frame_text.h"
-#include "number.h"
-#include "scenario.h"
-#include "csv_table.h"
+#include "base/number.h"
+#include "frame/frame_text.h"
+#include "text/csv_table.h"
+#include "text/document.h"
+#include "traffic/scenario.h"
 
 enum { PRECISION = 200 };
 
@@ -141,8 +141,8 @@ static bool document_reads_x(struct arena *arena, const char *x, double *value)
     return done == 0;
 }
 
-static bool parse_table(struct arena *arena, const char *bytes, size_t length, struct csv_table *table,
-                        struct diag *diag)
+static bool parse_table(struct arena *arena, const char *bytes, size_t length,
+                        struct csv_table *table, struct diag *diag)
 {
     struct text text = {0};
     *diag = (struct diag){0};

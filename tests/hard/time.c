@@ -3,13 +3,13 @@
 #include "../scratch.h"
 #include "chain.h"
 
-#include "scan_timing.h"
-#include "number.h"
-#include "target_list.h"
-#include "resolution.h"
-#include "playback.h"
-#include "sort.h"
-#include "resolution_cell.h"
+#include "base/number.h"
+#include "base/sort.h"
+#include "noise/target_list.h"
+#include "radar/resolution.h"
+#include "radar/scan_timing.h"
+#include "sensor/resolution_cell.h"
+#include "traffic/playback.h"
 
 enum { FRAMES = 1000000, PRECISION = 320 };
 
@@ -287,16 +287,18 @@ static void shuffle(uint64_t *random, void *items, size_t count, size_t size)
 }
 
 /* Echoes 0 to 0.28 m apart, amplitudes the same or apart_ulp steps apart. */
-static void draw_rays(uint64_t *random, int64_t apart_ulp, struct received_echo received_echoes[TIED])
+static void draw_rays(uint64_t *random, int64_t apart_ulp,
+                      struct received_echo received_echoes[TIED])
 {
     static const char *const names[] = {"a", "b", "c", "d", "e", "f"};
     for (size_t i = 0; i < TIED; i++) {
         double amplitude = 2 * (1 + (double)sample_integer(random, apart_ulp) * 0x1p-52);
         double range_m = 10 + 0.07 * (double)(sample_bits(random) % 5);
-        received_echoes[i] = (struct received_echo){.echo = {.object = "o", .reflector = names[i], .range_m = range_m},
-                               .range_m = range_m,
-                               .strength = amplitude,
-                               .amplitude = amplitude};
+        received_echoes[i] = (struct received_echo){
+            .echo = {.object = "o", .reflector = names[i], .range_m = range_m},
+            .range_m = range_m,
+            .strength = amplitude,
+            .amplitude = amplitude};
     }
 }
 
@@ -306,7 +308,8 @@ static size_t find_cells(const struct received_echo received_echoes[TIED], doubl
     struct resolution_echo echoes[TIED];
     size_t cell[TIED];
     for (size_t i = 0; i < TIED; i++)
-        echoes[i] = (struct resolution_echo){received_echoes[i].echo.range_m, 0, received_echoes[i].amplitude};
+        echoes[i] = (struct resolution_echo){received_echoes[i].echo.range_m, 0,
+                                             received_echoes[i].amplitude};
     size_t cells = cluster(echoes, TIED, 0.15, 0.25, cell);
     for (size_t number = 0; number < cells; number++) {
         double ranges[TIED], weights[TIED];

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "elementary.h"
-#include "frame_order.h"
+#include "base/elementary.h"
+#include "frame/frame_order.h"
 
 static const char *draw_address_of(const struct field *field, const void *base)
 {

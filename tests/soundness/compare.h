@@ -4,7 +4,7 @@
 #ifndef SOUNDNESS_COMPARE_H
 #define SOUNDNESS_COMPARE_H
 
-#include "frame.h"
+#include "frame/frame.h"
 
 /* targets and lost, bit by bit. */
 int compare_bits(const struct frame *all, const struct frame *chosen, struct diag *diag);

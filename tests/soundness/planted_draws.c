@@ -1,8 +1,8 @@
 /* Draws in their order, of which merging takes one: where it is left out, all that follow move.
  * Traffic is drawn by address all the same: scenes stay what they are. */
+#include "base/random.h"
 #include "planted.h"
-#include "random.h"
-#include "resolution.h"
+#include "radar/resolution.h"
 
 static uint64_t drawn;
 

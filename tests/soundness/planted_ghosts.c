@@ -1,5 +1,5 @@
 /* A heuristic: a mirror matters to a body if it shows the body's centre. */
-#include "mirror.h"
+#include "geometry/mirror.h"
 #include "planted.h"
 
 bool __wrap_mirror_may_bounce(const struct mirror *mirror, struct vec2 sensor_m,

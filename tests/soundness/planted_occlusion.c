@@ -1,6 +1,6 @@
 /* A heuristic: the outer half of a vehicle hides nothing, and is no part of what is hidden. */
+#include "geometry/silhouette.h"
 #include "planted.h"
-#include "silhouette.h"
 
 struct silhouette __real_silhouette_of(struct vec2 half_m, struct vec2 heading,
                                        struct vec2 viewer_m);

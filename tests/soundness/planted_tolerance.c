@@ -1,6 +1,6 @@
 /* Tolerances only: what weather weakens by less than its share decides nothing. */
-#include "escalation.h"
 #include "planted.h"
+#include "sensor/escalation.h"
 
 bool __wrap_escalation_holds(const struct scan *scan, struct weakening weakening,
                              const struct tolerance *tolerance);

@@ -11,13 +11,13 @@
 #include <time.h>
 
 #include "compare.h"
-#include "frame_text.h"
-#include "fused.h"
-#include "options.h"
+#include "frame/frame_text.h"
 #include "planted.h"
-#include "progress.h"
-#include "random_traffic.h"
-#include "runner.h"
+#include "run/fused.h"
+#include "run/options.h"
+#include "run/progress.h"
+#include "run/runner.h"
+#include "traffic/random_traffic.h"
 
 enum { STEPS = 3, SHOWN = 5 };
 static const char *const steps[STEPS] = {"ideal", "sensor", "noise"};
@@ -63,7 +63,8 @@ struct bench {
 };
 
 static const struct field soundness_options[] = {
-    {FIELD_CHOICE_OF(struct soundness, density, random_traffic_densities, "of the scenes"), FIELD_OPTIONAL},
+    {FIELD_CHOICE_OF(struct soundness, density, random_traffic_densities, "of the scenes"),
+     FIELD_OPTIONAL},
     {FIELD_NAME_OF(struct soundness, sensors, "the suite")},
     {FIELD_INTEGER_IN(struct soundness, first, 0, 1e9, "number of the first scene"),
      FIELD_OPTIONAL},
@@ -363,7 +364,8 @@ static void tell(const struct bench *bench)
 {
     const struct soundness *wanted = bench->wanted;
     struct text text = {0};
-    text_format(&text, "{\"density\":\"%s\",\"sensors\":", random_traffic_densities[wanted->density]);
+    text_format(&text,
+                "{\"density\":\"%s\",\"sensors\":", random_traffic_densities[wanted->density]);
     text_add_json(&text, wanted->sensors, strlen(wanted->sensors));
     text_format(&text, ",\"first\":%" PRId64 ",\"frames\":%" PRId64 ",\"planners\":[",
                 wanted->first, bench->planners[0].frames);

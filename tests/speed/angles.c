@@ -11,8 +11,8 @@
 #include <time.h>
 
 #include "../sample.h"
-#include "monopulse.h"
-#include "units.h"
+#include "base/units.h"
+#include "radar/monopulse.h"
 
 enum { CALLS = 4096, SWEEPS = 25, MOST_ENTRIES = 65536 };
 

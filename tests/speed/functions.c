@@ -8,9 +8,9 @@
 #include <time.h>
 
 #include "../sample.h"
-#include "elementary.h"
-#include "random.h"
-#include "units.h"
+#include "base/elementary.h"
+#include "base/random.h"
+#include "base/units.h"
 
 enum { CALLS = 4096, SWEEPS = 25 };
 

@@ -8,8 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/arena.h"
 #include "check.h"
-#include "arena.h"
 
 struct scratch {
     char directory[64];

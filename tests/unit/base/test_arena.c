@@ -4,8 +4,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "diag.h"
-#include "arena.h"
+#include "base/arena.h"
+#include "base/diag.h"
 #include "sample.h"
 
 static void memory_is_zeroed_aligned_and_its_own(void **state)

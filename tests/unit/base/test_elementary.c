@@ -8,9 +8,9 @@
 
 #include <mpfr.h>
 
-#include "elementary.h"
+#include "base/elementary.h"
+#include "base/units.h"
 #include "sample.h"
-#include "units.h"
 
 #define POINTS 30000
 #define MANY_POINTS 1000000

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "intern.h"
+#include "base/intern.h"
 #include "sample.h"
 
 static void equal_names_are_one_pointer(void **state)

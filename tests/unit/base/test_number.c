@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "number.h"
+#include "base/number.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])

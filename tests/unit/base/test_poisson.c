@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "poisson.h"
+#include "base/poisson.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])

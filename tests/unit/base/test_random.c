@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "random.h"
+#include "base/random.h"
 
 #define DRAWS 250000
 

@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "random_sequence.h"
+#include "base/random_sequence.h"
 
 #define DRAWS 100000
 

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "sample.h"
-#include "text.h"
 
 static bool stands_for_itself(char byte)
 {

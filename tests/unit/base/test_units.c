@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "units.h"
+#include "base/units.h"
 
 static const long double PI_LONG = 3.14159265358979323846264338327950288L;
 

@@ -6,8 +6,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "catalogue.h"
-#include "text.h"
+#include "base/text.h"
+#include "documents/catalogue.h"
+#include "documents/vehicle.h"
+#include "traffic/scenario.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
@@ -77,7 +79,7 @@ static size_t load_all(const char *kind, void (*load)(const char *name, struct a
 static void load_vehicle(const char *name, struct arena *arena)
 {
     struct diag diag = {0};
-    const struct vehicle *vehicle = catalogue_vehicle(name, arena, &diag);
+    const struct vehicle *vehicle = vehicle_load(name, arena, &diag);
     if (vehicle == NULL)
         fail_msg("%s", diag.text);
     assert_string_equal(vehicle->reflectors.model, name);
@@ -90,7 +92,7 @@ static void load_vehicle(const char *name, struct arena *arena)
 static void load_scenario(const char *name, struct arena *arena)
 {
     struct diag diag = {0};
-    const struct scenario *scenario = catalogue_scenario(name, arena, &diag);
+    const struct scenario *scenario = scenario_load(name, arena, &diag);
     if (scenario == NULL)
         fail_msg("%s", diag.text);
     for (size_t i = 0; i < scenario->objects.count; i++)
@@ -276,7 +278,7 @@ static void vehicles_that_no_table_can_refuse_are_refused(void **state)
                     faults[i]);
         text_add(&text, "", 1);
         write_file(scratch->suite, text.bytes);
-        assert_null(catalogue_vehicle(scratch->suite, &scratch->arena, &diag));
+        assert_null(vehicle_load(scratch->suite, &scratch->arena, &diag));
         assert_non_null(strstr(diag.text, "[0].zero_rad: "));
         assert_int_equal(diag.code, DIAG_CONFIG);
         text_free(&text);
@@ -289,11 +291,11 @@ static void scenarios_are_checked_and_named(void **state)
     struct diag diag = {0};
     write_file(scratch->suite, "{\"origin\":\"a test\",\"ego\":\"e\",\"rate_hz\":10,"
                                "\"duration_s\":1,\"objects\":[]}");
-    assert_null(catalogue_scenario(scratch->suite, &scratch->arena, &diag));
+    assert_null(scenario_load(scratch->suite, &scratch->arena, &diag));
     assert_memory_equal(diag.text, scratch->suite, strlen(scratch->suite));
     assert_int_equal(diag.code, DIAG_CONFIG);
     diag = (struct diag){0};
-    assert_null(catalogue_vehicle("no_such_class", &scratch->arena, &diag));
+    assert_null(vehicle_load("no_such_class", &scratch->arena, &diag));
     assert_non_null(strstr(diag.text, "there is no vehicles/no_such_class.json"));
     assert_int_equal(diag.code, DIAG_CONFIG);
 }

@@ -3,11 +3,11 @@
 #include <complex.h>
 #include <string.h>
 
-#include "carrier.h"
-#include "contour.h"
-#include "radar_equation.h"
-#include "random.h"
-#include "units.h"
+#include "base/random.h"
+#include "base/units.h"
+#include "documents/contour.h"
+#include "radar/carrier.h"
+#include "radar/radar_equation.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define FAR_M 1e7

@@ -2,9 +2,9 @@
 
 #include <string.h>
 
-#include "radar_equation.h"
-#include "sensing_target_3gpp.h"
-#include "units.h"
+#include "base/units.h"
+#include "documents/sensing_target_3gpp.h"
+#include "radar/radar_equation.h"
 
 #define DEGREE (PI / 180)
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -36,8 +36,10 @@ static void a_vehicle_has_the_published_cross_sections(void **state)
                                       {90, 20.129911}, {165, 12.142018}, {180, 13.762731}};
     for (size_t i = 0; i < COUNT(level); i++) {
         double azimuth = level[i][0], expected = level[i][1];
-        assert_close(cross_section_dbsm(SENSING_TARGET_3GPP_VEHICLE, azimuth, 90), expected, 5.1e-7);
-        assert_close(cross_section_dbsm(SENSING_TARGET_3GPP_VEHICLE, -azimuth, 90), expected, 5.1e-7);
+        assert_close(cross_section_dbsm(SENSING_TARGET_3GPP_VEHICLE, azimuth, 90), expected,
+                     5.1e-7);
+        assert_close(cross_section_dbsm(SENSING_TARGET_3GPP_VEHICLE, -azimuth, 90), expected,
+                     5.1e-7);
     }
 }
 

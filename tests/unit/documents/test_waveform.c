@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "waveform.h"
+#include "documents/waveform.h"
 
 static struct waveform usual(enum waveform_kind kind)
 {

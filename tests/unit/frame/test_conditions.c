@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "conditions.h"
+#include "frame/conditions.h"
 
 static void what_is_said_replaces_and_what_is_not_stays(void **state)
 {

@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "draw_address.h"
+#include "frame/draw_address.h"
 
 static const struct echo_id SUBJECT = {"car", "front_left", PATH_WALL_OBJECT, "wall", 2};
 static const struct frame FRAME = {.seed = 7, .scene = "scene/ego", .frame = 3};

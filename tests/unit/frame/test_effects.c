@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "effects.h"
+#include "frame/effects.h"
 
 #define EVERY (EFFECT_BIT(EFFECT_COUNT) - 1)
 

@@ -1,12 +1,12 @@
 #include "check.h"
-#include "frame_check.h"
-#include "frame_order.h"
+#include "frame/frame_check.h"
+#include "frame/frame_order.h"
 
 #include <string.h>
 
-#include "frame_account.h"
-#include "frame.h"
-#include "frame_text.h"
+#include "frame/frame.h"
+#include "frame/frame_account.h"
+#include "frame/frame_text.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])

@@ -22,10 +22,10 @@
 
 #include <jansson.h>
 
-#include "frame_text.h"
-#include "json_scan.h"
-#include "progress.h"
+#include "frame/frame_text.h"
+#include "run/progress.h"
 #include "sample.h"
+#include "text/json_scan.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define LOAD(type, member) (*(type *)memcpy(&(type){0}, (member), sizeof(type)))

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "frame_sequence.h"
+#include "frame/frame_sequence.h"
 
 struct bench {
     struct arena arena;

@@ -6,7 +6,7 @@
 
 #include <jansson.h>
 
-#include "frame_text.h"
+#include "frame/frame_text.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])

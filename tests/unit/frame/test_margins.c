@@ -2,20 +2,20 @@
 
 #include <string.h>
 
-#include "margins.h"
+#include "frame/margins.h"
 
 static void a_margin_is_the_least_that_was_noted(void **state)
 {
     (void)state;
     struct margins margins = {0};
-    assert_int_equal(margins.told, 0);
+    assert_int_equal(margins.present, 0);
     margins_note(&margins, MARGIN_LEADER, 3);
     margins_note(&margins, MARGIN_LEADER, 2);
     margins_note(&margins, MARGIN_LEADER, 5);
     margins_note(&margins, MARGIN_SIGN, 0);
     margins_note(&margins, MARGIN_SIGHT, (double)INFINITY);
     margins_note(&margins, MARGIN_LIMIT_M, (double)NAN);
-    assert_int_equal(margins.told, MARGIN_LEADER | MARGIN_SIGN);
+    assert_int_equal(margins.present, MARGIN_LEADER | MARGIN_SIGN);
     assert_close(margins.leader_db, 2, 0);
     assert_close(margins.sign, 0, 0);
 }
@@ -31,7 +31,7 @@ static void every_kind_has_its_member(void **state)
                               margins.limit_m};
     for (int kind = 0; kind < 7; kind++)
         assert_close(members[kind], kind, 0);
-    assert_int_equal(margins.told, 127);
+    assert_int_equal(margins.present, 127);
 }
 
 static void merging_keeps_the_least_of_each(void **state)
@@ -44,7 +44,7 @@ static void merging_keeps_the_least_of_each(void **state)
     margins_note(&other, MARGIN_SIGN, 0.25);
     margins_note(&other, MARGIN_LIMIT_M, 7);
     margins_merge(&one, &other);
-    assert_int_equal(one.told, MARGIN_SIGHT | MARGIN_SIGN | MARGIN_LIMIT_M);
+    assert_int_equal(one.present, MARGIN_SIGHT | MARGIN_SIGN | MARGIN_LIMIT_M);
     assert_close(one.sight_m, 1, 0);
     assert_close(one.sign, 0.25, 0);
     assert_close(one.limit_m, 7, 0);

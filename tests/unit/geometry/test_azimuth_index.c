@@ -1,9 +1,9 @@
 #include "check.h"
 
-#include "azimuth_index.h"
-#include "outline_crossing.h"
+#include "base/units.h"
+#include "geometry/azimuth_index.h"
+#include "geometry/outline_crossing.h"
 #include "sample.h"
-#include "units.h"
 
 enum { MOST = 150, SCENES = 2000 };
 
@@ -84,7 +84,8 @@ static struct playback any_scene(uint64_t *random, struct arena *arena)
 }
 
 /* Steps through what was found, in order, and says whether the number is among it. */
-static bool is_found(const struct azimuth_index *bearings, size_t count, size_t number, size_t *next)
+static bool is_found(const struct azimuth_index *bearings, size_t count, size_t number,
+                     size_t *next)
 {
     if (*next < count && bearings->found[*next] == number) {
         (*next)++;
@@ -102,7 +103,8 @@ static void whatever_stands_before_a_corner_is_found_in_order(void **state)
         struct playback scene = any_scene(&random, *state);
         for (size_t behind = 0; behind < scene.count; behind += 7) {
             size_t next = 0;
-            size_t count = azimuth_index_find(&scene.bearings, azimuth_index_of(&scene.seen[behind]));
+            size_t count =
+                azimuth_index_find(&scene.bearings, azimuth_index_of(&scene.seen[behind]));
             for (size_t front = 0; front < scene.count; front++) {
                 struct vec2 corner = scene.corners[behind][sample_bits(&random) % 4];
                 bool block = outline_crossing_blocks(scene.corners[front], 4, sensor, corner);
@@ -128,7 +130,8 @@ static void few_are_found_that_are_far_aside(void **state)
     }
     for (size_t i = 0; i < MOST; i++) {
         struct vec2 place = at(80, (double)i * 2 * PI / MOST);
-        size_t count = azimuth_index_find(&bearings, azimuth_index_between((struct vec2){0, 0}, place));
+        size_t count =
+            azimuth_index_find(&bearings, azimuth_index_between((struct vec2){0, 0}, place));
         assert_in_range(count, 1, 4);
     }
 }
@@ -165,7 +168,8 @@ static void whatever_a_line_touches_is_found(void **state)
         for (int line = 0; line < 20; line++) {
             struct vec2 from, to;
             any_line(&random, &from, &to);
-            size_t count = azimuth_index_find(&scene.bearings, azimuth_index_between(from, to)), next = 0;
+            size_t count = azimuth_index_find(&scene.bearings, azimuth_index_between(from, to)),
+                   next = 0;
             for (size_t j = 0; j < scene.count; j++) {
                 bool touch = outline_crossing_blocks(scene.corners[j], 4, from, to);
                 if (!is_found(&scene.bearings, count, j, &next) && touch)

@@ -1,8 +1,8 @@
 #include "check.h"
 
-#include "ghost_path.h"
+#include "base/units.h"
+#include "geometry/ghost_path.h"
 #include "sample.h"
-#include "units.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define DEGREE (PI / 180)
@@ -16,12 +16,12 @@ struct playback {
 
 /* EFFECTS 7. */
 static const struct playback STANDARD = {.object = {{30, -2}, {-5, 0}},
-                                      .mirror = {.a = {-10, 4}, .b = {50, 4}}};
+                                         .mirror = {.a = {-10, 4}, .b = {50, 4}}};
 
 static struct kinematics look_at(const struct playback *scene, const struct mirror_image *thing)
 {
     return kinematics_of(scene->sensor.position_m, scene->sensor.velocity_mps, (struct vec2){1, 0},
-                    thing->place_m, thing->velocity_mps);
+                         thing->place_m, thing->velocity_mps);
 }
 
 static struct mirror_image image_in(const struct playback *scene)
@@ -145,9 +145,10 @@ static void ranges_are_half_the_legs_and_rates_their_derivatives(void **state)
         if (!measure(&scene, range_m))
             continue;
         struct mirror_image image = image_in(&scene);
-        struct kinematics direct = look_at(&scene, &scene.object), mirrored = look_at(&scene, &image);
+        struct kinematics direct = look_at(&scene, &scene.object),
+                          mirrored = look_at(&scene, &image);
         struct kinematics seen[PATHS] = {ghost_path_out(1, &direct, &mirrored).sight,
-                                    ghost_path_both(1, &mirrored).sight};
+                                         ghost_path_both(1, &mirrored).sight};
         for (int path = 0; path < PATHS; path++)
             assert_near(seen[path].range_m, range_m[path], 1e-13);
         for (size_t k = 0; k < COUNT(steps_s); k++) {

@@ -1,8 +1,8 @@
-#include "kinematics.h"
+#include "geometry/kinematics.h"
 
+#include "base/units.h"
 #include "check.h"
 #include "sample.h"
-#include "units.h"
 
 __extension__ typedef __int128 wide;
 
@@ -32,8 +32,9 @@ static void known_points_are_read_as_computed_by_hand(void **state)
         {{7, 8}, {1, 2}, {1, 0}, {7, 8}, {30, 40}, {0, 0, 0}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct kinematics sight = kinematics_of(cases[i].sensor_m, cases[i].sensor_mps, cases[i].boresight,
-                                      cases[i].point_m, cases[i].point_mps);
+        struct kinematics sight =
+            kinematics_of(cases[i].sensor_m, cases[i].sensor_mps, cases[i].boresight,
+                          cases[i].point_m, cases[i].point_mps);
         assert_close(sight.range_m, cases[i].sight.range_m, 1e-15);
         assert_close(sight.azimuth_rad, cases[i].sight.azimuth_rad, 3e-16);
         assert_close(sight.range_rate_mps, cases[i].sight.range_rate_mps, 2e-15);
@@ -54,7 +55,7 @@ static void range_and_azimuth_are_those_the_point_was_placed_at(void **state)
         struct vec2 velocity_mps =
             vec2_add(vec2_scale(rate_mps, direction), vec2_scale(across_mps, vec2_left(direction)));
         struct kinematics sight = kinematics_of((struct vec2){0, 0}, (struct vec2){0, 0}, boresight,
-                                      vec2_scale(range_m, direction), velocity_mps);
+                                                vec2_scale(range_m, direction), velocity_mps);
         assert_near(sight.range_m, range_m, 1e-15);
         assert_close(sight.azimuth_rad, azimuth_rad, 2e-15);
         assert_close(sight.range_rate_mps, rate_mps, 1e-13);
@@ -83,8 +84,9 @@ static void a_mirrored_scene_negates_the_azimuth_and_nothing_else(void **state)
         struct vec2 point_m = sample_vector(&sample, 100);
         struct vec2 point_mps = sample_vector(&sample, 50);
         struct kinematics left = kinematics_of(sensor_m, sensor_mps, boresight, point_m, point_mps);
-        struct kinematics right = kinematics_of(mirror(sensor_m), mirror(sensor_mps), mirror(boresight),
-                                      mirror(point_m), mirror(point_mps));
+        struct kinematics right =
+            kinematics_of(mirror(sensor_m), mirror(sensor_mps), mirror(boresight), mirror(point_m),
+                          mirror(point_mps));
         assert_true(right.range_m == left.range_m);
         assert_true(right.azimuth_rad == -left.azimuth_rad);
         assert_true(right.range_rate_mps == left.range_rate_mps);
@@ -104,8 +106,8 @@ static void nearly_tangential_motion_keeps_its_sign_and_its_size(void **state)
         wide product = (wide)vx * x + (wide)vy * y;
         struct vec2 point_m = {(double)x * 0x1p-30, (double)y * 0x1p-30};
         struct vec2 point_mps = {(double)vx * 0x1p-30, (double)vy * 0x1p-30};
-        struct kinematics sight = kinematics_of((struct vec2){0, 0}, (struct vec2){0, 0}, (struct vec2){1, 0},
-                                      point_m, point_mps);
+        struct kinematics sight = kinematics_of((struct vec2){0, 0}, (struct vec2){0, 0},
+                                                (struct vec2){1, 0}, point_m, point_mps);
         long double range_m = hypotl((long double)point_m.x, (long double)point_m.y);
         double rate_mps = (double)((long double)product * 0x1p-60L / range_m);
         assert_near(sight.range_rate_mps, rate_mps, 8e-16);

@@ -1,7 +1,7 @@
 #include "check.h"
 
-#include "knife_edge.h"
-#include "units.h"
+#include "base/units.h"
+#include "geometry/knife_edge.h"
 
 /* J of EFFECTS 16, one way. */
 static double loss_db(double parameter)

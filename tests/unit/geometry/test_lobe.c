@@ -1,7 +1,7 @@
 #include "check.h"
 
-#include "lobe.h"
-#include "units.h"
+#include "base/units.h"
+#include "geometry/lobe.h"
 
 #define DEGREE (PI / 180)
 

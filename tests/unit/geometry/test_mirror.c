@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "mirror.h"
+#include "geometry/mirror.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])

@@ -1,8 +1,8 @@
-#include "motion.h"
+#include "geometry/motion.h"
 
+#include "base/units.h"
 #include "check.h"
 #include "sample.h"
-#include "units.h"
 
 static const struct {
     double yaw_rad, speed_mps, acceleration_mps2, yaw_rate_radps, duration_s;

@@ -1,8 +1,8 @@
 #include "check.h"
 
-#include "knife_edge.h"
-#include "outline_crossing.h"
-#include "obstruction.h"
+#include "geometry/knife_edge.h"
+#include "geometry/obstruction.h"
+#include "geometry/outline_crossing.h"
 #include "sample.h"
 
 #define HIGH ((double)INFINITY)
@@ -28,7 +28,7 @@ static struct obstruction_line random_case(uint64_t *random, struct vec2 corners
         corners[i] =
             vec2_add(middle, vec2_turn((struct vec2){x[i] * length_m, y[i] * width_m}, heading));
     return (struct obstruction_line){somewhere(random, 20), somewhere(random, 20),
-                                 sample_between(random, 0, 3), sample_between(random, 0, 3)};
+                                     sample_between(random, 0, 3), sample_between(random, 0, 3)};
 }
 
 static void a_flat_world_knows_only_outlines(void **state)
@@ -170,7 +170,8 @@ static void shadows_change_without_jumps(void **state)
             if (!upwards)
                 line.from.y = line.to.y = shift_m;
             double top_m = upwards ? 1 - shift_m : HIGH;
-            double factor = obstruction_of(upwards ? car : pole, 4, top_m, &line, WAVELENGTH_M).factor;
+            double factor =
+                obstruction_of(upwards ? car : pole, 4, top_m, &line, WAVELENGTH_M).factor;
             assert_true(fabs(factor - before) < 0.005 || (before < 1.01 * last && factor == 0) ||
                         (factor < 1.01 * last && before == 0));
             before = factor;
@@ -206,7 +207,8 @@ static void edges_out_of_reach_change_nothing(void **state)
 static void no_way_at_all_is_as_hard_as_it_was(void **state)
 {
     (void)state;
-    const struct obstruction_line inside = {{10, 0}, {10, 0}, 1, 1}, corner = {{8, 1}, {8, 1}, 1, 1};
+    const struct obstruction_line inside = {{10, 0}, {10, 0}, 1, 1},
+                                  corner = {{8, 1}, {8, 1}, 1, 1};
     assert_close(obstruction_of(car, 4, HIGH, &inside, WAVELENGTH_M).factor, 1, 0);
     assert_close(obstruction_of(car, 4, HIGH, &corner, WAVELENGTH_M).factor, 0, 0);
 }

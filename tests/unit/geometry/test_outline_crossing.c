@@ -1,4 +1,4 @@
-#include "outline_crossing.h"
+#include "geometry/outline_crossing.h"
 
 #include "check.h"
 #include "sample.h"
@@ -63,8 +63,9 @@ static void closed_segments_touch_as_tabulated(void **state)
         {{1, 1}, {1, 1}, {1, 2}, {1, 2}, false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        assert_int_equal(outline_crossing_segments_touch(cases[i].p, cases[i].q, cases[i].a, cases[i].b),
-                         cases[i].touch);
+        assert_int_equal(
+            outline_crossing_segments_touch(cases[i].p, cases[i].q, cases[i].a, cases[i].b),
+            cases[i].touch);
 }
 
 struct lattice_point {
@@ -128,8 +129,8 @@ static void all_segments_of_a_small_lattice_agree_with_cramers_rule(void **state
     for (int n = 0; n < 65536; n++) {
         struct lattice_point p = digits(n), q = digits(n >> 4), a = digits(n >> 8),
                              b = digits(n >> 12);
-        assert_int_equal(outline_crossing_segments_touch(whole_place(p), whole_place(q), whole_place(a),
-                                                  whole_place(b)),
+        assert_int_equal(outline_crossing_segments_touch(whole_place(p), whole_place(q),
+                                                         whole_place(a), whole_place(b)),
                          lattice_touch(p, q, a, b));
     }
 }

@@ -1,4 +1,4 @@
-#include "predicates.h"
+#include "geometry/predicates.h"
 
 #include "check.h"
 #include "sample.h"

@@ -1,9 +1,9 @@
 #include "check.h"
 
-#include "outline_crossing.h"
+#include "base/units.h"
+#include "geometry/outline_crossing.h"
+#include "geometry/silhouette.h"
 #include "sample.h"
-#include "silhouette.h"
-#include "units.h"
 
 /* A box as the sensor at the origin sees it. */
 struct box {

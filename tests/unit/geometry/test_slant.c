@@ -1,8 +1,8 @@
 #include "check.h"
 
-#include "slant.h"
+#include "base/units.h"
+#include "geometry/slant.h"
 #include "sample.h"
-#include "units.h"
 
 #define DEGREE (PI / 180)
 
@@ -83,8 +83,7 @@ static void half_the_power_is_left_at_half_the_width(void **state)
     (void)state;
     for (int deg = 1; deg <= 20; deg++)
         for (int sign = -1; sign <= 1; sign += 2) {
-            struct slant edge =
-                slant_of(10 * cos(deg * DEGREE), sign * 10 * sin(deg * DEGREE));
+            struct slant edge = slant_of(10 * cos(deg * DEGREE), sign * 10 * sin(deg * DEGREE));
             assert_near(slant_amplitude_factor(edge, deg * DEGREE), 0.5, 1e-14);
             assert_near(slant_amplitude_factor(edge, 2 * deg * DEGREE), pow(0.5, 0.25), 1e-14);
         }

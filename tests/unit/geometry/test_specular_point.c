@@ -1,4 +1,4 @@
-#include "specular_point.h"
+#include "geometry/specular_point.h"
 
 #include "check.h"
 #include "sample.h"
@@ -54,7 +54,7 @@ static void known_sides_have_known_feet(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct vec2 foot = {-1e9, -1e9};
         bool exists = specular_point_foot(cases[i].a, cases[i].b, unit(cases[i].a, cases[i].b),
-                                      cases[i].margin_m, cases[i].sensor, &foot);
+                                          cases[i].margin_m, cases[i].sensor, &foot);
         assert_int_equal(exists, cases[i].exists);
         if (exists) {
             assert_close(foot.x, cases[i].foot.x, 4e-15);
@@ -81,8 +81,8 @@ static void the_foot_is_where_the_side_was_built_around(void **state)
         struct vec2 foot = {0, 0};
         bool exists =
             specular_point_foot(vec2_sub(built, vec2_scale(before_m, along)),
-                            vec2_add(built, vec2_scale(after_m, along)), along, margin_m,
-                            vec2_sub(built, vec2_scale(range_m, vec2_left(along))), &foot);
+                                vec2_add(built, vec2_scale(after_m, along)), along, margin_m,
+                                vec2_sub(built, vec2_scale(range_m, vec2_left(along))), &foot);
         assert_int_equal(exists, before_m >= margin_m && after_m >= margin_m && range_m > 0);
         /* Coordinates below 200 m are rounded by up to 1.5e-14 m, which turns a short side and
          * carries the foot of a far sensor along. */

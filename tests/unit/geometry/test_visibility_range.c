@@ -1,8 +1,8 @@
-#include "visibility_range.h"
+#include "geometry/visibility_range.h"
 
+#include "base/units.h"
 #include "check.h"
 #include "sample.h"
-#include "units.h"
 
 static double degrees(double angle_deg)
 {
@@ -31,7 +31,8 @@ static void known_directions_enclose_known_angles(void **state)
         assert_close(visibility_range_angle_rad(cases[i].a, cases[i].b), cases[i].angle_rad, 1e-15);
         assert_close(visibility_range_angle_rad(cases[i].b, cases[i].a), cases[i].angle_rad, 1e-15);
     }
-    assert_near(visibility_range_angle_rad((struct vec2){2, 0}, (struct vec2){1e3, 1e-9}), 1e-12, 1e-15);
+    assert_near(visibility_range_angle_rad((struct vec2){2, 0}, (struct vec2){1e3, 1e-9}), 1e-12,
+                1e-15);
 }
 
 static double long_angle_rad(struct vec2 a, struct vec2 b)
@@ -104,7 +105,8 @@ static void shapes_have_their_closed_form_values(void **state)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_close(visibility_range_factor(cases[i].shape, degrees(cases[i].full_deg),
-                                degrees(cases[i].zero_deg), degrees(cases[i].delta_deg)),
+                                             degrees(cases[i].zero_deg),
+                                             degrees(cases[i].delta_deg)),
                      cases[i].value, 1e-15);
 }
 
@@ -139,8 +141,8 @@ static void every_shape_falls_from_one_to_zero(void **state)
          shape++) {
         double before = 1;
         for (int i = 0; i <= 18000; i++) {
-            double value = visibility_range_factor((enum visibility_shape)shape, degrees(30), degrees(75),
-                                      degrees(i * 0.01));
+            double value = visibility_range_factor((enum visibility_shape)shape, degrees(30),
+                                                   degrees(75), degrees(i * 0.01));
             assert_true(value >= 0 && value <= before);
             before = value;
         }
@@ -173,7 +175,8 @@ static void along_a_sight_as_much_is_seen_as_at_its_angle(void **state)
              shape++) {
             double seen = visibility_range_along(shape, full_rad, zero_rad, facing, sight);
             assert_close(seen,
-                         visibility_range_factor(shape, full_rad, zero_rad, visibility_range_angle_rad(facing, sight)),
+                         visibility_range_factor(shape, full_rad, zero_rad,
+                                                 visibility_range_angle_rad(facing, sight)),
                          0);
             plain += seen == 0 || seen == 1;
         }
@@ -193,7 +196,8 @@ static void what_is_plainly_unseen_is_unseen_from_all_ends_nearby(void **state)
         struct vec2 edge =
             vec2_turn(facing, vec2_heading(zero_rad + sample_between(&sample, 0, 1)));
         struct vec2 sight = vec2_scale(sample_between(&sample, 0, 3), edge);
-        if (!visibility_range_plainly_none(visibility_range_dark_cosine(zero_rad), facing, sight, slack_m))
+        if (!visibility_range_plainly_none(visibility_range_dark_cosine(zero_rad), facing, sight,
+                                           slack_m))
             continue;
         unseen++;
         struct vec2 aside = vec2_heading(sample_between(&sample, -PI, PI));
@@ -203,8 +207,8 @@ static void what_is_plainly_unseen_is_unseen_from_all_ends_nearby(void **state)
             assert_true(visibility_range_along(shape, 0, zero_rad, facing, near) == 0);
     }
     assert_true(unseen > 50000);
-    assert_false(visibility_range_plainly_none(visibility_range_dark_cosine(PI), (struct vec2){1, 0},
-                                         (struct vec2){-9, 0}, 0));
+    assert_false(visibility_range_plainly_none(visibility_range_dark_cosine(PI),
+                                               (struct vec2){1, 0}, (struct vec2){-9, 0}, 0));
 }
 
 int main(void)

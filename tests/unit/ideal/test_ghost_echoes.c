@@ -3,13 +3,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "direct_echoes.h"
-#include "frame_order.h"
-#include "ghost_echoes.h"
-#include "obstruction.h"
+#include "base/sort.h"
+#include "base/units.h"
+#include "frame/frame_order.h"
+#include "geometry/obstruction.h"
+#include "ideal/direct_echoes.h"
+#include "ideal/ghost_echoes.h"
 #include "sample.h"
-#include "sort.h"
-#include "units.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define DEGREE (PI / 180)
@@ -79,8 +79,8 @@ static void add_right_mirror(struct playback *scene, struct reflector_set *set, 
         (struct mirror_plane){-0.5, -0.5, 0.5, -0.5, reflection};
 }
 
-static struct object *add_wall(struct playback *scene, const char *id, double from_x_m, double to_x_m,
-                               double y_m)
+static struct object *add_wall(struct playback *scene, const char *id, double from_x_m,
+                               double to_x_m, double y_m)
 {
     struct object *wall =
         add_object(scene, id, (from_x_m + to_x_m) / 2, y_m + 0.25, to_x_m - from_x_m, 0.5);
@@ -537,7 +537,7 @@ static void margins_tell_how_near_a_ghost_is_to_vanishing(void **state)
     add_standard_pole(scene);
     add_wall(scene, "w", -10, 50, 4);
     assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
-    assert_int_equal(scene->frame.echoes.items[0].margins.told, 0);
+    assert_int_equal(scene->frame.echoes.items[0].margins.present, 0);
     scene->frame.margins = true;
     /* What is nearest: the sensor's 4 m to the wall's line, a blocker beside the direct way or
      * beside the one to the wall, the wall's end past the bounce. */
@@ -671,7 +671,8 @@ static void soft_shadows_count_once_for_every_leg(void **state)
         box.motion.position_m = (struct vec2){cases[i].x_m, cases[i].y_m};
         reflectors_outline(&box, corner);
         double factor =
-            obstruction_of(corner, 4, (double)INFINITY, &cases[i].leg, units_wavelength_m(77e9)).factor;
+            obstruction_of(corner, 4, (double)INFINITY, &cases[i].leg, units_wavelength_m(77e9))
+                .factor;
         assert_true(factor > 0.01 && factor < 0.99);
         assert_near(ercs[1][0] / ercs[0][0], pow(factor, cases[i].one_way), 1e-9);
         assert_near(ercs[1][1] / ercs[0][1], pow(factor, cases[i].both), 1e-9);

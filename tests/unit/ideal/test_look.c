@@ -4,12 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "direct_echoes.h"
-#include "frame_text.h"
-#include "outline_crossing.h"
+#include "base/units.h"
+#include "frame/frame_text.h"
+#include "geometry/outline_crossing.h"
+#include "ideal/direct_echoes.h"
+#include "ideal/line_of_sight.h"
 #include "sample.h"
-#include "units.h"
-#include "line_of_sight.h"
 
 /* A frame in which object "e" carries a sensor with a view all around ahead. */
 struct playback {
@@ -436,7 +436,7 @@ static void a_reflector_tells_how_near_it_was_to_another_answer(void **state)
         if (cases[i].reason >= 0)
             assert_int_equal(only_loss(scene)->reason, cases[i].reason);
         struct margins margins = only_margins(scene);
-        assert_int_equal(margins.told, MARGIN_SIGHT);
+        assert_int_equal(margins.present, MARGIN_SIGHT);
         assert_close(margins.sight_m, margin_m, 1e-12);
         remove_scene(&place);
     }
@@ -496,8 +496,8 @@ static void without_margins_nothing_is_told(void **state)
     add_object(scene, "a", 20, 0);
     add_object(scene, "b", 0, 20);
     look_around_at(scene, 10);
-    assert_int_equal(scene->frame.echoes.items[0].margins.told, 0);
-    assert_int_equal(scene->frame.lost.items[0].echoes.items[0].margins.told, 0);
+    assert_int_equal(scene->frame.echoes.items[0].margins.present, 0);
+    assert_int_equal(scene->frame.lost.items[0].echoes.items[0].margins.present, 0);
 }
 
 static void a_set_on_nobody_is_refused(void **state)

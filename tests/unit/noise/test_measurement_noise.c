@@ -1,7 +1,7 @@
 #include "check.h"
 
-#include "measurement_noise.h"
-#include "units.h"
+#include "base/units.h"
+#include "noise/measurement_noise.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define EVERY (EFFECT_BIT(EFFECT_COUNT) - 1)

@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "noise_targets.h"
+#include "noise/noise_targets.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 

@@ -2,9 +2,9 @@
 
 #include <string.h>
 
-#include "target_list.h"
+#include "base/units.h"
+#include "noise/target_list.h"
 #include "sample.h"
-#include "units.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
@@ -142,7 +142,7 @@ static void the_limit_tells_how_near_it_cut(void **state)
     const struct {
         enum list_order order;
         int64_t limit;
-        unsigned told;
+        unsigned present;
         double listed[4], lost[3];
     } cases[] = {
         {LIST_STRONGEST, 2, MARGIN_LIMIT_DB, {db, db}, {db, db, all}},
@@ -159,12 +159,12 @@ static void the_limit_tells_how_near_it_cut(void **state)
         list.frame.margins = true;
         add_all(&list);
         target_list_make(&list.frame, "noise", &list.sensor, list.measurements, list.count,
-                      cases[i].limit);
-        bool db_told = cases[i].told == MARGIN_LIMIT_DB;
+                         cases[i].limit);
+        bool db_told = cases[i].present == MARGIN_LIMIT_DB;
         for (size_t j = 0; j < list.frame.targets.count; j++) {
             const struct margins *margins = &list.frame.targets.items[j].margins;
-            assert_int_equal(margins->told, cases[i].told);
-            if (margins->told != 0 && cases[i].limit > 1)
+            assert_int_equal(margins->present, cases[i].present);
+            if (margins->present != 0 && cases[i].limit > 1)
                 assert_close(db_told ? margins->limit_db : margins->limit_m, cases[i].listed[j],
                              1e-13);
         }
@@ -173,7 +173,7 @@ static void the_limit_tells_how_near_it_cut(void **state)
             for (size_t k = 0; k < group->echoes.count && k < COUNT(cases[i].lost); k++) {
                 const struct margins *margins = &group->echoes.items[k].margins;
                 bool mute = group->reason == LOSS_NO_AMPLITUDE;
-                assert_int_equal(margins->told, mute ? 0 : cases[i].told);
+                assert_int_equal(margins->present, mute ? 0 : cases[i].present);
                 if (!mute && cases[i].limit > 1)
                     assert_close(db_told ? margins->limit_db : margins->limit_m, cases[i].lost[k],
                                  1e-13);

@@ -2,9 +2,9 @@
 
 #include <string.h>
 
-#include "antenna.h"
+#include "base/units.h"
+#include "radar/antenna.h"
 #include "sample.h"
-#include "units.h"
 
 #define DEGREE (PI / 180)
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])

@@ -1,7 +1,7 @@
 #include "check.h"
 
-#include "attenuation.h"
-#include "units.h"
+#include "base/units.h"
+#include "radar/attenuation.h"
 
 #define DEGREE (PI / 180)
 
@@ -21,8 +21,10 @@ static void the_law_is_as_published(void **state)
                 {76.5e9, {1.125295, 0.718767}, {1.120821, 0.708211}},
                 {79e9, {1.157913, 0.713496}, {1.154056, 0.703764}}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        struct attenuation_law horizontal = attenuation_rain_law(rows[i].carrier_hz, POLARIZATION_HORIZONTAL);
-        struct attenuation_law vertical = attenuation_rain_law(rows[i].carrier_hz, POLARIZATION_VERTICAL);
+        struct attenuation_law horizontal =
+            attenuation_rain_law(rows[i].carrier_hz, POLARIZATION_HORIZONTAL);
+        struct attenuation_law vertical =
+            attenuation_rain_law(rows[i].carrier_hz, POLARIZATION_VERTICAL);
         assert_close(horizontal.k, rows[i].horizontal.k, 5.1e-7);
         assert_close(horizontal.alpha, rows[i].horizontal.alpha, 5.1e-7);
         assert_close(vertical.k, rows[i].vertical.k, 5.1e-7);
@@ -49,8 +51,10 @@ static void the_law_is_the_table_of_the_recommendation(void **state)
         {100, 1e-4, {1.3671, 0.6815}, {1.3680, 0.6765}},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        struct attenuation_law horizontal = attenuation_rain_law(rows[i].ghz * 1e9, POLARIZATION_HORIZONTAL);
-        struct attenuation_law vertical = attenuation_rain_law(rows[i].ghz * 1e9, POLARIZATION_VERTICAL);
+        struct attenuation_law horizontal =
+            attenuation_rain_law(rows[i].ghz * 1e9, POLARIZATION_HORIZONTAL);
+        struct attenuation_law vertical =
+            attenuation_rain_law(rows[i].ghz * 1e9, POLARIZATION_VERTICAL);
         assert_close(horizontal.k, rows[i].horizontal.k, 0.501 * rows[i].digit);
         assert_close(horizontal.alpha, rows[i].horizontal.alpha, 0.501e-4);
         assert_close(vertical.k, rows[i].vertical.k, 0.501 * rows[i].digit);
@@ -68,10 +72,12 @@ static void attenuation_is_as_published(void **state)
                 {76.5e9, 25, 10.954021, 100, 2.190804},
                 {76.5e9, 50, 17.896432, 250, 8.948216}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        struct attenuation_law law = attenuation_rain_law(rows[i].carrier_hz, POLARIZATION_VERTICAL);
+        struct attenuation_law law =
+            attenuation_rain_law(rows[i].carrier_hz, POLARIZATION_VERTICAL);
         double dbpkm = attenuation_rain_dbpkm(law, rows[i].rate_mmph);
         assert_close(dbpkm, rows[i].dbpkm, 1.1e-6);
-        assert_close(db(attenuation_amplitude_factor(dbpkm, rows[i].range_m)), rows[i].two_way_db, 5.1e-7);
+        assert_close(db(attenuation_amplitude_factor(dbpkm, rows[i].range_m)), rows[i].two_way_db,
+                     5.1e-7);
     }
 }
 

@@ -1,9 +1,9 @@
 #include "check.h"
 
-#include "ground_return.h"
-#include "boresight_error.h"
+#include "base/units.h"
+#include "radar/boresight_error.h"
+#include "radar/ground_return.h"
 #include "sample.h"
-#include "units.h"
 
 #define DEGREE (PI / 180)
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -58,9 +58,9 @@ static void error_and_bias_add_up_at_most(void **state)
     uint64_t sample = 14;
     for (int i = 0; i < 1000; i++) {
         struct boresight_error one = {.yaw_error_rad = sample_between(&sample, -0.05, 0.05),
-                                   .bias_rad = sample_between(&sample, -0.03, 0.03),
-                                   .bias_period_rad = sample_between(&sample, 0.3, 0.7),
-                                   .bias_phase_rad = sample_between(&sample, -4, 4)};
+                                      .bias_rad = sample_between(&sample, -0.03, 0.03),
+                                      .bias_period_rad = sample_between(&sample, 0.3, 0.7),
+                                      .bias_phase_rad = sample_between(&sample, -4, 4)};
         double most_possible_rad = fabs(one.yaw_error_rad) + fabs(one.bias_rad);
         double most_rad = 0;
         for (double azimuth_rad = -1.5; azimuth_rad < 1.5; azimuth_rad += 0.003)

@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "carrier.h"
+#include "radar/carrier.h"
 #include "sample.h"
 
 #define LIGHT_MPS 299792458

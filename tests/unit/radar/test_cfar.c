@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "cfar.h"
+#include "radar/cfar.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])

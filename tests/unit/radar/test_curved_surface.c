@@ -1,8 +1,8 @@
 #include "check.h"
 
+#include "base/units.h"
+#include "radar/curved_surface.h"
 #include "sample.h"
-#include "curved_surface.h"
-#include "units.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
@@ -31,7 +31,7 @@ static void effects_2_2_has_these_cross_sections(void **state)
     };
     for (size_t i = 0; i < COUNT(cases); i++)
         assert_close(dbsm(curved_surface_cross_section_m2(cases[i].radius_1_m, cases[i].radius_2_m,
-                                                    cases[i].range_m)),
+                                                          cases[i].range_m)),
                      cases[i].dbsm, cases[i].tolerance);
 }
 

@@ -2,9 +2,9 @@
 
 #include <string.h>
 
-#include "folding.h"
+#include "base/units.h"
+#include "radar/folding.h"
 #include "sample.h"
-#include "units.h"
 
 static void assert_same_bits(double actual, double expected)
 {

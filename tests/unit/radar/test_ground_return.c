@@ -1,10 +1,10 @@
 #include "check.h"
 
-#include "ground_return.h"
-#include "motion.h"
+#include "base/units.h"
+#include "geometry/kinematics.h"
+#include "geometry/motion.h"
+#include "radar/ground_return.h"
 #include "sample.h"
-#include "kinematics.h"
-#include "units.h"
 
 #define DEGREE (PI / 180)
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -35,7 +35,8 @@ static void places_are_even_over_the_area(void **state)
         double least_m = sample_between(&sample, 0, 20), most_m = sample_between(&sample, 20, 200);
         double uniform = sample_between(&sample, 0, 1);
         double range_m = ground_return_range_m(least_m, most_m, uniform);
-        assert_close(ground_return_area_m2(least_m, range_m, 1) / ground_return_area_m2(least_m, most_m, 1),
+        assert_close(ground_return_area_m2(least_m, range_m, 1) /
+                         ground_return_area_m2(least_m, most_m, 1),
                      uniform, 1e-12);
     }
     assert_close(ground_return_range_m(0, 30, 0x1p-53), 0, 1e-6);
@@ -51,14 +52,15 @@ static void the_standing_world_moves_as_effects_14_says(void **state)
     struct motion ego = {.velocity_mps = {20, 0}, .yaw_rate_radps = 0.3};
     struct vec2 sensor_mps = motion_velocity_at(&ego, (struct vec2){3.6, 0.7}), ahead = {1, 0};
     assert_close(ground_return_range_rate_mps(sensor_mps, ahead, 40 * DEGREE), -15.854230, 5e-7);
-    assert_close(ground_return_range_rate_mps(ego.velocity_mps, ahead, 40 * DEGREE), -15.320889, 5e-7);
+    assert_close(ground_return_range_rate_mps(ego.velocity_mps, ahead, 40 * DEGREE), -15.320889,
+                 5e-7);
     struct vec2 aside = vec2_heading(65 * DEGREE);
     assert_close(ground_return_range_rate_mps(sensor_mps, aside, -25 * DEGREE), -15.854230, 5e-7);
     /* The same as a standing point seen there. */
     struct vec2 point = vec2_scale(17, vec2_heading(0.3)), still = {0, 0};
     struct kinematics sight = kinematics_of(still, sensor_mps, aside, point, still);
-    assert_near(ground_return_range_rate_mps(sensor_mps, aside, sight.azimuth_rad), sight.range_rate_mps,
-                1e-14);
+    assert_near(ground_return_range_rate_mps(sensor_mps, aside, sight.azimuth_rad),
+                sight.range_rate_mps, 1e-14);
     assert_close(ground_return_range_rate_mps(still, ahead, 1), 0, 0);
 }
 

@@ -1,7 +1,7 @@
 #include "check.h"
 
-#include "interferer.h"
-#include "units.h"
+#include "base/units.h"
+#include "radar/interferer.h"
 
 /* EFFECTS 12. */
 static void received_power_is_as_published(void **state)
@@ -14,8 +14,7 @@ static void received_power_is_as_published(void **state)
                 {20, 13, 24.125e9, 50, -61.0765}, {20, 13, 24.125e9, 100, -67.0971}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         assert_close(interferer_power_dbm(rows[i].eirp_dbm, rows[i].gain_db,
-                                            units_wavelength_m(rows[i].carrier_hz),
-                                            rows[i].range_m),
+                                          units_wavelength_m(rows[i].carrier_hz), rows[i].range_m),
                      rows[i].power_dbm, 5.1e-5);
 }
 
@@ -61,8 +60,8 @@ static void equal_slopes_stay_in_band(void **state)
     (void)state;
     assert_close(interferer_overlap(10e6, 0, 20e-6), 1, 0);
     assert_close(interferer_overlap(10e6, 1e3, 20e-6), 1, 0);
-    assert_close(interferer_overlap(10e6, -15e12, 20e-6),
-                 interferer_overlap(10e6, 15e12, 20e-6), 0);
+    assert_close(interferer_overlap(10e6, -15e12, 20e-6), interferer_overlap(10e6, 15e12, 20e-6),
+                 0);
 }
 
 static void silence_leaves_the_noise_alone(void **state)

@@ -2,10 +2,10 @@
 
 #include <stdlib.h>
 
-#include "antenna.h"
-#include "monopulse.h"
-#include "random.h"
-#include "units.h"
+#include "base/random.h"
+#include "base/units.h"
+#include "radar/antenna.h"
+#include "radar/monopulse.h"
 
 #define DEGREE (PI / 180)
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])

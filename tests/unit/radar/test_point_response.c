@@ -1,11 +1,13 @@
 #include "check.h"
 
-#include "point_response.h"
+#include "base/units.h"
+#include "radar/point_response.h"
+#include "sample.h"
 
-#define PI 3.14159265358979323846
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-static const enum point_response all[] = {POINT_RESPONSE_HANN, POINT_RESPONSE_RECTANGULAR, POINT_RESPONSE_PULSE};
+static const enum point_response all[] = {POINT_RESPONSE_HANN, POINT_RESPONSE_RECTANGULAR,
+                                          POINT_RESPONSE_PULSE};
 
 static void the_window_has_the_kernel_of_effects_4b(void **state)
 {
@@ -26,8 +28,9 @@ static void the_window_has_the_kernel_of_effects_4b(void **state)
 static void a_kernel_is_a_half_at_its_half_width(void **state)
 {
     (void)state;
-    static const double half_widths[] = {
-        [POINT_RESPONSE_HANN] = 1, [POINT_RESPONSE_RECTANGULAR] = 0.603354, [POINT_RESPONSE_PULSE] = 2};
+    static const double half_widths[] = {[POINT_RESPONSE_HANN] = 1,
+                                         [POINT_RESPONSE_RECTANGULAR] = 0.603354,
+                                         [POINT_RESPONSE_PULSE] = 2};
     for (size_t i = 0; i < COUNT(all); i++)
         assert_close(point_response_value(all[i], half_widths[all[i]]), 0.5, 1e-6);
 }
@@ -53,8 +56,10 @@ static void the_envelope_bounds_the_kernel_and_falls(void **state)
     (void)state;
     for (size_t i = 0; i < COUNT(all); i++)
         for (double d = 0; d < 40; d += 0.01) {
-            assert_true(fabs(point_response_value(all[i], d)) <= point_response_envelope(all[i], d) * (1 + 1e-12));
-            assert_true(point_response_envelope(all[i], d + 0.01) <= point_response_envelope(all[i], -d));
+            assert_true(fabs(point_response_value(all[i], d)) <=
+                        point_response_envelope(all[i], d) * (1 + 1e-12));
+            assert_true(point_response_envelope(all[i], d + 0.01) <=
+                        point_response_envelope(all[i], -d));
         }
 }
 
@@ -76,8 +81,8 @@ static void the_place_between_bins_is_exact_for_one_echo(void **state)
                 for (int channel = 0; channel < 2; channel++)
                     bins[bin + 1][channel] = shown(all[i], place, bin, 1 + 2 * channel);
             for (size_t channels = 1; channels <= 2; channels++)
-                assert_close(point_response_offset(all[i], bins[0], bins[1], bins[2], channels, 1), place,
-                             1e-14);
+                assert_close(point_response_offset(all[i], bins[0], bins[1], bins[2], channels, 1),
+                             place, 1e-14);
         }
 }
 
@@ -87,7 +92,153 @@ static void nothing_received_stands_in_the_middle_of_its_bin(void **state)
     const struct phasor silence = {0, 0}, one = {1, 0};
     for (size_t i = 0; i < COUNT(all); i++)
         assert_close(point_response_offset(all[i], &silence, &silence, &silence, 1, 1), 0, 0);
-    assert_true(fabs(point_response_offset(POINT_RESPONSE_HANN, &one, &one, &silence, 1, 1)) <= 0.75);
+    assert_true(fabs(point_response_offset(POINT_RESPONSE_HANN, &one, &one, &silence, 1, 1)) <=
+                0.75);
+}
+
+static void the_kernel_has_its_published_values(void **state)
+{
+    (void)state;
+    assert_true(point_response_hann(0) == 1);
+    assert_true(point_response_hann(1) == 0.5);
+    assert_close(point_response_hann(0.5), 0.848826, 5e-7);
+    assert_close(point_response_hann(1.5), 0.169765, 5e-7);
+    assert_close(point_response_hann(2.5), -0.024252, 5e-7);
+}
+
+static void the_kernel_is_even_and_vanishes_at_whole_bins(void **state)
+{
+    (void)state;
+    uint64_t sample = 1;
+    for (int i = 0; i < 1000; i++) {
+        double d = sample_between(&sample, 0, 10);
+        assert_true(point_response_hann(d) == point_response_hann(-d));
+    }
+    for (int d = 2; d < 100; d++)
+        assert_true(point_response_hann(d) == 0);
+}
+
+/* The sum of three shifted kernels of no window, in extended precision. */
+static long double three_lines(long double d)
+{
+    const long double pi = 3.14159265358979323846264338327950288L;
+    long double sum = 0;
+    for (int line = -1; line <= 1; line++) {
+        long double x = d - (long double)line;
+        sum += (line == 0 ? 1 : 0.5L) * (x == 0 ? 1 : sinl(pi * x) / (pi * x));
+    }
+    return sum;
+}
+
+static void the_kernel_is_that_of_a_raised_cosine(void **state)
+{
+    (void)state;
+    uint64_t sample = 2;
+    for (int i = 0; i < 10000; i++) {
+        double d = sample_between(&sample, -6, 6);
+        assert_close(point_response_hann(d), (double)three_lines((long double)d), 1e-15);
+    }
+}
+
+/* Where the plain formula is 0/0. */
+static void the_kernel_is_smooth_at_its_gaps(void **state)
+{
+    (void)state;
+    for (double step = 1e-3; step > 1e-16; step /= 7) {
+        assert_close(point_response_hann(step), 1, step + 5e-16);
+        assert_close(point_response_hann(1 + step), 0.5, step + 5e-16);
+        double expected = (double)three_lines((long double)(1 - step));
+        assert_near(point_response_hann(1 - step), expected, 1e-15);
+    }
+}
+
+static void its_highest_side_lobe_is_31_db_down(void **state)
+{
+    (void)state;
+    double highest = 0;
+    for (double d = 2; d < 20; d += 1e-3)
+        highest = fmax(highest, fabs(point_response_hann(d)));
+    assert_close(units_amplitude_db(highest), -31.47, 5e-3);
+}
+
+static void one_echo_is_found_exactly_where_it_is(void **state)
+{
+    (void)state;
+    uint64_t sample = 3;
+    for (int i = 0; i < 10000; i++) {
+        double d = sample_between(&sample, -0.5, 0.5);
+        assert_close(point_response_hann_offset(3 * point_response_hann(-1 - d),
+                                                3 * point_response_hann(d),
+                                                3 * point_response_hann(1 - d)),
+                     d, 1e-15);
+    }
+    assert_close(point_response_hann_offset(0.5, 1, 0.5), 0, 0);
+    assert_close(point_response_hann_offset(1, 1, 0.2), -0.5, 0);
+    assert_close(point_response_hann_offset(0.2, 1, 1), 0.5, 0);
+}
+
+static void a_peak_narrower_than_one_echo_is_left_on_its_bin(void **state)
+{
+    (void)state;
+    assert_true(point_response_hann_offset(0.3, 1, 0.49) == 0);
+    assert_true(point_response_hann_offset(0, 1, 0) == 0);
+}
+
+/* The envelope of two equal echoes, the second `spacing` bins behind and turned by the phase. */
+static double envelope(double d, double spacing, double phase_rad)
+{
+    double first = point_response_hann(d), second = point_response_hann(d - spacing);
+    return hypot(first + second * cos(phase_rad), second * sin(phase_rad));
+}
+
+static void equal_echoes_a_bin_apart_read_as_one_between_them(void **state)
+{
+    (void)state;
+    for (double phase_rad = 0; phase_rad < 2; phase_rad += 0.5) {
+        double before = envelope(-1, 1, phase_rad), at = envelope(0, 1, phase_rad);
+        assert_close(point_response_hann_offset(before, at, envelope(1, 1, phase_rad)), 0.5, 1e-15);
+    }
+}
+
+static int peaks_of(double spacing, double phase_rad, double place[], double height_db[])
+{
+    const double step = 1e-3;
+    int count = 0;
+    for (double d = -1.9; d < spacing + 1.9; d += step) {
+        double here = envelope(d, spacing, phase_rad);
+        if (here < 0.1 || here < envelope(d - step, spacing, phase_rad) ||
+            here <= envelope(d + step, spacing, phase_rad))
+            continue;
+        place[count] = d;
+        height_db[count++] = units_amplitude_db(here);
+    }
+    return count;
+}
+
+static void two_echoes_a_bin_apart_merge_or_flee_by_their_phase(void **state)
+{
+    (void)state;
+    double place[9], height_db[9];
+    assert_int_equal(peaks_of(1, 0, place, height_db), 1);
+    assert_close(place[0], 0.5, 2e-3);
+    assert_close(height_db[0], 4.60, 5e-3);
+    assert_int_equal(peaks_of(1, PI / 2, place, height_db), 1);
+    assert_close(place[0], 0.5, 2e-3);
+    assert_close(height_db[0], 1.59, 5e-3);
+    assert_int_equal(peaks_of(1, PI, place, height_db), 2);
+    assert_close(place[0], -0.47, 5e-3);
+    assert_close(place[1], 1.47, 5e-3);
+}
+
+static void two_echoes_two_bins_apart_are_always_two(void **state)
+{
+    (void)state;
+    double place[9], height_db[9];
+    assert_int_equal(peaks_of(1.5, 0, place, height_db), 1);
+    assert_int_equal(peaks_of(1.5, PI / 2, place, height_db), 2);
+    assert_int_equal(peaks_of(1.5, PI, place, height_db), 2);
+    for (double phase_rad = 0; phase_rad <= PI; phase_rad += PI / 16)
+        assert_int_equal(peaks_of(2, phase_rad, place, height_db), 2);
 }
 
 int main(void)
@@ -99,6 +250,16 @@ int main(void)
         cmocka_unit_test(the_envelope_bounds_the_kernel_and_falls),
         cmocka_unit_test(the_place_between_bins_is_exact_for_one_echo),
         cmocka_unit_test(nothing_received_stands_in_the_middle_of_its_bin),
+        cmocka_unit_test(the_kernel_has_its_published_values),
+        cmocka_unit_test(the_kernel_is_even_and_vanishes_at_whole_bins),
+        cmocka_unit_test(the_kernel_is_that_of_a_raised_cosine),
+        cmocka_unit_test(the_kernel_is_smooth_at_its_gaps),
+        cmocka_unit_test(its_highest_side_lobe_is_31_db_down),
+        cmocka_unit_test(one_echo_is_found_exactly_where_it_is),
+        cmocka_unit_test(a_peak_narrower_than_one_echo_is_left_on_its_bin),
+        cmocka_unit_test(equal_echoes_a_bin_apart_read_as_one_between_them),
+        cmocka_unit_test(two_echoes_a_bin_apart_merge_or_flee_by_their_phase),
+        cmocka_unit_test(two_echoes_two_bins_apart_are_always_two),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 #include "check.h"
 
-#include "antenna.h"
-#include "radar_equation.h"
-#include "units.h"
+#include "base/units.h"
+#include "radar/antenna.h"
+#include "radar/radar_equation.h"
 
 #define DEGREE (PI / 180)
 

@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
-#include "random.h"
-#include "resolution.h"
+#include "base/random.h"
+#include "radar/resolution.h"
 
 #define ECHO_MAX 16
 

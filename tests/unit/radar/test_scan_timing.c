@@ -1,4 +1,4 @@
-#include "scan_timing.h"
+#include "radar/scan_timing.h"
 
 #include "check.h"
 
@@ -38,9 +38,9 @@ static void known_frames_have_known_instants(void **state)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         double instant_s = 0;
-        assert_int_equal(
-            scan_timing_instant_s(cases[i].cycle_s, cases[i].time_s, cases[i].interval_s, &instant_s),
-            cases[i].answer);
+        assert_int_equal(scan_timing_instant_s(cases[i].cycle_s, cases[i].time_s,
+                                               cases[i].interval_s, &instant_s),
+                         cases[i].answer);
         assert_close(instant_s, cases[i].instant_s, 1e-9 * cases[i].cycle_s);
     }
 }
@@ -101,7 +101,8 @@ static void frames_slower_than_the_cycle_say_so(void **state)
     (void)state;
     for (int64_t i = 1; i < 1000000; i++) {
         double instant_s;
-        assert_int_equal(scan_timing_instant_s(0.04, (double)i / 10, 0.1, &instant_s), SCAN_TIMING_SEVERAL);
+        assert_int_equal(scan_timing_instant_s(0.04, (double)i / 10, 0.1, &instant_s),
+                         SCAN_TIMING_SEVERAL);
     }
 }
 

@@ -1,9 +1,9 @@
 #include "check.h"
 
-#include "snr_sigma.h"
-#include "antenna.h"
+#include "base/units.h"
+#include "radar/antenna.h"
+#include "radar/snr_sigma.h"
 #include "sample.h"
-#include "units.h"
 
 #define DEGREE (PI / 180)
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])

@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
-#include "swerling.h"
-#include "random.h"
+#include "base/random.h"
+#include "radar/swerling.h"
 
 enum { DRAWS = 400000 };
 

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "options.h"
+#include "run/options.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 

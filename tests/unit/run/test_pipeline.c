@@ -5,9 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "pipeline.h"
+#include "base/text.h"
+#include "run/pipeline.h"
 #include "sample.h"
-#include "text.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 

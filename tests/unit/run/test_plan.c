@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "plan.h"
+#include "run/plan.h"
 
 #define EVERY (EFFECT_BIT(EFFECT_COUNT) - 1)
 

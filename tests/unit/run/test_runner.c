@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame_text.h"
-#include "fused.h"
-#include "runner.h"
+#include "frame/frame_text.h"
+#include "run/fused.h"
+#include "run/runner.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 

@@ -5,9 +5,11 @@
 
 #include <jansson.h>
 
-#include "catalogue.h"
-#include "frame.h"
-#include "schema.h"
+#include "documents/catalogue.h"
+#include "documents/vehicle.h"
+#include "frame/frame.h"
+#include "run/schema.h"
+#include "traffic/scenario.h"
 
 static json_t *schema_of(const char *name)
 {

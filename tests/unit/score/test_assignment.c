@@ -1,7 +1,7 @@
 #include "check.h"
 
-#include "assignment.h"
 #include "sample.h"
+#include "score/assignment.h"
 
 enum { SIDE = 6 };
 

@@ -1,7 +1,7 @@
 #include "check.h"
 
-#include "error_statistics.h"
 #include "sample.h"
+#include "score/error_statistics.h"
 
 static void mean_is_signed_and_the_rest_are_sizes(void **state)
 {

@@ -1,8 +1,8 @@
 #include "check.h"
 
-#include "assignment.h"
-#include "gospa.h"
 #include "sample.h"
+#include "score/assignment.h"
+#include "score/gospa.h"
 
 enum { LARGEST = 5 };
 

@@ -1,8 +1,8 @@
 #define SCRATCH_FILE "lines.jsonl"
 #include "scratch.h"
 
-#include "reference_stream.h"
 #include "sample.h"
+#include "score/reference_stream.h"
 
 enum { SCENES = 4, FRAMES = 25 };
 

@@ -2,10 +2,10 @@
 
 #include <string.h>
 
-#include "frame_text.h"
+#include "base/units.h"
+#include "frame/frame_text.h"
 #include "sample.h"
-#include "target_score.h"
-#include "units.h"
+#include "score/target_score.h"
 
 enum { MOST = 8 };
 
@@ -133,7 +133,7 @@ static void scores_are_symmetric(void **state)
         assert_int_equal(back.missed_count, there.false_count);
         assert_close(back.gospa_missed, there.gospa_false, 0);
         for (int i = 0; i <= SCORE_AMPLITUDE; i++) {
-            assert_int_equal(back.differences[i].told, there.differences[i].told);
+            assert_int_equal(back.differences[i].present, there.differences[i].present);
             assert_close(back.differences[i].mean, -there.differences[i].mean, 1e-13);
             assert_close(back.differences[i].wasserstein, there.differences[i].wasserstein, 1e-13);
         }
@@ -212,7 +212,7 @@ static void without_scans_all_is_zero(void **state)
     score_summarize(&none, &summary, &arena);
     assert_int_equal(summary.all.scans, 0);
     assert_close(summary.all.gospa_rms, 0, 0);
-    assert_int_equal(summary.all.differences[SCORE_RANGE].told, 0);
+    assert_int_equal(summary.all.differences[SCORE_RANGE].present, 0);
     assert_int_equal(summary.sensors.count, 0);
     arena_free(&arena);
 }

@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "track_score.h"
-#include "units.h"
+#include "base/units.h"
+#include "score/track_score.h"
 
 /* The ego at (100, 50) looks along y; its radar sits 2 m ahead, turned 90 degrees to the left (to
  * -x), and sees 20 m far and 45 degrees to each side. */

@@ -1,7 +1,9 @@
 #include "check.h"
 
-#include "cell_margins.h"
-#include "resolution.h"
+#include "noise/target_list.h"
+
+#include "radar/resolution.h"
+#include "sensor/cell_margins.h"
 
 enum { ALL = 4 };
 
@@ -23,9 +25,9 @@ static size_t margins_of(const struct spot *spots, size_t count, struct margins 
     for (size_t i = 0; i < count; i++) {
         margins_note(&sights[i], MARGIN_SIGHT, spots[i].sight_m);
         received_echoes[i] = (struct received_echo){.range_m = spots[i].range_m,
-                               .range_rate_mps = spots[i].range_rate_mps,
-                               .amplitude = spots[i].amplitude,
-                               .margins = &sights[i]};
+                                                    .range_rate_mps = spots[i].range_rate_mps,
+                                                    .amplitude = spots[i].amplitude,
+                                                    .margins = &sights[i]};
         echoes[i] =
             (struct resolution_echo){spots[i].range_m, spots[i].range_rate_mps, spots[i].amplitude};
     }
@@ -42,7 +44,7 @@ static size_t margins_of(const struct spot *spots, size_t count, struct margins 
 static void assert_margin(const struct margins *margins, enum margin which, double actual,
                           double expected)
 {
-    assert_int_equal((margins->told & which) != 0, isfinite(expected));
+    assert_int_equal((margins->present & which) != 0, isfinite(expected));
     if (isfinite(expected))
         assert_close(actual, expected, 1e-13);
 }
@@ -123,18 +125,18 @@ static void a_cell_tells_threshold_and_sign(void **state)
     (void)state;
     struct cell cell = {.amplitude = 20, .sum_re = 2, .delta_re = 3, .delta_im = -4};
     cell_margins_add(&sensor, &cell);
-    assert_int_equal(cell.margins.told, MARGIN_THRESHOLD | MARGIN_SIGN);
+    assert_int_equal(cell.margins.present, MARGIN_THRESHOLD | MARGIN_SIGN);
     assert_close(cell.margins.threshold_db, 20, 1e-13);
     assert_close(cell.margins.sign, 0.8, 1e-15);
     /* The ratio decides no sign, and there is none without a delta. */
     struct sensor ratio = sensor;
     ratio.angle_estimator = MONOPULSE_RATIO;
-    cell.margins.told = 0;
+    cell.margins.present = 0;
     cell_margins_add(&ratio, &cell);
-    assert_int_equal(cell.margins.told, MARGIN_THRESHOLD);
+    assert_int_equal(cell.margins.present, MARGIN_THRESHOLD);
     cell = (struct cell){.amplitude = 0.2, .sum_re = 2};
     cell_margins_add(&sensor, &cell);
-    assert_int_equal(cell.margins.told, MARGIN_THRESHOLD);
+    assert_int_equal(cell.margins.present, MARGIN_THRESHOLD);
     assert_close(cell.margins.threshold_db, 20, 1e-13);
 }
 
@@ -142,17 +144,17 @@ static void noise_tells_its_own_if_it_is_less(void **state)
 {
     (void)state;
     struct margins margins = {
-        .threshold_db = 10, .sign = 0.5, .told = MARGIN_THRESHOLD | MARGIN_SIGN};
+        .threshold_db = 10, .sign = 0.5, .present = MARGIN_THRESHOLD | MARGIN_SIGN};
     const struct cell cell = {0};
     struct antenna_pointers pointers = {.sum = 1, .delta = 0.1 * (double _Complex)I + 0.4};
-    cell_margins_add_noisy(&sensor, &cell, pointers, 2, sensor.final_threshold, &margins);
+    target_list_note_margins(&sensor, &cell, pointers, 2, sensor.final_threshold, &margins);
     assert_close(margins.threshold_db, 10, 0);
     assert_close(margins.sign, 0.1 / sqrt(0.17), 1e-15);
     struct sensor final = sensor;
     final.final_threshold = true;
-    cell_margins_add_noisy(&final, &cell, pointers, 200, final.final_threshold, &margins);
+    target_list_note_margins(&final, &cell, pointers, 200, final.final_threshold, &margins);
     assert_close(margins.threshold_db, 10, 0);
-    cell_margins_add_noisy(&final, &cell, pointers, 2, final.final_threshold, &margins);
+    target_list_note_margins(&final, &cell, pointers, 2, final.final_threshold, &margins);
     assert_close(margins.threshold_db, 0, 0);
 }
 

@@ -1,8 +1,8 @@
 #include "check.h"
 
-#include "escalation.h"
-#include "attenuation.h"
-#include "units.h"
+#include "base/units.h"
+#include "radar/attenuation.h"
+#include "sensor/escalation.h"
 
 /* Cells of 1 m by 1 m/s to either side, a threshold of 1, in phase from the array's centre. */
 static const struct sensor sensor = {
@@ -19,9 +19,9 @@ static const struct tolerance wide = {0.1, 0.01, 0.1, 1};
 static struct received_echo ray_at(double range_m, double azimuth_rad, double amplitude)
 {
     return (struct received_echo){.echo = {.azimuth_rad = azimuth_rad},
-                        .range_m = range_m,
-                        .strength = amplitude,
-                        .amplitude = amplitude};
+                                  .range_m = range_m,
+                                  .strength = amplitude,
+                                  .amplitude = amplitude};
 }
 
 enum { MOST = 3 };

@@ -2,11 +2,11 @@
 
 #include <stdlib.h>
 
-#include "draw_address.h"
-#include "escalation.h"
-#include "swerling.h"
-#include "received_echo.h"
-#include "units.h"
+#include "base/units.h"
+#include "frame/draw_address.h"
+#include "radar/swerling.h"
+#include "sensor/escalation.h"
+#include "sensor/received_echo.h"
 
 #define EVERYTHING (EFFECT_BIT(EFFECT_COUNT) - 1)
 

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/units.h"
 #include "sample.h"
-#include "resolution_cell.h"
-#include "units.h"
+#include "sensor/resolution_cell.h"
 
 /* The paper's sensor: 0.8 meets a threshold of 2 at 30 m, so A_ref = 2.5 (30 / R)^2. */
 static struct sensor paper_sensor(enum antenna_phase phase)
@@ -68,10 +68,11 @@ static void a_ghost_has_the_root_of_the_pattern_each_way(void **state)
         out.departure_rad = 0.4 - azimuth_rad;
         back.departure_rad = azimuth_rad - 0.4;
         struct received_echo received_echoes[] = {received_echo_in_free_space(&sensor, &out, 0),
-                             received_echo_in_free_space(&sensor, &back, 0)};
+                                                  received_echo_in_free_space(&sensor, &back, 0)};
         for (size_t i = 0; i < 2; i++) {
             struct cell cell;
-            assert_near(received_echoes[i].amplitude, 5 * sqrt(pattern(azimuth_rad) * pattern(0.4)), 1e-13);
+            assert_near(received_echoes[i].amplitude, 5 * sqrt(pattern(azimuth_rad) * pattern(0.4)),
+                        1e-13);
             assert_true(resolution_cell_of(&sensor, &received_echoes[i], 1, true, &arena, &cell));
             assert_close(cell.azimuth_rad, i == 0 ? azimuth_rad : 0.4, 1e-14);
             assert_near(hypot(cell.sum_re, cell.sum_im), received_echoes[i].amplitude, 1e-14);
@@ -156,12 +157,13 @@ static void pointers_add_up_as_in_equation_8(void **state)
     struct arena arena = {0};
     for (int element = 0; element < 2; element++) {
         struct sensor sensor = paper_sensor(element ? PHASE_ELEMENT : PHASE_CENTRE);
-        struct received_echo received_echoes[] = {{.echo = {.object = "a", .reflector = "r", .azimuth_rad = PI / 6},
-                              .strength = 3,
-                              .amplitude = 3 * part},
-                             {.echo = {.object = "b", .reflector = "r", .azimuth_rad = -PI / 6},
-                              .strength = 1,
-                              .amplitude = part}};
+        struct received_echo received_echoes[] = {
+            {.echo = {.object = "a", .reflector = "r", .azimuth_rad = PI / 6},
+             .strength = 3,
+             .amplitude = 3 * part},
+            {.echo = {.object = "b", .reflector = "r", .azimuth_rad = -PI / 6},
+             .strength = 1,
+             .amplitude = part}};
         struct cell cell;
         assert_true(resolution_cell_of(&sensor, received_echoes, 2, true, &arena, &cell));
         /* From the element each turns by e^{ju}: (1 +- j) sqrt(1/2). */
@@ -182,11 +184,12 @@ static void phases_turn_the_pointers(void **state)
     (void)state;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     struct arena arena = {0};
-    struct received_echo received_echoes[] = {{.echo = {.object = "a", .reflector = "r"}, .strength = 4, .amplitude = 4},
-                         {.echo = {.object = "b", .reflector = "r"},
-                          .strength = 3,
-                          .amplitude = 3,
-                          .phase_rad = PI / 2}};
+    struct received_echo received_echoes[] = {
+        {.echo = {.object = "a", .reflector = "r"}, .strength = 4, .amplitude = 4},
+        {.echo = {.object = "b", .reflector = "r"},
+         .strength = 3,
+         .amplitude = 3,
+         .phase_rad = PI / 2}};
     struct cell cell;
     assert_true(resolution_cell_of(&sensor, received_echoes, 2, true, &arena, &cell));
     assert_close(cell.sum_re, 4, 1e-15);
@@ -251,11 +254,12 @@ static void a_coherent_pair_is_at_its_stronger_echo_on_average(void **state)
     struct arena arena = {0};
     double sum = 0;
     for (int i = 0; i < PHASES; i++) {
-        struct received_echo received_echoes[] = {{.echo = {.azimuth_rad = half_rad}, .strength = 1, .amplitude = 1},
-                             {.echo = {.azimuth_rad = -half_rad},
-                              .strength = 0.9,
-                              .amplitude = 0.9,
-                              .phase_rad = 2 * PI * (i + 0.5) / PHASES}};
+        struct received_echo received_echoes[] = {
+            {.echo = {.azimuth_rad = half_rad}, .strength = 1, .amplitude = 1},
+            {.echo = {.azimuth_rad = -half_rad},
+             .strength = 0.9,
+             .amplitude = 0.9,
+             .phase_rad = 2 * PI * (i + 0.5) / PHASES}};
         struct cell cell;
         assert_true(resolution_cell_of(&sensor, received_echoes, 2, true, &arena, &cell));
         sum += cell.azimuth_rad / half_rad;
@@ -305,8 +309,10 @@ static void weights_sum_to_one_and_means_stay_inside(void **state)
 static void ties_of_amplitude_go_by_the_frames_order(void **state)
 {
     (void)state;
-    struct received_echo near = {.echo = {.object = "b", .reflector = "r", .range_m = 1}, .amplitude = 2};
-    struct received_echo far = {.echo = {.object = "a", .reflector = "r", .range_m = 2}, .amplitude = 2};
+    struct received_echo near = {.echo = {.object = "b", .reflector = "r", .range_m = 1},
+                                 .amplitude = 2};
+    struct received_echo far = {.echo = {.object = "a", .reflector = "r", .range_m = 2},
+                                .amplitude = 2};
     assert_true(resolution_cell_compare(&near, &far) < 0);
     assert_true(resolution_cell_compare(&far, &near) > 0);
     far.amplitude = 2.0000000000000004;

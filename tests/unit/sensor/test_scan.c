@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scan.h"
-#include "units.h"
+#include "base/units.h"
+#include "sensor/scan.h"
 
 #define EVERYTHING (EFFECT_BIT(EFFECT_COUNT) - 1)
 

@@ -1,9 +1,8 @@
 #include "check.h"
 
-#include "limbs.h"
-#include "scatterers.h"
-#include "units.h"
-#include "wheel.h"
+#include "base/units.h"
+#include "radar/micro_doppler.h"
+#include "sensor/scatterers.h"
 
 enum { FRAMES = 2000 };
 
@@ -162,8 +161,9 @@ static void the_road_needs_a_height(void **state)
     extended.extent_m = 0.6;
     scene.echo = high;
     struct reception reception = received_echo_begin(&scene.frame, &radar, UINT64_MAX);
-    struct received_echo flat = received_echo_of(&reception, &parent), one = received_echo_of(&reception, &high),
-               mean = received_echo_of(&reception, &extended);
+    struct received_echo flat = received_echo_of(&reception, &parent),
+                         one = received_echo_of(&reception, &high),
+                         mean = received_echo_of(&reception, &extended);
     assert_int_equal(flat.effects & EFFECT_BIT(EFFECT_TWO_RAY), 0);
     assert_true((one.effects & EFFECT_BIT(EFFECT_TWO_RAY)) != 0);
     assert_true(mean.amplitude > flat.amplitude && mean.amplitude < sqrt(6) * flat.amplitude);

@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/sort.h"
+#include "base/units.h"
 #include "sample.h"
-#include "smear.h"
-#include "sort.h"
-#include "units.h"
+#include "sensor/smear.h"
 
 enum { MOST = 8 };
 
@@ -60,16 +60,16 @@ static void start(struct playback *scene)
     scene->count = 0;
 }
 
-static struct received_echo *add(struct playback *scene, double range_bins, double rate_bins, double amplitude,
-                       double phase_rad)
+static struct received_echo *add(struct playback *scene, double range_bins, double rate_bins,
+                                 double amplitude, double phase_rad)
 {
     struct received_echo *received = &scene->received_echoes[scene->count];
     *received = (struct received_echo){.echo = {.object = "o", .reflector = names[scene->count]},
-                        .strength = amplitude,
-                        .amplitude = amplitude,
-                        .range_m = 0.5 * range_bins,
-                        .range_rate_mps = 0.25 * rate_bins,
-                        .phase_rad = phase_rad};
+                                       .strength = amplitude,
+                                       .amplitude = amplitude,
+                                       .range_m = 0.5 * range_bins,
+                                       .range_rate_mps = 0.25 * rate_bins,
+                                       .phase_rad = phase_rad};
     received->echo.range_m = received->range_m;
     received->echo.range_rate_mps = received->range_rate_mps;
     scene->count++;
@@ -78,8 +78,8 @@ static struct received_echo *add(struct playback *scene, double range_bins, doub
 
 static size_t cells_of(struct playback *scene)
 {
-    sort_items(scene->received_echoes, scene->count, sizeof *scene->received_echoes, resolution_cell_compare,
-               &scene->arena);
+    sort_items(scene->received_echoes, scene->count, sizeof *scene->received_echoes,
+               resolution_cell_compare, &scene->arena);
     scene->smear = smear_make(&scene->sensor, scene->received_echoes, scene->count, &scene->arena);
     for (size_t i = 0; i < scene->smear.cells; i++)
         assert_true(smear_cell(&scene->smear, i, &scene->arena, &scene->cells[i]));
@@ -116,12 +116,14 @@ static void one_echo_alone_is_the_cell_that_it_always_is(void **state)
                                   .range_rate_mps = sample_between(&sample, -60, 60),
                                   .ercs = sample_between(&sample, 0.01, 5),
                                   .effects = EFFECT_BIT(EFFECT_RAIN)};
-        struct received_echo received = received_echo_in_free_space(&scene->sensor, &echo, sample_between(&sample, -7, 7));
+        struct received_echo received =
+            received_echo_in_free_space(&scene->sensor, &echo, sample_between(&sample, -7, 7));
         struct smear smear = smear_make(&scene->sensor, &received, 1, &scene->arena);
         struct cell cell, expected;
         assert_int_equal(smear.cells, 1);
         assert_true(smear_cell(&smear, 0, &scene->arena, &cell));
-        assert_true(resolution_cell_of(&scene->sensor, &received, 1, true, &scene->arena, &expected));
+        assert_true(
+            resolution_cell_of(&scene->sensor, &received, 1, true, &scene->arena, &expected));
         assert_same_cell(&cell, &expected);
     }
 }
@@ -136,7 +138,8 @@ static void echoes_that_are_far_apart_do_not_touch(void **state)
     assert_int_equal(cells_of(scene), 3);
     for (size_t i = 0; i < 3; i++) {
         struct cell expected;
-        resolution_cell_of(&scene->sensor, &scene->received_echoes[i], 1, true, &scene->arena, &expected);
+        resolution_cell_of(&scene->sensor, &scene->received_echoes[i], 1, true, &scene->arena,
+                           &expected);
         assert_same_cell(&scene->cells[i], &expected);
     }
 }

@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "beamforming.h"
+#include "signal/beamforming.h"
 
 #define PI 3.14159265358979323846
 #define DEGREE (PI / 180)
@@ -24,7 +24,8 @@ static void one_echo_has_one_peak_of_its_amplitude_where_it_stands(void **state)
             struct phasor elements[16] = {{0, 0}};
             struct beamforming_peak peaks[BEAMFORMING_MOST_PEAKS];
             receive(&arrays[i], azimuth * DEGREE, 3, 2, elements);
-            assert_int_equal(beamforming_peaks(&arrays[i], elements, 1, sin(9 * DEGREE), 0, peaks), 1);
+            assert_int_equal(beamforming_peaks(&arrays[i], elements, 1, sin(9 * DEGREE), 0, peaks),
+                             1);
             assert_close(asin(peaks[0].sine), azimuth * DEGREE, 1e-12);
             assert_close(peaks[0].amplitude, 3, 1e-13);
         }

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "detections.h"
+#include "signal/detections.h"
 
 #define PI 3.14159265358979323846
 
@@ -59,8 +59,10 @@ static void show(struct bench *bench, double range_m, double rate_mps, double am
     for (int row = 0; row < REPETITIONS; row++)
         for (int column = 0; column < SAMPLES; column++) {
             double size =
-                point_response_value(POINT_RESPONSE_HANN, range_doppler_distance(column, range_m, SAMPLES)) *
-                point_response_value(POINT_RESPONSE_HANN, range_doppler_distance(row, rate_mps / 0.25, REPETITIONS));
+                point_response_value(POINT_RESPONSE_HANN,
+                                     range_doppler_distance(column, range_m, SAMPLES)) *
+                point_response_value(POINT_RESPONSE_HANN,
+                                     range_doppler_distance(row, rate_mps / 0.25, REPETITIONS));
             double sign = (row + column) % 2 == 0 ? 1 : -1;
             bench->samples[row * SAMPLES + column].re += sign * amplitude * size;
         }
@@ -69,7 +71,8 @@ static void show(struct bench *bench, double range_m, double rate_mps, double am
 static struct detections sight(struct bench *bench)
 {
     const struct reception reception = {.frame = &bench->frame, .sensor = &bench->sensor};
-    const struct clustered_echoes received = {.received_echoes = bench->received_echoes, .count = bench->count};
+    const struct clustered_echoes received = {.received_echoes = bench->received_echoes,
+                                              .count = bench->count};
     bench->spectrum = signal_cube_spectrum(&bench->signal, &bench->arena);
     struct detections sightings = detections_of(&bench->signal, &bench->spectrum, &reception);
     detections_label(&sightings, &bench->frame, "test", &received);
@@ -90,7 +93,8 @@ static void an_echo_belongs_to_the_peak_that_shows_most_of_it(void **state)
     receive(&bench, "near", 10.5, 0, 50);
     receive(&bench, "beside", 10.75, 0, 10);
     for (size_t i = 0; i < bench.count; i++)
-        show(&bench, bench.received_echoes[i].range_m, bench.received_echoes[i].range_rate_mps, bench.received_echoes[i].amplitude);
+        show(&bench, bench.received_echoes[i].range_m, bench.received_echoes[i].range_rate_mps,
+             bench.received_echoes[i].amplitude);
     struct detections seen = sight(&bench);
     assert_int_equal(seen.list.count, 2);
     assert_string_equal(leader_of(&seen.list.items[0]), "far");

@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "range_doppler.h"
+#include "signal/range_doppler.h"
 
 enum { WIDTH = 32, HEIGHT = 64 };
 
@@ -15,10 +15,12 @@ struct sky {
 
 static double window_value(enum point_response kernel, double bins, int bin)
 {
-    return (kernel != POINT_RESPONSE_PULSE && bin % 2 != 0 ? -1 : 1) * point_response_value(kernel, bins);
+    return (kernel != POINT_RESPONSE_PULSE && bin % 2 != 0 ? -1 : 1) *
+           point_response_value(kernel, bins);
 }
 
-static void begin(struct sky *sky, enum point_response range_kernel, enum point_response rate_kernel)
+static void begin(struct sky *sky, enum point_response range_kernel,
+                  enum point_response rate_kernel)
 {
     *sky = (struct sky){.spectrum = {.range_bins = WIDTH,
                                      .rate_bins = HEIGHT,
@@ -34,9 +36,9 @@ static void add(struct sky *sky, double range, double rate, double amplitude, do
     for (int row = 0; row < HEIGHT; row++)
         for (int column = 0; column < WIDTH; column++) {
             double away = range_doppler_distance(column, range, WIDTH);
-            double size =
-                window_value(sky->spectrum.range_kernel, away, column) *
-                window_value(sky->spectrum.rate_kernel, range_doppler_distance(row, rate, HEIGHT), row);
+            double size = window_value(sky->spectrum.range_kernel, away, column) *
+                          window_value(sky->spectrum.rate_kernel,
+                                       range_doppler_distance(row, rate, HEIGHT), row);
             sky->samples[row * WIDTH + column].re += amplitude * size * cos(phase);
             sky->samples[row * WIDTH + column].im += amplitude * size * sin(phase);
         }
@@ -55,9 +57,10 @@ static size_t search(struct sky *sky, const struct cfar *cfar, double threshold,
 static void one_echo_is_one_peak_where_it_stands(void **state)
 {
     (void)state;
-    static const enum point_response kernels[][2] = {{POINT_RESPONSE_HANN, POINT_RESPONSE_HANN},
-                                             {POINT_RESPONSE_RECTANGULAR, POINT_RESPONSE_RECTANGULAR},
-                                             {POINT_RESPONSE_PULSE, POINT_RESPONSE_HANN}};
+    static const enum point_response kernels[][2] = {
+        {POINT_RESPONSE_HANN, POINT_RESPONSE_HANN},
+        {POINT_RESPONSE_RECTANGULAR, POINT_RESPONSE_RECTANGULAR},
+        {POINT_RESPONSE_PULSE, POINT_RESPONSE_HANN}};
     for (size_t i = 0; i < 3; i++)
         for (double part = 0; part < 1; part += 0.24) {
             struct sky sky;
@@ -167,8 +170,8 @@ static void rings_close_at_both_ends(void **state)
     assert_close(peaks[0].range, 0.25, 0.01);
     assert_close(peaks[0].rate, -32, 0.01);
     assert_close(range_doppler_distance(31, 1, 32), -2, 0);
-    assert_near(range_doppler_amplitude(&sky.spectrum, 32, 32), 100 * point_response_value(POINT_RESPONSE_HANN, 0.25),
-                1e-2);
+    assert_near(range_doppler_amplitude(&sky.spectrum, 32, 32),
+                100 * point_response_value(POINT_RESPONSE_HANN, 0.25), 1e-2);
     arena_free(&sky.arena);
 }
 

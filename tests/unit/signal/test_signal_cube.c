@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "signal_cube.h"
+#include "signal/signal_cube.h"
 
 #define PI 3.14159265358979323846
 #define DEGREE (PI / 180)
@@ -28,7 +28,7 @@ static struct sensor radar(enum waveform_kind kind, enum point_response window, 
 }
 
 static struct received_echo ray_at(const struct sensor *sensor, double range_m, double rate_mps,
-                         double azimuth_rad, double phase_rad)
+                                   double azimuth_rad, double phase_rad)
 {
     double gain = antenna_gain(&sensor->antenna, azimuth_rad);
     return (struct received_echo){
@@ -98,10 +98,12 @@ static void a_standing_echo_has_the_kernels_of_its_window(void **state)
         double amplitude = 3 * antenna_gain(&bench.sensor.antenna, 0.1);
         for (int range = 8; range <= 12; range++)
             for (int rate = -1; rate <= 1; rate++)
-                assert_close(size_of(bin(&bench, 0, range, rate)),
-                             amplitude * fabs(point_response_value((enum point_response)window, range - 10.3) *
-                                              point_response_value((enum point_response)window, rate)),
-                             0.004 * amplitude);
+                assert_close(
+                    size_of(bin(&bench, 0, range, rate)),
+                    amplitude *
+                        fabs(point_response_value((enum point_response)window, range - 10.3) *
+                             point_response_value((enum point_response)window, rate)),
+                    0.004 * amplitude);
         assert_near(size_of(bin(&bench, 0, 10.3, 0)), amplitude, 1e-12);
         arena_free(&bench.arena);
     }
@@ -231,7 +233,8 @@ static void the_noise_of_pulses_is_correlated_as_their_kernel(void **state)
                 }
     }
     for (size_t away = 1; away < 5; away++)
-        assert_close(sums[away] / sums[0], point_response_value(POINT_RESPONSE_PULSE, (double)away), 0.01);
+        assert_close(sums[away] / sums[0], point_response_value(POINT_RESPONSE_PULSE, (double)away),
+                     0.01);
     arena_free(&bench.arena);
 }
 

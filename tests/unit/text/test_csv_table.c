@@ -8,7 +8,7 @@
 
 #include <zlib.h>
 
-#include "csv_table.h"
+#include "text/csv_table.h"
 
 static int read_bytes(struct scratch *scratch, const char *bytes, size_t length,
                       struct csv_table *table, struct diag *diag)

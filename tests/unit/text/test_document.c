@@ -6,8 +6,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "catalogue.h"
-#include "document.h"
+#include "documents/catalogue.h"
+#include "documents/vehicle.h"
+#include "text/document.h"
+#include "traffic/scenario.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 

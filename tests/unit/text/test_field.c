@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "field.h"
+#include "text/field.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 

@@ -8,8 +8,8 @@
 
 #include <zlib.h>
 
-#include "input.h"
 #include "sample.h"
+#include "text/input.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 

@@ -6,8 +6,8 @@
 
 #include <jansson.h>
 
-#include "json_scan.h"
 #include "sample.h"
+#include "text/json_scan.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "frame_text.h"
-#include "list_cache.h"
+#include "frame/frame_text.h"
+#include "text/list_cache.h"
 
 static const char HEAD[] =
     "{\"version\":0,\"scene\":\"s\",\"frame\":0,\"time_s\":0,\"interval_s\":1,\"seed\":\"1\","

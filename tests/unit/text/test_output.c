@@ -8,8 +8,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "input.h"
-#include "output.h"
+#include "text/input.h"
+#include "text/output.h"
 
 struct scratch {
     char directory[64];

@@ -3,9 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "catalogue.h"
-#include "adversarial_traffic.h"
-#include "units.h"
+#include "base/units.h"
+#include "documents/catalogue.h"
+#include "documents/vehicle.h"
+#include "traffic/adversarial_traffic.h"
+#include "traffic/scenario.h"
 
 #define SNAPSHOTS 4000
 
@@ -26,7 +28,7 @@ static int make_bench(void **state)
     bench->scene.density = RANDOM_ADVERSARIAL;
     for (enum random_class class = 0; class < RANDOM_CLASSES; class ++) {
         const struct vehicle *vehicle =
-            catalogue_vehicle(random_traffic_class_name(class), &bench->documents, &diag);
+            vehicle_load(random_traffic_class_name(class), &bench->documents, &diag);
         if (vehicle == NULL)
             fail_msg("%s", diag.text);
         bench->scene.models[class] =

@@ -5,8 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "catalogue.h"
-#include "random_traffic.h"
+#include "documents/catalogue.h"
+#include "documents/vehicle.h"
+#include "traffic/random_traffic.h"
+#include "traffic/scenario.h"
 
 #define SNAPSHOTS 400
 
@@ -24,7 +26,7 @@ static int make_bench(void **state)
     for (enum random_class class = 0; class < RANDOM_CLASSES; class ++) {
         struct diag diag = {0};
         const struct vehicle *vehicle =
-            catalogue_vehicle(random_traffic_class_name(class), &bench->documents, &diag);
+            vehicle_load(random_traffic_class_name(class), &bench->documents, &diag);
         if (vehicle == NULL)
             fail_msg("%s", diag.text);
         bench->scene.models[class] =

@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "scenario.h"
-#include "units.h"
+#include "base/units.h"
+#include "traffic/scenario.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 

@@ -6,9 +6,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "field.h"
-#include "trajectory.h"
-#include "units.h"
+#include "base/units.h"
+#include "text/field.h"
+#include "traffic/trajectory.h"
 
 #define HEADER "track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy,psi_rad,length,width\n"
 #define WALKERS "track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy\n"

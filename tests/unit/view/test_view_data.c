@@ -5,9 +5,9 @@
 
 #include <jansson.h>
 
-#include "frame_text.h"
-#include "view_data.h"
-#include "view_head.h"
+#include "frame/frame_text.h"
+#include "view/view_data.h"
+#include "view/view_head.h"
 
 /* The ego at (10, 20) heads north at 5 m/s and turns; its sensor sits 2 m ahead and 1 m left. */
 #define EGO                                                                                        \

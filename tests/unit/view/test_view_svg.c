@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "frame_text.h"
-#include "view_svg.h"
+#include "frame/frame_text.h"
+#include "view/view_svg.h"
 
 #define OBJECT(id, x)                                                                              \
     "{\"id\":\"" id "\",\"class\":\"thing\",\"x_m\":" x ",\"y_m\":0,\"yaw_rad\":0,\"vx_mps\":0,"   \

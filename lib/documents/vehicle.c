@@ -1,0 +1,74 @@
+#include "documents/vehicle.h"
+
+#include <string.h>
+
+#include "documents/catalogue.h"
+#include "text/document.h"
+
+static const struct field vehicle_fields[] = {
+    {FIELD_NAME_OF(struct vehicle, origin, "who made this, and from what")},
+    {FIELD_REAL_IN(struct vehicle, length_m, 0.01, 1e4, "where an object of the class gives none")},
+    {FIELD_REAL_IN(struct vehicle, width_m, 0.01, 1e4, "where an object of the class gives none")},
+    {FIELD_REAL_IN(struct vehicle, height_m, 0.01, 1e3, "where an object of the class gives none")},
+    {FIELD_RECORD_OF(struct vehicle, reflectors, &reflector_model_record,
+                     "reflection centres of the class")},
+    {FIELD_CHOICE_OF(struct vehicle, sensing_target, sensing_target_3gpp_names,
+                     "what 3GPP TR 38.901 would call it, for glint-extract-3gpp"),
+     FIELD_OPTIONAL},
+    {FIELD_RECORD_OF(struct vehicle, contour, &contour_record, "for glint-extract-contour"),
+     FIELD_OPTIONAL},
+    {0},
+};
+
+const struct record vehicle_record = {
+    .name = "vehicle",
+    .help = "A class of road users or things: default size and reflection centres.",
+    .size = sizeof(struct vehicle),
+    .fields = vehicle_fields,
+};
+
+static int check_visibility(const char *list, size_t index, double full_rad, double zero_rad,
+                            struct diag *diag)
+{
+    if (zero_rad < full_rad)
+        return diag_fail(diag, DIAG_CONFIG, "%s[%zu].zero_rad: %g is less than full_rad, %g rad",
+                         list, index, zero_rad, full_rad);
+    return 0;
+}
+
+/* What the tables cannot say: names are unique, and visibility ends where it must. */
+static int check_reflectors(const struct reflector_set *set, struct diag *diag)
+{
+    const char *twice = reflectors_name_twice(set);
+    if (twice != NULL)
+        return diag_fail(diag, DIAG_CONFIG, "the name \"%s\" stands twice", twice);
+    for (size_t i = 0; i < set->points.count; i++)
+        if (check_visibility("points", i, set->points.items[i].full_rad,
+                             set->points.items[i].zero_rad, diag) != 0)
+            return -1;
+    for (size_t i = 0; i < set->rows.count; i++)
+        if (check_visibility("rows", i, set->rows.items[i].full_rad, set->rows.items[i].zero_rad,
+                             diag) != 0)
+            return -1;
+    return 0;
+}
+
+const struct vehicle *vehicle_load(const char *class, struct arena *arena, struct diag *diag)
+{
+    const char *path = catalogue_path("vehicles", class, arena, diag);
+    struct vehicle *vehicle = arena_get(arena, sizeof *vehicle);
+    if (path == NULL || document_read(path, &vehicle_record, vehicle, arena, diag) != 0)
+        return NULL;
+    vehicle->reflectors.model = arena_text(arena, class, strlen(class));
+    if (check_reflectors(&vehicle->reflectors, diag) != 0) {
+        diag_prefix(diag, "%s: reflectors: ", path);
+        return NULL;
+    }
+    if (contour_check(&vehicle->contour, diag) != 0) {
+        diag_prefix(diag, "%s: contour.", path);
+        return NULL;
+    }
+    vehicle->reflectors.document = &vehicle->reflectors;
+    vehicle->reflectors.shape = reflectors_shape(&vehicle->reflectors, arena);
+    return vehicle;
+}

@@ -1,0 +1,24 @@
+/* Vehicle documents (data/vehicles/): what a class of road users or things is to a radar. */
+#ifndef VEHICLE_H
+#define VEHICLE_H
+
+#include "documents/contour.h"
+#include "documents/sensing_target_3gpp.h"
+#include "frame/reflectors.h"
+
+/* One class of road users or things (data/vehicles/). */
+struct vehicle {
+    const char *origin;
+    double length_m, width_m, height_m;      /* where an object of the class gives none */
+    struct reflector_set reflectors;         /* worn_by is empty */
+    enum sensing_target_3gpp sensing_target; /* for glint-extract-3gpp */
+    struct contour contour;                  /* for glint-extract-contour */
+};
+
+extern const struct record vehicle_record;
+
+/* Finds, reads and checks the document of a class. All it holds lies in the arena; NULL after a
+ * message (DIAG_CONFIG). */
+const struct vehicle *vehicle_load(const char *class, struct arena *arena, struct diag *diag);
+
+#endif

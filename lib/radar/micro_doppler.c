@@ -1,0 +1,49 @@
+#include "radar/micro_doppler.h"
+
+#include <math.h>
+
+#include "base/elementary.h"
+#include "base/poisson.h"
+#include "base/units.h"
+
+#define SLOWEST (-1.0)
+#define FASTEST 1.5
+
+int64_t micro_doppler_wheel_count(double uniform)
+{
+    return poisson_count(MICRO_DOPPLER_WHEEL_COUNT, uniform);
+}
+
+struct wheel_point micro_doppler_wheel_point(const double uniform[2])
+{
+    return (struct wheel_point){0.3 + 0.7 * uniform[0], 2 * PI * uniform[1]};
+}
+
+double micro_doppler_wheel_rate_mps(double hub_mps, double rolling_mps, struct wheel_point point)
+{
+    return hub_mps + rolling_mps * (point.fraction * elementary_cos(point.angle_rad));
+}
+
+int64_t micro_doppler_limb_count(double uniform)
+{
+    return poisson_count(MICRO_DOPPLER_LIMB_COUNT, uniform);
+}
+
+/* The triangular law by inversion, from the end that the draw is near. */
+static double swing(double uniform)
+{
+    double width = FASTEST - SLOWEST;
+    if (uniform * width < -SLOWEST)
+        return SLOWEST + sqrt(uniform * width * -SLOWEST);
+    return FASTEST - sqrt((1 - uniform) * width * FASTEST);
+}
+
+struct limb micro_doppler_limb(const double uniform[2])
+{
+    return (struct limb){swing(uniform[0]), MICRO_DOPPLER_LIMB_REACH_M * (2 * uniform[1] - 1)};
+}
+
+double micro_doppler_limb_rate_mps(double torso_mps, double walking_mps, struct limb limb)
+{
+    return torso_mps + walking_mps * limb.swing;
+}
