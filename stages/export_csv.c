@@ -66,9 +66,9 @@ static void add_target(struct row *row, const struct target *target)
     add_real(row, target->range_rate_mps);
     add_real(row, target->amplitude_db);
     add_integer(row, (int64_t)target->contributors.count);
-    add_word(row, from->object);
-    add_word(row, from->reflector);
-    add_word(row, frame_path_name(from->path));
+    add_word(row, from->id.object);
+    add_word(row, from->id.reflector);
+    add_word(row, frame_path_name(from->id.path));
     add_real(row, from->weight);
 }
 

@@ -16,7 +16,7 @@ static bool measure(const struct frame *frame, const struct measurement_noise *b
                     struct measurement *measurement)
 {
     const struct sensor *sensor = by->sensor;
-    struct random_address address = draw_address_in(*scan, ECHO_ID_OF(&cell->members.items[0]));
+    struct random_address address = draw_address_in(*scan, cell->members.items[0].id);
     struct antenna_pointers pointers = measurement_noise_pointers(by, &address, cell);
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
@@ -63,7 +63,7 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
 {
     struct measurement_noise by = measurement_noise_of(sensor, selection);
     struct contributor noise = noise_targets_contributor(0);
-    struct random_address scan = draw_address_of(frame, sensor->name, ECHO_ID_OF(&noise));
+    struct random_address scan = draw_address_of(frame, sensor->name, noise.id);
     struct cell_span alarms = noise_targets_of(frame, sensor, selection, by.false_alarms, &scan);
     struct cell_span cells = frame_cells_of(frame, sensor->name);
     struct measurement *measurements =

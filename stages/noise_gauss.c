@@ -10,8 +10,7 @@
 static struct measurement measure(const struct frame *frame, const struct sensor *sensor,
                                   const struct cell *cell)
 {
-    struct random_address address =
-        draw_address_of(frame, sensor->name, ECHO_ID_OF(&cell->members.items[0]));
+    struct random_address address = draw_address_of(frame, sensor->name, cell->members.items[0].id);
     double straight[2], across[2];
     random_gaussian_pair(&address, RANDOM_RANGE_RATE, 0, straight);
     random_gaussian_pair(&address, RANDOM_AZIMUTH, 0, across);

@@ -41,10 +41,10 @@ static void count_target(struct summary *summary, const struct frame *frame,
     bool merged = false;
     for (size_t i = 0; i < target->contributors.count; i++) {
         const struct contributor *from = &target->contributors.items[i];
-        const struct object *object = frame_object(frame, from->object);
-        merged = merged || strcmp(from->object, target->contributors.items[0].object) != 0;
+        const struct object *object = frame_object(frame, from->id.object);
+        merged = merged || strcmp(from->id.object, target->contributors.items[0].id.object) != 0;
         if (i == 0)
-            count(&summary->classes, object != NULL ? object->class : from->object, 1, arena);
+            count(&summary->classes, object != NULL ? object->class : from->id.object, 1, arena);
     }
     summary->targets++;
     summary->merged += merged;

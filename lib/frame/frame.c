@@ -121,13 +121,17 @@ static const enum effect losing_effects[] = {
     {                                                                                              \
         FIELD_RAW_OF(owner, extra, "yours: passed on byte for byte")                               \
     }
+#define ECHO_ID(owner, member, kind_, help_)                                                       \
+    FIELD_NAMED(member), .kind = (kind_), .offset = offsetof(owner, id.member), .help = (help_)
 #define ECHO_NAMES(owner)                                                                          \
-    NAME(owner, object, "id of the object"), NAME(owner, reflector, "name in the object's set"),   \
-        {FIELD_CHOICE_OF(owner, path, paths, "the way the echo took")},                            \
-        {FIELD_NAME_OF(owner, mirror, "the wall's object, on the path of a ghost"),                \
+    {ECHO_ID(owner, object, FIELD_NAME, "id of the object")},                                      \
+        {ECHO_ID(owner, reflector, FIELD_NAME, "name in the object's set")},                       \
+        {ECHO_ID(owner, path, FIELD_CHOICE, "the way the echo took"), .choices = paths},           \
+        {ECHO_ID(owner, mirror, FIELD_NAME, "the wall's object, on the path of a ghost"),          \
          FIELD_OPTIONAL},                                                                          \
     {                                                                                              \
-        FIELD_INTEGER_IN(owner, number, 0, 1e9, "of several of this kind, from 1"), FIELD_OPTIONAL \
+        ECHO_ID(owner, number, FIELD_INTEGER, "of several of this kind, from 1"),                  \
+            .low = 0, .high = 1e9, FIELD_OPTIONAL                                                  \
     }
 #define IDEAL_VALUES(owner)                                                                        \
     RANGE(owner, range_m, "sensor to reflector, exact"),                                           \
@@ -504,25 +508,10 @@ struct cell_span frame_cells_of(const struct frame *frame, const char *sensor)
     return (struct cell_span){frame->cells.items + first, end - first};
 }
 
-struct lost_echo frame_lost(struct echo_id id)
-{
-    return (struct lost_echo){
-        .object = id.object,
-        .reflector = id.reflector,
-        .path = id.path,
-        .mirror = id.mirror,
-        .number = id.number,
-    };
-}
-
 struct contributor frame_contributor(const struct echo *echo)
 {
     return (struct contributor){
-        .object = echo->object,
-        .reflector = echo->reflector,
-        .path = echo->path,
-        .mirror = echo->mirror,
-        .number = echo->number,
+        .id = echo->id,
         .range_m = echo->range_m,
         .azimuth_rad = echo->azimuth_rad,
         .range_rate_mps = echo->range_rate_mps,
@@ -555,7 +544,7 @@ void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum
 void frame_lose_echo(struct frame *frame, const char *stage, const struct echo *echo,
                      enum loss reason)
 {
-    struct lost_echo lost = frame_lost(ECHO_ID_OF(echo));
+    struct lost_echo lost = {.id = echo->id};
     lost.margins = echo->margins;
     frame_lose(frame, stage, echo->sensor, reason, &lost);
 }
@@ -563,7 +552,7 @@ void frame_lose_echo(struct frame *frame, const char *stage, const struct echo *
 void frame_lose_subject(struct frame *frame, const char *stage, const char *sensor,
                         const struct contributor *echo, enum loss reason)
 {
-    struct lost_echo lost = frame_lost(ECHO_ID_OF(echo));
+    struct lost_echo lost = {.id = echo->id};
     frame_lose(frame, stage, sensor, reason, &lost);
 }
 
@@ -571,7 +560,7 @@ void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *
                      enum loss reason, double shortfall_db, const struct margins *margins)
 {
     for (size_t i = 0; i < cell->members.count; i++) {
-        struct lost_echo lost = frame_lost(ECHO_ID_OF(&cell->members.items[i]));
+        struct lost_echo lost = {.id = cell->members.items[i].id};
         lost.shortfall_db = shortfall_db;
         lost.margins = *margins;
         frame_lose(frame, stage, cell->sensor, reason, &lost);

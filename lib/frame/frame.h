@@ -97,18 +97,10 @@ struct echo_id {
     int64_t number;     /* of several of this kind, from 1; else 0 */
 };
 
-#define ECHO_ID_OF(item)                                                                           \
-    ((struct echo_id){(item)->object, (item)->reflector, (item)->path, (item)->mirror,             \
-                      (item)->number})
-
 /* One sensor's view of one reflector along one path. */
 struct echo {
     const char *sensor;
-    const char *object;
-    const char *reflector;
-    enum path path;
-    const char *mirror;
-    int64_t number;
+    struct echo_id id;
     double range_m, azimuth_rad, range_rate_mps;
     double ercs;
     double departure_rad; /* azimuth in which its wave left, less the one in which it came back */
@@ -124,11 +116,7 @@ struct echo {
 
 /* An echo in a cell or in a target's label: the ideal values, and its weight in the cell. */
 struct contributor {
-    const char *object;
-    const char *reflector;
-    enum path path;
-    const char *mirror;
-    int64_t number;
+    struct echo_id id;
     double range_m, azimuth_rad, range_rate_mps;
     double ercs;
     double time_s;
@@ -180,11 +168,7 @@ enum loss {
 };
 
 struct lost_echo {
-    const char *object;
-    const char *reflector;
-    enum path path;
-    const char *mirror;
-    int64_t number;
+    struct echo_id id;
     const char *by;      /* blocked by this object */
     double shortfall_db; /* below the threshold by this much */
     struct margins margins;
@@ -294,9 +278,6 @@ struct cell_span frame_cells_of(const struct frame *frame, const char *sensor);
 
 /* The noise-free sum and delta pointers of a cell. */
 struct antenna_pointers frame_cell_pointers(const struct cell *cell);
-
-/* The entry in lost of what an echo is of. */
-struct lost_echo frame_lost(struct echo_id id);
 
 /* The contributor that an echo is, with weight 0. */
 struct contributor frame_contributor(const struct echo *echo);

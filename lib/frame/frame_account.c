@@ -113,7 +113,7 @@ static void collect(const struct frame *frame, struct account_check *audit, int6
         int64_t added = 0;
         for (size_t j = 0; j < target->contributors.count; j++) {
             const struct contributor *from = &target->contributors.items[j];
-            added += note(audit, (struct outcome){target->sensor, ECHO_ID_OF(from), i});
+            added += note(audit, (struct outcome){target->sensor, from->id, i});
         }
         add_entries(frame, target->sensor, added, entries);
     }
@@ -122,7 +122,7 @@ static void collect(const struct frame *frame, struct account_check *audit, int6
         int64_t added = 0;
         for (size_t j = 0; j < group->echoes.count; j++) {
             const struct lost_echo *from = &group->echoes.items[j];
-            added += note(audit, (struct outcome){group->sensor, ECHO_ID_OF(from), LOST});
+            added += note(audit, (struct outcome){group->sensor, from->id, LOST});
         }
         add_entries(frame, group->sensor, added, entries);
     }

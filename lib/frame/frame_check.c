@@ -61,7 +61,7 @@ static int check_echoes(const struct frame *frame, struct diag *diag)
         if (i > 0 && frame_order_echoes(&echo[i - 1], &echo[i]) == 0)
             return diag_fail(diag, DIAG_DATA,
                              "echoes: sensor \"%s\", object \"%s\", reflector \"%s\" stands twice",
-                             echo[i].sensor, echo[i].object, echo[i].reflector);
+                             echo[i].sensor, echo[i].id.object, echo[i].id.reflector);
         if (check_listed(frame, "echoes", i, echo[i].sensor, diag) != 0)
             return -1;
     }
@@ -77,8 +77,8 @@ static int check_cells(const struct frame *frame, struct diag *diag)
         if (i > 0 && frame_order_cells(&cell[i - 1], &cell[i]) == 0)
             return diag_fail(diag, DIAG_DATA,
                              "cells: sensor \"%s\" has two led by object \"%s\", reflector \"%s\"",
-                             cell[i].sensor, cell[i].members.items[0].object,
-                             cell[i].members.items[0].reflector);
+                             cell[i].sensor, cell[i].members.items[0].id.object,
+                             cell[i].members.items[0].id.reflector);
         if (check_listed(frame, "cells", i, cell[i].sensor, diag) != 0)
             return -1;
     }

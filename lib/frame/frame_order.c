@@ -34,7 +34,7 @@ int frame_order_echo_ids(struct echo_id a, struct echo_id b)
 static int compare_contributors(const void *left, const void *right)
 {
     const struct contributor *a = left, *b = right;
-    return compare_echo_ids(ECHO_ID_OF(a), ECHO_ID_OF(b));
+    return compare_echo_ids(a->id, b->id);
 }
 
 int frame_order_names(const void *left, const void *right)
@@ -58,7 +58,7 @@ int frame_order_echoes(const void *left, const void *right)
 {
     const struct echo *a = left, *b = right;
     int order = compare_names(a->sensor, b->sensor);
-    return order != 0 ? order : compare_echo_ids(ECHO_ID_OF(a), ECHO_ID_OF(b));
+    return order != 0 ? order : compare_echo_ids(a->id, b->id);
 }
 
 int frame_order_cells(const void *left, const void *right)
@@ -73,7 +73,7 @@ int frame_order_cells(const void *left, const void *right)
 static int compare_lost_echoes(const void *left, const void *right)
 {
     const struct lost_echo *a = left, *b = right;
-    return compare_echo_ids(ECHO_ID_OF(a), ECHO_ID_OF(b));
+    return compare_echo_ids(a->id, b->id);
 }
 
 static int compare_lost_groups(const void *left, const void *right)

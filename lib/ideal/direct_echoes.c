@@ -24,8 +24,8 @@ static void lose(struct look *look, const struct look_body *body, const char *re
     if (!look->frame->account)
         return;
     frame_lose(look->frame, stage_name, look->sensor->name, reason,
-               &(struct lost_echo){.object = body->object->id,
-                                   .reflector = reflector,
+               &(struct lost_echo){.id.object = body->object->id,
+                                   .id.reflector = reflector,
                                    .by = by != NULL ? by->object->id : NULL,
                                    .margins = margins_of(look, margin_m)});
 }
@@ -170,9 +170,9 @@ static void look_at(struct look *look, const struct look_body *body, struct cand
     struct echo *echo = list_add(&look->frame->echoes, look->frame->arena);
     *echo = (struct echo){
         .sensor = look->sensor->name,
-        .object = body->object->id,
-        .reflector = seen->reflector,
-        .path = PATH_DIRECT,
+        .id.object = body->object->id,
+        .id.reflector = seen->reflector,
+        .id.path = PATH_DIRECT,
         .range_m = sight.range_m,
         .azimuth_rad = sight.azimuth_rad,
         .range_rate_mps = sight.range_rate_mps,

@@ -232,11 +232,11 @@ static void add(struct look *look, const struct ghost_candidate *ghost_candidate
     frame_count_echoes(look->frame, look->sensor->name, path, 1);
     *list_add(&look->frame->echoes, look->frame->arena) = (struct echo){
         .sensor = look->sensor->name,
-        .object = ghost_candidate->body->object->id,
-        .reflector = ghost_candidate->reflector,
-        .path = path,
-        .mirror = ghost_candidate->mirror_face->body->object->id,
-        .number = ghost_candidate->mirror_face->number,
+        .id.object = ghost_candidate->body->object->id,
+        .id.reflector = ghost_candidate->reflector,
+        .id.path = path,
+        .id.mirror = ghost_candidate->mirror_face->body->object->id,
+        .id.number = ghost_candidate->mirror_face->number,
         .range_m = ghost.sight.range_m,
         .azimuth_rad = ghost.sight.azimuth_rad,
         .range_rate_mps = ghost.sight.range_rate_mps,

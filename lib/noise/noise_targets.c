@@ -6,10 +6,10 @@
 struct contributor noise_targets_contributor(int64_t number)
 {
     return (struct contributor){
-        .object = "noise",
-        .reflector = "cell",
-        .path = PATH_FALSE_ALARM,
-        .number = number,
+        .id.object = "noise",
+        .id.reflector = "cell",
+        .id.path = PATH_FALSE_ALARM,
+        .id.number = number,
         .weight = 1,
     };
 }

@@ -66,7 +66,7 @@ static bool detected(const struct frame *frame, const struct object *object)
     for (size_t i = 0; i < frame->targets.count; i++) {
         const struct target *target = &frame->targets.items[i];
         for (size_t j = 0; j < target->contributors.count; j++)
-            if (strcmp(target->contributors.items[j].object, object->id) == 0)
+            if (strcmp(target->contributors.items[j].id.object, object->id) == 0)
                 return true;
     }
     return false;

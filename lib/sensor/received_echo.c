@@ -152,7 +152,7 @@ void received_echo_note(const struct reception *reception, const struct selectio
 static double phase_of(const struct reception *reception, const struct echo *echo)
 {
     const struct sensor *sensor = reception->sensor;
-    struct random_address address = draw_address_in(reception->address, ECHO_ID_OF(echo));
+    struct random_address address = draw_address_in(reception->address, echo->id);
     double uniform[4];
     if (sensor->cell_phase == CELL_RANDOM_PHASE) {
         random_uniform(&address, RANDOM_PHASE, 0, uniform);
@@ -196,7 +196,7 @@ static void fluctuate(const struct reception *reception, const struct echo *echo
                       struct received_echo *received)
 {
     const struct sensor *sensor = reception->sensor;
-    struct random_address address = draw_address_in(reception->address, ECHO_ID_OF(echo));
+    struct random_address address = draw_address_in(reception->address, echo->id);
     double uniform[4];
     random_uniform(&address, RANDOM_FLUCTUATION, 0, uniform);
     scale(received,

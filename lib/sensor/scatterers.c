@@ -35,8 +35,8 @@ static struct echo part_of(const struct echo *parent, enum path path, int64_t nu
                            enum effect effect)
 {
     struct echo part = *parent;
-    part.path = path;
-    part.number = number;
+    part.id.path = path;
+    part.id.number = number;
     part.ercs *= factor;
     part.moving_part = MOVING_NONE;
     part.effects |= EFFECT_BIT(effect);
@@ -46,7 +46,7 @@ static struct echo part_of(const struct echo *parent, enum path path, int64_t nu
 
 static void add_wheel(struct additions *additions, const struct echo *hub)
 {
-    struct random_address address = address_at(additions->reception, ECHO_ID_OF(hub));
+    struct random_address address = address_at(additions->reception, hub->id);
     double uniform[4];
     random_uniform(&address, RANDOM_WHEELS, 0, uniform);
     int64_t count = micro_doppler_wheel_count(uniform[0]);
@@ -71,7 +71,7 @@ static void shift(struct echo *part, double offset_m)
 
 static void add_limbs(struct additions *additions, const struct echo *torso)
 {
-    struct random_address address = address_at(additions->reception, ECHO_ID_OF(torso));
+    struct random_address address = address_at(additions->reception, torso->id);
     double uniform[4];
     random_uniform(&address, RANDOM_LIMBS, 0, uniform);
     int64_t count = micro_doppler_limb_count(uniform[0]);
@@ -154,18 +154,18 @@ static void add_clutter(struct additions *additions)
     struct sensor_pose sensor_pose = sensor_pose_of(reception->frame, reception->sensor);
     struct echo ground = {
         .sensor = reception->sensor->name,
-        .object = "clutter",
-        .reflector = "ground",
-        .path = PATH_CLUTTER,
+        .id.object = "clutter",
+        .id.reflector = "ground",
+        .id.path = PATH_CLUTTER,
         .time_s = reception->time_s,
         .effects = EFFECT_BIT(EFFECT_CLUTTER),
     };
-    struct random_address address = address_at(reception, ECHO_ID_OF(&ground));
+    struct random_address address = address_at(reception, ground.id);
     double uniform[4];
     random_uniform(&address, RANDOM_CLUTTER, 0, uniform);
     int64_t count = clutter_count(reception, uniform[0]);
-    for (ground.number = 1; ground.number <= count; ground.number++) {
-        random_uniform(&address, RANDOM_CLUTTER, (uint32_t)ground.number, uniform);
+    for (ground.id.number = 1; ground.id.number <= count; ground.id.number++) {
+        random_uniform(&address, RANDOM_CLUTTER, (uint32_t)ground.id.number, uniform);
         struct echo point = clutter_at(reception, &sensor_pose, ground, uniform);
         add(additions, &point);
     }
@@ -184,5 +184,5 @@ struct echo_span scatterers_of(const struct reception *reception)
 void scatterers_count(struct frame *frame, const char *sensor, struct echo_span scatterers)
 {
     for (size_t i = 0; i < scatterers.count; i++)
-        frame_count_echoes(frame, sensor, scatterers.items[i].path, 1);
+        frame_count_echoes(frame, sensor, scatterers.items[i].id.path, 1);
 }

@@ -163,7 +163,7 @@ static void lose(const struct detections *sightings, struct frame *frame, const 
         range_doppler_amplitude(sightings->spectrum, received->range_m / signal->range_step_m,
                                 received->range_rate_mps / signal->rate_step_mps);
     double threshold = sightings->threshold;
-    struct lost_echo lost = frame_lost(ECHO_ID_OF(&received->echo));
+    struct lost_echo lost = {.id = received->echo.id};
     enum loss reason = LOSS_MASKED;
     if (received->amplitude < threshold || shown < threshold) {
         bool alone = received->amplitude < threshold;

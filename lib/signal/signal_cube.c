@@ -217,7 +217,7 @@ void signal_cube_receive(const struct signal_cube *signal, const struct scan *sc
     const struct reception *reception = &scan->reception;
     struct contributor noise = noise_targets_contributor(0);
     struct random_address address =
-        draw_address_of(reception->frame, reception->sensor->name, ECHO_ID_OF(&noise));
+        draw_address_of(reception->frame, reception->sensor->name, noise.id);
     signal_cube_clear(signal);
     signal_cube_add(signal, scan->resolved.received_echoes, scan->resolved.count,
                     reception->frame->arena);

@@ -103,11 +103,11 @@ static void add_contributor(struct view_data *data, const struct contributor *fr
     add_real(data, COLUMN_CONTRIBUTOR_RATE, from->range_rate_mps);
     add_real(data, COLUMN_CONTRIBUTOR_ERCS, from->ercs);
     add_real(data, COLUMN_CONTRIBUTOR_WEIGHT, from->weight);
-    add_count(data, COLUMN_CONTRIBUTOR_OBJECT, name_of(data, from->object));
-    add_count(data, COLUMN_CONTRIBUTOR_REFLECTOR, name_of(data, from->reflector));
-    add_count(data, COLUMN_CONTRIBUTOR_PATH, from->path);
-    add_count(data, COLUMN_CONTRIBUTOR_MIRROR, optional_name(data, from->mirror));
-    add_count(data, COLUMN_CONTRIBUTOR_NUMBER, (uint32_t)from->number);
+    add_count(data, COLUMN_CONTRIBUTOR_OBJECT, name_of(data, from->id.object));
+    add_count(data, COLUMN_CONTRIBUTOR_REFLECTOR, name_of(data, from->id.reflector));
+    add_count(data, COLUMN_CONTRIBUTOR_PATH, from->id.path);
+    add_count(data, COLUMN_CONTRIBUTOR_MIRROR, optional_name(data, from->id.mirror));
+    add_count(data, COLUMN_CONTRIBUTOR_NUMBER, (uint32_t)from->id.number);
 }
 
 static void add_target(struct view_data *data, const struct target *target)
@@ -179,12 +179,12 @@ static uint32_t collect_losses(struct view_data *data, const struct lost_group *
     for (size_t i = 0; i < group->echoes.count; i++) {
         const struct lost_echo *echo = &group->echoes.items[i];
         struct loss_row *row = list_add(&rows->list, scratch);
-        row->object = name_of(data, echo->object);
+        row->object = name_of(data, echo->id.object);
         row->item = (struct item){
-            .reflector = name_of(data, echo->reflector),
-            .path = echo->path,
-            .mirror = optional_name(data, echo->mirror),
-            .number = (uint32_t)echo->number,
+            .reflector = name_of(data, echo->id.reflector),
+            .path = echo->id.path,
+            .mirror = optional_name(data, echo->id.mirror),
+            .number = (uint32_t)echo->id.number,
             .stage = stage,
             .reason = group->reason,
             .effect = group->effect,

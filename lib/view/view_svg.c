@@ -81,7 +81,7 @@ static bool made_target(const struct frame *frame, const struct object *object)
 {
     for (size_t i = 0; i < frame->targets.count; i++)
         for (size_t j = 0; j < frame->targets.items[i].contributors.count; j++)
-            if (strcmp(frame->targets.items[i].contributors.items[j].object, object->id) == 0)
+            if (strcmp(frame->targets.items[i].contributors.items[j].id.object, object->id) == 0)
                 return true;
     return false;
 }
@@ -250,12 +250,12 @@ static void draw_target(struct still *still, const struct target *target)
 
 static bool find_point(const struct still *still, const struct lost_echo *echo, struct vec2 *place)
 {
-    const struct object *object = frame_object(still->frame, echo->object);
+    const struct object *object = frame_object(still->frame, echo->id.object);
     const struct vehicle *vehicle =
         object != NULL ? view_frame_vehicle(still->models, object->class) : NULL;
     for (size_t i = 0; vehicle != NULL && i < vehicle->reflectors.points.count; i++) {
         const struct point_reflector *point = &vehicle->reflectors.points.items[i];
-        if (strcmp(point->name, echo->reflector) != 0)
+        if (strcmp(point->name, echo->id.reflector) != 0)
             continue;
         struct box box = box_of(still, object);
         *place = reflectors_point_place(&box, point);
@@ -268,7 +268,7 @@ static void draw_lost(struct still *still, const struct lost_group *group)
 {
     for (size_t i = 0; i < group->echoes.count && view_frame_loss_is_near(group->reason); i++) {
         struct vec2 place;
-        if (group->echoes.items[i].path != PATH_DIRECT ||
+        if (group->echoes.items[i].id.path != PATH_DIRECT ||
             !find_point(still, &group->echoes.items[i], &place))
             continue;
         struct vec2 at = to_pixels(still, place);

@@ -85,8 +85,8 @@ static struct cell *add_cell(struct frame *frame, const char *sensor, const char
     struct cell *cell = list_add(&frame->cells, frame->arena);
     *cell = (struct cell){.sensor = sensor, .range_m = range_m, .amplitude = amplitude};
     cell->sum_re = amplitude;
-    *list_add(&cell->members, frame->arena) =
-        (struct contributor){.object = object, .reflector = "r", .range_m = range_m, .weight = 1};
+    *list_add(&cell->members, frame->arena) = (struct contributor){
+        .id.object = object, .id.reflector = "r", .range_m = range_m, .weight = 1};
     count_pair(frame, sensor);
     return cell;
 }
@@ -97,7 +97,7 @@ static const struct target *target_of(const struct frame *frame, const char *sen
     for (size_t i = 0; i < frame->targets.count; i++) {
         const struct target *target = &frame->targets.items[i];
         if (strcmp(target->sensor, sensor) == 0 &&
-            strcmp(target->contributors.items[0].object, object) == 0)
+            strcmp(target->contributors.items[0].id.object, object) == 0)
             return target;
     }
     return NULL;
@@ -438,7 +438,7 @@ static void check_list(const struct scratch *scratch, const char *members, const
     bench_step(&bench);
     assert_int_equal(bench.frame.targets.count, strlen(order));
     for (size_t i = 0; order[i] != '\0'; i++)
-        assert_int_equal(bench.frame.targets.items[i].contributors.items[0].object[0], order[i]);
+        assert_int_equal(bench.frame.targets.items[i].contributors.items[0].id.object[0], order[i]);
     bench_close(&bench);
 }
 
@@ -474,8 +474,8 @@ static void what_is_beyond_the_list_limit_is_lost(void **state)
     const struct lost_group *group = only_loss(&bench.frame);
     assert_int_equal(group->reason, LOSS_LIST_LIMIT);
     assert_int_equal(group->echoes.count, 2);
-    assert_string_equal(group->echoes.items[0].object, "f");
-    assert_string_equal(group->echoes.items[1].object, "g");
+    assert_string_equal(group->echoes.items[0].id.object, "f");
+    assert_string_equal(group->echoes.items[1].id.object, "g");
     bench_close(&bench);
 }
 
@@ -492,16 +492,16 @@ static void the_final_threshold_takes_what_cancels(void **state)
     cell->sum_im = -0.5;
     cell->members.items[0].weight = 0.75;
     *list_add(&cell->members, bench.frame.arena) =
-        (struct contributor){.object = "second", .reflector = "r", .weight = 0.25};
+        (struct contributor){.id.object = "second", .id.reflector = "r", .weight = 0.25};
     count_pair(&bench.frame, "front");
     bench_step(&bench);
     assert_int_equal(bench.frame.targets.count, 1);
-    assert_string_equal(bench.frame.targets.items[0].contributors.items[0].object, "at");
+    assert_string_equal(bench.frame.targets.items[0].contributors.items[0].id.object, "at");
     const struct lost_group *group = only_loss(&bench.frame);
     assert_int_equal(group->reason, LOSS_BELOW_FINAL);
     assert_int_equal(group->echoes.count, 2);
-    assert_string_equal(group->echoes.items[0].object, "below");
-    assert_string_equal(group->echoes.items[1].object, "second");
+    assert_string_equal(group->echoes.items[0].id.object, "below");
+    assert_string_equal(group->echoes.items[1].id.object, "second");
     assert_close(group->echoes.items[0].shortfall_db, 6.020599913279624, 1e-12);
     assert_close(group->echoes.items[1].shortfall_db, 6.020599913279624, 1e-12);
     bench_close(&bench);
@@ -601,7 +601,7 @@ static struct pair draw_at(struct bench *bench, const struct address *address)
     bench->frame.scene = address->scene;
     bench->frame.seed = address->seed;
     struct cell *cell = add_cell(&bench->frame, "front", address->object, 40, 4);
-    cell->members.items[0].reflector = address->reflector;
+    cell->members.items[0].id.reflector = address->reflector;
     bench_step(bench);
     const struct target *target = target_of(&bench->frame, "front", address->object);
     assert_non_null(target);
@@ -640,8 +640,8 @@ static void add_echo(struct frame *frame, const char *object, double range_m, do
 {
     *list_add(&frame->echoes, frame->arena) = (struct echo){
         .sensor = "front",
-        .object = object,
-        .reflector = "r",
+        .id.object = object,
+        .id.reflector = "r",
         .range_m = range_m,
         .azimuth_rad = azimuth_deg * PI / 180,
         .ercs = ercs,
@@ -736,7 +736,8 @@ static void a_random_phase_turns_pointers_and_leaves_membership(void **state)
             const struct cell *other = &random.frame.cells.items[j];
             assert_int_equal(one->members.count, other->members.count);
             for (size_t k = 0; k < one->members.count; k++) {
-                assert_string_equal(one->members.items[k].object, other->members.items[k].object);
+                assert_string_equal(one->members.items[k].id.object,
+                                    other->members.items[k].id.object);
                 assert_close(one->members.items[k].weight, other->members.items[k].weight, 0);
             }
             assert_close(one->amplitude, other->amplitude, 0);

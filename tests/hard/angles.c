@@ -263,7 +263,7 @@ static void add_cell(struct frame *frame, struct antenna_pointers pointers)
         .delta_im = cimag(pointers.delta),
     };
     *list_add(&cell->members, frame->arena) =
-        (struct contributor){.object = "o", .reflector = "r", .range_m = 1, .weight = 1};
+        (struct contributor){.id.object = "o", .id.reflector = "r", .range_m = 1, .weight = 1};
 }
 
 /* The same cells after a trip through a pipe. */

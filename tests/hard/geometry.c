@@ -656,7 +656,7 @@ static void a_sensor_inside_an_object_sees_the_inside_alone(void **state)
             crossed += strict_cross(corner[k], corner[(k + 1) % 4], inside, beyond);
         naive += crossed != 0;
         ours += scene.frame.echoes.count != 1 || lost_for(&scene, LOSS_BLOCKED) != 1 ||
-                scene.frame.echoes.items[0].object[0] != 'b';
+                scene.frame.echoes.items[0].id.object[0] != 'b';
     }
     arena_free(&scene.arena);
     hard_case("inside", "a sensor inside an object sees out", "wrong", naive, ours, 0);

@@ -6,8 +6,8 @@
 #ifndef HARD_H
 #define HARD_H
 
-#include "support/sample.h"
 #include "support/check.h"
+#include "support/sample.h"
 
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 /* Places, speeds and headings: NUMERICS A3, 23, 24 and 35 to 38. */
 #define SCRATCH_FILE "tracks.csv"
-#include "../scratch.h"
+#include "support/scratch.h"
 
 #include "hard.h"
 

@@ -269,10 +269,10 @@ static void add_members(const struct suite *suite, const char *sensor,
 {
     uint64_t begin = hash_text(HASH_START, sensor), outcome = begin;
     for (size_t i = 0; i < count; i++)
-        outcome = hash_echo(outcome, members[i].object, members[i].reflector);
+        outcome = hash_echo(outcome, members[i].id.object, members[i].id.reflector);
     for (size_t i = 0; i < count; i++)
         *list_add(&fates->list, arena) = (struct fate){
-            .echo = hash_echo(begin, members[i].object, members[i].reflector),
+            .echo = hash_echo(begin, members[i].id.object, members[i].id.reflector),
             .outcome = outcome,
             .sensor = (size_t)(suite_sensor(suite, sensor) - suite->sensors.items),
             .margins = margins,
@@ -291,7 +291,7 @@ static void add_lost(const struct suite *suite, const struct frame *frame, const
         for (size_t j = 0; j < group->echoes.count; j++) {
             const struct lost_echo *echo = &group->echoes.items[j];
             *list_add(&fates->list, frame->arena) = (struct fate){
-                .echo = hash_echo(begin, echo->object, echo->reflector),
+                .echo = hash_echo(begin, echo->id.object, echo->id.reflector),
                 .sensor = (size_t)(suite_sensor(suite, group->sensor) - suite->sensors.items),
                 .margins = &echo->margins,
             };
@@ -358,9 +358,9 @@ static bool is_foot(const struct frame *frame, const struct contributor *echo)
         const struct reflector_set *set = &frame->reflectors.items[i];
         bool worn = false, side = false;
         for (size_t j = 0; j < set->worn_by.count && !worn; j++)
-            worn = strcmp(set->worn_by.items[j], echo->object) == 0;
+            worn = strcmp(set->worn_by.items[j], echo->id.object) == 0;
         for (size_t j = 0; j < set->planes.count && worn && !side; j++)
-            side = strcmp(set->planes.items[j].name, echo->reflector) == 0;
+            side = strcmp(set->planes.items[j].name, echo->id.reflector) == 0;
         if (worn)
             return side;
     }
@@ -383,7 +383,7 @@ static struct error error_of(const struct frame *frame, const struct sensor *sen
                              const struct contributor *echo)
 {
     const struct object *ego = frame_object(frame, frame->ego);
-    const struct object *object = frame_object(frame, echo->object);
+    const struct object *object = frame_object(frame, echo->id.object);
     double size_m = object->length_m + object->width_m;
     double mount_m = fabs(sensor->mount_x_m) + fabs(sensor->mount_y_m);
     double apart_m = fabs(ego->x_m) + fabs(ego->y_m) + fabs(object->x_m) + fabs(object->y_m);

@@ -98,8 +98,8 @@ static void add_echo(struct frame *frame, const char *object, double range_m, do
                      double ercs)
 {
     *list_add(&frame->echoes, frame->arena) = (struct echo){.sensor = "s",
-                                                            .object = object,
-                                                            .reflector = "r",
+                                                            .id.object = object,
+                                                            .id.reflector = "r",
                                                             .range_m = range_m,
                                                             .azimuth_rad = azimuth_rad,
                                                             .ercs = ercs};
@@ -234,7 +234,7 @@ static struct received_echo ray_at(const struct sensor *sensor, const char *obje
                                    double azimuth_rad, double strength)
 {
     struct received_echo received = {
-        .echo = {.object = object, .reflector = "r", .azimuth_rad = azimuth_rad},
+        .echo = {.id.object = object, .id.reflector = "r", .azimuth_rad = azimuth_rad},
         .strength = strength,
         .amplitude = strength * antenna_gain(&sensor->antenna, azimuth_rad)};
     return received;

@@ -168,8 +168,8 @@ static const struct sensor plain_sensor = {.name = "s", .threshold = 1};
 static struct received_echo ray_of(const char *reflector, double range_m, double rate_mps,
                                    double amplitude)
 {
-    return (struct received_echo){.echo = {.object = "o",
-                                           .reflector = reflector,
+    return (struct received_echo){.echo = {.id.object = "o",
+                                           .id.reflector = reflector,
                                            .range_m = range_m,
                                            .range_rate_mps = rate_mps},
                                   .range_m = range_m,
@@ -392,7 +392,7 @@ static void list_readings(struct frame *frame, const double *amplitudes, size_t 
     for (size_t i = 0; i < count; i++) {
         cells[i] = (struct cell){.sensor = "s", .sum_re = amplitudes[i]};
         *list_add(&cells[i].members, frame->arena) =
-            (struct contributor){.object = "o", .reflector = "r", .weight = 1};
+            (struct contributor){.id.object = "o", .id.reflector = "r", .weight = 1};
         measurements[i] = target_list_measure(&cells[i]);
     }
     target_list_make(frame, "noise", &sensor, measurements, count, 0);

@@ -1,7 +1,7 @@
 /* Numbers and records as text (NUMERICS A8). */
 #define SCRATCH_FILE "locale"
-#include "../scratch.h"
 #include "hard.h"
+#include "support/scratch.h"
 
 #include <locale.h>
 #include <sys/stat.h>

@@ -1,7 +1,7 @@
 /* Time, binning and order (NUMERICS A4), and straight motion over a million frames (24). */
 #define SCRATCH_FILE "hard"
-#include "../scratch.h"
 #include "chain.h"
+#include "support/scratch.h"
 
 #include "base/number.h"
 #include "base/sort.h"
@@ -295,7 +295,7 @@ static void draw_rays(uint64_t *random, int64_t apart_ulp,
         double amplitude = 2 * (1 + (double)sample_integer(random, apart_ulp) * 0x1p-52);
         double range_m = 10 + 0.07 * (double)(sample_bits(random) % 5);
         received_echoes[i] = (struct received_echo){
-            .echo = {.object = "o", .reflector = names[i], .range_m = range_m},
+            .echo = {.id.object = "o", .id.reflector = names[i], .range_m = range_m},
             .range_m = range_m,
             .strength = amplitude,
             .amplitude = amplitude};

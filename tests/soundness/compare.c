@@ -125,7 +125,7 @@ static double superposed(const struct cell *cell)
 
 static bool same_echo_id(const struct contributor *a, const struct contributor *b)
 {
-    return frame_order_echo_ids(ECHO_ID_OF(a), ECHO_ID_OF(b)) == 0;
+    return frame_order_echo_ids(a->id, b->id) == 0;
 }
 
 static double weight_of(const struct cell *cell, const struct contributor *member)
@@ -146,7 +146,7 @@ static int compare_weights(const struct cell *all, const struct cell *chosen, do
                                                : &chosen->members.items[i - all->members.count];
         if (compare_values("weight", weight_of(all, member), weight_of(chosen, member), most,
                            diag) != 0)
-            return diag_prefix(diag, "%s.%s.", member->object, member->reflector);
+            return diag_prefix(diag, "%s.%s.", member->id.object, member->id.reflector);
     }
     return 0;
 }

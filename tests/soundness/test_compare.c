@@ -23,10 +23,10 @@ static void make_sample(struct sample *sample)
         .frame = {.present = SECTION_CELLS | SECTION_TARGETS | SECTION_LOST},
         .cell = {.sensor = "front", .range_m = 20, .azimuth_rad = 0.1, .amplitude = 10},
         .target = {.sensor = "front", .range_m = 21, .amplitude_db = 20},
-        .members = {{.object = "a", .reflector = "rear", .weight = 0.75},
-                    {.object = "b", .reflector = "rear", .weight = 0.25}},
+        .members = {{.id.object = "a", .id.reflector = "rear", .weight = 0.75},
+                    {.id.object = "b", .id.reflector = "rear", .weight = 0.25}},
         .group = {.sensor = "front", .stage = "ideal", .reason = LOSS_BLOCKED},
-        .lost = {.object = "c", .reflector = "rear", .by = "a"},
+        .lost = {.id.object = "c", .id.reflector = "rear", .by = "a"},
     };
     struct cell *cell = &sample->cell;
     cell->sum_re = 8, cell->delta_im = -1;
@@ -84,7 +84,7 @@ static void change(struct sample *sample, enum change change)
         cell->sum_re /= 1.06;
         break;
     case LEADER:
-        sample->members[0].object = "z";
+        sample->members[0].id.object = "z";
         break;
     case WEIGHT:
         sample->members[0].weight -= 0.06, sample->members[1].weight += 0.06;

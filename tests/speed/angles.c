@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "../sample.h"
 #include "base/units.h"
 #include "radar/monopulse.h"
+#include "support/sample.h"
 
 enum { CALLS = 4096, SWEEPS = 25, MOST_ENTRIES = 65536 };
 

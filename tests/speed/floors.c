@@ -10,9 +10,9 @@
 
 #include <zlib.h>
 
-#include "../sample.h"
 #include "digits.h"
 #include "plain.h"
+#include "support/sample.h"
 
 enum { NUMBERS = 240, VEHICLES = 20, PIPE_BYTES = 30000, TEXT_SIZE = 1 << 16, SWEEPS = 500 };
 

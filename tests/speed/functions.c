@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "../sample.h"
 #include "base/elementary.h"
 #include "base/random.h"
 #include "base/units.h"
+#include "support/sample.h"
 
 enum { CALLS = 4096, SWEEPS = 25 };
 

@@ -13,7 +13,7 @@
 
 static struct contributor from(const char *object, const char *reflector)
 {
-    return (struct contributor){.object = object, .reflector = reflector, .weight = 1};
+    return (struct contributor){.id.object = object, .id.reflector = reflector, .weight = 1};
 }
 
 static struct cell cell_of(struct arena *arena, const char *sensor, size_t count,
@@ -47,7 +47,7 @@ static struct frame accounted_frame(struct arena *arena)
                                    (struct contributor[]){from("b", "corner"), from("a", "rear")});
         frame_add_target(&frame, &cell, 3);
         frame_lose(&frame, "ideal", sensors[i], LOSS_OUT_OF_VIEW,
-                   &(struct lost_echo){.object = "a", .reflector = "corner"});
+                   &(struct lost_echo){.id.object = "a", .id.reflector = "corner"});
     }
     frame.sensors.suite = "pair";
     frame.sensors.digest = "0";
@@ -100,27 +100,27 @@ static void double_one_in_a_target(struct frame *frame)
 static void double_one_between_target_and_lost(struct frame *frame)
 {
     frame_lose(frame, "noise", "left", LOSS_BELOW_FINAL,
-               &(struct lost_echo){.object = "a", .reflector = "rear"});
+               &(struct lost_echo){.id.object = "a", .id.reflector = "rear"});
 }
 
 static void double_three(struct frame *frame)
 {
     double_one_between_target_and_lost(frame);
     frame_lose(frame, "ideal", "left", LOSS_OUT_OF_VIEW,
-               &(struct lost_echo){.object = "a", .reflector = "corner"});
+               &(struct lost_echo){.id.object = "a", .id.reflector = "corner"});
     double_one_in_a_target(frame);
 }
 
 static void add_a_foreign_one(struct frame *frame)
 {
     frame_lose(frame, "noise", "right", LOSS_BELOW_FINAL,
-               &(struct lost_echo){.object = "x", .reflector = "rear"});
+               &(struct lost_echo){.id.object = "x", .id.reflector = "rear"});
 }
 
 static void add_one_of_a_foreign_sensor(struct frame *frame)
 {
     frame_lose(frame, "ideal", "top", LOSS_BLOCKED,
-               &(struct lost_echo){.object = "a", .reflector = "rear"});
+               &(struct lost_echo){.id.object = "a", .id.reflector = "rear"});
 }
 
 static void count_one_more(struct frame *frame)
@@ -166,7 +166,7 @@ static void losses_are_grouped_by_sensor_stage_and_reason(void **state)
     for (int i = 0; i < 24; i++)
         frame_lose(&frame, stages[i / 2 % 2], sensors[i % 2],
                    i / 4 % 2 ? LOSS_BLOCKED : LOSS_NO_ANGLE,
-                   &(struct lost_echo){.object = "o", .reflector = "r"});
+                   &(struct lost_echo){.id.object = "o", .id.reflector = "r"});
     assert_int_equal(frame.lost.count, 8);
     for (size_t i = 0; i < 8; i++)
         assert_int_equal(frame.lost.items[i].echoes.count, 3);
@@ -176,7 +176,7 @@ static void losses_are_grouped_by_sensor_stage_and_reason(void **state)
     frame_lose_cell(&frame, "sensor", &cell, LOSS_BELOW_THRESHOLD, 4.5, &cell.margins);
     const struct lost_group *group = &frame.lost.items[8];
     assert_int_equal(group->echoes.count, 2);
-    assert_string_equal(group->echoes.items[1].reflector, "q");
+    assert_string_equal(group->echoes.items[1].id.reflector, "q");
     assert_close(group->echoes.items[1].shortfall_db, 4.5, 0);
     arena_free(&arena);
 }
@@ -186,7 +186,8 @@ static void a_frame_without_account_forgets_its_losses(void **state)
     (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
-    frame_lose_echo(&frame, "ideal", &(struct echo){.sensor = "s", .object = "o", .reflector = "r"},
+    frame_lose_echo(&frame, "ideal",
+                    &(struct echo){.sensor = "s", .id.object = "o", .id.reflector = "r"},
                     LOSS_BLOCKED);
     assert_int_equal(frame.lost.count, 0);
     assert_int_equal(frame.present, 0);
@@ -217,13 +218,14 @@ static void every_order_of_a_frame_becomes_the_canonical_one(void **state)
     struct arena arena = {0};
     struct frame frame = accounted_frame(&arena);
     for (size_t i = 0; i < 25; i++) {
-        *list_add(&frame.echoes, &arena) = (struct echo){
-            .sensor = i % 2 ? "left" : "right", .object = names[i / 5], .reflector = names[i % 5]};
+        *list_add(&frame.echoes, &arena) = (struct echo){.sensor = i % 2 ? "left" : "right",
+                                                         .id.object = names[i / 5],
+                                                         .id.reflector = names[i % 5]};
         struct contributor members[] = {from(names[i / 5], names[i % 5]), from("z", "1"),
                                         from("z", "2"), from("y", "3")};
         *list_add(&frame.cells, &arena) = cell_of(&arena, i % 3 ? "left" : "right", 4, members);
         frame_lose(&frame, i % 2 ? "noise" : "ideal", i % 3 ? "left" : "right", (enum loss)(i % 4),
-                   &(struct lost_echo){.object = names[i / 5], .reflector = names[i % 5]});
+                   &(struct lost_echo){.id.object = names[i / 5], .id.reflector = names[i % 5]});
     }
     for (size_t i = 0; i < 5; i++) {
         struct reflector_set *set = list_add(&frame.reflectors, &arena);
@@ -237,8 +239,8 @@ static void every_order_of_a_frame_becomes_the_canonical_one(void **state)
     assert_int_equal(frame_check(&frame, &diag), 0);
     for (size_t i = 1; i < frame.echoes.count; i++)
         assert_true(strcmp(frame.echoes.items[i - 1].sensor, frame.echoes.items[i].sensor) <= 0);
-    assert_string_equal(frame.cells.items[0].members.items[0].object, "B");
-    assert_string_equal(frame.cells.items[0].members.items[1].reflector, "3");
+    assert_string_equal(frame.cells.items[0].members.items[0].id.object, "B");
+    assert_string_equal(frame.cells.items[0].members.items[1].id.reflector, "3");
     struct text canonical = written(&frame);
     uint64_t random = 9;
     for (int round = 0; round < 100; round++) {
@@ -323,8 +325,8 @@ static void ties_are_decided_by_a_total_order(void **state)
         all[i] = (struct contributor){.range_m = i >> 4 & 1,
                                       .range_rate_mps = i >> 3 & 1,
                                       .azimuth_rad = i >> 2 & 1,
-                                      .object = i >> 1 & 1 ? "b" : "a",
-                                      .reflector = i & 1 ? "q" : "p",
+                                      .id.object = i >> 1 & 1 ? "b" : "a",
+                                      .id.reflector = i & 1 ? "q" : "p",
                                       .weight = 31 - i};
     for (int i = 0; i < 32; i++)
         for (int j = 0; j < 32; j++) {
@@ -352,13 +354,13 @@ static void see_one_twice(struct frame *frame)
 {
     for (int i = 0; i < 2; i++)
         *list_add(&frame->echoes, frame->arena) =
-            (struct echo){.sensor = "left", .object = "a", .reflector = "r"};
+            (struct echo){.sensor = "left", .id.object = "a", .id.reflector = "r"};
 }
 
 static void see_with_no_sensor(struct frame *frame)
 {
     *list_add(&frame->echoes, frame->arena) =
-        (struct echo){.sensor = "top", .object = "a", .reflector = "r"};
+        (struct echo){.sensor = "top", .id.object = "a", .id.reflector = "r"};
 }
 
 static void open_a_cell_twice(struct frame *frame)

@@ -168,7 +168,7 @@ static void equal_names_of_a_frame_are_one_pointer(void **state)
     struct diag diag;
     assert_int_equal(read_line(rich, &frame, &diag), 0);
     assert_true(frame.ego == frame.objects.items->id);
-    assert_true(frame.ego == frame.cells.items->members.items->object);
+    assert_true(frame.ego == frame.cells.items->members.items->id.object);
     assert_true(frame.ego == frame.lost.items->echoes.items->by);
     assert_true(frame.sensors.list.items->name == frame.echoes.items->sensor);
     arena_free(&arena);

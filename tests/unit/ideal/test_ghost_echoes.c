@@ -119,7 +119,7 @@ static struct look ghosts_at(struct playback *scene, double time_s)
 static const struct echo *ghost_of(const struct playback *scene, enum path path)
 {
     for (size_t i = 0; i < scene->frame.echoes.count; i++)
-        if (scene->frame.echoes.items[i].path == path)
+        if (scene->frame.echoes.items[i].id.path == path)
             return &scene->frame.echoes.items[i];
     return NULL;
 }
@@ -133,7 +133,7 @@ static int paths_of(struct playback *scene)
     int paths = 0;
     ghosts_at(scene, 10);
     for (size_t i = 0; i < scene->frame.echoes.count; i++)
-        paths |= 1 << scene->frame.echoes.items[i].path;
+        paths |= 1 << scene->frame.echoes.items[i].id.path;
     return paths;
 }
 
@@ -156,11 +156,11 @@ static void effects_7_has_its_ghosts(void **state)
     assert_int_equal(scene->frame.lost.count, 0);
     for (size_t i = 0; i < COUNT(cases); i++) {
         const struct echo *ghost = &scene->frame.echoes.items[i];
-        assert_int_equal(ghost->path, cases[i].path);
-        assert_string_equal(ghost->object, "o");
-        assert_string_equal(ghost->reflector, "pole");
-        assert_string_equal(ghost->mirror, "w");
-        assert_int_equal(ghost->number, 1);
+        assert_int_equal(ghost->id.path, cases[i].path);
+        assert_string_equal(ghost->id.object, "o");
+        assert_string_equal(ghost->id.reflector, "pole");
+        assert_string_equal(ghost->id.mirror, "w");
+        assert_int_equal(ghost->id.number, 1);
         assert_close(ghost->range_m, cases[i].range_m, 1e-6);
         assert_close(ghost->range_rate_mps, cases[i].rate_mps, 1e-6);
         assert_close(ghost->azimuth_rad / DEGREE, cases[i].azimuth_deg, 1e-6);
@@ -256,10 +256,10 @@ static void a_body_does_not_mirror_itself_and_two_mirror_twice(void **state)
     add_right_mirror(scene, inner, 0.3);
     ghosts_at(scene, 10);
     assert_int_equal(scene->frame.echoes.count, 9);
-    assert_string_equal(scene->frame.echoes.items[0].mirror, "w");
-    assert_int_equal(scene->frame.echoes.items[0].number, 1);
-    assert_string_equal(scene->frame.echoes.items[1].mirror, "w");
-    assert_int_equal(scene->frame.echoes.items[1].number, 2);
+    assert_string_equal(scene->frame.echoes.items[0].id.mirror, "w");
+    assert_int_equal(scene->frame.echoes.items[0].id.number, 1);
+    assert_string_equal(scene->frame.echoes.items[1].id.mirror, "w");
+    assert_int_equal(scene->frame.echoes.items[1].id.number, 2);
     assert_near(scene->frame.echoes.items[1].ercs, scene->frame.echoes.items[0].ercs / 3, 1e-15);
 }
 
@@ -275,7 +275,7 @@ static void two_walls_in_line_are_one(void **state)
         scene->frame.objects.items[1].x_m = 30 + (double)step * 0x1p-48;
         assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
         assert_int_equal(scene->frame.echoes.count, 3);
-        assert_string_equal(scene->frame.echoes.items[0].mirror, step < 0 ? "v" : "w");
+        assert_string_equal(scene->frame.echoes.items[0].id.mirror, step < 0 ? "v" : "w");
     }
 }
 
@@ -417,7 +417,7 @@ static void posts_have_ghosts_by_their_names(void **state)
     static const char *const names[] = {"post_1", "post_1", "post_1", "post_2", "post_2", "post_2"};
     assert_int_equal(scene->frame.echoes.count, COUNT(names));
     for (size_t i = 0; i < COUNT(names); i++)
-        assert_string_equal(scene->frame.echoes.items[i].reflector, names[i]);
+        assert_string_equal(scene->frame.echoes.items[i].id.reflector, names[i]);
     assert_close(scene->frame.echoes.items[5].range_m, sqrt(400 + 121), 1e-12);
     scene->selection.allowed &= ~EFFECT_BIT(EFFECT_ROWS);
     assert_int_equal(paths_of(scene), 0);

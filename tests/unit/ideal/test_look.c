@@ -136,7 +136,7 @@ static void a_late_look_shows_where_everything_was(void **state)
     look_around_at(scene, 10 - age_s);
     const struct echo *echo = scene->frame.echoes.items;
     assert_int_equal(scene->frame.echoes.count, 2);
-    assert_string_equal(echo[0].object, "a");
+    assert_string_equal(echo[0].id.object, "a");
     assert_close(echo[0].range_m, 30 + 5 * age_s + 20 * age_s, 1e-9);
     assert_close(echo[0].range_rate_mps, -25, 1e-9);
     assert_close(echo[0].time_s, 10 - age_s, 0);
@@ -164,7 +164,7 @@ static void the_first_blocker_by_id_is_named(void **state)
     assert_int_equal(lost->reason, LOSS_BLOCKED);
     assert_string_equal(lost->stage, "ideal");
     assert_string_equal(lost->sensor, "front");
-    assert_string_equal(lost->echoes.items[0].object, "far");
+    assert_string_equal(lost->echoes.items[0].id.object, "far");
     assert_string_equal(lost->echoes.items[0].by, "x");
     assert_int_equal(look.pairs, 1);
     assert_int_equal(scene->frame.counts.items[0].pairs, 1);
@@ -196,9 +196,9 @@ static void wheel_houses_are_seen_under_raised_vehicles_only(void **state)
     struct object *truck = add_object(scene, "truck", 20, 0);
     look_around_at(scene, 10);
     assert_int_equal(scene->frame.echoes.count, 1);
-    assert_string_equal(scene->frame.echoes.items[0].reflector, "wheel");
+    assert_string_equal(scene->frame.echoes.items[0].id.reflector, "wheel");
     assert_close(scene->frame.echoes.items[0].ercs, 0.25, 0);
-    assert_string_equal(scene->frame.lost.items[0].echoes.items[0].reflector, "corner");
+    assert_string_equal(scene->frame.lost.items[0].echoes.items[0].id.reflector, "corner");
     assert_string_equal(scene->frame.lost.items[0].echoes.items[0].by, "truck");
     /* With a solid one behind it both are gone; without anything both are whole. */
     add_set(scene, "wall");
@@ -275,7 +275,7 @@ static void the_joint_of_two_walls_mirrors_once(void **state)
         scene->frame.echoes.count = 0;
         look_around_at(scene, 10);
         assert_int_equal(scene->frame.echoes.count, 1);
-        assert_string_equal(scene->frame.echoes.items[0].object, whose[i]);
+        assert_string_equal(scene->frame.echoes.items[0].id.object, whose[i]);
         assert_close(scene->frame.echoes.items[0].range_m, 20, 0);
     }
 }
@@ -368,7 +368,7 @@ static void posts_become_echoes_with_their_numbers(void **state)
     for (int i = 0; i < 24; i++) {
         char name[24];
         snprintf(name, sizeof name, "post_%d", 51 + i);
-        assert_string_equal(scene->frame.echoes.items[i].reflector, name);
+        assert_string_equal(scene->frame.echoes.items[i].id.reflector, name);
         assert_close(scene->frame.echoes.items[i].range_m, hypot(4 + 4 * i, 5), 1e-9);
     }
     /* Behind: x = -96 to 0 are out of view; the two at 100 m aside are out of range. */

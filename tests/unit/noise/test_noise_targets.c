@@ -48,8 +48,8 @@ static void every_false_alarm_lies_in_the_sensor_s_cells(void **state)
             assert_int_equal(cell->effects, EFFECT_BIT(EFFECT_FALSE_ALARMS));
             assert_int_equal(cell->members.count, 1);
             const struct contributor *label = &cell->members.items[0];
-            assert_int_equal(label->path, PATH_FALSE_ALARM);
-            assert_int_equal(label->number, j + 1);
+            assert_int_equal(label->id.path, PATH_FALSE_ALARM);
+            assert_int_equal(label->id.number, j + 1);
             assert_close(label->range_m, cell->range_m, 0);
             assert_close(label->azimuth_rad, cell->azimuth_rad, 0);
             assert_close(label->range_rate_mps, cell->range_rate_mps, 0);

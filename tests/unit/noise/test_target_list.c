@@ -28,8 +28,8 @@ static void add_reading(struct list *list, const char *object, double range_m, d
 {
     struct cell *cell = &list->cells[list->count];
     *cell = (struct cell){.sensor = "s", .range_m = range_m, .sum_re = amplitude};
-    *list_add(&cell->members, &list->arena) =
-        (struct contributor){.object = object, .reflector = "r", .range_m = range_m, .weight = 1};
+    *list_add(&cell->members, &list->arena) = (struct contributor){
+        .id.object = object, .id.reflector = "r", .range_m = range_m, .weight = 1};
     list->measurements[list->count++] = target_list_measure(cell);
 }
 
@@ -39,7 +39,8 @@ static void assert_listed(struct list *list, int64_t limit, const char *objects)
     target_list_make(&list->frame, "noise", &list->sensor, list->measurements, list->count, limit);
     assert_int_equal(list->frame.targets.count, strlen(objects));
     for (size_t i = 0; i < list->frame.targets.count; i++)
-        assert_int_equal(list->frame.targets.items[i].contributors.items[0].object[0], objects[i]);
+        assert_int_equal(list->frame.targets.items[i].contributors.items[0].id.object[0],
+                         objects[i]);
 }
 
 static void add_all(struct list *list)

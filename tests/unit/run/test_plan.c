@@ -152,7 +152,7 @@ static void make_frame(struct frame *frame, struct arena *arena, double range_m,
     struct cell *cell = list_add(&frame->cells, arena);
     *cell = (struct cell){.sensor = "front", .range_m = range_m, .azimuth_rad = azimuth_rad};
     *list_add(&cell->members, arena) =
-        (struct contributor){.object = "o", .reflector = "r", .weight = 1};
+        (struct contributor){.id.object = "o", .id.reflector = "r", .weight = 1};
 }
 
 static void frames_are_compared_in_every_value(void **state)

@@ -16,7 +16,7 @@ static struct object objects[] = {
     {.id = "ego", .class = "car", .x_m = 100, .y_m = 50, .yaw_rad = PI / 2},
     {.id = "thing", .class = "truck", .vx_mps = 3},
 };
-static struct contributor echo = {.object = "thing"};
+static struct contributor echo = {.id.object = "thing"};
 static struct target target = {.sensor = "left", .contributors = {&echo, 1, 1}};
 
 static struct frame frame_with_thing_at(double x_m, double y_m)

@@ -64,8 +64,8 @@ static struct interferer *add_interferer(struct bench *bench, const char *object
 static struct received_echo ray_of(const struct bench *bench, uint64_t effects, double range_m)
 {
     struct echo echo = {.sensor = "radar",
-                        .object = "other",
-                        .reflector = "r",
+                        .id.object = "other",
+                        .id.reflector = "r",
                         .range_m = range_m,
                         .range_rate_mps = 45,
                         .ercs = range_m * range_m / 100};

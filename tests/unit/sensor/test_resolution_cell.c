@@ -26,8 +26,8 @@ static struct sensor paper_sensor(enum antenna_phase phase)
 static struct echo echo_at(double range_m, double azimuth_rad, double range_rate_mps, double ercs)
 {
     return (struct echo){.sensor = "s",
-                         .object = "o",
-                         .reflector = "r",
+                         .id.object = "o",
+                         .id.reflector = "r",
                          .range_m = range_m,
                          .azimuth_rad = azimuth_rad,
                          .range_rate_mps = range_rate_mps,
@@ -117,12 +117,12 @@ static void two_echoes_are_weighted_by_amplitude(void **state)
     (void)state;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     struct received_echo received_echoes[] = {
-        {.echo = {.object = "a", .reflector = "r", .range_m = 10, .range_rate_mps = -1},
+        {.echo = {.id.object = "a", .id.reflector = "r", .range_m = 10, .range_rate_mps = -1},
          .range_m = 10,
          .range_rate_mps = -1,
          .strength = 6,
          .amplitude = 6},
-        {.echo = {.object = "b", .reflector = "r", .range_m = 10.2, .range_rate_mps = 1},
+        {.echo = {.id.object = "b", .id.reflector = "r", .range_m = 10.2, .range_rate_mps = 1},
          .range_m = 10.2,
          .range_rate_mps = 1,
          .strength = 2,
@@ -137,7 +137,7 @@ static void two_echoes_are_weighted_by_amplitude(void **state)
     assert_int_equal(cell.members.count, 2);
     assert_close(cell.members.items[0].weight, 0.75, 0);
     assert_close(cell.members.items[1].weight, 0.25, 0);
-    assert_string_equal(cell.members.items[1].object, "b");
+    assert_string_equal(cell.members.items[1].id.object, "b");
     /* Both on boresight: the sum channel takes all, delta nothing. */
     assert_close(cell.sum_re, 8, 1e-15);
     assert_close(cell.sum_im, 0, 0);
@@ -158,10 +158,10 @@ static void pointers_add_up_as_in_equation_8(void **state)
     for (int element = 0; element < 2; element++) {
         struct sensor sensor = paper_sensor(element ? PHASE_ELEMENT : PHASE_CENTRE);
         struct received_echo received_echoes[] = {
-            {.echo = {.object = "a", .reflector = "r", .azimuth_rad = PI / 6},
+            {.echo = {.id.object = "a", .id.reflector = "r", .azimuth_rad = PI / 6},
              .strength = 3,
              .amplitude = 3 * part},
-            {.echo = {.object = "b", .reflector = "r", .azimuth_rad = -PI / 6},
+            {.echo = {.id.object = "b", .id.reflector = "r", .azimuth_rad = -PI / 6},
              .strength = 1,
              .amplitude = part}};
         struct cell cell;
@@ -185,8 +185,8 @@ static void phases_turn_the_pointers(void **state)
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     struct arena arena = {0};
     struct received_echo received_echoes[] = {
-        {.echo = {.object = "a", .reflector = "r"}, .strength = 4, .amplitude = 4},
-        {.echo = {.object = "b", .reflector = "r"},
+        {.echo = {.id.object = "a", .id.reflector = "r"}, .strength = 4, .amplitude = 4},
+        {.echo = {.id.object = "b", .id.reflector = "r"},
          .strength = 3,
          .amplitude = 3,
          .phase_rad = PI / 2}};
@@ -309,9 +309,9 @@ static void weights_sum_to_one_and_means_stay_inside(void **state)
 static void ties_of_amplitude_go_by_the_frames_order(void **state)
 {
     (void)state;
-    struct received_echo near = {.echo = {.object = "b", .reflector = "r", .range_m = 1},
+    struct received_echo near = {.echo = {.id.object = "b", .id.reflector = "r", .range_m = 1},
                                  .amplitude = 2};
-    struct received_echo far = {.echo = {.object = "a", .reflector = "r", .range_m = 2},
+    struct received_echo far = {.echo = {.id.object = "a", .id.reflector = "r", .range_m = 2},
                                 .amplitude = 2};
     assert_true(resolution_cell_compare(&near, &far) < 0);
     assert_true(resolution_cell_compare(&far, &near) > 0);

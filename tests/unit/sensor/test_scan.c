@@ -59,8 +59,8 @@ static void add_echo(struct bench *bench, const char *sensor, const char *object
 {
     *list_add(&bench->frame.echoes, &bench->arena) =
         (struct echo){.sensor = sensor,
-                      .object = object,
-                      .reflector = "r",
+                      .id.object = object,
+                      .id.reflector = "r",
                       .range_m = range_m,
                       .range_rate_mps = range_rate_mps,
                       .ercs = amplitude * range_m * range_m / 100};
@@ -72,7 +72,7 @@ static void check_cell(const struct scan *scan, size_t number, const char *names
     const struct received_echo *members = scan_members(scan, number, &count);
     assert_int_equal(count, strlen(names));
     for (size_t i = 0; i < count; i++)
-        assert_int_equal(members[i].echo.object[0], names[i]);
+        assert_int_equal(members[i].echo.id.object[0], names[i]);
 }
 
 /* What the sensor receives under the selection but for some effects. */
@@ -115,8 +115,8 @@ static void rays_without_amplitude_are_silent_and_in_no_cell(void **state)
     check_cell(&scan, 0, "c");
     check_cell(&scan, 1, "a");
     assert_int_equal(scan.silent_count, 2);
-    assert_string_equal(scan.silent[0].echo.object, "b");
-    assert_string_equal(scan.silent[1].echo.object, "d");
+    assert_string_equal(scan.silent[0].echo.id.object, "b");
+    assert_string_equal(scan.silent[1].echo.id.object, "d");
 }
 
 static void a_scan_of_nothing_has_no_cells(void **state)

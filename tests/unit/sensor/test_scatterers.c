@@ -17,8 +17,8 @@ static const struct sensor sensor = {
 
 static const struct echo parent = {
     .sensor = "s",
-    .object = "o",
-    .reflector = "r",
+    .id.object = "o",
+    .id.reflector = "r",
     .range_m = 20,
     .range_rate_mps = -3,
     .ercs = 0.5,
@@ -80,8 +80,8 @@ static void rates_of_parts_are_within_their_bounds(void **state)
         for (scene.frame.frame = 0; scene.frame.frame < FRAMES; scene.frame.frame++) {
             struct echo_span parts = scatter(&scene, UINT64_MAX);
             for (size_t j = 0; j < parts.count; j++) {
-                assert_int_equal(parts.items[j].path, cases[i].path);
-                assert_int_equal(parts.items[j].number, (int64_t)j + 1);
+                assert_int_equal(parts.items[j].id.path, cases[i].path);
+                assert_int_equal(parts.items[j].id.number, (int64_t)j + 1);
                 assert_int_equal(parts.items[j].effects, EFFECT_BIT(cases[i].effect));
                 double swing = (parts.items[j].range_rate_mps - parent.range_rate_mps) /
                                parent.ground_rate_mps;
@@ -115,14 +115,14 @@ static void clutter_is_bounded_and_the_rest_of_it_stays(void **state)
 {
     (void)state;
     struct playback some, many;
-    prepare(&some, (struct echo){.sensor = "s", .object = "o", .reflector = "r"}, 0.5);
+    prepare(&some, (struct echo){.sensor = "s", .id.object = "o", .id.reflector = "r"}, 0.5);
     prepare(&many, some.echo, 10);
     struct echo_span few = scatter(&some, UINT64_MAX), most = scatter(&many, UINT64_MAX);
     assert_in_range(few.count, 500, 750);
     assert_int_equal(most.count, SCATTERERS_MOST_CLUTTER);
     for (size_t i = 0; i < few.count; i++) {
         const struct echo *one = &few.items[i], *other = &most.items[i];
-        assert_int_equal(one->number, other->number);
+        assert_int_equal(one->id.number, other->id.number);
         assert_true(one->range_m == other->range_m && one->azimuth_rad == other->azimuth_rad);
         assert_close(one->range_rate_mps, -10 * cos(one->azimuth_rad), 1e-12);
         assert_true(fabs(one->azimuth_rad) < 0.5 && one->range_m >= 1 && one->range_m <= 50);

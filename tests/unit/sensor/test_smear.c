@@ -64,12 +64,13 @@ static struct received_echo *add(struct playback *scene, double range_bins, doub
                                  double amplitude, double phase_rad)
 {
     struct received_echo *received = &scene->received_echoes[scene->count];
-    *received = (struct received_echo){.echo = {.object = "o", .reflector = names[scene->count]},
-                                       .strength = amplitude,
-                                       .amplitude = amplitude,
-                                       .range_m = 0.5 * range_bins,
-                                       .range_rate_mps = 0.25 * rate_bins,
-                                       .phase_rad = phase_rad};
+    *received =
+        (struct received_echo){.echo = {.id.object = "o", .id.reflector = names[scene->count]},
+                               .strength = amplitude,
+                               .amplitude = amplitude,
+                               .range_m = 0.5 * range_bins,
+                               .range_rate_mps = 0.25 * rate_bins,
+                               .phase_rad = phase_rad};
     received->echo.range_m = received->range_m;
     received->echo.range_rate_mps = received->range_rate_mps;
     scene->count++;
@@ -109,8 +110,8 @@ static void one_echo_alone_is_the_cell_that_it_always_is(void **state)
     for (int i = 0; i < 2000; i++) {
         start(scene);
         const struct echo echo = {.sensor = "s",
-                                  .object = "o",
-                                  .reflector = "r",
+                                  .id.object = "o",
+                                  .id.reflector = "r",
                                   .range_m = sample_between(&sample, 0.3, 200),
                                   .azimuth_rad = sample_between(&sample, -1, 1),
                                   .range_rate_mps = sample_between(&sample, -60, 60),
@@ -214,8 +215,8 @@ static void an_echo_beside_a_strong_one_is_in_its_cell(void **state)
     add(scene, 30, 0, 1, 0);
     assert_int_equal(cells_of(scene), 2);
     assert_int_equal(scene->cells[0].members.count, 2);
-    assert_string_equal(scene->cells[0].members.items[0].reflector, "a");
-    assert_string_equal(scene->cells[0].members.items[1].reflector, "b");
+    assert_string_equal(scene->cells[0].members.items[0].id.reflector, "a");
+    assert_string_equal(scene->cells[0].members.items[1].id.reflector, "b");
     assert_close(scene->cells[0].members.items[1].weight, 1.0 / 1001, 1e-15);
     assert_true((scene->cells[0].effects & EFFECT_BIT(EFFECT_COHERENCE)) != 0);
     assert_int_equal(scene->cells[1].members.count, 1);

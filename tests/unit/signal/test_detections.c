@@ -45,7 +45,7 @@ static void receive(struct bench *bench, const char *name, double range_m, doubl
                     double amplitude)
 {
     bench->received_echoes[bench->count++] = (struct received_echo){
-        .echo = {.object = name, .reflector = "centre", .range_m = range_m},
+        .echo = {.id.object = name, .id.reflector = "centre", .range_m = range_m},
         .strength = amplitude,
         .amplitude = amplitude,
         .range_m = range_m,
@@ -81,7 +81,7 @@ static struct detections sight(struct bench *bench)
 
 static const char *leader_of(const struct sighting *sighting)
 {
-    return sighting->cell.members.items[0].object;
+    return sighting->cell.members.items[0].id.object;
 }
 
 static void an_echo_belongs_to_the_peak_that_shows_most_of_it(void **state)
@@ -130,7 +130,7 @@ static void a_peak_of_nothing_is_a_false_alarm_and_counted(void **state)
     show(&bench, 25, 3, 5);
     struct detections seen = sight(&bench);
     assert_int_equal(seen.list.count, 2);
-    assert_int_equal(seen.list.items[1].cell.members.items[0].path, PATH_FALSE_ALARM);
+    assert_int_equal(seen.list.items[1].cell.members.items[0].id.path, PATH_FALSE_ALARM);
     assert_int_equal(bench.frame.counts.count, 1);
     assert_int_equal(bench.frame.counts.items[0].paths.items[0].echoes, 1);
     arena_free(&bench.arena);
