@@ -186,6 +186,10 @@ schemas: all
 	$(Q)for s in $$($(BUILD)/bin/glint --list schemas); do \
 	    $(BUILD)/bin/glint --schema $$s >schemas/$$s.json || exit 1; done
 
+# One line a module, from the headers.
+lib/README.md: FORCE
+	$(Q)scripts/lib-readme >$@.new && mv $@.new $@
+
 format:
 	clang-format -i $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.c tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
 
