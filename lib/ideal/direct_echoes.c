@@ -49,7 +49,8 @@ struct candidate {
 
 static struct obstruction_line line_to(const struct look *look, const struct candidate *seen)
 {
-    return (struct obstruction_line){look->position_m, seen->place, look->height_m, seen->height_m};
+    return (struct obstruction_line){look->pose.position_m, seen->place, look->height_m,
+                                     seen->height_m};
 }
 
 static double sight_margin_m(const struct look *look, const struct look_body *body,
@@ -86,7 +87,7 @@ static bool is_hidden(const struct look *look, const struct look_body *body, str
 {
     if (look->frame->account)
         return false;
-    struct silhouette place = silhouette_of_place(vec2_sub(seen->place, look->position_m));
+    struct silhouette place = silhouette_of_place(vec2_sub(seen->place, look->pose.position_m));
     if (look->selection->log == NULL && look_out_of_reach(look, body, &place))
         return true;
     seek_way(look, seen);
@@ -131,11 +132,11 @@ static void tell_height(const struct look *look, const struct look_body *body,
 static void tell_motion(const struct look *look, const struct look_body *body,
                         const struct candidate *seen, struct vec2 velocity, struct echo *echo)
 {
-    struct vec2 still = {0, 0}, boresight = look->boresight, heading = body->box.heading;
+    struct vec2 still = {0, 0}, boresight = look->pose.boresight, heading = body->box.heading;
     if (!look->sensor->micro_motion || seen->moving_part == MOVING_NONE)
         return;
     struct kinematics ground =
-        kinematics_of(look->position_m, still, boresight, seen->place, velocity);
+        kinematics_of(look->pose.position_m, still, boresight, seen->place, velocity);
     echo->moving_part = seen->moving_part;
     echo->ground_rate_mps = ground.range_rate_mps * (ground.range_m / echo->range_m);
     echo->heading_rad =
@@ -148,10 +149,11 @@ static void look_at(struct look *look, const struct look_body *body, struct cand
     bool tell = look->frame->margins;
     struct vec2 velocity = motion_velocity_at(&body->box.motion, seen->place);
     double gain;
-    struct kinematics sight = look_slant(
-        look, seen->height_m,
-        kinematics_of(look->position_m, look->velocity_mps, look->boresight, seen->place, velocity),
-        &gain, &seen->effects);
+    struct kinematics sight =
+        look_slant(look, seen->height_m,
+                   kinematics_of(look->pose.position_m, look->pose.velocity_mps,
+                                 look->pose.boresight, seen->place, velocity),
+                   &gain, &seen->effects);
     seen->ercs *= gain;
     if (!in_reach(look, body, seen, &sight))
         return;
@@ -203,10 +205,10 @@ static void look_at_point(struct look *look, const struct look_body *body,
     };
     if (is_hidden(look, body, &seen))
         return;
-    double visible = look_visibility(look, body, point, facing, place, look->position_m);
+    double visible = look_visibility(look, body, point, facing, place, look->pose.position_m);
     if (look->frame->margins && effects_enabled(look->selection, EFFECT_VISIBILITY))
         seen.margin_m = sight_margins_facing_m(&body->box, point->shape, point->facing_rad,
-                                               point->zero_rad, place, look->position_m);
+                                               point->zero_rad, place, look->pose.position_m);
     if (visible == 0) {
         lose(look, body, point->name, LOSS_FACING_AWAY, NULL, seen.margin_m);
         return;
@@ -226,10 +228,11 @@ static void look_at_plane(struct look *look, const struct look_body *body,
     }
     struct side side = line_of_sight_side(body, plane);
     struct vec2 foot;
-    double margin_m = look->frame->margins ? sight_margins_foot_m(side.from, side.to, side.along,
-                                                                  plane->margin_m, look->position_m)
-                                           : 0;
-    if (specular_point_foot(side.from, side.to, side.along, plane->margin_m, look->position_m,
+    double margin_m = look->frame->margins
+                          ? sight_margins_foot_m(side.from, side.to, side.along, plane->margin_m,
+                                                 look->pose.position_m)
+                          : 0;
+    if (specular_point_foot(side.from, side.to, side.along, plane->margin_m, look->pose.position_m,
                             &foot) &&
         !line_of_sight_next_side_has_foot(look, &side)) {
         struct candidate seen = {
@@ -244,7 +247,7 @@ static void look_at_plane(struct look *look, const struct look_body *body,
         };
         if (is_hidden(look, body, &seen))
             return;
-        double range_m = vec2_length(vec2_sub(foot, look->position_m));
+        double range_m = vec2_length(vec2_sub(foot, look->pose.position_m));
         seen.ercs = look_plane_ercs(look, plane, range_m, &seen.effects);
         look_at(look, body, &seen);
     } else
@@ -256,8 +259,8 @@ static void look_along_row(struct look *look, const struct look_body *body,
 {
     struct vec2 facing = vec2_heading(row->facing_rad);
     int64_t first, end;
-    reflectors_posts_within(&body->box, row, look->position_m, look->sensor->range_max_m, &first,
-                            &end);
+    reflectors_posts_within(&body->box, row, look->pose.position_m, look->sensor->range_max_m,
+                            &first, &end);
     for (int64_t number = first; number < end; number++) {
         const struct point_reflector post = look_post(look, row, number);
         look_at_point(look, body, &post, facing, reflectors_post_place(&body->box, row, number));

@@ -104,8 +104,8 @@ static struct leg leg_to(const struct look *look, struct vec2 place, struct vec2
                          double height_m)
 {
     struct leg leg = {.margin_m = (double)INFINITY};
-    struct kinematics sight =
-        kinematics_of(look->position_m, look->velocity_mps, look->boresight, place, velocity);
+    struct kinematics sight = kinematics_of(look->pose.position_m, look->pose.velocity_mps,
+                                            look->pose.boresight, place, velocity);
     leg.sight = look_slant(look, height_m, sight, &leg.factor, &leg.effects);
     return leg;
 }
@@ -132,12 +132,12 @@ static struct ghost_candidate ghost_candidate_of(const struct look *look,
 static bool bounces(const struct look *look, const struct mirror_face *mirror_face,
                     struct vec2 place, struct vec2 *bounce)
 {
-    if (!mirror_bounce(&mirror_face->mirror, look->position_m, place, bounce))
+    if (!mirror_bounce(&mirror_face->mirror, look->pose.position_m, place, bounce))
         return false;
     if (!mirror_face->shares_end)
         return true;
     struct vec2 image = mirror_image(&mirror_face->mirror, place, (struct vec2){0, 0}).place_m;
-    return predicates_orientation(look->position_m, image, mirror_face->mirror.b) != 0;
+    return predicates_orientation(look->pose.position_m, image, mirror_face->mirror.b) != 0;
 }
 
 /* Of the bounce from the mirror's ends, and of the sensor and the reflector from its line. */
@@ -148,7 +148,7 @@ static double bounce_margin_m(const struct look *look,
     struct vec2 a = mirror_face->mirror.a, b = mirror_face->mirror.b, along = mirror_face->along;
     double ends_m = elementary_min(fabs(vec2_dot(vec2_sub(ghost_candidate->bounce, a), along)),
                                    fabs(vec2_dot(vec2_sub(b, ghost_candidate->bounce), along)));
-    double line_m = elementary_min(fabs(vec2_cross(along, vec2_sub(look->position_m, a))),
+    double line_m = elementary_min(fabs(vec2_cross(along, vec2_sub(look->pose.position_m, a))),
                                    fabs(vec2_cross(along, vec2_sub(ghost_candidate->place, a))));
     return elementary_min(ends_m, line_m);
 }
@@ -168,7 +168,7 @@ static bool pass(const struct look *look, struct leg *leg, struct obstruction_li
 
 static bool pass_directly(const struct look *look, struct ghost_candidate *ghost_candidate)
 {
-    struct obstruction_line line = {look->position_m, ghost_candidate->place, look->height_m,
+    struct obstruction_line line = {look->pose.position_m, ghost_candidate->place, look->height_m,
                                     ghost_candidate->height_m};
     return pass(look, &ghost_candidate->direct, line, &ghost_candidate->body, 1);
 }
@@ -178,13 +178,13 @@ static bool pass_by_mirror(const struct look *look, struct ghost_candidate *ghos
     const struct mirror_face *mirror_face = ghost_candidate->mirror_face;
     const struct look_body *touched[] = {mirror_face->body, mirror_face->before, mirror_face->after,
                                          ghost_candidate->body};
-    double out_m = vec2_length(vec2_sub(ghost_candidate->bounce, look->position_m));
+    double out_m = vec2_length(vec2_sub(ghost_candidate->bounce, look->pose.position_m));
     double on_m = vec2_length(vec2_sub(ghost_candidate->place, ghost_candidate->bounce));
     double height_m =
         look->height_m + (ghost_candidate->height_m - look->height_m) * (out_m / (out_m + on_m));
     double below_m = look_top_m(look, mirror_face->body) - height_m;
     struct leg *leg = &ghost_candidate->mirrored;
-    struct obstruction_line out = {look->position_m, ghost_candidate->bounce, look->height_m,
+    struct obstruction_line out = {look->pose.position_m, ghost_candidate->bounce, look->height_m,
                                    height_m};
     struct obstruction_line on = {ghost_candidate->bounce, ghost_candidate->place, height_m,
                                   ghost_candidate->height_m};
@@ -304,9 +304,9 @@ static bool may_list(const struct look *look, const struct look_body *body,
                      const struct point_reflector *point, struct vec2 facing, struct vec2 place,
                      struct vec2 bounce)
 {
-    double out_m = vec2_length(vec2_sub(bounce, look->position_m));
+    double out_m = vec2_length(vec2_sub(bounce, look->pose.position_m));
     double on_m = vec2_length(vec2_sub(place, bounce));
-    double straight_m = vec2_length(vec2_sub(place, look->position_m));
+    double straight_m = vec2_length(vec2_sub(place, look->pose.position_m));
     return out_m + on_m + straight_m <= 2 * look->sensor->range_max_m + 1e-6 &&
            (!effects_enabled(look->selection, EFFECT_VISIBILITY) ||
             reflectors_visibility(&body->box, point, facing, place, bounce) > 0);
@@ -322,7 +322,7 @@ static void add_point(struct look *look, const struct mirror_face *mirror_face,
         ghost_candidate_of(look, mirror_face, body, place, point->z, bounce);
     ghost_candidate.reflector = point->name;
     ghost_candidate.ercs = point->ercs;
-    show(look, &ghost_candidate, point, facing, look->position_m, &ghost_candidate.direct);
+    show(look, &ghost_candidate, point, facing, look->pose.position_m, &ghost_candidate.direct);
     show(look, &ghost_candidate, point, facing, bounce, &ghost_candidate.mirrored);
     add_paths(look, &ghost_candidate, true);
 }
@@ -348,7 +348,7 @@ static bool may_show(const struct look *look, const struct mirror_face *mirror_f
     struct vec2 from = reflectors_post_place(&body->box, row, first);
     struct vec2 to = reflectors_post_place(&body->box, row, last);
     struct vec2 centre = vec2_scale(0.5, vec2_add(from, to));
-    return mirror_may_bounce(&mirror_face->mirror, look->position_m, centre,
+    return mirror_may_bounce(&mirror_face->mirror, look->pose.position_m, centre,
                              0.5 * vec2_length(vec2_sub(to, from)) + 1e-6);
 }
 
@@ -371,8 +371,8 @@ static void add_row(struct look *look, const struct mirror_face *mirror_face,
     bool all = effects_forced(look->selection, EFFECT_GHOSTS);
     struct vec2 facing = vec2_heading(row->facing_rad);
     int64_t first, end;
-    reflectors_posts_within(&body->box, row, look->position_m, look->sensor->range_max_m, &first,
-                            &end);
+    reflectors_posts_within(&body->box, row, look->pose.position_m, look->sensor->range_max_m,
+                            &first, &end);
     for (int64_t next; first < end; first = next) {
         next = first + PIECE < end ? first + PIECE : end;
         if (all || may_show(look, mirror_face, body, row, first, next - 1))
@@ -387,7 +387,7 @@ static void add_plane(struct look *look, const struct mirror_face *mirror_face,
     struct vec2 a = reflectors_place(&body->box, plane->from_x, plane->from_y);
     struct vec2 b = reflectors_place(&body->box, plane->to_x, plane->to_y);
     struct vec2 eye =
-        mirror_image(&mirror_face->mirror, look->position_m, (struct vec2){0, 0}).place_m;
+        mirror_image(&mirror_face->mirror, look->pose.position_m, (struct vec2){0, 0}).place_m;
     struct vec2 along = reflectors_along(&body->box, plane), foot, bounce;
     if (!specular_point_foot(a, b, along, plane->margin_m, eye, &foot) ||
         !bounces(look, mirror_face, foot, &bounce))
@@ -430,7 +430,7 @@ static void add_all(struct look *look, const struct mirror_faces *mirror_faces,
         if (mirror_face->body == body)
             continue;
         bool reach =
-            all || mirror_may_bounce(&mirror_face->mirror, look->position_m, centre, radius_m);
+            all || mirror_may_bounce(&mirror_face->mirror, look->pose.position_m, centre, radius_m);
         effects_note(selection, EFFECT_GHOSTS, reach);
         if (reach)
             add_body(look, mirror_face, body);

@@ -78,7 +78,7 @@ static bool joins(const struct look_body *body, const struct side *side, bool be
 
 bool line_of_sight_next_side_has_foot(const struct look *look, const struct side *side)
 {
-    if (predicates_along(side->to, look->position_m, side->along) != 0)
+    if (predicates_along(side->to, look->pose.position_m, side->along) != 0)
         return false;
     for (size_t i = 0; i < look->body_count; i++)
         if (joins(&look->bodies[i], side, true, 0))
@@ -154,7 +154,7 @@ struct line_of_sight line_of_sight_past_blockers(const struct look *look, const 
                                                  const struct obstruction_line *line, bool solid)
 {
     struct line_of_sight all = {.factor = 1};
-    struct silhouette place = silhouette_of_place(vec2_sub(line->to, look->position_m));
+    struct silhouette place = silhouette_of_place(vec2_sub(line->to, look->pose.position_m));
     bool exact = effects_forced(look->selection, EFFECT_OCCLUSION);
     for (size_t i = 0; i < look->blocker_count; i++) {
         const struct look_body *body = look->blockers[i];
@@ -194,8 +194,8 @@ struct line_of_sight line_of_sight_along(const struct look *look,
     struct azimuth_index_span span =
         effects_forced(look->selection, EFFECT_OCCLUSION)
             ? azimuth_index_everywhere
-            : azimuth_index_between(vec2_sub(line->from, look->position_m),
-                                    vec2_sub(line->to, look->position_m));
+            : azimuth_index_between(vec2_sub(line->from, look->pose.position_m),
+                                    vec2_sub(line->to, look->pose.position_m));
     size_t near = azimuth_index_find(&look->bearings, span);
     for (size_t i = 0; i < near; i++) {
         const struct look_body *body = &look->bodies[look->bearings.found[i]];

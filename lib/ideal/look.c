@@ -57,8 +57,8 @@ static struct look_body body_at(const struct look *look, const struct object *ob
     struct look_body body = {.object = object, .box = box_at(object, age_s)};
     body.moved = age_s != 0 && moves(object, &body.box.motion);
     body.radius_m = 0.5 * vec2_length((struct vec2){object->length_m, object->width_m});
-    body.sensor_m =
-        vec2_turn_back(vec2_sub(look->position_m, body.box.motion.position_m), body.box.heading);
+    body.sensor_m = vec2_turn_back(vec2_sub(look->pose.position_m, body.box.motion.position_m),
+                                   body.box.heading);
     reflectors_outline(&body.box, body.corner);
     return body;
 }
@@ -131,8 +131,8 @@ static void open_view(struct look *look)
     if (!(sine < 1))
         return;
     struct vec2 edge = {sqrt((1 - sine) * (1 + sine)), sine};
-    look->view_right = vec2_turn_back(look->boresight, edge);
-    look->view_left = vec2_turn(look->boresight, edge);
+    look->view_right = vec2_turn_back(look->pose.boresight, edge);
+    look->view_left = vec2_turn(look->pose.boresight, edge);
 }
 
 int look_begin(struct look *look, struct frame *frame, const struct sensor *sensor,
@@ -140,14 +140,11 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
 {
     double age_s = frame->time_s - time_s;
     const struct object *carrier = frame_object(frame, frame->ego);
-    struct box ego = box_at(carrier, age_s);
-    struct vec2 mount = {sensor->mount_x_m, sensor->mount_y_m};
+    struct motion ego = frame_motion(carrier, age_s);
     *look =
         (struct look){.frame = frame, .sensor = sensor, .selection = selection, .time_s = time_s};
-    look->moved = age_s != 0 && moves(carrier, &ego.motion);
-    look->position_m = vec2_add(ego.motion.position_m, vec2_turn(mount, ego.heading));
-    look->velocity_mps = motion_velocity_at(&ego.motion, look->position_m);
-    look->boresight = vec2_turn(vec2_heading(sensor->mount_yaw_rad), ego.heading);
+    look->moved = age_s != 0 && moves(carrier, &ego);
+    look->pose = sensor_pose_on(&ego, sensor->mount_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
     look->height_m = sensor->mount_z_m;
     look->over = look->height_m > 0 && effects_enabled(selection, EFFECT_HEIGHT);
     if (sensor->diffraction && effects_enabled(selection, EFFECT_DIFFRACTION))
@@ -253,7 +250,7 @@ double look_visibility(const struct look *look, const struct look_body *body,
         return visible;
     bool level = !(look->height_m > 0 && effects_enabled(look->selection, EFFECT_ELEVATION));
     double range_m =
-        vec2_length(vec2_sub(viewer, place)) + vec2_length(vec2_sub(look->position_m, viewer));
+        vec2_length(vec2_sub(viewer, place)) + vec2_length(vec2_sub(look->pose.position_m, viewer));
     double rise_m = level ? 0 : look->height_m - look_height_m(look, body, point->z);
     return visible * reflectors_lobe(box, point, place, viewer, elementary_atan2(range_m, rise_m));
 }

@@ -15,6 +15,7 @@
 #include "frame/frame.h"
 #include "geometry/azimuth_index.h"
 #include "geometry/kinematics.h"
+#include "geometry/sensor_pose.h"
 
 /* A set of the frame, and what all who wear it share. */
 struct look_set {
@@ -47,7 +48,7 @@ struct look {
     const struct sensor *sensor;
     const struct selection *selection;
     double time_s;
-    struct vec2 position_m, velocity_mps, boresight;
+    struct sensor_pose pose;
     double height_m;          /* 0: in a flat world */
     bool over;                /* is something seen over what is low? */
     double wavelength_m;      /* that bends around edges; 0: none does */

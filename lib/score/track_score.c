@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/sort.h"
-#include "base/units.h"
-#include "base/vec2.h"
+#include "geometry/kinematics.h"
+#include "geometry/sensor_pose.h"
 #include "score/assignment.h"
 
 const char *const track_truths[] = {[TRACK_TRUTH_IN_VIEW] = "in_view",
@@ -44,12 +44,14 @@ static bool is_named(const char *names, const char *name)
 static bool sees(const struct sensor_view *view, const struct object *ego,
                  const struct object *object)
 {
-    struct vec2 heading = vec2_heading(ego->yaw_rad);
-    struct vec2 mount = vec2_turn((struct vec2){view->mount_x_m, view->mount_y_m}, heading);
-    struct vec2 line = {object->x_m - ego->x_m - mount.x, object->y_m - ego->y_m - mount.y};
-    double azimuth =
-        units_wrap_rad(elementary_atan2(line.y, line.x) - (ego->yaw_rad + view->mount_yaw_rad));
-    return vec2_length(line) <= view->range_max_m && fabs(azimuth) <= view->field_of_view_rad / 2;
+    struct motion motion = frame_motion(ego, 0);
+    struct sensor_pose pose =
+        sensor_pose_on(&motion, view->mount_x_m, view->mount_y_m, view->mount_yaw_rad);
+    struct kinematics seen = kinematics_of(pose.position_m, pose.velocity_mps, pose.boresight,
+                                           (struct vec2){object->x_m, object->y_m},
+                                           (struct vec2){object->vx_mps, object->vy_mps});
+    return seen.range_m <= view->range_max_m &&
+           fabs(seen.azimuth_rad) <= view->field_of_view_rad / 2;
 }
 
 static bool in_view(const struct frame *frame, const struct object *object)

@@ -5,6 +5,7 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
+#include "geometry/sensor_pose.h"
 
 #define AMPLITUDE_MARGIN 1e-3
 #define SPACING_MARGIN 1e-6
@@ -14,7 +15,7 @@ struct site {
     struct frame *frame;
     const struct random_model *models;
     const struct sensor *sensor;
-    struct vec2 position_m, velocity_mps, boresight;
+    struct sensor_pose pose;
     struct random_sequence draws;
     const char *name;
     int64_t number;
@@ -29,13 +30,13 @@ struct spot {
 
 static struct vec2 direction_to(const struct site *site, double azimuth_rad)
 {
-    return vec2_turn(vec2_heading(azimuth_rad), site->boresight);
+    return vec2_turn(vec2_heading(azimuth_rad), site->pose.boresight);
 }
 
 static struct vec2 place_at(const struct site *site, double range_m, double azimuth_rad)
 {
     struct vec2 line = direction_to(site, azimuth_rad);
-    return vec2_add(site->position_m, vec2_scale(range_m, line));
+    return vec2_add(site->pose.position_m, vec2_scale(range_m, line));
 }
 
 static struct object *add_object(struct site *site, enum random_class class, struct vec2 place)
@@ -51,10 +52,10 @@ static struct object *add_object(struct site *site, enum random_class class, str
 static void add_spot(struct site *site, const struct spot *spot)
 {
     struct vec2 line = direction_to(site, spot->azimuth_rad);
-    struct vec2 place = vec2_add(site->position_m, vec2_scale(spot->range_m, line));
+    struct vec2 place = vec2_add(site->pose.position_m, vec2_scale(spot->range_m, line));
     struct object *object = add_object(site, spot->class, place);
-    object->vx_mps = site->velocity_mps.x + spot->range_rate_mps * line.x;
-    object->vy_mps = site->velocity_mps.y + spot->range_rate_mps * line.y;
+    object->vx_mps = site->pose.velocity_mps.x + spot->range_rate_mps * line.x;
+    object->vy_mps = site->pose.velocity_mps.y + spot->range_rate_mps * line.y;
 }
 
 /* A box of which the place at fractions (x, y) is at place. */
@@ -280,7 +281,7 @@ static void build_grazing(struct site *site)
 /* A sight line along x and a side of a car on it exactly: all places keep the mount's y. */
 static void build_along_side(struct site *site)
 {
-    struct vec2 mount = site->position_m;
+    struct vec2 mount = site->pose.position_m;
     double side = mount.y > 0 ? 1 : -1;
     double ahead_m = random_sequence_between(&site->draws, 3, 20);
     struct vec2 centre = {mount.x + ahead_m, mount.y - side};
@@ -353,18 +354,11 @@ static const struct {
 static void build(struct site *site, const struct suite *suite)
 {
     enum { LAST_SORT = sizeof cases / sizeof *cases - 1 };
-    const struct object *object = &site->frame->objects.items[0];
-    struct motion ego = {{object->x_m, object->y_m},
-                         {object->vx_mps, object->vy_mps},
-                         object->yaw_rad,
-                         object->yaw_rate_radps};
-    struct vec2 heading = vec2_heading(ego.yaw_rad);
+    struct motion ego = frame_motion(&site->frame->objects.items[0], 0);
     int64_t which = random_sequence_whole(&site->draws, 0, (int64_t)suite->sensors.count - 1);
     site->sensor = &suite->sensors.items[which];
-    struct vec2 mount = {site->sensor->mount_x_m, site->sensor->mount_y_m};
-    site->position_m = vec2_add(ego.position_m, vec2_turn(mount, heading));
-    site->velocity_mps = motion_velocity_at(&ego, site->position_m);
-    site->boresight = vec2_turn(vec2_heading(site->sensor->mount_yaw_rad), heading);
+    site->pose = sensor_pose_on(&ego, site->sensor->mount_x_m, site->sensor->mount_y_m,
+                                site->sensor->mount_yaw_rad);
     int64_t sort = random_sequence_whole(&site->draws, 0, LAST_SORT);
     site->name = cases[sort].name;
     cases[sort].build(site);

@@ -243,11 +243,11 @@ static void add_scan(struct view_data *data, const struct frame *frame,
                      const struct sensor_view *sensor, struct vec2 shift)
 {
     struct view_scan scan = view_frame_scan(frame, sensor);
-    add_real(data, COLUMN_SCAN_X, scan.position_m.x + shift.x);
-    add_real(data, COLUMN_SCAN_Y, scan.position_m.y + shift.y);
-    add_real(data, COLUMN_SCAN_YAW, remainder(scan.yaw_rad, 2 * acos(-1)));
-    add_real(data, COLUMN_SCAN_VX, scan.velocity_mps.x);
-    add_real(data, COLUMN_SCAN_VY, scan.velocity_mps.y);
+    add_real(data, COLUMN_SCAN_X, scan.pose.position_m.x + shift.x);
+    add_real(data, COLUMN_SCAN_Y, scan.pose.position_m.y + shift.y);
+    add_real(data, COLUMN_SCAN_YAW, remainder(scan.pose.yaw_rad, 2 * acos(-1)));
+    add_real(data, COLUMN_SCAN_VX, scan.pose.velocity_mps.x);
+    add_real(data, COLUMN_SCAN_VY, scan.pose.velocity_mps.y);
     add_real(data, COLUMN_SCAN_AGE, scan.age_s);
     add_count(data, COLUMN_SCAN_SENSOR, sensor_of(data, sensor));
     add_count(data, COLUMN_SCAN_MEASURED, sensor->measured);

@@ -4,16 +4,6 @@
 
 #include "radar/scan_timing.h"
 
-static struct motion motion_of(const struct object *object)
-{
-    return (struct motion){
-        .position_m = {object->x_m, object->y_m},
-        .velocity_mps = {object->vx_mps, object->vy_mps},
-        .yaw_rad = object->yaw_rad,
-        .yaw_rate_radps = object->yaw_rate_radps,
-    };
-}
-
 /* The label knows the instant exactly; a scan without targets goes by the cycle. */
 static double age_s(const struct frame *frame, const struct sensor_view *sensor)
 {
@@ -31,23 +21,20 @@ static double age_s(const struct frame *frame, const struct sensor_view *sensor)
 struct view_scan view_frame_scan(const struct frame *frame, const struct sensor_view *sensor)
 {
     struct view_scan scan = {.age_s = age_s(frame, sensor)};
-    struct motion ego = motion_after(motion_of(frame_object(frame, frame->ego)), -scan.age_s);
-    struct vec2 mount = {sensor->mount_x_m, sensor->mount_y_m};
-    scan.position_m = vec2_add(ego.position_m, vec2_turn(mount, vec2_heading(ego.yaw_rad)));
-    scan.velocity_mps = motion_velocity_at(&ego, scan.position_m);
-    scan.yaw_rad = ego.yaw_rad + sensor->mount_yaw_rad;
+    struct motion ego = frame_motion(frame_object(frame, frame->ego), scan.age_s);
+    scan.pose = sensor_pose_on(&ego, sensor->mount_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
     return scan;
 }
 
 struct vec2 view_frame_place(const struct view_scan *scan, double range_m, double azimuth_rad)
 {
-    struct vec2 heading = vec2_heading(scan->yaw_rad + azimuth_rad);
-    return vec2_add(scan->position_m, vec2_scale(range_m, heading));
+    struct vec2 heading = vec2_heading(scan->pose.yaw_rad + azimuth_rad);
+    return vec2_add(scan->pose.position_m, vec2_scale(range_m, heading));
 }
 
 struct box view_frame_box(const struct object *object, const struct vehicle *vehicle)
 {
-    struct box box = {motion_of(object), vec2_heading(object->yaw_rad), object->length_m,
+    struct box box = {frame_motion(object, 0), vec2_heading(object->yaw_rad), object->length_m,
                       object->width_m};
     if (box.length_m == 0 && vehicle != NULL)
         box.length_m = vehicle->length_m;

@@ -6,12 +6,12 @@
 #include "documents/catalogue.h"
 #include "documents/vehicle.h"
 #include "frame/frame.h"
+#include "geometry/sensor_pose.h"
 
 /* A sensor at the instant of its measurement, in the frame's coordinates. */
 struct view_scan {
-    struct vec2 position_m, velocity_mps;
-    double yaw_rad; /* of the boresight */
-    double age_s;   /* the frame's time less the measurement's */
+    struct sensor_pose pose;
+    double age_s; /* the frame's time less the measurement's */
 };
 
 struct view_scan view_frame_scan(const struct frame *frame, const struct sensor_view *sensor);

@@ -182,7 +182,7 @@ static void draw_reflectors(struct still *still, const struct object *object)
 static void draw_beam(struct still *still, const struct sensor_view *sensor, size_t style)
 {
     struct view_scan scan = view_frame_scan(still->frame, sensor);
-    struct vec2 at = to_pixels(still, scan.position_m);
+    struct vec2 at = to_pixels(still, scan.pose.position_m);
     double radius = still->scale * sensor->range_max_m, half = sensor->field_of_view_rad / 2;
     text_format(still->text, "<path class=\"beam s%zu\" d=\"M%.1f %.1f", style % STYLES, at.x,
                 at.y);

@@ -104,12 +104,12 @@ static void the_sensor_moves_with_the_lever_arm_of_a_turning_ego(void **state)
     add_object(scene, "a", 111, 52);
     struct look look = look_around_at(scene, 10);
     /* Facing north: 2 m ahead is +y, 1 m to the right is +x; ω × (1, 2) = 0.5 (-2, 1). */
-    assert_close(look.position_m.x, 101, 1e-12);
-    assert_close(look.position_m.y, 52, 1e-12);
-    assert_close(look.velocity_mps.x, -1, 1e-12);
-    assert_close(look.velocity_mps.y, 10.5, 1e-12);
-    assert_close(look.boresight.x, 1, 1e-12);
-    assert_close(look.boresight.y, 0, 1e-12);
+    assert_close(look.pose.position_m.x, 101, 1e-12);
+    assert_close(look.pose.position_m.y, 52, 1e-12);
+    assert_close(look.pose.velocity_mps.x, -1, 1e-12);
+    assert_close(look.pose.velocity_mps.y, 10.5, 1e-12);
+    assert_close(look.pose.boresight.x, 1, 1e-12);
+    assert_close(look.pose.boresight.y, 0, 1e-12);
     const struct echo *echo = scene->frame.echoes.items;
     assert_int_equal(scene->frame.echoes.count, 1);
     assert_close(echo->range_m, 10, 1e-12);
@@ -634,7 +634,7 @@ static void a_way_is_blocked_where_an_outline_is_touched(void **state)
         struct look look = look_around_at(scene, 10);
         for (int k = 0; k < 50; k++) {
             struct vec2 far = {sample_between(&random, -60, 60), sample_between(&random, -60, 60)};
-            const struct obstruction_line line = {.from = look.position_m, .to = far};
+            const struct obstruction_line line = {.from = look.pose.position_m, .to = far};
             const struct look_body *by = NULL;
             for (size_t j = look.body_count; j-- > 0;)
                 if (look.bodies[j].blocks &&
