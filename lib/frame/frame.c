@@ -424,8 +424,6 @@ void frame_clear(struct frame *frame)
     field_clear(&frame_record, frame);
     frame->arena = before.arena;
     frame->repeats = before.repeats;
-    frame->kept = before.kept;
-    memcpy(&frame->ranking, &before.ranking, sizeof before.ranking);
 }
 
 const char *frame_section_name(enum section section)

@@ -220,11 +220,7 @@ struct frame {
     struct arena *arena;
     struct list_cache *repeats; /* what frames repeat; NULL: nothing is kept from one to the next */
     struct field_names *names;  /* that were good; NULL: none yet */
-    struct object **by_id;      /* ranked_count objects from ranked on (frame_order_objects) */
-    struct object *ranked;
-    size_t ranked_count;
-    struct arena *kept;      /* what stays from frame to frame; NULL: nothing */
-    LIST_OF(size_t) ranking; /* in it: numbers of the objects of the frame before, by their ids */
+    LIST_OF(struct object *) by_id; /* sorted by frame_order_objects; empty: not yet */
 };
 
 extern const struct record frame_record;
@@ -241,7 +237,7 @@ static inline bool frame_same_name(const char *a, const char *b)
 /* For field_in_bounds: a name in a frame stays as it is. */
 struct field_names *frame_names(struct frame *frame);
 
-/* Back to an empty frame that keeps its arena's room, and what stays from frame to frame. */
+/* Back to an empty frame that keeps its arena's room and its cache of lists. */
 void frame_clear(struct frame *frame);
 
 /* The name of a section, for messages. */

@@ -109,41 +109,17 @@ static int compare_objects(const void *left, const void *right)
                          (*(const struct object *const *)right)->id);
 }
 
-/* A frame mostly lists the same objects as the one before: then their order is known already. */
-static bool ranked_as_before(struct frame *frame)
-{
-    size_t count = frame->objects.count;
-    if (frame->ranking.count != count)
-        return false;
-    for (size_t i = 0; i < count; i++) {
-        frame->by_id[i] = &frame->objects.items[frame->ranking.items[i]];
-        if (i > 0 && compare_objects(&frame->by_id[i - 1], &frame->by_id[i]) > 0)
-            return false;
-    }
-    return true;
-}
-
-static void rank(struct frame *frame)
-{
-    size_t count = frame->objects.count;
-    for (size_t i = 0; i < count; i++)
-        frame->by_id[i] = &frame->objects.items[i];
-    sort_items(frame->by_id, count, sizeof(*frame->by_id), compare_objects, frame->arena);
-    frame->ranking.count = 0;
-    for (size_t i = 0; i < count && frame->kept != NULL; i++)
-        *list_add(&frame->ranking, frame->kept) = (size_t)(frame->by_id[i] - frame->objects.items);
-}
-
 struct object *const *frame_order_objects(struct frame *frame)
 {
-    if (frame->ranked != frame->objects.items || frame->ranked_count != frame->objects.count) {
-        frame->by_id = arena_room(frame->arena, frame->objects.count * sizeof(*frame->by_id));
-        frame->ranked = frame->objects.items;
-        frame->ranked_count = frame->objects.count;
-        if (!ranked_as_before(frame))
-            rank(frame);
-    }
-    return frame->by_id;
+    size_t count = frame->objects.count;
+    if (frame->by_id.count == count)
+        return frame->by_id.items;
+    frame->by_id.items = arena_room(frame->arena, count * sizeof *frame->by_id.items);
+    frame->by_id.count = frame->by_id.room = count;
+    for (size_t i = 0; i < count; i++)
+        frame->by_id.items[i] = &frame->objects.items[i];
+    sort_list(&frame->by_id, compare_objects, frame->arena);
+    return frame->by_id.items;
 }
 
 static void order_sets(struct frame *frame)
@@ -184,7 +160,7 @@ static void order_counts(struct frame *frame)
 void frame_order_part(struct frame *frame, struct frame_part part)
 {
     if ((part.sections & SECTION_OBJECTS) != 0)
-        frame->ranked_count = 0;
+        frame->by_id.count = 0;
     if ((part.sections & SECTION_REFLECTORS) != 0)
         order_sets(frame);
     if ((part.sections & SECTION_SENSORS) != 0)

@@ -17,7 +17,6 @@ struct chain {
     struct frame frame;
     struct arena arena; /* the frame's */
     struct list_cache repeats;
-    struct arena kept;
     struct input *input;
     size_t file, line_number;
     struct chain_times *times;
@@ -219,7 +218,6 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
     struct chain chain = {.runners = runners, .count = count, .times = times};
     chain.frame.arena = &chain.arena;
     chain.frame.repeats = &chain.repeats;
-    chain.frame.kept = &chain.kept;
     if (times != NULL)
         time_clock(&chain);
     start(&chain);
@@ -239,7 +237,6 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
         }
     input_close(chain.input);
     arena_free(&chain.arena);
-    arena_free(&chain.kept);
     list_cache_free(&chain.repeats);
     return code;
 }
