@@ -40,7 +40,6 @@ static int plan_start(void *state, struct runner *runner)
     own->choice.effects = plan_request(selection.allowed, runner_arena(runner));
     plan->sensors = own->choice.sensors;
     plan->allowed = selection.allowed;
-    plan->tolerance_azimuth_rad = request.tolerance.azimuth_rad;
     for (int i = 0; i < PLAN_POSITIONS; i++)
         plan->positions[i] = (struct plan_position){
             .stage = chain[i].stage->name,
@@ -109,8 +108,8 @@ const struct stage stage_plan = {
         "Runs the chain on every frame, as auto would among the effects that are asked for,\n"
         "and prints which of them were needed and why, which stages a simpler one can stand\n"
         "in for, and the pipeline without the rest. On these scenes it gives the targets that\n"
-        "the whole chain gives, byte for byte, or within the tolerance if there is one. Only\n"
-        "the objects of the frames matter, and their reflectors if they are there.",
+        "the whole chain gives, byte for byte. Only the objects of the frames matter, and their\n"
+        "reflectors if they are there.",
     .options = &plan_record,
     .sink = true,
     .reads = SECTION_OBJECTS,

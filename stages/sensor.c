@@ -4,17 +4,15 @@
 #include "base/units.h"
 #include "run/stage.h"
 #include "sensor/cell_margins.h"
-#include "sensor/escalation.h"
+#include "sensor/scan.h"
 
 /* The cell of these received echoes. False if it has no angle. */
 static bool superpose(const struct scan *scan, const struct selection *selection,
                       const struct received_echo *members, size_t count, struct cell *cell)
 {
     const struct sensor *sensor = scan->reception.sensor;
-    bool superposed =
-        effects_forced(selection, EFFECT_SUPERPOSITION) ||
-        (effects_enabled(selection, EFFECT_SUPERPOSITION) && count > 1 &&
-         !escalation_spares_superposition(sensor, members, count, &selection->tolerance));
+    bool superposed = effects_forced(selection, EFFECT_SUPERPOSITION) ||
+                      (effects_enabled(selection, EFFECT_SUPERPOSITION) && count > 1);
     int64_t begin = effects_begin(selection);
     bool has_angle =
         resolution_cell_of(sensor, members, count, superposed, scan->reception.frame->arena, cell);
@@ -48,23 +46,11 @@ static void report(struct frame *frame, const struct scan *scan, const struct se
         *list_add(&frame->cells, frame->arena) = cell;
 }
 
-/* The scan with all that it calls for: under a tolerance, first without what may be spared. */
-static struct scan receive(struct frame *frame, const struct sensor *sensor,
-                           const struct selection *selection)
-{
-    struct reception whole = received_echo_begin(frame, sensor, selection->allowed);
-    uint64_t spared = escalation_spared(&whole, selection);
-    struct scan scan = scan_make(&whole, selection, spared);
-    if (spared != 0 &&
-        !escalation_holds(&scan, escalation_weakening(&whole), &selection->tolerance))
-        scan = scan_make(&whole, selection, 0);
-    return scan;
-}
-
 static void sense(struct frame *frame, const struct sensor *sensor,
                   const struct selection *selection)
 {
-    struct scan scan = receive(frame, sensor, selection);
+    struct reception reception = received_echo_begin(frame, sensor, selection->allowed);
+    struct scan scan = scan_make(&reception, selection);
     received_echo_note(&scan.reception, selection);
     effects_note(selection, EFFECT_SUPERPOSITION, false);
     effects_note(selection, EFFECT_THRESHOLD, true);

@@ -154,9 +154,6 @@ static const struct field suite_fields[] = {
     {FIELD_NAME_OF(struct suite, origin, "who made this, and from what")},
     {FIELD_NAME_OF(struct suite, effects, "which effects to simulate, as for --effects"),
      FIELD_OPTIONAL},
-    {FIELD_RECORD_OF(struct suite, tolerance, &tolerance_record,
-                     "by how much leaving out effects may change a target before noise"),
-     FIELD_OPTIONAL},
     {FIELD_LIST_OF(struct suite, sensors, &sensor_record, "the radars of one ego")},
     {0},
 };

@@ -72,8 +72,7 @@ struct sensor {
 
 struct suite {
     const char *origin;
-    const char *effects; /* effects.h; NULL: auto */
-    struct tolerance tolerance;
+    const char *effects;            /* effects.h; NULL: auto */
     LIST_OF(struct sensor) sensors; /* by name */
     const char *name;               /* as it was asked for */
     char digest[17];

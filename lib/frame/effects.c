@@ -2,8 +2,6 @@
 
 #include <string.h>
 
-#include "base/units.h"
-
 const char *const effects_names[] = {
     [EFFECT_LATENCY] = "latency",
     [EFFECT_VISIBILITY] = "visibility",
@@ -89,12 +87,10 @@ const struct effect_entry effects_table[EFFECT_COUNT] = {
     [EFFECT_FLUCTUATION] = {"echoes vary in strength from scan to scan", "sensor",
                             "fluctuation of a sensor", "never: any draw may matter",
                             "a draw per echo"},
-    [EFFECT_RAIN] = {"rain attenuates", "sensor", "rain_mmph of the conditions",
-                     "there is none; with a tolerance also where no decision and no value can "
-                     "change by more",
+    [EFFECT_RAIN] = {"rain attenuates", "sensor", "rain_mmph of the conditions", "there is none",
                      "an exponential per echo"},
-    [EFFECT_FOG] = {"fog attenuates", "sensor", "fog_gpm3 of the conditions",
-                    "there is none; with a tolerance as for rain", "an exponential per echo"},
+    [EFFECT_FOG] = {"fog attenuates", "sensor", "fog_gpm3 of the conditions", "there is none",
+                    "an exponential per echo"},
     [EFFECT_AMBIGUITY] = {"ranges and range rates beyond what the waveform tells apart fold back",
                           "sensor", "unambiguous_range_m, unambiguous_rate_mps of a sensor",
                           "never: it costs as little", "two remainders per echo"},
@@ -136,28 +132,6 @@ const struct effect_entry effects_table[EFFECT_COUNT] = {
     [EFFECT_QUANTISATION] = {"reported values are multiples of a step", "noise",
                              "range_step_m, range_rate_step_mps, azimuth_step_rad of a sensor",
                              "all steps are 0", "three roundings per target"},
-};
-
-const struct tolerance tolerance_default = {0.02, 0.1 * PI / 180, 0.05, 0.5};
-
-#define LIMIT(member, high, help)                                                                  \
-    {                                                                                              \
-        FIELD_REAL_IN(struct tolerance, member, 0, high, help), FIELD_OPTIONAL                     \
-    }
-
-static const struct field tolerance_fields[] = {
-    LIMIT(range_m, 1e6, "of a target's range"),
-    LIMIT(azimuth_rad, PI, "of its azimuth"),
-    LIMIT(range_rate_mps, 1e5, "of its range rate"),
-    LIMIT(amplitude_db, 300, "of its amplitude"),
-    {0},
-};
-
-const struct record tolerance_record = {
-    .name = "tolerance",
-    .help = "By how much leaving out effects may change a target before noise.",
-    .size = sizeof(struct tolerance),
-    .fields = tolerance_fields,
 };
 
 #define EVERY_EFFECT (EFFECT_BIT(EFFECT_COUNT) - 1)

@@ -4,8 +4,7 @@
  * describes it: a document that names no cause does not have the effect. Which ones may be
  * simulated is the suite's `effects`, or the option --effects of glint-ideal:
  *
- *     auto                 (default) leave out what provably changes no bit of targets and lost,
- *                          or, with a tolerance, what stays below it
+ *     auto                 (default) leave out what provably changes no bit of targets and lost
  *     all                  simulate every effect that a document describes
  *     none                 none of them
  *     occlusion,merging    these and no others
@@ -75,14 +74,6 @@ struct effect_entry {
 extern const struct effect_entry effects_table[EFFECT_COUNT];
 extern const char *const effects_names[]; /* NULL-terminated */
 
-/* By how much, before noise, leaving effects out may change a target; zeros: not by a bit. */
-struct tolerance {
-    double range_m, azimuth_rad, range_rate_mps, amplitude_db;
-};
-
-extern const struct record tolerance_record;
-extern const struct tolerance tolerance_default;
-
 /* What --explain tells: how often each effect was simulated or left out, in frames (scans of one
  * sensor) and in single decisions, and the time it took. */
 struct effect_log {
@@ -96,12 +87,11 @@ struct effect_log {
 struct selection {
     uint64_t allowed;
     bool automatic;
-    struct tolerance tolerance;
     struct effect_log *log; /* NULL unless somebody asks */
 };
 
-/* Reads the text of --effects; refuses unknown words with what is known. The tolerance and the log
- * are the caller's to add. */
+/* Reads the text of --effects; refuses unknown words with what is known. The caller adds the log.
+ */
 int effects_read(const char *text, struct selection *selection, struct diag *diag);
 
 static inline bool effects_enabled(const struct selection *selection, enum effect effect)

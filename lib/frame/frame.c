@@ -190,7 +190,6 @@ static const struct field sensors_fields[] = {
     NAME(struct sensors, suite, "name of the suite document"),
     NAME(struct sensors, digest, "of the suite and every table it names"),
     {FIELD_NAME_OF(struct sensors, effects, "as requested; absent: auto"), FIELD_OPTIONAL},
-    {FIELD_RECORD_OF(struct sensors, tolerance, &tolerance_record, "as requested"), FIELD_OPTIONAL},
     {FIELD_LIST_OF(struct sensors, list, &sensor_view_record, "by name")},
     {0},
 };

@@ -71,7 +71,6 @@ struct sensors {
     const char *suite;   /* the document's name, as it was given to glint-ideal */
     const char *digest;  /* of the suite and every table it names, 16 hexadecimal digits */
     const char *effects; /* as requested (effects.h); NULL stands for auto */
-    struct tolerance tolerance;
     LIST_OF(struct sensor_view) list;
 };
 

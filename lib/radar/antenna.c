@@ -154,23 +154,6 @@ double antenna_gain(const struct antenna *antenna, double azimuth_rad)
     return pair_at(antenna, azimuth_rad).sum;
 }
 
-/* The dipole pair's gain falls to both sides of boresight; a table's has its extremes at rows. */
-struct interval antenna_gain_bounds(const struct antenna *antenna, double low_rad, double high_rad)
-{
-    double low = antenna_gain(antenna, low_rad), high = antenna_gain(antenna, high_rad);
-    struct interval gain = {elementary_min(low, high), elementary_max(low, high)};
-    if (antenna->pattern == ANTENNA_DIPOLE_PAIR && low_rad < 0 && high_rad > 0)
-        gain.most = antenna_gain(antenna, 0);
-    for (size_t i = 0; antenna->pattern == ANTENNA_TABLE && i < antenna->row_count; i++) {
-        const struct antenna_row *row = &antenna->rows[i];
-        if (row->azimuth_rad < low_rad || row->azimuth_rad > high_rad)
-            continue;
-        gain.least = elementary_min(gain.least, row->sum);
-        gain.most = elementary_max(gain.most, row->sum);
-    }
-    return gain;
-}
-
 double antenna_azimuth_rad(const struct antenna *antenna, double delta, double sum)
 {
     /* By a power of two, which changes neither ratio nor rounding. */

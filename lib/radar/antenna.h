@@ -18,8 +18,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/interval.h"
-
 enum antenna_pattern { ANTENNA_DIPOLE_PAIR, ANTENNA_TABLE };
 enum antenna_phase { PHASE_CENTRE, PHASE_ELEMENT };
 
@@ -49,10 +47,6 @@ struct antenna_pointers antenna_pointers(const struct antenna *antenna, double a
 
 /* |H_sum|: the antenna pattern A_phi of equation (2). */
 double antenna_gain(const struct antenna *antenna, double azimuth_rad);
-
-/* The least and the greatest antenna_gain between two azimuths, low <= high, both included, but for
- * rounding. */
-struct interval antenna_gain_bounds(const struct antenna *antenna, double low_rad, double high_rad);
 
 /* The azimuth whose signed ratio delta : sum is the given pair (equation 7 inverted; sum >= 0,
  * delta signed, not both zero). In [-pi/2, pi/2]; a table clamps to its ends. Within 4 ulp for the

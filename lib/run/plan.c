@@ -1,10 +1,8 @@
 #include "run/plan.h"
 
 #include <inttypes.h>
-#include <math.h>
 #include <string.h>
 
-#include "base/elementary.h"
 #include "frame/frame_text.h"
 
 const char *plan_request(uint64_t allowed, struct arena *arena)
@@ -35,35 +33,19 @@ static bool same_bytes(const struct frame *a, const struct frame *b, unsigned se
     return same;
 }
 
-/* How far apart the azimuths of two lists of cells are, which then share those of the first. */
-static double align_azimuths(const struct frame *made, struct frame *other)
-{
-    double most_rad = 0;
-    for (size_t i = 0; i < made->cells.count && i < other->cells.count; i++) {
-        double azimuth_rad = made->cells.items[i].azimuth_rad;
-        most_rad = elementary_max(most_rad, fabs(other->cells.items[i].azimuth_rad - azimuth_rad));
-        other->cells.items[i].azimuth_rad = azimuth_rad;
-    }
-    return most_rad;
-}
-
 void plan_compare(struct plan_position *position, const struct frame *made,
-                  struct frame *stand_in_made, struct arena *arena)
+                  const struct frame *stand_in_made, struct arena *arena)
 {
-    double off_rad = align_azimuths(made, stand_in_made);
-    if (same_bytes(made, stand_in_made, position->section)) {
-        position->azimuth_off_rad = elementary_max(position->azimuth_off_rad, off_rad);
+    if (same_bytes(made, stand_in_made, position->section))
         return;
-    }
     position->differs = true;
     position->scene = arena_text(arena, made->scene, strlen(made->scene));
     position->frame = made->frame;
 }
 
-bool plan_stands_in(const struct plan *plan, const struct plan_position *position)
+bool plan_stands_in(const struct plan_position *position)
 {
-    return position->stand_in != NULL && !position->differs &&
-           position->azimuth_off_rad <= plan->tolerance_azimuth_rad;
+    return position->stand_in != NULL && !position->differs;
 }
 
 uint64_t plan_effects(const struct plan *plan)
@@ -71,7 +53,7 @@ uint64_t plan_effects(const struct plan *plan)
     uint64_t effects = 0;
     for (int at = 0; at < PLAN_POSITIONS; at++) {
         const struct plan_position *position = &plan->positions[at];
-        for (int i = 0; i < EFFECT_COUNT && !plan_stands_in(plan, position); i++)
+        for (int i = 0; i < EFFECT_COUNT && !plan_stands_in(position); i++)
             if (position->log.scans_simulated[i] > 0)
                 effects |= EFFECT_BIT(i);
     }
@@ -109,15 +91,14 @@ static void write_effect(const struct plan *plan, int effect, struct text *text)
         text_format(text, "off: nothing describes it (%s)\n", entry->member);
 }
 
-static void write_stage(const struct plan *plan, const struct plan_position *position,
-                        struct text *text)
+static void write_stage(const struct plan_position *position, struct text *text)
 {
     text_format(text, "# glint-%s ", position->stage);
     if (position->stand_in == NULL) {
         text_add_word(text, "stays: nothing stands in for it\n");
         return;
     }
-    bool replaced = plan_stands_in(plan, position);
+    bool replaced = plan_stands_in(position);
     text_format(text, "%s: glint-%s has ", replaced ? "goes" : "stays", position->stand_in);
     if (position->differs) {
         text_format(text, "other %s, first in frame %" PRId64 " of scene ",
@@ -125,8 +106,6 @@ static void write_stage(const struct plan *plan, const struct plan_position *pos
         text_add_json(text, position->scene, strlen(position->scene));
     } else {
         text_format(text, "the same %s", frame_section_name(position->section));
-        if (position->azimuth_off_rad > 0)
-            text_format(text, " but for azimuths, %.2g rad off at most", position->azimuth_off_rad);
     }
     text_add_word(text, "\n");
 }
@@ -168,11 +147,11 @@ void plan_write(const struct plan *plan, struct text *text)
     text_add_word(text,
                   "# glint-extract stays: what stands in for it models objects, not effects\n");
     for (int i = 0; i < PLAN_POSITIONS; i++)
-        write_stage(plan, &plan->positions[i], text);
+        write_stage(&plan->positions[i], text);
     text_add_word(text, "set -o pipefail\nglint-extract");
     for (int i = 0; i < PLAN_POSITIONS; i++) {
         const struct plan_position *position = &plan->positions[i];
-        bool replaced = plan_stands_in(plan, position);
+        bool replaced = plan_stands_in(position);
         text_format(text, " \\\n  | glint-%s", replaced ? position->stand_in : position->stage);
         if (i != PLAN_IDEAL)
             continue;

@@ -18,7 +18,6 @@ struct plan_position {
     bool differs;          /* the stand-in wrote other bytes, first in this frame: */
     const char *scene;
     int64_t frame;
-    double azimuth_off_rad; /* by how much its cells' azimuths were off, at most */
 };
 
 enum { PLAN_IDEAL, PLAN_SENSOR, PLAN_NOISE, PLAN_POSITIONS };
@@ -26,7 +25,6 @@ enum { PLAN_IDEAL, PLAN_SENSOR, PLAN_NOISE, PLAN_POSITIONS };
 struct plan {
     const char *sensors; /* the suite, as it is to be given to glint-ideal */
     uint64_t allowed;    /* effects that were asked for */
-    double tolerance_azimuth_rad;
     int64_t frames;
     struct plan_position positions[PLAN_POSITIONS];
 };
@@ -34,13 +32,13 @@ struct plan {
 /* The request that decides as auto does among the effects that are allowed: "auto,-rows". */
 const char *plan_request(uint64_t allowed, struct arena *arena);
 
-/* Compares what the stage made of a frame with what its stand-in made of the same one (whose cells
- * then take over the azimuths). The first difference is kept: later calls need not be made. */
+/* Compares what the stage made of a frame with what its stand-in made of the same one. The first
+ * difference is kept: later calls need not be made. */
 void plan_compare(struct plan_position *position, const struct frame *made,
-                  struct frame *stand_in_made, struct arena *arena);
+                  const struct frame *stand_in_made, struct arena *arena);
 
-/* May the stand-in take the stage's place? A cell's azimuth may be off by the tolerance. */
-bool plan_stands_in(const struct plan *plan, const struct plan_position *position);
+/* Has a stand-in written the same bytes, so that it may take the stage's place? */
+bool plan_stands_in(const struct plan_position *position);
 
 /* The effects to ask for: simulated somewhere, at home in a stage that stays. */
 uint64_t plan_effects(const struct plan *plan);

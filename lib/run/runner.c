@@ -97,30 +97,6 @@ struct reference_stream *runner_counterpart(struct runner *runner, const char *p
     return runner->counterpart;
 }
 
-/* Members of a choice that were not given are -1. */
-static bool chose_tolerance(const struct suite_choice *choice)
-{
-    return choice->tolerance || choice->tolerance_range_m >= 0 ||
-           choice->tolerance_azimuth_rad >= 0 || choice->tolerance_range_rate_mps >= 0 ||
-           choice->tolerance_amplitude_db >= 0;
-}
-
-static struct tolerance chosen_tolerance(const struct suite_choice *choice)
-{
-    struct tolerance tolerance = {0};
-    if (choice->tolerance)
-        tolerance = tolerance_default;
-    if (choice->tolerance_range_m >= 0)
-        tolerance.range_m = choice->tolerance_range_m;
-    if (choice->tolerance_azimuth_rad >= 0)
-        tolerance.azimuth_rad = choice->tolerance_azimuth_rad;
-    if (choice->tolerance_range_rate_mps >= 0)
-        tolerance.range_rate_mps = choice->tolerance_range_rate_mps;
-    if (choice->tolerance_amplitude_db >= 0)
-        tolerance.amplitude_db = choice->tolerance_amplitude_db;
-    return tolerance;
-}
-
 int runner_request(struct runner *runner, const struct suite_choice *choice,
                    const struct suite *suite, struct sensors *request)
 {
@@ -128,7 +104,6 @@ int runner_request(struct runner *runner, const struct suite_choice *choice,
         .suite = suite->name,
         .digest = suite->digest,
         .effects = choice->effects != NULL ? choice->effects : suite->effects,
-        .tolerance = chose_tolerance(choice) ? chosen_tolerance(choice) : suite->tolerance,
     };
     if (request->effects == NULL)
         request->effects = "auto";
@@ -138,12 +113,6 @@ int runner_request(struct runner *runner, const struct suite_choice *choice,
     if (choice->effects != NULL)
         runner->diag.code = DIAG_USAGE;
     return -1;
-}
-
-static bool same_tolerance(const struct tolerance *a, const struct tolerance *b)
-{
-    return a->range_m == b->range_m && a->azimuth_rad == b->azimuth_rad &&
-           a->range_rate_mps == b->range_rate_mps && a->amplitude_db == b->amplitude_db;
 }
 
 int runner_selection(struct runner *runner, const struct frame *frame,
@@ -156,14 +125,8 @@ int runner_selection(struct runner *runner, const struct frame *frame,
                          "sensors.effects: the frame was seen with \"%s\", not with \"%s\"; give "
                          "the effects to glint-ideal",
                          effects, choice->effects);
-    struct tolerance tolerance = chosen_tolerance(choice);
-    if (chose_tolerance(choice) && !same_tolerance(&tolerance, &sensors->tolerance))
-        return diag_fail(&runner->diag, DIAG_CONFIG,
-                         "sensors.tolerance: the frame was seen with another one; give it to "
-                         "glint-ideal");
     if (effects_read(effects, selection, &runner->diag) != 0)
         return diag_prefix(&runner->diag, "sensors.");
-    selection->tolerance = sensors->tolerance;
     selection->log = runner->log;
     return 0;
 }

@@ -54,28 +54,15 @@ extern const struct record stage_no_options;
 struct suite_choice {
     const char *sensors; /* NULL: the suite that the frame names */
     const char *effects; /* NULL: those that the frame names, or the suite does */
-    bool tolerance;      /* the default one; the members below change it */
-    double tolerance_range_m, tolerance_azimuth_rad;
-    double tolerance_range_rate_mps, tolerance_amplitude_db;
 };
 extern const struct record suite_choice_record;
 
-#define SUITE_CHOICE_LIMIT(member, high, help_)                                                    \
-    {                                                                                              \
-        FIELD_REAL_IN(struct suite_choice, member, 0, high, help_), FIELD_OPTIONAL, .absent = -1   \
-    }
-/* The members after `sensors`, for tables of options. */
+/* The member after `sensors`, for tables of options. */
 #define SUITE_CHOICE_EFFECTS                                                                       \
-    {FIELD_NAME_OF(struct suite_choice, effects, "auto, all, none, or effects by their names"),    \
-     FIELD_OPTIONAL, .word = "LIST"},                                                              \
-        {FIELD_FLAG_OF(struct suite_choice, tolerance,                                             \
-                       "auto may also leave out what changes no target by more than 0.02 m, "      \
-                       "0.1 degrees, 0.05 m/s, 0.5 dB before noise"),                              \
-         FIELD_OPTIONAL},                                                                          \
-        SUITE_CHOICE_LIMIT(tolerance_range_m, 1e6, "or by this much"),                             \
-        SUITE_CHOICE_LIMIT(tolerance_azimuth_rad, PI, "or by this much"),                          \
-        SUITE_CHOICE_LIMIT(tolerance_range_rate_mps, 1e5, "or by this much"),                      \
-        SUITE_CHOICE_LIMIT(tolerance_amplitude_db, 300, "or by this much")
+    {                                                                                              \
+        FIELD_NAME_OF(struct suite_choice, effects, "auto, all, none, or effects by their names"), \
+            FIELD_OPTIONAL, .word = "LIST"                                                         \
+    }
 
 /* What the runner does for stages (runner.c). */
 
@@ -89,8 +76,8 @@ struct diag *runner_diag(struct runner *runner);
 const struct suite *runner_suite(struct runner *runner, const struct frame *frame,
                                  const char *name);
 
-/* What ideal writes of its suite into every frame: name, digest, and which effects at which
- * tolerance, by its options or else by the suite itself. */
+/* What ideal writes of its suite into every frame: name, digest, and which effects, by its
+ * options or else by the suite itself. */
 int runner_request(struct runner *runner, const struct suite_choice *choice,
                    const struct suite *suite, struct sensors *request);
 

@@ -74,12 +74,9 @@ static void resolve(struct scan *scan, const struct selection *selection)
     effects_end(selection, EFFECT_MERGING, begin);
 }
 
-struct scan scan_make(const struct reception *reception, const struct selection *selection,
-                      uint64_t without)
+struct scan scan_make(const struct reception *reception, const struct selection *selection)
 {
-    struct reception part = *reception;
-    part.effects &= ~without;
-    struct scan scan = scan_receive(&part);
+    struct scan scan = scan_receive(reception);
     resolve(&scan, selection);
     return scan;
 }

@@ -21,11 +21,9 @@ struct scan {
 /* Receives the echoes, and resolves none of them. Memory comes from the frame's arena. */
 struct scan scan_receive(const struct reception *reception);
 
-/* Receives the echoes and resolves them, with all effects of the reception but those of without;
- * merging may be left out where no two received echoes are close. Memory comes from the frame's
- * arena. */
-struct scan scan_make(const struct reception *reception, const struct selection *selection,
-                      uint64_t without);
+/* Receives the echoes and resolves them; merging may be left out where no two received echoes are
+ * close. Memory comes from the frame's arena. */
+struct scan scan_make(const struct reception *reception, const struct selection *selection);
 
 /* The received echoes of one cell, the leader first, count of them. */
 const struct received_echo *scan_members(const struct scan *scan, size_t number, size_t *count);

@@ -95,7 +95,7 @@ def knob_panel(rows, ladder, x, y, texts, more="", line="linespoints", least=LEA
               for name in names]
     return blocks, f"""
 set title "{title}"; set xlabel "{xlabel}"; set ylabel "{ylabel}"; set autoscale; set key top right; {more}
-set label 1 "{wrapped(choice, 44)}" at graph 0, -0.36 font ",10"
+set label 1 "{wrapped(choice, 68)}" at graph 0, -0.36 font ",10"
 plot {", ".join(plots)}"""
 
 
@@ -105,9 +105,6 @@ FRAME, ANGLE = "CPU time per frame, µs", "CPU time per angle, µs"
 def knobs(rows):
     exact = f"set yrange [{LEAST / 3:g}:30]"
     panels = [
-        knob_panel(rows, "tolerance", "cpu_us", "gospa",
-                   ("Tolerance of auto, times the default", FRAME, "GOSPA from all, cells",
-                    "auto, which is all to the bit; a tolerance gains nothing here"), exact),
         knob_panel(rows, "table", "cpu_us", "azimuth_rad_max",
                    ("Angle by a table of so many entries", ANGLE, "greatest error, rad",
                     "the closed form: an angle is little of a frame"),
@@ -122,9 +119,10 @@ def knobs(rows):
                    exact + "; set key center"),
         knob_panel(rows, "plumbing", "cpu_us", "bytes",
                    ("Plumbing: the same targets", FRAME, "bytes written per frame",
-                    "one process; .gz of its output where room counts"), "set yrange [300:3e5]; set key top left", "points"),
+                    "one process; .gz of its output where room counts"),
+                   "set xrange [50:3e3]; set yrange [300:3e5]; set key top left", "points"),
     ]
-    parts = [f"set origin {number % 3 / 3}, {0.5 - 0.5 * (number // 3)}; set size 0.33, 0.5{commands}"
+    parts = [f"set origin {number % 2 / 2}, {0.5 - 0.5 * (number // 2)}; set size 0.5, 0.5{commands}"
              for number, (_, commands) in enumerate(panels)]
     return "".join(text for blocks, _ in panels for text in blocks) + """set multiplot
 set border 3; set tics nomirror out; set logscale xy; set key top right samplen 1 font ",9"; set bmargin 7

@@ -21,8 +21,6 @@ PAPER = ["visibility", "plane_reflection", "rows", "occlusion", "ambiguity", "me
          "threshold", "angle_noise", "range_noise", "final_threshold", "list_limit"]
 SIZES = ["small", "medium", "large"]
 CHAIN, SIGNAL = "glint-sensor | glint-noise", "glint-sensor-signal"
-TOLERANCE = {"range-m": 0.02, "azimuth-rad": 0.0017453292519943296, "range-rate-mps": 0.05,
-             "amplitude-db": 0.5}
 
 
 class Plan:
@@ -263,16 +261,6 @@ def models(radar):
             + [Way("models", f"signal, {size}", radar, SIGNAL, size=size) for size in SIZES[:-1]]
             + [Way("models", f"all effects, {name}", radar, extract=f"glint-extract-{name}")
                for name in ("3gpp", "contour")])
-
-
-def tolerance(radar):
-    """Of the paper's effects, rain and fog: where echoes vary by themselves little may be spared."""
-    without = "".join(f",-{effect}" for effect in effects_known() if effect not in [*PAPER, "rain", "fog"])
-    made = [Way("tolerance", word, radar, effects=word + without) for word in ("all", "auto")]
-    for times in (0.1, 1, 10, 100):
-        options = " ".join(f"--tolerance-{key}={times * value:.9g}" for key, value in TOLERANCE.items())
-        made.append(Way("tolerance", f"{times:g}", radar, effects="auto" + without, options=options))
-    return made
 
 
 def spacing(radar):

@@ -66,6 +66,6 @@ def markdown(rows):
     for radar in dict.fromkeys(row["radar"] for row in rows if row["radar"]):
         for against in ("centres", "contour"):
             text += models(rows, radar, against)
-    for ladder in ("tolerance", "table", "spacing", "digits", "plumbing"):
+    for ladder in ("table", "spacing", "digits", "plumbing"):
         text += knob(rows, ladder)
     return text

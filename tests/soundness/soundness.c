@@ -30,8 +30,6 @@ struct finding {
 /* One way to choose effects. */
 struct planner {
     const char *effects;
-    struct tolerance tolerance;
-    bool tolerant;
     struct runner runners[STEPS];
     struct effect_log logs[STEPS];
     struct arena arena;
@@ -40,8 +38,8 @@ struct planner {
     struct finding findings[SHOWN];
 };
 
-enum planners { PLANNERS_AUTO, PLANNERS_TOLERANCE, PLANNERS_BOTH, PLANNERS_DROPS };
-static const char *const planner_choices[] = {"auto", "tolerance", "both", "drops", NULL};
+enum planners { PLANNERS_AUTO, PLANNERS_DROPS };
+static const char *const planner_choices[] = {"auto", "drops", NULL};
 
 struct soundness {
     enum random_density density;
@@ -49,7 +47,6 @@ struct soundness {
     int64_t first, frames;
     enum planners planners;
     const char *without, *only;
-    double tolerance_scale;
     bool margins, until_caught, print;
 };
 
@@ -71,8 +68,7 @@ static const struct field soundness_options[] = {
     {FIELD_INTEGER_IN(struct soundness, frames, 0, 1e9, "how many scenes; absent: 1000"),
      FIELD_OPTIONAL, .absent = 1000},
     {FIELD_CHOICE_OF(struct soundness, planners, planner_choices,
-                     "auto to the bit, with the default tolerance, both, or for every effect one "
-                     "that always drops it"),
+                     "auto, or for every effect one that always drops it"),
      FIELD_OPTIONAL},
     {FIELD_NAME_OF(struct soundness, without,
                    "effects that nobody simulates, such as -occlusion,-rows"),
@@ -80,8 +76,6 @@ static const struct field soundness_options[] = {
     {FIELD_NAME_OF(struct soundness, only,
                    "only scenes in which every object is of one of these classes: car,van"),
      FIELD_OPTIONAL, .word = "LIST"},
-    {FIELD_REAL_IN(struct soundness, tolerance_scale, 1e-3, 1e3, "times the default tolerance"),
-     FIELD_OPTIONAL, .absent = 1},
     {FIELD_FLAG_OF(struct soundness, margins, "targets and lost tell margins too"), FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct soundness, until_caught,
                    "a planner with a violation needs no more scenes"),
@@ -155,43 +149,20 @@ static int start_scenes(struct bench *bench)
                : -1;
 }
 
-static struct tolerance tolerance_of(const struct soundness *wanted)
-{
-    struct tolerance tolerance = tolerance_default;
-    tolerance.range_m *= wanted->tolerance_scale;
-    tolerance.azimuth_rad *= wanted->tolerance_scale;
-    tolerance.range_rate_mps *= wanted->tolerance_scale;
-    tolerance.amplitude_db *= wanted->tolerance_scale;
-    return tolerance;
-}
-
 /* What glint-ideal is told; the stages after it read it off the frame. */
 static int start_ideal(struct planner *planner, const struct soundness *wanted)
 {
-    char texts[4][24];
-    const double values[] = {planner->tolerance.range_m, planner->tolerance.azimuth_rad,
-                             planner->tolerance.range_rate_mps, planner->tolerance.amplitude_db};
-    static const char *const names[] = {"--tolerance-range-m", "--tolerance-azimuth-rad",
-                                        "--tolerance-range-rate-mps", "--tolerance-amplitude-db"};
-    const char *words[16] = {"--sensors", wanted->sensors, "--effects", planner->effects,
-                             "--account"};
-    size_t count = 5;
-    if (wanted->margins)
-        words[count++] = "--margins";
-    for (int i = 0; i < 4 && planner->tolerant; i++) {
-        snprintf(texts[i], sizeof texts[i], "%.17g", values[i]);
-        words[count++] = names[i];
-        words[count++] = texts[i];
-    }
+    const char *const words[] = {"--sensors", wanted->sensors,
+                                 "--effects", planner->effects,
+                                 "--account", wanted->margins ? "--margins" : NULL,
+                                 NULL};
     return start_stage(&planner->runners[0], steps[0], words);
 }
 
-static int start_planner(struct planner *planner, const struct bench *bench, const char *effects,
-                         bool tolerant)
+static int start_planner(struct planner *planner, const struct bench *bench, const char *effects)
 {
     static const char *const no_words[] = {NULL};
-    *planner = (struct planner){
-        .effects = effects, .tolerance = tolerance_of(bench->wanted), .tolerant = tolerant};
+    *planner = (struct planner){.effects = effects};
     for (int i = 0; i < STEPS; i++) {
         int result = i == 0 ? start_ideal(planner, bench->wanted)
                             : start_stage(&planner->runners[i], steps[i], no_words);
@@ -199,35 +170,30 @@ static int start_planner(struct planner *planner, const struct bench *bench, con
             return -1;
         planner->logs[i].clock_ns = no_clock_ns;
         planner->runners[i].log = &planner->logs[i];
-        planner->runners[i].common.keep = i == STEPS - 1;
     }
     return 0;
 }
 
 /* The next planner to compare: auto, or all, but for what nobody simulates and for one effect. */
-static int add_planner(struct bench *bench, const char *word, const char *but, bool tolerant)
+static int add_planner(struct bench *bench, const char *word, const char *but)
 {
     const char *without = bench->wanted->without;
     size_t size = FIELD_NAME_SIZE;
     char *effects = arena_get(&bench->documents, size);
     snprintf(effects, size, "%s%s%s%s%s", word, without != NULL ? "," : "",
              without != NULL ? without : "", but != NULL ? ",-" : "", but != NULL ? but : "");
-    return start_planner(&bench->planners[bench->count++], bench, effects, tolerant);
+    return start_planner(&bench->planners[bench->count++], bench, effects);
 }
 
 static int start(struct bench *bench)
 {
     enum planners planners = bench->wanted->planners;
-    if (start_scenes(bench) != 0 || add_planner(bench, "all", NULL, false) != 0)
+    if (start_scenes(bench) != 0 || add_planner(bench, "all", NULL) != 0)
         return -1;
-    if ((planners == PLANNERS_AUTO || planners == PLANNERS_BOTH) &&
-        add_planner(bench, "auto", NULL, false) != 0)
-        return -1;
-    if ((planners == PLANNERS_TOLERANCE || planners == PLANNERS_BOTH) &&
-        add_planner(bench, "auto", NULL, true) != 0)
-        return -1;
-    for (int i = 0; i < EFFECT_COUNT && planners == PLANNERS_DROPS; i++)
-        if (add_planner(bench, "auto", effects_names[i], false) != 0)
+    if (planners == PLANNERS_AUTO)
+        return add_planner(bench, "auto", NULL);
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        if (add_planner(bench, "auto", effects_names[i]) != 0)
             return -1;
     return 0;
 }
@@ -252,9 +218,7 @@ static int run(struct planner *planner, const struct frame *scene)
 static void judge(const struct frame *all, int64_t number, struct planner *planner)
 {
     struct diag diag = {0};
-    int found = planner->tolerant ? compare_within(all, &planner->frame, &planner->tolerance, &diag)
-                                  : compare_bits(all, &planner->frame, &diag);
-    if (found == 0)
+    if (compare_bits(all, &planner->frame, &diag) == 0)
         return;
     if (planner->violations < SHOWN) {
         struct finding *finding = &planner->findings[planner->violations];
@@ -345,10 +309,9 @@ static void tell_effects(struct text *text, const struct planner *planner)
 static void tell_planner(struct text *text, const struct planner *planner)
 {
     text_format(text,
-                "{\"planned\":\"%s\",\"tolerance\":%s,\"frames\":%" PRId64 ",\"ns\":%" PRId64
+                "{\"planned\":\"%s\",\"frames\":%" PRId64 ",\"ns\":%" PRId64
                 ",\"violations\":%" PRId64 ",\"first_violations\":[",
-                planner->effects, planner->tolerant ? "true" : "false", planner->frames,
-                planner->spent_ns, planner->violations);
+                planner->effects, planner->frames, planner->spent_ns, planner->violations);
     for (int64_t i = 0; i < planner->violations && i < SHOWN; i++) {
         const struct finding *finding = &planner->findings[i];
         text_format(text, "%s{\"frame\":%" PRId64 ",\"what\":", i > 0 ? "," : "", finding->frame);

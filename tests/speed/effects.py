@@ -1,8 +1,8 @@
 """scripts/bench --effects: what leaving out effects gains.
 
-The same frames of four scenes in rain, under lrr77-full, with --effects all, auto, auto and the
-default tolerance, and none, as the floor. physics: the steps of ideal, sensor and noise; end to end:
-from a file of frames to target lists. Each ratio is that of all to this line.
+The same frames of four scenes in rain, under lrr77-full, with --effects all, auto, and none, as the
+floor. physics: the steps of ideal, sensor and noise; end to end: from a file of frames to target
+lists. Each ratio is that of all to this line.
 """
 import json
 import os
@@ -15,7 +15,7 @@ import timing
 SCENES = {"highway": "glint-traffic highway-straight", "intersection": "glint-traffic intersection",
           "empty road": "glint-traffic empty-road",
           "densest": "glint-traffic-random --density dense --frames 40"}
-EFFECTS = ["all", "auto", "auto --tolerance", "none"]
+EFFECTS = ["all", "auto", "none"]
 PHYSICS = ["ideal", "sensor", "noise"]
 
 

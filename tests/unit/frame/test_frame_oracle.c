@@ -285,7 +285,7 @@ static const char *const sections[] = {
     "\"points\":[{\"name\":\"p\",\"x\":0.5,\"y\":-0.5,\"inset_m\":0.1,\"facing_rad\":0,"
     "\"full_rad\":0.5,\"zero_rad\":1.5,\"shape\":\"linear\",\"ercs\":0.7}],\"planes\":[],"
     "\"rows\":[]}],\"extra\":null}",
-    ",\"sensors\":{\"suite\":\"s\",\"digest\":\"01\",\"tolerance\":{\"range_m\":0.02},\"list\":[{"
+    ",\"sensors\":{\"suite\":\"s\",\"digest\":\"01\",\"list\":[{"
     "\"name\":\"f\",\"mount_x_m\":2,\"mount_y_m\":0,\"mount_yaw_rad\":0,\"field_of_view_rad\":3,"
     "\"range_max_m\":30,\"cell_range_m\":0.3,\"cell_range_rate_mps\":0.5,\"measured\":false}]},"
     "\"conditions\":{\"rain_mmph\":10},\"extra\":\"\\ud83d\\ude00\"}",

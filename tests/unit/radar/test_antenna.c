@@ -416,29 +416,6 @@ static void the_faulty_row_of_a_table_is_named(void **state)
     }
 }
 
-/* Against a thousand places in between. */
-static void no_gain_between_two_azimuths_is_out_of_bounds(void **state)
-{
-    (void)state;
-    const struct antenna *antennas[] = {&CENTRE, &SKEWED, &EVEN};
-    uint64_t random = 1;
-    for (size_t i = 0; i < 3 * 300; i++) {
-        const struct antenna *antenna = antennas[i % 3];
-        double one = sample_between(&random, -1.5, 1.5), other = sample_between(&random, -1.5, 1.5);
-        double low = fmin(one, other), high = fmax(one, other);
-        double least = (double)INFINITY, most = 0;
-        for (int k = 0; k <= 1000; k++) {
-            double gain = antenna_gain(antenna, low + (high - low) * k / 1000);
-            least = fmin(least, gain);
-            most = fmax(most, gain);
-        }
-        struct interval bounds = antenna_gain_bounds(antenna, low, high);
-        assert_true(bounds.least <= least * (1 + 1e-12) && bounds.most * (1 + 1e-12) >= most);
-        assert_close(bounds.least, least, 5e-3);
-        assert_close(bounds.most, most, 5e-3);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -462,7 +439,6 @@ int main(void)
         cmocka_unit_test(a_table_is_inverted_where_its_lines_cross_the_ratio),
         cmocka_unit_test(a_table_gives_back_every_azimuth),
         cmocka_unit_test(a_ratio_beyond_a_table_is_its_end),
-        cmocka_unit_test(no_gain_between_two_azimuths_is_out_of_bounds),
         cmocka_unit_test(a_sound_table_has_no_fault),
         cmocka_unit_test(the_faulty_row_of_a_table_is_named),
     };

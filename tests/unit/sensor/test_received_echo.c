@@ -5,7 +5,6 @@
 #include "base/units.h"
 #include "frame/draw_address.h"
 #include "radar/swerling.h"
-#include "sensor/escalation.h"
 #include "sensor/received_echo.h"
 
 #define EVERYTHING (EFFECT_BIT(EFFECT_COUNT) - 1)
@@ -165,31 +164,6 @@ static void what_changes_nothing_has_no_label(void **state)
     assert_true(ray_of(bench, EVERYTHING, 100).effects == EFFECT_BIT(EFFECT_AMBIGUITY));
 }
 
-/* The most that rain and fog take is what they take at the farthest range. */
-static void the_gain_bound_holds_and_is_reached(void **state)
-{
-    struct bench *bench = *state;
-    bench->frame.conditions.rain_mmph = 50;
-    bench->frame.conditions.fog_gpm3 = 0.5;
-    const uint64_t rain = EFFECT_BIT(EFFECT_RAIN), fog = EFFECT_BIT(EFFECT_FOG);
-    const uint64_t sets[] = {0, rain, fog, rain | fog};
-    bench->sensor.range_max_m = 250;
-    for (size_t i = 0; i < 4; i++) {
-        struct reception reception = received_echo_begin(&bench->frame, &bench->sensor, sets[i]);
-        double bound = escalation_weakening(&reception).alone;
-        for (double range_m = 0.5; range_m <= 250; range_m += 0.5) {
-            double with = ray_of(bench, sets[i], range_m).amplitude;
-            double without = ray_of(bench, 0, range_m).amplitude;
-            assert_true(without / with <= bound * (1 + 1e-15));
-            assert_true(without / with >= 1);
-        }
-        double reached = ray_of(bench, 0, 250).amplitude / ray_of(bench, sets[i], 250).amplitude;
-        assert_near(reached, bound, 1e-8);
-        if (sets[i] == rain)
-            assert_near(20 * log10(bound), 8.948216, 1e-6);
-    }
-}
-
 /* EFFECTS 12: 40.8746 dB at 50 m with equal slopes, the difference of two printed figures. */
 static void an_interferer_is_heard_where_it_stands(void **state)
 {
@@ -280,7 +254,6 @@ int main(void)
         TEST(only_what_a_document_describes_is_received),
         TEST(factors_multiply_in_their_order_and_ranges_fold_last),
         TEST(what_changes_nothing_has_no_label),
-        TEST(the_gain_bound_holds_and_is_reached),
         TEST(an_interferer_is_heard_where_it_stands),
         TEST(the_antenna_counts_one_way),
         TEST(who_is_not_in_view_is_not_heard),
