@@ -146,7 +146,7 @@ static inline bool reflectors_plainly_away(const struct box *box,
     struct vec2 facing = face->heading;
     struct vec2 sight = {sensor.x - point->x * box->length_m + point->inset_m * facing.x,
                          sensor.y - point->y * box->width_m + point->inset_m * facing.y};
-    return visibility_range_plainly_none(face->dark_cosine, facing, sight, REFLECTORS_PLAIN_M);
+    return visibility_range_surely_zero(face->dark_cosine, facing, sight, REFLECTORS_PLAIN_M);
 }
 bool reflectors_plainly_aside(const struct box *box, const struct plane_reflector *plane,
                               struct vec2 sensor);

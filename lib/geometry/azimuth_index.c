@@ -2,45 +2,46 @@
 
 #include <math.h>
 
-/* Fine slices part a crowd that stands far off; of few, four slices share a set. */
-enum { SLICES = 1024, FEW = 64, SHIFT_OF_FEW = 2 };
+/* Narrow sectors separate many bodies far off. For up to FEW bodies four sectors share a set. */
+enum { SECTORS = 1024, FEW = 64, SHIFT_OF_FEW = 2 };
 
 /* Thousands of times more than rounding. */
 #define NEAR_SINE 1e-4
 
-static const struct vec2 here = {0, 0};
+static const struct vec2 origin = {0, 0};
 
-const struct azimuth_index_span azimuth_index_everywhere = {0, SLICES};
+const struct azimuth_index_span azimuth_index_everywhere = {0, SECTORS};
 
-/* By the place on a square around the sensor, which ascends with the angle and costs no arctangent.
- */
-static unsigned slice_of(struct vec2 place_m)
+/* Numbered by the place on a square around the sensor, which ascends with the angle and needs no
+ * arctangent. */
+static unsigned sector_of(struct vec2 place_m)
 {
     double size_m = fabs(place_m.x) + fabs(place_m.y);
     if (size_m == 0)
         return 0;
     double up = place_m.y / size_m;
-    return (unsigned)((place_m.x < 0 ? 3 - up : 1 + up) * (SLICES / 4.0)) % SLICES;
+    return (unsigned)((place_m.x < 0 ? 3 - up : 1 + up) * (SECTORS / 4.0)) % SECTORS;
 }
 
-/* Of directions less than half a turn apart. */
+/* The sectors between two directions less than half a turn apart. */
 static struct azimuth_index_span span_of(struct vec2 right, struct vec2 left)
 {
-    unsigned first = slice_of(right), last = slice_of(left);
-    return (struct azimuth_index_span){first, (last + SLICES - first) % SLICES + 1};
+    unsigned first = sector_of(right), last = sector_of(left);
+    return (struct azimuth_index_span){first, (last + SECTORS - first) % SECTORS + 1};
 }
 
 struct azimuth_index_span azimuth_index_of(const struct silhouette *silhouette)
 {
-    return vec2_same(silhouette->right_m, here) ? azimuth_index_everywhere
-                                                : span_of(silhouette->right_m, silhouette->left_m);
+    return vec2_same(silhouette->right_m, origin)
+               ? azimuth_index_everywhere
+               : span_of(silhouette->right_m, silhouette->left_m);
 }
 
 struct azimuth_index_span azimuth_index_between(struct vec2 from_m, struct vec2 to_m)
 {
     double cross = vec2_cross(from_m, to_m), dot = vec2_dot(from_m, to_m);
-    if (vec2_same(from_m, here) || vec2_same(to_m, here))
-        return vec2_same(from_m, here) ? span_of(to_m, to_m) : span_of(from_m, from_m);
+    if (vec2_same(from_m, origin) || vec2_same(to_m, origin))
+        return vec2_same(from_m, origin) ? span_of(to_m, to_m) : span_of(from_m, from_m);
     if (fabs(cross) <= -NEAR_SINE * dot)
         return azimuth_index_everywhere;
     return cross < 0 ? span_of(to_m, from_m) : span_of(from_m, to_m);
@@ -53,51 +54,50 @@ struct azimuth_index azimuth_index_begin(size_t count, struct arena *arena)
     return (struct azimuth_index){
         .shift = shift,
         .words = words,
-        .sets = arena_get(arena, ((size_t)SLICES >> shift) * words * sizeof(uint64_t)),
+        .sets = arena_get(arena, ((size_t)SECTORS >> shift) * words * sizeof(uint64_t)),
         .found = arena_get(arena, (count + 1) * sizeof(size_t)),
     };
 }
 
-/* The same span, counted in sets. */
-static struct azimuth_index_span sets_of(const struct azimuth_index *bearings,
+/* The same span, counted in sets instead of sectors. */
+static struct azimuth_index_span sets_of(const struct azimuth_index *index,
                                          struct azimuth_index_span span)
 {
-    unsigned shift = bearings->shift, all = (unsigned)SLICES >> shift, first = span.first >> shift;
+    unsigned shift = index->shift, all = (unsigned)SECTORS >> shift, first = span.first >> shift;
     unsigned count = ((span.first + span.count - 1) >> shift) - first + 1;
     return (struct azimuth_index_span){first, count < all ? count : all};
 }
 
-static uint64_t *set_of(const struct azimuth_index *bearings, struct azimuth_index_span sets,
+static uint64_t *set_of(const struct azimuth_index *index, struct azimuth_index_span sets,
                         unsigned i)
 {
-    unsigned last = (SLICES - 1U) >> bearings->shift; /* all ones */
-    return bearings->sets + ((sets.first + i) & last) * bearings->words;
+    unsigned last = (SECTORS - 1U) >> index->shift; /* all ones */
+    return index->sets + ((sets.first + i) & last) * index->words;
 }
 
-void azimuth_index_enter(struct azimuth_index *bearings, size_t number,
-                         struct azimuth_index_span span)
+void azimuth_index_enter(struct azimuth_index *index, size_t number, struct azimuth_index_span span)
 {
-    struct azimuth_index_span sets = sets_of(bearings, span);
+    struct azimuth_index_span sets = sets_of(index, span);
     for (unsigned i = 0; i < sets.count; i++)
-        set_of(bearings, sets, i)[number / 64] |= UINT64_C(1) << number % 64;
+        set_of(index, sets, i)[number / 64] |= UINT64_C(1) << number % 64;
 }
 
-/* Numbers of a whole word, in that word of each of these sets. */
-static uint64_t word_of(const struct azimuth_index *bearings, struct azimuth_index_span sets,
+/* The union of one word over these sets. */
+static uint64_t word_of(const struct azimuth_index *index, struct azimuth_index_span sets,
                         size_t word)
 {
     uint64_t bits = 0;
     for (unsigned i = 0; i < sets.count; i++)
-        bits |= set_of(bearings, sets, i)[word];
+        bits |= set_of(index, sets, i)[word];
     return bits;
 }
 
-size_t azimuth_index_find(const struct azimuth_index *bearings, struct azimuth_index_span span)
+size_t azimuth_index_find(const struct azimuth_index *index, struct azimuth_index_span span)
 {
-    struct azimuth_index_span sets = sets_of(bearings, span);
+    struct azimuth_index_span sets = sets_of(index, span);
     size_t count = 0;
-    for (size_t word = 0; word < bearings->words; word++)
-        for (uint64_t bits = word_of(bearings, sets, word); bits != 0; bits &= bits - 1)
-            bearings->found[count++] = 64 * word + (size_t)__builtin_ctzll(bits);
+    for (size_t word = 0; word < index->words; word++)
+        for (uint64_t bits = word_of(index, sets, word); bits != 0; bits &= bits - 1)
+            index->found[count++] = 64 * word + (size_t)__builtin_ctzll(bits);
     return count;
 }

@@ -1,12 +1,12 @@
 #include "geometry/ghost_path.h"
 
-/* One way direct and one way by the wall. */
+/* A path with one way straight and one way by the wall. */
 static struct ghost_path one_way(double reflection, const struct kinematics *direct,
                                  const struct kinematics *image, double azimuth_rad)
 {
     double range_m = (direct->range_m + image->range_m) / 2;
     return (struct ghost_path){
-        .sight = {range_m, azimuth_rad, (direct->range_rate_mps + image->range_rate_mps) / 2},
+        .kinematics = {range_m, azimuth_rad, (direct->range_rate_mps + image->range_rate_mps) / 2},
         .ercs_factor = reflection * (range_m / direct->range_m) * (range_m / image->range_m),
     };
 }
@@ -25,5 +25,5 @@ struct ghost_path ghost_path_back(double reflection, const struct kinematics *di
 
 struct ghost_path ghost_path_both(double reflection, const struct kinematics *image)
 {
-    return (struct ghost_path){.sight = *image, .ercs_factor = reflection * reflection};
+    return (struct ghost_path){.kinematics = *image, .ercs_factor = reflection * reflection};
 }

@@ -16,7 +16,7 @@ static double reduced_distance_m(double sensor_side_m, double reflector_side_m)
     return near / (near / far + 1);
 }
 
-/* What the logarithm in J is taken of. */
+/* The argument of the logarithm in J. */
 static double steepness(double parameter)
 {
     return elementary_hypot(parameter - 0.1, 1) + (parameter - 0.1);
@@ -35,7 +35,7 @@ double knife_edge_amplitude_factor(double parameter)
     return TEN_TO_MINUS_069 / steepness(parameter) / steepness(parameter);
 }
 
-/* d1 d2/(d1 + d2) is largest half way, and the two may have grown by a tenth of a metre each. */
+/* d1 d2/(d1 + d2) is largest half way, and each distance may have grown by 0.1 m. */
 double knife_edge_reach_m(double range_m, double wavelength_m)
 {
     return sqrt(wavelength_m * (range_m + 0.2) / 4);

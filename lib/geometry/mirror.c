@@ -2,7 +2,7 @@
 
 #include "geometry/predicates.h"
 
-/* Towards the outer side; zero for a wall of length zero. */
+/* The unit normal towards the outer side; zero for a wall of length zero. */
 static struct vec2 normal_of(const struct mirror *mirror)
 {
     struct vec2 along = vec2_sub(mirror->b, mirror->a);
@@ -12,7 +12,8 @@ static struct vec2 normal_of(const struct mirror *mirror)
     return (struct vec2){along.y / length_m, -along.x / length_m};
 }
 
-/* Measured from the middle, so that a mirrored wall has the mirrored image to the last bit. */
+/* The point's height over the wall, measured from the wall's middle, so that a mirrored wall has
+ * the mirrored image to the last bit. */
 static double height_m(const struct mirror *mirror, struct vec2 normal, struct vec2 point_m)
 {
     struct vec2 middle = vec2_scale(0.5, vec2_add(mirror->a, mirror->b));
@@ -46,7 +47,8 @@ bool mirror_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec
     struct vec2 normal = normal_of(mirror);
     double sensor_height_m = height_m(mirror, normal, sensor_m);
     double point_height_m = height_m(mirror, normal, point_m);
-    /* A hair before an aslant wall is before it, and yet on it when rounded. */
+    /* A point exactly, but less than a rounding, before an oblique wall has the rounded height
+     * 0. */
     if (sensor_height_m <= 0 || point_height_m <= 0)
         return false;
     struct vec2 image_m = flipped(point_m, point_height_m, normal);
@@ -66,7 +68,8 @@ bool mirror_may_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct
         return false;
     struct vec2 normal = normal_of(mirror);
     double height = height_m(mirror, normal, centre_m);
-    /* Thousands of times the rounding of what follows: each step costs a few 2^-53 of this. */
+    /* The slack is thousands of times the rounding of what follows: each step costs a few 2^-53 of
+     * this scale. */
     double scale_m =
         vec2_length(a) + vec2_length(b) + vec2_length(sensor_m) + vec2_length(centre_m) + radius_m;
     double reach_m = radius_m + 0x1p-40 * scale_m;

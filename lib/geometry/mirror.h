@@ -1,11 +1,14 @@
-/* A straight wall as a mirror: what stands before it is seen a second time behind it (EFFECTS 7).
+/* Image of a moving point in a wall that mirrors (MODEL 14.1).
  *
  * The wall is the segment a to b with its outer face to the right of a -> b, like every flat side
- * (specular_point.h), and only that face mirrors: a guardrail has two. It may move and turn with
- * the body that carries it. With the unit normal n and a point o at the height h = n · (o - a), o'
- * = o - 2 h n,   v' = V(o') + w - 2 (n · w) n,   w = v - V(o), where V is the velocity of the
- * body's material at a place: seen from the wall, the image of the velocity is the velocity of the
- * image. Metres and metres per second, in one plane. */
+ * (specular_point.h). Only that face mirrors: a guardrail has two. The wall may move and turn with
+ * the body that carries it. For the unit normal n and a point o at the height h = n · (o - a) over
+ * the wall the image is
+ *
+ *     o' = o - 2 h n,   v' = V(o') + w - 2 (n · w) n,   w = v - V(o),
+ *
+ * where V is the velocity of the body's material at a place: seen from the wall, the image of the
+ * velocity is the velocity of the image. Metres and metres per second, in one plane. */
 #ifndef MIRROR_H
 #define MIRROR_H
 
@@ -22,22 +25,22 @@ struct mirror_image {
     struct vec2 place_m, velocity_mps;
 };
 
-/* Of any point, on either side; a point on the wall is its own image. */
+/* The image of any point, on either side; a point on the wall is its own image. */
 struct mirror_image mirror_image(const struct mirror *mirror, struct vec2 point_m,
                                  struct vec2 point_mps);
 
-/* True, and the place on the wall, if the wall mirrors the point towards the sensor: both are
- * strictly on its outer side, and the line from the sensor to the image crosses the segment, ends
- * included. Exact signs decide (predicates.h), for the image as it is rounded. A sensor or point
- * on the wall's line, exactly or when its height is rounded, or behind it has no reflection, nor
- * has a wall of length zero; with both before it nothing is parallel and nothing divides by zero. A
- * mirrored scene has the mirrored answer to the last bit. */
+/* True if the wall mirrors the point towards the sensor; sets bounce_m, the place on the wall. Both
+ * must be strictly on the wall's outer side, and the line from the sensor to the image must cross
+ * the segment, ends included. Exact signs decide (predicates.h), for the image as it is rounded.
+ * There is no bounce for a wall of length zero, nor for a sensor or point that lies behind the wall
+ * or on its line, exactly or after its height is rounded; so no division is by zero. A mirrored
+ * scene has the mirrored answer to the last bit. */
 bool mirror_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec2 point_m,
                    struct vec2 *bounce_m);
 
-/* False only if mirror_bounce is false for every point within radius_m of the centre: one question
- * for a whole body and a wall that cannot matter to it. Sound under rounding for coordinates up to
- * 1e7 m; true too often where the disc passes narrowly by an end of the wall. */
+/* False only if mirror_bounce is false for every point within radius_m of the centre, so that a
+ * whole body and a wall can be passed over at once. Sound under rounding for coordinates up to 1e7
+ * m; unnecessarily true where the disc passes narrowly by an end of the wall. */
 bool mirror_may_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec2 centre_m,
                        double radius_m);
 

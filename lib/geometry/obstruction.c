@@ -4,10 +4,10 @@
 #include "geometry/knife_edge.h"
 #include "geometry/outline_crossing.h"
 
-#define DEEPEST 2.82842712474619009760
+#define DARKEST_PARAMETER 2.82842712474619009760
 
-/* Where a line is inside a convex outline, as shares of its way; for one that only grazes it, where
- * that is, but for rounding. */
+/* The part of a line inside a convex outline, as fractions of its length. A line that only touches
+ * the outline has the place where it touches, but for rounding. */
 struct inside_interval {
     double begin, end;
 };
@@ -28,12 +28,12 @@ static struct inside_interval inside_interval_of(const struct vec2 *corners, siz
     return inside;
 }
 
-static double height_m(const struct obstruction_line *line, double share)
+static double height_m(const struct obstruction_line *line, double fraction)
 {
-    return line->from_height_m + share * (line->to_height_m - line->from_height_m);
+    return line->from_height_m + fraction * (line->to_height_m - line->from_height_m);
 }
 
-/* Of a line with that stretch inside. */
+/* The line's least height above the top over its interval inside the outline. */
 static double above_m(const struct obstruction_line *line, struct inside_interval inside,
                       double top_m)
 {
@@ -46,7 +46,7 @@ double obstruction_above_m(const struct vec2 *corners, size_t count, double top_
     return above_m(line, inside_interval_of(corners, count, line), top_m);
 }
 
-/* nu of the easier way round, to the left or to the right. */
+/* nu of the easier way beside the body, to the left or to the right. */
 static double beside(const struct vec2 *corners, size_t count, const struct obstruction_line *line,
                      bool touched, double wavelength_m)
 {
@@ -82,7 +82,7 @@ static double above(const struct obstruction_line *line, struct inside_interval 
 
 static double factor_at(double parameter)
 {
-    return parameter < DEEPEST ? knife_edge_amplitude_factor(parameter) : 0;
+    return parameter < DARKEST_PARAMETER ? knife_edge_amplitude_factor(parameter) : 0;
 }
 
 struct obstruction obstruction_of(const struct vec2 *corners, size_t count, double top_m,

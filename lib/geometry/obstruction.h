@@ -1,11 +1,12 @@
-/* What a body in the way lets through of a sight line: nothing or all of it (MODEL 2.5), more if
- * the line runs over the body, or a part where it runs close to the body's edge (EFFECTS 16).
+/* How much of an echo passes a body in the way. A body blocks a line of sight or lets it pass
+ * (MODEL 2.5); a line above the body's top passes (MODEL 14.3); with diffraction, a part of the
+ * amplitude passes close to the body's edges (MODEL 14.4).
  *
  * A body is an upright prism over the convex outline through count corners, counter-clockwise, up
- * to top_m; INFINITY is the flat world, in which nothing is seen over anything. Whether the line
- * touches the outline is exact for the given coordinates (outline_crossing.h); heights are compared
- * as plain doubles, which decide a line that grazes a top by the rounding of its height, some 1e-15
- * m. */
+ * to top_m. A top_m of INFINITY is the flat world, in which no line passes above anything. Whether
+ * the line touches the outline is exact for the given coordinates (outline_crossing.h). Heights are
+ * compared as plain doubles, so the rounding of its height, some 1e-15 m, decides a line that
+ * grazes a top. */
 #ifndef OBSTRUCTION_H
 #define OBSTRUCTION_H
 
@@ -20,28 +21,28 @@ struct obstruction_line {
     double from_height_m, to_height_m;
 };
 
-/* How far the line stays above the body's top where it is over it, at its lowest; negative below
- * the top. Only of a line that touches the outline. */
+/* The least height of the line above the body's top where it is over the body; negative below the
+ * top. Only for a line that touches the outline. */
 double obstruction_above_m(const struct vec2 *corners, size_t count, double top_m,
                            const struct obstruction_line *line);
 
 struct obstruction {
-    double factor; /* on amplitude, there and back, in [0, 1] */
-    bool bent;     /* without diffraction it would be another */
-    bool over;     /* beside a body without a top it would be another */
+    double factor; /* on amplitude, both ways together, in [0, 1] */
+    bool bent;     /* diffraction changes the factor */
+    bool over;     /* the body's height changes the factor */
 };
 
-/* What comes through.
+/* The obstruction of a line by a body.
  *
- * Without diffraction (wavelength_m 0) the body blocks, 0, a line that touches its outline and is
- * not above its top somewhere in it; otherwise the factor is 1. The test is closed, as in the flat
- * world. A line inside the outline from end to end is free.
+ * Without diffraction (wavelength_m 0) the body blocks, with the factor 0, a line that touches its
+ * outline and is not above its top all along; for other lines the factor is 1. The test is closed,
+ * as in the flat world. A line inside the outline from end to end is free.
  *
- * With diffraction the body is a knife edge, at the one of its edges that is the easiest way round:
- * to the left, to the right or over the top. To either side that edge is the corner that reaches
- * farthest into the line, as counted by nu (knife_edge.h) with the distances of the corner's foot
- * on the line from both ends; beside a body only corners between both ends count. From two Fresnel
- * radii inside the shadow on, nu >= 2 sqrt(2), nothing is left. */
+ * With diffraction the body is a knife edge at the easiest of the ways round it: to the left, to
+ * the right or over the top. To either side the edge is the corner that reaches farthest into the
+ * line, measured by nu (knife_edge.h) with the distances of the corner's foot on the line from both
+ * ends; if the line does not touch the outline, only corners between both ends count. From two
+ * Fresnel radii inside the shadow on, nu >= 2 sqrt(2), the factor is 0. */
 struct obstruction obstruction_of(const struct vec2 *corners, size_t count, double top_m,
                                   const struct obstruction_line *line, double wavelength_m);
 

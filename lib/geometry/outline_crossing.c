@@ -7,14 +7,14 @@ static bool intervals_touch(double p, double q, double a, double b)
     return (p <= a || p <= b || q <= a || q <= b) && (a <= p || a <= q || b <= p || b <= q);
 }
 
-/* The boxes around two segments: they settle collinear ones and points, whose signs are all zero.
- */
+/* True if the bounding boxes of two segments touch. Decides collinear segments and points, for
+ * which all orientations are zero. */
 static bool boxes_touch(struct vec2 p, struct vec2 q, struct vec2 a, struct vec2 b)
 {
     return intervals_touch(p.x, q.x, a.x, b.x) && intervals_touch(p.y, q.y, a.y, b.y);
 }
 
-/* Do a and b lie on different sides of the line p-q, or either of them on it? */
+/* True if a and b lie on different sides of the line p-q, or one of them on it. */
 static bool line_parts(struct vec2 p, struct vec2 q, struct vec2 a, struct vec2 b)
 {
     return predicates_orientation(p, q, a) * predicates_orientation(p, q, b) <= 0;
@@ -28,8 +28,7 @@ bool outline_crossing_segments_touch(struct vec2 p, struct vec2 q, struct vec2 a
 bool outline_crossing_blocks(const struct vec2 *corners, size_t count, struct vec2 from,
                              struct vec2 to)
 {
-    /* Edge by edge as outline_crossing_segments_touch, but every corner's side is asked for once.
-     */
+    /* Tests edge by edge like outline_crossing_segments_touch, with one orientation per corner. */
     int first = predicates_orientation(from, to, corners[0]), side = first;
     for (size_t i = 0; i < count; i++) {
         bool last = i + 1 == count;

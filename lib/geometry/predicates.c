@@ -5,7 +5,7 @@
 
 enum { TERMS = 12 };
 
-/* A sum kept exactly: terms that do not overlap, smallest first, zeros allowed. */
+/* An exact sum: terms that do not overlap, smallest first, zeros allowed. */
 struct expansion {
     double term[TERMS];
     int count;

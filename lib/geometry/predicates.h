@@ -1,20 +1,22 @@
-/* On which side of a line a point lies, and which of two is farther on, decided exactly.
+/* Exact side of a line and order along a direction.
  *
- * Every yes-or-no of glint's geometry (is the sight line blocked, does it touch a corner) rests on
- * these signs, so that no compiler, no CPU and no rotation of the scene can change an answer. A
- * floating-point filter settles nearly all calls; the rest is summed exactly (Shewchuk's
- * expansions). Exact as long as no product of coordinates under- or overflows: any coordinate of
- * size 0 or between 1e-140 and 1e140 m. */
+ * Every yes-or-no decision of glint's geometry (is the line of sight blocked, does it touch a
+ * corner) rests on these signs, so that no compiler, no CPU and no rotation of the scene changes an
+ * answer. A floating-point filter settles nearly all calls; the rest is summed exactly (J. R.
+ * Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates,
+ * 1997). Exact as long as no product of coordinates under- or overflows: each coordinate is 0 or
+ * has a size between 1e-140 and 1e140 m. */
 #ifndef PREDICATES_H
 #define PREDICATES_H
 
 #include "base/vec2.h"
 
-/* Rounding costs a difference of two products at most (3 + 16u)u of the sum of their sizes, u =
- * 2^-53 (NUMERICS 27). 4u leaves room for a bound that is itself rounded among the subnormals. */
+/* The difference of two products is off by at most (3 + 16u)u of the sum of their sizes, u = 2^-53
+ * (Shewchuk's filter for orientation). 4u leaves room for a bound that is itself rounded among the
+ * subnormals. */
 #define PREDICATES_ROUNDING 0x1p-51
 
-/* The answer where the filter cannot tell. */
+/* The orientation by exact summation, where the filter cannot decide. */
 int predicates_exact_sign(struct vec2 a, struct vec2 b, struct vec2 c);
 
 /* The sign of (b - a) × (c - a): +1 if c lies to the left of the line from a to b, -1 to the

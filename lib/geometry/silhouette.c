@@ -4,7 +4,7 @@
 
 #include "base/elementary.h"
 
-/* 1 beyond the one end, -1 beyond the other, 0 between both. */
+/* 1 beyond the positive end, -1 beyond the negative end, 0 between both. */
 static double beyond(double place, double half)
 {
     return (place > half) - (place < -half);
@@ -18,7 +18,7 @@ struct silhouette silhouette_of(struct vec2 half_m, struct vec2 heading, struct 
                        elementary_max(fabs(viewer_m.y) - width_m, 0)};
     struct vec2 most = {fabs(viewer_m.x) + length_m, fabs(viewer_m.y) + width_m};
     struct silhouette seen = {.nearest_m = vec2_length(gap), .farthest_m = vec2_length(most)};
-    /* Of one side the ends, of two the far ones. */
+    /* If one side is in view, its ends; if two are, their far ends. */
     struct vec2 right = {length_m * (aside != 0 ? -aside : ahead),
                          width_m * (ahead != 0 ? ahead : aside)};
     struct vec2 left = {length_m * (aside != 0 ? aside : ahead),

@@ -1,6 +1,7 @@
-/* Can one box stand in the way to another, and does it hide all of it? Told from the outermost
- * corners that the sensor sees of both: the reason for which auto may leave out occlusion (NUMERICS
- * C3), and for which few sight lines need the exact test. */
+/* Angular extent of a box, and which boxes hide which. A silhouette holds the outermost corners of
+ * a box that the sensor sees. From two silhouettes follows whether one box can hide any of the
+ * other or surely hides all of it: auto leaves out occlusion by the first answer, and only sight
+ * lines between both answers need the exact test (outline_crossing.h). */
 #ifndef SILHOUETTE_H
 #define SILHOUETTE_H
 
@@ -8,30 +9,32 @@
 
 #include "base/vec2.h"
 
-/* Boxes are taken this much larger to every side: far more than the rounding of a place. */
+/* Boxes are enlarged by this to every side, far more than the rounding of a place. */
 #define SILHOUETTE_SLACK_M 1e-6
 
-/* What a box covers of the view from the sensor: all directions from the right to the left, less
- * than a quarter turn. Both are zero if the sensor is in the box or too near for that: such a box
- * is before and behind everything, and hides nothing. */
+/* The directions from the sensor that a box covers: all from the right corner to the left one, less
+ * than a quarter turn. Both corners are zero if the sensor is in the box or too near for an extent
+ * below a quarter turn: such a box counts as both before and behind every other, and hides
+ * nothing. */
 struct silhouette {
     struct vec2 right_m, left_m;  /* the outermost corners, from the sensor */
     double nearest_m, farthest_m; /* from the sensor, of the whole box */
 };
 
-/* Of a box around the origin of its own frame, half_m from there to its front and to its side, seen
- * from a place in that frame; directions are those of the frame that the heading is given in. */
+/* The silhouette of a box, centred on the origin of its own frame, with half_m from there to its
+ * front and to its side. viewer_m is the sensor's place in that frame; the corners come out turned
+ * by heading, the box's unit vector forward in the frame of the result. */
 struct silhouette silhouette_of(struct vec2 half_m, struct vec2 heading, struct vec2 viewer_m);
 
-/* Of a single place. */
+/* The silhouette of a single point. */
 static inline struct silhouette silhouette_of_place(struct vec2 place_m)
 {
     double distance_m = vec2_length(place_m);
     return (struct silhouette){place_m, place_m, distance_m, distance_m};
 }
 
-/* False only if no sight line to what is in the box behind touches what is in the box in front,
- * which begins behind the other's end or lies aside of it. */
+/* False only if no line of sight to a point in the box behind touches the box in front, because the
+ * one in front begins beyond the end of the other or lies beside it. */
 static inline bool silhouette_overlaps(const struct silhouette *front,
                                        const struct silhouette *behind)
 {
@@ -41,9 +44,9 @@ static inline bool silhouette_overlaps(const struct silhouette *front,
     return before & leftwards & rightwards;
 }
 
-/* Of two that overlap: true only if every sight line to what is in the box behind runs through the
- * one in front, which ends before the other begins. Lines that run nearer to an edge of it than
- * four times the slack are not told from those that miss it. */
+/* For two silhouettes that overlap. True only if every line of sight to a point in the box behind
+ * runs through the box in front, and the one in front ends before the other begins. False also
+ * where a line runs nearer to an edge of the box in front than four times the slack. */
 static inline bool silhouette_covers(const struct silhouette *front,
                                      const struct silhouette *behind)
 {
@@ -53,8 +56,8 @@ static inline bool silhouette_covers(const struct silhouette *front,
            vec2_cross(behind->left_m, front->left_m) > slack;
 }
 
-/* True only if none of its directions lies between these two, the left one less than half a turn
- * from the right one. Of two zeros nothing is outside. */
+/* True only if the silhouette has no direction between right and left, where left is less than half
+ * a turn counter-clockwise of right. If both are zero, nothing is outside. */
 static inline bool silhouette_outside(const struct silhouette *silhouette, struct vec2 right,
                                       struct vec2 left)
 {

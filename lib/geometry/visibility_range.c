@@ -5,10 +5,10 @@
 #include "base/elementary.h"
 #include "base/units.h"
 
-/* Of cosines, a million times their rounding. */
+/* On cosines: a million times their rounding. */
 #define SLACK 1e-9
 
-/* Below it squares leave the doubles. */
+/* Vectors shorter than this have squares that underflow. */
 #define SHORTEST 1e-100
 
 double visibility_range_angle_rad(struct vec2 a, struct vec2 b)
@@ -35,14 +35,15 @@ double visibility_range_factor(enum visibility_shape shape, double full_rad, dou
     return shape == VISIBILITY_COSINE ? cosine : cosine * cosine;
 }
 
-/* cos(angle) is no more, and no less: its series, cut after a term of either sign. */
-static double cosine_most(double angle_rad)
+/* Bounds of cos(angle) from above and below: its power series, cut after a positive and after a
+ * negative term. */
+static double cosine_upper_bound(double angle_rad)
 {
     double square = angle_rad * angle_rad;
     return 1 + square * (-1.0 / 2 + square / 24);
 }
 
-static double cosine_least(double angle_rad)
+static double cosine_lower_bound(double angle_rad)
 {
     double square = angle_rad * angle_rad;
     return 1 + square * (-1.0 / 2 + square * (1.0 / 24 - square / 720));
@@ -50,19 +51,20 @@ static double cosine_least(double angle_rad)
 
 double visibility_range_dark_cosine(double zero_rad)
 {
-    return cosine_least(zero_rad) - SLACK;
+    return cosine_lower_bound(zero_rad) - SLACK;
 }
 
 double visibility_range_along(enum visibility_shape shape, double full_rad, double zero_rad,
-                              struct vec2 facing, struct vec2 sight)
+                              struct vec2 facing, struct vec2 to_viewer)
 {
     double start_rad = shape == VISIBILITY_HARD ? zero_rad : full_rad;
-    double length = vec2_length(sight), along = vec2_dot(facing, sight);
+    double length = vec2_length(to_viewer), along = vec2_dot(facing, to_viewer);
     bool plain = length > SHORTEST;
     if (plain && along < visibility_range_dark_cosine(zero_rad) * length)
         return 0;
-    if (plain && shape != VISIBILITY_COSINE && along > (cosine_most(start_rad) + SLACK) * length)
+    if (plain && shape != VISIBILITY_COSINE &&
+        along > (cosine_upper_bound(start_rad) + SLACK) * length)
         return 1;
     return visibility_range_factor(shape, full_rad, zero_rad,
-                                   visibility_range_angle_rad(facing, sight));
+                                   visibility_range_angle_rad(facing, to_viewer));
 }

@@ -237,16 +237,16 @@ static void add(struct look *look, const struct ghost_candidate *ghost_candidate
         .id.path = path,
         .id.mirror = ghost_candidate->mirror_face->body->object->id,
         .id.number = ghost_candidate->mirror_face->number,
-        .range_m = ghost.sight.range_m,
-        .azimuth_rad = ghost.sight.azimuth_rad,
-        .range_rate_mps = ghost.sight.range_rate_mps,
+        .range_m = ghost.kinematics.range_m,
+        .azimuth_rad = ghost.kinematics.azimuth_rad,
+        .range_rate_mps = ghost.kinematics.range_rate_mps,
         .ercs = sqrt(out->factor * back->factor) * ghost_candidate->ercs * ghost.ercs_factor,
-        .departure_rad = departure_rad - ghost.sight.azimuth_rad,
+        .departure_rad = departure_rad - ghost.kinematics.azimuth_rad,
         .time_s = look->time_s,
         .effects = EFFECT_BIT(EFFECT_GHOSTS) | out->effects | back->effects |
                    look_latency_effect(look, ghost_candidate->body) |
                    look_latency_effect(look, ghost_candidate->mirror_face->body),
-        .margins = margins_of(look, &ghost.sight, out, back),
+        .margins = margins_of(look, &ghost.kinematics, out, back),
     };
 }
 
@@ -265,9 +265,9 @@ static void add_paths(struct look *look, struct ghost_candidate *ghost_candidate
         back = ghost_path_back(reflection, straight, image);
     }
     bool has_both =
-        sensor->bounces >= BOTH_WAYS && is_listed(sensor, &both.sight, image->azimuth_rad);
-    bool has_out = one_way && is_listed(sensor, &out.sight, image->azimuth_rad);
-    bool has_back = one_way && is_listed(sensor, &back.sight, straight->azimuth_rad);
+        sensor->bounces >= BOTH_WAYS && is_listed(sensor, &both.kinematics, image->azimuth_rad);
+    bool has_out = one_way && is_listed(sensor, &out.kinematics, image->azimuth_rad);
+    bool has_back = one_way && is_listed(sensor, &back.kinematics, straight->azimuth_rad);
     if (!(has_both || has_out || has_back) || !pass_by_mirror(look, ghost_candidate))
         return;
     if (has_both)

@@ -7,12 +7,13 @@
 
 enum { MOST = 150, SCENES = 2000 };
 
-/* Boxes around a sensor: what is each one's business, one by one, is asked of the bearings. */
-struct playback {
+/* Boxes around a sensor, with their index. The tests compare what the index finds with an exact
+ * test of every box. */
+struct scene {
     struct vec2 corners[MOST][4];
     struct silhouette seen[MOST];
     size_t count;
-    struct azimuth_index bearings;
+    struct azimuth_index index;
 };
 
 static int start(void **state)
@@ -33,7 +34,7 @@ static struct vec2 at(double distance_m, double angle_rad)
     return vec2_scale(distance_m, vec2_heading(angle_rad));
 }
 
-/* Directions on and beside the borders of slices, among them those where angles wrap. */
+/* Directions on and beside the borders of sectors, among them the one where angles wrap. */
 static double awkward_rad(uint64_t *random)
 {
     double border_rad = (double)sample_integer(random, 8) * PI / 8;
@@ -46,8 +47,9 @@ static struct silhouette silhouette_at(struct vec2 place_m, struct vec2 half_m, 
     return silhouette_of(half_m, heading, vec2_turn_back(vec2_scale(-1, place_m), heading));
 }
 
-/* A corner of another box, that is the only one of a box without a size, on one line with it. */
-static struct vec2 any_place(uint64_t *random, const struct vec2 *corners)
+/* A place anywhere, or in line with a corner of another box; a box without a size is only this
+ * place. */
+static struct vec2 random_place(uint64_t *random, const struct vec2 *corners)
 {
     double angle_rad =
         sample_bits(random) % 4 == 0 ? awkward_rad(random) : sample_between(random, -PI, PI);
@@ -57,9 +59,9 @@ static struct vec2 any_place(uint64_t *random, const struct vec2 *corners)
     return at(distance_m, angle_rad);
 }
 
-static void add_box(uint64_t *random, struct playback *scene, size_t i)
+static void add_box(uint64_t *random, struct scene *scene, size_t i)
 {
-    struct vec2 place_m = any_place(random, i > 0 ? scene->corners[i - 1] : NULL);
+    struct vec2 place_m = random_place(random, i > 0 ? scene->corners[i - 1] : NULL);
     struct vec2 half_m = {sample_between(random, 0, 9), sample_between(random, 0, 3)};
     struct vec2 heading = vec2_heading(awkward_rad(random));
     if (sample_bits(random) % 4 == 0)
@@ -70,45 +72,43 @@ static void add_box(uint64_t *random, struct playback *scene, size_t i)
             place_m, vec2_turn((struct vec2){ahead * half_m.x, aside * half_m.y}, heading));
     }
     scene->seen[i] = silhouette_at(place_m, half_m, heading);
-    azimuth_index_enter(&scene->bearings, i, azimuth_index_of(&scene->seen[i]));
+    azimuth_index_enter(&scene->index, i, azimuth_index_of(&scene->seen[i]));
 }
 
-static struct playback any_scene(uint64_t *random, struct arena *arena)
+static struct scene random_scene(uint64_t *random, struct arena *arena)
 {
-    struct playback scene = {.count = 1 + sample_bits(random) % MOST};
+    struct scene scene = {.count = 1 + sample_bits(random) % MOST};
     arena_clear(arena);
-    scene.bearings = azimuth_index_begin(scene.count, arena);
+    scene.index = azimuth_index_begin(scene.count, arena);
     for (size_t i = 0; i < scene.count; i++)
         add_box(random, &scene, i);
     return scene;
 }
 
-/* Steps through what was found, in order, and says whether the number is among it. */
-static bool is_found(const struct azimuth_index *bearings, size_t count, size_t number,
-                     size_t *next)
+/* Steps through the numbers found, in ascending order; true if the number is among them. */
+static bool is_found(const struct azimuth_index *index, size_t count, size_t number, size_t *next)
 {
-    if (*next < count && bearings->found[*next] == number) {
+    if (*next < count && index->found[*next] == number) {
         (*next)++;
         return true;
     }
     return false;
 }
 
-static void whatever_stands_before_a_corner_is_found_in_order(void **state)
+static void every_body_before_a_corner_is_found_in_order(void **state)
 {
     static const struct vec2 sensor = {0, 0};
     uint64_t random = 1;
     size_t blocked = 0;
     for (int i = 0; i < SCENES; i++) {
-        struct playback scene = any_scene(&random, *state);
+        struct scene scene = random_scene(&random, *state);
         for (size_t behind = 0; behind < scene.count; behind += 7) {
             size_t next = 0;
-            size_t count =
-                azimuth_index_find(&scene.bearings, azimuth_index_of(&scene.seen[behind]));
+            size_t count = azimuth_index_find(&scene.index, azimuth_index_of(&scene.seen[behind]));
             for (size_t front = 0; front < scene.count; front++) {
                 struct vec2 corner = scene.corners[behind][sample_bits(&random) % 4];
                 bool block = outline_crossing_blocks(scene.corners[front], 4, sensor, corner);
-                if (!is_found(&scene.bearings, count, front, &next) && block)
+                if (!is_found(&scene.index, count, front, &next) && block)
                     fail_msg("scene %d: %zu stands before %zu and is not found", i, front, behind);
                 blocked += block;
             }
@@ -118,26 +118,26 @@ static void whatever_stands_before_a_corner_is_found_in_order(void **state)
     assert_true(blocked > 100000);
 }
 
-static void few_are_found_that_are_far_aside(void **state)
+static void a_search_in_one_direction_finds_few_bodies(void **state)
 {
     struct arena *arena = *state;
-    struct azimuth_index bearings = azimuth_index_begin(MOST, arena);
+    struct azimuth_index index = azimuth_index_begin(MOST, arena);
     for (size_t i = 0; i < MOST; i++) {
         struct vec2 heading = vec2_heading((double)i * 2 * PI / MOST);
         struct silhouette box =
             silhouette_at(vec2_scale(50, heading), (struct vec2){1, 1}, heading);
-        azimuth_index_enter(&bearings, i, azimuth_index_of(&box));
+        azimuth_index_enter(&index, i, azimuth_index_of(&box));
     }
     for (size_t i = 0; i < MOST; i++) {
         struct vec2 place = at(80, (double)i * 2 * PI / MOST);
         size_t count =
-            azimuth_index_find(&bearings, azimuth_index_between((struct vec2){0, 0}, place));
+            azimuth_index_find(&index, azimuth_index_between((struct vec2){0, 0}, place));
         assert_in_range(count, 1, 4);
     }
 }
 
-/* From the sensor, past it, through it, or of length zero. */
-static void any_line(uint64_t *random, struct vec2 *from, struct vec2 *to)
+/* A line from the sensor, past it, through it, or of length zero. */
+static void random_line(uint64_t *random, struct vec2 *from, struct vec2 *to)
 {
     *from = at(sample_between(random, 0, 100), awkward_rad(random));
     *to = at(sample_between(random, 0, 100), sample_between(random, -PI, PI));
@@ -159,20 +159,20 @@ static void any_line(uint64_t *random, struct vec2 *from, struct vec2 *to)
     }
 }
 
-static void whatever_a_line_touches_is_found(void **state)
+static void every_body_that_a_line_touches_is_found(void **state)
 {
     uint64_t random = 2;
     size_t touched = 0;
     for (int i = 0; i < SCENES; i++) {
-        struct playback scene = any_scene(&random, *state);
+        struct scene scene = random_scene(&random, *state);
         for (int line = 0; line < 20; line++) {
             struct vec2 from, to;
-            any_line(&random, &from, &to);
-            size_t count = azimuth_index_find(&scene.bearings, azimuth_index_between(from, to)),
+            random_line(&random, &from, &to);
+            size_t count = azimuth_index_find(&scene.index, azimuth_index_between(from, to)),
                    next = 0;
             for (size_t j = 0; j < scene.count; j++) {
                 bool touch = outline_crossing_blocks(scene.corners[j], 4, from, to);
-                if (!is_found(&scene.bearings, count, j, &next) && touch)
+                if (!is_found(&scene.index, count, j, &next) && touch)
                     fail_msg("scene %d: a line touches %zu, which is not found", i, j);
                 touched += touch;
             }
@@ -181,30 +181,30 @@ static void whatever_a_line_touches_is_found(void **state)
     assert_true(touched > 100000);
 }
 
-static void everywhere_is_everyone_and_who_was_not_entered_is_nowhere(void **state)
+static void everywhere_finds_all_entries_and_nothing_else(void **state)
 {
     struct arena *arena = *state;
-    struct azimuth_index bearings = azimuth_index_begin(130, arena);
+    struct azimuth_index index = azimuth_index_begin(130, arena);
     struct vec2 heading = {1, 0}, ahead_m = {50, 0};
     struct silhouette ahead = silhouette_at(ahead_m, (struct vec2){1, 1}, heading);
-    assert_int_equal(azimuth_index_find(&bearings, azimuth_index_everywhere), 0);
-    azimuth_index_enter(&bearings, 129, azimuth_index_of(&ahead));
-    azimuth_index_enter(&bearings, 64, azimuth_index_of(&ahead));
-    assert_int_equal(azimuth_index_find(&bearings, azimuth_index_everywhere), 2);
-    assert_int_equal(bearings.found[0], 64);
-    assert_int_equal(bearings.found[1], 129);
+    assert_int_equal(azimuth_index_find(&index, azimuth_index_everywhere), 0);
+    azimuth_index_enter(&index, 129, azimuth_index_of(&ahead));
+    azimuth_index_enter(&index, 64, azimuth_index_of(&ahead));
+    assert_int_equal(azimuth_index_find(&index, azimuth_index_everywhere), 2);
+    assert_int_equal(index.found[0], 64);
+    assert_int_equal(index.found[1], 129);
     struct vec2 behind = {-50, 1}, left = {0, 50};
-    assert_int_equal(azimuth_index_find(&bearings, azimuth_index_between(left, behind)), 0);
-    assert_int_equal(azimuth_index_find(&bearings, azimuth_index_between(left, ahead_m)), 2);
+    assert_int_equal(azimuth_index_find(&index, azimuth_index_between(left, behind)), 0);
+    assert_int_equal(azimuth_index_find(&index, azimuth_index_between(left, ahead_m)), 2);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(whatever_stands_before_a_corner_is_found_in_order),
-        cmocka_unit_test(few_are_found_that_are_far_aside),
-        cmocka_unit_test(whatever_a_line_touches_is_found),
-        cmocka_unit_test(everywhere_is_everyone_and_who_was_not_entered_is_nowhere),
+        cmocka_unit_test(every_body_before_a_corner_is_found_in_order),
+        cmocka_unit_test(a_search_in_one_direction_finds_few_bodies),
+        cmocka_unit_test(every_body_that_a_line_touches_is_found),
+        cmocka_unit_test(everywhere_finds_all_entries_and_nothing_else),
     };
     return cmocka_run_group_tests(tests, start, stop);
 }

@@ -7,35 +7,35 @@
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define DEGREE (PI / 180)
 
-/* A sensor, an object and a wall, each on its own way. */
-struct playback {
+/* A sensor, an object and a wall, each with its own motion. */
+struct scene {
     struct motion sensor;
     struct mirror_image object;
     struct mirror mirror;
 };
 
-/* EFFECTS 7. */
-static const struct playback STANDARD = {.object = {{30, -2}, {-5, 0}},
-                                         .mirror = {.a = {-10, 4}, .b = {50, 4}}};
+/* The example of MODEL 14.1. */
+static const struct scene STANDARD = {.object = {{30, -2}, {-5, 0}},
+                                      .mirror = {.a = {-10, 4}, .b = {50, 4}}};
 
-static struct kinematics look_at(const struct playback *scene, const struct mirror_image *thing)
+static struct kinematics look_at(const struct scene *scene, const struct mirror_image *thing)
 {
     return kinematics_of(scene->sensor.position_m, scene->sensor.velocity_mps, (struct vec2){1, 0},
                          thing->place_m, thing->velocity_mps);
 }
 
-static struct mirror_image image_in(const struct playback *scene)
+static struct mirror_image image_in(const struct scene *scene)
 {
     return mirror_image(&scene->mirror, scene->object.place_m, scene->object.velocity_mps);
 }
 
 static double power_db(const struct ghost_path *ghost, const struct kinematics *direct)
 {
-    double ratio = direct->range_m / ghost->sight.range_m;
+    double ratio = direct->range_m / ghost->kinematics.range_m;
     return 20 * log10(ghost->ercs_factor * ratio * ratio);
 }
 
-static void effects_7_has_its_ghosts(void **state)
+static void the_example_of_the_model_has_its_ghosts(void **state)
 {
     (void)state;
     struct mirror_image image = image_in(&STANDARD);
@@ -51,7 +51,7 @@ static void effects_7_has_its_ghosts(void **state)
         {ghost_path_both(0.9, &mirrored), 31.622777, 18.434949, -4.743416, -2.706931},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
-        const struct kinematics *seen = &cases[i].ghost.sight;
+        const struct kinematics *seen = &cases[i].ghost.kinematics;
         assert_close(seen->range_m, cases[i].range_m, 1.1e-6);
         assert_close(seen->azimuth_rad / DEGREE, cases[i].azimuth_deg, 5e-7);
         assert_close(seen->range_rate_mps, cases[i].range_rate_mps, 1.1e-6);
@@ -59,7 +59,7 @@ static void effects_7_has_its_ghosts(void **state)
     }
 }
 
-static void what_reflects_nothing_is_zero_and_never_nan(void **state)
+static void a_wall_that_reflects_nothing_has_ghosts_of_zero_and_never_nan(void **state)
 {
     (void)state;
     struct mirror_image image = image_in(&STANDARD);
@@ -80,9 +80,9 @@ static struct vec2 random_place(uint64_t *sample, double bound)
                          sample_between(sample, -bound, bound)};
 }
 
-static struct playback random_scene(uint64_t *sample)
+static struct scene random_scene(uint64_t *sample)
 {
-    struct playback scene = {
+    struct scene scene = {
         .sensor = {.position_m = random_place(sample, 40),
                    .velocity_mps = random_place(sample, 30)},
         .object = {random_place(sample, 40), random_place(sample, 30)},
@@ -100,9 +100,9 @@ static struct vec2 carried(const struct motion *from, const struct motion *to, s
     return vec2_add(to->position_m, vec2_turn(vec2_sub(place, from->position_m), turn));
 }
 
-static struct playback scene_after(const struct playback *scene, double t)
+static struct scene scene_after(const struct scene *scene, double t)
 {
-    struct playback later = *scene;
+    struct scene later = *scene;
     later.sensor = motion_after(scene->sensor, t);
     later.object.place_m =
         vec2_add(scene->object.place_m, vec2_scale(t, scene->object.velocity_mps));
@@ -119,8 +119,9 @@ static double leg_m(struct vec2 from, struct vec2 to)
 
 enum { OUT, BOTH, PATHS };
 
-/* Half the way, leg by leg. False if a path does not exist or is ill-conditioned. */
-static bool measure(const struct playback *scene, double range_m[PATHS])
+/* Half the length of each path, added up leg by leg. False if a path does not exist or is
+ * ill-conditioned. */
+static bool measure(const struct scene *scene, double range_m[PATHS])
 {
     struct vec2 sensor = scene->sensor.position_m, object = scene->object.place_m, bounce;
     if (leg_m(scene->mirror.a, scene->mirror.b) < 5 ||
@@ -140,20 +141,20 @@ static void ranges_are_half_the_legs_and_rates_their_derivatives(void **state)
     uint64_t sample = 78;
     int found = 0;
     for (int i = 0; i < 30000; i++) {
-        struct playback scene = random_scene(&sample);
+        struct scene scene = random_scene(&sample);
         double range_m[PATHS], before_m[PATHS], after_m[PATHS];
         if (!measure(&scene, range_m))
             continue;
         struct mirror_image image = image_in(&scene);
         struct kinematics direct = look_at(&scene, &scene.object),
                           mirrored = look_at(&scene, &image);
-        struct kinematics seen[PATHS] = {ghost_path_out(1, &direct, &mirrored).sight,
-                                         ghost_path_both(1, &mirrored).sight};
+        struct kinematics seen[PATHS] = {ghost_path_out(1, &direct, &mirrored).kinematics,
+                                         ghost_path_both(1, &mirrored).kinematics};
         for (int path = 0; path < PATHS; path++)
             assert_near(seen[path].range_m, range_m[path], 1e-13);
         for (size_t k = 0; k < COUNT(steps_s); k++) {
-            struct playback before = scene_after(&scene, -steps_s[k]);
-            struct playback after = scene_after(&scene, steps_s[k]);
+            struct scene before = scene_after(&scene, -steps_s[k]);
+            struct scene after = scene_after(&scene, steps_s[k]);
             if (!measure(&before, before_m) || !measure(&after, after_m))
                 continue;
             found++;
@@ -169,8 +170,8 @@ static void ranges_are_half_the_legs_and_rates_their_derivatives(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(effects_7_has_its_ghosts),
-        cmocka_unit_test(what_reflects_nothing_is_zero_and_never_nan),
+        cmocka_unit_test(the_example_of_the_model_has_its_ghosts),
+        cmocka_unit_test(a_wall_that_reflects_nothing_has_ghosts_of_zero_and_never_nan),
         cmocka_unit_test(ranges_are_half_the_legs_and_rates_their_derivatives),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,7 +11,7 @@ static void known_points_are_read_as_computed_by_hand(void **state)
     (void)state;
     static const struct {
         struct vec2 sensor_m, sensor_mps, boresight, point_m, point_mps;
-        struct kinematics sight;
+        struct kinematics kinematics;
     } cases[] = {
         {{0, 0}, {0, 0}, {1, 0}, {3, 4}, {0, 0}, {5, 0.92729521800161223, 0}},
         {{0, 0}, {0, 0}, {0.6, 0.8}, {3, 4}, {10, 0}, {5, 0, 6}},
@@ -32,12 +32,12 @@ static void known_points_are_read_as_computed_by_hand(void **state)
         {{7, 8}, {1, 2}, {1, 0}, {7, 8}, {30, 40}, {0, 0, 0}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct kinematics sight =
+        struct kinematics kinematics =
             kinematics_of(cases[i].sensor_m, cases[i].sensor_mps, cases[i].boresight,
                           cases[i].point_m, cases[i].point_mps);
-        assert_close(sight.range_m, cases[i].sight.range_m, 1e-15);
-        assert_close(sight.azimuth_rad, cases[i].sight.azimuth_rad, 3e-16);
-        assert_close(sight.range_rate_mps, cases[i].sight.range_rate_mps, 2e-15);
+        assert_close(kinematics.range_m, cases[i].kinematics.range_m, 1e-15);
+        assert_close(kinematics.azimuth_rad, cases[i].kinematics.azimuth_rad, 3e-16);
+        assert_close(kinematics.range_rate_mps, cases[i].kinematics.range_rate_mps, 2e-15);
     }
 }
 
@@ -54,11 +54,12 @@ static void range_and_azimuth_are_those_the_point_was_placed_at(void **state)
         struct vec2 direction = vec2_turn(vec2_heading(azimuth_rad), boresight);
         struct vec2 velocity_mps =
             vec2_add(vec2_scale(rate_mps, direction), vec2_scale(across_mps, vec2_left(direction)));
-        struct kinematics sight = kinematics_of((struct vec2){0, 0}, (struct vec2){0, 0}, boresight,
-                                                vec2_scale(range_m, direction), velocity_mps);
-        assert_near(sight.range_m, range_m, 1e-15);
-        assert_close(sight.azimuth_rad, azimuth_rad, 2e-15);
-        assert_close(sight.range_rate_mps, rate_mps, 1e-13);
+        struct kinematics kinematics =
+            kinematics_of((struct vec2){0, 0}, (struct vec2){0, 0}, boresight,
+                          vec2_scale(range_m, direction), velocity_mps);
+        assert_near(kinematics.range_m, range_m, 1e-15);
+        assert_close(kinematics.azimuth_rad, azimuth_rad, 2e-15);
+        assert_close(kinematics.range_rate_mps, rate_mps, 1e-13);
     }
 }
 
@@ -93,8 +94,8 @@ static void a_mirrored_scene_negates_the_azimuth_and_nothing_else(void **state)
     }
 }
 
-/* NUMERICS 35: coordinates and speeds are whole numbers of 2^-30, so v · r is known exactly. Its
- * products take up to 81 bits and cancel down to the last 40. */
+/* Coordinates and speeds are whole numbers of 2^-30, so v · r is known exactly. Its products take
+ * up to 81 bits and cancel down to the last 40. */
 static void nearly_tangential_motion_keeps_its_sign_and_its_size(void **state)
 {
     (void)state;
@@ -106,13 +107,13 @@ static void nearly_tangential_motion_keeps_its_sign_and_its_size(void **state)
         wide product = (wide)vx * x + (wide)vy * y;
         struct vec2 point_m = {(double)x * 0x1p-30, (double)y * 0x1p-30};
         struct vec2 point_mps = {(double)vx * 0x1p-30, (double)vy * 0x1p-30};
-        struct kinematics sight = kinematics_of((struct vec2){0, 0}, (struct vec2){0, 0},
-                                                (struct vec2){1, 0}, point_m, point_mps);
+        struct kinematics kinematics = kinematics_of((struct vec2){0, 0}, (struct vec2){0, 0},
+                                                     (struct vec2){1, 0}, point_m, point_mps);
         long double range_m = hypotl((long double)point_m.x, (long double)point_m.y);
         double rate_mps = (double)((long double)product * 0x1p-60L / range_m);
-        assert_near(sight.range_rate_mps, rate_mps, 8e-16);
-        assert_true((sight.range_rate_mps > 0) == (product > 0));
-        assert_true((sight.range_rate_mps < 0) == (product < 0));
+        assert_near(kinematics.range_rate_mps, rate_mps, 8e-16);
+        assert_true((kinematics.range_rate_mps > 0) == (product > 0));
+        assert_true((kinematics.range_rate_mps < 0) == (product < 0));
     }
 }
 

@@ -3,7 +3,7 @@
 #include "base/units.h"
 #include "geometry/knife_edge.h"
 
-/* J of EFFECTS 16, one way. */
+/* J in dB, one way (MODEL 14.4). */
 static double loss_db(double parameter)
 {
     return -units_amplitude_db(knife_edge_amplitude_factor(parameter)) / 2;
@@ -23,7 +23,7 @@ static double exact_loss_db(double parameter)
     return -20 * log10(hypot(1 - c - s, c - s) / 2);
 }
 
-/* EFFECTS 16: the formula, and the integral it stands for. */
+/* Values of ITU-R P.526's formula, and of Fresnel's integral, which it approximates. */
 static void losses_are_as_published(void **state)
 {
     (void)state;
@@ -43,7 +43,7 @@ static void losses_are_fresnels_at_the_edge_and_behind(void **state)
         assert_close(loss_db(parameter), exact_loss_db(parameter), 0.15);
 }
 
-/* EFFECTS 16: 0.3 m inside the shadow half way over 30 m. */
+/* The example of MODEL 14.4: 0.3 m inside the shadow half way over 30 m. */
 static void shadows_are_as_deep_as_published(void **state)
 {
     (void)state;

@@ -12,13 +12,13 @@ static double drop_db(const struct lobe *lobe, double off, double zenith)
     return -units_amplitude_db(lobe_amplitude_factor(lobe, off * DEGREE, zenith * DEGREE));
 }
 
-static void the_middle_returns_all(void **state)
+static void a_lobe_loses_nothing_in_its_middle(void **state)
 {
     (void)state;
     assert_true(lobe_amplitude_factor(&front, 0, front.zenith_rad) == 1);
 }
 
-static void half_a_width_aside_it_is_3_db_down(void **state)
+static void a_lobe_is_3_db_down_half_a_width_off_its_middle(void **state)
 {
     (void)state;
     assert_close(drop_db(&front, 20.27, 71.75), 3, 1e-12);
@@ -27,7 +27,7 @@ static void half_a_width_aside_it_is_3_db_down(void **state)
     assert_close(drop_db(&front, 20.27, 71.75 - 14.565), 6, 1e-12);
 }
 
-static void it_never_falls_below_its_floor(void **state)
+static void a_lobe_never_falls_below_its_depth(void **state)
 {
     (void)state;
     assert_close(drop_db(&front, 180, 71.75), 14.91, 1e-12);
@@ -37,7 +37,7 @@ static void it_never_falls_below_its_floor(void **state)
         assert_true(drop_db(&front, off + 1, 80) >= drop_db(&front, off, 80));
 }
 
-static void without_widths_it_is_the_same_all_around(void **state)
+static void a_lobe_without_a_width_is_the_same_all_around(void **state)
 {
     (void)state;
     const struct lobe around = {.zenith_rad = 1, .zenith_width_rad = 0.5, .depth_db = 20};
@@ -51,10 +51,10 @@ static void without_widths_it_is_the_same_all_around(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_middle_returns_all),
-        cmocka_unit_test(half_a_width_aside_it_is_3_db_down),
-        cmocka_unit_test(it_never_falls_below_its_floor),
-        cmocka_unit_test(without_widths_it_is_the_same_all_around),
+        cmocka_unit_test(a_lobe_loses_nothing_in_its_middle),
+        cmocka_unit_test(a_lobe_is_3_db_down_half_a_width_off_its_middle),
+        cmocka_unit_test(a_lobe_never_falls_below_its_depth),
+        cmocka_unit_test(a_lobe_without_a_width_is_the_same_all_around),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,7 @@
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-/* EFFECTS 7: the wall y = 4, mirroring downwards. */
+/* The example of MODEL 14.1: the wall y = 4, mirroring downwards. */
 static const struct mirror WALL = {.a = {-10, 4}, .b = {50, 4}};
 
 static struct vec2 random_place(uint64_t *sample, double bound_m)
@@ -23,7 +23,7 @@ static struct mirror random_mirror(uint64_t *sample)
     return mirror;
 }
 
-static void effects_7_has_its_image_and_its_bounce(void **state)
+static void the_example_of_the_model_has_its_image_and_its_bounce(void **state)
 {
     (void)state;
     struct mirror_image image = mirror_image(&WALL, (struct vec2){30, -2}, (struct vec2){-5, 0});
@@ -45,7 +45,7 @@ static void known_walls_mirror_or_do_not(void **state)
         bool exists;
         struct vec2 bounce;
     } cases[] = {
-        /* from either end of the path */
+        /* seen from either end of the path */
         {{-10, 4}, {50, 4}, {30, -2}, {0, 0}, true, {12, 4}},
         /* ends belong to the wall: the bounce of (0, 0) and (12, 0) is (6, 4) */
         {{6, 4}, {20, 4}, {0, 0}, {12, 0}, true, {6, 4}},
@@ -62,10 +62,10 @@ static void known_walls_mirror_or_do_not(void **state)
         {{-10, 4}, {50, 4}, {0, 0}, {30, 4}, false, {0, 0}},
         {{-10, 4}, {50, 4}, {0, 4}, {30, 4}, false, {0, 0}},
         {{-10, 4}, {50, 4}, {60, 4}, {70, 4}, false, {0, 0}},
-        /* a hair before it: far from the sensor, near the point */
+        /* less than a rounding before it: far from the sensor, near the point */
         {{-10, 4}, {50, 4}, {0, 0}, {30, 0x1.fffffffffffffp1}, true, {30, 4}},
         {{-10, 4}, {50, 4}, {0, 0x1.fffffffffffffp1}, {30, 0x1.fffffffffffffp1}, true, {15, 4}},
-        /* a hair before an aslant wall: exactly, but its height is rounded to zero */
+        /* less than a rounding before an oblique wall: in exact arithmetic only */
         {{3.1, -1.6}, {-3.3, -3.2}, {-22.5, -8}, {-22.5, -8}, false, {0, 0}},
         {{2, -2.4},
          {1.6, -2.8},
@@ -77,7 +77,7 @@ static void known_walls_mirror_or_do_not(void **state)
         {{-10, 4}, {50, 4}, {7, 1}, {7, 1}, true, {7, 4}},
         /* no length, no mirror */
         {{6, 4}, {6, 4}, {0, 0}, {12, 0}, false, {0, 0}},
-        /* aslant: (5, 0) and (9, 0) mirrored at y = x */
+        /* oblique: (5, 0) and (9, 0) mirrored at y = x */
         {{0, 0}, {9, 9}, {5, 0}, {9, 0}, true, {45. / 14, 45. / 14}},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
@@ -119,8 +119,8 @@ static void a_bounce_lies_on_the_wall_and_its_legs_add_up_to_the_image(void **st
     assert_true(found > 20000);
 }
 
-/* Fermat: of all ways by the wall's line the mirrored one is the shortest; it is inside the wall
- * if its parameter is, found by golden section from the lengths alone. */
+/* Fermat: of all ways by the wall's line the mirrored one is the shortest. Golden section finds it
+ * from the lengths alone; it exists if its parameter lies inside the wall. */
 static void the_bounce_is_the_shortest_way_by_the_wall(void **state)
 {
     (void)state;
@@ -160,7 +160,7 @@ static void the_bounce_is_the_shortest_way_by_the_wall(void **state)
     assert_true(inside > 500 && outside > 500);
 }
 
-/* Pieces of a wall along an axis: what bounces off their joint bounces off both. */
+/* Two pieces of a wall along an axis: a wave that bounces off their joint bounces off both. */
 static void a_joint_of_two_pieces_along_an_axis_never_loses_the_bounce(void **state)
 {
     (void)state;
@@ -266,7 +266,7 @@ static void no_wall_that_mirrors_a_point_of_the_disc_is_left_out(void **state)
         struct vec2 centre = vec2_add(random_place(&sample, 40), shift);
         double radius_m = i % 5 == 0 ? 0 : sample_between(&sample, 0, 6);
         bool may = mirror_may_bounce(&mirror, sensor, centre, radius_m), does = false;
-        for (int k = 0; k < 4; k++) { /* k = 0: on the rim, where it matters */
+        for (int k = 0; k < 4; k++) { /* k = 0: on the rim, the decisive case */
             double part_m = k == 0 ? radius_m : sample_between(&sample, 0, radius_m);
             struct vec2 arm = vec2_scale(part_m * (1 - 0x1p-50),
                                          vec2_heading(sample_between(&sample, -3.2, 3.2)));
@@ -308,7 +308,7 @@ static void a_disc_that_touches_the_mirrored_sector_is_not_left_out(void **state
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(effects_7_has_its_image_and_its_bounce),
+        cmocka_unit_test(the_example_of_the_model_has_its_image_and_its_bounce),
         cmocka_unit_test(known_walls_mirror_or_do_not),
         cmocka_unit_test(a_bounce_lies_on_the_wall_and_its_legs_add_up_to_the_image),
         cmocka_unit_test(the_bounce_is_the_shortest_way_by_the_wall),

@@ -57,7 +57,7 @@ static void a_drive_ends_where_numerical_integration_ends(void **state)
     }
 }
 
-static void a_drive_starts_where_it_is_told(void **state)
+static void a_drive_starts_at_its_place_and_shifts_with_it(void **state)
 {
     (void)state;
     for (size_t i = 0; i < DRIVES; i++) {
@@ -83,8 +83,8 @@ static double series_j1(double h)
     return (double)sum;
 }
 
-/* Two seconds through rest at half time, in the frame of the heading there: nothing but j1 is
- * left, and the turn is h = omega. */
+/* Two seconds that come to rest at half time, in the frame of the heading there: only the term of
+ * j1 is left, and the turn is h = omega. */
 static void a_reversal_at_half_time_leaves_the_sideways_term_alone(void **state)
 {
     (void)state;
@@ -98,7 +98,7 @@ static void a_reversal_at_half_time_leaves_the_sideways_term_alone(void **state)
     }
 }
 
-/* NUMERICS 37, from the series of sine and cosine in omega t, of which the first terms do. */
+/* Expected from the first terms of the series of sine and cosine in omega t. */
 static void a_hardly_turning_step_is_not_lost_to_rounding(void **state)
 {
     (void)state;
@@ -320,7 +320,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_drive_ends_where_numerical_integration_ends),
-        cmocka_unit_test(a_drive_starts_where_it_is_told),
+        cmocka_unit_test(a_drive_starts_at_its_place_and_shifts_with_it),
         cmocka_unit_test(a_reversal_at_half_time_leaves_the_sideways_term_alone),
         cmocka_unit_test(a_hardly_turning_step_is_not_lost_to_rounding),
         cmocka_unit_test(a_full_circle_ends_at_its_start),

@@ -31,7 +31,7 @@ static struct obstruction_line random_case(uint64_t *random, struct vec2 corners
                                      sample_between(random, 0, 3), sample_between(random, 0, 3)};
 }
 
-static void a_flat_world_knows_only_outlines(void **state)
+static void in_a_flat_world_only_the_outline_decides(void **state)
 {
     (void)state;
     uint64_t random = 1;
@@ -46,7 +46,7 @@ static void a_flat_world_knows_only_outlines(void **state)
     assert_true(blocked > 10000);
 }
 
-static void what_is_above_the_top_all_along_is_seen(void **state)
+static void a_line_above_the_top_all_along_is_free(void **state)
 {
     static const struct {
         struct obstruction_line line;
@@ -79,7 +79,7 @@ static bool contains(const struct vec2 *corners, struct vec2 place)
     return true;
 }
 
-/* Against the lowest of many places on the line that are inside. */
+/* Compared with the lowest of many places on the line that are inside. */
 static void the_lowest_place_over_a_body_counts(void **state)
 {
     (void)state;
@@ -91,12 +91,12 @@ static void the_lowest_place_over_a_body_counts(void **state)
         struct obstruction_line line = random_case(&random, corners);
         double lowest_m = HIGH;
         for (int k = 0; k <= STEPS; k++) {
-            double share = (double)k / STEPS;
+            double fraction = (double)k / STEPS;
             struct vec2 place =
-                vec2_add(vec2_scale(1 - share, line.from), vec2_scale(share, line.to));
+                vec2_add(vec2_scale(1 - fraction, line.from), vec2_scale(fraction, line.to));
             if (contains(corners, place))
-                lowest_m =
-                    fmin(lowest_m, (1 - share) * line.from_height_m + share * line.to_height_m);
+                lowest_m = fmin(lowest_m,
+                                (1 - fraction) * line.from_height_m + fraction * line.to_height_m);
         }
         if (lowest_m == HIGH)
             continue;
@@ -134,8 +134,8 @@ static void soft_shadows_begin_where_hard_ones_do(void **state)
     assert_true(soft > 3000);
 }
 
-/* Without the one, or without an end of the body: asked apart. */
-static void what_diffraction_and_height_change_is_told(void **state)
+/* Compared with the factor without diffraction and with that of an endless body. */
+static void a_factor_that_diffraction_or_height_changes_is_marked(void **state)
 {
     (void)state;
     uint64_t random = 6;
@@ -145,18 +145,19 @@ static void what_diffraction_and_height_change_is_told(void **state)
         struct obstruction_line line = random_case(&random, corners);
         double top_m = i % 4 == 0 ? HIGH : sample_between(&random, 0, 3);
         double wavelength_m = i % 3 == 0 ? 0 : WAVELENGTH_M;
-        struct obstruction passage = obstruction_of(corners, 4, top_m, &line, wavelength_m);
+        struct obstruction obstruction = obstruction_of(corners, 4, top_m, &line, wavelength_m);
         double hard = obstruction_of(corners, 4, top_m, &line, 0).factor;
         double endless = obstruction_of(corners, 4, HIGH, &line, wavelength_m).factor;
-        assert_int_equal(passage.bent, passage.factor != hard);
-        assert_int_equal(passage.over, passage.factor != endless);
-        bent += passage.bent;
-        over += passage.over;
+        assert_int_equal(obstruction.bent, obstruction.factor != hard);
+        assert_int_equal(obstruction.over, obstruction.factor != endless);
+        bent += obstruction.bent;
+        over += obstruction.over;
     }
     assert_true(bent > 500 && over > 500);
 }
 
-/* Sideways past a pole, and upwards over a wall: no step is larger than the steepest slope. */
+/* The line moves sideways past a pole, and upwards over a wall: no step is larger than the steepest
+ * slope. */
 static void shadows_change_without_jumps(void **state)
 {
     (void)state;
@@ -179,7 +180,7 @@ static void shadows_change_without_jumps(void **state)
     }
 }
 
-/* The reason for which auto may leave out bodies. */
+/* auto leaves out bodies for this reason. */
 static void edges_out_of_reach_change_nothing(void **state)
 {
     (void)state;
@@ -192,8 +193,8 @@ static void edges_out_of_reach_change_nothing(void **state)
         double length_m = vec2_length(way), nearest_m = HIGH;
         for (int k = 0; k < 4; k++) {
             struct vec2 offset = vec2_sub(corners[k], line.from);
-            double share = fmin(fmax(vec2_dot(offset, way) / length_m / length_m, 0), 1);
-            nearest_m = fmin(nearest_m, vec2_length(vec2_sub(offset, vec2_scale(share, way))));
+            double fraction = fmin(fmax(vec2_dot(offset, way) / length_m / length_m, 0), 1);
+            nearest_m = fmin(nearest_m, vec2_length(vec2_sub(offset, vec2_scale(fraction, way))));
         }
         if (nearest_m < knife_edge_reach_m(length_m, WAVELENGTH_M) ||
             outline_crossing_blocks(corners, 4, line.from, line.to))
@@ -204,7 +205,7 @@ static void edges_out_of_reach_change_nothing(void **state)
     assert_true(clear > 100000);
 }
 
-static void no_way_at_all_is_as_hard_as_it_was(void **state)
+static void a_line_of_length_zero_has_no_diffraction(void **state)
 {
     (void)state;
     const struct obstruction_line inside = {{10, 0}, {10, 0}, 1, 1},
@@ -216,15 +217,15 @@ static void no_way_at_all_is_as_hard_as_it_was(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_flat_world_knows_only_outlines),
-        cmocka_unit_test(what_is_above_the_top_all_along_is_seen),
+        cmocka_unit_test(in_a_flat_world_only_the_outline_decides),
+        cmocka_unit_test(a_line_above_the_top_all_along_is_free),
         cmocka_unit_test(the_lowest_place_over_a_body_counts),
         cmocka_unit_test(a_line_inside_from_end_to_end_is_free),
         cmocka_unit_test(soft_shadows_begin_where_hard_ones_do),
-        cmocka_unit_test(what_diffraction_and_height_change_is_told),
+        cmocka_unit_test(a_factor_that_diffraction_or_height_changes_is_marked),
         cmocka_unit_test(shadows_change_without_jumps),
         cmocka_unit_test(edges_out_of_reach_change_nothing),
-        cmocka_unit_test(no_way_at_all_is_as_hard_as_it_was),
+        cmocka_unit_test(a_line_of_length_zero_has_no_diffraction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,8 +3,8 @@
 #include "check.h"
 #include "sample.h"
 
-/* Rounded to a lattice of 2^-30 m, on which sums and doubles of coordinates below 4 km are exact,
- * so that a ray can be aimed through a corner exactly. */
+/* A place rounded to a lattice of 2^-30 m, on which sums and doubles of coordinates below 4 km are
+ * exact, so that a ray can be aimed through a corner exactly. */
 static struct vec2 on_lattice(struct vec2 a)
 {
     return (struct vec2){round(a.x * 0x1p30) * 0x1p-30, round(a.y * 0x1p30) * 0x1p-30};
@@ -16,7 +16,7 @@ static struct vec2 sample_place(uint64_t *sample, double bound_m)
     return on_lattice((struct vec2){x, sample_between(sample, -bound_m, bound_m)});
 }
 
-/* As far beyond middle as from is before it. */
+/* The place as far beyond middle as from is before it. */
 static struct vec2 opposite(struct vec2 from, struct vec2 middle)
 {
     struct vec2 to = vec2_sub(vec2_scale(2, middle), from);
@@ -45,7 +45,7 @@ static void closed_segments_touch_as_tabulated(void **state)
         {{0, 0}, {1, 1}, {1, 1}, {2, 0}, true},
         {{0, 0}, {1, 1}, {0, 0}, {1, 1}, true},
         {{0, 0}, {1, 0x1.fffffffffffffp-1}, {0, 2}, {2, 0}, false},
-        /* on one line: apart, in contact, overlapping, nested */
+        /* collinear: apart, in contact, overlapping, nested */
         {{0, 0}, {1, 1}, {2, 2}, {3, 3}, false},
         {{0, 0}, {1, 1}, {1, 1}, {3, 3}, true},
         {{0, 0}, {2, 2}, {1, 1}, {3, 3}, true},
@@ -98,8 +98,8 @@ static bool lattice_on(struct lattice_point p, struct lattice_point a, struct la
     return cross(to_a, to_b) == 0 && dot(to_a, to_b) <= 0;
 }
 
-/* Cramer's rule for the parameters of the common point, in integers; an end on the other segment
- * where there is no single one. */
+/* True if two segments touch: Cramer's rule for the parameters of the common point, in integers;
+ * where there is no single one, an end of one on the other. */
 static bool lattice_touch(struct lattice_point p, struct lattice_point q, struct lattice_point a,
                           struct lattice_point b)
 {
@@ -196,7 +196,7 @@ static void a_ray_through_a_guard_rails_joint_is_always_blocked(void **state)
     }
 }
 
-/* Without a lattice the line misses the joint by a rounding, on one side or on the other. */
+/* Without a lattice the line misses the joint by a rounding, to one side or the other. */
 static void a_ray_close_by_a_joint_cannot_slip_between_two_walls(void **state)
 {
     (void)state;
@@ -232,7 +232,7 @@ static void an_outline_blocks_where_it_is_touched(void **state)
         {{10, 5}, {10, -5}, true},
         {{0, 1}, {10, 1}, true},
         {{9, 2}, {10, 0x1.0000000000001p0}, false},
-        /* from inside: what is inside is seen, nothing beyond, nor the outline itself */
+        /* from inside: places inside are seen, nothing beyond, nor the outline itself */
         {{12, 0}, {13, 0.5}, false},
         {{12, 0}, {20, 0}, true},
         {{12, 0}, {12, -8}, true},

@@ -55,11 +55,11 @@ static void known_triples_have_their_sign_in_every_order(void **state)
         {{3, 4}, {3, 4}, {-1, 9}, 0},
         {{3, 4}, {3, 4}, {3, 4}, 0},
         {{-0.0, 0.0}, {0.0, -0.0}, {1, 1}, 0},
-        /* NUMERICS 27 */
+        /* from the grid of the test below */
         {{0.5 + 41 * 0x1p-53, 0.5 + 48 * 0x1p-53}, {12, 12}, {24, 24}, 1},
         {{0.5, 0.5}, {12, 12}, {24, 24}, 0},
         {{0.5, 0.5 - 0x1p-54}, {12, 12}, {24, 24}, -1},
-        /* NUMERICS 28: doubled numbers stay on a line through the origin */
+        /* doubled numbers stay on a line through the origin */
         {{0.1, 0.3}, {2 * 0.1, 2 * 0.3}, {4 * 0.1, 4 * 0.3}, 0},
         /* the ends of the promised range of coordinates */
         {{1e-140, 1e-140}, {1, 1}, {1e140, 1e140}, 0},
@@ -76,7 +76,7 @@ static void known_triples_have_their_sign_in_every_order(void **state)
         check_all_orders(cases[i].a, cases[i].b, cases[i].c, cases[i].sign);
 }
 
-static void a_fine_grid_beside_a_diagonal_is_told_apart_point_by_point(void **state)
+static void every_point_of_a_fine_grid_has_its_side_of_a_diagonal(void **state)
 {
     (void)state;
     const struct lattice_point q = {INT64_C(12) << 53, INT64_C(12) << 53};
@@ -127,8 +127,8 @@ static void every_distance_from_the_line_agrees_with_integer_arithmetic(void **s
     }
 }
 
-/* Points abreast of a but for one lattice step along or across. */
-static void who_is_farther_on_agrees_with_integer_arithmetic(void **state)
+/* Points abreast of a, or off by a lattice step along or across. */
+static void the_order_along_a_direction_agrees_with_integer_arithmetic(void **state)
 {
     (void)state;
     uint64_t sample = 4;
@@ -175,10 +175,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(known_triples_have_their_sign_in_every_order),
-        cmocka_unit_test(a_fine_grid_beside_a_diagonal_is_told_apart_point_by_point),
+        cmocka_unit_test(every_point_of_a_fine_grid_has_its_side_of_a_diagonal),
         cmocka_unit_test(near_collinear_triples_agree_with_integer_arithmetic),
         cmocka_unit_test(every_distance_from_the_line_agrees_with_integer_arithmetic),
-        cmocka_unit_test(who_is_farther_on_agrees_with_integer_arithmetic),
+        cmocka_unit_test(the_order_along_a_direction_agrees_with_integer_arithmetic),
         cmocka_unit_test(mirroring_and_quarter_turns_keep_the_answer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -17,7 +17,7 @@ static struct silhouette seen(const struct box *box)
         vec2_turn_back(vec2_sub((struct vec2){0, 0}, box->centre_m), box->heading));
 }
 
-/* The place in shares of the half sides. */
+/* A place in the box, by fractions of its half sides. */
 static struct vec2 place_in(const struct box *box, double ahead, double aside)
 {
     struct vec2 own = {ahead * box->half_m.x, aside * box->half_m.y};
@@ -31,7 +31,7 @@ static bool blocks(const struct box *box, struct vec2 place)
     return outline_crossing_blocks(corners, 4, (struct vec2){0, 0}, place);
 }
 
-static void what_stands_before_another_overlaps_it_and_what_is_wider_covers_it(void **state)
+static void a_box_before_another_overlaps_it_and_a_wider_one_covers_it(void **state)
 {
     static const struct {
         struct vec2 front_m, front_half_m, behind_m, behind_half_m;
@@ -83,7 +83,7 @@ static struct box any_box(uint64_t *random, double far_m)
                         vec2_heading(turned_rad)};
 }
 
-static void no_line_that_touches_is_called_clear_nor_one_that_passes_hidden(void **state)
+static void no_line_that_touches_is_called_clear_and_none_that_passes_hidden(void **state)
 {
     (void)state;
     uint64_t random = 1;
@@ -111,7 +111,7 @@ static void no_line_that_touches_is_called_clear_nor_one_that_passes_hidden(void
     assert_true(covered > 10000);
 }
 
-/* To the last digits: what is clear or hidden by rounding alone is neither. */
+/* A line through a corner, exact but for rounding, is neither called clear nor hidden. */
 static void a_place_in_line_with_a_corner_is_unsure(void **state)
 {
     (void)state;
@@ -153,7 +153,7 @@ static void a_box_is_no_nearer_and_no_farther_than_said(void **state)
     assert_close(seen(&box).farthest_m, hypot(33, 5), 1e-5);
 }
 
-static void what_reaches_between_two_directions_is_not_outside_of_them(void **state)
+static void a_box_that_reaches_between_two_directions_is_not_outside_of_them(void **state)
 {
     (void)state;
     uint64_t random = 4;
@@ -178,11 +178,11 @@ static void what_reaches_between_two_directions_is_not_outside_of_them(void **st
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_stands_before_another_overlaps_it_and_what_is_wider_covers_it),
-        cmocka_unit_test(no_line_that_touches_is_called_clear_nor_one_that_passes_hidden),
+        cmocka_unit_test(a_box_before_another_overlaps_it_and_a_wider_one_covers_it),
+        cmocka_unit_test(no_line_that_touches_is_called_clear_and_none_that_passes_hidden),
         cmocka_unit_test(a_place_in_line_with_a_corner_is_unsure),
         cmocka_unit_test(a_box_is_no_nearer_and_no_farther_than_said),
-        cmocka_unit_test(what_reaches_between_two_directions_is_not_outside_of_them),
+        cmocka_unit_test(a_box_that_reaches_between_two_directions_is_not_outside_of_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

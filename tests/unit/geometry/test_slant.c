@@ -6,8 +6,8 @@
 
 #define DEGREE (PI / 180)
 
-/* EFFECTS 19: half a metre of difference in height. */
-static void slant_ranges_are_as_published(void **state)
+/* The example of MODEL 14.2: half a metre of difference in height. */
+static void slant_ranges_are_those_of_the_model(void **state)
 {
     (void)state;
     static const struct {
@@ -52,7 +52,7 @@ static void azimuths_are_those_of_a_cone(void **state)
     }
 }
 
-static void from_the_side_a_cone_ends_at_the_elevation(void **state)
+static void abeam_the_azimuth_is_90_degrees_less_the_elevation(void **state)
 {
     (void)state;
     struct slant elevation = slant_of(3, 4);
@@ -62,7 +62,7 @@ static void from_the_side_a_cone_ends_at_the_elevation(void **state)
     assert_close(slant_azimuth_rad(elevation, 0), 0, 0);
 }
 
-static void level_sights_stay_as_they_are(void **state)
+static void at_equal_heights_nothing_changes(void **state)
 {
     (void)state;
     uint64_t sample = 20;
@@ -106,10 +106,10 @@ static void the_zenith_and_the_sensors_own_place_have_answers(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(slant_ranges_are_as_published),
+        cmocka_unit_test(slant_ranges_are_those_of_the_model),
         cmocka_unit_test(azimuths_are_those_of_a_cone),
-        cmocka_unit_test(from_the_side_a_cone_ends_at_the_elevation),
-        cmocka_unit_test(level_sights_stay_as_they_are),
+        cmocka_unit_test(abeam_the_azimuth_is_90_degrees_less_the_elevation),
+        cmocka_unit_test(at_equal_heights_nothing_changes),
         cmocka_unit_test(half_the_power_is_left_at_half_the_width),
         cmocka_unit_test(the_zenith_and_the_sensors_own_place_have_answers),
     };

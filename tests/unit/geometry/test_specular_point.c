@@ -19,7 +19,7 @@ static void known_sides_have_known_feet(void **state)
         bool exists;
         struct vec2 foot;
     } cases[] = {
-        /* MODEL 13, its plane with the outer face to the right */
+        /* the plane of MODEL 13, with the outer face to the right */
         {{8, 2.25}, {8, -2.25}, 0, {0, 0}, true, {8, 0}},
         {{8, 2.25}, {8, -2.25}, 0, {0, 3}, false, {0, 0}},
         {{8, 2.25}, {8, -2.25}, 0, {9, 0}, false, {0, 0}},
@@ -46,7 +46,7 @@ static void known_sides_have_known_feet(void **state)
         /* no length, no foot */
         {{8, 1}, {8, 1}, 0, {0, 1}, false, {0, 0}},
         {{8, 1}, {8, 1}, 0, {8, 1}, false, {0, 0}},
-        /* aslant: the foot of (5, 0) on y = x is (2.5, 2.5) */
+        /* oblique: the foot of (5, 0) on y = x is (2.5, 2.5) */
         {{0, 0}, {4, 4}, 0, {5, 0}, true, {2.5, 2.5}},
         {{4, 4}, {0, 0}, 0, {5, 0}, false, {0, 0}},
         {{4, 4}, {0, 0}, 0, {0, 5}, true, {2.5, 2.5}},
@@ -63,7 +63,8 @@ static void known_sides_have_known_feet(void **state)
     }
 }
 
-/* Sides are built from their foot: t along it from the nearer end, the sensor straight outwards. */
+/* Sides are built around their foot: it lies at t along the side from the nearer end, the sensor
+ * straight outwards of it. */
 static void the_foot_is_where_the_side_was_built_around(void **state)
 {
     (void)state;
@@ -115,9 +116,9 @@ static void a_mirrored_side_has_the_mirrored_foot_to_the_last_bit(void **state)
     assert_true(found > 10000);
 }
 
-/* Two collinear walls on a lattice of 2^-40 m, the sensor straight before their joint or a hair to
- * either side: with walls along (m, c m + 1) and the hair (c, -1) it is off by one part in 2^80.
- * Exactly straight before it, both walls hold the foot (NUMERICS 33). */
+/* Two collinear walls on a lattice of 2^-40 m, the sensor straight before their joint or a little
+ * to either side: with walls along (m, c m + 1) and the offset (c, -1) it is off by one part in
+ * 2^80. Exactly straight before it, both walls hold the foot. */
 static void a_joint_of_collinear_walls_never_loses_the_foot(void **state)
 {
     (void)state;

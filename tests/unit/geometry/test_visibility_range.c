@@ -42,7 +42,7 @@ static double long_angle_rad(struct vec2 a, struct vec2 b)
     return (double)atan2l(fabsl(ax * by - ay * bx), ax * bx + ay * by);
 }
 
-/* NUMERICS 12: nearly parallel and nearly opposite pairs, where acos fails. */
+/* Nearly parallel and nearly opposite pairs, where acos of the dot product fails. */
 static void nearly_parallel_directions_keep_their_angle(void **state)
 {
     (void)state;
@@ -150,7 +150,7 @@ static void every_shape_falls_from_one_to_zero(void **state)
     }
 }
 
-static void along_a_sight_as_much_is_seen_as_at_its_angle(void **state)
+static void along_a_vector_visibility_is_that_at_its_angle(void **state)
 {
     (void)state;
     uint64_t sample = 7;
@@ -163,20 +163,20 @@ static void along_a_sight_as_much_is_seen_as_at_its_angle(void **state)
         double facing_rad = sample_between(&sample, -PI, PI);
         double aside_rad = i % 4 == 0 ? full_rad : i % 4 == 1 ? zero_rad : PI;
         aside_rad *= 1 + (i % 5 == 0 ? 0 : sample_between(&sample, -1, 1)) *
-                             (i % 4 < 2 ? 1e-8 : 1); /* around what decides, or anywhere */
+                             (i % 4 < 2 ? 1e-8 : 1); /* around the deciding angle, or anywhere */
         struct vec2 facing = vec2_heading(facing_rad);
-        struct vec2 sight =
+        struct vec2 to_viewer =
             vec2_scale(sample_between(&sample, 0, 300), vec2_heading(facing_rad + aside_rad));
         if (i % 100 == 0)
-            sight = vec2_scale(1e-200, sight);
+            to_viewer = vec2_scale(1e-200, to_viewer);
         if (i % 1000 == 0)
-            sight = (struct vec2){0, 0};
+            to_viewer = (struct vec2){0, 0};
         for (enum visibility_shape shape = VISIBILITY_RAISED_COSINE; shape <= VISIBILITY_COSINE;
              shape++) {
-            double seen = visibility_range_along(shape, full_rad, zero_rad, facing, sight);
+            double seen = visibility_range_along(shape, full_rad, zero_rad, facing, to_viewer);
             assert_close(seen,
                          visibility_range_factor(shape, full_rad, zero_rad,
-                                                 visibility_range_angle_rad(facing, sight)),
+                                                 visibility_range_angle_rad(facing, to_viewer)),
                          0);
             plain += seen == 0 || seen == 1;
         }
@@ -184,8 +184,8 @@ static void along_a_sight_as_much_is_seen_as_at_its_angle(void **state)
     assert_true(plain > 200000);
 }
 
-/* Sights that end within reach of the edge, where a slack decides. */
-static void what_is_plainly_unseen_is_unseen_from_all_ends_nearby(void **state)
+/* Viewers within slack_m of the edge of visibility. */
+static void a_point_surely_unseen_is_unseen_by_all_viewers_nearby(void **state)
 {
     (void)state;
     uint64_t sample = 27;
@@ -195,20 +195,20 @@ static void what_is_plainly_unseen_is_unseen_from_all_ends_nearby(void **state)
         struct vec2 facing = vec2_heading(sample_between(&sample, -PI, PI));
         struct vec2 edge =
             vec2_turn(facing, vec2_heading(zero_rad + sample_between(&sample, 0, 1)));
-        struct vec2 sight = vec2_scale(sample_between(&sample, 0, 3), edge);
-        if (!visibility_range_plainly_none(visibility_range_dark_cosine(zero_rad), facing, sight,
-                                           slack_m))
+        struct vec2 to_viewer = vec2_scale(sample_between(&sample, 0, 3), edge);
+        if (!visibility_range_surely_zero(visibility_range_dark_cosine(zero_rad), facing, to_viewer,
+                                          slack_m))
             continue;
         unseen++;
         struct vec2 aside = vec2_heading(sample_between(&sample, -PI, PI));
-        struct vec2 near = vec2_add(sight, vec2_scale(slack_m, aside));
+        struct vec2 near = vec2_add(to_viewer, vec2_scale(slack_m, aside));
         for (enum visibility_shape shape = VISIBILITY_RAISED_COSINE; shape <= VISIBILITY_COSINE;
              shape++)
             assert_true(visibility_range_along(shape, 0, zero_rad, facing, near) == 0);
     }
     assert_true(unseen > 50000);
-    assert_false(visibility_range_plainly_none(visibility_range_dark_cosine(PI),
-                                               (struct vec2){1, 0}, (struct vec2){-9, 0}, 0));
+    assert_false(visibility_range_surely_zero(visibility_range_dark_cosine(PI), (struct vec2){1, 0},
+                                              (struct vec2){-9, 0}, 0));
 }
 
 int main(void)
@@ -219,8 +219,8 @@ int main(void)
         cmocka_unit_test(shapes_have_their_closed_form_values),
         cmocka_unit_test(hard_includes_its_edge_and_the_tapered_shapes_end_in_zero),
         cmocka_unit_test(every_shape_falls_from_one_to_zero),
-        cmocka_unit_test(along_a_sight_as_much_is_seen_as_at_its_angle),
-        cmocka_unit_test(what_is_plainly_unseen_is_unseen_from_all_ends_nearby),
+        cmocka_unit_test(along_a_vector_visibility_is_that_at_its_angle),
+        cmocka_unit_test(a_point_surely_unseen_is_unseen_by_all_viewers_nearby),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
