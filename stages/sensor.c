@@ -55,8 +55,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
     effects_note(selection, EFFECT_SUPERPOSITION, false);
     effects_note(selection, EFFECT_THRESHOLD, true);
     scatterers_count(frame, sensor->name, scan.scatterers);
-    for (size_t i = 0; i < scan.silent_count; i++)
-        frame_lose_subject(frame, "sensor", sensor->name, &scan.silent[i].echo, LOSS_NO_AMPLITUDE);
+    scan_lose_silent(&scan, frame, "sensor");
     for (size_t number = 0; number < scan.cells; number++)
         report(frame, &scan, selection, number);
 }

@@ -7,7 +7,8 @@ static void keep(struct frame *frame, const struct sensor *sensor, const struct 
     struct received_echo received = received_echo_in_free_space(sensor, echo, 0);
     struct cell cell;
     if (!(received.amplitude > 0)) {
-        frame_lose_echo(frame, "sensor-perfect", echo, LOSS_NO_AMPLITUDE);
+        struct lost_echo lost = {.id = echo->id, .margins = echo->margins};
+        frame_lose(frame, "sensor-perfect", sensor->name, LOSS_NO_AMPLITUDE, &lost);
         return;
     }
     resolution_cell_of(sensor, &received, 1, true, frame->arena, &cell);

@@ -62,9 +62,7 @@ static void sense(struct frame *frame, const struct transform *transform,
     struct scan scan = scan_receive(&reception);
     received_echo_note(&reception, selection);
     scatterers_count(frame, signal->sensor->name, scan.scatterers);
-    for (size_t i = 0; i < scan.silent_count; i++)
-        frame_lose_subject(frame, "sensor-signal", signal->sensor->name, &scan.silent[i].echo,
-                           LOSS_NO_AMPLITUDE);
+    scan_lose_silent(&scan, frame, "sensor-signal");
     signal_cube_receive(signal, &scan, by.pointers);
     to_spectrum(transform);
     struct range_doppler spectrum = signal_cube_spectrum(signal, frame->arena);

@@ -49,9 +49,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
     effects_note(selection, EFFECT_SUPERPOSITION, merge);
     effects_note(selection, EFFECT_THRESHOLD, true);
     scatterers_count(frame, sensor->name, scan.scatterers);
-    for (size_t i = 0; i < scan.silent_count; i++)
-        frame_lose_subject(frame, "sensor-smear", sensor->name, &scan.silent[i].echo,
-                           LOSS_NO_AMPLITUDE);
+    scan_lose_silent(&scan, frame, "sensor-smear");
     for (size_t first = 0; first < count; first += together) {
         int64_t begin = effects_begin(selection);
         struct smear smear =

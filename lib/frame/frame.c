@@ -538,28 +538,12 @@ void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum
     *list_add(&group->echoes, frame->arena) = *echo;
 }
 
-void frame_lose_echo(struct frame *frame, const char *stage, const struct echo *echo,
-                     enum loss reason)
-{
-    struct lost_echo lost = {.id = echo->id};
-    lost.margins = echo->margins;
-    frame_lose(frame, stage, echo->sensor, reason, &lost);
-}
-
-void frame_lose_subject(struct frame *frame, const char *stage, const char *sensor,
-                        const struct contributor *echo, enum loss reason)
-{
-    struct lost_echo lost = {.id = echo->id};
-    frame_lose(frame, stage, sensor, reason, &lost);
-}
-
 void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *cell,
                      enum loss reason, double shortfall_db, const struct margins *margins)
 {
     for (size_t i = 0; i < cell->members.count; i++) {
-        struct lost_echo lost = {.id = cell->members.items[i].id};
-        lost.shortfall_db = shortfall_db;
-        lost.margins = *margins;
+        struct lost_echo lost = {
+            .id = cell->members.items[i].id, .shortfall_db = shortfall_db, .margins = *margins};
         frame_lose(frame, stage, cell->sensor, reason, &lost);
     }
 }

@@ -281,13 +281,9 @@ struct contributor frame_contributor(const struct echo *echo);
  * belongs to. Does nothing unless the frame keeps account. Text must live as long as the frame. */
 void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum loss reason,
                 const struct lost_echo *echo);
-void frame_lose_echo(struct frame *frame, const char *stage, const struct echo *echo,
-                     enum loss reason);
-void frame_lose_subject(struct frame *frame, const char *stage, const char *sensor,
-                        const struct contributor *echo, enum loss reason);
 
-/* The same for every member of a cell, with the margins that it had in the end; shortfall_db is 0
- * where the reason has none. */
+/* Writes the loss of every member of a cell, each with the margins that the cell had in the end.
+ * shortfall_db is 0 where the reason has none. */
 void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *cell,
                      enum loss reason, double shortfall_db, const struct margins *margins);
 

@@ -86,3 +86,12 @@ const struct received_echo *scan_members(const struct scan *scan, size_t number,
     *count = scan->first[number + 1] - scan->first[number];
     return scan->by_cell + scan->first[number];
 }
+
+void scan_lose_silent(const struct scan *scan, struct frame *frame, const char *stage)
+{
+    for (size_t i = 0; i < scan->silent_count; i++) {
+        const struct received_echo *silent = &scan->silent[i];
+        struct lost_echo lost = {.id = silent->echo.id, .margins = *silent->margins};
+        frame_lose(frame, stage, scan->reception.sensor->name, LOSS_NO_AMPLITUDE, &lost);
+    }
+}

@@ -28,4 +28,7 @@ struct scan scan_make(const struct reception *reception, const struct selection 
 /* The received echoes of one cell, the leader first, count of them. */
 const struct received_echo *scan_members(const struct scan *scan, size_t number, size_t *count);
 
+/* Writes into the frame that the stage lost the silent echoes, each with its margins. */
+void scan_lose_silent(const struct scan *scan, struct frame *frame, const char *stage);
+
 #endif

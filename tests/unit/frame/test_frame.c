@@ -186,9 +186,8 @@ static void a_frame_without_account_forgets_its_losses(void **state)
     (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
-    frame_lose_echo(&frame, "ideal",
-                    &(struct echo){.sensor = "s", .id.object = "o", .id.reflector = "r"},
-                    LOSS_BLOCKED);
+    frame_lose(&frame, "ideal", "s", LOSS_BLOCKED,
+               &(struct lost_echo){.id.object = "o", .id.reflector = "r"});
     assert_int_equal(frame.lost.count, 0);
     assert_int_equal(frame.present, 0);
     arena_free(&arena);

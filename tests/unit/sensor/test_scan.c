@@ -118,6 +118,26 @@ static void rays_without_amplitude_are_silent_and_in_no_cell(void **state)
     assert_string_equal(scan.silent[1].echo.id.object, "d");
 }
 
+static void silent_echoes_are_lost_with_their_margins(void **state)
+{
+    struct bench *bench = *state;
+    bench->frame.account = true;
+    add_echo(bench, "radar", "a", 20, 0, 1);
+    add_echo(bench, "radar", "b", 20, 0, 0);
+    margins_note(&bench->frame.echoes.items[1].margins, MARGIN_SIGHT, 0.25);
+    struct scan scan = scan_of(bench);
+    scan_lose_silent(&scan, &bench->frame, "sensor");
+    assert_int_equal(bench->frame.lost.count, 1);
+    const struct lost_group *group = bench->frame.lost.items;
+    assert_string_equal(group->sensor, "radar");
+    assert_string_equal(group->stage, "sensor");
+    assert_int_equal(group->reason, LOSS_NO_AMPLITUDE);
+    assert_int_equal(group->echoes.count, 1);
+    assert_string_equal(group->echoes.items[0].id.object, "b");
+    assert_int_equal(group->echoes.items[0].margins.present, MARGIN_SIGHT);
+    assert_close(group->echoes.items[0].margins.sight_m, 0.25, 0);
+}
+
 static void a_scan_of_nothing_has_no_cells(void **state)
 {
     struct bench *bench = *state;
@@ -170,6 +190,8 @@ int main(void)
                                         make_bench, remove_bench),
         cmocka_unit_test_setup_teardown(rays_without_amplitude_are_silent_and_in_no_cell,
                                         make_bench, remove_bench),
+        cmocka_unit_test_setup_teardown(silent_echoes_are_lost_with_their_margins, make_bench,
+                                        remove_bench),
         cmocka_unit_test_setup_teardown(a_scan_of_nothing_has_no_cells, make_bench, remove_bench),
         cmocka_unit_test_setup_teardown(merging_is_left_out_where_nothing_is_close, make_bench,
                                         remove_bench),
