@@ -64,8 +64,7 @@ struct repeat *list_cache_of(struct list_cache *repeats, const struct record *re
     struct field_list list = field_list(field, base);
     for (size_t i = 0; i < repeats->kept.count; i++) {
         struct repeat *repeat = likeliest(repeats, i);
-        if (repeat->items.items == list.items && repeat->items.count == list.count &&
-            repeat->record == field->record)
+        if (repeat->items.items == list.items && repeat->items.count == list.count)
             return found(repeats, repeat);
     }
     if (!field_unchanged(record, field, base) || list_cache_full(repeats))

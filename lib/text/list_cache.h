@@ -43,7 +43,7 @@ void list_cache_keep(struct list_cache *repeats, const struct field *field, cons
 
 /* What is kept of the steady list of the struct at base, by its address: of one that was read, or
  * is a document's. NULL of any other, whose memory may hold another list in the next frame, and of
- * those that are too many. */
+ * those that are too many. Two lists at one address, of whatever records, are both empty. */
 struct repeat *list_cache_of(struct list_cache *repeats, const struct record *record,
                              const struct field *field, const void *base);
 

@@ -251,6 +251,93 @@ static void what_was_read_is_written_as_lines_have_it(void **state)
     arena_free(&arena);
 }
 
+/* A document's list was written, and is known by its address alone. */
+static void a_list_that_was_only_written_is_found_in_no_line(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct list_cache repeats = {0};
+    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct diag diag = {0};
+    struct text line = {0};
+    struct point_reflector points[] = {{.name = "a", .x = 0.25}};
+    struct reflector_set document = document_of(points, 1), set = document;
+    char other[512];
+    snprintf(other, sizeof other, "[%s]", point_of("b", 0.5));
+    set.document = &document;
+    write_set(&repeats, &set, &line);
+    assert_int_equal(read_points(&frame, other, &diag), 0);
+    assert_int_equal(frame.reflectors.items[0].points.count, 1);
+    assert_string_equal(frame.reflectors.items[0].points.items[0].name, "b");
+    text_free(&line);
+    list_cache_free(&repeats);
+    arena_free(&arena);
+}
+
+static void a_line_that_ends_within_a_kept_list_does_not_have_it(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct list_cache repeats = {0};
+    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct diag diag = {0};
+    char points[512];
+    snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
+    assert_int_equal(read_points(&frame, points, &diag), 0);
+    const struct record *record = repeats.kept.items[0].record;
+    const char *end = points + strlen(points);
+    assert_non_null(list_cache_find(&repeats, record, points, end));
+    assert_null(list_cache_find(&repeats, record, points, end - 1));
+    list_cache_free(&repeats);
+    arena_free(&arena);
+}
+
+static void the_text_of_points_is_no_list_of_planes(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct list_cache repeats = {0};
+    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct diag diag = {0};
+    char points[512], both[1100];
+    snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
+    snprintf(both, sizeof both, "%s,\"planes\":%s", points, points);
+    assert_int_equal(read_points(&frame, points, &diag), 0);
+    assert_int_equal(read_points(&frame, both, &diag), -1);
+    static const char message[] = "reflectors[0].planes[0].x: unknown key";
+    assert_memory_equal(diag.text, message, sizeof message - 1);
+    list_cache_free(&repeats);
+    arena_free(&arena);
+}
+
+/* Its text in its line has filled the memory already. */
+static void a_list_that_fills_the_memory_is_written_every_time(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct list_cache repeats = {0};
+    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct diag diag = {0};
+    struct text points = {0}, line = {0};
+    text_add(&points, "[", 1);
+    for (int i = 0; points.length < LIST_CACHE_SIZE; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "b%d", i);
+        text_format(&points, "%s%s", i == 0 ? "" : ",", point_of(name, 0.25));
+    }
+    text_add(&points, "]", 2);
+    assert_int_equal(read_points(&frame, points.bytes, &diag), 0);
+    size_t size = repeats.size;
+    for (int i = 0; i < 2; i++)
+        write_set(&repeats, &frame.reflectors.items[0], &line);
+    assert_true(size >= LIST_CACHE_SIZE && repeats.size == size);
+    assert_null(repeats.kept.items[0].written.bytes);
+    text_free(&points);
+    text_free(&line);
+    list_cache_free(&repeats);
+    arena_free(&arena);
+}
+
 static void text_that_was_written_is_kept_up_to_a_limit(void **state)
 {
     (void)state;
@@ -283,6 +370,10 @@ int main(void)
         cmocka_unit_test(a_frames_own_list_is_written_every_time),
         cmocka_unit_test(a_list_of_a_document_that_changed_is_written_anew),
         cmocka_unit_test(what_was_read_is_written_as_lines_have_it),
+        cmocka_unit_test(a_list_that_was_only_written_is_found_in_no_line),
+        cmocka_unit_test(a_line_that_ends_within_a_kept_list_does_not_have_it),
+        cmocka_unit_test(the_text_of_points_is_no_list_of_planes),
+        cmocka_unit_test(a_list_that_fills_the_memory_is_written_every_time),
         cmocka_unit_test(text_that_was_written_is_kept_up_to_a_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
