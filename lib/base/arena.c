@@ -12,7 +12,7 @@ enum { BLOCK_SIZE = 64 * 1024, ALIGNMENT = 16 };
 
 struct arena_block {
     _Alignas(ALIGNMENT) struct arena_block *older;
-    size_t size; /* of the bytes behind this header */
+    size_t size; /* bytes behind this header */
 };
 
 _Static_assert(sizeof(struct arena_block) % ALIGNMENT == 0, "blocks keep their bytes aligned");
@@ -98,7 +98,7 @@ void arena_free(struct arena *arena)
     arena->used = 0;
 }
 
-/* What the arena gave last grows where it is, if the block has room. */
+/* Enlarges the memory where it is, if the arena gave it last and the block has room. */
 static bool grow_in_place(struct arena *arena, const void *memory, size_t size, size_t more)
 {
     size_t old = round_up(size), rest = round_up(size + more) - old;

@@ -1,4 +1,4 @@
-/* One message and one exit code: how anything in glint says what went wrong.
+/* Message and exit code of a failure.
  *
  * Functions that can fail return 0, or -1 after filling a struct diag; only the mains print and
  * exit. A message names the place, the value and what was expected; the runner puts program, file
@@ -24,16 +24,17 @@ struct diag {
     char text[2048];
 };
 
-/* Records the first failure and returns -1. A failure already recorded stays: the first message is
- * nearest the cause. */
+/* Records the failure and returns -1. A failure already recorded stays, because the first message
+ * is nearest the cause. */
 int diag_fail(struct diag *diag, enum diag_code code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Puts "PREFIX" in front of the recorded message: callers add the place they know. */
+/* Puts the formatted text in front of the recorded message, for the place that only the caller
+ * knows; returns -1. */
 int diag_prefix(struct diag *diag, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Prints "PROGRAM: MESSAGE" to stderr, control characters as \xNN: a message may quote its input.
- */
+/* Prints "PROGRAM: MESSAGE" to stderr, with control characters as \xNN, since a message may quote
+ * input. */
 void diag_print(const char *program, const struct diag *diag);
 
 #endif

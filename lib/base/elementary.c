@@ -7,28 +7,29 @@
 
 #if FLT_EVAL_METHOD != 0 || defined __FAST_MATH__
 #error "every operation must round once, to double, as written: with -ffast-math, or registers \
-wider than a double (x87: use SSE2), results would depend on the compiler (NUMERICS A6)"
+wider than a double (x87: use SSE2), results would depend on the compiler"
 #endif
 
-/* Polynomials: weighted minimax fits (Remez exchange in 60 digits). The leading two coefficients
+/* Polynomials are weighted minimax fits (Remez exchange in 60 digits). The leading two coefficients
  * are rounded to doubles in turn and the later ones fitted to what is left. The comment at each
  * gives the function, the interval and the largest relative error of the fit. Other constants are
- * the named numbers, cut into parts where noted: hi is rounded, lo is what hi leaves. */
+ * the named numbers, cut into parts where noted: hi is rounded, lo is the exact number less hi. */
 
 #define PI_2_HI 0x1.921fb54442d18p+0
 #define PI_2_LO 0x1.1a62633145c07p-54
 #define PI_4 0x1.921fb54442d18p-1
 #define TWO_OVER_PI 0x1.45f306dc9c883p-1
 
-/* Below it sin x = x and cos x = 1; it also keeps the sign of zero. */
+/* Below this, sin x = x and cos x = 1; returning x also keeps the sign of zero. */
 #define TINY 0x1p-27
 
-/* Adding and subtracting it rounds to an integer, to even; the sum's low bits are that integer. */
+/* Adding and subtracting this rounds to an integer, ties to even; the sum's low bits are that
+ * integer. */
 #define ROUNDER 0x1.8p52
 
 static const double INFINITE = (double)INFINITY, NO_NUMBER = (double)NAN;
 
-/* An unevaluated sum; lo is small against hi. */
+/* An unevaluated sum hi + lo; lo is small against hi. */
 struct pair {
     double hi, lo;
 };
@@ -99,9 +100,9 @@ static double cosine_near_zero(struct pair r)
     return start.hi + (start.lo + (zz * p - r.hi * r.lo));
 }
 
-/* pi/2 in three parts of 33 bits, whose products with less than 2^20 quarters are exact, and the
- * rest. The differences are exact too, or sum_of holds because the minuend is a multiple of the
- * subtrahend's last place. */
+/* Subtracts quarters times pi/2, with pi/2 in three parts of 33 bits and a rest; products of a part
+ * with less than 2^20 quarters are exact. The differences are exact too, or sum_of holds because
+ * the minuend is a multiple of the subtrahend's last place. */
 static struct reduced reduce_near(double angle_rad)
 {
     double counted = angle_rad * TWO_OVER_PI + ROUNDER;
@@ -268,7 +269,7 @@ static struct pair atan_beyond(double n, double d, double c)
     return (struct pair){t, left * inverse + atan_rest(quotient)};
 }
 
-/* x and y between 2^-500 and 2^500 in size. */
+/* For x and y between 2^-500 and 2^500 in size. */
 static double angle_of(double y, double x)
 {
     /* atan(j/8). */
@@ -283,7 +284,7 @@ static double angle_of(double y, double x)
         {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
         {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55},
     };
-    /* By octant, from which axis the angle is counted and to which side. */
+    /* By octant, the axis from which the angle is counted, and the direction. */
     static const struct {
         struct pair from;
         double side;
@@ -307,7 +308,7 @@ static double angle_of(double y, double x)
     return copysign(angle.hi + angle.lo, y);
 }
 
-/* Zeros, infinities, NaN, and sizes that leave no room for products. */
+/* The angle for zeros, infinities, NaN, and sizes whose products would over- or underflow. */
 static double extreme_angle(double y, double x)
 {
     if (isnan(x) || isnan(y))
@@ -378,7 +379,7 @@ static double split_binary(double x, double *k)
 {
     int subnormal = x < 0x1p-1022 ? 54 : 0;
     uint64_t bits = bits_of(subnormal ? x * 0x1p54 : x);
-    /* Counted from 11/16 2^-1023, so that the difference does not go below zero. */
+    /* Counted from 11/16 2^-1023, so that the difference stays positive. */
     uint64_t exponent = (bits - UINT64_C(0x3fe6000000000000) + (UINT64_C(1023) << 52)) >> 52;
     *k = (double)((int)exponent - 1023 - subnormal);
     return from_bits(bits - ((exponent - 1023) << 52));

@@ -1,6 +1,6 @@
-/* A 64-bit hash of bytes (FNV-1a with a final mix), for random addresses and document digests. Not
- * for adversaries. Chain calls to hash several pieces: a piece's end counts, so ("a", "bc") and
- * ("ab", "c") differ. */
+/* 64-bit hash of bytes, for random addresses and document digests. FNV-1a with the final mix of
+ * splitmix64; not for adversaries. Calls can be chained to hash several pieces: the end of each
+ * piece counts, so ("a", "bc") and ("ab", "c") differ. */
 #ifndef HASH_H
 #define HASH_H
 
@@ -12,7 +12,7 @@
 uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t length);
 uint64_t hash_text(uint64_t hash, const char *text);
 
-/* A quick one for tables in memory, which nothing that is written depends on. */
+/* A faster hash for tables in memory; no output depends on it. */
 uint64_t hash_for_table(uint64_t hash, const char *text);
 
 #endif

@@ -1,5 +1,5 @@
-/* The least and the most that a quantity can be, whatever is drawn: what is decided by these holds
- * for every draw. */
+/* Lower and upper bound of a quantity over all draws. A decision that rests on these bounds holds
+ * for every random draw. */
 #ifndef INTERVAL_H
 #define INTERVAL_H
 

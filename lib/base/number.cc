@@ -15,7 +15,7 @@ extern "C" {
 
 namespace {
 
-// From here to there the shortest text is never the one with an exponent.
+// In this range fixed notation is never longer than an exponent.
 constexpr double FIXED_FROM = 1e-3, FIXED_TO = 1e5;
 
 enum { MANTISSA_BITS = 52, EXPONENT_BIAS = 1075, DIGITS = 17, EIGHT_DIGITS = 100000000 };
@@ -48,16 +48,16 @@ constexpr double TENS[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8, 
 
 constexpr uint64_t WHOLE_TENS[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
 
-// With one digit more, and seven behind a point, it is still a double.
+// Up to here one more digit and seven behind the point still fit a double.
 constexpr uint64_t WHOLE_MOST = 10000000;
 
-// More bytes than such a number has that is looked at.
+// More bytes than number_take looks at.
 enum { NUMBER_ROOM = 64 };
 
 constexpr uint64_t BYTES = UINT64_C(0x0101010101010101);
 
-// The powers of five shifted up to 64 bits, and for each 2^128 divided by it, less 2^64: a product
-// with that stands for the division (N. Moeller and T. Granlund, Improved division by invariant
+// The powers of five shifted up to 64 bits, and 2^128 divided by each, less 2^64: a product with
+// this inverse replaces the division (N. Moeller and T. Granlund, Improved division by invariant
 // integers, 2011).
 struct shifted_fives {
     uint64_t divisor[NUMBER_DIGITS + 1], inverse[NUMBER_DIGITS + 1];
@@ -103,7 +103,7 @@ char *without_zeros(char *end)
     return end;
 }
 
-// Of a number below 10^8, and where it ends.
+// Writes a number below 10^8; returns where it ends.
 char *put_whole(uint32_t value, char *text)
 {
     if (value < 10) {
@@ -119,7 +119,7 @@ char *put_whole(uint32_t value, char *text)
     return text + (digits + 8 - first);
 }
 
-// Of value / 10^4, and where it ends.
+// Writes value / 10^4; returns where it ends.
 char *put_ten_thousandths(uint32_t value, char *text)
 {
     const uint32_t fraction = value % 10000;
@@ -132,17 +132,18 @@ char *put_ten_thousandths(uint32_t value, char *text)
 }
 
 // Of all decimals that read back to mantissa * 2^-scale the shortest, and of those the nearest, as
-// a multiple of 10^-places. Places is the least that puts at least one multiple between the two
-// midpoints to the neighbours, so less than ten lie there, and at most one multiple of ten, which
-// is then shorter. The product is exact in 128 bits, what lies beside it in 64. Ties go to the even
-// decimal.
+// a multiple of 10^-places. places is the least number that puts at least one multiple between the
+// midpoints to both neighbours. So fewer than ten multiples lie there, and at most one multiple of
+// ten, which is then shorter. The product is exact in 128 bits, its fraction in 64. Ties go to the
+// even decimal.
 uint64_t shortest_multiple(uint64_t mantissa, int scale, int places)
 {
     const wide exact = wide(mantissa) * FIVES[places]; // in units of 2^-shift
     const int shift = scale - places;
     const uint64_t below = uint64_t(exact >> 64) << (64 - shift) | uint64_t(exact) >> shift;
     const uint64_t half = uint64_t(1) << (shift - 1), rest = uint64_t(exact) & (2 * half - 1);
-    // To the midpoints, in half units; those of an odd mantissa read back to the neighbours.
+    // The distance to the midpoints, in half units; the midpoints of an odd mantissa read back to
+    // the neighbours.
     const uint64_t reach = FIVES[places] - (mantissa & 1);
     const uint64_t tens = (below + ((2 * rest + reach) >> (shift + 1))) / 10 * 10;
     if (tens > below || (below - tens) * 4 * half + 2 * rest <= reach)
@@ -150,7 +151,7 @@ uint64_t shortest_multiple(uint64_t mantissa, int scale, int places)
     return below + (rest > half || (rest == half && (below & 1)));
 }
 
-// A number that is no whole one, in fixed notation, and where it ends.
+// Writes a number that is not whole, in fixed notation; returns where it ends.
 char *put_shortest(uint64_t mantissa, int scale, char *text)
 {
     const int places = 1 + (scale * 1233 >> 12); // 1233 / 4096 is log10(2)
@@ -178,8 +179,8 @@ bool is_digit(char character)
     return unsigned(character - '0') < 10;
 }
 
-// How many of eight bytes are digits, up to the first that is none: only digits, once '0' is taken
-// out of them, stay below 0x80 with and without 0x76 more.
+// The number of digits among eight bytes, up to the first byte that is none. After the exclusive or
+// with '0' only digits stay below 0x80 both with and without 0x76 added.
 int digits_in(uint64_t word)
 {
     const uint64_t values = word ^ '0' * BYTES;
@@ -187,7 +188,7 @@ int digits_in(uint64_t word)
     return others == 0 ? 8 : __builtin_ctzll(others) / 8;
 }
 
-// The number that eight digits spell: by pairs, by fours, whole.
+// The number that eight digits spell, joined by pairs, by fours and as a whole.
 uint64_t eight_digits(uint64_t word)
 {
     word = (word & 0x0f * BYTES) * (1 + (10 << 8)) >> 8;
@@ -195,8 +196,8 @@ uint64_t eight_digits(uint64_t word)
     return (word & UINT64_C(0x0000ffff0000ffff)) * (1 + (UINT64_C(10000) << 32)) >> 32;
 }
 
-// The quotient of digits * 2^63 and the shifted 5^places; a rest shows in its last bit. The estimate
-// is at most one off.
+// The quotient of digits * 2^63 and the shifted 5^places; a remainder sets its last bit. The
+// estimate is off by at most one.
 uint64_t quotient_of(uint64_t digits, int places)
 {
     const uint64_t divisor = SHIFTED_FIVES.divisor[places], inverse = SHIFTED_FIVES.inverse[places];
@@ -214,16 +215,17 @@ uint64_t quotient_of(uint64_t digits, int places)
     return quotient | (rest != 0);
 }
 
-// Appends the digits from here on, eight at most, to a number; how many they are.
+// Appends the digits at this place, at most eight, to a number; returns how many.
 inline int take_eight(const char *at, uint64_t *digits)
 {
     const uint64_t word = text_word(at);
-    const int count = digits_in(word), half = 4 * (8 - count); // of the shift that leaves just them
+    const int count = digits_in(word), half = 4 * (8 - count); // half of the shift that leaves just
+                                                               // these digits
     *digits = *digits * WHOLE_TENS[count] + eight_digits(word << half << half);
     return count;
 }
 
-// Where it ends, unless an exponent follows.
+// The end of the number; nullptr if an exponent follows.
 inline const char *finish(const char *begin, const char *end, double size, double *value)
 {
     if ((*end | 0x20) == 'e')
@@ -232,8 +234,8 @@ inline const char *finish(const char *begin, const char *end, double size, doubl
     return end;
 }
 
-// Goes on behind the first eight digits of the fraction. Not part of number_take, which would then
-// save registers for every number.
+// Reads on behind the first eight digits of the fraction. Kept out of number_take, which would
+// otherwise save registers for every number.
 [[gnu::noinline]] const char *take_long(const char *begin, const char *fraction, uint64_t digits,
                                         double *value)
 {
@@ -246,7 +248,7 @@ inline const char *finish(const char *begin, const char *end, double size, doubl
     return finish(begin, at, number_of_digits(digits, int(at - fraction)), value);
 }
 
-// Where less than NUMBER_ROOM bytes are left: from a copy with zeros behind it.
+// Reads from a copy with zeros behind it, where fewer than NUMBER_ROOM bytes are left.
 [[gnu::noinline]] const char *take_last(const char *begin, const char *end, double *value)
 {
     char copy[2 * NUMBER_ROOM] = {0};
@@ -255,8 +257,8 @@ inline const char *finish(const char *begin, const char *end, double size, doubl
     return after == nullptr ? nullptr : begin + (after - copy);
 }
 
-// As many digits as it takes. Not part of number_write, which would then save registers for every
-// number.
+// Writes as many digits as it takes. Kept out of number_write, which would otherwise save registers
+// for every number.
 [[gnu::noinline]] size_t write_long(double value, char *text)
 {
     const double magnitude = std::fabs(value);
@@ -277,7 +279,7 @@ inline const char *finish(const char *begin, const char *end, double size, doubl
 size_t number_write(double value, char *text)
 {
     const double magnitude = std::fabs(value);
-    // Two decimals of so few digits are never the same double, so there is no shorter one.
+    // Two decimals of so few digits are never the same double, so no decimal is shorter.
     const uint32_t near = magnitude < FIXED_TO ? uint32_t(magnitude * 1e4 + 0.5) : 0;
     if (near / 1e4 != magnitude || (magnitude < FIXED_FROM && near != 0))
         return write_long(value, text);
@@ -340,8 +342,8 @@ bool number_read(const char *begin, const char *end, double *value)
         return false;
     if (result.ec == std::errc())
         return true;
-    // from_chars does not say whether it left the doubles above or below; strtod does, but by the
-    // locale of whoever calls.
+    // from_chars does not say whether the number is too large or too small; strtod does, but
+    // depends on the caller's locale.
     locale_t plain = newlocale(LC_ALL_MASK, "C", nullptr);
     *value = strtod_l(std::string(begin, end).c_str(), nullptr, plain);
     freelocale(plain);

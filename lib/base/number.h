@@ -1,8 +1,8 @@
-/* Doubles as text: the shortest decimal that reads back to the same double, and the nearest double
- * to a decimal. The one corner of C++ in glint (std::to_chars, std::from_chars), because C's own
- * printf and strtod are ten times slower and depend on the locale. Most numbers of a frame lie
- * where the shortest decimal follows from one exact product; they take half the time of
- * std::to_chars. */
+/* Doubles and whole numbers as text, and back. A double is written as the shortest decimal that
+ * reads back to the same double, and a decimal is read as the nearest double. This is the one
+ * module in C++ (std::to_chars, std::from_chars), because C's own printf and strtod are ten times
+ * slower and depend on the locale. For most numbers of a frame the shortest decimal follows from
+ * one exact product, in half the time of std::to_chars. */
 #ifndef NUMBER_H
 #define NUMBER_H
 
@@ -24,12 +24,12 @@ size_t number_write(double value, char *text);
 size_t number_write_whole(uint64_t value, char *text);
 
 /* Reads the whole of [begin, end), which must have the form of a JSON number, as the nearest
- * double. Too small becomes 0 or a subnormal; false if too large. */
+ * double. A number too small becomes 0 or a subnormal; one too large returns false. */
 bool number_read(const char *begin, const char *end, double *value);
 
-/* Reads the number with which [begin, end) begins, as the nearest double, if it is an everyday one:
- * in the form of JSON, without an exponent, of no more than NUMBER_DIGITS digits and less than
- * 10^8. Where it ends; NULL if it is another one, or none. */
+/* Reads the number at the beginning of [begin, end), as the nearest double, if it has the form of
+ * JSON, no exponent, at most NUMBER_DIGITS digits and a size below 10^8. Returns where it ends;
+ * NULL if it is none of these, or no number. */
 const char *number_take(const char *begin, const char *end, double *value);
 
 /* The double nearest to digits / 10^places; places from 0 to NUMBER_DIGITS. */

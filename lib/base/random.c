@@ -17,7 +17,7 @@ void random_uniform(const struct random_address *address, enum random_purpose pu
         uniform[i] = ((double)(bits.v[i] >> 12) + 0.5) * 0x1p-52;
 }
 
-/* Box and Muller's way from two uniform draws to two Gaussian ones. */
+/* Two Gaussian draws from two uniform ones (Box and Muller). */
 static void make_gaussian(const double uniform[2], double gaussian[2])
 {
     double radius = sqrt(-2 * elementary_log(uniform[0]));

@@ -8,40 +8,40 @@ struct random_sequence random_sequence_at(struct random_address address,
     return (struct random_sequence){.address = address, .purpose = purpose};
 }
 
-double random_sequence_next(struct random_sequence *draws)
+double random_sequence_next(struct random_sequence *sequence)
 {
-    uint32_t place = draws->taken % 4;
+    uint32_t place = sequence->taken % 4;
     if (place == 0)
-        random_uniform(&draws->address, draws->purpose, draws->taken / 4, draws->block);
-    draws->taken++;
-    return draws->block[place];
+        random_uniform(&sequence->address, sequence->purpose, sequence->taken / 4, sequence->block);
+    sequence->taken++;
+    return sequence->block[place];
 }
 
-double random_sequence_between(struct random_sequence *draws, double low, double high)
+double random_sequence_between(struct random_sequence *sequence, double low, double high)
 {
-    return low + (high - low) * random_sequence_next(draws);
+    return low + (high - low) * random_sequence_next(sequence);
 }
 
-int64_t random_sequence_whole(struct random_sequence *draws, int64_t least, int64_t most)
+int64_t random_sequence_whole(struct random_sequence *sequence, int64_t least, int64_t most)
 {
     double choices = (double)(most - least + 1);
-    return least + (int64_t)elementary_min(choices * random_sequence_next(draws), choices - 1);
+    return least + (int64_t)elementary_min(choices * random_sequence_next(sequence), choices - 1);
 }
 
-bool random_sequence_chance(struct random_sequence *draws, double probability)
+bool random_sequence_chance(struct random_sequence *sequence, double probability)
 {
-    return random_sequence_next(draws) < probability;
+    return random_sequence_next(sequence) < probability;
 }
 
-double random_sequence_sign(struct random_sequence *draws)
+double random_sequence_sign(struct random_sequence *sequence)
 {
-    return random_sequence_chance(draws, 0.5) ? 1 : -1;
+    return random_sequence_chance(sequence, 0.5) ? 1 : -1;
 }
 
-double random_sequence_margin(struct random_sequence *draws, double largest)
+double random_sequence_margin(struct random_sequence *sequence, double largest)
 {
-    if (random_sequence_chance(draws, 0.125))
+    if (random_sequence_chance(sequence, 0.125))
         return 0;
-    double sign = random_sequence_sign(draws);
-    return sign * largest * elementary_pow(10, -6 * random_sequence_next(draws));
+    double sign = random_sequence_sign(sequence);
+    return sign * largest * elementary_pow(10, -6 * random_sequence_next(sequence));
 }

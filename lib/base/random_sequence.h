@@ -1,5 +1,5 @@
-/* Draws in order from one address: what one random object or case is made of. The address says
- * where they belong, so that what is drawn here changes nothing elsewhere. */
+/* Sequence of random sequence from one address. One random object or case takes all its sequence
+ * from one sequence; its address keeps them independent of all other sequence. */
 #ifndef RANDOM_SEQUENCE_H
 #define RANDOM_SEQUENCE_H
 
@@ -10,7 +10,7 @@
 struct random_sequence {
     struct random_address address;
     enum random_purpose purpose;
-    uint32_t taken; /* numbers so far, four to a block */
+    uint32_t taken; /* sequence so far, four to a block */
     double block[4];
 };
 
@@ -18,20 +18,20 @@ struct random_sequence random_sequence_at(struct random_address address,
                                           enum random_purpose purpose);
 
 /* In (0, 1). */
-double random_sequence_next(struct random_sequence *draws);
+double random_sequence_next(struct random_sequence *sequence);
 
-double random_sequence_between(struct random_sequence *draws, double low, double high);
+double random_sequence_between(struct random_sequence *sequence, double low, double high);
 
-/* A whole number from least to most. */
-int64_t random_sequence_whole(struct random_sequence *draws, int64_t least, int64_t most);
+/* A whole number from least to most, both included. */
+int64_t random_sequence_whole(struct random_sequence *sequence, int64_t least, int64_t most);
 
-bool random_sequence_chance(struct random_sequence *draws, double probability);
+bool random_sequence_chance(struct random_sequence *sequence, double probability);
 
 /* -1 or 1. */
-double random_sequence_sign(struct random_sequence *draws);
+double random_sequence_sign(struct random_sequence *sequence);
 
-/* A distance from a border that decisions turn on: 0 once in eight, else of either sign and evenly
- * spread in the logarithm over the six decades up to largest. */
-double random_sequence_margin(struct random_sequence *draws, double largest);
+/* A signed distance from a border at which decisions change: 0 once in eight, else of either sign,
+ * with its size spread evenly in the logarithm over the six decades up to largest. */
+double random_sequence_margin(struct random_sequence *sequence, double largest);
 
 #endif

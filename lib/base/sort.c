@@ -3,7 +3,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* Addresses of items as they are merged, and where each run of items in order ends. */
+/* The addresses of the items in the order reached so far, and where each run in order ends. */
 struct sorting {
     int (*compare)(const void *, const void *);
     const char **from, **to;
@@ -21,7 +21,7 @@ static void find_runs(struct sorting *sorting, const char *items, size_t count, 
     sorting->end[sorting->runs++] = count;
 }
 
-/* Two runs side by side become one. */
+/* Merges two neighbouring runs into one. */
 static void merge(const struct sorting *sorting, size_t begin, size_t middle, size_t end)
 {
     const char **left = sorting->from + begin, **right = sorting->from + middle,
@@ -60,8 +60,9 @@ static bool is_sorted(const char *items, size_t count, size_t size,
     return true;
 }
 
-/* Brings items to their places along the cycles of their exchange, so that each moves once. from[i]
- * is the address of the item that belongs at place i; it becomes that place. */
+/* Moves each item to its place, along the cycles of the permutation, so that each moves once. On
+ * entry from[i] is the address of the item that belongs at place i; on return it is that of place
+ * i. */
 static void move_items(char *items, size_t count, size_t size, const char **from,
                        struct arena *arena)
 {

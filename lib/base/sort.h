@@ -1,7 +1,7 @@
-/* Sorting without malloc: libc's qsort allocates for anything over a kilobyte, and may or may not
- * be stable. This merge sort is stable and takes its scratch from an arena. It merges the runs that
- * are in order already, of which a frame's lists have few, and moves every item once; what is
- * sorted already costs one pass. */
+/* Stable sorting that takes its scratch memory from an arena. libc's qsort allocates for anything
+ * over a kilobyte and may or may not be stable. This merge sort merges the runs that are in order
+ * already, of which a frame's lists have few, and moves every item once. A list in order costs one
+ * pass. */
 #ifndef SORT_H
 #define SORT_H
 

@@ -86,7 +86,7 @@ static char *put_escaped(char *at, unsigned char byte)
     return at + 6;
 }
 
-/* Eight bytes at a time, of which the plain ones count; what follows overwrites the others. */
+/* Copies eight bytes at a time and counts the plain ones; the next bytes overwrite the others. */
 char *text_put_json(char *at, const char *bytes, size_t length)
 {
     *at++ = '"';

@@ -1,4 +1,5 @@
-/* A growing piece of text. A zeroed one is empty; text_free gives its memory back. */
+/* Growing text, JSON strings, and bytes read as words. A zeroed text is empty; text_free gives its
+ * memory back. */
 #ifndef TEXT_H
 #define TEXT_H
 
@@ -10,7 +11,7 @@ struct text {
     size_t length, room;
 };
 
-/* Where the next size bytes may be written; the caller adds what it wrote to length. */
+/* Room for the next size bytes; the caller writes there and adds to length. */
 char *text_room(struct text *text, size_t size);
 
 void text_add(struct text *text, const char *bytes, size_t length);
@@ -24,8 +25,8 @@ size_t text_utf8(const char *bytes, size_t room);
 /* A JSON string with its quotes and escapes; length bytes of valid UTF-8. */
 void text_add_json(struct text *text, const char *bytes, size_t length);
 
-/* The same into room of text_json_size(length) bytes, which is more than it can take; where it
- * ends. */
+/* Writes the same at a place with room for text_json_size(length) bytes, more than it can take;
+ * returns where it ends. */
 char *text_put_json(char *at, const char *bytes, size_t length);
 size_t text_json_size(size_t length);
 
@@ -45,7 +46,7 @@ static inline uint64_t text_word(const char *bytes)
            (uint64_t)byte[6] << 48 | (uint64_t)byte[7] << 56;
 }
 
-/* The reverse. */
+/* Writes eight bytes, the lowest of the number first. */
 static inline void text_put_word(char *bytes, uint64_t word)
 {
     bytes[0] = (char)word;
@@ -58,7 +59,7 @@ static inline void text_put_word(char *bytes, uint64_t word)
     bytes[7] = (char)(word >> 56);
 }
 
-/* The same of up to eight bytes, which stand at the low end; zeros above them. */
+/* Up to eight bytes as a number, the first one lowest; zeros above them. */
 static inline uint64_t text_short_word(const char *bytes, size_t length)
 {
     if (length == 8)
@@ -72,7 +73,8 @@ static inline uint64_t text_short_word(const char *bytes, size_t length)
            (uint64_t)byte[length - 1] << 8 * (length - 1);
 }
 
-/* The high bit of the first byte that is not plain; bits of later bytes mean nothing. */
+/* For the first byte that is not plain (text_plain) its high bit; bits of later bytes mean nothing,
+ * 0 if all eight are plain. */
 static inline uint64_t text_not_plain(uint64_t word)
 {
     const uint64_t ones = UINT64_C(0x0101010101010101);
@@ -81,8 +83,8 @@ static inline uint64_t text_not_plain(uint64_t word)
     return (beyond | control | quote | backslash) & 0x80 * ones;
 }
 
-/* How many bytes of the first length are printable ASCII, and neither '"' nor '\\', up to the first
- * that is not: they stand for themselves in names and in JSON strings. */
+/* The number of plain bytes before the first other one, at most length. Plain is printable ASCII
+ * but '"' and '\\': bytes that stand for themselves in names and in JSON strings. */
 static inline size_t text_plain(const char *bytes, size_t length)
 {
     for (size_t i = 0;; i += 8) {

@@ -1,7 +1,6 @@
-/* Angles, wavelengths and decibels. Amplitude and power decibels never share a helper; glint's wire
- * and its decisions are linear, decibels appear only in documents (thresholds), in targets and in
- * losses.
- */
+/* Angles, wavelengths and decibels. Decibels of amplitude and of power never share a function.
+ * Streams and decisions are linear; decibels appear only in documents (thresholds), in targets and
+ * in losses. */
 #ifndef UNITS_H
 #define UNITS_H
 
@@ -11,18 +10,18 @@
 /* 20 log10: amplitude must be positive. */
 double units_amplitude_db(double amplitude);
 
-/* How far amplitude >= 0 stays below a positive threshold, in dB >= 0; at most 1e4, which also
- * stands for an amplitude of 0. */
+/* The dB, at least 0, by which amplitude >= 0 falls short of a positive threshold; at most 1e4,
+ * which also stands for an amplitude of 0. */
 double units_shortfall_db(double threshold, double amplitude);
 
 /* 10^(db/20). */
 double units_amplitude_from_db(double db);
 
-/* Of a carrier, which must be positive. */
+/* The wavelength of a carrier, which must be positive. */
 double units_wavelength_m(double carrier_hz);
 
-/* The same direction in (-pi, pi], which -PI is not: within 1e-15 rad of every finite angle, 1e300
- * rad too (NUMERICS 38). */
+/* The same direction in (-pi, pi], without -PI: within 1e-15 rad for every finite angle, 1e300 rad
+ * too. */
 double units_wrap_rad(double angle_rad);
 
 /* sin(x)/x, 1 at 0. Within 2 ulp for |x| <= 3 without a series: sin is accurate near 0. */

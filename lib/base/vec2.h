@@ -37,8 +37,9 @@ static inline double vec2_dot(struct vec2 a, struct vec2 b)
     return a.x * b.x + a.y * b.y;
 }
 
-/* What product = a b has rounded away, exactly, for sizes from 1e-140 to 1e140 by Dekker's
- * splitting: fma says the same, but takes fifty times as long where the CPU has none. */
+/* The rounding error of product = a b, a b - product, exact for sizes from 1e-140 to 1e140
+ * (Dekker's splitting). fma gives the same, but takes fifty times as long where the CPU has
+ * none. */
 static inline double vec2_product_rest(double a, double b, double product)
 {
     double a_shifted = a * 0x1.0000002p27, b_shifted = b * 0x1.0000002p27;
@@ -48,8 +49,7 @@ static inline double vec2_product_rest(double a, double b, double product)
     return rest + a_tail * b_tail;
 }
 
-/* a · b within 2 ulp even where the products cancel (NUMERICS 35): for speeds that are nearly
- * tangential. */
+/* a · b within 2 ulp even where the products cancel, as for speeds that are nearly tangential. */
 static inline double vec2_dot_accurate(struct vec2 a, struct vec2 b)
 {
     double x = a.x * b.x, y = a.y * b.y, sum = x + y;
@@ -64,7 +64,7 @@ static inline double vec2_cross(struct vec2 a, struct vec2 b)
     return a.x * b.y - a.y * b.x;
 }
 
-/* Good for lengths from 1e-150 to 1e150; glint's coordinates are bounded by 1e7 m. */
+/* For lengths from 1e-150 to 1e150; glint's coordinates are bounded by 1e7 m. */
 static inline double vec2_length(struct vec2 a)
 {
     return sqrt(vec2_dot(a, a));

@@ -1,7 +1,7 @@
-# Read by bash before every case (BASH_ENV): what the transcripts use besides the executables.
+# Functions that the cases use beside the executables. Bash reads this file before every case (BASH_ENV).
 
-# The files that cases start from. One frame stands in each of objects.jsonl, reflectors.jsonl,
-# echoes.jsonl, cells.jsonl and targets.jsonl; scene.jsonl is a whole scene of six.
+# Writes the files that cases start from. objects.jsonl, reflectors.jsonl, echoes.jsonl, cells.jsonl
+# and targets.jsonl have one frame each; scene.jsonl has a whole scene of six frames.
 prepare() {
     cat >scene.json <<'END'
 {
@@ -71,7 +71,7 @@ END
     mkdir folder
 }
 
-# Each reads a changed copy of a good file with the stage that the file is for; $1 is the change.
+# Each function changes a good file by the sed expression $1 and runs the stage that reads such files.
 frame() { sed -E "$1" objects.jsonl | glint-extract; }
 reflectors() { sed -E "$1" reflectors.jsonl | glint-ideal --sensors suite.json; }
 echoes() { sed -E "$1" echoes.jsonl | glint-sensor; }
@@ -85,10 +85,10 @@ vehicle() {
 }
 tracks() { sed -E "$1" tracks.csv >bad.csv; glint-traffic bad.csv --ego 1 --scene tracks/1; }
 
-# Its arguments as one line of a file that glint-extract reads.
+# Gives its arguments, as one line, to glint-extract.
 line() { printf '%s\n' "$*" | glint-extract; }
 
-# Runs a pipeline in bash and fused; both must end alike. Prints differences, returns the code.
+# Runs a pipeline in bash and fused. Prints how their output or exit codes differ; returns the code.
 both() {
     bash -o pipefail -c "$1" >piped.out 2>piped.err
     local piped=$?
@@ -99,10 +99,10 @@ both() {
     return $fused
 }
 
-# Keeps standard output out of the way of messages.
+# Runs a command with its standard output in a file, so that a transcript shows its messages alone.
 quietly() { "$@" >quiet.out; }
 
-# How many lines a command writes, after its messages.
+# Runs a command and prints its messages and the number of lines that it writes.
 count() {
     quietly "$@"
     local code=$?

@@ -1,4 +1,5 @@
-/* cmocka, and what it lacks: its assert_float_equal compares in single precision. */
+/* cmocka, and comparisons in double precision, since its assert_float_equal compares in single
+ * precision. */
 #ifndef CHECK_H
 #define CHECK_H
 
@@ -10,11 +11,11 @@
 
 #include <cmocka.h>
 
-/* |actual - expected| <= tolerance; NaN fails. Prints 17 digits. */
+/* Passes if |actual - expected| <= tolerance; fails for NaN. Prints 17 digits. */
 #define assert_close(actual, expected, tolerance)                                                  \
     check_close((actual), (expected), (tolerance), #actual, __FILE__, __LINE__)
 
-/* |actual - expected| <= tolerance |expected|. */
+/* Passes if |actual - expected| <= tolerance |expected|. */
 #define assert_near(actual, expected, relative)                                                    \
     check_close((actual), (expected), (relative)*fabs(expected), #actual, __FILE__, __LINE__)
 

@@ -1,4 +1,4 @@
-/* Samples for tests: repeatable, the same on every machine, and independent of the random module,
+/* Repeatable samples for tests, the same on every machine, and independent of the random module,
  * which is under test itself. The caller owns the state and starts it with any number. */
 #ifndef SAMPLE_H
 #define SAMPLE_H

@@ -1,5 +1,5 @@
-/* A fresh directory with one file in it and an arena, for tests that read what they write: setup
- * and teardown functions for cmocka. The file's name is the constant SCRATCH_FILE. */
+/* Setup and teardown for cmocka: a fresh directory with one file in it and an arena, for tests that
+ * read what they write. The file's name is the constant SCRATCH_FILE. */
 #ifndef SCRATCH_H
 #define SCRATCH_H
 

@@ -8,7 +8,7 @@
 #include "base/diag.h"
 #include "sample.h"
 
-static void memory_is_zeroed_aligned_and_its_own(void **state)
+static void memory_is_zeroed_aligned_and_does_not_overlap(void **state)
 {
     (void)state;
     struct arena arena = {0};
@@ -96,7 +96,7 @@ static void lists_grow_and_keep_their_items(void **state)
     arena_free(&arena);
 }
 
-/* In a child, because it ends the program. */
+/* Runs in a child process, because it ends the program. */
 static int exit_code_of(void (*ask)(void))
 {
     pid_t child = fork();
@@ -122,7 +122,7 @@ static void ask_the_arena_for_half_of_everything(void)
     arena_get(&arena, SIZE_MAX / 2);
 }
 
-static void too_much_ends_the_program_with_71(void **state)
+static void a_request_too_large_ends_the_program_with_71(void **state)
 {
     (void)state;
     assert_int_equal(exit_code_of(ask_the_arena_for_everything), DIAG_MEMORY);
@@ -132,11 +132,11 @@ static void too_much_ends_the_program_with_71(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(memory_is_zeroed_aligned_and_its_own),
+        cmocka_unit_test(memory_is_zeroed_aligned_and_does_not_overlap),
         cmocka_unit_test(a_cleared_arena_keeps_its_room),
         cmocka_unit_test(text_is_copied_and_ended),
         cmocka_unit_test(lists_grow_and_keep_their_items),
-        cmocka_unit_test(too_much_ends_the_program_with_71),
+        cmocka_unit_test(a_request_too_large_ends_the_program_with_71),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* test_elementary draws 30 000 points per row; test_elementary long draws a million, and says how
- * far each row came. */
+/* test_elementary draws 30 000 points per row; test_elementary long draws a million and prints the
+ * largest error of each row. */
 #include "check.h"
 
 #include <float.h>
@@ -100,7 +100,7 @@ static int exact_cos(mpfr_t result, mpfr_t x, mpfr_t y)
     return mpfr_cos(result, x, MPFR_RNDN);
 }
 
-/* 1400 bits hold any double in full and 160 bits of its rest. */
+/* 1400 bits hold any double in full and 160 bits of the result beyond it. */
 static int exact_wrap(mpfr_t result, mpfr_t x, mpfr_t y)
 {
     (void)y;
@@ -169,7 +169,7 @@ static double either_sign(uint64_t *random, double size)
     return sample_between(random, -1, 1) < 0 ? -size : size;
 }
 
-/* 2^low to 2^high, all 53 bits drawn. */
+/* From 2^low to 2^high, all 53 bits drawn. */
 static double between_powers(uint64_t *random, double low, double high)
 {
     double exponent = floor(sample_between(random, low, high));
@@ -177,7 +177,7 @@ static double between_powers(uint64_t *random, double low, double high)
     return ldexp(mantissa, (int)exponent);
 }
 
-/* At most a few doubles away. */
+/* A double at most a few steps away. */
 static double near(uint64_t *random, double x)
 {
     uint64_t bits;
@@ -202,7 +202,7 @@ static struct point angle_of_one_turn(uint64_t *random)
     return (struct point){sample_between(random, -2 * PI, 2 * PI), 0};
 }
 
-/* Multiples of pi/4: a zero of one of the two, or the seam of the reduction. */
+/* Near multiples of pi/4: zeros of sine and cosine, and seams of the reduction. */
 static struct point angle_at_a_seam(uint64_t *random)
 {
     double eighths = floor(between_powers(random, 0, 21));
@@ -246,7 +246,7 @@ static struct point place_on_a_map(uint64_t *random)
     return (struct point){sample_between(random, -200, 200), sample_between(random, -200, 200)};
 }
 
-/* Directions where the nearest eighth changes, or that are close to one. */
+/* Directions close to a multiple of one eighth, or where the nearest eighth changes. */
 static struct point place_at_a_seam(uint64_t *random)
 {
     double x = either_sign(random, between_powers(random, -10, 10));
@@ -283,7 +283,7 @@ static struct point around_one(uint64_t *random)
     return (struct point){1 + either_sign(random, between_powers(random, -53, -1)), 0};
 }
 
-/* Where the nearest sixteenth or the exponent changes. */
+/* Near places where the nearest sixteenth or the exponent changes. */
 static struct point at_a_sixteenth(uint64_t *random)
 {
     double sixteenths = floor(sample_between(random, 20, 46)) / 32;
@@ -316,7 +316,7 @@ static struct point exponent_of_a_subnormal(uint64_t *random)
     return (struct point){sample_between(random, -745.1, -708.4), 0};
 }
 
-/* Odd multiples of log(2)/2, where k changes. */
+/* Near odd multiples of log(2)/2, where k changes. */
 static struct point exponent_at_a_seam(uint64_t *random)
 {
     double halves = floor(sample_between(random, -1021, 1023)) + 0.5;
@@ -401,7 +401,7 @@ static const struct trial trials[] = {
     {"hypot, on a map", ours_hypot, exact_hypot, place_on_a_map, 1.2},
 };
 
-/* In units in the last place of the exact result; subnormal results share one. */
+/* The error in units in the last place of the exact result; subnormal results share one. */
 static double error_ulp(double result, mpfr_t exact)
 {
     if (mpfr_zero_p(exact))
@@ -483,9 +483,9 @@ static void sine_and_cosine_together_are_each_alone(void **state)
     }
 }
 
-/* Neighbours and pairs that are some way apart, at the seams of the pieces too. A function may
- * step back by what two roundings cost, no more. */
-static void what_rises_does_not_fall(void **state)
+/* Neighbouring doubles, and pairs farther apart, also at the seams of the pieces. A function that
+ * rises may fall by the rounding of two results, no more. */
+static void rising_functions_do_not_fall(void **state)
 {
     (void)state;
     uint64_t random = 3;
@@ -502,7 +502,7 @@ static void what_rises_does_not_fall(void **state)
     }
 }
 
-/* The double nearest to a multiple of pi/2: 2^-60.9 away. */
+/* The double nearest to a multiple of pi/2, 2^-60.9 away. */
 static void the_worst_angle_is_reduced(void **state)
 {
     (void)state;
@@ -669,7 +669,7 @@ int main(int argc, char **argv)
         cmocka_unit_test_prestate(every_result_is_within_its_bound, &points),
         cmocka_unit_test(mirrored_arguments_give_mirrored_bits),
         cmocka_unit_test(sine_and_cosine_together_are_each_alone),
-        cmocka_unit_test(what_rises_does_not_fall),
+        cmocka_unit_test(rising_functions_do_not_fall),
         cmocka_unit_test(the_worst_angle_is_reduced),
         cmocka_unit_test(special_angles_are_exact),
         cmocka_unit_test(special_places_have_their_angle),

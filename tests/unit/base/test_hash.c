@@ -9,7 +9,7 @@
 enum { SAMPLES = 200000 };
 
 /* FNV-1a of the piece and its end, with the published offset and prime; then splitmix64's mix. The
- * prime is 2^40 + 0x1b3, so the product is a shift and a small one. */
+ * prime is 2^40 + 0x1b3, so the product is a shift and a small product. */
 static uint64_t independent(const unsigned char *bytes, size_t length)
 {
     uint64_t hash = UINT64_C(14695981039346656037);
@@ -51,7 +51,7 @@ static void the_hash_for_tables_spreads_names_over_few_bits(void **state)
     assert_true(hash_for_table(1, "a") != hash_for_table(2, "a"));
 }
 
-static void pieces_end_where_they_end(void **state)
+static void the_end_of_a_piece_counts(void **state)
 {
     (void)state;
     static const char *const pieces[][2] = {
@@ -72,7 +72,8 @@ static int compare(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-/* Names like those of objects: no two alike, and every bit of the hash half of the time set. */
+/* Names like those of objects: no two hashes are equal, and every bit of the hash is set half of
+ * the time. */
 static void similar_names_have_unrelated_hashes(void **state)
 {
     (void)state;
@@ -95,7 +96,7 @@ static void similar_names_have_unrelated_hashes(void **state)
 }
 
 /* One bit of input turns half of the output's bits. */
-static void every_bit_counts(void **state)
+static void every_bit_of_the_input_counts(void **state)
 {
     (void)state;
     unsigned char bytes[16] = "0123456789abcde";
@@ -119,9 +120,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_hash_is_fnv_with_an_end_and_a_mix),
         cmocka_unit_test(the_hash_for_tables_spreads_names_over_few_bits),
-        cmocka_unit_test(pieces_end_where_they_end),
+        cmocka_unit_test(the_end_of_a_piece_counts),
         cmocka_unit_test(similar_names_have_unrelated_hashes),
-        cmocka_unit_test(every_bit_counts),
+        cmocka_unit_test(every_bit_of_the_input_counts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

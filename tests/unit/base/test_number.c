@@ -30,7 +30,8 @@ static double from_bits(uint64_t bits)
     return value;
 }
 
-/* Digits without leading zeros, point, sign, exponent, and zeros that only hold the place. */
+/* The significant digits of a text: without leading zeros, point, sign, exponent, and zeros that
+ * only hold a place. */
 static size_t digits_in(const char *text)
 {
     char digits[NUMBER_SIZE + 8];
@@ -57,7 +58,7 @@ static void a_million_bit_patterns_come_back(void **state)
     }
 }
 
-/* By trial: %.*e with one digit less than were written must not restore the double. */
+/* Checked with %.*e: one digit less than were written must not restore the double. */
 static void no_shorter_decimal_would_do(void **state)
 {
     (void)state;
@@ -71,7 +72,7 @@ static void no_shorter_decimal_would_do(void **state)
         size_t digits = digits_in(text_of(value, text));
         snprintf(plain, sizeof plain, "%.17g", value);
         assert_true(strlen(text) <= strlen(plain));
-        /* Large whole numbers are written out to the last digit, where that is no longer. */
+        /* Large whole numbers are written out to the last digit where that is not longer. */
         if (strpbrk(text, ".e") == NULL && fabs(value) > 0x1p53)
             continue;
         assert_in_range(digits, 1, 17);
@@ -82,7 +83,7 @@ static void no_shorter_decimal_would_do(void **state)
     }
 }
 
-/* C's printf rounds exactly, ties to even: its shortest that reads back, in fixed notation. */
+/* C's printf rounds exactly, ties to even: its shortest text that reads back, in fixed notation. */
 static const char *by_trial(double value, char *plain, size_t size)
 {
     char digits[64];
@@ -114,7 +115,7 @@ static double usual_number(uint64_t *random, int kind)
     }
 }
 
-static void of_the_shortest_decimals_the_nearest_is_written(void **state)
+static void the_nearest_of_the_shortest_decimals_is_written(void **state)
 {
     (void)state;
     uint64_t random = 4;
@@ -179,7 +180,7 @@ static void subnormals_and_the_ends_of_the_range_come_back(void **state)
     }
 }
 
-static void too_large_is_refused_and_too_small_is_zero(void **state)
+static void too_large_numbers_are_refused_and_too_small_ones_are_zero(void **state)
 {
     (void)state;
     static const char *const large[] = {
@@ -226,7 +227,7 @@ static void decimals_round_to_the_nearest_double(void **state)
         if (isfinite(expected) && memcmp(&value, &expected, sizeof value) != 0)
             fail_msg("%s became %.17g", text, value);
     }
-    /* Exactly between two doubles: to the even one; a digit far behind decides. */
+    /* Exactly between two doubles the even one is taken; a digit far behind decides. */
     double value;
     assert_true(reads("9007199254740993", &value) && value == 9007199254740992.0);
     assert_true(reads("9007199254740995", &value) && value == 9007199254740996.0);
@@ -260,7 +261,7 @@ static void digits_and_places_round_to_the_nearest_double(void **state)
     assert_true(number_of_digits(0, NUMBER_DIGITS) == 0);
 }
 
-/* A number of so many digits before and behind the point, and where it ends. */
+/* A number with this many digits before and behind the point, and where it ends. */
 static size_t put_number(char *text, uint64_t *random, int whole, int fraction)
 {
     size_t length = 0;
@@ -276,7 +277,7 @@ static size_t put_number(char *text, uint64_t *random, int whole, int fraction)
     return length;
 }
 
-static void everyday_numbers_are_taken_from_the_front(void **state)
+static void everyday_numbers_are_taken_from_the_beginning(void **state)
 {
     (void)state;
     uint64_t random = 7;
@@ -305,7 +306,7 @@ static void everyday_numbers_are_taken_from_the_front(void **state)
     }
 }
 
-static void what_is_no_everyday_number_is_left_alone(void **state)
+static void other_numbers_and_texts_are_not_taken(void **state)
 {
     (void)state;
     static const char *const others[] = {
@@ -353,14 +354,14 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_million_bit_patterns_come_back),
         cmocka_unit_test(no_shorter_decimal_would_do),
-        cmocka_unit_test(of_the_shortest_decimals_the_nearest_is_written),
+        cmocka_unit_test(the_nearest_of_the_shortest_decimals_is_written),
         cmocka_unit_test(numbers_look_as_people_write_them),
         cmocka_unit_test(subnormals_and_the_ends_of_the_range_come_back),
-        cmocka_unit_test(too_large_is_refused_and_too_small_is_zero),
+        cmocka_unit_test(too_large_numbers_are_refused_and_too_small_ones_are_zero),
         cmocka_unit_test(decimals_round_to_the_nearest_double),
         cmocka_unit_test(digits_and_places_round_to_the_nearest_double),
-        cmocka_unit_test(everyday_numbers_are_taken_from_the_front),
-        cmocka_unit_test(what_is_no_everyday_number_is_left_alone),
+        cmocka_unit_test(everyday_numbers_are_taken_from_the_beginning),
+        cmocka_unit_test(other_numbers_and_texts_are_not_taken),
         cmocka_unit_test(whole_numbers_are_written_in_full),
         cmocka_unit_test(nothing_may_follow_the_number),
     };

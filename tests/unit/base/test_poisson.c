@@ -5,8 +5,8 @@
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-/* The probability of k from its textbook form: Poisson, or negative binomial with r = m^2/(s^2 - m)
- * and p = m/s^2, by logarithms of gamma functions in extended precision. */
+/* The probability of k by its textbook form: Poisson, or negative binomial with r = m^2/(s^2 - m)
+ * and p = m/s^2, from logarithms of gamma functions in extended precision. */
 static long double probability(double mean, double overdispersion, int64_t count)
 {
     long double k = (long double)count, m = (long double)mean, f = (long double)overdispersion;
@@ -28,8 +28,8 @@ static const double laws[][2] = {{1e-6, 1},     {0.032768, 1}, {0.5, 1},  {0.64,
                                  {2, 1.5},      {10, 100},     {15.9, 3}, {16, 3},    {94, 3.4468},
                                  {200, 19.845}, {30, 1.0001},  {20, 40},  {3000, 50}, {1e-3, 1000}};
 
-/* Both neighbours of the uniform among the sums of the exact probabilities. */
-static void a_count_is_where_the_sum_of_probabilities_passes_the_uniform(void **state)
+/* Each uniform draw must lie between two neighbouring sums of the exact probabilities. */
+static void a_count_is_where_the_sum_of_probabilities_passes_the_draw(void **state)
 {
     (void)state;
     static const double uniforms[] = {0x1p-53, 1e-12, 1e-6, 1e-3, 0.01, 0.1,   0.3,      0.5,
@@ -53,7 +53,7 @@ static void a_count_is_where_the_sum_of_probabilities_passes_the_uniform(void **
     }
 }
 
-static void effects_9_has_no_false_alarm_in_half_of_all_scans(void **state)
+static void a_mean_of_0_64_gives_no_false_alarm_in_half_of_all_scans(void **state)
 {
     (void)state;
     assert_int_equal(poisson_count(6400 * 1e-4, 0.5272919), 0);
@@ -62,7 +62,7 @@ static void effects_9_has_no_false_alarm_in_half_of_all_scans(void **state)
     assert_int_equal(poisson_count(32768e-6, 0.96777), 1);
 }
 
-static void counts_are_bounded_and_odd_means_are_none(void **state)
+static void counts_are_bounded_and_invalid_means_give_zero(void **state)
 {
     (void)state;
     static const double none[] = {0, -0.0, -1, -HUGE_VAL, (double)NAN};
@@ -85,7 +85,7 @@ static void counts_are_bounded_and_odd_means_are_none(void **state)
     }
 }
 
-static void counts_never_fall_when_their_uniform_grows(void **state)
+static void counts_never_fall_when_their_draw_grows(void **state)
 {
     (void)state;
     for (size_t i = 0; i < COUNT(laws); i++) {
@@ -101,7 +101,7 @@ static void counts_never_fall_when_their_uniform_grows(void **state)
 enum { DRAWS = 100000, MOST = 8000 };
 
 /* Pearson's chi square over counts joined until 50 are expected. Its mean is the number of joined
- * counts less one, its variance twice that; five standard deviations above are allowed. */
+ * counts less one, its variance twice that; five standard deviations above the mean are allowed. */
 static void check_frequencies(double mean, double overdispersion, uint64_t *sample)
 {
     static int seen[MOST];
@@ -129,7 +129,7 @@ static void check_frequencies(double mean, double overdispersion, uint64_t *samp
     assert_true(chi_square > groups - 5 * sqrt(2.0 * groups) || groups < 5);
 }
 
-static void frequencies_are_those_of_the_law(void **state)
+static void frequencies_are_those_of_the_distribution(void **state)
 {
     (void)state;
     static const double cases[][2] = {{0.5, 1}, {1.5, 1},  {12, 1},      {94, 1},      {1000, 1},
@@ -139,14 +139,15 @@ static void frequencies_are_those_of_the_law(void **state)
         check_frequencies(cases[i][0], cases[i][1], &sample);
 }
 
-/* EFFECTS 24: 94 +- 18 detections a scan in a standing car, about 200 +- 63 in a moving one. */
+/* Detections per scan of the RadarScenes sensors: 94 +- 18 in a standing car, about 200 +- 63 in a
+ * moving one. */
 static void scan_totals_have_their_measured_mean_and_spread(void **state)
 {
     (void)state;
     static const double cases[][2] = {{94, 18}, {200, 63}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         double mean = cases[i][0], deviation = cases[i][1], sum = 0, squares = 0;
-        for (int k = 0; k < DRAWS; k++) { /* evenly spread: no chance in it */
+        for (int k = 0; k < DRAWS; k++) { /* uniforms evenly spread instead of drawn */
             double uniform = (k + 0.5) / DRAWS;
             int64_t count =
                 poisson_overdispersed_count(mean, deviation * deviation / mean, uniform);
@@ -161,11 +162,11 @@ static void scan_totals_have_their_measured_mean_and_spread(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_count_is_where_the_sum_of_probabilities_passes_the_uniform),
-        cmocka_unit_test(effects_9_has_no_false_alarm_in_half_of_all_scans),
-        cmocka_unit_test(counts_are_bounded_and_odd_means_are_none),
-        cmocka_unit_test(counts_never_fall_when_their_uniform_grows),
-        cmocka_unit_test(frequencies_are_those_of_the_law),
+        cmocka_unit_test(a_count_is_where_the_sum_of_probabilities_passes_the_draw),
+        cmocka_unit_test(a_mean_of_0_64_gives_no_false_alarm_in_half_of_all_scans),
+        cmocka_unit_test(counts_are_bounded_and_invalid_means_give_zero),
+        cmocka_unit_test(counts_never_fall_when_their_draw_grows),
+        cmocka_unit_test(frequencies_are_those_of_the_distribution),
         cmocka_unit_test(scan_totals_have_their_measured_mean_and_spread),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -80,7 +80,7 @@ static void every_bit_of_the_address_counts(void **state)
         }
 }
 
-static void purposes_and_indices_draw_apart(void **state)
+static void purposes_and_indices_draw_different_numbers(void **state)
 {
     (void)state;
     static const enum random_purpose purposes[] = {RANDOM_POINTERS, RANDOM_RANGE_RATE,
@@ -93,7 +93,7 @@ static void purposes_and_indices_draw_apart(void **state)
             assert_all_differ(drawn[i], drawn[k]);
 }
 
-/* 99 degrees of freedom: 173 is passed by chance once in 100 000. */
+/* With 99 degrees of freedom 173 is exceeded by chance once in 100 000. */
 static void uniform_draws_fill_the_open_interval_evenly(void **state)
 {
     (void)state;
@@ -165,7 +165,8 @@ static void the_four_gaussians_of_a_block_are_uncorrelated(void **state)
             assert_close(product[k][n], 0, 5 / sqrt(DRAWS));
 }
 
-/* The first Gaussian of 10 000 addresses that differ by one in one member: chance level 0.01. */
+/* The first Gaussian draw of 10 000 addresses that differ by one in one member. By chance the
+ * correlation is about 0.01. */
 static void neighbouring_addresses_are_uncorrelated(void **state)
 {
     (void)state;
@@ -192,7 +193,7 @@ int main(void)
         cmocka_unit_test(draws_are_philox_blocks),
         cmocka_unit_test(the_same_address_draws_the_same),
         cmocka_unit_test(every_bit_of_the_address_counts),
-        cmocka_unit_test(purposes_and_indices_draw_apart),
+        cmocka_unit_test(purposes_and_indices_draw_different_numbers),
         cmocka_unit_test(uniform_draws_fill_the_open_interval_evenly),
         cmocka_unit_test(gaussian_draws_have_gaussian_moments),
         cmocka_unit_test(gaussian_draws_have_gaussian_tails),

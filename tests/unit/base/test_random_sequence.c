@@ -18,7 +18,7 @@ static void draws_are_the_blocks_of_their_address_in_order(void **state)
     }
 }
 
-/* Five standard deviations of a count. */
+/* The tolerance is five standard deviations of a count. */
 static void whole_numbers_come_equally_often(void **state)
 {
     (void)state;
@@ -47,7 +47,7 @@ static void chances_are_as_given(void **state)
     assert_close(right, 0.5 * DRAWS, 5 * sqrt(0.25 * DRAWS));
 }
 
-/* One in eight is 0; of the rest a sixth lies in each decade, half of them on either side. */
+/* One in eight is 0; of the others a sixth lies in each decade, half of them on either side. */
 static void margins_reach_down_six_decades_on_both_sides(void **state)
 {
     (void)state;

@@ -47,7 +47,7 @@ static void items_are_sorted_and_ties_stay_in_their_order(void **state)
     arena_free(&arena);
 }
 
-static void what_is_sorted_takes_no_memory(void **state)
+static void a_sorted_list_takes_no_memory(void **state)
 {
     (void)state;
     struct arena arena = {0};
@@ -61,7 +61,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(items_are_sorted_and_ties_stay_in_their_order),
-        cmocka_unit_test(what_is_sorted_takes_no_memory),
+        cmocka_unit_test(a_sorted_list_takes_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

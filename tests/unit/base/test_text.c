@@ -12,8 +12,8 @@ static bool stands_for_itself(char byte)
     return byte >= 0x20 && byte < 0x7f && byte != '"' && byte != '\\';
 }
 
-/* Every byte at every place among plain ones, and among others. */
-static void plain_bytes_end_at_the_first_that_is_not(void **state)
+/* Every byte is tried at every place among plain bytes, and among others. */
+static void plain_bytes_end_at_the_first_other_byte(void **state)
 {
     (void)state;
     for (size_t length = 0; length <= 20; length++) {
@@ -48,7 +48,7 @@ static void a_word_has_its_first_byte_lowest(void **state)
                     (length == 0 ? 0 : text_word(bytes) << 8 * (8 - length) >> 8 * (8 - length)));
 }
 
-static void strings_are_escaped_no_more_than_json_asks(void **state)
+static void strings_are_escaped_no_more_than_json_requires(void **state)
 {
     (void)state;
     static const char given[] = "\x01\x1f a\"b\\c/\x7f\xc3\xa9\xf0\x9f\x98\x80 a longer run\n";
@@ -61,7 +61,7 @@ static void strings_are_escaped_no_more_than_json_asks(void **state)
     text_free(&text);
 }
 
-/* The longest that text can get: every byte an escape of six. */
+/* The longest text: every byte is an escape of six characters. */
 static void room_for_a_string_is_room_for_its_escapes(void **state)
 {
     (void)state;
@@ -80,9 +80,9 @@ static void room_for_a_string_is_room_for_its_escapes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plain_bytes_end_at_the_first_that_is_not),
+        cmocka_unit_test(plain_bytes_end_at_the_first_other_byte),
         cmocka_unit_test(a_word_has_its_first_byte_lowest),
-        cmocka_unit_test(strings_are_escaped_no_more_than_json_asks),
+        cmocka_unit_test(strings_are_escaped_no_more_than_json_requires),
         cmocka_unit_test(room_for_a_string_is_room_for_its_escapes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

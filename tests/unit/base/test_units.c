@@ -21,7 +21,7 @@ static void six_decibels_are_the_paper_threshold(void **state)
     assert_close(units_amplitude_from_db(0), 1, 0);
 }
 
-/* EFFECTS 0. */
+/* Published wavelengths of the radar bands. */
 static void wavelengths_are_those_of_the_radar_bands(void **state)
 {
     (void)state;
@@ -40,7 +40,7 @@ static void a_shortfall_is_a_bounded_count_of_decibels(void **state)
     assert_close(units_shortfall_db(2, 0), 1e4, 0);
 }
 
-static void decibels_come_back(void **state)
+static void amplitudes_come_back_from_decibels(void **state)
 {
     (void)state;
     for (int i = -600; i <= 600; i++) {
@@ -61,8 +61,8 @@ static void an_angle_wraps_into_one_turn(void **state)
         {PI, PI, 0},
         {-PI, PI, 0},
         {3 * PI, 0x1.921fb54442d17p1, 0},
-        {-3 * PI, -0x1.921fb54442d17p1, 0},   /* the double is less than three half turns */
-        {2 * PI, -2.4492935982947064e-16, 0}, /* nor is twice PI a whole turn */
+        {-3 * PI, -0x1.921fb54442d17p1, 0},   /* this double is less than three half turns */
+        {2 * PI, -2.4492935982947064e-16, 0}, /* and this one less than a whole turn */
         {-2 * PI, 2.4492935982947064e-16, 0},
         {-1e-17, -1e-17, 0},
         {2 * PI - 0.5, -0.5, 1e-15},
@@ -117,7 +117,7 @@ int main(void)
         cmocka_unit_test(six_decibels_are_the_paper_threshold),
         cmocka_unit_test(wavelengths_are_those_of_the_radar_bands),
         cmocka_unit_test(a_shortfall_is_a_bounded_count_of_decibels),
-        cmocka_unit_test(decibels_come_back),
+        cmocka_unit_test(amplitudes_come_back_from_decibels),
         cmocka_unit_test(an_angle_wraps_into_one_turn),
         cmocka_unit_test(a_wrapped_angle_keeps_its_direction),
         cmocka_unit_test(every_finite_angle_wraps),
