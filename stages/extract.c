@@ -12,7 +12,7 @@ const struct stage stage_extract = {
     .summary = "Write the reflection centres of every object's class.",
     .details = "The class of an object names a document in data/vehicles/. An object of size zero\n"
                "takes the default size of its class. The ego does not reflect.",
-    .options = &stage_no_options,
+    .options = &no_options_record,
     .reads = SECTION_OBJECTS,
     .writes = SECTION_REFLECTORS,
     .step = extract_step,

@@ -1,5 +1,6 @@
 /* Vehicle model extraction by 3GPP: cars become five scattering points with lobes, people one point
  * (MODEL 2.8). */
+#include "documents/vehicle.h"
 #include "run/stage.h"
 
 static void describe(const void *state, const struct vehicle *vehicle, struct reflector_set *set,
@@ -27,7 +28,7 @@ const struct stage stage_extract_3gpp = {
         "the reflectors of their document, and so do mirrors and what an outline hides.\n"
         "Elevation counts for sensors with mount_z_m; for others all is level. The report's\n"
         "fluctuation is the sensor's: fluctuation log_normal, 3.41 dB for vehicles.",
-    .options = &stage_no_options,
+    .options = &no_options_record,
     .reads = SECTION_OBJECTS,
     .writes = SECTION_REFLECTORS,
     .step = extract_3gpp_step,

@@ -1,5 +1,6 @@
 /* Vehicle model extraction by contour: the outline of an object as closely spaced scatterers that
  * share the cross section of its class (MODEL 2.7). */
+#include "documents/vehicle.h"
 #include "run/stage.h"
 
 struct extract_contour {

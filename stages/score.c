@@ -1,5 +1,6 @@
 /* Scores: how far the targets of this stream are from those of another one, frame by frame. */
 #include "run/stage.h"
+#include "score/reference_stream.h"
 #include "score/score_table.h"
 #include "score/target_score.h"
 

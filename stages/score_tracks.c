@@ -1,5 +1,6 @@
 /* Scores of a tracker: how far its tracks are from the objects that are there, frame by frame. */
 #include "run/stage.h"
+#include "score/reference_stream.h"
 #include "score/score_table.h"
 #include "score/track_score.h"
 
@@ -77,7 +78,7 @@ static const struct field score_tracks_options[] = {
     {FIELD_NAME_OF(struct score_tracks, tracks,
                    "what the tracker says, as schemas/tracks.json has it"),
      .word = "FILE"},
-    {FIELD_CHOICE_OF(struct score_tracks, objects, track_truths,
+    {FIELD_CHOICE_OF(struct score_tracks, objects, track_score_truths,
                      "which objects a tracker should have (absent: in_view)"),
      FIELD_OPTIONAL},
     {FIELD_NAME_OF(struct score_tracks, classes, "only objects of these classes: car,truck"),

@@ -5,6 +5,7 @@
 #include "run/stage.h"
 #include "sensor/cell_margins.h"
 #include "sensor/scan.h"
+#include "sensor/scatterers.h"
 
 /* The cell of these received echoes. False if it has no angle. */
 static bool superpose(const struct scan *scan, const struct selection *selection,

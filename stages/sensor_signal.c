@@ -4,6 +4,8 @@
 #include <fftw3.h>
 
 #include "run/stage.h"
+#include "sensor/scan.h"
+#include "sensor/scatterers.h"
 #include "signal/detections.h"
 
 /* A transform of one sensor's channels, in place, with a positive exponent. */

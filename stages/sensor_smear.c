@@ -4,6 +4,7 @@
 #include "run/stage.h"
 #include "sensor/cell_margins.h"
 #include "sensor/scan.h"
+#include "sensor/scatterers.h"
 #include "sensor/smear.h"
 
 /* Sight of the members, and how far the threshold and the sign were from the other side. */

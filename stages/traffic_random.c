@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
+#include "documents/vehicle.h"
 #include "run/stage.h"
 #include "traffic/adversarial_traffic.h"
 #include "traffic/random_traffic.h"

@@ -41,6 +41,11 @@ static struct cell make_cell(struct frame *frame, const struct sensor *sensor,
     return cell;
 }
 
+double noise_targets_amplitude(double threshold, double noise_sigma, double uniform)
+{
+    return elementary_hypot(threshold, noise_sigma * sqrt(-elementary_log(uniform)));
+}
+
 struct cell_span noise_targets_of(struct frame *frame, const struct sensor *sensor,
                                   const struct selection *selection, double mean,
                                   const struct random_address *scan)

@@ -14,6 +14,11 @@
 /* The n-th of a scan, without values. That of 0 is the subject of the scan's draws. */
 struct contributor noise_targets_contributor(int64_t number);
 
+/* The amplitude of noise that has passed the threshold, by a uniform in (0, 1). Its power is
+ * threshold^2 + sigma^2 Exp(1), for an exponential distribution is without memory: without noise it
+ * is the threshold itself. noise_sigma is the RMS of the complex noise on the sum channel. */
+double noise_targets_amplitude(double threshold, double noise_sigma, double uniform);
+
 /* Makes and counts those of one sensor, none if it did not measure in this frame. selection says
  * whether there is latency. */
 struct cell_span noise_targets_of(struct frame *frame, const struct sensor *sensor,

@@ -2,11 +2,6 @@
 
 #include "base/elementary.h"
 
-double noise_targets_amplitude(double threshold, double noise_sigma, double uniform)
-{
-    return elementary_hypot(threshold, noise_sigma * sqrt(-elementary_log(uniform)));
-}
-
 double ground_return_area_m2(double range_min_m, double range_max_m, double field_of_view_rad)
 {
     return field_of_view_rad / 2 * (range_max_m - range_min_m) * (range_max_m + range_min_m);

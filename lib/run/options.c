@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-const struct record stage_no_options = {.name = "stage", .fields = field_none};
+const struct record no_options_record = {.name = "stage", .fields = field_none};
 
 static const struct field suite_choice_fields[] = {
     {FIELD_NAME_OF(struct suite_choice, sensors,

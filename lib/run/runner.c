@@ -3,11 +3,13 @@
 #include <string.h>
 
 #include "base/sort.h"
+#include "documents/vehicle.h"
 #include "frame/frame_account.h"
 #include "frame/frame_check.h"
 #include "frame/frame_order.h"
 #include "frame/frame_text.h"
 #include "run/explain.h"
+#include "score/reference_stream.h"
 
 struct arena *runner_arena(struct runner *runner)
 {

@@ -16,11 +16,11 @@
 
 #include "base/units.h"
 #include "documents/catalogue.h"
-#include "documents/vehicle.h"
 #include "frame/frame.h"
-#include "score/reference_stream.h"
 
+struct reference_stream;
 struct runner;
+struct vehicle;
 
 struct stage {
     const char *name;    /* "sensor-perfect": the executable is glint-sensor-perfect */
@@ -47,7 +47,7 @@ struct stage {
 };
 
 /* For stages without options and without state. (These two records are in options.c.) */
-extern const struct record stage_no_options;
+extern const struct record no_options_record;
 
 /* Which suite, and which effects of it. It is the state of stages after ideal, for which the frame
  * has the answers: other ones are refused. ideal's state begins with it. */

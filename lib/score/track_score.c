@@ -8,10 +8,10 @@
 #include "geometry/sensor_pose.h"
 #include "score/assignment.h"
 
-const char *const track_truths[] = {[TRACK_TRUTH_IN_VIEW] = "in_view",
-                                    [TRACK_TRUTH_DETECTED] = "detected",
-                                    [TRACK_TRUTH_ALL] = "all",
-                                    NULL};
+const char *const track_score_truths[] = {[TRACK_TRUTH_IN_VIEW] = "in_view",
+                                          [TRACK_TRUTH_DETECTED] = "detected",
+                                          [TRACK_TRUTH_ALL] = "all",
+                                          NULL};
 
 struct object_list {
     LIST_OF(const struct object *) list;
@@ -25,7 +25,7 @@ int track_score_check(const struct frame *frame, enum track_truth truth, struct 
     if ((needed & ~frame->present) == 0)
         return 0;
     return diag_fail(diag, DIAG_DATA, "%s: missing; --objects=%s needs it",
-                     frame_section_name(needed), track_truths[truth]);
+                     frame_section_name(needed), track_score_truths[truth]);
 }
 
 static bool is_named(const char *names, const char *name)

@@ -16,7 +16,7 @@ enum track_truth {
     TRACK_TRUTH_DETECTED, /* some target of the frame has an echo of it */
     TRACK_TRUTH_ALL,
 };
-extern const char *const track_truths[];
+extern const char *const track_score_truths[];
 
 /* Is what decides that in the frame? Refuses with DIAG_DATA. */
 int track_score_check(const struct frame *frame, enum track_truth truth, struct diag *diag);

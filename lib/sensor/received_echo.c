@@ -215,6 +215,35 @@ static void fold(const struct sensor *sensor, struct received_echo *received)
         received->effects |= EFFECT_BIT(EFFECT_AMBIGUITY);
 }
 
+/* A ghost leaves in one direction and comes back from another: each way has the root of the
+ * antenna pattern (EFFECTS 7), and the pointers are those of its arrival. */
+static double departure_factor(const struct antenna *antenna, const struct echo *echo,
+                               double arrival_gain)
+{
+    if (echo->departure_rad == 0 || arrival_gain == 0)
+        return 1;
+    double gain = antenna_gain(antenna, echo->azimuth_rad + echo->departure_rad);
+    return sqrt(elementary_max(gain, 0) / arrival_gain);
+}
+
+struct received_echo received_echo_in_free_space(const struct sensor *sensor,
+                                                 const struct echo *echo, double phase_rad)
+{
+    struct received_echo received = {
+        .echo = frame_contributor(echo),
+        .range_m = echo->range_m,
+        .range_rate_mps = echo->range_rate_mps,
+        .phase_rad = phase_rad,
+        .effects = echo->effects,
+        .margins = &echo->margins,
+    };
+    double gain = antenna_gain(&sensor->antenna, echo->azimuth_rad);
+    received.strength = radar_reference_amplitude(&sensor->amplitude_law, echo->range_m) *
+                        echo->ercs * departure_factor(&sensor->antenna, echo, gain);
+    received.amplitude = received.strength * gain;
+    return received;
+}
+
 struct received_echo received_echo_of(const struct reception *reception, const struct echo *echo)
 {
     const struct sensor *sensor = reception->sensor;

@@ -14,10 +14,22 @@
 #ifndef RECEIVED_ECHO_H
 #define RECEIVED_ECHO_H
 
-#include "frame/draw_address.h"
+#include "base/random.h"
+#include "documents/suite.h"
+#include "frame/frame.h"
 #include "radar/attenuation.h"
 #include "radar/road_mirror.h"
-#include "sensor/resolution_cell.h"
+
+/* An echo with what the antenna and the radar equation make of it. */
+struct received_echo {
+    struct contributor echo;
+    double strength;  /* G = A_ref(R) ERCS: the amplitude before the antenna of its arrival */
+    double amplitude; /* A = G A_phi, equation (2) */
+    double range_m, range_rate_mps; /* as the radar reads them: the echo's, or folded */
+    double phase_rad; /* counts relative to the leader of the cell; 0 in the paper's model */
+    uint64_t effects; /* the echo's, and those of its amplitude and phase */
+    const struct margins *margins; /* the echo's */
+};
 
 struct reception {
     const struct frame *frame;
@@ -43,7 +55,11 @@ void received_echo_note(const struct reception *reception, const struct selectio
 bool received_echo_rolls(const struct echo *echo);
 bool received_echo_walks(const struct echo *echo);
 
-/* The echo as it is received. */
+/* The echo by the radar equation and the antenna pattern alone (MODEL 4). */
+struct received_echo received_echo_in_free_space(const struct sensor *sensor,
+                                                 const struct echo *echo, double phase_rad);
+
+/* The echo with every factor that the reception simulates. */
 struct received_echo received_echo_of(const struct reception *reception, const struct echo *echo);
 
 #endif

@@ -3,22 +3,7 @@
 #ifndef RESOLUTION_CELL_H
 #define RESOLUTION_CELL_H
 
-#include "documents/suite.h"
-#include "frame/frame.h"
-
-/* An echo with what the antenna and the radar equation make of it. */
-struct received_echo {
-    struct contributor echo;
-    double strength;  /* G = A_ref(R) ERCS: the amplitude before the antenna of its arrival */
-    double amplitude; /* A = G A_phi, equation (2) */
-    double range_m, range_rate_mps; /* as the radar reads them: the echo's, or folded */
-    double phase_rad; /* counts relative to the leader of the cell; 0 in the paper's model */
-    uint64_t effects; /* the echo's, and those of its amplitude and phase */
-    const struct margins *margins; /* the echo's */
-};
-
-struct received_echo received_echo_in_free_space(const struct sensor *sensor,
-                                                 const struct echo *echo, double phase_rad);
+#include "sensor/received_echo.h"
 
 /* Strongest first; ties by the frame's total order. For sort_items. */
 int resolution_cell_compare(const void *left, const void *right);

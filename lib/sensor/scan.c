@@ -2,6 +2,7 @@
 
 #include "base/sort.h"
 #include "radar/resolution.h"
+#include "sensor/scatterers.h"
 
 struct scan scan_receive(const struct reception *reception)
 {

@@ -5,7 +5,7 @@
 #define SCAN_H
 
 #include "sensor/cell_margins.h"
-#include "sensor/scatterers.h"
+#include "sensor/received_echo.h"
 
 struct scan {
     struct reception reception;

@@ -6,6 +6,7 @@
 #include "base/units.h"
 #include "noise/noise_targets.h"
 #include "radar/interferer.h"
+#include "sensor/cell_margins.h"
 
 #define NOWHERE SIZE_MAX
 #define LEAST_PART 0.5

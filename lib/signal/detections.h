@@ -10,6 +10,9 @@
 #include "noise/measurement_noise.h"
 #include "signal/signal_cube.h"
 
+struct clustered_echoes;
+struct reception;
+
 struct sighting {
     const struct range_doppler_peak *peak;
     double range_m, azimuth_rad, range_rate_mps;

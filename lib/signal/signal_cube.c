@@ -9,6 +9,7 @@
 #include "frame/draw_address.h"
 #include "noise/noise_targets.h"
 #include "radar/interferer.h"
+#include "sensor/scan.h"
 
 /* Beyond so many bins a pulse is below 2^-36 of itself. */
 #define PULSE_REACH 12

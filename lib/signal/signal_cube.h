@@ -17,9 +17,12 @@
 #define SIGNAL_CUBE_H
 
 #include "base/random.h"
-#include "sensor/scan.h"
+#include "documents/suite.h"
 #include "signal/beamforming.h"
 #include "signal/range_doppler.h"
+
+struct received_echo;
+struct scan;
 
 struct signal_cube {
     const struct sensor *sensor;

@@ -95,9 +95,24 @@ static void a_sensor_that_does_not_measure_has_no_false_alarms(void **state)
     }
 }
 
+/* The part of all false alarms above an amplitude is P(amplitude) / P(threshold), and noise alone
+ * passes T with P = exp(-(T / sigma)^2). */
+static void amplitudes_of_false_alarms_are_those_of_noise_above_the_threshold(void **state)
+{
+    (void)state;
+    for (double uniform = 0x1p-53; uniform < 1; uniform = uniform * 1.2 + 1e-4) {
+        double amplitude = noise_targets_amplitude(2, 0.7, uniform);
+        assert_true(amplitude >= 2);
+        assert_near(exp((2 - amplitude) * (2 + amplitude) / (0.7 * 0.7)), uniform, 2e-14);
+    }
+    assert_close(noise_targets_amplitude(2, 0, 0.5), 2, 0);
+    assert_near(noise_targets_amplitude(1e200, 1e200, 0.5), 1e200 * sqrt(1 + log(2)), 1e-15);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(amplitudes_of_false_alarms_are_those_of_noise_above_the_threshold),
         cmocka_unit_test(every_false_alarm_lies_in_the_sensor_s_cells),
         cmocka_unit_test(a_larger_mean_adds_to_the_same_false_alarms),
         cmocka_unit_test(a_sensor_that_does_not_measure_has_no_false_alarms),

@@ -171,7 +171,7 @@ static void a_change_that_is_not_declared_is_found(void **state)
     (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
-    struct stage stage = {.name = "meddle", .options = &stage_no_options, .step = meddle};
+    struct stage stage = {.name = "meddle", .options = &no_options_record, .step = meddle};
     struct runner runner;
     begin_frame(&frame);
     begin(&runner, &stage, 0, NULL);
@@ -188,7 +188,7 @@ static void a_stage_that_makes_nonsense_fails_itself(void **state)
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
     const struct stage stage = {.name = "nonsense",
-                                .options = &stage_no_options,
+                                .options = &no_options_record,
                                 .reads = SECTION_OBJECTS,
                                 .writes = SECTION_OBJECTS,
                                 .step = make_nonsense};
@@ -226,7 +226,7 @@ static void a_list_in_place_of_the_documents_is_checked(void **state)
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
     const struct stage stage = {.name = "nonsense",
-                                .options = &stage_no_options,
+                                .options = &no_options_record,
                                 .reads = SECTION_OBJECTS,
                                 .writes = SECTION_OBJECTS | SECTION_REFLECTORS,
                                 .step = extract_nonsense};

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "sensor/cell_margins.h"
 #include "signal/detections.h"
 
 #define PI 3.14159265358979323846

@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 
+#include "sensor/scan.h"
 #include "signal/signal_cube.h"
 
 #define PI 3.14159265358979323846
