@@ -409,13 +409,6 @@ const struct record frame_record = {
     .present_offset = offsetof(struct frame, present),
 };
 
-struct field_names *frame_names(struct frame *frame)
-{
-    if (frame->names == NULL)
-        frame->names = arena_get(frame->arena, sizeof *frame->names);
-    return frame->names;
-}
-
 void frame_clear(struct frame *frame)
 {
     const struct frame before = *frame;

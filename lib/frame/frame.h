@@ -218,7 +218,6 @@ struct frame {
     unsigned present; /* enum section */
     struct arena *arena;
     struct list_cache *repeats; /* what frames repeat; NULL: nothing is kept from one to the next */
-    struct field_names *names;  /* that were good; NULL: none yet */
     LIST_OF(struct object *) by_id; /* sorted by frame_order_objects; empty: not yet */
 };
 
@@ -232,9 +231,6 @@ static inline bool frame_same_name(const char *a, const char *b)
 {
     return a == b || (*a == *b && strcmp(a, b) == 0);
 }
-
-/* For field_in_bounds: a name in a frame stays as it is. */
-struct field_names *frame_names(struct frame *frame);
 
 /* Back to an empty frame that keeps its arena's room and its cache of lists. */
 void frame_clear(struct frame *frame);

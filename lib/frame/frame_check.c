@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "frame/frame_order.h"
+#include "text/field_check.h"
 
 static int check_objects(struct frame *frame, struct diag *diag)
 {
@@ -118,42 +119,22 @@ int frame_check(struct frame *frame, struct diag *diag)
     return check_sections(frame, ~0U, diag);
 }
 
-static bool sets_good(const struct frame *frame, struct field_names *names)
-{
-    for (size_t i = 0; i < frame->reflectors.count; i++) {
-        const struct reflector_set *set = &frame->reflectors.items[i];
-        const struct record *record =
-            reflectors_unchanged(set) ? &reflector_worn_record : &reflector_set_record;
-        if (!field_in_bounds(record, set, 1, ~0U, names))
-            return false;
-    }
-    return true;
-}
-
-static bool lost_good(const struct frame *frame, const char *stage, struct field_names *names)
+static int check_lost_members(const struct frame *frame, const char *stage, struct diag *diag)
 {
     for (size_t i = 0; i < frame->lost.count; i++) {
         const struct lost_group *group = &frame->lost.items[i];
         bool own = stage == NULL || frame_same_name(group->stage, stage);
-        if (own && !field_in_bounds(&lost_group_record, group, 1, ~0U, names))
-            return false;
+        if (own && field_check(&lost_group_record, group, diag) != 0)
+            return diag_prefix(diag, "lost[%zu].", i);
     }
-    return true;
-}
-
-/* The sections whose items need not all be looked at come by themselves. */
-static bool members_good(struct frame *frame, struct frame_part part)
-{
-    const unsigned apart = SECTION_REFLECTORS | SECTION_LOST;
-    struct field_names *names = frame_names(frame);
-    return field_in_bounds(&frame_record, frame, 1, part.sections & ~apart, names) &&
-           ((part.sections & SECTION_REFLECTORS) == 0 || sets_good(frame, names)) &&
-           ((part.sections & SECTION_LOST) == 0 || lost_good(frame, part.stage, names));
+    return 0;
 }
 
 int frame_check_part(struct frame *frame, struct frame_part part, struct diag *diag)
 {
-    if (!members_good(frame, part) && field_check(&frame_record, frame, diag) != 0)
+    unsigned whole = part.sections & ~(unsigned)SECTION_LOST;
+    if (field_check_sections(&frame_record, frame, whole, diag) != 0 ||
+        ((part.sections & SECTION_LOST) != 0 && check_lost_members(frame, part.stage, diag) != 0))
         return -1;
     return check_sections(frame, part.sections, diag);
 }

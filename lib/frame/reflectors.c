@@ -132,20 +132,10 @@ static const struct field row_fields[] = {
     {0},
 };
 
-/* What the document does not say of its set. */
-#define MODEL                                                                                      \
-    {                                                                                              \
-        FIELD_NAME_OF(struct reflector_set, model,                                                 \
-                      "the class that the vehicle document describes")                             \
-    }
-#define WORN_BY                                                                                    \
-    {                                                                                              \
-        FIELD_NAMES_OF(struct reflector_set, worn_by, "ids of the objects that reflect like this") \
-    }
-
+/* The first two say what a document does not: what it describes, and who wears it. */
 static const struct field reflector_set_fields[] = {
-    MODEL,
-    WORN_BY,
+    {FIELD_NAME_OF(struct reflector_set, model, "the class that the vehicle document describes")},
+    {FIELD_NAMES_OF(struct reflector_set, worn_by, "ids of the objects that reflect like this")},
     {FIELD_FLAG_OF(struct reflector_set, blocks, "does the outline stop sight lines?"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct reflector_set, raised, "can a radar look under it?"), FIELD_OPTIONAL},
@@ -196,19 +186,6 @@ const struct record reflector_model_record = {
     .help = "The reflection centres of a class.",
     .size = sizeof(struct reflector_set),
     .fields = reflector_set_fields + 2,
-};
-
-static const struct field reflector_worn_fields[] = {
-    MODEL,
-    WORN_BY,
-    {0},
-};
-
-const struct record reflector_worn_record = {
-    .name = "reflector set's wearers",
-    .help = "Who wears the reflection centres of a class.",
-    .size = sizeof(struct reflector_set),
-    .fields = reflector_worn_fields,
 };
 
 bool reflectors_unchanged(const struct reflector_set *set)

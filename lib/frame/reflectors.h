@@ -96,7 +96,6 @@ struct reflectors_face {
 extern const struct record point_record, plane_record, row_record;
 extern const struct record reflector_set_record;   /* with who wears it: the frame's */
 extern const struct record reflector_model_record; /* without: the vehicle document's */
-extern const struct record reflector_worn_record;  /* only the model and who wears it */
 
 /* Are all of its lists still those of its document, which was checked when it was read? */
 bool reflectors_unchanged(const struct reflector_set *set);

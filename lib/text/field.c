@@ -44,23 +44,6 @@ const struct field *field_find(const struct record *record, const char *name, si
     return NULL;
 }
 
-static void *member(const struct field *field, void *base)
-{
-    return (char *)base + field->offset;
-}
-
-static const void *member_of(const struct field *field, const void *base)
-{
-    return (const char *)base + field->offset;
-}
-
-/* memcpy, because the table does not know the C type that the compiler gave the member. */
-#define LOAD(type, field, base)                                                                    \
-    (*(type *)memcpy(&(type){0}, member_of((field), (base)), sizeof(type)))
-
-#define STORE(type, field, base, value)                                                            \
-    memcpy(member((field), (base)), &(type){(value)}, sizeof(type))
-
 static void set_all_absent(const struct record *record, void *base)
 {
     for (const struct field *field = record->fields; field->name != NULL; field++)
@@ -71,17 +54,17 @@ static void set_all_absent(const struct record *record, void *base)
 void field_set_absent(const struct field *field, void *base)
 {
     if (field->kind == FIELD_RECORD)
-        set_all_absent(field->record, member(field, base));
+        set_all_absent(field->record, (char *)base + field->offset);
     else if (field->absent == 0)
         return;
     else if (field->kind == FIELD_REAL)
-        STORE(double, field, base, field->absent);
+        FIELD_STORE(double, field, base, field->absent);
     else if (field->kind == FIELD_INTEGER)
-        STORE(int64_t, field, base, (int64_t)field->absent);
+        FIELD_STORE(int64_t, field, base, (int64_t)field->absent);
     else if (field->kind == FIELD_SEED || field->kind == FIELD_SET)
-        STORE(uint64_t, field, base, (uint64_t)field->absent);
+        FIELD_STORE(uint64_t, field, base, (uint64_t)field->absent);
     else if (field->kind == FIELD_CHOICE)
-        STORE(int, field, base, (int)field->absent);
+        FIELD_STORE(int, field, base, (int)field->absent);
 }
 
 void field_clear(const struct record *record, void *base)
@@ -104,7 +87,7 @@ static const char *show(double bound, char *text, size_t size)
     return text;
 }
 
-static int out_of_bounds(const struct field *field, double value, struct diag *diag)
+int field_out_of_bounds(const struct field *field, double value, struct diag *diag)
 {
     char digits[NUMBER_SIZE + 1];
     digits[isfinite(value) ? number_write(value, digits) : 0] = '\0';
@@ -122,14 +105,14 @@ int field_set_number(const struct field *field, void *base, double value, struct
     if (field->kind != FIELD_REAL && field->kind != FIELD_INTEGER)
         return field_wrong_kind(field, "a number", diag);
     if (!(value >= field->low && value <= field->high))
-        return out_of_bounds(field, value, diag);
+        return field_out_of_bounds(field, value, diag);
     if (field->kind == FIELD_REAL) {
-        STORE(double, field, base, value);
+        FIELD_STORE(double, field, base, value);
         return 0;
     }
     if (value != floor(value))
         return diag_fail(diag, DIAG_DATA, "%s: %.17g is not a whole number", field->name, value);
-    STORE(int64_t, field, base, (int64_t)value);
+    FIELD_STORE(int64_t, field, base, (int64_t)value);
     return 0;
 }
 
@@ -151,7 +134,7 @@ static int set_choice(const struct field *field, void *base, const char *text, s
     int choice = choice_of(field, text, length, diag);
     if (choice < 0)
         return -1;
-    STORE(int, field, base, choice);
+    FIELD_STORE(int, field, base, choice);
     return 0;
 }
 
@@ -161,11 +144,11 @@ int field_add_to_set(const struct field *field, void *base, const char *text, si
     int choice = choice_of(field, text, length, diag);
     if (choice < 0)
         return -1;
-    uint64_t set = LOAD(uint64_t, field, base), bit = UINT64_C(1) << choice;
+    uint64_t set = FIELD_LOAD(uint64_t, field, base), bit = UINT64_C(1) << choice;
     if ((set & bit) != 0)
         return diag_fail(diag, DIAG_DATA, "%s: \"%s\" stands twice", field->name,
                          field->choices[choice]);
-    STORE(uint64_t, field, base, set | bit);
+    FIELD_STORE(uint64_t, field, base, set | bit);
     return 0;
 }
 
@@ -183,11 +166,12 @@ static int set_seed(const struct field *field, void *base, const char *text, siz
         return diag_fail(diag, DIAG_DATA,
                          "%s: \"%.*s\" is no seed; expected decimal digits up to %llu", field->name,
                          (int)(length < 80 ? length : 80), text, (unsigned long long)UINT64_MAX);
-    STORE(uint64_t, field, base, seed);
+    FIELD_STORE(uint64_t, field, base, seed);
     return 0;
 }
 
-static int check_name(const struct field *field, const char *text, size_t length, struct diag *diag)
+int field_require_name(const struct field *field, const char *text, size_t length,
+                       struct diag *diag)
 {
     if (length == 0 || length > FIELD_NAME_SIZE)
         return diag_fail(diag, DIAG_DATA, "%s: a name of %zu bytes; expected 1 to %d", field->name,
@@ -211,10 +195,10 @@ static int check_name(const struct field *field, const char *text, size_t length
 static int set_name(const struct field *field, void *base, const char *text, size_t length,
                     struct arena *arena, struct diag *diag)
 {
-    if (check_name(field, text, length, diag) != 0)
+    if (field_require_name(field, text, length, diag) != 0)
         return -1;
     const char *copy = arena_text(arena, text, length);
-    STORE(const char *, field, base, copy);
+    FIELD_STORE(const char *, field, base, copy);
     return 0;
 }
 
@@ -240,13 +224,6 @@ int field_read_number(const char *text, size_t length, double *value)
     return plausible && number_read(text, text + length, value) ? 0 : -1;
 }
 
-static unsigned sections_of(const struct record *record, const void *base)
-{
-    unsigned present;
-    memcpy(&present, (const char *)base + record->present_offset, sizeof present);
-    return present;
-}
-
 /* Minus zero is not zero: readers tell them apart. */
 static inline bool differs(double value, double absent)
 {
@@ -258,29 +235,29 @@ static bool any_present(const struct record *record, const void *base);
 bool field_present(const struct record *record, const struct field *field, const void *base)
 {
     if (field->section != 0)
-        return (sections_of(record, base) & field->section) != 0;
+        return (field_sections(record, base) & field->section) != 0;
     if (!field->optional)
         return true;
     switch (field->kind) {
     case FIELD_REAL:
-        return differs(LOAD(double, field, base), field->absent);
+        return differs(FIELD_LOAD(double, field, base), field->absent);
     case FIELD_INTEGER:
-        return LOAD(int64_t, field, base) != (int64_t)field->absent;
+        return FIELD_LOAD(int64_t, field, base) != (int64_t)field->absent;
     case FIELD_SEED:
     case FIELD_SET:
-        return LOAD(uint64_t, field, base) != (uint64_t)field->absent;
+        return FIELD_LOAD(uint64_t, field, base) != (uint64_t)field->absent;
     case FIELD_CHOICE:
-        return LOAD(int, field, base) != (int)field->absent;
+        return FIELD_LOAD(int, field, base) != (int)field->absent;
     case FIELD_FLAG:
-        return LOAD(bool, field, base);
+        return FIELD_LOAD(bool, field, base);
     case FIELD_NAME:
     case FIELD_RAW:
-        return LOAD(const char *, field, base) != NULL;
+        return FIELD_LOAD(const char *, field, base) != NULL;
     case FIELD_NAMES:
     case FIELD_LIST:
         return field_list(field, base).count > 0;
     case FIELD_RECORD:
-        return any_present(field->record, member_of(field, base));
+        return any_present(field->record, (const char *)base + field->offset);
     case FIELD_NOTES:
         return false;
     }
@@ -291,7 +268,7 @@ bool field_present(const struct record *record, const struct field *field, const
 static bool any_present(const struct record *record, const void *base)
 {
     if (record->fields[0].section != 0)
-        return sections_of(record, base) != 0;
+        return field_sections(record, base) != 0;
     for (const struct field *field = record->fields; field->name != NULL; field++)
         if (field_present(record, field, base))
             return true;
@@ -302,7 +279,7 @@ void field_mark_present(const struct record *record, const struct field *field, 
 {
     if (field->section == 0)
         return;
-    unsigned present = sections_of(record, base) | field->section;
+    unsigned present = field_sections(record, base) | field->section;
     memcpy((char *)base + record->present_offset, &present, sizeof present);
 }
 
@@ -376,223 +353,6 @@ int field_twice(const struct field *field, struct diag *diag)
     return diag_fail(diag, DIAG_DATA, "%s: the key stands twice", field->name);
 }
 
-/* The walk that says what is out of bounds. */
-static int walk(const struct record *record, const void *base, struct diag *diag);
-
-static int check_list(const struct field *field, const void *base, struct diag *diag)
-{
-    struct field_list list = field_list(field, base);
-    for (size_t i = 0; i < list.count; i++) {
-        const void *item = (const char *)list.items + i * field->record->size;
-        if (walk(field->record, item, diag) != 0)
-            return diag_prefix(diag, "%s[%zu].", field->name, i);
-    }
-    return 0;
-}
-
-static int check_names(const struct field *field, const void *base, struct diag *diag)
-{
-    struct field_list list = field_list(field, base);
-    const char *const *names = list.items;
-    for (size_t i = 0; i < list.count; i++) {
-        char path[FIELD_PATH_SIZE];
-        snprintf(path, sizeof path, "%s[%zu]", field->name, i);
-        const struct field item = {.name = path};
-        if (check_name(&item, names[i], strlen(names[i]), diag) != 0)
-            return -1;
-    }
-    return 0;
-}
-
-static int check_member(const struct field *field, const void *base, struct diag *diag)
-{
-    double value;
-    const char *name;
-    switch (field->kind) {
-    case FIELD_REAL:
-        value = LOAD(double, field, base);
-        return value >= field->low && value <= field->high ? 0 : out_of_bounds(field, value, diag);
-    case FIELD_INTEGER:
-        value = (double)LOAD(int64_t, field, base);
-        return value >= field->low && value <= field->high ? 0 : out_of_bounds(field, value, diag);
-    case FIELD_NAME:
-        name = LOAD(const char *, field, base);
-        return name != NULL ? check_name(field, name, strlen(name), diag)
-                            : diag_fail(diag, DIAG_DATA, "%s: missing", field->name);
-    case FIELD_NAMES:
-        return check_names(field, base, diag);
-    case FIELD_RECORD:
-        if (walk(field->record, member_of(field, base), diag) != 0)
-            return diag_prefix(diag, "%s.", field->name);
-        return 0;
-    case FIELD_LIST:
-        return check_list(field, base, diag);
-    default:
-        return 0;
-    }
-}
-
-static int walk(const struct record *record, const void *base, struct diag *diag)
-{
-    for (const struct field *field = record->fields; field->name != NULL; field++)
-        if (field_present(record, field, base) && check_member(field, base, diag) != 0)
-            return -1;
-    return 0;
-}
-
-/* The look that says whether anything is: at one member of all items of a list after the other. */
-struct items {
-    const char *first;
-    size_t size, count; /* size bytes from one to the next */
-};
-
-static bool records_good(const struct record *record, const struct items *items, unsigned sections,
-                         struct field_names *names);
-
-static bool reals_good(const struct record *record, const struct field *field,
-                       const struct items *items, struct field_names *names)
-{
-    (void)record;
-    (void)names;
-    const char *item = items->first;
-    const double low = field->low, high = field->high;
-    for (size_t i = 0; i < items->count; i++, item += items->size) {
-        double value = LOAD(double, field, item);
-        if (!(value >= low && value <= high) && (!field->optional || differs(value, field->absent)))
-            return false;
-    }
-    return true;
-}
-
-static bool integers_good(const struct record *record, const struct field *field,
-                          const struct items *items, struct field_names *names)
-{
-    (void)names;
-    const char *item = items->first;
-    for (size_t i = 0; i < items->count; i++, item += items->size) {
-        double value = (double)LOAD(int64_t, field, item);
-        if (!(value >= field->low && value <= field->high) && field_present(record, field, item))
-            return false;
-    }
-    return true;
-}
-
-/* Short names of printable ASCII, which nearly all are, are seen to be good byte by byte. */
-static bool is_name(const char *text)
-{
-    enum { SHORT = 64 };
-    size_t length = 0;
-    while (length < SHORT && text[length] >= ' ' && text[length] <= '~')
-        length++;
-    if (length > 0 && text[length] == '\0')
-        return true;
-    length = strlen(text);
-    struct diag ignored = {0};
-    return check_name(&(struct field){.name = ""}, text, length, &ignored) == 0;
-}
-
-static bool names_good(const struct record *record, const struct field *field,
-                       const struct items *items, struct field_names *names)
-{
-    (void)record;
-    const char *item = items->first;
-    for (size_t i = 0; i < items->count; i++, item += items->size) {
-        const char *name = LOAD(const char *, field, item);
-        uintptr_t address = (uintptr_t)name;
-        const char **known = &names->good[(address >> 4 ^ address >> 11) % FIELD_NAMES_KEPT];
-        if (name == NULL ? !field->optional : *known != name && !is_name(name))
-            return false;
-        *known = name;
-    }
-    return true;
-}
-
-static bool lists_good(const struct record *record, const struct field *field,
-                       const struct items *items, struct field_names *names)
-{
-    static const struct field name = {.kind = FIELD_NAME};
-    const char *item = items->first;
-    for (size_t i = 0; i < items->count; i++, item += items->size) {
-        struct field_list list = field_list(field, item);
-        struct items own = {list.items, sizeof(const char *), list.count};
-        if (field->kind == FIELD_LIST)
-            own.size = field->record->size;
-        if (list.count > 0 &&
-            !(field->kind == FIELD_NAMES ? names_good(record, &name, &own, names)
-                                         : records_good(field->record, &own, ~0U, names)))
-            return false;
-    }
-    return true;
-}
-
-static bool embedded_good(const struct record *record, const struct field *field,
-                          const struct items *items, struct field_names *names)
-{
-    (void)record;
-    const struct items embedded = {items->first + field->offset, items->size, items->count};
-    return records_good(field->record, &embedded, ~0U, names);
-}
-
-static bool members_good(const struct record *record, const struct field *field,
-                         const struct items *items, struct field_names *names)
-{
-    static bool (*const looks[])(const struct record *, const struct field *, const struct items *,
-                                 struct field_names *) = {
-        [FIELD_REAL] = reals_good,  [FIELD_INTEGER] = integers_good, [FIELD_NAME] = names_good,
-        [FIELD_NAMES] = lists_good, [FIELD_RECORD] = embedded_good,  [FIELD_LIST] = lists_good,
-        [FIELD_NOTES] = NULL,
-    };
-    return looks[field->kind] == NULL || looks[field->kind](record, field, items, names);
-}
-
-/* Of a section only the items that have it. */
-static bool section_good(const struct record *record, const struct field *field,
-                         const struct items *items, struct field_names *names)
-{
-    const char *item = items->first;
-    for (size_t i = 0; i < items->count; i++, item += items->size)
-        if ((sections_of(record, item) & field->section) != 0 &&
-            !members_good(record, field, &(struct items){item, items->size, 1}, names))
-            return false;
-    return true;
-}
-
-/* The sections that any of the items has. */
-static unsigned sections_among(const struct record *record, const struct items *items)
-{
-    unsigned sections = 0;
-    for (size_t i = 0; i < items->count; i++)
-        sections |= sections_of(record, items->first + i * items->size);
-    return sections;
-}
-
-static bool records_good(const struct record *record, const struct items *items, unsigned sections,
-                         struct field_names *names)
-{
-    if (record->fields[0].section != 0 && sections_among(record, items) == 0)
-        return true;
-    for (const struct field *field = record->fields; field->name != NULL; field++) {
-        if (field->section == 0
-                ? !members_good(record, field, items, names)
-                : (field->section & sections) != 0 && !section_good(record, field, items, names))
-            return false;
-    }
-    return true;
-}
-
-bool field_in_bounds(const struct record *record, const void *first, size_t count,
-                     unsigned sections, struct field_names *names)
-{
-    return records_good(record, &(struct items){first, record->size, count}, sections, names);
-}
-
-int field_check(const struct record *record, const void *base, struct diag *diag)
-{
-    return field_in_bounds(record, base, 1, ~0U, &(struct field_names){0})
-               ? 0
-               : walk(record, base, diag);
-}
-
 /* The layout of every LIST_OF, whatever its items. */
 struct untyped_list {
     void *items;
@@ -601,7 +361,7 @@ struct untyped_list {
 
 struct field_list field_list(const struct field *field, const void *base)
 {
-    struct untyped_list list = LOAD(struct untyped_list, field, base);
+    struct untyped_list list = FIELD_LOAD(struct untyped_list, field, base);
     return (struct field_list){list.items, list.count};
 }
 
@@ -618,11 +378,11 @@ bool field_unchanged(const struct record *record, const struct field *field, con
 void *field_list_extend(const struct field *field, void *base, struct arena *arena)
 {
     size_t size = field->kind == FIELD_NAMES ? sizeof(const char *) : field->record->size;
-    struct untyped_list list = LOAD(struct untyped_list, field, base);
+    struct untyped_list list = FIELD_LOAD(struct untyped_list, field, base);
     list.items = list_room(arena, list.items, list.count, &list.room, size);
     char *item = (char *)list.items + list.count * size;
     list.count++;
-    memcpy(member(field, base), &list, sizeof list);
+    memcpy((char *)base + field->offset, &list, sizeof list);
     return item;
 }
 

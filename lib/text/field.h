@@ -3,14 +3,15 @@
  * A struct record lists the members of a C struct: the name (one spelling for C member, JSON key,
  * option and schema property, with the unit as its ending), kind, bounds and help. From it come the
  * frame's text in both directions, documents, command-line options, --help, the schemas, and the
- * check that nothing out of bounds leaves a stage. Functions that fail leave a message that starts
- * with the member's name, so that callers can put the path in front of it. */
+ * check that nothing out of bounds leaves a stage (field_check.h). Functions that fail leave a
+ * message that starts with the member's name, so that callers can put the path in front of it. */
 #ifndef FIELD_H
 #define FIELD_H
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "base/arena.h"
 #include "base/diag.h"
@@ -115,6 +116,21 @@ extern const struct field field_none[];
 #define FIELD_OPTIONAL .optional = true
 #define FIELD_STEADY .steady = true
 
+/* The member of the struct at base, and a new value for it. By memcpy, because a table does not
+ * know the C type that the compiler gave the member. */
+#define FIELD_LOAD(type, field, base)                                                              \
+    (*(type *)memcpy(&(type){0}, (const char *)(base) + (field)->offset, sizeof(type)))
+#define FIELD_STORE(type, field, base, value)                                                      \
+    memcpy((char *)(base) + (field)->offset, &(type){(value)}, sizeof(type))
+
+/* The sections that the struct at base has. */
+static inline unsigned field_sections(const struct record *record, const void *base)
+{
+    unsigned present;
+    memcpy(&present, (const char *)base + record->present_offset, sizeof present);
+    return present;
+}
+
 /* What the name's ending says about the unit, for messages and help: "m" for range_m, "" if the
  * number has none. */
 const char *field_unit(const char *name);
@@ -158,22 +174,12 @@ void field_expectation(const struct field *field, char *text, size_t size);
 int field_wrong_kind(const struct field *field, const char *kind, struct diag *diag);
 int field_unknown(const struct record *record, const char *name, size_t length, struct diag *diag);
 int field_twice(const struct field *field, struct diag *diag);
+int field_out_of_bounds(const struct field *field, double value, struct diag *diag);
 
-/* Everything in bounds, all the way down: what the reader would say to this struct. */
-int field_check(const struct record *record, const void *base, struct diag *diag);
-
-/* Names that were good, by their addresses, so that they are not looked at again: a frame's names
- * are few pointers. Starts as zeros, and ends before a name changes. */
-enum { FIELD_NAMES_KEPT = 256 };
-
-struct field_names {
-    const char *good[FIELD_NAMES_KEPT];
-};
-
-/* Whether field_check passes for count structs side by side, and of the record's own sections only
- * for these. */
-bool field_in_bounds(const struct record *record, const void *first, size_t count,
-                     unsigned sections, struct field_names *names);
+/* Refuses what is no name: "name: a name of 0 bytes; expected ...", "name: control character ...".
+ */
+int field_require_name(const struct field *field, const char *text, size_t length,
+                       struct diag *diag);
 
 /* A LIST_OF anything, seen without its type. */
 struct field_list {

@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "text/document.h"
+#include "text/field_check.h"
 
 static bool ends_with(const char *text, const char *outcome)
 {

@@ -12,6 +12,7 @@
 #include "noise/target_list.h"
 #include "radar/resolution.h"
 #include "sensor/resolution_cell.h"
+#include "text/field_check.h"
 
 enum { MOST = 10, PRECISION = 320 };
 

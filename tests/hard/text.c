@@ -13,6 +13,7 @@
 #include "frame/frame_text.h"
 #include "text/csv_table.h"
 #include "text/document.h"
+#include "text/field_check.h"
 #include "traffic/scenario.h"
 
 enum { PRECISION = 200 };
@@ -228,7 +229,7 @@ static bool refuses(const struct field *field, double value)
 {
     struct field alone[] = {*field, {0}};
     alone->section = 0; /* there is no mask of what is present in a record of one member */
-    const struct record record = {.fields = alone};
+    const struct record record = {.size = field->offset + sizeof value, .fields = alone};
     size_t length = strlen(field->name);
     struct diag diag = {0};
     char *base = calloc(1, field->offset + sizeof value);

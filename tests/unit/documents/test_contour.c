@@ -8,6 +8,7 @@
 #include "documents/contour.h"
 #include "radar/carrier.h"
 #include "radar/radar_equation.h"
+#include "text/field_check.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 #define FAR_M 1e7

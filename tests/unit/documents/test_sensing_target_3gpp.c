@@ -5,6 +5,7 @@
 #include "base/units.h"
 #include "documents/sensing_target_3gpp.h"
 #include "radar/radar_equation.h"
+#include "text/field_check.h"
 
 #define DEGREE (PI / 180)
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])

@@ -1,6 +1,7 @@
 #include "check.h"
 
 #include "frame/conditions.h"
+#include "text/field_check.h"
 
 static void what_is_said_replaces_and_what_is_not_stays(void **state)
 {

@@ -8,6 +8,7 @@
 
 #include "frame/frame_text.h"
 #include "sample.h"
+#include "text/field_check.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 

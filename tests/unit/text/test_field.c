@@ -363,105 +363,6 @@ static void the_first_missing_member_is_named(void **state)
     assert_string_equal(diag.text, "name: the key stands twice");
 }
 
-static void the_check_goes_all_the_way_down(void **state)
-{
-    (void)state;
-    struct arena arena = {0};
-    struct thing thing;
-    field_clear(&record, &thing);
-    struct diag diag = {0};
-    assert_int_equal(field_check(&record, &thing, &diag), -1);
-    assert_string_equal(diag.text, "name: missing");
-    thing.name = "a";
-    diag = (struct diag){0};
-    assert_int_equal(field_check(&record, &thing, &diag), 0);
-    for (int i = 0; i < 20; i++)
-        field_list_add(&fields[PARTS], &thing, &arena);
-    thing.parts.items[17].width_m = 11;
-    assert_int_equal(field_check(&record, &thing, &diag), -1);
-    assert_string_equal(diag.text, "parts[17].width_m: 11 is outside [0, 10] m");
-    thing.parts.items[17].width_m = 1;
-    thing.part.width_m = (double)NAN;
-    diag = (struct diag){0};
-    assert_int_equal(field_check(&record, &thing, &diag), -1);
-    assert_string_equal(diag.text, "part.width_m: nan is outside [0, 10] m");
-    thing.part.width_m = 1;
-    /* A section that is not there is not looked at. */
-    struct part *part = field_list_add(&fields[IN_SECTION], &thing, &arena);
-    part->width_m = -1;
-    diag = (struct diag){0};
-    assert_int_equal(field_check(&record, &thing, &diag), 0);
-    thing.present = 4;
-    assert_int_equal(field_check(&record, &thing, &diag), -1);
-    assert_string_equal(diag.text, "section[0].width_m: -1 is outside [0, 10] m");
-    arena_free(&arena);
-}
-
-static bool names_pass(const char *name, struct arena *arena)
-{
-    struct thing thing;
-    struct diag diag = {0};
-    field_clear(&record, &thing);
-    thing.name = "a";
-    for (int i = 0; i < 5; i++)
-        *(const char **)field_list_add(&fields[NAMES], &thing, arena) = i == 3 ? name : "good";
-    bool good = field_check(&record, &thing, &diag) == 0;
-    assert_true(good || strncmp(diag.text, "names[3]: ", 10) == 0);
-    return good;
-}
-
-/* Of any length, wherever a byte stands: the check takes eight at a time. */
-static void every_byte_of_a_name_is_looked_at(void **state)
-{
-    (void)state;
-    struct arena arena = {0};
-    char name[FIELD_NAME_SIZE + 2] = "";
-    assert_false(names_pass(name, &arena));
-    for (size_t length = 1; length <= 40; length++) {
-        memset(name, '~', length);
-        assert_true(names_pass(name, &arena));
-        for (size_t i = 0; i < length; i++) {
-            static const char bad[] = {1, 0x1f, 0x7f, (char)0x80, (char)0xff};
-            for (size_t j = 0; j < sizeof bad; j++) {
-                name[i] = bad[j];
-                assert_false(names_pass(name, &arena));
-            }
-            name[i] = ' ';
-            assert_true(names_pass(name, &arena));
-            name[i] = '~';
-        }
-    }
-    assert_true(names_pass("Straße", &arena));
-    memset(name, 'a', FIELD_NAME_SIZE);
-    assert_true(names_pass(name, &arena));
-    name[FIELD_NAME_SIZE] = 'a';
-    assert_false(names_pass(name, &arena));
-    arena_free(&arena);
-}
-
-static void what_is_missing_among_items_is_found(void **state)
-{
-    (void)state;
-    struct thing things[20];
-    struct field_names names = {0};
-    for (size_t i = 0; i < COUNT(things); i++) {
-        field_clear(&record, &things[i]);
-        things[i].name = "a";
-    }
-    assert_true(field_in_bounds(&record, things, COUNT(things), ~0U, &names));
-    things[13].name = NULL;
-    assert_false(field_in_bounds(&record, things, COUNT(things), ~0U, &names));
-    assert_true(field_in_bounds(&record, things, 13, ~0U, &names));
-    things[13].name = "b";
-    things[19].maybe_s = 11;
-    assert_false(field_in_bounds(&record, things, COUNT(things), ~0U, &names));
-    things[19].maybe_s = 0.5;
-    things[7].number = -6;
-    assert_false(field_in_bounds(&record, things, COUNT(things), ~0U, &names));
-    things[7].number = -5;
-    assert_true(field_in_bounds(&record, things, COUNT(things), ~0U, &names));
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -475,9 +376,6 @@ int main(void)
         cmocka_unit_test(names_and_choices_are_checked),
         cmocka_unit_test(words_are_numbers_only_as_a_whole),
         cmocka_unit_test(the_first_missing_member_is_named),
-        cmocka_unit_test(the_check_goes_all_the_way_down),
-        cmocka_unit_test(every_byte_of_a_name_is_looked_at),
-        cmocka_unit_test(what_is_missing_among_items_is_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "text/field_check.h"
 #include "traffic/scenario.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])

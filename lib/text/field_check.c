@@ -1,0 +1,172 @@
+#include "text/field_check.h"
+
+#include <string.h>
+
+/* Structs that lie side by side, size bytes from one to the next: list items, or what is embedded
+ * in them. at is the number of the first one that is found to be bad. */
+struct items {
+    const char *first;
+    size_t size, count;
+    size_t at;
+};
+
+static int check_records(const struct record *record, struct items *items, unsigned sections,
+                         struct diag *diag);
+
+/* Nearly all numbers are in bounds: most columns of them need no second look. */
+static bool reals_inside(const struct field *field, const struct items *items)
+{
+    const double low = field->low, high = field->high;
+    const char *item = items->first, *end = item + items->count * items->size;
+    for (; item < end; item += items->size) {
+        double value = FIELD_LOAD(double, field, item);
+        if (!(value >= low && value <= high))
+            return false;
+    }
+    return true;
+}
+
+static int check_numbers(const struct record *record, const struct field *field,
+                         struct items *items, struct diag *diag)
+{
+    const char *item = items->first;
+    for (size_t i = 0; i < items->count; i++, item += items->size) {
+        double value = field->kind == FIELD_REAL ? FIELD_LOAD(double, field, item)
+                                                 : (double)FIELD_LOAD(int64_t, field, item);
+        if ((value >= field->low && value <= field->high) || !field_present(record, field, item))
+            continue;
+        items->at = i;
+        return field_out_of_bounds(field, value, diag);
+    }
+    return 0;
+}
+
+/* Nearly all names are printable ASCII. */
+static bool is_plain_name(const char *text)
+{
+    const char *end = text;
+    while (*end >= ' ' && *end <= '~')
+        end++;
+    return *end == '\0' && end > text && end - text <= FIELD_NAME_SIZE;
+}
+
+/* Neighbours often share a name: the same one is not looked at twice in a row. */
+static int check_names(const struct field *field, struct items *items, struct diag *diag)
+{
+    const char *item = items->first, *good = NULL;
+    for (size_t i = 0; i < items->count; i++, item += items->size) {
+        const char *name = FIELD_LOAD(const char *, field, item);
+        if (name == NULL ? field->optional : name == good)
+            continue;
+        items->at = i;
+        if (name == NULL)
+            return diag_fail(diag, DIAG_DATA, "%s: missing", field->name);
+        if (!is_plain_name(name) && field_require_name(field, name, strlen(name), diag) != 0)
+            return -1;
+        good = name;
+    }
+    return 0;
+}
+
+/* A list that is still a document's was checked when that was read. */
+static int check_lists(const struct record *record, const struct field *field, struct items *items,
+                       struct diag *diag)
+{
+    static const struct field name = {.name = "", .kind = FIELD_NAME};
+    const char *item = items->first;
+    for (size_t i = 0; i < items->count; i++, item += items->size) {
+        struct field_list list = field_list(field, item);
+        struct items own = {.first = list.items, .count = list.count};
+        if (field->steady && field_unchanged(record, field, item))
+            continue;
+        items->at = i;
+        if (field->kind == FIELD_NAMES) {
+            own.size = sizeof(const char *);
+            if (check_names(&name, &own, diag) != 0)
+                return diag_prefix(diag, "%s[%zu]", field->name, own.at);
+        } else {
+            own.size = field->record->size;
+            if (check_records(field->record, &own, ~0U, diag) != 0)
+                return diag_prefix(diag, "%s[%zu].", field->name, own.at);
+        }
+    }
+    return 0;
+}
+
+static int check_embedded(const struct field *field, struct items *items, struct diag *diag)
+{
+    struct items embedded = {items->first + field->offset, items->size, items->count, 0};
+    if (check_records(field->record, &embedded, ~0U, diag) == 0)
+        return 0;
+    items->at = embedded.at;
+    return diag_prefix(diag, "%s.", field->name);
+}
+
+static int check_member(const struct record *record, const struct field *field, struct items *items,
+                        struct diag *diag)
+{
+    switch (field->kind) {
+    case FIELD_REAL:
+    case FIELD_INTEGER:
+        return check_numbers(record, field, items, diag);
+    case FIELD_NAME:
+        return check_names(field, items, diag);
+    case FIELD_NAMES:
+    case FIELD_LIST:
+        return check_lists(record, field, items, diag);
+    case FIELD_RECORD:
+        return check_embedded(field, items, diag);
+    default: /* every value of the others can be written and read back */
+        return 0;
+    }
+}
+
+/* A member with a section is checked in those items that have it. */
+static int check_section(const struct record *record, const struct field *field,
+                         struct items *items, struct diag *diag)
+{
+    for (size_t i = 0; i < items->count; i++) {
+        struct items one = {items->first + i * items->size, items->size, 1, 0};
+        if (!field_present(record, field, one.first))
+            continue;
+        items->at = i;
+        if (check_member(record, field, &one, diag) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+/* The sections that any of the items has. */
+static unsigned sections_among(const struct record *record, const struct items *items)
+{
+    unsigned sections = 0;
+    for (size_t i = 0; i < items->count; i++)
+        sections |= field_sections(record, items->first + i * items->size);
+    return sections;
+}
+
+static int check_records(const struct record *record, struct items *items, unsigned sections,
+                         struct diag *diag)
+{
+    if (record->fields[0].section != 0 && sections_among(record, items) == 0)
+        return 0;
+    for (const struct field *field = record->fields; field->name != NULL; field++) {
+        bool wanted = field->section == 0 || (field->section & sections) != 0;
+        if (!wanted || (field->kind == FIELD_REAL && reals_inside(field, items)))
+            continue;
+        if ((field->section == 0 ? check_member : check_section)(record, field, items, diag) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+int field_check_sections(const struct record *record, const void *base, unsigned sections,
+                         struct diag *diag)
+{
+    return check_records(record, &(struct items){base, record->size, 1, 0}, sections, diag);
+}
+
+int field_check(const struct record *record, const void *base, struct diag *diag)
+{
+    return field_check_sections(record, base, ~0U, diag);
+}
