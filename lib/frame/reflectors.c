@@ -279,40 +279,13 @@ const struct reflectors_shape *reflectors_shape(const struct reflector_set *set,
     return shape;
 }
 
-struct vec2 reflectors_place(const struct box *box, double x, double y)
-{
-    struct vec2 own = {x * box->length_m, y * box->width_m};
-    return vec2_add(box->motion.position_m, vec2_turn(own, box->heading));
-}
-
-void reflectors_outline(const struct box *box, struct vec2 corner[4])
-{
-    /* What reflectors_place says of each, from the same four products. */
-    struct vec2 centre = box->motion.position_m;
-    struct vec2 ahead = vec2_scale(0.5 * box->length_m, box->heading);
-    struct vec2 left = vec2_left(vec2_scale(0.5 * box->width_m, box->heading));
-    struct vec2 front_left = vec2_add(ahead, left), front_right = vec2_sub(ahead, left);
-    corner[0] = vec2_add(centre, front_left);
-    corner[1] = vec2_sub(centre, front_right);
-    corner[2] = vec2_sub(centre, front_left);
-    corner[3] = vec2_add(centre, front_right);
-}
-
 struct vec2 reflectors_point_place(const struct box *box, const struct point_reflector *point)
 {
-    struct vec2 surface = reflectors_place(box, point->x, point->y);
+    struct vec2 surface = box_place(box, point->x, point->y);
     if (point->inset_m == 0)
         return surface;
     struct vec2 facing = vec2_turn(vec2_heading(point->facing_rad), box->heading);
     return vec2_sub(surface, vec2_scale(point->inset_m, facing));
-}
-
-struct vec2 reflectors_along(const struct box *box, const struct plane_reflector *plane)
-{
-    struct vec2 own = {(plane->to_x - plane->from_x) * box->length_m,
-                       (plane->to_y - plane->from_y) * box->width_m};
-    double length = vec2_length(own);
-    return vec2_turn((struct vec2){own.x / length, own.y / length}, box->heading);
 }
 
 double reflectors_visibility(const struct box *box, const struct point_reflector *point,
@@ -344,8 +317,7 @@ double reflectors_lobe(const struct box *box, const struct point_reflector *poin
 
 static struct vec2 row_vector(const struct box *box, const struct post_row *row)
 {
-    return vec2_sub(reflectors_place(box, row->to_x, row->to_y),
-                    reflectors_place(box, row->from_x, row->from_y));
+    return vec2_sub(box_place(box, row->to_x, row->to_y), box_place(box, row->from_x, row->from_y));
 }
 
 void reflectors_posts_within(const struct box *box, const struct post_row *row, struct vec2 sensor,
@@ -359,7 +331,7 @@ void reflectors_posts_within(const struct box *box, const struct post_row *row, 
     if (length == 0)
         return;
     struct vec2 unit = vec2_scale(1 / length, along);
-    struct vec2 to_sensor = vec2_sub(sensor, reflectors_place(box, row->from_x, row->from_y));
+    struct vec2 to_sensor = vec2_sub(sensor, box_place(box, row->from_x, row->from_y));
     double foot = vec2_dot(to_sensor, unit), aside = vec2_cross(unit, to_sensor);
     if (fabs(aside) > range_m) {
         *end = 0;
@@ -376,7 +348,7 @@ struct vec2 reflectors_post_place(const struct box *box, const struct post_row *
 {
     struct vec2 along = row_vector(box, row);
     double length = vec2_length(along);
-    struct vec2 start = reflectors_place(box, row->from_x, row->from_y);
+    struct vec2 start = box_place(box, row->from_x, row->from_y);
     if (length == 0)
         return start;
     return vec2_add(start, vec2_scale((double)post * row->spacing_m / length, along));

@@ -7,8 +7,8 @@
 #ifndef REFLECTORS_H
 #define REFLECTORS_H
 
+#include "geometry/box.h"
 #include "geometry/lobe.h"
-#include "geometry/motion.h"
 #include "geometry/visibility_range.h"
 #include "text/field.h"
 
@@ -108,25 +108,8 @@ const char *reflectors_name_twice(const struct reflector_set *set);
 const struct reflectors_shape *reflectors_shape(const struct reflector_set *set,
                                                 struct arena *arena);
 
-/* An object's box in the world. */
-struct box {
-    struct motion motion;
-    struct vec2 heading;
-    double length_m, width_m;
-};
-
-/* The place in the world of a point given in fractions of the box. */
-struct vec2 reflectors_place(const struct box *box, double x, double y);
-
-/* The four corners, counter-clockwise from the front left. */
-void reflectors_outline(const struct box *box, struct vec2 corner[4]);
-
 /* A point with its inset. */
 struct vec2 reflectors_point_place(const struct box *box, const struct point_reflector *point);
-
-/* The unit vector from a plane's start to its end. Of a side of the box it is the heading itself,
- * or square to it, so that walls in line that are turned alike share it to the last bit. */
-struct vec2 reflectors_along(const struct box *box, const struct plane_reflector *plane);
 
 /* V(alpha) of MODEL 2.2: how much of a point at place a sensor sees; facing is the heading of the
  * point's facing_rad, in the object's frame. */

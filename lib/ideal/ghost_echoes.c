@@ -34,15 +34,13 @@ struct mirror_faces {
 static struct mirror_face mirror_face_of(const struct look_body *body, size_t index)
 {
     const struct mirror_plane *plane = &body->worn->set->mirrors.items[index];
-    const struct plane_reflector side = {
-        .from_x = plane->from_x, .from_y = plane->from_y, .to_x = plane->to_x, .to_y = plane->to_y};
     return (struct mirror_face){
         .body = body,
         .number = (int64_t)index + 1,
-        .mirror = {.a = reflectors_place(&body->box, plane->from_x, plane->from_y),
-                   .b = reflectors_place(&body->box, plane->to_x, plane->to_y),
+        .mirror = {.a = box_place(&body->box, plane->from_x, plane->from_y),
+                   .b = box_place(&body->box, plane->to_x, plane->to_y),
                    .body = body->box.motion},
-        .along = reflectors_along(&body->box, &side),
+        .along = box_along(&body->box, plane->from_x, plane->from_y, plane->to_x, plane->to_y),
         .reflection = plane->reflection,
     };
 }
@@ -384,12 +382,11 @@ static void add_row(struct look *look, const struct mirror_face *mirror_face,
 static void add_plane(struct look *look, const struct mirror_face *mirror_face,
                       const struct look_body *body, const struct plane_reflector *plane)
 {
-    struct vec2 a = reflectors_place(&body->box, plane->from_x, plane->from_y);
-    struct vec2 b = reflectors_place(&body->box, plane->to_x, plane->to_y);
+    const struct side side = line_of_sight_side(body, plane);
     struct vec2 eye =
         mirror_image(&mirror_face->mirror, look->pose.position_m, (struct vec2){0, 0}).place_m;
-    struct vec2 along = reflectors_along(&body->box, plane), foot, bounce;
-    if (!specular_point_foot(a, b, along, plane->margin_m, eye, &foot) ||
+    struct vec2 foot, bounce;
+    if (!specular_point_foot(side.from, side.to, side.along, plane->margin_m, eye, &foot) ||
         !bounces(look, mirror_face, foot, &bounce))
         return;
     struct ghost_candidate ghost_candidate =
@@ -400,7 +397,7 @@ static void add_plane(struct look *look, const struct mirror_face *mirror_face,
     ghost_candidate.ercs = look_plane_ercs(look, plane, range_m, &leg->effects);
     leg->effects |= EFFECT_BIT(EFFECT_PLANE_REFLECTION);
     if (look->frame->margins)
-        leg->margin_m = sight_margins_foot_m(a, b, along, plane->margin_m, eye);
+        leg->margin_m = sight_margins_foot_m(side.from, side.to, side.along, plane->margin_m, eye);
     add_paths(look, &ghost_candidate, false);
 }
 

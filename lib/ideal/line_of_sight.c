@@ -53,9 +53,10 @@ static enum meeting meeting_before(const struct look_body *body, const struct si
 
 struct side line_of_sight_side(const struct look_body *body, const struct plane_reflector *plane)
 {
-    return (struct side){.from = reflectors_place(&body->box, plane->from_x, plane->from_y),
-                         .to = reflectors_place(&body->box, plane->to_x, plane->to_y),
-                         .along = reflectors_along(&body->box, plane)};
+    return (struct side){
+        .from = box_place(&body->box, plane->from_x, plane->from_y),
+        .to = box_place(&body->box, plane->to_x, plane->to_y),
+        .along = box_along(&body->box, plane->from_x, plane->from_y, plane->to_x, plane->to_y)};
 }
 
 /* Has the body a side in line with this one that begins where it ends (or ends where it begins),
@@ -65,11 +66,10 @@ static bool joins(const struct look_body *body, const struct side *side, bool be
 {
     for (size_t i = 0; body->worn != NULL && i < body->worn->set->planes.count; i++) {
         const struct plane_reflector *plane = &body->worn->set->planes.items[i];
-        if (plane->margin_m != 0 || !vec2_same(reflectors_along(&body->box, plane), side->along))
+        struct side other = line_of_sight_side(body, plane);
+        if (plane->margin_m != 0 || !vec2_same(other.along, side->along))
             continue;
-        struct vec2 gap =
-            begins ? vec2_sub(reflectors_place(&body->box, plane->from_x, plane->from_y), side->to)
-                   : vec2_sub(reflectors_place(&body->box, plane->to_x, plane->to_y), side->from);
+        struct vec2 gap = begins ? vec2_sub(other.from, side->to) : vec2_sub(other.to, side->from);
         if (vec2_length(gap) <= within_m)
             return true;
     }

@@ -59,7 +59,7 @@ static struct look_body body_at(const struct look *look, const struct object *ob
     body.radius_m = 0.5 * vec2_length((struct vec2){object->length_m, object->width_m});
     body.sensor_m = vec2_turn_back(vec2_sub(look->pose.position_m, body.box.motion.position_m),
                                    body.box.heading);
-    reflectors_outline(&body.box, body.corner);
+    box_outline(&body.box, body.corner);
     return body;
 }
 

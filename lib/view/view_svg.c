@@ -102,7 +102,7 @@ static void frame_picture(struct still *still)
         const struct object *object = &frame->objects.items[i];
         struct box box = box_of(still, object);
         struct vec2 corner[4];
-        reflectors_outline(&box, corner);
+        box_outline(&box, corner);
         bool ego = strcmp(object->id, frame->ego) == 0;
         bool part = made_target(frame, object) && box.length_m < 20;
         for (int j = 0; j < 4 && (ego || part || frame->targets.count == 0); j++)
@@ -139,7 +139,7 @@ static void draw_object(struct still *still, const struct object *object)
     if (!in_picture(middle, still->scale * elementary_hypot(box.length_m, box.width_m)))
         return;
     bool ego = strcmp(object->id, still->frame->ego) == 0;
-    reflectors_outline(&box, corner);
+    box_outline(&box, corner);
     text_format(still->text, "<path class=\"%s\" d=\"", ego ? "ego" : "body");
     for (int i = 0; i < 4; i++) {
         struct vec2 at = to_pixels(still, corner[i]);

@@ -239,7 +239,7 @@ static void no_ray_leaks_through_a_corner(void **state)
                                 .length_m = sample_between(&random, 3, 12),
                                 .width_m = sample_between(&random, 1.5, 2.5)};
         struct vec2 corner[4];
-        reflectors_outline(&box, corner);
+        box_outline(&box, corner);
         for (int k = 0; k < 4; k++)
             corner[k] = on_grid(corner[k], 0x1p-36);
         int k = i % 4;
@@ -366,13 +366,12 @@ static void no_object_hides_its_own_outline(void **state)
                                 .length_m = 4.5,
                                 .width_m = 1.8};
         struct vec2 corner[4];
-        reflectors_outline(&box, corner);
+        box_outline(&box, corner);
         for (int k = 0; k < 20; k++) {
             double part = sample_between(&random, -0.5, 0.5), side = k % 2 ? 0.5 : -0.5;
             double x = k % 4 < 2 ? part : side, y = k % 4 < 2 ? side : part;
             add_point(&scene, set, x, y);
-            naive += outline_crossing_blocks(corner, 4, (struct vec2){0, 0},
-                                             reflectors_place(&box, x, y));
+            naive += outline_crossing_blocks(corner, 4, (struct vec2){0, 0}, box_place(&box, x, y));
         }
         look(&scene);
         ours += (double)(20 - scene.frame.echoes.count);
@@ -416,9 +415,9 @@ static struct vec2 build_wall(struct playback *scene, uint64_t *random, bool str
     two.x_m += apart.x;
     two.y_m += apart.y;
     const struct box next = {{.position_m = {two.x_m, two.y_m}}, heading, two.length_m, 1};
-    struct vec2 end = reflectors_place(&box, 0.5, -0.5);
+    struct vec2 end = box_place(&box, 0.5, -0.5);
     struct reflector_set *set = add_object(scene, one);
-    if (vec2_same(end, reflectors_place(&next, -0.5, -0.5))) {
+    if (vec2_same(end, box_place(&next, -0.5, -0.5))) {
         add_plane(scene, set, -0.5, 0.5);
         set = add_object(scene, two);
         add_plane(scene, set, -0.5, 0.5);
@@ -426,7 +425,7 @@ static struct vec2 build_wall(struct playback *scene, uint64_t *random, bool str
     }
     add_plane(scene, set, -0.5, part);
     add_plane(scene, set, part, 0.5);
-    return reflectors_place(&box, part, -0.5);
+    return box_place(&box, part, -0.5);
 }
 
 /* The sensor stands before the joint but for rounding; every eighth wall is straight and the sensor
@@ -474,13 +473,13 @@ static void a_joint_up_to_rounding_has_one_foot_beside_it(void **state)
             along,
             lengths_m[1],
             1};
-        struct vec2 end = reflectors_place(&one, 0.5, -0.5);
-        struct vec2 begin = reflectors_place(&two, -0.5, -0.5);
+        struct vec2 end = box_place(&one, 0.5, -0.5);
+        struct vec2 begin = box_place(&two, -0.5, -0.5);
         double range_m = sample_between(&random, 1, 200);
         struct vec2 before = vec2_sub(end, vec2_scale(range_m, vec2_left(along)));
         struct vec2 beside = vec2_add(before, vec2_scale(i % 2 ? 1e-12 : -1e-12, along));
-        struct vec2 from = reflectors_place(&one, -0.5, -0.5);
-        struct vec2 to = reflectors_place(&two, 0.5, -0.5);
+        struct vec2 from = box_place(&one, -0.5, -0.5);
+        struct vec2 to = box_place(&two, 0.5, -0.5);
         naive += specular_point_foot(from, end, along, 0, before, &foot) +
                      specular_point_foot(begin, to, along, 0, before, &foot) !=
                  1;
@@ -635,11 +634,11 @@ static void a_sensor_inside_an_object_sees_the_inside_alone(void **state)
         struct object around = {
             .id = "a", .yaw_rad = sample_between(&random, -PI, PI), .length_m = 12, .width_m = 3};
         struct box box = {.heading = vec2_heading(around.yaw_rad), .length_m = 12, .width_m = 3};
-        struct vec2 sensor = reflectors_place(&box, sample_between(&random, -0.45, -0.05),
-                                              sample_between(&random, -0.4, 0.4));
+        struct vec2 sensor = box_place(&box, sample_between(&random, -0.45, -0.05),
+                                       sample_between(&random, -0.4, 0.4));
         begin_scene(&scene, sensor, around.yaw_rad);
         add_object(&scene, around);
-        struct vec2 inside = reflectors_place(&box, sample_between(&random, 0.05, 0.45), 0.1);
+        struct vec2 inside = box_place(&box, sample_between(&random, 0.05, 0.45), 0.1);
         struct vec2 beyond = vec2_add(sensor, vec2_scale(40, vec2_sub(inside, sensor)));
         add_point(&scene,
                   add_object(&scene, (struct object){.id = "b", .x_m = inside.x, .y_m = inside.y}),
@@ -650,7 +649,7 @@ static void a_sensor_inside_an_object_sees_the_inside_alone(void **state)
         scene.frame.reflectors.items[1].blocks = false;
         look(&scene);
         struct vec2 corner[4];
-        reflectors_outline(&box, corner);
+        box_outline(&box, corner);
         int crossed = 0;
         for (int k = 0; k < 4; k++)
             crossed += strict_cross(corner[k], corner[(k + 1) % 4], inside, beyond);

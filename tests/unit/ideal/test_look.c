@@ -331,8 +331,8 @@ static void rows_are_expanded_in_range_and_no_post_is_missed(void **state)
             row.to_x = row.from_x, row.to_y = row.from_y;
         struct vec2 sensor = {sample_between(&random, -200, 200), sample_between(&random, -9, 9)};
         double range_m = sample_between(&random, 0, 120);
-        double length_m = vec2_length(vec2_sub(reflectors_place(&box, row.to_x, row.to_y),
-                                               reflectors_place(&box, row.from_x, row.from_y)));
+        double length_m = vec2_length(
+            vec2_sub(box_place(&box, row.to_x, row.to_y), box_place(&box, row.from_x, row.from_y)));
         int64_t posts = 1 + (int64_t)floor(length_m / row.spacing_m), first, end, within = 0;
         reflectors_posts_within(&box, &row, sensor, range_m, &first, &end);
         assert_true(0 <= first && first <= posts && end <= posts + 1);
