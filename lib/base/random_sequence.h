@@ -1,5 +1,5 @@
-/* Sequence of random sequence from one address. One random object or case takes all its sequence
- * from one sequence; its address keeps them independent of all other sequence. */
+/* Sequence of random draws from one address. One random object or case takes all its draws from one
+ * sequence; its address keeps them independent of all other draws. */
 #ifndef RANDOM_SEQUENCE_H
 #define RANDOM_SEQUENCE_H
 
@@ -10,7 +10,7 @@
 struct random_sequence {
     struct random_address address;
     enum random_purpose purpose;
-    uint32_t taken; /* sequence so far, four to a block */
+    uint32_t taken; /* draws so far, four to a block */
     double block[4];
 };
 

@@ -7,7 +7,6 @@
 #include "text/csv_table.h"
 #include "text/document.h"
 
-/* Suites and vehicles are asked for by frames, whose standard input is the stream itself. */
 const char *catalogue_path(const char *kind, const char *name, struct arena *arena,
                            struct diag *diag)
 {
@@ -18,8 +17,8 @@ const char *catalogue_path(const char *kind, const char *name, struct arena *are
     return NULL;
 }
 
-/* The path of a table that a document names: relative to the document. */
-static const char *beside(const char *document, const char *table, struct arena *arena)
+/* The path of a table by its name in a document, which is relative to the document. */
+static const char *path_beside(const char *document, const char *table, struct arena *arena)
 {
     const char *slash = strrchr(document, '/');
     if (table[0] == '/' || slash == NULL)
@@ -88,7 +87,7 @@ static int read_pattern(const struct text *bytes, struct sensor *sensor, struct 
     return 0;
 }
 
-/* Reads one table that the suite names and counts its bytes into the digest. */
+/* Reads one table that the suite names and adds its bytes to the digest. */
 static int add_table(const char *suite_path, const char *name, struct sensor *sensor,
                      int (*read_table)(const struct text *, struct sensor *, struct arena *,
                                        struct diag *),
@@ -96,7 +95,7 @@ static int add_table(const char *suite_path, const char *name, struct sensor *se
 {
     if (name == NULL)
         return 0;
-    const char *path = beside(suite_path, name, arena);
+    const char *path = path_beside(suite_path, name, arena);
     struct text bytes = {0};
     int result = document_bytes(path, &bytes, diag);
     if (result == 0) {

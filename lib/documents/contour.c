@@ -12,10 +12,11 @@
     }
 
 static const struct field contour_fields[] = {
-    DBSM(1 << 0, front_dbsm, "seen from ahead"),
-    DBSM(1 << 1, rear_dbsm, "seen from behind"),
-    DBSM(1 << 2, side_dbsm, "seen from the left or the right"),
-    DBSM(1 << 3, oblique_dbsm, "seen at 45 degrees to these; at most 3 dB above any of them"),
+    DBSM(1 << 0, front_dbsm, "cross section seen from ahead"),
+    DBSM(1 << 1, rear_dbsm, "cross section seen from behind"),
+    DBSM(1 << 2, side_dbsm, "cross section seen from the left or the right"),
+    DBSM(1 << 3, oblique_dbsm,
+         "cross section seen at 45 degrees to these, at most 3 dB above any of them"),
     {0},
 };
 
@@ -33,7 +34,10 @@ int contour_check(const struct contour *contour, struct diag *diag)
         return 0;
     for (const struct field *field = contour_fields; field->name != NULL; field++)
         if ((contour->given & field->section) == 0)
-            return diag_fail(diag, DIAG_CONFIG, "%s: missing; expected all four", field->name);
+            return diag_fail(
+                diag, DIAG_CONFIG,
+                "%s: missing; expected front_dbsm, rear_dbsm, side_dbsm and oblique_dbsm",
+                field->name);
     double least =
         elementary_min(elementary_min(contour->front_dbsm, contour->rear_dbsm), contour->side_dbsm);
     if (contour->oblique_dbsm > least + CONTOUR_OBLIQUE_DB)
@@ -45,10 +49,10 @@ int contour_check(const struct contour *contour, struct diag *diag)
 
 struct contour_view contour_view(double face_dbsm, double oblique_dbsm)
 {
-    /* The root of the face's share in the oblique cross section. */
-    double half_way =
+    /* Visibility at 45 degrees: its square is half of the oblique cross section over the face's. */
+    double diagonal =
         elementary_min(units_amplitude_from_db(oblique_dbsm - face_dbsm) / sqrt(2), 1);
-    double cosine = 2 * half_way - 1;
+    double cosine = 2 * diagonal - 1;
     double turns = elementary_atan2(sqrt((1 - cosine) * (1 + cosine)), cosine) / PI;
     if (turns >= 0.5)
         return (struct contour_view){0, PI / 4 / turns};

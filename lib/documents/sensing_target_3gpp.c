@@ -10,7 +10,7 @@ const char *const sensing_target_3gpp_names[] = {[SENSING_TARGET_3GPP_NONE] = "n
                                                  [SENSING_TARGET_3GPP_HUMAN] = "human",
                                                  NULL};
 
-/* One row of the report's tables for several scattering points, angles in degrees. */
+/* One row of the report's tables for several scattering points; angles in degrees. */
 struct scattering_point {
     const char *name;
     double x, y, z; /* the middle of its face */

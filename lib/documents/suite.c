@@ -6,8 +6,8 @@
 #include "radar/interferer.h"
 #include "radar/scan_timing.h"
 
-/* The border of a field of view is outside, and this wide: the foot on a wall that is parallel to
- * boresight lies at 90 degrees but for its rounding. */
+/* A field of view ends this much before its border, so that the foot on a wall parallel to
+ * boresight, at 90 degrees but for its rounding, is outside. */
 #define BORDER_RAD 1e-9
 
 static const char *const extents[] = {
@@ -46,7 +46,7 @@ static const struct field sensor_fields[] = {
     {FIELD_NAME_OF(struct sensor, name, "unique in the suite")},
     {REAL(mount_x_m, -100, 100, "from the centre of the ego's box")},
     {REAL(mount_y_m, -100, 100, "from the centre of the ego's box")},
-    {REAL(mount_z_m, 0.01, 100, "above the road; absent: in a flat world, without heights"),
+    {REAL(mount_z_m, 0.01, 100, "height above the road; absent: a flat world without heights"),
      FIELD_OPTIONAL},
     {REAL(mount_yaw_rad, -PI, PI, "boresight, from the ego's heading")},
     {REAL(carrier_hz, 1e9, 1e12, "carrier frequency")},
@@ -54,49 +54,56 @@ static const struct field sensor_fields[] = {
     {REAL(range_max_m, 0, 1e6, "nothing farther is measured")},
     {REAL(field_of_view_rad, 0, PI, "full width; the border itself is outside")},
     {REAL(elevation_half_width_rad, 1e-3, PI / 2,
-          "one way, the beam is down by half this far above and below; absent: all the same"),
+          "one way, the beam is down by 3 dB this far above and below; absent: no loss"),
      FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct sensor, diffraction, "do waves bend around the edges of what blocks?"),
+    {FIELD_FLAG_OF(struct sensor, diffraction,
+                   "do waves bend around the edges of bodies that block?"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct sensor, curved_sides,
                    "do planes with a profile_radius_m reflect as curved surfaces?"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct sensor, micro_motion,
-                   "do wheels and limbs show with rates of their own?"),
+                   "do wheels and limbs echo with range rates of their own?"),
      FIELD_OPTIONAL},
-    {REAL(cycle_s, 1e-4, 1e3, "from scan to scan; absent: a scan in every frame"), FIELD_OPTIONAL},
+    {REAL(cycle_s, 1e-4, 1e3, "time from scan to scan; absent: a scan in every frame"),
+     FIELD_OPTIONAL},
     {REAL(latency_s, 0, 10, "the scan shows the world this much earlier"), FIELD_OPTIONAL},
     {FIELD_INTEGER_IN(struct sensor, bounces, 0, 3,
-                      "2: ghosts by way of a mirror out or back; 3: out and back too"),
+                      "2: ghosts by a mirror on the way out or back; 3: also on both ways"),
      FIELD_OPTIONAL},
     {CHOICE(polarization, polarizations, "of both antennas; absent: vertical"), FIELD_OPTIONAL,
      .absent = POLARIZATION_VERTICAL},
     {CHOICE(fluctuation, fluctuations, "how echoes vary from scan to scan"), FIELD_OPTIONAL},
-    {REAL(fluctuation_sigma_db, 0, 30, "of the log-normal law; absent: 3.41"), FIELD_OPTIONAL,
-     .absent = 3.41},
+    {REAL(fluctuation_sigma_db, 0, 30, "standard deviation of the log-normal law; absent: 3.41"),
+     FIELD_OPTIONAL, .absent = 3.41},
     {REAL(unambiguous_range_m, 0.1, 1e6, "farther echoes fold below it; absent: none do"),
      FIELD_OPTIONAL},
     {REAL(unambiguous_rate_mps, 0.1, 1e5, "faster echoes fold to within +- this; absent: none do"),
      FIELD_OPTIONAL},
-    {REAL(receiver_bandwidth_hz, 1, 1e12, "what other radars are heard in; absent: none is"),
+    {REAL(receiver_bandwidth_hz, 1, 1e12,
+          "other radars are received within this band; absent: they are not"),
      FIELD_OPTIONAL},
     {REAL(noise_figure_db, 0, 100, "of the receiver"), FIELD_OPTIONAL},
     {REAL(antenna_gain_dbi, -100, 100, "one way, on boresight"), FIELD_OPTIONAL},
-    {REAL(chirp_slope_hzps, -1e15, 1e15, "of a chirp, falling negative"), FIELD_OPTIONAL},
-    {REAL(chirp_s, 1e-9, 1, "how long a chirp takes"), FIELD_OPTIONAL},
-    {REAL(threshold_db, -300, 300, "detection threshold, 20 log10 of the amplitude")},
-    {REAL(calibration_ercs, 1e-6, 1e6, "this cross section meets the threshold on boresight"),
+    {REAL(chirp_slope_hzps, -1e15, 1e15, "frequency slope of a chirp, negative if it falls"),
      FIELD_OPTIONAL},
-    {REAL(calibration_range_m, 1e-3, 1e6, "at this range"), FIELD_OPTIONAL},
+    {REAL(chirp_s, 1e-9, 1, "duration of a chirp"), FIELD_OPTIONAL},
+    {REAL(threshold_db, -300, 300, "detection threshold, 20 log10 of the amplitude")},
+    {REAL(calibration_ercs, 1e-6, 1e6,
+          "on boresight an echo of this ERCS meets the threshold at calibration_range_m"),
+     FIELD_OPTIONAL},
+    {REAL(calibration_range_m, 1e-3, 1e6, "range at which calibration_ercs meets the threshold"),
+     FIELD_OPTIONAL},
     {REAL(exponent, 0.1, 10, "amplitude falls with range to this power"), FIELD_OPTIONAL,
      .absent = 2},
-    {REAL(range_floor_m, 1e-3, 1e3, "for the amplitude, nothing is nearer than this"),
+    {REAL(range_floor_m, 1e-3, 1e3,
+          "echoes from nearer than this have the amplitude of this range"),
      FIELD_OPTIONAL, .absent = 0.5},
     {FIELD_NAME_OF(struct sensor, amplitude_table,
                    "CSV file with range_m, amplitude: instead of the calibration"),
      FIELD_OPTIONAL},
-    {REAL(cell_range_m, 1e-6, 1e6, "resolution cell")},
-    {REAL(cell_range_rate_mps, 1e-6, 1e5, "resolution cell")},
+    {REAL(cell_range_m, 1e-6, 1e6, "size of the resolution cell in range")},
+    {REAL(cell_range_rate_mps, 1e-6, 1e5, "size of the resolution cell in range rate")},
     {CHOICE(cell_extent, extents, "does the cell's size mean its width or half of it?"),
      FIELD_OPTIONAL},
     {CHOICE(cell_phase, phases, "do echoes of a cell add in phase, at random or by their paths?"),
@@ -104,28 +111,32 @@ static const struct field sensor_fields[] = {
     {CHOICE(antenna_pattern, patterns, "the paper's two dipoles, or a table")},
     {FIELD_NAME_OF(struct sensor, antenna_table, "CSV file with azimuth_rad, sum, delta"),
      FIELD_OPTIONAL},
-    {CHOICE(phase_reference, references, "equation (6) counts phases from the element")},
+    {CHOICE(phase_reference, references, "where phases count from; equation (6) has the element")},
     {CHOICE(angle_estimator, estimators, "the paper's magnitude and sign, or the real ratio")},
     {REAL(pointer_sigma, 0, 1e300, "RMS of the complex noise on each channel")},
     {REAL(range_sigma_m, 0, 1e3, "noise on range")},
     {REAL(range_rate_sigma_mps, 0, 1e3, "noise on range rate")},
     {REAL(azimuth_sigma_rad, 0, PI, "noise on azimuth, for glint-noise-gauss")},
     {CHOICE(sigma_law, laws,
-            "range and rate noise as it stands, falling as threshold/amplitude, or what "
-            "window_factor says of amplitude/pointer_sigma, with what stands as its floor"),
+            "noise on range and range rate: constant, proportional to threshold/amplitude, or by "
+            "window_factor and amplitude/pointer_sigma, with the sigmas as floors"),
      FIELD_OPTIONAL},
     {REAL(window_factor, 1e-3, 1e3, "by_snr: sigma in cells at a signal as strong as the noise"),
      FIELD_OPTIONAL, .absent = 0.68},
     {REAL(misalignment_rad, -PI / 4, PI / 4, "every azimuth is reported larger by this"),
      FIELD_OPTIONAL},
-    {REAL(radome_bias_rad, 0, PI / 4, "and by this times a sine of the azimuth"), FIELD_OPTIONAL},
-    {REAL(radome_period_rad, 1e-3, 2 * PI, "of that sine, in azimuth; needed if there is a bias"),
+    {REAL(radome_bias_rad, 0, PI / 4,
+          "amplitude of the radome's error of azimuth, a sine of the azimuth"),
      FIELD_OPTIONAL},
-    {REAL(radome_phase_rad, -PI, PI, "of that sine at boresight"), FIELD_OPTIONAL},
+    {REAL(radome_period_rad, 1e-3, 2 * PI,
+          "period of the radome's error, in azimuth; needed with radome_bias_rad"),
+     FIELD_OPTIONAL},
+    {REAL(radome_phase_rad, -PI, PI, "phase of the radome's error at boresight"), FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct sensor, final_threshold, "test the noisy amplitude once more")},
-    {REAL(false_alarms, 0, 1e4, "targets per scan that are nothing but noise, on average"),
+    {REAL(false_alarms, 0, 1e4, "mean number of targets per scan that are nothing but noise"),
      FIELD_OPTIONAL},
-    {REAL(false_alarm_range_rate_mps, 0, 1e5, "their range rates lie within plus or minus this"),
+    {REAL(false_alarm_range_rate_mps, 0, 1e5,
+          "false alarms have range rates within plus or minus this"),
      FIELD_OPTIONAL, .absent = 70},
     {REAL(range_step_m, 0, 1e3, "reported in multiples of this; 0: exactly"), FIELD_OPTIONAL},
     {REAL(range_rate_step_mps, 0, 1e3, "reported in multiples of this; 0: exactly"),
@@ -216,7 +227,7 @@ int suite_check(const struct sensor *sensor, struct diag *diag)
 {
     if (sensor->receiver_bandwidth_hz > 0 && sensor->chirp_s == 0)
         return diag_fail(diag, DIAG_CONFIG,
-                         "chirp_s: missing; receiver_bandwidth_hz needs it to hear other radars");
+                         "chirp_s: missing; receiver_bandwidth_hz needs it for interference");
     if (sensor->range_max_m <= sensor->range_min_m)
         return diag_fail(diag, DIAG_CONFIG, "range_max_m: %g is not above range_min_m, %g m",
                          sensor->range_max_m, sensor->range_min_m);
@@ -226,13 +237,19 @@ int suite_check(const struct sensor *sensor, struct diag *diag)
         return diag_fail(diag, DIAG_CONFIG,
                          "amplitude_table: expected either a table or calibration_ercs and "
                          "calibration_range_m");
-    if ((sensor->antenna_pattern == ANTENNA_TABLE) != (sensor->antenna_table != NULL))
+    bool pattern = sensor->antenna_pattern == ANTENNA_TABLE;
+    if (pattern && sensor->antenna_table == NULL)
         return diag_fail(diag, DIAG_CONFIG,
-                         "antenna_table: goes with antenna_pattern \"table\", and only with it");
+                         "antenna_table: missing; antenna_pattern \"table\" needs it");
+    if (!pattern && sensor->antenna_table != NULL)
+        return diag_fail(diag, DIAG_CONFIG,
+                         "antenna_table: \"%s\"; expected only with antenna_pattern \"table\"",
+                         sensor->antenna_table);
     if (sensor->radome_bias_rad > 0 && sensor->radome_period_rad == 0)
         return diag_fail(diag, DIAG_CONFIG, "radome_period_rad: missing; radome_bias_rad needs it");
     if (sensor->elevation_half_width_rad > 0 && !(sensor->mount_z_m > 0))
-        return diag_fail(diag, DIAG_CONFIG, "elevation_half_width_rad: goes with mount_z_m");
+        return diag_fail(diag, DIAG_CONFIG,
+                         "mount_z_m: missing; elevation_half_width_rad needs it");
     if (waveform_check(&sensor->waveform, sensor->cell_range_m, sensor->range_max_m, diag) != 0)
         return diag_prefix(diag, "waveform.");
     return 0;

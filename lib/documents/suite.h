@@ -1,7 +1,8 @@
-/* Sensor suites: what the document in data/sensors/ says about each radar (MODEL 4, 6 to 10).
+/* Sensor suites: mount, beam, resolution, noise and list of radars. The record of the documents in
+ * data/sensors/ (MODEL 4, 6 to 10).
  *
- * Plain members are the document's; what lies below `amplitude_law` is worked out when it is
- * loaded (document.h). */
+ * Plain members are the document's; those from `amplitude_law` on are derived when it is loaded
+ * (suite_derive). */
 #ifndef SUITE_H
 #define SUITE_H
 
@@ -28,12 +29,13 @@ struct sensor {
     double elevation_half_width_rad;
     bool diffraction, curved_sides, micro_motion;
     double cycle_s, latency_s;
-    int64_t bounces; /* of the longest path, off objects and mirrors; below 2 only direct ones */
+    int64_t bounces; /* bounces of the longest path, off objects and mirrors; below 2 only direct
+                      * paths */
 
     enum polarization polarization;
     enum fluctuation_law fluctuation;
     double fluctuation_sigma_db;
-    double unambiguous_range_m, unambiguous_rate_mps; /* 0: any */
+    double unambiguous_range_m, unambiguous_rate_mps; /* 0: unlimited */
     double receiver_bandwidth_hz, noise_figure_db, antenna_gain_dbi;
     double chirp_slope_hzps, chirp_s;
 
@@ -66,15 +68,15 @@ struct sensor {
 
     struct radar_equation amplitude_law;
     struct antenna antenna;
-    double threshold;                         /* linear */
-    double half_range_m, half_range_rate_mps; /* of a cell */
+    double threshold;                         /* linear, on the amplitude */
+    double half_range_m, half_range_rate_mps; /* half the size of a cell */
 };
 
 struct suite {
     const char *origin;
-    const char *effects;            /* effects.h; NULL: auto */
-    LIST_OF(struct sensor) sensors; /* by name */
-    const char *name;               /* as it was asked for */
+    const char *effects;            /* a selection of effects (effects.h); NULL: auto */
+    LIST_OF(struct sensor) sensors; /* in the document's order */
+    const char *name;               /* the name or path that the user gave */
     char digest[17];
 };
 
@@ -83,24 +85,27 @@ extern const struct record sensor_record, suite_record;
 /* The sensor of that name, or NULL. */
 const struct sensor *suite_sensor(const struct suite *suite, const char *name);
 
-/* When the sensor measured what it shows in a frame of that time and interval. */
+/* The instant whose world the sensor shows in a frame of this time and interval: that of its scan,
+ * less its latency if late is true. */
 double suite_instant_s(const struct sensor *sensor, double time_s, double interval_s, bool late);
 
-/* Works out a sensor's derived members from the document's; its tables, if it names any, must be
- * in place already. */
+/* Fills a sensor's derived members from the document's; the tables that it names must be in place
+ * already. */
 void suite_derive(struct sensor *sensor);
 
-/* Refuses members that are fine alone and wrong together. */
+/* Refuses combinations of members that contradict each other; each member alone is checked by its
+ * field. */
 int suite_check(const struct sensor *sensor, struct diag *diag);
 
-/* Azimuths from here on, to either side, are outside the sensor's field of view. */
+/* Azimuths from this on, to either side, are outside the sensor's field of view. */
 double suite_border_rad(const struct sensor *sensor);
 
-/* The detection threshold on an amplitude: it rises with interference, the power of other radars
- * over the sensor's own noise. */
+/* The detection threshold on an amplitude. It rises with interference, the ratio of the power of
+ * other radars to the sensor's own noise. */
 double suite_threshold(const struct sensor *sensor, double interference);
 
-/* The amplitude of a direct echo without effects, equation (2): A_ref(R) ERCS A_phi. */
+/* The amplitude of a direct echo without effects, A_ref(R) ERCS A_phi (equation (2) of the paper,
+ * MODEL 4). */
 double suite_amplitude(const struct sensor *sensor, double range_m, double azimuth_rad,
                        double ercs);
 

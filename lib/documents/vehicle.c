@@ -7,13 +7,13 @@
 
 static const struct field vehicle_fields[] = {
     {FIELD_NAME_OF(struct vehicle, origin, "who made this, and from what")},
-    {FIELD_REAL_IN(struct vehicle, length_m, 0.01, 1e4, "where an object of the class gives none")},
-    {FIELD_REAL_IN(struct vehicle, width_m, 0.01, 1e4, "where an object of the class gives none")},
-    {FIELD_REAL_IN(struct vehicle, height_m, 0.01, 1e3, "where an object of the class gives none")},
+    {FIELD_REAL_IN(struct vehicle, length_m, 0.01, 1e4, "of objects without one of their own")},
+    {FIELD_REAL_IN(struct vehicle, width_m, 0.01, 1e4, "of objects without one of their own")},
+    {FIELD_REAL_IN(struct vehicle, height_m, 0.01, 1e3, "of objects without one of their own")},
     {FIELD_RECORD_OF(struct vehicle, reflectors, &reflector_model_record,
                      "reflection centres of the class")},
     {FIELD_CHOICE_OF(struct vehicle, sensing_target, sensing_target_3gpp_names,
-                     "what 3GPP TR 38.901 would call it, for glint-extract-3gpp"),
+                     "sensing target of 3GPP TR 38.901, for glint-extract-3gpp"),
      FIELD_OPTIONAL},
     {FIELD_RECORD_OF(struct vehicle, contour, &contour_record, "for glint-extract-contour"),
      FIELD_OPTIONAL},
@@ -36,7 +36,8 @@ static int check_visibility(const char *list, size_t index, double full_rad, dou
     return 0;
 }
 
-/* What the tables cannot say: names are unique, and visibility ends where it must. */
+/* Checks what field tables cannot: names are unique, and visibility does not end before it is
+ * full. */
 static int check_reflectors(const struct reflector_set *set, struct diag *diag)
 {
     const char *twice = reflectors_name_twice(set);

@@ -1,4 +1,5 @@
-/* Vehicle documents (data/vehicles/): what a class of road users or things is to a radar. */
+/* Documents of classes of road users and things (data/vehicles/): size, reflection centres and
+ * other models of a class. */
 #ifndef VEHICLE_H
 #define VEHICLE_H
 
@@ -6,11 +7,10 @@
 #include "documents/sensing_target_3gpp.h"
 #include "frame/reflectors.h"
 
-/* One class of road users or things (data/vehicles/). */
 struct vehicle {
     const char *origin;
-    double length_m, width_m, height_m;      /* where an object of the class gives none */
-    struct reflector_set reflectors;         /* worn_by is empty */
+    double length_m, width_m, height_m;      /* for objects that have no size of their own */
+    struct reflector_set reflectors;         /* belongs to no object yet */
     enum sensing_target_3gpp sensing_target; /* for glint-extract-3gpp */
     struct contour contour;                  /* for glint-extract-contour */
 };

@@ -12,23 +12,24 @@ static const char *const cfars[] = {[CFAR_ORDERED] = "ordered", [CFAR_MEAN] = "m
 #define CHOICE(member, choices, help) FIELD_CHOICE_OF(struct waveform, member, choices, help)
 
 static const struct field waveform_fields[] = {
-    {CHOICE(kind, kinds, "a chirp that is mixed with itself, or a pulse")},
-    {INTEGER(samples, 16, 4096,
-             "of one chirp, as many as range cells; of one pulse, four to a range cell")},
+    {CHOICE(kind, kinds, "a chirp that is mixed with its echo, or a pulse")},
+    {INTEGER(samples, 16, 4096, "range bins: one to a range cell for chirps, four for pulses")},
     {INTEGER(repetitions, 16, 4096, "chirps or pulses of a scan, as many as range rate cells")},
     {INTEGER(elements, 2, 64, "receivers in a row; absent: the antenna's sum and delta channel"),
      FIELD_OPTIONAL},
-    {REAL(spacing, 0.1, 100, "of the elements, in wavelengths"), FIELD_OPTIONAL, .absent = 0.5},
-    {CHOICE(window, windows, "before the transforms"), FIELD_OPTIONAL},
-    {CHOICE(cfar, cfars, "noise around a cell is the mean of its neighbours, or one by its rank"),
+    {REAL(spacing, 0.1, 100, "distance between elements, in wavelengths"), FIELD_OPTIONAL,
+     .absent = 0.5},
+    {CHOICE(window, windows, "window of the Fourier transforms"), FIELD_OPTIONAL},
+    {CHOICE(cfar, cfars, "noise level of a cell: the neighbour of cfar_rank, or the mean of all"),
      FIELD_OPTIONAL},
     {INTEGER(cfar_cells, 2, CFAR_MOST_CELLS, "neighbours in range rate, half of them on each side"),
      FIELD_OPTIONAL, .absent = 16},
-    {INTEGER(cfar_guard, 0, 64, "cells between them and the cell, on each side"), FIELD_OPTIONAL,
-     .absent = 2},
-    {INTEGER(cfar_rank, 1, CFAR_MOST_CELLS, "for the rank: from 1, the weakest neighbour"),
+    {INTEGER(cfar_guard, 0, 64, "cells between a cell and its neighbours, on each side"),
+     FIELD_OPTIONAL, .absent = 2},
+    {INTEGER(cfar_rank, 1, CFAR_MOST_CELLS,
+             "ordered: rank of the neighbour, from 1 for the weakest"),
      FIELD_OPTIONAL, .absent = 12},
-    {REAL(cfar_false_alarm, 1e-12, 0.5, "probability that noise alone stands out that far"),
+    {REAL(cfar_false_alarm, 1e-12, 0.5, "probability that noise alone passes the threshold"),
      FIELD_OPTIONAL, .absent = 1e-4},
     {0},
 };
@@ -52,10 +53,10 @@ int waveform_check(const struct waveform *waveform, double cell_range_m, double 
     if (waveform->samples == 0)
         return 0;
     if ((double)waveform->samples * step_m < range_max_m)
-        return diag_fail(diag, DIAG_CONFIG,
-                         "samples: %lld of %g m do not reach range_max_m, %g m; expected %.0f",
-                         (long long)waveform->samples, step_m, range_max_m,
-                         ceil(range_max_m / step_m));
+        return diag_fail(
+            diag, DIAG_CONFIG,
+            "samples: %lld of %g m do not reach range_max_m, %g m; expected at least %.0f",
+            (long long)waveform->samples, step_m, range_max_m, ceil(range_max_m / step_m));
     if (waveform->cfar_cells % 2 != 0)
         return diag_fail(diag, DIAG_CONFIG, "cfar_cells: %lld; expected an even number",
                          (long long)waveform->cfar_cells);
@@ -64,7 +65,7 @@ int waveform_check(const struct waveform *waveform, double cell_range_m, double 
                          (long long)waveform->cfar_rank, (long long)waveform->cfar_cells);
     if (waveform->cfar_cells + 2 * waveform->cfar_guard >= waveform->repetitions)
         return diag_fail(diag, DIAG_CONFIG,
-                         "cfar_cells: %lld and twice cfar_guard, %lld, are no less than "
+                         "cfar_cells: %lld plus twice cfar_guard, %lld, must be less than "
                          "repetitions, %lld",
                          (long long)waveform->cfar_cells, (long long)waveform->cfar_guard,
                          (long long)waveform->repetitions);

@@ -1,7 +1,7 @@
-/* How a radar makes its signal, for glint-sensor-signal: the member `waveform` of a sensor's
- * document. Its resolution is that of the document's cells: chirps of bandwidth c/(2 cell_range_m),
- * or pulses that are cell_range_m wide at half their amplitude, over a time of wavelength/(2
- * cell_range_rate_mps). */
+/* Waveform and CFAR search of a radar, for glint-sensor-signal. The record is the member `waveform`
+ * of a sensor's document. The resolution is that of the document's cells: chirps have the bandwidth
+ * c/(2 cell_range_m), pulses are cell_range_m wide at half their amplitude, and a scan lasts
+ * wavelength/(2 cell_range_rate_mps). */
 #ifndef WAVEFORM_H
 #define WAVEFORM_H
 
@@ -13,10 +13,10 @@ enum waveform_kind { WAVEFORM_CHIRP, WAVEFORM_PULSE };
 
 struct waveform {
     enum waveform_kind kind;
-    int64_t samples;     /* 0: no waveform is described */
-    int64_t repetitions; /* of the chirp, or of the pulse */
+    int64_t samples;     /* 0: the document describes no waveform */
+    int64_t repetitions; /* chirps or pulses of a scan */
     int64_t elements;    /* 0: the sum and delta channels of the antenna */
-    double spacing;
+    double spacing;      /* of the elements, in wavelengths */
     enum point_response window;
     enum cfar_kind cfar;
     int64_t cfar_cells, cfar_guard, cfar_rank;
@@ -25,10 +25,10 @@ struct waveform {
 
 extern const struct record waveform_record;
 
-/* How far apart its range bins are. */
+/* The distance between range bins. */
 double waveform_range_step_m(const struct waveform *waveform, double cell_range_m);
 
-/* Refuses what is fine alone and wrong together. No waveform is fine. */
+/* Refuses combinations of members that contradict each other. No waveform at all is accepted. */
 int waveform_check(const struct waveform *waveform, double cell_range_m, double range_max_m,
                    struct diag *diag);
 

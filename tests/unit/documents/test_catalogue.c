@@ -110,7 +110,7 @@ static void load_suite(const char *name, struct arena *arena)
     for (size_t i = 0; i < suite->sensors.count; i++) {
         const struct sensor *sensor = &suite->sensors.items[i];
         assert_int_equal(sensor->antenna.row_count >= 2, sensor->antenna_table != NULL);
-        /* Calibration: that cross section at that range is at the threshold on boresight. */
+        /* Calibration: on boresight that ERCS at that range meets the threshold. */
         double amplitude =
             radar_reference_amplitude(&sensor->amplitude_law, sensor->calibration_range_m);
         assert_near(amplitude * sensor->calibration_ercs, sensor->threshold, 1e-12);
@@ -162,7 +162,7 @@ static void tables_are_found_beside_the_document_and_read(void **state)
     const struct sensor *sensor = suite_sensor(suite, "a");
     assert_null(suite_sensor(suite, "b"));
     assert_int_equal(sensor->amplitude_law.law, RADAR_TABLE);
-    /* Straight in the logarithms: a quarter for twice the range. */
+    /* Straight in the logarithms of both: at sqrt(10 20) m the amplitude is sqrt(8 2). */
     assert_near(radar_reference_amplitude(&sensor->amplitude_law, sqrt(200)), 4.0, 1e-12);
     assert_close(antenna_gain(&sensor->antenna, 0.5), 0.75, 1e-12);
     assert_near(sensor->threshold, 1.9952623149688795, 1e-14);
@@ -173,7 +173,7 @@ static void tables_are_found_beside_the_document_and_read(void **state)
     assert_close(suite->sensors.items[0].half_range_m, 0.3, 0);
 }
 
-static void the_digest_is_of_everything_that_was_read(void **state)
+static void the_digest_covers_the_document_and_every_table(void **state)
 {
     struct scratch *scratch = *state;
     static const struct {
@@ -202,7 +202,7 @@ static void the_digest_is_of_everything_that_was_read(void **state)
     }
 }
 
-static void suites_that_contradict_themselves_are_refused(void **state)
+static void suites_with_contradictory_members_are_refused(void **state)
 {
     struct scratch *scratch = *state;
 #define POWER "\"calibration_ercs\":0.8,\"calibration_range_m\":30,"
@@ -222,12 +222,11 @@ static void suites_that_contradict_themselves_are_refused(void **state)
          "/suite.json: sensors[0].amplitude_table: expected either a table or calibration_ercs "
          "and calibration_range_m"},
         {SUITE(SENSOR("a", RANGES, POWER "\"antenna_pattern\":\"table\",")), amplitudes, pattern,
-         "/suite.json: sensors[0].antenna_table: goes with antenna_pattern \"table\", and only "
-         "with it"},
+         "/suite.json: sensors[0].antenna_table: missing; antenna_pattern \"table\" needs it"},
         {SUITE(SENSOR("a", RANGES, POWER PAIR "\"antenna_table\":\"pattern.csv\",")), amplitudes,
          pattern,
-         "/suite.json: sensors[0].antenna_table: goes with antenna_pattern \"table\", and only "
-         "with it"},
+         "/suite.json: sensors[0].antenna_table: \"pattern.csv\"; expected only with "
+         "antenna_pattern \"table\""},
         {SUITE(SENSOR("a", RANGES, POWER PAIR "\"radome_bias_rad\":0.01,")), amplitudes, pattern,
          "/suite.json: sensors[0].radome_period_rad: missing; radome_bias_rad needs it"},
         {SUITE(SENSOR("a", RANGES, TABLES)), "range_m,amplitude\n10,8\n", pattern,
@@ -242,7 +241,7 @@ static void suites_that_contradict_themselves_are_refused(void **state)
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct diag diag;
         assert_null(suite_of(scratch, cases[i].document, cases[i].table, cases[i].rows, &diag));
-        /* The message of a table stands behind the place that names it. */
+        /* The message about a table follows the place that names it. */
         assert_memory_equal(diag.text, scratch->suite, strlen(scratch->suite));
         assert_string_equal(diag.text + strlen(diag.text) - strlen(cases[i].message),
                             cases[i].message);
@@ -261,7 +260,7 @@ static void suites_that_contradict_themselves_are_refused(void **state)
     }
 }
 
-static void vehicles_that_no_table_can_refuse_are_refused(void **state)
+static void vehicles_with_contradictory_members_are_refused(void **state)
 {
     struct scratch *scratch = *state;
     static const char *const faults[] = {
@@ -305,9 +304,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_document_that_is_shipped_loads),
         cmocka_unit_test(tables_are_found_beside_the_document_and_read),
-        cmocka_unit_test(the_digest_is_of_everything_that_was_read),
-        cmocka_unit_test(suites_that_contradict_themselves_are_refused),
-        cmocka_unit_test(vehicles_that_no_table_can_refuse_are_refused),
+        cmocka_unit_test(the_digest_covers_the_document_and_every_table),
+        cmocka_unit_test(suites_with_contradictory_members_are_refused),
+        cmocka_unit_test(vehicles_with_contradictory_members_are_refused),
         cmocka_unit_test(scenarios_are_checked_and_named),
     };
     return cmocka_run_group_tests(tests, make_scratch, remove_scratch);

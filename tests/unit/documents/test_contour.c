@@ -16,15 +16,15 @@
 static const struct contour car = {15, 10.8, 13.6, 20.1, 7.1};
 static const struct contour bicycle = {15, -2, -2, 4, -2};
 
-/* Where a sensor stands that sees the object's middle from that far and that aspect. */
+/* The place of a sensor that sees the object's middle from this distance and aspect. */
 static struct vec2 sensor_at(double aspect_rad, double range_m)
 {
     return (struct vec2){range_m * cos(aspect_rad), range_m * sin(aspect_rad)};
 }
 
-/* Every post of the set in sight: what it returns, and from where. */
+/* A post in sight: its amplitude and its place. */
 struct post {
-    double amplitude; /* the root of its cross section */
+    double amplitude; /* root of its cross section */
     double range_m;
 };
 
@@ -88,7 +88,7 @@ static void the_powers_of_all_posts_are_the_class_cross_section(void **state)
         }
 }
 
-static void between_them_it_is_no_stronger_than_at_the_ends(void **state)
+static void between_normal_and_diagonal_no_aspect_is_stronger(void **state)
 {
     (void)state;
     for (double aspect_rad = 0; aspect_rad < PI / 4; aspect_rad += 0.01) {
@@ -121,8 +121,8 @@ static void a_face_has_half_of_the_oblique_cross_section_at_45_degrees(void **st
     }
 }
 
-/* The power of all posts with the phases of their paths and, if they are rough, a constant each,
- * over their incoherent sum. */
+/* The power of all posts with the phases of their paths and, if they are rough, a constant phase
+ * each, over their incoherent sum. */
 static double coherent_over_incoherent(const struct reflector_set *set, struct vec2 sensor,
                                        bool rough, uint64_t seed)
 {
@@ -155,7 +155,7 @@ static double mean_over_incoherent_db(double spacing_m, bool rough)
     return 10 * log10(total / draws);
 }
 
-/* Five deviations of a mean of exponential draws are 0.34 dB. */
+/* Five standard deviations of a mean of exponential draws are 0.34 dB. */
 static void with_random_phases_the_spacing_does_not_matter_and_with_fixed_ones_it_does(void **state)
 {
     (void)state;
@@ -167,7 +167,7 @@ static void with_random_phases_the_spacing_does_not_matter_and_with_fixed_ones_i
     assert_true(fabs(coarse_db - fine_db) > 5);
 }
 
-static void rows_take_the_place_of_the_documents(void **state)
+static void rows_replace_the_reflectors_of_the_document(void **state)
 {
     (void)state;
     struct arena arena = {0};
@@ -189,7 +189,7 @@ static void rows_take_the_place_of_the_documents(void **state)
     arena_free(&arena);
 }
 
-static void an_oblique_cross_section_must_fit_between_the_others(void **state)
+static void an_oblique_cross_section_must_fit_the_others(void **state)
 {
     (void)state;
     struct diag diag = {0};
@@ -209,13 +209,13 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_powers_of_all_posts_are_the_class_cross_section),
-        cmocka_unit_test(between_them_it_is_no_stronger_than_at_the_ends),
+        cmocka_unit_test(between_normal_and_diagonal_no_aspect_is_stronger),
         cmocka_unit_test(a_longer_object_has_more_power_in_proportion),
         cmocka_unit_test(a_face_has_half_of_the_oblique_cross_section_at_45_degrees),
         cmocka_unit_test(
             with_random_phases_the_spacing_does_not_matter_and_with_fixed_ones_it_does),
-        cmocka_unit_test(rows_take_the_place_of_the_documents),
-        cmocka_unit_test(an_oblique_cross_section_must_fit_between_the_others),
+        cmocka_unit_test(rows_replace_the_reflectors_of_the_document),
+        cmocka_unit_test(an_oblique_cross_section_must_fit_the_others),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

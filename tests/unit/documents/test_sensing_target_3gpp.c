@@ -10,7 +10,7 @@
 #define DEGREE (PI / 180)
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-/* The incoherent sum of all points from a direction in the target's frame, far away. */
+/* The incoherent sum of all points, seen from a direction in the target's frame, far away. */
 static double cross_section_dbsm(enum sensing_target_3gpp target, double azimuth, double zenith)
 {
     struct arena arena = {0};
@@ -44,8 +44,8 @@ static void a_vehicle_has_the_published_cross_sections(void **state)
     }
 }
 
-/* From straight above the roof stands out; the other faces are at their floors. */
-static void from_above_the_roof_is_seen(void **state)
+/* Seen from straight above, the roof dominates; the other faces are at their floors. */
+static void from_above_the_roof_dominates(void **state)
 {
     (void)state;
     double floors_m2 = 2 * pow(10, 0.008) + 2 * pow(10, 0.008);
@@ -60,7 +60,7 @@ static void a_human_is_the_same_from_everywhere(void **state)
         assert_close(cross_section_dbsm(SENSING_TARGET_3GPP_HUMAN, azimuth, 80), -1.37, 1e-12);
 }
 
-static void the_points_take_the_place_of_the_documents(void **state)
+static void the_points_replace_the_reflectors_of_the_document(void **state)
 {
     (void)state;
     struct arena arena = {0};
@@ -88,9 +88,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_vehicle_has_the_published_cross_sections),
-        cmocka_unit_test(from_above_the_roof_is_seen),
+        cmocka_unit_test(from_above_the_roof_dominates),
         cmocka_unit_test(a_human_is_the_same_from_everywhere),
-        cmocka_unit_test(the_points_take_the_place_of_the_documents),
+        cmocka_unit_test(the_points_replace_the_reflectors_of_the_document),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,7 +28,7 @@ static void assert_fine(const struct waveform *waveform, double cell_range_m, do
     assert_int_equal(waveform_check(waveform, cell_range_m, range_max_m, &diag), 0);
 }
 
-static void absent_members_are_hanns_window_and_the_twelfth_of_sixteen(void **state)
+static void absent_members_mean_hanns_window_and_the_twelfth_of_sixteen(void **state)
 {
     (void)state;
     struct waveform waveform = usual(WAVEFORM_CHIRP);
@@ -42,7 +42,7 @@ static void absent_members_are_hanns_window_and_the_twelfth_of_sixteen(void **st
     assert_fine(&waveform, 1.79, 229);
 }
 
-static void no_waveform_has_no_fault(void **state)
+static void a_suite_without_a_waveform_is_accepted(void **state)
 {
     (void)state;
     struct waveform waveform;
@@ -61,7 +61,7 @@ static void pulses_have_four_samples_to_a_cell(void **state)
     assert_int_equal(waveform_check(&pulse, 0.3, 9.7, &diag), -1);
 }
 
-static void what_does_not_go_together_is_refused_by_name(void **state)
+static void contradictory_members_are_refused_by_name(void **state)
 {
     (void)state;
     struct waveform waveform = usual(WAVEFORM_CHIRP);
@@ -81,10 +81,10 @@ static void what_does_not_go_together_is_refused_by_name(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(absent_members_are_hanns_window_and_the_twelfth_of_sixteen),
-        cmocka_unit_test(no_waveform_has_no_fault),
+        cmocka_unit_test(absent_members_mean_hanns_window_and_the_twelfth_of_sixteen),
+        cmocka_unit_test(a_suite_without_a_waveform_is_accepted),
         cmocka_unit_test(pulses_have_four_samples_to_a_cell),
-        cmocka_unit_test(what_does_not_go_together_is_refused_by_name),
+        cmocka_unit_test(contradictory_members_are_refused_by_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
