@@ -16,11 +16,11 @@ static int check_objects(struct frame *frame, struct diag *diag)
     return 0;
 }
 
-static const char *worn_twice(const struct reflector_set *set)
+static const char *object_listed_twice(const struct reflector_set *set)
 {
-    for (size_t i = 1; i < set->worn_by.count; i++)
-        if (frame_same_name(set->worn_by.items[i - 1], set->worn_by.items[i]))
-            return set->worn_by.items[i];
+    for (size_t i = 1; i < set->objects.count; i++)
+        if (frame_same_name(set->objects.items[i - 1], set->objects.items[i]))
+            return set->objects.items[i];
     return NULL;
 }
 
@@ -30,7 +30,7 @@ static int check_sets(const struct frame *frame, struct diag *diag)
         const struct reflector_set *set = &frame->reflectors.items[i];
         const char *twice = reflectors_unchanged(set) ? NULL : reflectors_name_twice(set);
         if (twice == NULL)
-            twice = worn_twice(set);
+            twice = object_listed_twice(set);
         if (twice != NULL)
             return diag_fail(diag, DIAG_DATA, "reflectors[%zu]: \"%s\" stands twice", i, twice);
     }

@@ -126,7 +126,7 @@ static void order_sets(struct frame *frame)
 {
     sort_list(&frame->reflectors, compare_sets, frame->arena);
     for (size_t i = 0; i < frame->reflectors.count; i++)
-        sort_list(&frame->reflectors.items[i].worn_by, frame_order_names, frame->arena);
+        sort_list(&frame->reflectors.items[i].objects, frame_order_names, frame->arena);
 }
 
 static void order_cells(struct frame *frame)

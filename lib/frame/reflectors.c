@@ -132,10 +132,10 @@ static const struct field row_fields[] = {
     {0},
 };
 
-/* The first two say what a document does not: what it describes, and who wears it. */
+/* A vehicle document has all but the first two: the class and its objects are a frame's. */
 static const struct field reflector_set_fields[] = {
     {FIELD_NAME_OF(struct reflector_set, model, "the class that the vehicle document describes")},
-    {FIELD_NAMES_OF(struct reflector_set, worn_by, "ids of the objects that reflect like this")},
+    {FIELD_NAMES_OF(struct reflector_set, objects, "ids of the objects that reflect like this")},
     {FIELD_FLAG_OF(struct reflector_set, blocks, "does the outline stop sight lines?"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct reflector_set, raised, "can a radar look under it?"), FIELD_OPTIONAL},
@@ -173,14 +173,13 @@ const struct record row_record = {
 
 const struct record reflector_set_record = {
     .name = "reflector set",
-    .help = "The reflection centres of one class and the objects that wear them.",
+    .help = "The reflection centres of one class and the objects that have them.",
     .size = sizeof(struct reflector_set),
     .fields = reflector_set_fields,
     .document_offset = offsetof(struct reflector_set, document),
 };
 
-/* The same struct and table without its first two members: a document does not know who wears it.
- */
+/* The same struct and table without its first two members, which a document does not have. */
 const struct record reflector_model_record = {
     .name = "reflector model",
     .help = "The reflection centres of a class.",

@@ -1,9 +1,9 @@
 /* What a road user is to a radar: reflection centres on its outline (MODEL 2).
  *
- * A vehicle document in data/vehicles/ describes one class; glint-extract writes it as a set, worn
- * by every object of that class. Positions are fractions of the object's length and width from the
- * centre of its box (x forward, y left; 0.5 is the front and the left side), and of its height from
- * the road (z), so one set serves cars of any size. */
+ * A vehicle document in data/vehicles/ describes one class; glint-extract writes it as a set
+ * that lists the objects of that class. Positions are fractions of the object's length and width
+ * from the centre of its box (x forward, y left; 0.5 is the front and the left side), and of its
+ * height from the road (z), so one set serves cars of any size. */
 #ifndef REFLECTORS_H
 #define REFLECTORS_H
 
@@ -67,7 +67,7 @@ struct post_row {
 
 struct reflector_set {
     const char *model;             /* the class that the document describes */
-    LIST_OF(const char *) worn_by; /* object ids */
+    LIST_OF(const char *) objects; /* their ids */
     bool blocks;                   /* does its outline stop sight lines? */
     bool raised;                   /* can a radar look under it? (MODEL 2.5, the option) */
     LIST_OF(struct point_reflector) points;
@@ -94,7 +94,7 @@ struct reflectors_face {
 };
 
 extern const struct record point_record, plane_record, row_record;
-extern const struct record reflector_set_record;   /* with who wears it: the frame's */
+extern const struct record reflector_set_record;   /* with its objects: the frame's */
 extern const struct record reflector_model_record; /* without: the vehicle document's */
 
 /* Are all of its lists still those of its document, which was checked when it was read? */

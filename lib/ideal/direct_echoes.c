@@ -338,7 +338,7 @@ void direct_echoes_add(struct look *look)
     struct frame *frame = look->frame;
     look->blockers = arena_get(frame->arena, (look->body_count + 1) * sizeof(*look->blockers));
     for (size_t i = 0; i < frame->reflectors.count; i++)
-        for (size_t j = 0; j < look->sets[i].set->worn_by.count; j++)
+        for (size_t j = 0; j < look->sets[i].set->objects.count; j++)
             look_at_body(look, look->sets[i].worn_by[j], &look->sets[i]);
     frame_count_pairs(frame, look->sensor->name, look->pairs);
     frame_count_echoes(frame, look->sensor->name, PATH_DIRECT, look->echoes);

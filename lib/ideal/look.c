@@ -76,7 +76,7 @@ static void place_bodies(struct look *look, double age_s)
 static struct look_set set_of(const struct reflector_set *set, struct arena *arena)
 {
     struct look_set shared = {.set = set, .shape = reflectors_shape(set, arena)};
-    shared.worn_by = arena_get(arena, set->worn_by.count * sizeof(*shared.worn_by));
+    shared.worn_by = arena_get(arena, set->objects.count * sizeof(*shared.worn_by));
     return shared;
 }
 
@@ -87,14 +87,14 @@ static int attach_reflectors(struct look *look, struct diag *diag)
     for (size_t i = 0; i < frame->reflectors.count; i++) {
         const struct reflector_set *set = &frame->reflectors.items[i];
         look->sets[i] = set_of(set, frame->arena);
-        for (size_t j = 0; j < set->worn_by.count; j++) {
-            struct look_body *body = body_of_id(look, set->worn_by.items[j]);
+        for (size_t j = 0; j < set->objects.count; j++) {
+            struct look_body *body = body_of_id(look, set->objects.items[j]);
             if (body == NULL)
                 return diag_fail(
                     diag, DIAG_DATA,
-                    "reflectors[%zu].worn_by[%zu]: \"%s\" is not among the objects, or "
+                    "reflectors[%zu].objects[%zu]: \"%s\" is not among the objects, or "
                     "is the ego",
-                    i, j, set->worn_by.items[j]);
+                    i, j, set->objects.items[j]);
             body->worn = &look->sets[i];
             body->blocks = set->blocks;
             body->raised = set->raised;

@@ -189,7 +189,8 @@ static void complete_size(struct object *object, const struct vehicle *vehicle)
         object->height_m = vehicle->height_m;
 }
 
-/* What the objects wear that are of one vehicle; of[i] is object[i]'s. */
+/* Adds the reflector set of one vehicle, with the objects that are of it; of[i] is the vehicle of
+ * object[i]. */
 static void add_set(struct runner *runner, struct frame *frame, const struct vehicle *vehicle,
                     const struct vehicle *const *of,
                     void (*describe)(const void *state, const struct vehicle *vehicle,
@@ -206,7 +207,7 @@ static void add_set(struct runner *runner, struct frame *frame, const struct veh
             if (describe != NULL)
                 describe(runner->state, vehicle, set, frame->arena);
         }
-        *list_add(&set->worn_by, frame->arena) = object[i]->id;
+        *list_add(&set->objects, frame->arena) = object[i]->id;
     }
 }
 

@@ -95,7 +95,7 @@ int runner_visit_sensors(struct runner *runner, struct frame *frame,
 const struct vehicle *runner_vehicle(struct runner *runner, const char *class);
 
 /* The whole step of a stage that extracts: completes the objects' sizes and has every object but
- * the ego wear its class's set: the document's, of which describe, if it is not NULL, may put
+ * the ego listed in its class's set: the document's, of which describe, if it is not NULL, may put
  * others in place of any list, in memory of the arena. Sizes come from documents that were checked,
  * so objects are not among what the stage writes. */
 int runner_extract(struct runner *runner, struct frame *frame,

@@ -708,7 +708,7 @@ def check_order(frame):
     ascending([text_key(one["model"]) for one in frame.get("reflectors", [])],
               f"{where}: reflectors")
     for one in frame.get("reflectors", []):
-        ascending([text_key(name) for name in one["worn_by"]], f"{where}: worn_by")
+        ascending([text_key(name) for name in one["objects"]], f"{where}: objects")
     ascending([text_key(one["name"]) for one in frame.get("sensors", {"list": []})["list"]],
               f"{where}: sensors")
     for section in ("echoes", "counts", "targets"):

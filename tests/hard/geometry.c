@@ -300,13 +300,13 @@ static void begin_scene(struct playback *scene, struct vec2 sensor, double yaw_r
         .id = "e", .class = "car", .x_m = sensor.x, .y_m = sensor.y, .yaw_rad = yaw_rad};
 }
 
-/* An object that alone wears its set. */
+/* Adds an object with a reflector set of its own. */
 static struct reflector_set *add_object(struct playback *scene, struct object object)
 {
     *list_add(&scene->frame.objects, &scene->arena) = object;
     struct reflector_set *set = list_add(&scene->frame.reflectors, &scene->arena);
     *set = (struct reflector_set){.model = object.id, .blocks = true};
-    *list_add(&set->worn_by, &scene->arena) = object.id;
+    *list_add(&set->objects, &scene->arena) = object.id;
     return set;
 }
 

@@ -356,12 +356,12 @@ static bool is_foot(const struct frame *frame, const struct contributor *echo)
 {
     for (size_t i = 0; i < frame->reflectors.count; i++) {
         const struct reflector_set *set = &frame->reflectors.items[i];
-        bool worn = false, side = false;
-        for (size_t j = 0; j < set->worn_by.count && !worn; j++)
-            worn = strcmp(set->worn_by.items[j], echo->id.object) == 0;
-        for (size_t j = 0; j < set->planes.count && worn && !side; j++)
+        bool listed = false, side = false;
+        for (size_t j = 0; j < set->objects.count && !listed; j++)
+            listed = strcmp(set->objects.items[j], echo->id.object) == 0;
+        for (size_t j = 0; j < set->planes.count && listed && !side; j++)
             side = strcmp(set->planes.items[j].name, echo->id.reflector) == 0;
-        if (worn)
+        if (listed)
             return side;
     }
     return false;

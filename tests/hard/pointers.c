@@ -147,7 +147,7 @@ static struct look look_at_pole(struct bench *bench, struct vec2 ego, struct vec
         (struct object){.id = "pole", .class = "post", .x_m = pole.x, .y_m = pole.y};
     struct reflector_set *set = list_add(&frame->reflectors, frame->arena);
     *set = (struct reflector_set){.model = "post"};
-    *list_add(&set->worn_by, frame->arena) = "pole";
+    *list_add(&set->objects, frame->arena) = "pole";
     *list_add(&set->points, frame->arena) = (struct point_reflector){
         .name = "r", .full_rad = PI, .zero_rad = PI, .shape = VISIBILITY_HARD, .ercs = 1};
     frame->present |= SECTION_OBJECTS | SECTION_REFLECTORS;

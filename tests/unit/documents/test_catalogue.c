@@ -83,7 +83,7 @@ static void load_vehicle(const char *name, struct arena *arena)
     if (vehicle == NULL)
         fail_msg("%s", diag.text);
     assert_string_equal(vehicle->reflectors.model, name);
-    assert_int_equal(vehicle->reflectors.worn_by.count, 0);
+    assert_int_equal(vehicle->reflectors.objects.count, 0);
     assert_true(vehicle->reflectors.points.count + vehicle->reflectors.planes.count +
                     vehicle->reflectors.rows.count >
                 0);

@@ -230,7 +230,7 @@ static void every_order_of_a_frame_becomes_the_canonical_one(void **state)
         struct reflector_set *set = list_add(&frame.reflectors, &arena);
         *set = (struct reflector_set){.model = names[i]};
         for (size_t j = 0; j < 5; j++)
-            *list_add(&set->worn_by, &arena) = names[j];
+            *list_add(&set->objects, &arena) = names[j];
     }
     frame.present |= SECTION_ECHOES | SECTION_CELLS | SECTION_REFLECTORS;
     frame_order(&frame);

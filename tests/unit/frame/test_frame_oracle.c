@@ -281,7 +281,7 @@ static const char *const sections[] = {
     "\"y_m\":1e-7,\"yaw_rad\":0.1,\"vx_mps\":5e-324,\"vy_mps\":-2.5,\"yaw_rate_radps\":0,"
     "\"length_m\":4.5,\"width_m\":1.8,\"height_m\":1.5,\"travelled_m\":123456.789,\"extra\":"
     "{\"b\" : [1.0, 2e0 ],\"\\u0061\":0}}],\"lost\":[]}",
-    ",\"reflectors\":[{\"model\":\"car\",\"worn_by\":[\"a\\\"b\",\"\xc3\xa9\"],\"blocks\":true,"
+    ",\"reflectors\":[{\"model\":\"car\",\"objects\":[\"a\\\"b\",\"\xc3\xa9\"],\"blocks\":true,"
     "\"points\":[{\"name\":\"p\",\"x\":0.5,\"y\":-0.5,\"inset_m\":0.1,\"facing_rad\":0,"
     "\"full_rad\":0.5,\"zero_rad\":1.5,\"shape\":\"linear\",\"ercs\":0.7}],\"planes\":[],"
     "\"rows\":[]}],\"extra\":null}",

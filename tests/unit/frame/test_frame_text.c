@@ -22,7 +22,7 @@
     "\"vx_mps\":5e-324,\"vy_mps\":-2.5,\"yaw_rate_radps\":0,\"length_m\":4.5,\"width_m\":1.8,"     \
     "\"height_m\":1.5,\"travelled_m\":123456.789,\"extra\":{\"b\" : [1.0, 2e0 ],\"\\u0061\":0}}],"
 #define REFLECTORS                                                                                 \
-    "\"reflectors\":[{\"model\":\"car\",\"worn_by\":[\"a\\\"b\\\\\",\"\xc3\xa9\"],"                \
+    "\"reflectors\":[{\"model\":\"car\",\"objects\":[\"a\\\"b\\\\\",\"\xc3\xa9\"],"                \
     "\"blocks\":true,\"raised\":true,\"points\":[{\"name\":\"p\",\"x\":0.5,\"y\":-0.5,"            \
     "\"inset_m\":0.1,\"facing_rad\":0,\"full_rad\":0.5,\"zero_rad\":1.5,\"shape\":\"linear\","     \
     "\"ercs\":0.7,\"under_vehicles\":0.5,\"lobe\":{\"width_rad\":0.7,\"depth_db\":14.9}}],"        \
@@ -152,7 +152,7 @@ static void keys_may_come_in_any_order_with_any_white_space(void **state)
     assert_memory_equal(&frame.cells.items->sum_im, &again.cells.items->sum_im, sizeof(double));
     assert_close(frame.objects.items->vx_mps, 5e-324, 0);
     assert_true(signbit(frame.objects.items->x_m) && signbit(frame.origin_y_m));
-    assert_string_equal(frame.reflectors.items->worn_by.items[0], "a\"b\\");
+    assert_string_equal(frame.reflectors.items->objects.items[0], "a\"b\\");
     assert_int_equal(frame.seed, UINT64_MAX);
     text_free(&first);
     json_decref(tree);

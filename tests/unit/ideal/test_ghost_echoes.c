@@ -64,11 +64,11 @@ static struct object *add_object(struct playback *scene, const char *id, double 
     return object;
 }
 
-static struct reflector_set *add_set(struct playback *scene, const char *worn_by, bool blocks)
+static struct reflector_set *add_set(struct playback *scene, const char *object, bool blocks)
 {
     struct reflector_set *set = list_add(&scene->frame.reflectors, &scene->arena);
-    *set = (struct reflector_set){.model = worn_by, .blocks = blocks};
-    *list_add(&set->worn_by, &scene->arena) = worn_by;
+    *set = (struct reflector_set){.model = object, .blocks = blocks};
+    *list_add(&set->objects, &scene->arena) = object;
     return set;
 }
 

@@ -53,11 +53,11 @@ static struct object *add_object(struct playback *scene, const char *id, double 
     return object;
 }
 
-static struct reflector_set *add_set(struct playback *scene, const char *worn_by)
+static struct reflector_set *add_set(struct playback *scene, const char *object)
 {
     struct reflector_set *set = list_add(&scene->frame.reflectors, &scene->arena);
-    *set = (struct reflector_set){.model = worn_by, .blocks = true};
-    *list_add(&set->worn_by, &scene->arena) = worn_by;
+    *set = (struct reflector_set){.model = object, .blocks = true};
+    *list_add(&set->objects, &scene->arena) = object;
     return set;
 }
 
@@ -262,7 +262,7 @@ static void the_joint_of_two_walls_mirrors_once(void **state)
 {
     struct playback *scene = *state;
     struct reflector_set *set = add_set(scene, "a");
-    *list_add(&set->worn_by, &scene->arena) = "b";
+    *list_add(&set->objects, &scene->arena) = "b";
     *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
         .name = "right", .from_x = -0.5, .from_y = -0.5, .to_x = 0.5, .to_y = -0.5, .ercs = 1};
     add_object(scene, "a", 8, 21);
@@ -507,7 +507,7 @@ static void a_set_on_nobody_is_refused(void **state)
     struct diag diag = {0};
     add_set(scene, "ghost");
     assert_int_equal(look_begin(&look, &scene->frame, &scene->sensor, &everything, 10, &diag), -1);
-    assert_string_equal(diag.text, "reflectors[0].worn_by[0]: \"ghost\" is not among the objects, "
+    assert_string_equal(diag.text, "reflectors[0].objects[0]: \"ghost\" is not among the objects, "
                                    "or is the ego");
 }
 

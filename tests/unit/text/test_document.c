@@ -147,8 +147,8 @@ static void faults_are_named_with_path_member_and_expectation(void **state)
          "reflectors.points[0].q: unknown key; expected one of name, x, y, z, extent, inset_m, "
          "facing_rad, full_rad, zero_rad, shape, ercs, moving_part, under_vehicles, lobe"},
         {"true", "1", "reflectors.blocks: a number; expected true or false"},
-        {"\"blocks\": true", "\"worn_by\": []",
-         "reflectors.worn_by: unknown key; expected one of blocks, raised, points, planes, "
+        {"\"blocks\": true", "\"objects\": []",
+         "reflectors.objects: unknown key; expected one of blocks, raised, points, planes, "
          "rows, mirrors"},
         {"[{", "[3, {", "reflectors.points[0]: a number; expected an object"},
         {"\"ercs\": 1", "\"ercs\": 1, \"shape\": \"flat\"",

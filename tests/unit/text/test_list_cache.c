@@ -8,7 +8,7 @@
 
 static const char HEAD[] =
     "{\"version\":0,\"scene\":\"s\",\"frame\":0,\"time_s\":0,\"interval_s\":1,\"seed\":\"1\","
-    "\"ego\":\"e\",\"objects\":[],\"reflectors\":[{\"model\":\"m\",\"worn_by\":[],\"points\":";
+    "\"ego\":\"e\",\"objects\":[],\"reflectors\":[{\"model\":\"m\",\"objects\":[],\"points\":";
 
 static const char *point_of(const char *name, double x)
 {
