@@ -269,31 +269,31 @@ static void look_along_row(struct look *look, const struct look_body *body,
 
 /* Does nobody ask why the set's reflectors are not seen, or what was tried? How many a row has in
  * range takes a look. */
-static bool unasked(const struct look *look, const struct look_set *worn)
+static bool unasked(const struct look *look, const struct look_set *set)
 {
-    return !look->frame->account && look->selection->log == NULL && worn->set->rows.count == 0;
+    return !look->frame->account && look->selection->log == NULL &&
+           set->reflectors->rows.count == 0;
 }
 
 /* Is the whole body out of range, out of view or hidden? If not, its blockers are found. */
-static bool passed_over(struct look *look, const struct look_body *body,
-                        const struct look_set *worn)
+static bool passed_over(struct look *look, const struct look_body *body, const struct look_set *set)
 {
-    struct look_extent seen = look_reflectors(look, body, worn);
-    bool plain = unasked(look, worn);
+    struct look_extent seen = look_reflectors(look, body, set);
+    bool plain = unasked(look, set);
     if (plain && look_out_of_reach(look, body, &seen.silhouette))
         return true;
     line_of_sight_find_blockers(look, body, &seen);
     return plain && !effects_forced(look->selection, EFFECT_OCCLUSION) &&
-           line_of_sight_all_hidden(look, worn, &seen);
+           line_of_sight_all_hidden(look, set, &seen);
 }
 
 /* Those that do not plainly face away, unless somebody asks why not. */
 static void look_at_points(struct look *look, const struct look_body *body,
-                           const struct look_set *worn, bool all)
+                           const struct look_set *set, bool all)
 {
-    for (size_t i = 0; i < worn->set->points.count; i++) {
-        const struct point_reflector *point = &worn->set->points.items[i];
-        const struct reflectors_face *face = &worn->shape->faces[i];
+    for (size_t i = 0; i < set->reflectors->points.count; i++) {
+        const struct point_reflector *point = &set->reflectors->points.items[i];
+        const struct reflectors_face *face = &set->shape->faces[i];
         if (all || !reflectors_plainly_away(&body->box, point, face, body->sensor_m))
             look_at_point(look, body, point, face->heading,
                           reflectors_point_place(&body->box, point));
@@ -315,22 +315,22 @@ static void look_at_planes(struct look *look, const struct look_body *body,
 }
 
 static void look_at_body(struct look *look, const struct look_body *body,
-                         const struct look_set *worn)
+                         const struct look_set *set)
 {
     const struct selection *selection = look->selection;
-    const struct reflector_set *set = worn->set;
-    if (passed_over(look, body, worn)) {
-        look->pairs += (int64_t)(set->points.count + set->planes.count);
+    const struct reflector_set *all = set->reflectors;
+    if (passed_over(look, body, set)) {
+        look->pairs += (int64_t)(all->points.count + all->planes.count);
         return;
     }
-    effects_note(selection, EFFECT_VISIBILITY, set->points.count + set->rows.count > 0);
-    effects_note(selection, EFFECT_PLANE_REFLECTION, set->planes.count > 0);
-    effects_note(selection, EFFECT_ROWS, set->rows.count > 0);
+    effects_note(selection, EFFECT_VISIBILITY, all->points.count + all->rows.count > 0);
+    effects_note(selection, EFFECT_PLANE_REFLECTION, all->planes.count > 0);
+    effects_note(selection, EFFECT_ROWS, all->rows.count > 0);
     bool asked = look->frame->account;
-    look_at_points(look, body, worn, asked || !effects_enabled(selection, EFFECT_VISIBILITY));
-    look_at_planes(look, body, set, asked);
-    for (size_t i = 0; i < set->rows.count && effects_enabled(selection, EFFECT_ROWS); i++)
-        look_along_row(look, body, &set->rows.items[i]);
+    look_at_points(look, body, set, asked || !effects_enabled(selection, EFFECT_VISIBILITY));
+    look_at_planes(look, body, all, asked);
+    for (size_t i = 0; i < all->rows.count && effects_enabled(selection, EFFECT_ROWS); i++)
+        look_along_row(look, body, &all->rows.items[i]);
 }
 
 void direct_echoes_add(struct look *look)
@@ -338,8 +338,8 @@ void direct_echoes_add(struct look *look)
     struct frame *frame = look->frame;
     look->blockers = arena_get(frame->arena, (look->body_count + 1) * sizeof(*look->blockers));
     for (size_t i = 0; i < frame->reflectors.count; i++)
-        for (size_t j = 0; j < look->sets[i].set->objects.count; j++)
-            look_at_body(look, look->sets[i].worn_by[j], &look->sets[i]);
+        for (size_t j = 0; j < look->sets[i].reflectors->objects.count; j++)
+            look_at_body(look, look->sets[i].bodies[j], &look->sets[i]);
     frame_count_pairs(frame, look->sensor->name, look->pairs);
     frame_count_echoes(frame, look->sensor->name, PATH_DIRECT, look->echoes);
 }

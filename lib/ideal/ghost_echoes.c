@@ -33,7 +33,7 @@ struct mirror_faces {
 
 static struct mirror_face mirror_face_of(const struct look_body *body, size_t index)
 {
-    const struct mirror_plane *plane = &body->worn->set->mirrors.items[index];
+    const struct mirror_plane *plane = &body->set->reflectors->mirrors.items[index];
     return (struct mirror_face){
         .body = body,
         .number = (int64_t)index + 1,
@@ -47,7 +47,7 @@ static struct mirror_face mirror_face_of(const struct look_body *body, size_t in
 
 static size_t mirrors_of(const struct look_body *body)
 {
-    return body->worn != NULL ? body->worn->set->mirrors.count : 0;
+    return body->set != NULL ? body->set->reflectors->mirrors.count : 0;
 }
 
 static void join(struct mirror_faces *mirror_faces)
@@ -328,12 +328,12 @@ static void add_point(struct look *look, const struct mirror_face *mirror_face,
 static void add_points(struct look *look, const struct mirror_face *mirror_face,
                        const struct look_body *body)
 {
-    const struct reflector_set *set = body->worn->set;
+    const struct reflector_set *set = body->set->reflectors;
     for (size_t i = 0; i < set->points.count; i++) {
         const struct point_reflector *point = &set->points.items[i];
         struct vec2 place = reflectors_point_place(&body->box, point), bounce;
         if (bounces(look, mirror_face, place, &bounce))
-            add_point(look, mirror_face, body, point, body->worn->shape->faces[i].heading, place,
+            add_point(look, mirror_face, body, point, body->set->shape->faces[i].heading, place,
                       bounce);
     }
 }
@@ -404,7 +404,7 @@ static void add_plane(struct look *look, const struct mirror_face *mirror_face,
 static void add_body(struct look *look, const struct mirror_face *mirror_face,
                      const struct look_body *body)
 {
-    const struct reflector_set *set = body->worn->set;
+    const struct reflector_set *set = body->set->reflectors;
     bool planes = look->sensor->bounces >= BOTH_WAYS &&
                   effects_enabled(look->selection, EFFECT_PLANE_REFLECTION);
     bool rows = effects_enabled(look->selection, EFFECT_ROWS);
@@ -421,7 +421,7 @@ static void add_all(struct look *look, const struct mirror_faces *mirror_faces,
     const struct selection *selection = look->selection;
     bool all = effects_forced(selection, EFFECT_GHOSTS);
     struct vec2 centre = body->box.motion.position_m;
-    double radius_m = look_reflectors_radius_m(body, body->worn);
+    double radius_m = look_reflectors_radius_m(body, body->set);
     for (size_t i = 0; i < mirror_faces->count; i++) {
         const struct mirror_face *mirror_face = &mirror_faces->items[i];
         if (mirror_face->body == body)
@@ -443,7 +443,7 @@ void ghost_echoes_add(struct look *look)
     int64_t begin = effects_begin(selection);
     struct mirror_faces mirror_faces = mirror_faces_of(look);
     for (size_t i = 0; i < look->body_count && mirror_faces.count > 0; i++)
-        if (look->bodies[i].worn != NULL)
+        if (look->bodies[i].set != NULL)
             add_all(look, &mirror_faces, &look->bodies[i]);
     effects_end(selection, EFFECT_GHOSTS, begin);
 }

@@ -64,8 +64,8 @@ struct side line_of_sight_side(const struct look_body *body, const struct plane_
 static bool joins(const struct look_body *body, const struct side *side, bool begins,
                   double within_m)
 {
-    for (size_t i = 0; body->worn != NULL && i < body->worn->set->planes.count; i++) {
-        const struct plane_reflector *plane = &body->worn->set->planes.items[i];
+    for (size_t i = 0; body->set != NULL && i < body->set->reflectors->planes.count; i++) {
+        const struct plane_reflector *plane = &body->set->reflectors->planes.items[i];
         struct side other = line_of_sight_side(body, plane);
         if (plane->margin_m != 0 || !vec2_same(other.along, side->along))
             continue;
@@ -125,7 +125,7 @@ bool line_of_sight_all_hidden(const struct look *look, const struct look_set *se
     for (size_t i = 0; i < look->blocker_count && hides_all(look); i++) {
         const struct look_body *body = look->blockers[i];
         if (silhouette_covers(&body->shadow.silhouette, &wanted->silhouette) &&
-            body->worn->shape->share == 1 && !(set->shape->under && body->raised))
+            body->set->shape->share == 1 && !(set->shape->under && body->raised))
             return true;
     }
     return false;

@@ -75,9 +75,11 @@ static void place_bodies(struct look *look, double age_s)
 
 static struct look_set set_of(const struct reflector_set *set, struct arena *arena)
 {
-    struct look_set shared = {.set = set, .shape = reflectors_shape(set, arena)};
-    shared.worn_by = arena_get(arena, set->objects.count * sizeof(*shared.worn_by));
-    return shared;
+    return (struct look_set){
+        .reflectors = set,
+        .shape = reflectors_shape(set, arena),
+        .bodies = arena_get(arena, set->objects.count * sizeof(struct look_body *)),
+    };
 }
 
 static int attach_reflectors(struct look *look, struct diag *diag)
@@ -95,10 +97,10 @@ static int attach_reflectors(struct look *look, struct diag *diag)
                     "reflectors[%zu].objects[%zu]: \"%s\" is not among the objects, or "
                     "is the ego",
                     i, j, set->objects.items[j]);
-            body->worn = &look->sets[i];
+            body->set = &look->sets[i];
             body->blocks = set->blocks;
             body->raised = set->raised;
-            look->sets[i].worn_by[j] = body;
+            look->sets[i].bodies[j] = body;
         }
     }
     return 0;

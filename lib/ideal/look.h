@@ -17,11 +17,11 @@
 #include "geometry/kinematics.h"
 #include "geometry/sensor_pose.h"
 
-/* A set of the frame, and what all who wear it share. */
+/* A reflector set of the frame, and the bodies that have its reflectors. */
 struct look_set {
-    const struct reflector_set *set;
+    const struct reflector_set *reflectors;
     const struct reflectors_shape *shape;
-    struct look_body **worn_by; /* as the set's ids */
+    struct look_body **bodies; /* those of reflectors->objects, in that order */
 };
 
 /* What of the view something covers. */
@@ -32,7 +32,7 @@ struct look_extent {
 
 struct look_body {
     const struct object *object;
-    const struct look_set *worn; /* NULL: it wears none */
+    const struct look_set *set; /* NULL: no reflectors are described for it */
     struct box box;
     struct vec2 corner[4];
     double radius_m;           /* of the circle around the box */
@@ -65,8 +65,8 @@ struct look {
     int64_t pairs, echoes;
 };
 
-/* The frame must have objects (the ego among them) and reflectors. Refuses a set that is worn by an
- * object that is not there. */
+/* The frame must have objects (the ego among them) and reflectors. Refuses a reflector set that
+ * lists an object that is not among them, or the ego. */
 int look_begin(struct look *look, struct frame *frame, const struct sensor *sensor,
                const struct selection *selection, double time_s, struct diag *diag);
 
