@@ -1,4 +1,5 @@
-# glint: one executable per file in stages/, and `glint`, which runs them all fused.
+# glint: one executable per file in stages/, each of a stage or of a tool, and `glint`, which runs
+# them all fused.
 #
 #   make            everything, into build/bin
 #   make check      unit tests and house checks     make test   all of scripts/test
@@ -34,26 +35,29 @@ HOUSE_CXX = -std=c++17 -fno-rtti $(EXACT) -Wall -Wextra -iquote lib -MMD -MP $(S
 LINK = $(CXX) -static-libstdc++ -static-libgcc $(SANITIZE) $(LDFLAGS)
 LIBS = -ljansson -lcsv -lz -lm
 
-# A stage that needs another library says so in one line: /* needs: fftw3 */
-needs = $(shell sed -n 's:^/\* needs\: \(.*\) \*/$$:\1:p' $(1))
+# The programs by the files of stages/. A file that needs another library says so in one line, and is
+# left out where that is missing: /* needs: fftw3 */
+needs = $(shell sed -n 's:^/\* needs\: \(.*\) \*/$$:\1:p' stages/$(1).c)
 have = $(if $(call needs,$(1)),$(shell pkg-config --exists $(call needs,$(1)) && echo yes),yes)
-all_stages := $(filter-out main,$(patsubst stages/%.c,%,$(sort $(wildcard stages/*.c))))
-stages := $(foreach s,$(all_stages),$(if $(call have,stages/$(s).c),$(s)))
-left_out := $(filter-out $(stages),$(all_stages))
-$(foreach s,$(left_out),$(info glint-$(subst _,-,$(s)) is left out: it needs $(call needs,stages/$(s).c)))
-# What a stage needs beyond the four packages is compiled and linked into it, and into glint.
-flags_of = $(if $(call needs,stages/$(1).c),$(shell pkg-config --cflags $(call needs,stages/$(1).c)))
-libs_of = $(if $(call needs,stages/$(1).c),$(shell pkg-config --libs $(call needs,stages/$(1).c)))
-stage_libs := $(foreach s,$(stages),$(call libs_of,$(s)))
+all_names := $(filter-out main,$(patsubst stages/%.c,%,$(sort $(wildcard stages/*.c))))
+names := $(foreach n,$(all_names),$(if $(call have,$(n)),$(n)))
+$(foreach n,$(filter-out $(names),$(all_names)),$(info glint-$(subst _,-,$(n)) is left out: it needs $(call needs,$(n))))
+# A file defines either a struct stage or a struct tool.
+tools := $(filter $(names),$(patsubst stages/%.c,%,$(shell grep -l '^const struct tool tool_' stages/*.c)))
+stages := $(filter-out $(tools),$(names))
+# What it needs beyond the four packages is compiled and linked into it, and into glint.
+flags_of = $(if $(call needs,$(1)),$(shell pkg-config --cflags $(call needs,$(1))))
+libs_of = $(if $(call needs,$(1)),$(shell pkg-config --libs $(call needs,$(1))))
+stage_libs := $(foreach n,$(names),$(call libs_of,$(n)))
 
 lib_objects := $(patsubst lib/%,$(BUILD)/lib/%.o,$(wildcard lib/*.c lib/*/*.c lib/*/*.cc lib/*.cc)) $(BUILD)/lib/view_page.o
-stage_objects := $(patsubst %,$(BUILD)/stages/%.o,$(stages))
-tools := $(foreach s,$(stages),$(BUILD)/bin/glint-$(subst _,-,$(s))) $(BUILD)/bin/glint
+stage_objects := $(patsubst %,$(BUILD)/stages/%.o,$(names))
+programs := $(foreach n,$(names),$(BUILD)/bin/glint-$(subst _,-,$(n))) $(BUILD)/bin/glint
 tests := $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/test_*.c tests/*/test_*.c tests/unit/*/test_*.c))
 hard_tests := $(patsubst tests/hard/%.c,$(BUILD)/tests/hard/%,$(wildcard tests/hard/*.c))
 soundness_tests := $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/soundness/planted_*.c))
 
-all: $(tools)
+all: $(programs)
 
 $(BUILD)/lib/%.c.o: lib/%.c
 	@mkdir -p $(@D)
@@ -93,11 +97,12 @@ $(BUILD)/libstages.a: $(stage_objects)
 	$(Q)rm -f $@
 	$(Q)$(AR) rcs $@ $^
 
-# One main for every stage: glint-sensor-perfect is stages/sensor_perfect.c and this.
+# One main for all: glint-sensor-perfect is stages/sensor_perfect.c and this.
 .SECONDEXPANSION:
-$(BUILD)/main/%.o: stages/main.c
+main_of = $(if $(filter $(1),$(tools)),TOOL=tool,STAGE=stage)_$(1)
+$(BUILD)/main/%.o: stages/main.c stages/%.c
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -DSTAGE=stage_$* -c -o $@ $<
+	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -D$(call main_of,$*) -c -o $@ $<
 
 under = $(subst -,_,$(patsubst $(BUILD)/bin/glint-%,%,$(1)))
 $(BUILD)/bin/glint-%: $(BUILD)/stages/$$(subst -,_,$$*).o $(BUILD)/main/$$(subst -,_,$$*).o \
@@ -106,12 +111,13 @@ $(BUILD)/bin/glint-%: $(BUILD)/stages/$$(subst -,_,$$*).o $(BUILD)/main/$$(subst
 	$(Q)$(LINK) -o $@ $^ $(call libs_of,$(call under,$@)) $(LIBS)
 
 # The folder is the registry; the file is rewritten only when the list has changed.
-registry = { for s in $(stages); do echo "extern const struct stage stage_$$s;"; done; \
-    echo "const struct stage *const stages[] = {"; \
-    for s in $(stages); do echo "    &stage_$$s,"; done; echo "    NULL,"; echo "};"; }
+registry = for n in $(2); do echo "extern const struct $(1) $(1)_$$n;"; done; \
+    echo "const struct $(1) *const $(1)s[] = {"; \
+    for n in $(2); do echo "    &$(1)_$$n,"; done; echo "    NULL,"; echo "};"
 $(BUILD)/registry.c: FORCE
 	@mkdir -p $(@D)
-	@{ echo '#include "run/fused.h"'; $(registry); } > $@.new
+	@{ echo '#include "run/fused.h"'; $(call registry,stage,$(stages)); \
+	    $(call registry,tool,$(tools)); } > $@.new
 	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
 $(BUILD)/registry.o: $(BUILD)/registry.c
@@ -156,6 +162,9 @@ $(BUILD)/tests/speed/same_heap.so: tests/speed/same_heap.c
 
 $(filter %/test_compare,$(tests)): $(BUILD)/tests/soundness/compare.o
 
+# Its test sees a file system without files that have no names.
+$(filter %/test_output,$(tests)): LDFLAGS += -Wl,--wrap=open
+
 # The reference of this one test alone.
 $(filter %/test_elementary,$(tests)): LIBS += -lmpfr -lgmp
 
@@ -183,12 +192,7 @@ accuracy: all
 	$(Q)scripts/accuracy-cost
 
 schemas: all
-	$(Q)for s in $$($(BUILD)/bin/glint --list schemas); do \
-	    $(BUILD)/bin/glint --schema $$s >schemas/$$s.json || exit 1; done
-
-# One line a module, from the headers.
-lib/README.md: FORCE
-	$(Q)scripts/lib-readme >$@.new && mv $@.new $@
+	$(Q)$(BUILD)/bin/glint-schema schemas
 
 format:
 	clang-format -i $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.c tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
@@ -201,13 +205,13 @@ lint:
 man: all
 	@mkdir -p $(BUILD)/man
 	$(Q)command -v help2man >/dev/null || { echo "man pages are left out: they need help2man"; exit 0; }; \
-	for t in $(notdir $(tools)); do \
+	for t in $(notdir $(programs)); do \
 	    name=$$($(BUILD)/bin/$$t --help | sed '/^Usage/d; /^  or/d' | sed -n 's/\.$$//; 1p'); \
 	    help2man --no-info -n "$$name" -o $(BUILD)/man/$$t.1 $(BUILD)/bin/$$t || exit 1; done
 
 install: all man
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1 $(DESTDIR)$(PREFIX)/share/glint
-	install -m 755 $(tools) $(DESTDIR)$(PREFIX)/bin
+	install -m 755 $(programs) $(DESTDIR)$(PREFIX)/bin
 	$(Q)for page in $(BUILD)/man/*.1; do \
 	    [ ! -e $$page ] || install -m 644 $$page $(DESTDIR)$(PREFIX)/share/man/man1; done
 	cp -R data/* $(DESTDIR)$(PREFIX)/share/glint

@@ -1,7 +1,9 @@
-/* A plan: the pipeline that the frames call for. Rehearses the chain on every frame, the simpler
- * stages beside those they may stand in for, and prints what was needed. */
+/* A plan: the pipeline that the frames call for. Tries the chain on every frame, the simpler stages
+ * beside those they may stand in for, and prints what was needed. */
 #include "run/plan.h"
 #include "run/stage.h"
+#include "run/tool.h"
+#include "text/output.h"
 
 extern const struct stage stage_extract, stage_ideal, stage_sensor, stage_sensor_perfect,
     stage_noise, stage_noise_none;
@@ -16,8 +18,7 @@ static const struct {
 };
 
 struct plan_state {
-    struct suite_choice
-        choice; /* first: its options are the plan's, and ideal's at its rehearsal */
+    struct suite_choice choice; /* first: the options, and ideal's when it is tried */
     struct plan plan;
 };
 
@@ -26,9 +27,8 @@ static int64_t no_clock(void)
     return 0;
 }
 
-static int plan_start(void *state, struct runner *runner)
+static int begin(struct plan_state *own, struct runner *runner)
 {
-    struct plan_state *own = state;
     struct plan *plan = &own->plan;
     struct sensors request;
     struct selection selection;
@@ -66,9 +66,8 @@ static int try_stage(struct plan_state *own, int at, struct frame *frame, struct
     return 0;
 }
 
-static int plan_step(void *state, struct frame *frame, struct runner *runner)
+static int try_chain(struct plan_state *own, struct frame *frame, struct runner *runner)
 {
-    struct plan_state *own = state;
     own->plan.frames++;
     frame_drop(frame, SECTION_SENSORS | SECTION_ECHOES | SECTION_CELLS | SECTION_TARGETS |
                           SECTION_LOST | SECTION_COUNTS);
@@ -81,14 +80,29 @@ static int plan_step(void *state, struct frame *frame, struct runner *runner)
     return 0;
 }
 
-static int plan_stop(void *state, struct runner *runner)
+static int write_plan(const struct plan *plan, struct output *output, struct diag *diag)
 {
-    const struct plan_state *own = state;
     struct text text = {0};
-    plan_write(&own->plan, &text);
-    int result = runner_write(runner, text.bytes, text.length);
+    plan_write(plan, &text);
+    int result = output_write(output, text.bytes, text.length, diag);
     text_free(&text);
     return result;
+}
+
+static int plan_run(void *state, struct runner *runner)
+{
+    struct plan_state *own = state;
+    if (begin(own, runner) != 0)
+        return -1;
+    struct output *output = runner_output(runner);
+    if (output == NULL)
+        return -1;
+    struct frame *frame;
+    int more;
+    while ((more = runner_frame(runner, &frame)) > 0)
+        if (try_chain(own, frame, runner) != 0)
+            return -1;
+    return more == 0 ? write_plan(&own->plan, output, runner_diag(runner)) : -1;
 }
 
 static const struct field plan_options[] = {
@@ -101,7 +115,7 @@ static const struct field plan_options[] = {
 static const struct record plan_record = {
     .name = "plan", .size = sizeof(struct plan_state), .fields = plan_options};
 
-const struct stage stage_plan = {
+const struct tool tool_plan = {
     .name = "plan",
     .summary = "Print the pipeline that the scenes call for, ready to paste.",
     .details =
@@ -111,9 +125,6 @@ const struct stage stage_plan = {
         "the whole chain gives, byte for byte. Only the objects of the frames matter, and their\n"
         "reflectors if they are there.",
     .options = &plan_record,
-    .sink = true,
     .reads = SECTION_OBJECTS,
-    .start = plan_start,
-    .step = plan_step,
-    .stop = plan_stop,
+    .run = plan_run,
 };

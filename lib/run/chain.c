@@ -13,20 +13,22 @@
 
 struct chain {
     struct runner *runners;
-    size_t count;
+    size_t count, stages; /* the last runner may be a tool; all others are stages */
     struct frame frame;
     struct arena arena; /* the frame's */
     struct list_cache repeats;
     struct input *input;
     size_t file, line_number;
     struct chain_times *times;
+    bool tool_has_frame;   /* and what it says is about this frame */
+    int64_t tool_begin_ns; /* since when the tool has been working */
     struct progress progress;
 };
 
 void chain_complain(const struct runner *runner)
 {
     char program[128];
-    snprintf(program, sizeof program, "glint-%s", runner->stage->name);
+    snprintf(program, sizeof program, "glint-%s", runner->program.name);
     diag_print(program, &runner->diag);
 }
 
@@ -114,7 +116,7 @@ static int read_frame(struct chain *chain)
     }
 }
 
-/* Puts the place in front of a stage's message: the line it read, or the frame it was given. */
+/* Puts the place in front of a message: the line that was read, or the frame that was passed on. */
 static void place_message(const struct chain *chain, struct runner *runner)
 {
     bool first = runner == &chain->runners[0];
@@ -131,21 +133,22 @@ static void place_message(const struct chain *chain, struct runner *runner)
 static int write_frame(struct chain *chain)
 {
     struct runner *runner = last(chain);
-    if (runner->stage->sink)
+    if (runner->program.kind == PROGRAM_SINK || runner->program.kind == PROGRAM_TOOL)
         return 0;
-    struct text *text = output_text(runner->output);
+    struct output *output = runner->outputs.items[0];
+    struct text *text = output_text(output);
     size_t begin = text->length;
     if (frame_text_write(&chain->frame, text, &runner->diag) != 0)
         return -1;
     if (chain->times != NULL)
         chain->times->bytes_written += (int64_t)(text->length - begin);
-    return output_send(runner->output, &runner->diag);
+    return output_send(output, &runner->diag);
 }
 
 static int first_frame(struct chain *chain)
 {
     struct runner *first = &chain->runners[0];
-    bool source = first->stage->next != NULL;
+    bool source = first->program.kind == PROGRAM_SOURCE;
     int64_t begin = clock_ns(chain);
     int more = source ? runner_next(first, &chain->frame) : read_frame(chain);
     if (chain->times != NULL)
@@ -155,14 +158,14 @@ static int first_frame(struct chain *chain)
     return more;
 }
 
-/* One frame through all runners: 1, 0 if there was none, -1 if one of them failed. */
+/* One frame through all stages: 1, 0 if there was none, -1 if one of them failed. */
 static int run_frame(struct chain *chain)
 {
     int more = first_frame(chain);
     if (more <= 0)
         return more;
-    size_t index = chain->runners[0].stage->next != NULL ? 1 : 0;
-    for (; index < chain->count; index++) {
+    size_t index = chain->runners[0].program.kind == PROGRAM_SOURCE ? 1 : 0;
+    for (; index < chain->stages; index++) {
         struct runner *runner = &chain->runners[index];
         int64_t begin = clock_ns(chain);
         if (runner_step(runner, &chain->frame) != 0) {
@@ -182,29 +185,6 @@ static int run_frame(struct chain *chain)
     return result == 0 ? 1 : -1;
 }
 
-/* The stages after the rightmost failure see the end of the stream, one after the other, as they
- * would in a pipe. */
-static void finish(struct chain *chain)
-{
-    size_t first = chain->count;
-    while (first > 0 && !failed(&chain->runners[first - 1]))
-        first--;
-    for (size_t i = first; i < chain->count; i++)
-        runner_finish(&chain->runners[i]);
-}
-
-/* A stage that has failed already, by its command line, is in the chain like one that fails now. */
-static void start(struct chain *chain)
-{
-    for (size_t i = 0; i < chain->count; i++)
-        if (!failed(&chain->runners[i]))
-            runner_start(&chain->runners[i]);
-    struct runner *end = last(chain);
-    if (!failed(end))
-        end->output =
-            output_open(end->common.output != NULL ? end->common.output : "-", &end->diag);
-}
-
 static bool any_failed(const struct chain *chain)
 {
     for (size_t i = 0; i < chain->count; i++)
@@ -213,22 +193,79 @@ static bool any_failed(const struct chain *chain)
     return false;
 }
 
+/* What the tool's runner asks when the tool wants a frame. A stage that failed before it has ended
+ * the stream. */
+static int next_frame(void *from, struct frame **frame)
+{
+    struct chain *chain = from;
+    if (chain->times != NULL)
+        add_time(chain, &chain->times->step_ns[chain->stages], chain->tool_begin_ns);
+    *frame = &chain->frame;
+    int more = any_failed(chain) ? 0 : run_frame(chain);
+    if (more < 0 && !failed(last(chain)))
+        more = 0;
+    chain->tool_has_frame = more > 0;
+    chain->tool_begin_ns = clock_ns(chain);
+    return more;
+}
+
+static void run_tool(struct chain *chain)
+{
+    struct runner *tool = last(chain);
+    tool->frames = (struct frame_source){next_frame, chain};
+    chain->tool_begin_ns = clock_ns(chain);
+    if (runner_run_tool(tool) != 0 && chain->tool_has_frame)
+        place_message(chain, tool);
+    if (chain->times != NULL)
+        add_time(chain, &chain->times->step_ns[chain->stages], chain->tool_begin_ns);
+}
+
+/* A runner that has failed already, by its command line, is in the chain like one that fails now.
+ */
+static void start(struct chain *chain)
+{
+    for (size_t i = 0; i < chain->stages; i++)
+        if (!failed(&chain->runners[i]))
+            runner_start(&chain->runners[i]);
+    struct runner *end = last(chain);
+    if (end->tool == NULL && !failed(end))
+        runner_output(end);
+}
+
+static void run(struct chain *chain)
+{
+    progress_begin(&chain->progress, chain->runners[0].expected_frames);
+    if (chain->stages == chain->count)
+        while (!any_failed(chain) && run_frame(chain) > 0)
+            continue;
+    else if (!failed(last(chain)))
+        run_tool(chain);
+    progress_end(&chain->progress);
+}
+
+/* The stages after the rightmost failure see the end of the stream, one after the other, as they
+ * would in a pipe. */
+static void finish(struct chain *chain)
+{
+    size_t first = chain->count;
+    while (first > 0 && !failed(&chain->runners[first - 1]))
+        first--;
+    for (size_t i = first; i < chain->stages; i++)
+        runner_finish(&chain->runners[i]);
+    runner_close_outputs(last(chain));
+}
+
 int chain_run(struct runner *runners, size_t count, struct chain_times *times)
 {
     struct chain chain = {.runners = runners, .count = count, .times = times};
+    chain.stages = runners[count - 1].tool != NULL ? count - 1 : count;
     chain.frame.arena = &chain.arena;
     chain.frame.repeats = &chain.repeats;
     if (times != NULL)
         time_clock(&chain);
     start(&chain);
-    progress_begin(&chain.progress, runners[0].expected_frames);
-    while (!any_failed(&chain) && run_frame(&chain) > 0)
-        continue;
-    progress_end(&chain.progress);
+    run(&chain);
     finish(&chain);
-    struct runner *end = last(&chain);
-    if (end->output != NULL)
-        output_close(end->output, !failed(end), &end->diag);
     int code = DIAG_OK;
     for (size_t i = 0; i < count; i++)
         if (failed(&runners[i])) {
@@ -246,33 +283,54 @@ static int print_about(struct runner *runner)
 {
     struct text text = {0};
     if (runner->common.help)
-        options_help(runner->stage, &text);
+        options_help(&runner->program, &text);
     else
-        text_format(&text, "glint-%s (glint) %s\n", runner->stage->name, GLINT_VERSION);
+        text_format(&text, "glint-%s (glint) %s\n", runner->program.name, GLINT_VERSION);
     struct output *output = output_open("-", &runner->diag);
     output_write(output, text.bytes, text.length, &runner->diag);
-    output_close(output, 1, &runner->diag);
+    output_close(output, true, &runner->diag);
     text_free(&text);
     if (failed(runner))
         chain_complain(runner);
     return (int)runner->diag.code;
 }
 
-int chain_main(const struct stage *stage, int count, char **words)
+/* A runner that is prepared, or failed to be, by itself. */
+static int run_alone(struct runner *runner)
+{
+    int code;
+    if (!failed(runner) && (runner->common.help || runner->common.version)) {
+        code = print_about(runner);
+    } else if (!failed(runner)) {
+        code = chain_run(runner, 1, NULL);
+    } else {
+        chain_complain(runner);
+        code = (int)runner->diag.code;
+    }
+    runner_free(runner);
+    return code;
+}
+
+static void guard_process(void)
 {
     document_guard_memory();
     input_guard_descriptors();
+}
+
+int chain_main(const struct stage *stage, int count, char **words)
+{
     struct runner runner;
-    int code = DIAG_OK;
-    size_t given = count > 0 ? (size_t)count - 1 : 0;
-    if (runner_prepare(&runner, stage, given, (const char *const *)words + 1) != 0) {
-        chain_complain(&runner);
-        code = (int)runner.diag.code;
-    } else if (runner.common.help || runner.common.version) {
-        code = print_about(&runner);
-    } else {
-        code = chain_run(&runner, 1, NULL);
-    }
-    runner_free(&runner);
-    return code;
+    guard_process();
+    runner_prepare(&runner, stage, count > 0 ? (size_t)count - 1 : 0,
+                   (const char *const *)words + 1);
+    return run_alone(&runner);
+}
+
+int chain_main_tool(const struct tool *tool, int count, char **words)
+{
+    struct runner runner;
+    guard_process();
+    runner_prepare_tool(&runner, tool, count > 0 ? (size_t)count - 1 : 0,
+                        (const char *const *)words + 1);
+    return run_alone(&runner);
 }

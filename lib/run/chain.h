@@ -1,4 +1,5 @@
-/* Running stages: one alone between two pipes, or several fused in one process.
+/* Running stages: one alone between two pipes, or several fused in one process. A tool stands alone
+ * or at the end, and takes its frames from the stages before it.
  *
  * Both are the same loop over the same runners, so both give the same bytes and the same exit code:
  * like a shell with pipefail, a chain ends with the code of its rightmost failing stage, and the
@@ -21,8 +22,9 @@ struct chain_times {
  * fail to stderr. Returns the exit code. Clocks are read only if times is not NULL. */
 int chain_run(struct runner *runners, size_t count, struct chain_times *times);
 
-/* The whole of main for one stage. */
+/* The whole of main for one stage, and for one tool. */
 int chain_main(const struct stage *stage, int count, char **words);
+int chain_main_tool(const struct tool *tool, int count, char **words);
 
 /* "glint-NAME: MESSAGE" to stderr. */
 void chain_complain(const struct runner *runner);

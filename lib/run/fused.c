@@ -6,7 +6,6 @@
 
 #include "run/chain.h"
 #include "run/pipeline.h"
-#include "run/schema.h"
 #include "text/document.h"
 #include "text/input.h"
 
@@ -14,9 +13,8 @@ static const char usage[] =
     "Usage: glint FILE\n"
     "  or:  glint -c TEXT\n"
     "  or:  glint --times FILE\n"
-    "  or:  glint --list stages | effects | schemas\n"
-    "  or:  glint --schema NAME\n"
-    "Run a pipeline of glint stages in one process.\n"
+    "  or:  glint --list stages | tools | effects\n"
+    "Run a pipeline of glint stages, and a tool at its end, in one process.\n"
     "\n"
     "The text is the same that bash would run, with the same bytes and the same exit code,\n"
     "without the pipes.\n"
@@ -27,8 +25,7 @@ static const char usage[] =
     "Options:\n"
     "  -c TEXT              the pipeline itself\n"
     "      --times FILE     run it, then say on stderr where the time went (JSON lines)\n"
-    "      --list WHAT      list the stages, the effects, or the schemas\n"
-    "      --schema NAME    print a JSON Schema\n"
+    "      --list WHAT      list the stages, the tools, or the effects\n"
     "      --help           print this help\n"
     "      --version        print the version\n"
     "\n"
@@ -41,29 +38,46 @@ static int complain(const struct diag *diag)
     return (int)diag->code;
 }
 
-static const struct stage *find_stage(const char *program)
+/* "plan" of "/usr/bin/glint-plan"; NULL for a program of others. */
+static const char *name_of(const char *program)
 {
     const char *slash = strrchr(program, '/');
     const char *name = slash != NULL ? slash + 1 : program;
-    if (strncmp(name, "glint-", 6) != 0)
-        return NULL;
-    for (size_t i = 0; stages[i] != NULL; i++)
-        if (strcmp(stages[i]->name, name + 6) == 0)
-            return stages[i];
-    return NULL;
+    return strncmp(name, "glint-", 6) == 0 ? name + 6 : NULL;
+}
+
+/* False if the command's program is none of this build. */
+static bool prepare(struct runner *runner, const struct command *command)
+{
+    const char *name = name_of(command->words.items[0]);
+    size_t count = command->words.count - 1;
+    const char *const *words = command->words.items + 1;
+    for (size_t i = 0; name != NULL && stages[i] != NULL; i++)
+        if (strcmp(stages[i]->name, name) == 0) {
+            runner_prepare(runner, stages[i], count, words);
+            return true;
+        }
+    for (size_t i = 0; name != NULL && tools[i] != NULL; i++)
+        if (strcmp(tools[i]->name, name) == 0) {
+            runner_prepare_tool(runner, tools[i], count, words);
+            return true;
+        }
+    return false;
 }
 
 /* What a pipe would do differently in one process is refused, not approximated. */
 static int check_place(const struct runner *runner, const struct command *command, size_t index,
                        size_t count, struct diag *diag)
 {
-    const struct stage *stage = runner->stage;
+    const struct program *program = &runner->program;
     const char *fault = NULL;
-    if (index > 0 && stage->next != NULL)
+    if (index > 0 && program->kind == PROGRAM_SOURCE)
         fault = "is a source and can only stand first";
+    else if (index > 0 && !program->takes_files)
+        fault = "reads no frames, so it can only stand first";
     else if (index > 0 && runner->common.files.count > 0)
         fault = "reads files, so it can only stand first";
-    else if (index + 1 < count && stage->sink)
+    else if (index + 1 < count && (program->kind == PROGRAM_SINK || program->kind == PROGRAM_TOOL))
         fault = "writes no frames, so it can only stand last";
     else if (index + 1 < count && runner->common.output != NULL)
         fault = "writes to a file, so it can only stand last";
@@ -72,7 +86,7 @@ static int check_place(const struct runner *runner, const struct command *comman
     if (fault == NULL)
         return 0;
     return diag_fail(diag, DIAG_USAGE, "%zu: glint-%s %s; run it with bash", command->line,
-                     stage->name, fault);
+                     program->name, fault);
 }
 
 static int run_commands(const struct pipeline *pipeline, struct runner *runners,
@@ -81,13 +95,11 @@ static int run_commands(const struct pipeline *pipeline, struct runner *runners,
     size_t count = pipeline->commands.count;
     for (size_t i = 0; i < count; i++) {
         const struct command *command = &pipeline->commands.items[i];
-        const struct stage *stage = find_stage(command->words.items[0]);
-        if (stage == NULL)
+        /* One that refuses its command line stays in the chain as failed, as it would in a pipe. */
+        if (!prepare(&runners[i], command))
             return diag_fail(diag, DIAG_USAGE,
                              "%zu: %s is no stage of this build; run it with bash", command->line,
                              command->words.items[0]);
-        /* One that refuses its command line stays in the chain as failed, as it would in a pipe. */
-        runner_prepare(&runners[i], stage, command->words.count - 1, command->words.items + 1);
         if (check_place(&runners[i], command, i, count, diag) != 0)
             return -1;
     }
@@ -105,7 +117,7 @@ static void print_times(const struct chain_times *times, const struct runner *ru
     if (times->bytes_read > 0)
         print_time("read", times->read_ns, times->frames);
     for (size_t i = 0; i < count; i++)
-        print_time(runners[i].stage->name, times->step_ns[i], times->frames);
+        print_time(runners[i].program.name, times->step_ns[i], times->frames);
     if (times->bytes_written > 0)
         print_time("write", times->write_ns, times->frames);
     fprintf(stderr, "{\"part\":\"bytes\",\"read\":%" PRId64 ",\"written\":%" PRId64 "}\n",
@@ -176,25 +188,16 @@ static int list(const char *what)
     if (strcmp(what, "stages") == 0)
         for (size_t i = 0; stages[i] != NULL; i++)
             text_format(&text, "glint-%-16s %s\n", stages[i]->name, stages[i]->summary);
+    else if (strcmp(what, "tools") == 0)
+        for (size_t i = 0; tools[i] != NULL; i++)
+            text_format(&text, "glint-%-16s %s\n", tools[i]->name, tools[i]->summary);
     else if (strcmp(what, "effects") == 0)
         list_effects(&text);
-    else if (strcmp(what, "schemas") == 0)
-        schema_list(&text);
     else
         known = false;
-    int code =
-        known ? print(text.bytes, text.length)
-              : complain(&(struct diag){DIAG_USAGE, "--list takes stages, effects or schemas"});
-    text_free(&text);
-    return code;
-}
-
-static int print_schema(const char *name)
-{
-    struct text text = {0};
-    int code = schema_write(name, &text)
+    int code = known
                    ? print(text.bytes, text.length)
-                   : complain(&(struct diag){DIAG_USAGE, "no such schema; see --list schemas"});
+                   : complain(&(struct diag){DIAG_USAGE, "--list takes stages, tools or effects"});
     text_free(&text);
     return code;
 }
@@ -212,8 +215,6 @@ static int run(int count, char **words, struct arena *arena)
         return run_file(second, true, arena);
     if (count == 3 && strcmp(first, "--list") == 0)
         return list(second);
-    if (count == 3 && strcmp(first, "--schema") == 0)
-        return print_schema(second);
     if (count == 2 && (first[0] != '-' || first[1] == '\0'))
         return run_file(first, false, arena);
     return complain(

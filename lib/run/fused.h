@@ -3,9 +3,12 @@
 #define FUSED_H
 
 #include "run/stage.h"
+#include "run/tool.h"
 
-/* Every stage of the build, NULL at the end: made from the listing of stages/ by the Makefile. */
+/* Every stage and every tool of the build, NULL at the end: made from the listing of stages/ by the
+ * Makefile. */
 extern const struct stage *const stages[];
+extern const struct tool *const tools[];
 
 /* The whole of glint's main. */
 int fused_main(int count, char **words);

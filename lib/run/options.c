@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "run/stage.h"
+
 const struct record no_options_record = {.name = "stage", .fields = field_none};
 
 static const struct field suite_choice_fields[] = {
@@ -42,7 +44,7 @@ static const struct record common_record = {
 
 /* Where the words of a command line go. */
 struct reading_options {
-    const struct stage *stage;
+    const struct program *program;
     void *state;
     struct common_options *common;
     uint64_t seen, common_seen; /* bit i: fields[i] was given */
@@ -64,23 +66,32 @@ static void spell(const char *name, char *text, size_t size)
     use_dashes(text);
 }
 
-static bool is_source(const struct stage *stage)
+/* Does the program understand this one of the options that all share? */
+static bool applies(const struct program *program, const struct field *field)
 {
-    return stage->next != NULL;
+    bool stage = program->kind != PROGRAM_TOOL;
+    bool simulates = program->kind != PROGRAM_SINK && stage &&
+                     ((program->reads | program->writes) & SECTION_SENSORS) != 0;
+    switch (field->offset) {
+    case offsetof(struct common_options, output):
+        return !program->into_folder;
+    case offsetof(struct common_options, keep):
+        return stage;
+    case offsetof(struct common_options, seed):
+        return stage || program->takes_files;
+    case offsetof(struct common_options, explain):
+        return simulates;
+    case offsetof(struct common_options, complete):
+        return program->takes_files;
+    default:
+        return true;
+    }
 }
 
-/* --complete is about frames that are read, --explain about effects. */
-static bool applies(const struct stage *stage, const struct field *field)
+/* The program's options without its operand, which is the first. */
+static const struct field *named_options(const struct program *program)
 {
-    if (field->offset == offsetof(struct common_options, explain))
-        return ((stage->reads | stage->writes) & SECTION_SENSORS) != 0 && !stage->sink;
-    return !is_source(stage) || field->offset != offsetof(struct common_options, complete);
-}
-
-/* The stage's options without its operand, which is the first. */
-static const struct field *named_options(const struct stage *stage)
-{
-    return stage->options->fields + (stage->operand != NULL ? 1 : 0);
+    return program->options->fields + (program->operand != NULL ? 1 : 0);
 }
 
 /* What a word stands for: a member of a table's struct, or of a record in it. */
@@ -133,17 +144,17 @@ static int read_option(struct reading_options *options, size_t count, const char
     const char *word = words[*at], *name = strcmp(word, "-o") == 0 ? "output" : word + 2;
     size_t length = strcspn(name, "=");
     bool spelled = word[1] == '-' || strcmp(word, "-o") == 0;
-    struct option own = find(named_options(options->stage), name, length);
+    struct option own = find(named_options(options->program), name, length);
     struct option common = find(common_fields, name, length);
     bool known =
-        own.field != NULL || (common.field != NULL && applies(options->stage, common.field));
+        own.field != NULL || (common.field != NULL && applies(options->program, common.field));
     if (!spelled || !known)
         return diag_fail(diag, DIAG_USAGE, "unknown option %s; see --help", word);
     struct option option = own.field != NULL ? own : common;
     const struct field *field = option.field;
     void *base =
         (char *)(own.field != NULL ? options->state : (void *)options->common) + option.base;
-    size_t operands = options->stage->operand != NULL ? 1 : 0;
+    size_t operands = options->program->operand != NULL ? 1 : 0;
     if (own.field != NULL)
         options->seen |= UINT64_C(1) << (own.index + operands);
     else
@@ -162,32 +173,34 @@ static int read_option(struct reading_options *options, size_t count, const char
     return set(field, base, value, options->arena, diag);
 }
 
-static int read_operand(struct reading_options *options, const char *word)
+/* A word that is no option: the operand, or a file of frames. */
+static int read_argument(struct reading_options *options, const char *word)
 {
-    if (!is_source(options->stage)) {
-        *list_add(&options->common->files, options->arena) =
-            arena_text(options->arena, word, strlen(word));
-        return 0;
+    const struct program *program = options->program;
+    if (program->operand != NULL && (options->seen & 1) == 0) {
+        options->seen |= 1;
+        return field_set_text(program->options->fields, options->state, word, strlen(word),
+                              options->arena, options->diag);
     }
-    if (options->stage->operand == NULL || (options->seen & 1) != 0)
+    if (!program->takes_files)
         return diag_fail(options->diag, DIAG_USAGE, "one argument too many: %s", word);
-    options->seen |= 1;
-    return field_set_text(options->stage->options->fields, options->state, word, strlen(word),
-                          options->arena, options->diag);
+    *list_add(&options->common->files, options->arena) =
+        arena_text(options->arena, word, strlen(word));
+    return 0;
 }
 
 static int check_required(const struct reading_options *options)
 {
-    const struct stage *stage = options->stage;
-    for (size_t i = 0; stage->options->fields[i].name != NULL; i++) {
-        const struct field *field = &stage->options->fields[i];
+    const struct program *program = options->program;
+    for (size_t i = 0; program->options->fields[i].name != NULL; i++) {
+        const struct field *field = &program->options->fields[i];
         if (field->optional || (options->seen >> i & 1) != 0)
             continue;
         char spelling[80];
         spell(field->name, spelling, sizeof spelling);
-        bool operand = stage->operand != NULL && i == 0;
+        bool operand = program->operand != NULL && i == 0;
         return diag_fail(options->diag, DIAG_USAGE, "missing %s%s: %s; see --help",
-                         operand ? "" : "--", operand ? stage->operand : spelling, field->help);
+                         operand ? "" : "--", operand ? program->operand : spelling, field->help);
     }
     return 0;
 }
@@ -205,23 +218,23 @@ static int check_explain(const struct common_options *common, struct diag *diag)
     return 0;
 }
 
-int options_read(const struct stage *stage, size_t count, const char *const *words, void *state,
+int options_read(const struct program *program, size_t count, const char *const *words, void *state,
                  struct common_options *common, struct arena *arena, struct diag *diag)
 {
     struct reading_options options = {
-        .stage = stage, .state = state, .common = common, .arena = arena, .diag = diag};
-    field_clear(stage->options, state);
+        .program = program, .state = state, .common = common, .arena = arena, .diag = diag};
+    field_clear(program->options, state);
     field_clear(&common_record, common);
-    bool only_operands = false;
+    bool only_arguments = false;
     int result = 0;
     for (size_t at = 0; at < count && result == 0; at++) {
         const char *word = words[at];
-        bool option = !only_operands && word[0] == '-' && word[1] != '\0';
+        bool option = !only_arguments && word[0] == '-' && word[1] != '\0';
         if (option && strcmp(word, "--") == 0)
-            only_operands = true;
+            only_arguments = true;
         else
             result =
-                option ? read_option(&options, count, words, &at) : read_operand(&options, word);
+                option ? read_option(&options, count, words, &at) : read_argument(&options, word);
     }
     size_t seed = find(common_fields, "seed", strlen("seed")).index;
     common->seed_given = (options.common_seen >> seed & 1) != 0;
@@ -275,30 +288,34 @@ static void help_sections(const char *verb, unsigned sections, struct text *text
     text_add_word(text, ".\n");
 }
 
-void options_help(const struct stage *stage, struct text *text)
+static void help_usage(const struct program *program, struct text *text)
 {
-    text_format(text, "Usage: glint-%s [OPTION]... %s\n%s\n", stage->name,
-                !is_source(stage)        ? "[FILE]..."
-                : stage->operand != NULL ? stage->operand
-                                         : "",
-                stage->summary);
-    if (stage->operand != NULL)
-        text_format(text, "\n%s: %s.\n", stage->operand, stage->options->fields->help);
-    if (stage->details != NULL)
-        text_format(text, "\n%s\n", stage->details);
+    const char *operand = program->operand != NULL ? program->operand : "";
+    text_format(text, "Usage: glint-%s [OPTION]... %s%s%s\n%s\n", program->name, operand,
+                program->takes_files && *operand != '\0' ? " " : "",
+                program->takes_files ? "[FILE]..." : "", program->summary);
+    if (program->operand != NULL)
+        text_format(text, "\n%s: %s.\n", program->operand, program->options->fields->help);
+    if (program->details != NULL)
+        text_format(text, "\n%s\n", program->details);
+}
+
+void options_help(const struct program *program, struct text *text)
+{
+    help_usage(program, text);
     text_add_word(text, "\n");
-    if (stage->reads != 0)
+    if (program->reads != 0)
         help_sections("Frames come as JSON lines from the files or standard input; reads",
-                      stage->reads, text);
-    if (stage->writes != 0)
-        help_sections("Frames go as JSON lines to standard output; writes", stage->writes, text);
-    if (stage->sink)
-        text_add_word(text, "A sink: what it writes are no frames.\n");
+                      program->reads, text);
+    if (program->writes != 0)
+        help_sections("Frames go as JSON lines to standard output; writes", program->writes, text);
+    if (program->takes_files && program->writes == 0)
+        text_add_word(text, "Writes no frames: in a pipeline it stands last.\n");
     text_add_word(text, "\nOptions:\n");
-    for (const struct field *field = named_options(stage); field->name != NULL; field++)
+    for (const struct field *field = named_options(program); field->name != NULL; field++)
         help_option(field, text);
     for (const struct field *field = common_fields; field->name != NULL; field++)
-        if (applies(stage, field))
+        if (applies(program, field))
             help_option(field, text);
     text_add_word(text, "\nExit status: 0, or as in sysexits: 64 usage, 65 bad data, 66 no input, "
                         "70 internal,\n71 memory, 73 cannot create, 74 input/output, 78 "

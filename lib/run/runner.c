@@ -28,7 +28,7 @@ void runner_expect(struct runner *runner, int64_t frames)
 
 int runner_write(struct runner *runner, const char *bytes, size_t length)
 {
-    return output_write(runner->output, bytes, length, &runner->diag);
+    return output_write(runner->outputs.items[0], bytes, length, &runner->diag);
 }
 
 int runner_write_record(struct runner *runner, const struct record *record, const void *base)
@@ -231,22 +231,34 @@ int runner_extract(struct runner *runner, struct frame *frame,
     return 0;
 }
 
-int runner_prepare(struct runner *runner, const struct stage *stage, size_t count,
-                   const char *const *words)
+static int prepare(struct runner *runner, size_t count, const char *const *words)
 {
-    *runner = (struct runner){.stage = stage};
-    runner->state = arena_get(&runner->arena, stage->options->size);
-    int result = options_read(stage, count, words, runner->state, &runner->common, &runner->arena,
-                              &runner->diag);
+    runner->state = arena_get(&runner->arena, runner->program.options->size);
+    int result = options_read(&runner->program, count, words, runner->state, &runner->common,
+                              &runner->arena, &runner->diag);
     if (runner->common.explain != NULL)
         runner->log = explain_begin(&runner->arena);
     return result;
 }
 
+int runner_prepare(struct runner *runner, const struct stage *stage, size_t count,
+                   const char *const *words)
+{
+    *runner = (struct runner){.program = program_of_stage(stage), .stage = stage};
+    return prepare(runner, count, words);
+}
+
+int runner_prepare_tool(struct runner *runner, const struct tool *tool, size_t count,
+                        const char *const *words)
+{
+    *runner = (struct runner){.program = program_of_tool(tool), .tool = tool};
+    return prepare(runner, count, words);
+}
+
 void runner_free(struct runner *runner)
 {
-    for (size_t i = 0; i < runner->rehearsing.count; i++)
-        runner_free(runner->rehearsing.items[i]);
+    for (size_t i = 0; i < runner->tried.count; i++)
+        runner_free(runner->tried.items[i]);
     reference_stream_close(runner->counterpart);
     if (runner->stage != NULL && runner->stage->release != NULL)
         runner->stage->release(runner->state);
@@ -255,13 +267,13 @@ void runner_free(struct runner *runner)
 
 static int check_sections(struct runner *runner, const struct frame *frame)
 {
-    unsigned missing = runner->stage->reads & ~frame->present;
+    unsigned missing = runner->program.reads & ~frame->present;
     if (missing != 0)
         return diag_fail(&runner->diag, DIAG_DATA,
                          "%s: missing; the stage that writes it must stand before this one",
                          frame_section_name(missing & -missing));
     unsigned added = SECTION_LOST | SECTION_COUNTS;
-    unsigned doubled = runner->stage->writes & ~runner->stage->reads & frame->present & ~added;
+    unsigned doubled = runner->program.writes & ~runner->program.reads & frame->present & ~added;
     if (doubled != 0)
         return diag_fail(&runner->diag, DIAG_DATA, "%s: already there; this stage would write it",
                          frame_section_name(doubled & -doubled));
@@ -302,7 +314,7 @@ static int finish_step(struct runner *runner, struct frame *frame)
 }
 
 /* A stage that fails without a word would look like the end of the stream. */
-static int told(struct runner *runner, int result)
+static int ensure_message(struct runner *runner, int result)
 {
     if (result < 0)
         diag_fail(&runner->diag, DIAG_INTERNAL, "failed without saying why");
@@ -315,7 +327,7 @@ int runner_start(struct runner *runner)
     if (runner->log != NULL && runner->common.explain != NULL &&
         explain_check(runner->common.explain, &runner->diag) != 0)
         return -1;
-    return stage->start == NULL ? 0 : told(runner, stage->start(runner->state, runner));
+    return stage->start == NULL ? 0 : ensure_message(runner, stage->start(runner->state, runner));
 }
 
 int runner_next(struct runner *runner, struct frame *frame)
@@ -323,31 +335,49 @@ int runner_next(struct runner *runner, struct frame *frame)
     frame_clear(frame);
     frame->version = FRAME_VERSION;
     frame->seed = runner->common.seed;
-    int more = told(runner, runner->stage->next(runner->state, frame, runner));
+    int more = ensure_message(runner, runner->stage->next(runner->state, frame, runner));
     return more == 1 && finish_step(runner, frame) != 0 ? -1 : more;
+}
+
+/* What precedes every step: the frame takes the seed of the command line and must have what the
+ * program reads. */
+static int take_frame(struct runner *runner, struct frame *frame)
+{
+    if (runner->common.seed_given)
+        frame->seed = runner->common.seed;
+    if (check_sections(runner, frame) != 0)
+        return -1;
+    return runner->common.complete
+               ? frame_sequence_follow(&runner->completeness, frame, &runner->arena, &runner->diag)
+               : 0;
 }
 
 int runner_step(struct runner *runner, struct frame *frame)
 {
-    if (runner->common.seed_given)
-        frame->seed = runner->common.seed;
-    if (check_sections(runner, frame) != 0 ||
-        (runner->common.complete &&
-         frame_sequence_follow(&runner->completeness, frame, &runner->arena, &runner->diag) != 0) ||
-        told(runner, runner->stage->step(runner->state, frame, runner)) != 0)
+    if (take_frame(runner, frame) != 0 ||
+        ensure_message(runner, runner->stage->step(runner->state, frame, runner)) != 0)
         return -1;
     return runner->stage->sink ? 0 : finish_step(runner, frame);
 }
 
-static struct runner *rehearsing(struct runner *runner, const struct stage *stage,
-                                 const struct suite_choice *choice, struct effect_log *log)
+int runner_frame(struct runner *runner, struct frame **frame)
 {
-    for (size_t i = 0; i < runner->rehearsing.count; i++)
-        if (runner->rehearsing.items[i]->stage == stage)
-            return runner->rehearsing.items[i];
+    int more = runner->frames.next(runner->frames.from, frame);
+    if (more == 0)
+        return frame_sequence_end(&runner->completeness, &runner->diag);
+    return more > 0 && take_frame(runner, *frame) == 0 ? 1 : -1;
+}
+
+/* The runner of a stage that a tool tries, made and started when it is tried first. */
+static struct runner *tried_runner(struct runner *runner, const struct stage *stage,
+                                   const struct suite_choice *choice, struct effect_log *log)
+{
+    for (size_t i = 0; i < runner->tried.count; i++)
+        if (runner->tried.items[i]->stage == stage)
+            return runner->tried.items[i];
     struct runner *other = arena_get(&runner->arena, sizeof *other);
-    *list_add(&runner->rehearsing, &runner->arena) = other;
-    *other = (struct runner){.stage = stage, .log = log};
+    *list_add(&runner->tried, &runner->arena) = other;
+    *other = (struct runner){.program = program_of_stage(stage), .stage = stage, .log = log};
     other->state = arena_get(&other->arena, stage->options->size);
     field_clear(stage->options, other->state);
     if (choice != NULL)
@@ -359,7 +389,7 @@ static struct runner *rehearsing(struct runner *runner, const struct stage *stag
 int runner_try_stage(struct runner *runner, const struct stage *stage,
                      const struct suite_choice *choice, struct effect_log *log, struct frame *frame)
 {
-    struct runner *other = rehearsing(runner, stage, choice, log);
+    struct runner *other = tried_runner(runner, stage, choice, log);
     if (other->diag.code == DIAG_OK && runner_step(other, frame) == 0)
         return 0;
     runner->diag = other->diag;
@@ -371,9 +401,48 @@ int runner_finish(struct runner *runner)
     if (frame_sequence_end(&runner->completeness, &runner->diag) != 0)
         return -1;
     const struct stage *stage = runner->stage;
-    if (stage->stop != NULL && told(runner, stage->stop(runner->state, runner)) != 0)
+    if (stage->stop != NULL && ensure_message(runner, stage->stop(runner->state, runner)) != 0)
         return -1;
     return runner->log == NULL
                ? 0
                : explain_append(runner->common.explain, stage->name, runner->log, &runner->diag);
+}
+
+int runner_run_tool(struct runner *runner)
+{
+    return ensure_message(runner, runner->tool->run(runner->state, runner));
+}
+
+static struct output *add_output(struct runner *runner, const char *path)
+{
+    struct output *output = output_open(path, &runner->diag);
+    if (output != NULL)
+        *list_add(&runner->outputs, &runner->arena) = output;
+    return output;
+}
+
+struct output *runner_output(struct runner *runner)
+{
+    return add_output(runner, runner->common.output != NULL ? runner->common.output : "-");
+}
+
+struct output *runner_output_in(struct runner *runner, const char *folder, const char *name)
+{
+    struct text path = {0};
+    text_format(&path, "%s/%s", folder, name);
+    text_add(&path, "", 1);
+    struct output *output = add_output(runner, path.bytes);
+    text_free(&path);
+    return output;
+}
+
+int runner_close_outputs(struct runner *runner)
+{
+    for (size_t i = 0; i < runner->outputs.count; i++)
+        output_finish(runner->outputs.items[i], &runner->diag);
+    bool whole = runner->diag.code == DIAG_OK;
+    for (size_t i = 0; i < runner->outputs.count; i++)
+        output_close(runner->outputs.items[i], whole, &runner->diag);
+    runner->outputs.count = 0;
+    return runner->diag.code == DIAG_OK ? 0 : -1;
 }

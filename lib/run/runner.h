@@ -1,26 +1,38 @@
-/* A runner: one stage at work. It owns the stage's state, options and documents, checks what goes
- * into a step and what comes out of it, and answers what stages ask for (stage.h). */
+/* A runner: one stage or one tool at work. It owns the state, the options, the documents and the
+ * outputs, checks the frames that go in and come out, and does what stages and tools ask for
+ * (stage.h, tool.h). */
 #ifndef RUNNER_H
 #define RUNNER_H
 
 #include "frame/frame_sequence.h"
 #include "run/options.h"
 #include "run/stage.h"
+#include "run/tool.h"
 #include "text/output.h"
 
+/* Where a tool's frames come from: next gives 1 and a frame, 0 at the end, or -1 after a message in
+ * the tool's diag. */
+struct frame_source {
+    int (*next)(void *from, struct frame **frame);
+    void *from;
+};
+
 struct runner {
-    const struct stage *stage;
+    struct program program;
+    const struct stage *stage; /* NULL for a tool */
+    const struct tool *tool;   /* NULL for a stage */
     void *state;
     struct common_options common;
     struct arena arena; /* options and documents: as long as the stage */
     struct diag diag;
-    struct output *output; /* of the last stage in a chain, else NULL */
+    LIST_OF(struct output *) outputs; /* those of a chain's last runner, until it ends */
+    struct frame_source frames;       /* of a tool, set by the chain */
     LIST_OF(const struct suite *) suites;
     LIST_OF(const struct vehicle *) vehicles; /* by class */
     struct frame_sequence completeness;       /* followed only under --complete */
     int64_t expected_frames;                  /* 0 if the source does not say */
     struct effect_log *log;                   /* NULL unless --explain was given */
-    LIST_OF(struct runner *) rehearsing;      /* other stages, inside this one */
+    LIST_OF(struct runner *) tried;           /* other stages, inside a tool */
     struct reference_stream *counterpart;     /* NULL: none was asked for */
 };
 
@@ -28,10 +40,19 @@ struct runner {
  * the end. */
 int runner_prepare(struct runner *runner, const struct stage *stage, size_t count,
                    const char *const *words);
+int runner_prepare_tool(struct runner *runner, const struct tool *tool, size_t count,
+                        const char *const *words);
 int runner_start(struct runner *runner);
 int runner_next(struct runner *runner, struct frame *frame);
 int runner_step(struct runner *runner, struct frame *frame);
 int runner_finish(struct runner *runner);
+
+/* The whole work of a tool. */
+int runner_run_tool(struct runner *runner);
+
+/* Closes the outputs. They take their names if all went well, also in writing the last of them, and
+ * leave nothing behind otherwise. */
+int runner_close_outputs(struct runner *runner);
 
 void runner_free(struct runner *runner);
 

@@ -137,23 +137,17 @@ static void write_record(const struct record *record, int depth, struct text *te
     text_add_word(text, "}");
 }
 
-void schema_list(struct text *text)
+const char *schema_name(size_t index)
 {
-    for (int i = 0; i < SCHEMAS; i++)
-        text_format(text, "%s\n", schemas[i].name);
+    return index < SCHEMAS ? schemas[index].name : NULL;
 }
 
-bool schema_write(const char *name, struct text *text)
+void schema_write(size_t index, struct text *text)
 {
-    for (int i = 0; i < SCHEMAS; i++)
-        if (strcmp(schemas[i].name, name) == 0) {
-            text_add_word(text, "{");
-            indent(1, text);
-            write_text_member("$schema", "https://json-schema.org/draft/2020-12/schema", text);
-            text_add_word(text, ",");
-            write_record(schemas[i].record, 1, text);
-            text_add_word(text, "\n}\n");
-            return true;
-        }
-    return false;
+    text_add_word(text, "{");
+    indent(1, text);
+    write_text_member("$schema", "https://json-schema.org/draft/2020-12/schema", text);
+    text_add_word(text, ",");
+    write_record(schemas[index].record, 1, text);
+    text_add_word(text, "\n}\n");
 }

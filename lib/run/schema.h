@@ -2,14 +2,14 @@
 #ifndef SCHEMA_H
 #define SCHEMA_H
 
-#include <stdbool.h>
+#include <stddef.h>
 
 #include "base/text.h"
 
-/* "frame", "scenario", ...: one a line. */
-void schema_list(struct text *text);
+/* The names of the schemas, "frame" and so on; NULL after the last. */
+const char *schema_name(size_t index);
 
-/* False if there is no schema of that name. */
-bool schema_write(const char *name, struct text *text);
+/* The schema of that number. */
+void schema_write(size_t index, struct text *text);
 
 #endif

@@ -4,10 +4,12 @@
  *
  * A stage is data: one const struct stage in one file of stages/, and the folder is the registry.
  * The executable glint-NAME and the fused program glint run the same struct. Sources make frames
- * (next), filters change them in place (step), sinks write what they like (step and stop). The
- * runner owns the state and the frame; a stage keeps no pointer into a frame, prints nothing and
- * frees nothing it did not make. Formulas live in lib/ as pure functions; stages loop, pick members
- * and call.
+ * (next), filters change them in place (step), sinks write something else (step and stop). A
+ * program that needs more than one frame at a time and one output is a tool (tool.h).
+ *
+ * The runner owns the state and the frame; a stage keeps no pointer into a frame, prints nothing
+ * and frees nothing it did not make. Formulas live in lib/ as pure functions; stages loop, pick
+ * members and call.
  *
  * Every function returns 0, or -1 after a message in the runner's diag. next also returns 1 after
  * making a frame; 0 is the end of the scenes. */
@@ -101,14 +103,6 @@ const struct vehicle *runner_vehicle(struct runner *runner, const char *class);
 int runner_extract(struct runner *runner, struct frame *frame,
                    void (*describe)(const void *state, const struct vehicle *vehicle,
                                     struct reflector_set *set, struct arena *arena));
-
-/* The step of another stage, for sinks that ask what it would do: with these options (NULL: its own
- * for nothing given; only stages whose state begins with a suite_choice take others), its effects
- * noted in a log that has a clock (or NULL), and all the checks of a run. Started at its first
- * rehearsal and kept. A stage that rehearses others names them as they are defined, `extern`. */
-int runner_try_stage(struct runner *runner, const struct stage *stage,
-                     const struct suite_choice *choice, struct effect_log *log,
-                     struct frame *frame);
 
 /* A sink's way out. */
 int runner_write(struct runner *runner, const char *bytes, size_t length);

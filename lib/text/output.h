@@ -1,12 +1,15 @@
 /* Bytes to a file or standard output.
  *
- * A named file is written under a temporary name beside it and takes its own name only when it is
- * whole and on the disk, so that a killed run leaves no partial file under a final name. A name
- * ending in .gz compresses, reproducibly. What is not a regular file (a pipe, a device) is written
- * directly. Every write and the final close are checked. */
+ * A named file is written without a name, in the folder where it will be, and takes its name only
+ * when it is whole and on the disk: a run that fails or is killed leaves the folder as it was.
+ * Where the file system has no files without names, the file is called NAME.tmp.PID meanwhile, and
+ * only a killed run leaves it behind. A name ending in .gz compresses, reproducibly. What is not a
+ * regular file (a pipe, a device) is written directly. Every write and the final close are checked.
+ */
 #ifndef OUTPUT_H
 #define OUTPUT_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/diag.h"
@@ -24,8 +27,12 @@ int output_send(struct output *output, struct diag *diag);
 /* The same of bytes that lie elsewhere. */
 int output_write(struct output *output, const char *bytes, size_t length, struct diag *diag);
 
-/* Flushes, closes and names the file; the output is gone afterwards. A run that failed keeps what
- * it wrote only on standard output: pass whole = 0 and a file is removed instead. */
-int output_close(struct output *output, int whole, struct diag *diag);
+/* Writes what is held, to the disk if it is a file: closing it then only gives it its name. For
+ * programs whose outputs belong together, before they close any of them. */
+int output_finish(struct output *output, struct diag *diag);
+
+/* Finishes, closes and names the file; the output is gone afterwards. Without whole, a file is
+ * removed instead; what was written to standard output or to a device stays written. */
+int output_close(struct output *output, bool whole, struct diag *diag);
 
 #endif

@@ -88,18 +88,11 @@ static const struct field soundness_options[] = {
 static const struct record soundness_record = {
     .name = "soundness", .size = sizeof(struct soundness), .fields = soundness_options};
 
-static int no_frame(void *state, struct frame *frame, struct runner *runner)
-{
-    (void)state, (void)frame, (void)runner;
-    return 0;
-}
-
-/* For the command line alone. */
-static const struct stage stage_soundness = {
+static const struct program soundness = {
+    .kind = PROGRAM_SOURCE,
     .name = "soundness",
     .summary = "Compare what planners leave out with what simulating every effect says.",
     .options = &soundness_record,
-    .next = no_frame,
 };
 
 static int64_t no_clock_ns(void)
@@ -382,7 +375,7 @@ static int prove(struct bench *bench)
 static int help(void)
 {
     struct text text = {0};
-    options_help(&stage_soundness, &text);
+    options_help(&soundness, &text);
     fwrite(text.bytes, 1, text.length, stdout);
     text_free(&text);
     return 0;
@@ -398,9 +391,9 @@ int main(int count, char **words)
 {
     static struct bench bench;
     struct soundness wanted;
-    struct runner own = {.stage = &stage_soundness};
+    struct runner own = {.program = soundness};
     bench.wanted = &wanted;
-    int result = options_read(&stage_soundness, (size_t)count - 1, (const char *const *)words + 1,
+    int result = options_read(&soundness, (size_t)count - 1, (const char *const *)words + 1,
                               &wanted, &own.common, &own.arena, &own.diag);
     int status = result != 0 ? refuse_words(&own) : own.common.help ? help() : prove(&bench);
     free_bench(&bench);

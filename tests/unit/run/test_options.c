@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "run/options.h"
+#include "run/stage.h"
+#include "run/tool.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
@@ -45,6 +47,32 @@ static const struct stage source = {.name = "source",
                                     .writes = SECTION_OBJECTS,
                                     .next = no_frame};
 
+static int no_work(void *state, struct runner *runner)
+{
+    (void)state, (void)runner;
+    return 0;
+}
+
+/* A tool that reads frames and writes to --output, and one that writes files into a folder. */
+static const struct tool reader = {.name = "reader",
+                                   .summary = "Read.",
+                                   .options = &choices,
+                                   .reads = SECTION_TARGETS,
+                                   .run = no_work};
+static const struct tool tables = {.name = "tables",
+                                   .summary = "Tabulate.",
+                                   .options = &choices,
+                                   .operand = "DIR",
+                                   .into_folder = true,
+                                   .reads = SECTION_TARGETS,
+                                   .run = no_work};
+static const struct tool maker = {.name = "maker",
+                                  .summary = "Write.",
+                                  .options = &choices,
+                                  .operand = "DIR",
+                                  .into_folder = true,
+                                  .run = no_work};
+
 struct result {
     struct choice choice;
     struct common_options common;
@@ -53,7 +81,7 @@ struct result {
 };
 
 /* The words are parted by single blanks. */
-static int read_line(const struct stage *stage, const char *line, struct result *result)
+static int read_words(struct program program, const char *line, struct result *result)
 {
     const char *words[32];
     size_t count = 0;
@@ -64,8 +92,13 @@ static int read_line(const struct stage *stage, const char *line, struct result 
         words[count++] = arena_text(&result->arena, at, length);
         at += length;
     }
-    return options_read(stage, count, words, &result->choice, &result->common, &result->arena,
+    return options_read(&program, count, words, &result->choice, &result->common, &result->arena,
                         &result->diag);
+}
+
+static int read_line(const struct stage *stage, const char *line, struct result *result)
+{
+    return read_words(program_of_stage(stage), line, result);
 }
 
 static void options_come_in_any_order_and_both_spellings(void **state)
@@ -177,10 +210,51 @@ static void wrong_command_lines_are_refused(void **state)
     }
 }
 
-static void assert_helps(const struct stage *stage, const char *const *parts, size_t count)
+static void a_tools_operand_comes_before_the_files_that_it_reads(void **state)
+{
+    (void)state;
+    struct result result;
+    assert_int_equal(
+        read_words(program_of_tool(&tables), "folder --seed 3 a --complete b", &result), 0);
+    assert_string_equal(result.choice.where, "folder");
+    assert_int_equal(result.common.files.count, 2);
+    assert_string_equal(result.common.files.items[0], "a");
+    assert_true(result.common.complete && result.common.seed == 3);
+    arena_free(&result.arena);
+    assert_int_equal(read_words(program_of_tool(&reader), "--where x a -o out", &result), 0);
+    assert_int_equal(result.common.files.count, 1);
+    assert_string_equal(result.common.output, "out");
+    arena_free(&result.arena);
+}
+
+static void a_tool_refuses_options_that_would_do_nothing(void **state)
+{
+    (void)state;
+    static const struct {
+        const struct tool *tool;
+        const char *line, *message;
+    } cases[] = {{&maker, "", "missing DIR: the place; see --help"},
+                 {&maker, "a b", "one argument too many: b"},
+                 {&maker, "a -o x", "unknown option -o; see --help"},
+                 {&maker, "a --seed 1", "unknown option --seed; see --help"},
+                 {&maker, "a --complete", "unknown option --complete; see --help"},
+                 {&tables, "a -o x", "unknown option -o; see --help"},
+                 {&tables, "a --keep", "unknown option --keep; see --help"},
+                 {&tables, "a --explain x", "unknown option --explain; see --help"},
+                 {&reader, "--where x --keep", "unknown option --keep; see --help"}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct result result;
+        assert_int_equal(read_words(program_of_tool(cases[i].tool), cases[i].line, &result), -1);
+        assert_string_equal(result.diag.text, cases[i].message);
+        assert_int_equal(result.diag.code, DIAG_USAGE);
+        arena_free(&result.arena);
+    }
+}
+
+static void assert_helps(struct program program, const char *const *parts, size_t count)
 {
     struct text text = {0};
-    options_help(stage, &text);
+    options_help(&program, &text);
     text_add(&text, "", 1);
     for (size_t i = 0; i < count; i++)
         if (strstr(text.bytes, parts[i]) == NULL)
@@ -209,10 +283,17 @@ static void help_names_every_option_with_unit_bounds_and_choices(void **state)
                                             "\nExit status: 0"};
     static const char *const of_source[] = {"Usage: glint-source [OPTION]... PLACE\nMake.\n",
                                             "\nPLACE: the place.\n", "writes objects.\n"};
-    assert_helps(&filter, of_filter, COUNT(of_filter));
-    assert_helps(&source, of_source, COUNT(of_source));
+    static const char *const of_tables[] = {
+        "Usage: glint-tables [OPTION]... DIR [FILE]...\nTabulate.\n", "\nDIR: the place.\n",
+        "reads targets.\n"};
+    static const char *const of_maker[] = {"Usage: glint-maker [OPTION]... DIR\nWrite.\n"};
+    assert_helps(program_of_stage(&filter), of_filter, COUNT(of_filter));
+    assert_helps(program_of_stage(&source), of_source, COUNT(of_source));
+    assert_helps(program_of_tool(&tables), of_tables, COUNT(of_tables));
+    assert_helps(program_of_tool(&maker), of_maker, COUNT(of_maker));
     struct text text = {0};
-    options_help(&source, &text);
+    struct program program = program_of_stage(&source);
+    options_help(&program, &text);
     text_add(&text, "", 1);
     assert_null(strstr(text.bytes, "--complete"));
     assert_null(strstr(text.bytes, "--where"));
@@ -227,6 +308,8 @@ int main(void)
         cmocka_unit_test(values_and_files_may_begin_with_a_dash),
         cmocka_unit_test(help_and_version_need_nothing_else),
         cmocka_unit_test(wrong_command_lines_are_refused),
+        cmocka_unit_test(a_tools_operand_comes_before_the_files_that_it_reads),
+        cmocka_unit_test(a_tool_refuses_options_that_would_do_nothing),
         cmocka_unit_test(help_names_every_option_with_unit_bounds_and_choices),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

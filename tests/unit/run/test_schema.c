@@ -15,7 +15,10 @@ static json_t *schema_of(const char *name)
 {
     struct text text = {0};
     json_error_t error;
-    assert_true(schema_write(name, &text));
+    size_t index = 0;
+    while (strcmp(schema_name(index), name) != 0)
+        index++;
+    schema_write(index, &text);
     json_t *tree = json_loadb(text.bytes, text.length, JSON_REJECT_DUPLICATES, &error);
     if (tree == NULL)
         fail_msg("%s:%d: %s", name, error.line, error.text);
@@ -138,25 +141,15 @@ static void every_schema_says_what_its_field_table_says(void **state)
     }
 }
 
-static void the_list_names_every_schema(void **state)
+static void the_list_names_every_schema_once(void **state)
 {
     (void)state;
-    struct text text = {0};
-    schema_list(&text);
-    text_add(&text, "", 1);
-    int count = 0;
-    for (char *name = text.bytes; *name != '\0'; count++) {
-        char *end = strchr(name, '\n');
-        assert_non_null(end);
-        *end = '\0';
-        json_decref(schema_of(name));
-        name = end + 1;
+    size_t count = 0;
+    for (const char *name = "", *next; (next = schema_name(count)) != NULL; count++, name = next) {
+        assert_true(strcmp(name, next) < 0);
+        json_decref(schema_of(next));
     }
     assert_true(count >= 4);
-    text_free(&text);
-    assert_false(schema_write("nothing", &text));
-    assert_false(schema_write("", &text));
-    assert_int_equal(text.length, 0);
 }
 
 /* `make schemas` writes them; they are kept so that a change shows. */
@@ -180,7 +173,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_schema_says_what_its_field_table_says),
-        cmocka_unit_test(the_list_names_every_schema),
+        cmocka_unit_test(the_list_names_every_schema_once),
         cmocka_unit_test(the_files_in_schemas_are_up_to_date),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,11 @@
+/* For O_TMPFILE. */
+#define _GNU_SOURCE
 #include "check.h"
 
 #include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +15,29 @@
 
 #include "text/input.h"
 #include "text/output.h"
+
+/* Stands in for the system's open (Makefile): a test may see a file system that has no files
+ * without names. */
+static bool names_only;
+
+/* Whether the file system of the scratch folder really has them. */
+static bool has_unnamed(const char *folder)
+{
+    int file = open(folder, O_TMPFILE | O_WRONLY, 0666);
+    return file >= 0 && close(file) == 0;
+}
+
+int __real_open(const char *path, int flags, ...);
+int __wrap_open(const char *path, int flags, ...);
+
+int __wrap_open(const char *path, int flags, ...)
+{
+    if (names_only && (flags & O_TMPFILE) == O_TMPFILE) {
+        errno = EOPNOTSUPP;
+        return -1;
+    }
+    return __real_open(path, flags, 0666);
+}
 
 struct scratch {
     char directory[64];
@@ -151,31 +179,84 @@ static void gz_is_gzip_and_depends_on_nothing_but_its_content(void **state)
     text_free(&text);
 }
 
+static void rewrite(const struct scratch *scratch, const char *path, bool whole)
+{
+    struct text old = {0}, new = sample_text(100000), back;
+    text_add_word(&old, "old");
+    write_file(path, &old, 3);
+    int before = files_in(scratch->directory);
+    int temporary = has_unnamed(scratch->directory) ? 0 : 1;
+    struct diag diag = {0};
+    struct output *output = output_open(path, &diag);
+    assert_int_equal(output_write(output, new.bytes, new.length, &diag), 0);
+    assert_int_equal(output_finish(output, &diag), 0);
+    back = read_all(path);
+    assert_int_equal(back.length, 3);
+    text_free(&back);
+    assert_int_equal(files_in(scratch->directory), before + temporary);
+    assert_int_equal(output_close(output, whole, &diag), 0);
+    assert_int_equal(files_in(scratch->directory), before);
+    back = read_all(path);
+    assert_int_equal(back.length, whole ? new.length : old.length);
+    text_free(&back);
+    text_free(&old);
+    text_free(&new);
+}
+
 static void the_name_is_taken_only_when_the_file_is_whole(void **state)
 {
     struct scratch *scratch = *state;
-    for (int packed = 0; packed < 2; packed++)
-        for (int whole = 0; whole < 2; whole++) {
-            const char *path = packed ? scratch->packed : scratch->path;
-            struct text old = {0}, new = sample_text(100000), back;
-            text_add_word(&old, "old");
-            write_file(path, &old, 3);
-            int before = files_in(scratch->directory);
-            struct diag diag = {0};
-            struct output *output = output_open(path, &diag);
-            assert_int_equal(output_write(output, new.bytes, new.length, &diag), 0);
-            back = read_all(path);
-            assert_int_equal(back.length, 3);
-            text_free(&back);
-            assert_int_equal(files_in(scratch->directory), before + 1);
-            assert_int_equal(output_close(output, whole, &diag), 0);
-            assert_int_equal(files_in(scratch->directory), before);
-            back = read_all(path);
-            assert_int_equal(back.length, whole ? new.length : old.length);
-            text_free(&back);
-            text_free(&old);
-            text_free(&new);
-        }
+    for (int i = 0; i < 8; i++) {
+        names_only = (i & 1) != 0;
+        rewrite(scratch, (i & 2) != 0 ? scratch->packed : scratch->path, (i & 4) != 0);
+    }
+    names_only = false;
+}
+
+static void a_killed_run_leaves_the_folder_as_it_was(void **state)
+{
+    struct scratch *scratch = *state;
+    if (!has_unnamed(scratch->directory))
+        skip();
+    struct text old = sample_text(3), new = sample_text(100000);
+    write_file(scratch->path, &old, 3);
+    int before = files_in(scratch->directory), code = 0;
+    pid_t child = fork();
+    if (child == 0) {
+        struct diag diag = {0};
+        struct output *output = output_open(scratch->path, &diag);
+        output_write(output, new.bytes, new.length, &diag);
+        output_finish(output, &diag);
+        kill(getpid(), SIGKILL);
+    }
+    assert_int_equal(waitpid(child, &code, 0), child);
+    assert_true(WIFSIGNALED(code));
+    assert_int_equal(files_in(scratch->directory), before);
+    struct text back = read_all(scratch->path);
+    assert_int_equal(back.length, 3);
+    text_free(&back);
+    text_free(&old);
+    text_free(&new);
+}
+
+/* Of a run that was killed where the file system has no files without names. */
+static void a_temporary_file_that_is_left_is_in_nobodys_way(void **state)
+{
+    struct scratch *scratch = *state;
+    char left[128];
+    snprintf(left, sizeof left, "%s.tmp.%ld", scratch->path, (long)getpid());
+    struct text text = sample_text(10);
+    for (int i = 0; i < 2; i++) {
+        names_only = i == 1;
+        int before = files_in(scratch->directory);
+        FILE *file = fopen(left, "w");
+        assert_non_null(file);
+        assert_int_equal(fclose(file), 0);
+        write_file(scratch->path, &text, 10);
+        assert_int_equal(files_in(scratch->directory), before);
+    }
+    names_only = false;
+    text_free(&text);
 }
 
 static void what_cannot_be_made_says_why_and_leaves_nothing(void **state)
@@ -245,6 +326,8 @@ int main(void)
         cmocka_unit_test(what_is_appended_is_sent_in_whole_pieces),
         cmocka_unit_test(gz_is_gzip_and_depends_on_nothing_but_its_content),
         cmocka_unit_test(the_name_is_taken_only_when_the_file_is_whole),
+        cmocka_unit_test(a_killed_run_leaves_the_folder_as_it_was),
+        cmocka_unit_test(a_temporary_file_that_is_left_is_in_nobodys_way),
         cmocka_unit_test(what_cannot_be_made_says_why_and_leaves_nothing),
         cmocka_unit_test(a_full_device_is_noticed_at_the_latest_when_it_is_closed),
         cmocka_unit_test(pipes_and_devices_are_written_directly),

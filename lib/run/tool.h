@@ -1,0 +1,58 @@
+/* A tool: a program that is no stage, because one frame in and one output are not enough for it.
+ *
+ * A stage takes its frames one by one and writes one stream. A tool has one function, run, which
+ * does the whole work: it takes frames when it wants them or none at all, tries stages, opens other
+ * files, and writes as many outputs as it likes. Like a stage it is data: one const struct tool in
+ * one file of stages/, and the folder is the registry. The executable is glint-NAME, and `glint`
+ * runs a tool that reads frames at the end of a pipeline. Options, --help, messages and exit codes
+ * are made as for stages (options.h).
+ *
+ * The runner owns the outputs. None of them takes its name before all of them are whole and on the
+ * disk; after a failure, or if the program is killed, the files that had these names before are
+ * unchanged and no others are left (text/output.h). What goes to standard output cannot be taken
+ * back.
+ *
+ * Functions return 0, or -1 after a message in the runner's diag. Beside those below, tools may
+ * call runner_arena, runner_diag and the like (stage.h). */
+#ifndef TOOL_H
+#define TOOL_H
+
+#include "run/stage.h"
+
+struct output;
+
+struct tool {
+    const char *name;    /* "plan": the executable is glint-plan */
+    const char *summary; /* one sentence */
+    const char *details; /* more paragraphs for --help, or NULL */
+    /* The state, of which members are the tool's options: --radius-m sets radius_m. */
+    const struct record *options;
+    /* The first argument, as --help calls it; it sets the first option. NULL: there is none. */
+    const char *operand;
+    /* Outputs are files in the folder that the operand names. Otherwise there is one, --output. */
+    bool into_folder;
+    /* enum section: what every frame of its stream must have. 0: it reads no frames. */
+    unsigned reads;
+    int (*run)(void *state, struct runner *runner);
+};
+
+/* The next frame of the stream: 1; 0 at its end; -1. The frame lasts until the next call, and the
+ * tool may change it. A tool reads to the end, as whoever writes the stream expects. */
+int runner_frame(struct runner *runner, struct frame **frame);
+
+/* What --output names, or standard output. NULL after a message. Open outputs before the first
+ * frame, so that a place where nothing can be written is refused before the work. */
+struct output *runner_output(struct runner *runner);
+
+/* A file of that name in the folder, which must exist. NULL after a message. */
+struct output *runner_output_in(struct runner *runner, const char *folder, const char *name);
+
+/* One step of a stage, for tools that ask what it would do: with these options (NULL: its own
+ * defaults; only stages whose state begins with a suite_choice take others), its effects noted in
+ * a log that has a clock (or NULL), and all the checks of a run. The stage is started when it is
+ * tried first, and stopped never. Its struct is named as it is defined, `extern`. */
+int runner_try_stage(struct runner *runner, const struct stage *stage,
+                     const struct suite_choice *choice, struct effect_log *log,
+                     struct frame *frame);
+
+#endif

@@ -1,0 +1,240 @@
+#include "check.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "run/chain.h"
+#include "text/document.h"
+
+/* What the tools of this file do: write two outputs, and frames between them. */
+struct work {
+    const char *folder;
+    const char *second; /* the name of the second output */
+    bool fail, silent;
+    int64_t frames;
+};
+
+static const struct field work_fields[] = {
+    {FIELD_NAME_OF(struct work, folder, "the folder of the outputs")},
+    {FIELD_NAME_OF(struct work, second, "the name of the second output"), FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct work, fail, "fail after writing"), FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct work, silent, "fail without a message"), FIELD_OPTIONAL},
+    {0}};
+static const struct record work_record = {
+    .name = "work", .size = sizeof(struct work), .fields = work_fields};
+
+static int write_both(void *state, struct runner *runner)
+{
+    struct work *work = state;
+    struct diag *diag = runner_diag(runner);
+    struct output *first = runner_output_in(runner, work->folder, "first");
+    struct output *second =
+        runner_output_in(runner, work->folder, work->second != NULL ? work->second : "second");
+    if (first == NULL || second == NULL || output_write(first, "one\n", 4, diag) != 0 ||
+        output_write(second, "two\n", 4, diag) != 0)
+        return -1;
+    if (work->silent)
+        return -1;
+    return work->fail ? diag_fail(diag, DIAG_DATA, "as it was told to") : 0;
+}
+
+static int count_frames(void *state, struct runner *runner)
+{
+    struct work *work = state;
+    struct output *output = runner_output_in(runner, work->folder, "first");
+    struct frame *frame;
+    int more;
+    while ((more = runner_frame(runner, &frame)) > 0)
+        work->frames += frame->seed == 7;
+    char count = (char)('0' + work->frames);
+    return more == 0 ? output_write(output, &count, 1, runner_diag(runner)) : -1;
+}
+
+static const struct tool writer = {.name = "writer",
+                                   .summary = "Write two files.",
+                                   .options = &work_record,
+                                   .operand = "DIR",
+                                   .into_folder = true,
+                                   .run = write_both};
+static const struct tool counter = {.name = "counter",
+                                    .summary = "Count frames of seed 7.",
+                                    .options = &work_record,
+                                    .operand = "DIR",
+                                    .into_folder = true,
+                                    .reads = SECTION_OBJECTS,
+                                    .run = count_frames};
+
+#define HEAD(number, seed)                                                                         \
+    "{\"version\":0,\"scene\":\"a\",\"frame\":" number ",\"time_s\":" number                       \
+    ",\"interval_s\":1,\"seed\":\"" seed "\",\"ego\":\"e\""
+#define OBJECTS                                                                                    \
+    ",\"objects\":[{\"id\":\"e\",\"class\":\"car\",\"x_m\":0,\"y_m\":0,\"yaw_rad\":0,\"vx_mps\":"  \
+    "0,"                                                                                           \
+    "\"vy_mps\":0,\"yaw_rate_radps\":0,\"length_m\":0,\"width_m\":0,\"height_m\":0,"               \
+    "\"travelled_m\":0}]}\n"
+#define FRAME(number, seed) HEAD(number, seed) OBJECTS
+
+struct scratch {
+    char folder[64];
+    char frames[96];
+};
+
+static void write_text(const char *folder, const char *name, const char *text)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
+}
+
+static int make_scratch(void **state)
+{
+    struct scratch *scratch = calloc(1, sizeof *scratch);
+    assert_non_null(scratch);
+    strcpy(scratch->folder, "/tmp/glint-tool-XXXXXX");
+    assert_non_null(mkdtemp(scratch->folder));
+    snprintf(scratch->frames, sizeof scratch->frames, "%s/frames", scratch->folder);
+    write_text(scratch->folder, "first", "old");
+    write_text(scratch->folder, "frames", FRAME("0", "7") FRAME("1", "8"));
+    *state = scratch;
+    return 0;
+}
+
+static int remove_scratch(void **state)
+{
+    struct scratch *scratch = *state;
+    static const char *const names[] = {"first", "second", "frames"};
+    for (size_t i = 0; i < 3; i++) {
+        char path[128];
+        snprintf(path, sizeof path, "%s/%s", scratch->folder, names[i]);
+        unlink(path);
+    }
+    assert_int_equal(rmdir(scratch->folder), 0);
+    free(scratch);
+    return 0;
+}
+
+/* The exit code of the tool; its words are the folder's name and those given, NULL after the last.
+ */
+static int run(const struct tool *tool, const struct scratch *scratch, const char *const *more)
+{
+    const char *words[8] = {scratch->folder};
+    size_t count = 1;
+    for (; more[count - 1] != NULL; count++)
+        words[count] = more[count - 1];
+    struct runner runner;
+    assert_int_equal(runner_prepare_tool(&runner, tool, count, words), 0);
+    int code = chain_run(&runner, 1, NULL);
+    runner_free(&runner);
+    return code;
+}
+
+static void assert_holds(const struct scratch *scratch, const char *name, const char *expected)
+{
+    char path[128];
+    struct text text = {0};
+    struct diag diag = {0};
+    snprintf(path, sizeof path, "%s/%s", scratch->folder, name);
+    if (document_bytes(path, &text, &diag) != 0)
+        fail_msg("%s", diag.text);
+    text_add(&text, "", 1);
+    assert_string_equal(text.bytes, expected);
+    text_free(&text);
+}
+
+static int files_in(const struct scratch *scratch)
+{
+    DIR *list = opendir(scratch->folder);
+    int count = -2; /* . and .. */
+    while (readdir(list) != NULL)
+        count++;
+    closedir(list);
+    return count;
+}
+
+static void every_output_takes_its_name_when_all_went_well(void **state)
+{
+    assert_int_equal(run(&writer, *state, (const char *[]){NULL}), 0);
+    assert_holds(*state, "first", "one\n");
+    assert_holds(*state, "second", "two\n");
+    assert_int_equal(files_in(*state), 3);
+}
+
+static void no_output_takes_its_name_if_the_tool_fails(void **state)
+{
+    assert_int_equal(run(&writer, *state, (const char *[]){"--fail", NULL}), DIAG_DATA);
+    assert_holds(*state, "first", "old");
+    assert_int_equal(files_in(*state), 2);
+}
+
+/* The first is whole by then, and on the disk. */
+static void no_output_takes_its_name_if_another_cannot_be_written(void **state)
+{
+    struct scratch *scratch = *state;
+    char full[96];
+    snprintf(full, sizeof full, "%s/second", scratch->folder);
+    assert_int_equal(symlink("/dev/full", full), 0);
+    assert_int_equal(run(&writer, scratch, (const char *[]){NULL}), DIAG_IO);
+    assert_holds(scratch, "first", "old");
+    assert_int_equal(files_in(scratch), 3);
+}
+
+static void an_output_that_cannot_be_made_fails_the_tool(void **state)
+{
+    assert_int_equal(run(&writer, *state, (const char *[]){"--second", "nowhere/a", NULL}),
+                     DIAG_CANNOT_CREATE);
+    assert_holds(*state, "first", "old");
+    assert_int_equal(files_in(*state), 2);
+}
+
+static void a_tool_that_fails_without_a_word_is_told_of(void **state)
+{
+    assert_int_equal(run(&writer, *state, (const char *[]){"--silent", NULL}), DIAG_INTERNAL);
+}
+
+static void a_tool_gets_every_frame_with_the_seed_that_is_given(void **state)
+{
+    struct scratch *scratch = *state;
+    assert_int_equal(run(&counter, scratch, (const char *[]){scratch->frames, NULL}), 0);
+    assert_holds(scratch, "first", "1");
+    assert_int_equal(run(&counter, scratch, (const char *[]){"--seed", "7", scratch->frames, NULL}),
+                     0);
+    assert_holds(scratch, "first", "2");
+}
+
+static void a_tool_gets_no_frame_without_what_it_reads(void **state)
+{
+    struct scratch *scratch = *state;
+    write_text(scratch->folder, "frames", FRAME("0", "7") HEAD("1", "7") "}\n");
+    assert_int_equal(run(&counter, scratch, (const char *[]){scratch->frames, NULL}), DIAG_DATA);
+    assert_holds(scratch, "first", "old");
+}
+
+static void a_tool_fails_at_the_end_of_scenes_that_should_be_whole(void **state)
+{
+    struct scratch *scratch = *state;
+    assert_int_equal(run(&counter, scratch, (const char *[]){"--complete", scratch->frames, NULL}),
+                     DIAG_DATA);
+    assert_holds(scratch, "first", "old");
+}
+
+#define TEST(function) cmocka_unit_test_setup_teardown(function, make_scratch, remove_scratch)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(every_output_takes_its_name_when_all_went_well),
+        TEST(no_output_takes_its_name_if_the_tool_fails),
+        TEST(no_output_takes_its_name_if_another_cannot_be_written),
+        TEST(an_output_that_cannot_be_made_fails_the_tool),
+        TEST(a_tool_that_fails_without_a_word_is_told_of),
+        TEST(a_tool_gets_every_frame_with_the_seed_that_is_given),
+        TEST(a_tool_gets_no_frame_without_what_it_reads),
+        TEST(a_tool_fails_at_the_end_of_scenes_that_should_be_whole),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
