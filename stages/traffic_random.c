@@ -9,7 +9,7 @@
 #include "traffic/random_traffic.h"
 
 struct traffic_random {
-    enum random_density density;
+    enum random_traffic_density density;
     int64_t frames, first;
     double rate_hz;
     bool conditions;
@@ -23,16 +23,16 @@ static int traffic_random_start(void *state, struct runner *runner)
 {
     struct traffic_random *traffic = state;
     struct random_traffic *scene = &traffic->scene;
-    if ((traffic->density == RANDOM_ADVERSARIAL) != (traffic->sensors != NULL))
+    if ((traffic->density == TRAFFIC_ADVERSARIAL) != (traffic->sensors != NULL))
         return diag_fail(runner_diag(runner), DIAG_USAGE,
                          "--density adversarial and --sensors SUITE need each other");
     scene->density = traffic->density;
-    for (enum random_class class = 0; class < RANDOM_CLASSES; class ++) {
+    for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
         const struct vehicle *vehicle = runner_vehicle(runner, random_traffic_class_name(class));
         if (vehicle == NULL)
             return -1;
-        scene->models[class] =
-            (struct random_model){vehicle->length_m, vehicle->width_m, &vehicle->reflectors};
+        scene->models[class] = (struct random_traffic_model){vehicle->length_m, vehicle->width_m,
+                                                             &vehicle->reflectors};
     }
     runner_expect(runner, traffic->frames);
     if (traffic->sensors != NULL)
@@ -73,7 +73,7 @@ static int traffic_random_next(void *state, struct frame *frame, struct runner *
 static const struct field traffic_random_options[] = {
     {FIELD_CHOICE_OF(struct traffic_random, density, random_traffic_densities,
                      "how many objects, how near"),
-     FIELD_OPTIONAL, .absent = RANDOM_MEDIUM},
+     FIELD_OPTIONAL, .absent = TRAFFIC_MEDIUM},
     {FIELD_INTEGER_IN(struct traffic_random, frames, 0, 1e9, "how many; absent: 100"),
      FIELD_OPTIONAL, .absent = 100},
     {FIELD_INTEGER_IN(struct traffic_random, first, 0, 1e9, "number of the first one"),

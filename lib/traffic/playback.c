@@ -8,10 +8,10 @@
 #include "text/document.h"
 #include "text/field_check.h"
 
-static bool ends_with(const char *text, const char *outcome)
+static bool ends_with(const char *text, const char *suffix)
 {
-    size_t length = strlen(text), tail = strlen(outcome);
-    return length >= tail && strcmp(text + length - tail, outcome) == 0;
+    size_t length = strlen(text), tail = strlen(suffix);
+    return length >= tail && strcmp(text + length - tail, suffix) == 0;
 }
 
 const char *playback_name(const char *source, const char *ego, struct arena *arena)
@@ -29,7 +29,8 @@ const char *playback_name(const char *source, const char *ego, struct arena *are
     return name;
 }
 
-/* Coordinates beyond a kilometre (UTM, say) get an origin in whole metres near the ego. */
+/* The origin of the frames' coordinates: in whole metres near the ego if it is more than a
+ * kilometre away (as in UTM), else that of the source. */
 static struct vec2 local_origin(struct vec2 ego_m)
 {
     bool near = fabs(ego_m.x) <= 1000 && fabs(ego_m.y) <= 1000;
@@ -44,23 +45,23 @@ static const struct actor *find_actor(const struct scenario *scenario, const cha
     return NULL;
 }
 
-static int open_scenario(struct playback *scene, const char *source, struct arena *arena,
+static int open_scenario(struct playback *playback, const char *source, struct arena *arena,
                          struct diag *diag)
 {
     struct scenario *scenario = scenario_load(source, arena, diag);
     if (scenario == NULL)
         return -1;
-    if (scene->ego == NULL)
-        scene->ego = scenario->ego;
-    const struct actor *ego = find_actor(scenario, scene->ego);
+    if (playback->ego == NULL)
+        playback->ego = scenario->ego;
+    const struct actor *ego = find_actor(scenario, playback->ego);
     if (ego == NULL)
-        return diag_fail(diag, DIAG_CONFIG, "%s: there is no object \"%s\" to be the ego", source,
-                         scene->ego);
+        return diag_fail(diag, DIAG_CONFIG, "%s: ego: \"%s\" is not the id of an object", source,
+                         playback->ego);
     double travelled_m;
-    scene->origin_m = local_origin(scenario_motion(ego, 0, &travelled_m).position_m);
-    scenario_shift(scenario, scene->origin_m);
-    scene->scenario = scenario;
-    scene->frames = scenario_frames(scenario);
+    playback->origin_m = local_origin(scenario_motion(ego, 0, &travelled_m).position_m);
+    scenario_shift(scenario, playback->origin_m);
+    playback->scenario = scenario;
+    playback->frames = scenario_frames(scenario);
     return 0;
 }
 
@@ -72,27 +73,29 @@ static const struct recorded_state *find_state(const struct recorded_step *step,
     return NULL;
 }
 
-static int open_table(struct playback *scene, const char *path, struct arena *arena,
+static int open_table(struct playback *playback, const char *path, struct arena *arena,
                       struct diag *diag)
 {
     struct trajectories table;
-    if (scene->ego == NULL)
-        return diag_fail(diag, DIAG_USAGE, "a trajectory table needs --ego ID");
+    if (playback->ego == NULL)
+        return diag_fail(diag, DIAG_USAGE,
+                         "%s: a trajectory table has no ego of its own; expected --ego TRACK_ID",
+                         path);
     if (trajectory_read(path, arena, &table, diag) != 0)
         return diag_prefix(diag, "%s: ", path);
-    if (!trajectory_has(&table, scene->ego))
-        return diag_fail(diag, DIAG_DATA, "%s: there is no track \"%s\" to be the ego", path,
-                         scene->ego);
-    scene->steps = arena_get(arena, table.step_count * sizeof *scene->steps);
+    if (!trajectory_has(&table, playback->ego))
+        return diag_fail(diag, DIAG_DATA, "%s: ego: \"%s\" is not the track_id of a row", path,
+                         playback->ego);
+    playback->steps = arena_get(arena, table.step_count * sizeof *playback->steps);
     for (size_t i = 0; i < table.step_count; i++)
-        if (find_state(&table.steps[i], scene->ego) != NULL)
-            scene->steps[scene->frames++] = &table.steps[i];
-    const struct recorded_state *ego = find_state(scene->steps[0], scene->ego);
-    scene->origin_m = local_origin((struct vec2){ego->x_m, ego->y_m});
+        if (find_state(&table.steps[i], playback->ego) != NULL)
+            playback->steps[playback->frames++] = &table.steps[i];
+    const struct recorded_state *ego = find_state(playback->steps[0], playback->ego);
+    playback->origin_m = local_origin((struct vec2){ego->x_m, ego->y_m});
     return 0;
 }
 
-/* The table of a bare name that is no scenario's; NULL if there is none. */
+/* The path of the table with a name that no scenario has; NULL if there is none. */
 static const char *find_table(const char *name, struct arena *arena)
 {
     struct diag no_scenario = {0}, no_table = {0};
@@ -101,14 +104,14 @@ static const char *find_table(const char *name, struct arena *arena)
     return document_find("trajectories", name, ".csv", arena, &no_table);
 }
 
-int playback_open(struct playback *scene, const char *source, const char *ego, struct arena *arena,
-                  struct diag *diag)
+int playback_open(struct playback *playback, const char *source, const char *ego,
+                  struct arena *arena, struct diag *diag)
 {
-    *scene = (struct playback){.ego = ego};
+    *playback = (struct playback){.ego = ego};
     bool table = ends_with(source, ".csv") || ends_with(source, ".csv.gz");
     const char *path = table ? source : find_table(source, arena);
-    return path != NULL ? open_table(scene, path, arena, diag)
-                        : open_scenario(scene, source, arena, diag);
+    return path != NULL ? open_table(playback, path, arena, diag)
+                        : open_scenario(playback, source, arena, diag);
 }
 
 static struct object object_of_actor(const struct actor *actor, double time_s)
@@ -158,7 +161,7 @@ static void play(const struct scenario *scenario, int64_t number, struct frame *
             object_of_actor(&scenario->objects.items[i], frame->time_s);
 }
 
-/* A recording of a single step tells no interval; a second is as good as any. */
+/* A recording of a single step has no interval; any value will do, so it is 1 s. */
 static void replay(const struct recorded_step *step, struct vec2 origin_m, struct frame *frame)
 {
     frame->time_s = (double)step->time_ms / 1000;
@@ -167,31 +170,32 @@ static void replay(const struct recorded_step *step, struct vec2 origin_m, struc
         *list_add(&frame->objects, frame->arena) = object_of_state(&step->states[i], origin_m);
 }
 
-void playback_frame(const struct playback *scene, int64_t number, struct frame *frame)
+void playback_frame(const struct playback *playback, int64_t number, struct frame *frame)
 {
-    frame->origin_x_m = scene->origin_m.x;
-    frame->origin_y_m = scene->origin_m.y;
-    if (scene->scenario != NULL)
-        play(scene->scenario, number, frame);
+    frame->origin_x_m = playback->origin_m.x;
+    frame->origin_y_m = playback->origin_m.y;
+    if (playback->scenario != NULL)
+        play(playback->scenario, number, frame);
     else
-        replay(scene->steps[number], scene->origin_m, frame);
+        replay(playback->steps[number], playback->origin_m, frame);
 }
 
-static int refuse(const struct playback *scene, int64_t number, const char *id, struct diag *diag)
+static int refuse(const struct playback *playback, int64_t number, const char *id,
+                  struct diag *diag)
 {
-    if (scene->scenario == NULL)
-        return diag_prefix(diag, "row %zu: ", find_state(scene->steps[number], id)->row);
+    if (playback->scenario == NULL)
+        return diag_prefix(diag, "row %zu: ", find_state(playback->steps[number], id)->row);
     diag->code = DIAG_CONFIG;
     return diag_prefix(diag, "object \"%s\" in frame %lld: ", id, (long long)number);
 }
 
-int playback_check(const struct playback *scene, int64_t number, const struct frame *frame,
+int playback_check(const struct playback *playback, int64_t number, const struct frame *frame,
                    struct diag *diag)
 {
     for (size_t i = 0; i < frame->objects.count; i++) {
         const struct object *object = &frame->objects.items[i];
         if (field_check(&object_record, object, diag) != 0)
-            return refuse(scene, number, object->id, diag);
+            return refuse(playback, number, object->id, diag);
     }
     return 0;
 }

@@ -12,105 +12,108 @@
 #define TRIES 32
 
 const char *const random_traffic_densities[] = {
-    [RANDOM_SPARSE] = "sparse",
-    [RANDOM_MEDIUM] = "medium",
-    [RANDOM_DENSE] = "dense",
-    [RANDOM_ADVERSARIAL] = "adversarial",
+    [TRAFFIC_SPARSE] = "sparse",
+    [TRAFFIC_MEDIUM] = "medium",
+    [TRAFFIC_DENSE] = "dense",
+    [TRAFFIC_ADVERSARIAL] = "adversarial",
     NULL,
 };
 
-struct regime {
-    int64_t least, most;
+struct density {
+    int64_t least, most; /* objects beside the ego */
     double radius_m, ego_mps;
 };
 
-static const struct regime regimes[] = {
-    [RANDOM_SPARSE] = {0, 3, 120, 40},
-    [RANDOM_MEDIUM] = {0, 8, 60, 20},
-    [RANDOM_DENSE] = {4, 15, 25, 10},
-    [RANDOM_ADVERSARIAL] = {0, 3, 60, 20},
+static const struct density densities[] = {
+    [TRAFFIC_SPARSE] = {0, 3, 120, 40},
+    [TRAFFIC_MEDIUM] = {0, 8, 60, 20},
+    [TRAFFIC_DENSE] = {4, 15, 25, 10},
+    [TRAFFIC_ADVERSARIAL] = {0, 3, 60, 20},
 };
 
-struct habit {
+struct class_profile {
     const char *name;
     double share, top_mps;
-    bool beside; /* stands beside the road */
+    bool roadside; /* the object stands beside the road */
 };
 
-static const struct habit habits[] = {
-    [RANDOM_CAR] = {"car", 0.50, 40, false},
-    [RANDOM_VAN] = {"van", 0.10, 40, false},
-    [RANDOM_TRUCK] = {"truck", 0.06, 25, false},
-    [RANDOM_ARTICULATED_TRUCK] = {"articulated_truck", 0.03, 25, false},
-    [RANDOM_BUS] = {"bus", 0.03, 25, false},
-    [RANDOM_MOTORCYCLE] = {"motorcycle", 0.04, 40, false},
-    [RANDOM_BICYCLE] = {"bicycle", 0.05, 8, false},
-    [RANDOM_PEDESTRIAN] = {"pedestrian", 0.09, 2.5, false},
-    [RANDOM_POST] = {"post", 0.04, 0, true},
-    [RANDOM_WALL] = {"wall", 0.02, 0, true},
-    [RANDOM_GUARDRAIL] = {"guardrail", 0.04, 0, true},
+static const struct class_profile profiles[] = {
+    [TRAFFIC_CAR] = {"car", 0.50, 40, false},
+    [TRAFFIC_VAN] = {"van", 0.10, 40, false},
+    [TRAFFIC_TRUCK] = {"truck", 0.06, 25, false},
+    [TRAFFIC_ARTICULATED_TRUCK] = {"articulated_truck", 0.03, 25, false},
+    [TRAFFIC_BUS] = {"bus", 0.03, 25, false},
+    [TRAFFIC_MOTORCYCLE] = {"motorcycle", 0.04, 40, false},
+    [TRAFFIC_BICYCLE] = {"bicycle", 0.05, 8, false},
+    [TRAFFIC_PEDESTRIAN] = {"pedestrian", 0.09, 2.5, false},
+    [TRAFFIC_POST] = {"post", 0.04, 0, true},
+    [TRAFFIC_WALL] = {"wall", 0.02, 0, true},
+    [TRAFFIC_GUARDRAIL] = {"guardrail", 0.04, 0, true},
 };
 
-const char *random_traffic_class_name(enum random_class class)
+const char *random_traffic_class_name(enum random_traffic_class class)
 {
-    return habits[class].name;
+    return profiles[class].name;
 }
 
-double random_traffic_class_share(enum random_class class)
+double random_traffic_class_share(enum random_traffic_class class)
 {
-    return habits[class].share;
+    return profiles[class].share;
 }
 
-static enum random_class draw_class(struct random_sequence *draws)
+static enum random_traffic_class draw_class(struct random_sequence *sequence)
 {
-    double left = random_sequence_next(draws);
-    enum random_class class = 0;
-    while (class + 1 < RANDOM_CLASSES && left >= habits[class].share)
-        left -= habits[class ++].share;
+    double left = random_sequence_next(sequence);
+    enum random_traffic_class class = 0;
+    while (class + 1 < TRAFFIC_CLASSES && left >= profiles[class].share)
+        left -= profiles[class ++].share;
     return class;
 }
 
 /* A place relative to the ego, x along the road. */
-static struct vec2 draw_place(struct random_sequence *draws, double radius_m, bool beside)
+static struct vec2 draw_place(struct random_sequence *sequence, double radius_m, bool roadside)
 {
-    if (!beside && random_sequence_chance(draws, 0.3)) {
-        struct vec2 direction = vec2_heading(random_sequence_between(draws, -PI, PI));
-        return vec2_scale(radius_m * sqrt(random_sequence_next(draws)), direction);
+    if (!roadside && random_sequence_chance(sequence, 0.3)) {
+        struct vec2 direction = vec2_heading(random_sequence_between(sequence, -PI, PI));
+        return vec2_scale(radius_m * sqrt(random_sequence_next(sequence)), direction);
     }
-    double aside = beside ? random_sequence_sign(draws) * random_sequence_between(draws, 4, 12)
-                          : LANE_M * (double)random_sequence_whole(draws, -2, 2) +
-                                random_sequence_between(draws, -0.5, 0.5);
+    double aside = roadside
+                       ? random_sequence_sign(sequence) * random_sequence_between(sequence, 4, 12)
+                       : LANE_M * (double)random_sequence_whole(sequence, -2, 2) +
+                             random_sequence_between(sequence, -0.5, 0.5);
     double ahead = sqrt((radius_m - aside) * (radius_m + aside));
-    return (struct vec2){ahead * random_sequence_between(draws, -1, 1), aside};
+    return (struct vec2){ahead * random_sequence_between(sequence, -1, 1), aside};
 }
 
-/* Relative to the road. */
-static double draw_yaw_rad(struct random_sequence *draws, double aside_m, bool beside)
+/* A yaw relative to the road. */
+static double draw_yaw_rad(struct random_sequence *sequence, double aside_m, bool roadside)
 {
-    double wanted = random_sequence_next(draws);
+    double wanted = random_sequence_next(sequence);
     if (wanted < 0.15)
-        return random_sequence_between(draws, -PI, PI);
-    if (wanted < 0.3 && !beside)
-        return random_sequence_sign(draws) * PI / 2 + random_sequence_between(draws, -0.05, 0.05);
-    double along = !beside && aside_m > LANE_M / 2 ? PI : 0;
-    return along +
-           (random_sequence_chance(draws, 0.5) ? random_sequence_between(draws, -0.05, 0.05) : 0);
+        return random_sequence_between(sequence, -PI, PI);
+    if (wanted < 0.3 && !roadside)
+        return random_sequence_sign(sequence) * PI / 2 +
+               random_sequence_between(sequence, -0.05, 0.05);
+    double along = !roadside && aside_m > LANE_M / 2 ? PI : 0;
+    return along + (random_sequence_chance(sequence, 0.5)
+                        ? random_sequence_between(sequence, -0.05, 0.05)
+                        : 0);
 }
 
-static void draw_motion(struct random_sequence *draws, const struct habit *habit,
+static void draw_motion(struct random_sequence *sequence, const struct class_profile *profile,
                         struct object *object)
 {
-    if (habit->beside || random_sequence_chance(draws, 0.2))
+    if (profile->roadside || random_sequence_chance(sequence, 0.2))
         return;
-    double speed_mps = habit->top_mps * random_sequence_next(draws);
+    double speed_mps = profile->top_mps * random_sequence_next(sequence);
     double crab_rad =
-        random_sequence_chance(draws, 0.05) ? random_sequence_between(draws, -0.2, 0.2) : 0;
+        random_sequence_chance(sequence, 0.05) ? random_sequence_between(sequence, -0.2, 0.2) : 0;
     struct vec2 velocity = vec2_scale(speed_mps, vec2_heading(object->yaw_rad + crab_rad));
     object->vx_mps = velocity.x;
     object->vy_mps = velocity.y;
-    if (random_sequence_chance(draws, 0.3))
-        object->yaw_rate_radps = random_sequence_between(draws, -0.5, 0.5);
-    object->travelled_m = random_sequence_between(draws, 0, 1000);
+    if (random_sequence_chance(sequence, 0.3))
+        object->yaw_rate_radps = random_sequence_between(sequence, -0.5, 0.5);
+    object->travelled_m = random_sequence_between(sequence, 0, 1000);
 }
 
 /* Half of an object's extent along a direction. */
@@ -120,7 +123,7 @@ static double reach_m(const struct box *box, struct vec2 direction)
            0.5 * box->width_m * fabs(vec2_cross(box->heading, direction));
 }
 
-/* Two boxes are apart if and only if a side of one of them parts them. */
+/* Two boxes are apart if and only if a line along one of their sides separates them. */
 static bool overlap(const struct box *a, const struct box *b)
 {
     struct vec2 between = vec2_sub(b->motion.position_m, a->motion.position_m);
@@ -132,11 +135,11 @@ static bool overlap(const struct box *a, const struct box *b)
     return true;
 }
 
-static struct box box_of(const struct random_traffic *scene, const struct object *object)
+static struct box box_of(const struct random_traffic *traffic, const struct object *object)
 {
-    const struct random_model *model = scene->models;
-    for (enum random_class class = 0; class < RANDOM_CLASSES; class ++)
-        if (strcmp(habits[class].name, object->class) == 0)
+    const struct random_traffic_model *model = traffic->models;
+    for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++)
+        if (strcmp(profiles[class].name, object->class) == 0)
             model += class;
     return (struct box){
         .motion = {.position_m = {object->x_m, object->y_m}},
@@ -146,147 +149,154 @@ static struct box box_of(const struct random_traffic *scene, const struct object
     };
 }
 
-/* The objects that object overlaps are at most: 0 none, 1 others, 2 the ego, which comes first. */
-static int overlaps(const struct random_traffic *scene, const struct frame *frame,
-                    const struct object *object)
+/* How an object overlaps others: 0 not at all, 1 other objects, 2 the ego, which comes first. */
+static int worst_overlap(const struct random_traffic *traffic, const struct frame *frame,
+                         const struct object *object)
 {
-    struct box box = box_of(scene, object);
+    struct box box = box_of(traffic, object);
     int worst = 0;
     for (size_t i = frame->objects.count; i-- > 0;) {
-        struct box other = box_of(scene, &frame->objects.items[i]);
+        struct box other = box_of(traffic, &frame->objects.items[i]);
         if (overlap(&box, &other))
             worst = i == 0 ? 2 : 1;
     }
     return worst;
 }
 
-static void place(struct random_sequence *draws, const struct regime *regime,
-                  const struct habit *habit, const struct object *ego, struct object *object)
+static void place(struct random_sequence *sequence, const struct density *density,
+                  const struct class_profile *profile, const struct object *ego,
+                  struct object *object)
 {
-    struct vec2 local = draw_place(draws, regime->radius_m, habit->beside);
+    struct vec2 local = draw_place(sequence, density->radius_m, profile->roadside);
     struct vec2 world = vec2_turn(local, vec2_heading(ego->yaw_rad));
     object->x_m = ego->x_m + world.x;
     object->y_m = ego->y_m + world.y;
-    object->yaw_rad = units_wrap_rad(ego->yaw_rad + draw_yaw_rad(draws, local.y, habit->beside));
+    object->yaw_rad =
+        units_wrap_rad(ego->yaw_rad + draw_yaw_rad(sequence, local.y, profile->roadside));
 }
 
-/* Appends an object unless there is no room for it off the ego. */
-static void add_object(const struct random_traffic *scene, int64_t index,
+/* Appends an object unless no place off the ego is found for it. */
+static void add_object(const struct random_traffic *traffic, int64_t index,
                        struct random_address address, struct frame *frame)
 {
     address.item = (uint64_t)index;
-    struct random_sequence draws = random_sequence_at(address, RANDOM_TRAFFIC);
-    enum random_class class = draw_class(&draws);
-    struct object object = {.class = habits[class].name};
-    if (random_sequence_chance(&draws, 0.8)) {
+    struct random_sequence sequence = random_sequence_at(address, RANDOM_TRAFFIC);
+    enum random_traffic_class class = draw_class(&sequence);
+    struct object object = {.class = profiles[class].name};
+    if (random_sequence_chance(&sequence, 0.8)) {
         object.length_m =
-            scene->models[class].length_m * random_sequence_between(&draws, 0.85, 1.15);
-        object.width_m = scene->models[class].width_m * random_sequence_between(&draws, 0.9, 1.1);
+            traffic->models[class].length_m * random_sequence_between(&sequence, 0.85, 1.15);
+        object.width_m =
+            traffic->models[class].width_m * random_sequence_between(&sequence, 0.9, 1.1);
     }
-    bool careless = random_sequence_chance(&draws, 0.03);
+    bool may_overlap = random_sequence_chance(&sequence, 0.03);
     int found = 2;
-    for (int i = 0; i < TRIES && found > (careless || i >= TRIES / 2 ? 1 : 0); i++) {
-        place(&draws, &regimes[scene->density], &habits[class], &frame->objects.items[0], &object);
-        found = overlaps(scene, frame, &object);
+    for (int i = 0; i < TRIES && found > (may_overlap || i >= TRIES / 2 ? 1 : 0); i++) {
+        place(&sequence, &densities[traffic->density], &profiles[class], &frame->objects.items[0],
+              &object);
+        found = worst_overlap(traffic, frame, &object);
     }
     if (found == 2)
         return;
-    draw_motion(&draws, &habits[class], &object);
+    draw_motion(&sequence, &profiles[class], &object);
     char *id = arena_get(frame->arena, 24);
     snprintf(id, 24, "o%" PRId64, index);
     object.id = id;
     *list_add(&frame->objects, frame->arena) = object;
 }
 
-struct random_address random_traffic_address(const struct random_traffic *scene, uint64_t seed,
+struct random_address random_traffic_address(const struct random_traffic *traffic, uint64_t seed,
                                              int64_t number)
 {
     return (struct random_address){
         .seed = seed,
         .scene =
-            hash_text(hash_text(HASH_START, "random"), random_traffic_densities[scene->density]),
+            hash_text(hash_text(HASH_START, "random"), random_traffic_densities[traffic->density]),
         .frame = (uint64_t)number,
     };
 }
 
-static struct object draw_ego(struct random_sequence *draws, double top_mps, bool at_origin)
+static struct object draw_ego(struct random_sequence *sequence, double top_mps, bool at_origin)
 {
-    struct object ego = {.id = "ego", .class = habits[RANDOM_CAR].name};
+    struct object ego = {.id = "ego", .class = profiles[TRAFFIC_CAR].name};
     if (!at_origin) {
-        ego.x_m = random_sequence_between(draws, -500, 500);
-        ego.y_m = random_sequence_between(draws, -500, 500);
-        ego.yaw_rad = random_sequence_between(draws, -PI, PI);
+        ego.x_m = random_sequence_between(sequence, -500, 500);
+        ego.y_m = random_sequence_between(sequence, -500, 500);
+        ego.yaw_rad = random_sequence_between(sequence, -PI, PI);
     }
-    if (random_sequence_chance(draws, 0.15))
+    if (random_sequence_chance(sequence, 0.15))
         return ego;
     struct vec2 velocity =
-        vec2_scale(top_mps * random_sequence_next(draws), vec2_heading(ego.yaw_rad));
+        vec2_scale(top_mps * random_sequence_next(sequence), vec2_heading(ego.yaw_rad));
     ego.vx_mps = velocity.x;
     ego.vy_mps = velocity.y;
-    if (random_sequence_chance(draws, 0.3))
-        ego.yaw_rate_radps = random_sequence_between(draws, -0.3, 0.3);
+    if (random_sequence_chance(sequence, 0.3))
+        ego.yaw_rate_radps = random_sequence_between(sequence, -0.3, 0.3);
     return ego;
 }
 
-void random_traffic_fill(const struct random_traffic *scene, int64_t number, struct frame *frame)
+void random_traffic_fill(const struct random_traffic *traffic, int64_t number, struct frame *frame)
 {
-    const struct regime *regime = &regimes[scene->density];
-    struct random_address address = random_traffic_address(scene, frame->seed, number);
-    struct random_sequence draws = random_sequence_at(address, RANDOM_TRAFFIC);
-    bool at_origin = scene->density == RANDOM_ADVERSARIAL && random_sequence_chance(&draws, 0.5);
-    *list_add(&frame->objects, frame->arena) = draw_ego(&draws, regime->ego_mps, at_origin);
+    const struct density *density = &densities[traffic->density];
+    struct random_address address = random_traffic_address(traffic, frame->seed, number);
+    struct random_sequence sequence = random_sequence_at(address, RANDOM_TRAFFIC);
+    bool at_origin =
+        traffic->density == TRAFFIC_ADVERSARIAL && random_sequence_chance(&sequence, 0.5);
+    *list_add(&frame->objects, frame->arena) = draw_ego(&sequence, density->ego_mps, at_origin);
     frame->ego = frame->objects.items[0].id;
-    int64_t count = random_sequence_whole(&draws, regime->least, regime->most);
+    int64_t count = random_sequence_whole(&sequence, density->least, density->most);
     for (int64_t i = 1; i <= count; i++)
-        add_object(scene, i, address, frame);
+        add_object(traffic, i, address, frame);
 }
 
-static struct interferer draw_interferer(struct random_sequence *draws, const struct object *object)
+static struct interferer draw_interferer(struct random_sequence *sequence,
+                                         const struct object *object)
 {
     return (struct interferer){
         .object = object->id,
-        .eirp_dbm = random_sequence_between(draws, 0, 40),
-        .slope_hzps = random_sequence_sign(draws) * random_sequence_between(draws, 1e12, 5e13),
-        .hit_share = random_sequence_between(draws, 0, 0.3),
+        .eirp_dbm = random_sequence_between(sequence, 0, 40),
+        .slope_hzps =
+            random_sequence_sign(sequence) * random_sequence_between(sequence, 1e12, 5e13),
+        .hit_share = random_sequence_between(sequence, 0, 0.3),
     };
 }
 
-/* The second is one of the others after the first, in a circle. */
-static void draw_interferers(struct random_sequence *draws, struct frame *frame)
+/* The second interferer is one of the others after the first, in cyclic order. */
+static void draw_interferers(struct random_sequence *sequence, struct frame *frame)
 {
     int64_t others = (int64_t)frame->objects.count - 1;
-    int64_t count = random_sequence_whole(draws, 1, 2);
-    int64_t place = random_sequence_whole(draws, 0, others > 0 ? others - 1 : 0);
+    int64_t count = random_sequence_whole(sequence, 1, 2);
+    int64_t place = random_sequence_whole(sequence, 0, others > 0 ? others - 1 : 0);
     for (int64_t i = 0; i < count && i < others; i++) {
         *list_add(&frame->conditions.interferers, frame->arena) =
-            draw_interferer(draws, &frame->objects.items[1 + place]);
-        place = (place + random_sequence_whole(draws, 1, others > 1 ? others - 1 : 1)) % others;
+            draw_interferer(sequence, &frame->objects.items[1 + place]);
+        place = (place + random_sequence_whole(sequence, 1, others > 1 ? others - 1 : 1)) % others;
     }
 }
 
-/* Evenly in the logarithm. */
-static double draw_size(struct random_sequence *draws, double least, double most)
+/* A size drawn evenly in its logarithm. */
+static double draw_size(struct random_sequence *sequence, double least, double most)
 {
-    return least * elementary_pow(most / least, random_sequence_next(draws));
+    return least * elementary_pow(most / least, random_sequence_next(sequence));
 }
 
-void random_traffic_conditions(const struct random_traffic *scene, int64_t number,
+void random_traffic_conditions(const struct random_traffic *traffic, int64_t number,
                                struct frame *frame)
 {
     struct conditions *conditions = &frame->conditions;
-    struct random_address address = random_traffic_address(scene, frame->seed, number);
-    struct random_sequence draws = random_sequence_at(address, RANDOM_CONDITIONS);
-    if (random_sequence_chance(&draws, 0.4))
-        conditions->rain_mmph = draw_size(&draws, 0.05, 100);
-    if (random_sequence_chance(&draws, 0.15))
-        conditions->fog_gpm3 = draw_size(&draws, 0.005, 1);
-    if (random_sequence_chance(&draws, 0.5))
-        conditions->road = random_sequence_chance(&draws, 0.5) ? ROAD_ASPHALT : ROAD_CONCRETE;
-    if (random_sequence_chance(&draws, 0.2))
-        draw_interferers(&draws, frame);
-    if (random_sequence_chance(&draws, 0.2)) {
-        conditions->clutter_per_m2 = draw_size(&draws, 1e-5, 3e-3);
-        conditions->clutter_ercs = draw_size(&draws, 0.01, 1);
-        conditions->clutter_overdispersion = random_sequence_between(&draws, 0, 4);
+    struct random_address address = random_traffic_address(traffic, frame->seed, number);
+    struct random_sequence sequence = random_sequence_at(address, RANDOM_CONDITIONS);
+    if (random_sequence_chance(&sequence, 0.4))
+        conditions->rain_mmph = draw_size(&sequence, 0.05, 100);
+    if (random_sequence_chance(&sequence, 0.15))
+        conditions->fog_gpm3 = draw_size(&sequence, 0.005, 1);
+    if (random_sequence_chance(&sequence, 0.5))
+        conditions->road = random_sequence_chance(&sequence, 0.5) ? ROAD_ASPHALT : ROAD_CONCRETE;
+    if (random_sequence_chance(&sequence, 0.2))
+        draw_interferers(&sequence, frame);
+    if (random_sequence_chance(&sequence, 0.2)) {
+        conditions->clutter_per_m2 = draw_size(&sequence, 1e-5, 3e-3);
+        conditions->clutter_ercs = draw_size(&sequence, 0.01, 1);
+        conditions->clutter_overdispersion = random_sequence_between(&sequence, 0, 4);
     }
 }

@@ -38,7 +38,8 @@ static const struct record segment_record = {
 };
 
 static const struct field waypoint_fields[] = {
-    REAL(struct waypoint, time_s, 0, 1e6, "later than that of the waypoint before"),
+    REAL(struct waypoint, time_s, 0, 1e6,
+         "when the object is there; later than at the waypoint before"),
     REAL(struct waypoint, x_m, -1e9, 1e9, "centre of the box"),
     REAL(struct waypoint, y_m, -1e9, 1e9, "centre of the box"),
     {0},
@@ -80,13 +81,13 @@ static const struct field scenario_fields[] = {
     REAL(struct scenario, duration_s, 0, 1e6, "the last frame is not later"),
     {FIELD_RECORD_OF(struct scenario, conditions, &conditions_record, "road and weather"),
      FIELD_OPTIONAL},
-    {FIELD_LIST_OF(struct scenario, objects, &actor_record, "everything there is")},
+    {FIELD_LIST_OF(struct scenario, objects, &actor_record, "all objects, the ego too")},
     {0},
 };
 
 const struct record scenario_record = {
     .name = "scenario",
-    .help = "Who is there and how each one moves.",
+    .help = "Objects and how each one moves.",
     .size = sizeof(struct scenario),
     .fields = scenario_fields,
 };
@@ -99,10 +100,10 @@ static int check_waypoints(const struct actor *actor, struct diag *diag)
     for (size_t i = 1; i < actor->waypoints.count; i++)
         if (!(waypoints[i].time_s > waypoints[i - 1].time_s))
             return diag_fail(diag, DIAG_CONFIG,
-                             "waypoints[%zu].time_s: %g is not after %g, that of the one before", i,
+                             "waypoints[%zu].time_s: %g is not after the previous waypoint's %g", i,
                              waypoints[i].time_s, waypoints[i - 1].time_s);
     if (actor->segments.count > 0)
-        return diag_fail(diag, DIAG_CONFIG, "segments: expected either segments or waypoints");
+        return diag_fail(diag, DIAG_CONFIG, "segments: expected none beside waypoints");
     if (actor->x_m != 0 || actor->y_m != 0 || actor->speed_mps != 0)
         return diag_fail(diag, DIAG_CONFIG,
                          "waypoints: they give place and speed; expected no x_m, y_m, speed_mps");
@@ -114,7 +115,7 @@ static int check_actor(const struct scenario *scenario, size_t index, struct dia
     const struct actor *actors = scenario->objects.items;
     for (size_t i = 0; i < index; i++)
         if (strcmp(actors[i].id, actors[index].id) == 0)
-            return diag_fail(diag, DIAG_CONFIG, "id: \"%s\" is that of objects[%zu] already",
+            return diag_fail(diag, DIAG_CONFIG, "id: \"%s\" is the id of objects[%zu] already",
                              actors[i].id, i);
     return actors[index].waypoints.count > 0 ? check_waypoints(&actors[index], diag) : 0;
 }
@@ -163,7 +164,7 @@ void scenario_shift(struct scenario *scenario, struct vec2 origin_m)
         shift_actor(&scenario->objects.items[i], origin_m);
 }
 
-static struct motion drive(const struct actor *actor, double time_s, double *travelled_m)
+static struct motion drive_segments(const struct actor *actor, double time_s, double *travelled_m)
 {
     struct motion body = {.position_m = {actor->x_m, actor->y_m}, .yaw_rad = actor->yaw_rad};
     double speed_mps = actor->speed_mps;
@@ -199,8 +200,9 @@ static struct vec2 span_mean_mps(const struct actor *actor, size_t span)
     return vec2_scale(1 / span_duration_s(actor, span), way_m);
 }
 
-/* Two points at the ends: the three-point formula there can start a body backwards. Next to two
- * equal places the body must rest, or it would swing around the place where it stands. */
+/* The velocity at a waypoint by finite differences. At the ends it takes two points, because the
+ * three-point formula can start a body backwards. Next to two equal places the body must rest, or
+ * it would swing around the place where it stands. */
 static struct vec2 waypoint_velocity_mps(const struct actor *actor, size_t waypoint)
 {
     size_t spans = actor->waypoints.count - 1;
@@ -212,40 +214,41 @@ static struct vec2 waypoint_velocity_mps(const struct actor *actor, size_t waypo
         return (struct vec2){0, 0};
     double before_s = span_duration_s(actor, waypoint - 1);
     double after_s = span_duration_s(actor, waypoint);
-    double share = after_s / (before_s + after_s);
-    return vec2_add(vec2_scale(share, before_mps), vec2_scale(1 - share, after_mps));
+    double weight = after_s / (before_s + after_s);
+    return vec2_add(vec2_scale(weight, before_mps), vec2_scale(1 - weight, after_mps));
 }
 
-struct glide {
+struct curve_state {
     struct vec2 position_m, velocity_mps, acceleration_mps2;
 };
 
-/* The curve at fraction s of a span. */
-static struct glide glide_at(const struct actor *actor, size_t span, double s)
+/* The curve at the fraction s of a span. */
+static struct curve_state curve_at(const struct actor *actor, size_t span, double s)
 {
     const struct waypoint *from = &actor->waypoints.items[span];
-    struct glide glide;
+    struct curve_state state;
     motion_hermite((struct vec2){from[0].x_m, from[0].y_m}, waypoint_velocity_mps(actor, span),
                    (struct vec2){from[1].x_m, from[1].y_m}, waypoint_velocity_mps(actor, span + 1),
-                   span_duration_s(actor, span), s, &glide.position_m, &glide.velocity_mps,
-                   &glide.acceleration_mps2);
-    return glide;
+                   span_duration_s(actor, span), s, &state.position_m, &state.velocity_mps,
+                   &state.acceleration_mps2);
+    return state;
 }
 
-static bool moves(struct vec2 velocity_mps)
+static bool is_moving(struct vec2 velocity_mps)
 {
     return vec2_dot(velocity_mps, velocity_mps) >= 1e-6 * 1e-6;
 }
 
-/* The direction of motion at the first place from one fraction of a span towards another where it
- * has one, sought in doubling steps, so that it is that of the departure. */
+/* Finds the yaw at the first place where the body moves, from one fraction of a span towards
+ * another; false if it moves nowhere. The search begins with tiny steps that double, so that the
+ * yaw is that of the departure. */
 static bool find_yaw(const struct actor *actor, size_t span, double from, double to,
                      double *yaw_rad)
 {
     for (int halvings = 20; halvings >= 0; halvings--) {
         double s = from + ldexp(to - from, -halvings);
-        struct vec2 velocity_mps = glide_at(actor, span, s).velocity_mps;
-        if (moves(velocity_mps)) {
+        struct vec2 velocity_mps = curve_at(actor, span, s).velocity_mps;
+        if (is_moving(velocity_mps)) {
             *yaw_rad = elementary_atan2(velocity_mps.y, velocity_mps.x);
             return true;
         }
@@ -265,8 +268,8 @@ static double standing_yaw_rad(const struct actor *actor, size_t span, double s)
     return yaw_rad;
 }
 
-/* The curve's length from the beginning of a span to a fraction of it, by five-point
- * Gauss-Legendre: exact where the body goes straight without reversing. */
+/* The curve's length from the beginning of a span to the fraction s, by five-point Gauss-Legendre
+ * quadrature: exact where the body goes straight without reversing. */
 static double span_length_m(const struct actor *actor, size_t span, double s)
 {
     static const double rule[][2] = {
@@ -278,8 +281,8 @@ static double span_length_m(const struct actor *actor, size_t span, double s)
     };
     double sum_mps = 0;
     for (size_t i = 0; i < sizeof rule / sizeof rule[0]; i++) {
-        struct glide glide = glide_at(actor, span, s / 2 * (1 + rule[i][0]));
-        sum_mps += rule[i][1] * vec2_length(glide.velocity_mps);
+        struct curve_state state = curve_at(actor, span, s / 2 * (1 + rule[i][0]));
+        sum_mps += rule[i][1] * vec2_length(state.velocity_mps);
     }
     return s / 2 * span_duration_s(actor, span) * sum_mps;
 }
@@ -292,7 +295,7 @@ static size_t span_of(const struct actor *actor, double time_s)
     return span;
 }
 
-static struct motion follow(const struct actor *actor, double time_s, double *travelled_m)
+static struct motion follow_waypoints(const struct actor *actor, double time_s, double *travelled_m)
 {
     size_t span = span_of(actor, time_s);
     double fraction = (time_s - actor->waypoints.items[span].time_s) / span_duration_s(actor, span);
@@ -300,29 +303,29 @@ static struct motion follow(const struct actor *actor, double time_s, double *tr
     *travelled_m = span_length_m(actor, span, s);
     for (size_t i = 0; i < span; i++)
         *travelled_m += span_length_m(actor, i, 1);
-    struct glide glide = glide_at(actor, span, s);
-    bool moving = moves(glide.velocity_mps);
-    struct motion body = {.position_m = glide.position_m};
-    body.yaw_rad = moving ? elementary_atan2(glide.velocity_mps.y, glide.velocity_mps.x)
+    struct curve_state state = curve_at(actor, span, s);
+    bool moving = is_moving(state.velocity_mps);
+    struct motion body = {.position_m = state.position_m};
+    body.yaw_rad = moving ? elementary_atan2(state.velocity_mps.y, state.velocity_mps.x)
                           : standing_yaw_rad(actor, span, s);
     if (fraction < 0 || fraction > 1)
         return body;
-    body.velocity_mps = glide.velocity_mps;
+    body.velocity_mps = state.velocity_mps;
     if (moving)
-        body.yaw_rate_radps = vec2_cross(glide.velocity_mps, glide.acceleration_mps2) /
-                              vec2_dot(glide.velocity_mps, glide.velocity_mps);
+        body.yaw_rate_radps = vec2_cross(state.velocity_mps, state.acceleration_mps2) /
+                              vec2_dot(state.velocity_mps, state.velocity_mps);
     return body;
 }
 
 struct motion scenario_motion(const struct actor *actor, double time_s, double *travelled_m)
 {
-    struct motion body = actor->waypoints.count > 0 ? follow(actor, time_s, travelled_m)
-                                                    : drive(actor, time_s, travelled_m);
+    struct motion body = actor->waypoints.count > 0 ? follow_waypoints(actor, time_s, travelled_m)
+                                                    : drive_segments(actor, time_s, travelled_m);
     body.yaw_rad = units_wrap_rad(body.yaw_rad);
     return body;
 }
 
-/* A duration meant to be n / rate_hz differs from it by a few ulp. */
+/* The factor makes up for a duration meant to be n / rate_hz that is a few ulp short of it. */
 int64_t scenario_frames(const struct scenario *scenario)
 {
     return (int64_t)floor(scenario->duration_s * scenario->rate_hz * (1 + 1e-15)) + 1;

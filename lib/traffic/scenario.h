@@ -1,12 +1,12 @@
-/* Scenes written by hand: who is there and how each one moves (document in data/scenarios/).
+/* Hand-written scenarios: the objects and how each one moves (documents in data/scenarios/).
  *
  * An object with segments drives them one after another from its start pose, each with constant
- * acceleration and turn rate; after the last it keeps its speed and heading. One without any keeps
- * those it starts with: it stands still unless it is given a speed. An object with waypoints
- * follows a smooth curve through them (cubic Hermite, velocities at the waypoints by finite
- * differences, zero next to two equal places) and points along its velocity; before the first and
- * after the last it stands there. Poses are exact functions of time: nothing is stepped, so no
- * error accumulates. */
+ * acceleration and turn rate; after the last it keeps its speed and heading. An object without
+ * segments or waypoints keeps its start speed and heading, so it stands unless it has a speed. An
+ * object with waypoints follows a smooth curve through them (cubic Hermite, velocities at the
+ * waypoints by finite differences, zero next to two equal places) and points along its velocity;
+ * before the first and after the last waypoint it stands there. Poses are exact functions of time:
+ * nothing is stepped, so no error accumulates. */
 #ifndef SCENARIO_H
 #define SCENARIO_H
 
@@ -46,24 +46,24 @@ struct scenario {
 
 extern const struct record scenario_record;
 
-/* Refuses scenarios that no table of fields can: an unknown ego or interferer, an id that stands
- * twice, segments or a start together with waypoints, waypoints whose times do not ascend. */
+/* Refuses what field tables cannot: an unknown ego or interferer, an id of two objects, segments or
+ * a start together with waypoints, waypoints whose times do not ascend. */
 int scenario_check(const struct scenario *scenario, struct diag *diag);
 
-/* Moves every place by -origin: done once, before anything is computed, so that large coordinates
- * cost no precision later (NUMERICS 23). */
+/* Moves every place by -origin_m. Done before anything is computed, so that large coordinates cost
+ * no precision later. */
 void scenario_shift(struct scenario *scenario, struct vec2 origin_m);
 
-/* The actor at time_s >= 0, its yaw in (-pi, pi], and the way it has travelled since time 0. While
- * something that follows waypoints stands, it points where it will go next, else where it last
- * went, else along yaw_rad. */
+/* The actor at time_s >= 0, its yaw in (-pi, pi], and the length of its path since time 0. While an
+ * object with waypoints stands, it points to where it goes next, else to where it last went, else
+ * along yaw_rad. */
 struct motion scenario_motion(const struct actor *actor, double time_s, double *travelled_m);
 
-/* Frames are numbered 0 to this - 1; frame i is at i / rate_hz, the last not after duration_s but
- * for rounding. */
+/* The number of frames; they are numbered from 0, and frame i is at i / rate_hz. But for rounding
+ * the last is not after duration_s. */
 int64_t scenario_frames(const struct scenario *scenario);
 
-/* Finds, reads and checks the scenario of that name or path. All it holds lies in the arena; NULL
+/* Finds, reads and checks the scenario of this name or path. All of it lies in the arena; NULL
  * after a message (DIAG_CONFIG). */
 struct scenario *scenario_load(const char *name, struct arena *arena, struct diag *diag);
 

@@ -37,7 +37,7 @@ static const struct column box_columns[BOX] = {
     COLUMN("width", width_m, 0, 1e6),
 };
 
-/* Where the columns stand in the table at hand. */
+/* Indices of the columns in the table that is read. */
 struct layout {
     size_t id, class, time;
     size_t moving[MOVING];
@@ -102,7 +102,8 @@ static int read_time(const struct csv_table *table, size_t row, size_t column, i
     return 0;
 }
 
-/* ASCII, because names go into frames, which must be UTF-8, and CSV says nothing of its coding. */
+/* Reads a name, which must be ASCII: names go into frames, which are UTF-8, and a CSV file does not
+ * say how it is encoded. */
 static int read_name(const struct csv_table *table, size_t row, size_t column, const char **name,
                      struct diag *diag)
 {
@@ -112,9 +113,10 @@ static int read_name(const struct csv_table *table, size_t row, size_t column, c
     for (size_t i = 0; i < length && good; i++)
         good = text[i] >= ' ' && text[i] <= '~';
     if (!good)
-        return diag_fail(diag, DIAG_DATA,
-                         "row %zu, column \"%s\": expected 1 to %d printable ASCII characters",
-                         table->numbers[row], table->header[column], FIELD_NAME_SIZE);
+        return diag_fail(
+            diag, DIAG_DATA,
+            "row %zu, column \"%s\": \"%.80s\"; expected 1 to %d printable ASCII characters",
+            table->numbers[row], table->header[column], text, FIELD_NAME_SIZE);
     *name = text;
     return 0;
 }
@@ -164,14 +166,15 @@ static int compare_instants(const void *a, const void *b)
     return order != 0 ? order : strcmp(one->id, other->id);
 }
 
-static int refuse_twins(const struct recorded_state *states, size_t count, struct diag *diag)
+static int refuse_repeated_states(const struct recorded_state *states, size_t count,
+                                  struct diag *diag)
 {
     for (size_t i = 1; i < count; i++)
         if (states[i].time_ms == states[i - 1].time_ms &&
             strcmp(states[i].id, states[i - 1].id) == 0)
-            return diag_fail(
-                diag, DIAG_DATA, "row %zu: track %s stands at %lld ms already in row %zu",
-                states[i].row, states[i].id, (long long)states[i].time_ms, states[i - 1].row);
+            return diag_fail(diag, DIAG_DATA, "row %zu: track %s at %lld ms is in row %zu already",
+                             states[i].row, states[i].id, (long long)states[i].time_ms,
+                             states[i - 1].row);
     return 0;
 }
 
@@ -181,7 +184,7 @@ static double yaw_rate_between(const struct recorded_state *from, const struct r
     return turn_rad / (1e-3 * (double)(to->time_ms - from->time_ms));
 }
 
-/* Compensated (Neumaier), as a track may have very many very short steps (NUMERICS 24). */
+/* The sum is compensated (Neumaier), because a track may have very many very short steps. */
 static void follow_track(struct recorded_state *track, size_t count)
 {
     double sum_m = 0, rest_m = 0;
@@ -197,7 +200,7 @@ static void follow_track(struct recorded_state *track, size_t count)
         track[count - 1].yaw_rate_radps = track[count - 2].yaw_rate_radps;
 }
 
-/* States by id, then time, go track by track. */
+/* Completes the states track by track; they are sorted by id, then time. */
 static void follow_tracks(struct recorded_state *states, size_t count, struct arena *arena,
                           struct trajectories *trajectories)
 {
@@ -212,7 +215,7 @@ static void follow_tracks(struct recorded_state *states, size_t count, struct ar
     trajectories->id_count = ids.count;
 }
 
-/* States by time, then id, go step by step. */
+/* Divides the states into steps; they are sorted by time, then id. */
 static void divide_steps(const struct recorded_state *states, size_t count, struct arena *arena,
                          struct trajectories *trajectories)
 {
@@ -245,7 +248,7 @@ int trajectory_read(const char *path, struct arena *arena, struct trajectories *
         if (read_state(&table, row, &layout, &states[row], diag) != 0)
             return -1;
     sort_items(states, table.rows, sizeof *states, compare_tracks, arena);
-    if (refuse_twins(states, table.rows, diag) != 0)
+    if (refuse_repeated_states(states, table.rows, diag) != 0)
         return -1;
     follow_tracks(states, table.rows, arena, trajectories);
     sort_items(states, table.rows, sizeof *states, compare_instants, arena);

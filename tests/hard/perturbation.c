@@ -133,13 +133,13 @@ static int make_bench(void **state)
     struct bench *bench = calloc(1, sizeof *bench);
     assert_non_null(bench);
     struct diag diag = {0};
-    for (enum random_class class = 0; class < RANDOM_CLASSES; class ++) {
+    for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
         const struct vehicle *vehicle =
             vehicle_load(random_traffic_class_name(class), &bench->documents, &diag);
         if (vehicle == NULL)
             fail_msg("%s", diag.text);
-        bench->scene.models[class] =
-            (struct random_model){vehicle->length_m, vehicle->width_m, &vehicle->reflectors};
+        bench->scene.models[class] = (struct random_traffic_model){
+            vehicle->length_m, vehicle->width_m, &vehicle->reflectors};
     }
     prepare_chain(&bench->before);
     prepare_chain(&bench->after);
@@ -568,7 +568,7 @@ static void run_scene(struct bench *bench, int64_t number)
                   random_traffic_densities[bench->scene.density]);
     begin(before, number);
     random_traffic_fill(&bench->scene, number, &before->frame);
-    if (bench->scene.density == RANDOM_ADVERSARIAL)
+    if (bench->scene.density == TRAFFIC_ADVERSARIAL)
         adversarial_traffic_add(&bench->scene, bench->suite, number, &before->frame);
     begin(after, number);
     after->frame.ego = before->frame.ego;
@@ -611,7 +611,7 @@ static void choose_suite(struct bench *bench, int which)
     }
 }
 
-static void run_density(struct bench *bench, enum random_density density)
+static void run_density(struct bench *bench, enum random_traffic_density density)
 {
     bench->scene.density = density;
     for (int suite = 0; suite < SUITES; suite++) {
@@ -626,10 +626,10 @@ static void run_density(struct bench *bench, enum random_density density)
 static void lists_change_only_where_a_margin_said_so(void **state)
 {
     struct bench *bench = *state;
-    for (enum random_density density = 0; density < RANDOM_ADVERSARIAL; density++)
+    for (enum random_traffic_density density = 0; density < TRAFFIC_ADVERSARIAL; density++)
         run_density(bench, density);
     assert_true(bench->near <= 1e-5 * bench->entries);
-    run_density(bench, RANDOM_ADVERSARIAL);
+    run_density(bench, TRAFFIC_ADVERSARIAL);
     print_message("%g lists, %g changed; %g echoes, %g near a border; %g signs undecided\n",
                   bench->lists, bench->changed, bench->entries, bench->near, bench->undecided);
     assert_true(bench->changed > 0 && bench->undecided > 0);

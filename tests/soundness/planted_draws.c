@@ -16,7 +16,8 @@ static struct random_address next_of(const struct random_address *address,
 {
     struct random_address next = {
         .seed = address->seed, .scene = address->scene, .frame = address->frame};
-    if (purpose == RANDOM_TRAFFIC || purpose == RANDOM_HARD_CASE || purpose == RANDOM_CONDITIONS)
+    if (purpose == RANDOM_TRAFFIC || purpose == RANDOM_ADVERSARIAL_TRAFFIC ||
+        purpose == RANDOM_CONDITIONS)
         return *address;
     next.item = ++drawn;
     return next;

@@ -42,7 +42,7 @@ enum planners { PLANNERS_AUTO, PLANNERS_DROPS };
 static const char *const planner_choices[] = {"auto", "drops", NULL};
 
 struct soundness {
-    enum random_density density;
+    enum random_traffic_density density;
     const char *sensors;
     int64_t first, frames;
     enum planners planners;
@@ -132,7 +132,7 @@ static int start_scenes(struct bench *bench)
     char first[24], frames[24];
     snprintf(first, sizeof first, "%" PRId64, wanted->first);
     snprintf(frames, sizeof frames, "%" PRId64, wanted->frames);
-    const char *around = wanted->density == RANDOM_ADVERSARIAL ? "--sensors" : NULL;
+    const char *around = wanted->density == TRAFFIC_ADVERSARIAL ? "--sensors" : NULL;
     bench->scene.arena = &bench->arena;
     return start_stage(&bench->source, "traffic-random",
                        (const char *const[]){"--density", random_traffic_densities[wanted->density],

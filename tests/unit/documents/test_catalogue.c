@@ -64,10 +64,10 @@ static size_t load_all(const char *kind, void (*load)(const char *name, struct a
     for (struct dirent *entry = readdir(directory); entry != NULL; entry = readdir(directory)) {
         char name[300];
         snprintf(name, sizeof name, "%s", entry->d_name);
-        char *outcome = strstr(name, ".json");
-        if (outcome == NULL)
+        char *suffix = strstr(name, ".json");
+        if (suffix == NULL)
             continue;
-        *outcome = '\0';
+        *suffix = '\0';
         load(name, &arena);
         count++;
     }

@@ -25,14 +25,14 @@ static int make_bench(void **state)
     struct diag diag = {0};
     bench->frame.arena = &bench->scratch;
     bench->frame.seed = 1;
-    bench->scene.density = RANDOM_ADVERSARIAL;
-    for (enum random_class class = 0; class < RANDOM_CLASSES; class ++) {
+    bench->scene.density = TRAFFIC_ADVERSARIAL;
+    for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
         const struct vehicle *vehicle =
             vehicle_load(random_traffic_class_name(class), &bench->documents, &diag);
         if (vehicle == NULL)
             fail_msg("%s", diag.text);
-        bench->scene.models[class] =
-            (struct random_model){vehicle->length_m, vehicle->width_m, &vehicle->reflectors};
+        bench->scene.models[class] = (struct random_traffic_model){
+            vehicle->length_m, vehicle->width_m, &vehicle->reflectors};
     }
     bench->suite = catalogue_suite("srr24-pair-every-frame", &bench->documents, &diag);
     if (bench->suite == NULL)
@@ -50,7 +50,7 @@ static int remove_bench(void **state)
     return 0;
 }
 
-/* What one sensor of an ego sees of one case: polar values worked out here from the objects. */
+/* A case as one sensor of the ego sees it: polar values computed here from the objects. */
 struct view {
     const struct bench *bench;
     const struct sensor *sensor;
@@ -93,7 +93,8 @@ static double rate_of(const struct view *view, size_t i)
     return (vx * dx + vy * dy) / hypot(dx, dy);
 }
 
-/* MODEL 4 and 7.1 for the shipped pair: 0.8 is at the threshold at 30 m on boresight; dipoles. */
+/* Amplitude by MODEL 4 and 7.1 for the shipped sensor with the dipole pair: an ERCS of 0.8 is at
+ * the threshold at 30 m on boresight. */
 static double amplitude_of(const struct view *view, size_t i)
 {
     double u = PI / 2 * sin(azimuth_of(view, i));
@@ -102,7 +103,7 @@ static double amplitude_of(const struct view *view, size_t i)
     return pow(10, 0.3) / 0.8 * pow(30 / range_of(view, i), 2) * ercs * fabs(gain);
 }
 
-/* How far a case is from its decision; each of these is 0 on it. */
+/* The distance of a case from its decision; each of these is 0 on the decision. */
 
 static double off_threshold(const struct view *view)
 {
@@ -152,7 +153,7 @@ static void corner_of(const struct object *object, double x, double y, double *x
     *y_m = object->y_m + s * x * object->length_m + c * y * object->width_m;
 }
 
-/* From the first object's corners to the sight line to the last, as an angle. */
+/* The angle between the first object's corners and the line of sight to the last object. */
 static double off_touch(const struct view *view)
 {
     double least = 1;
@@ -165,11 +166,11 @@ static double off_touch(const struct view *view)
     return least;
 }
 
-/* From the visibility edges of the car (MODEL 2.2: 30 and 75 degrees at corners, 40 and 80 at wheel
- * houses) to where it is seen from. */
+/* The angle between the visibility edges of the car (MODEL 2.1: 30 and 75 degrees at corners, 40
+ * and 80 at wheel houses) and the direction from which it is seen. */
 static double off_facing(const struct view *view)
 {
-    const struct reflector_set *car = view->bench->scene.models[RANDOM_CAR].reflectors;
+    const struct reflector_set *car = view->bench->scene.models[TRAFFIC_CAR].reflectors;
     double least = 1;
     for (size_t i = 0; i < car->points.count; i++) {
         const struct point_reflector *point = &car->points.items[i];
@@ -187,7 +188,7 @@ static double off_facing(const struct view *view)
     return least;
 }
 
-/* From the ends of the car's rear to the foot on it, in metres. */
+/* The distance of the foot on the car's rear from the rear's ends, in metres. */
 static double off_foot(const struct view *view)
 {
     double c = cos(view->ego->yaw_rad), s = sin(view->ego->yaw_rad);
@@ -198,7 +199,7 @@ static double off_foot(const struct view *view)
     return fabs(aside) - car->width_m / 2;
 }
 
-/* From the rear of the car to the point, in metres. */
+/* The distance of the point from the rear of the car, in metres. */
 static double off_against(const struct view *view)
 {
     const struct object *car = &view->objects[0], *point = &view->objects[1];
@@ -212,7 +213,8 @@ static size_t length_of_case(const struct object *object)
     return (size_t)(strrchr(object->id, '-') - object->id);
 }
 
-/* The case that starts with object number first, seen by the sensor for which it is the hardest. */
+/* The case that starts with object number first, seen by the sensor that is nearest to its
+ * decision. */
 static double hardest(const struct bench *bench, size_t first, double (*off)(const struct view *))
 {
     const struct object *objects = bench->frame.objects.items;
@@ -236,7 +238,7 @@ static bool starts_case(const struct object *object, const char *name)
            strcmp(object->id + length - 2, "-1") == 0;
 }
 
-/* The rounding of places some 500 m from the origin moves every figure by some 1e-13. A few cases
+/* The rounding of places some 500 m from the origin moves every distance by some 1e-13. A few cases
  * have no solution: three points that stay above the threshold up to the largest range. */
 static void every_case_is_as_hard_as_it_says(void **state)
 {

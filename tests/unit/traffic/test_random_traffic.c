@@ -23,14 +23,14 @@ static int make_bench(void **state)
     struct bench *bench = calloc(1, sizeof *bench);
     assert_non_null(bench);
     bench->frame.arena = &bench->scratch;
-    for (enum random_class class = 0; class < RANDOM_CLASSES; class ++) {
+    for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
         struct diag diag = {0};
         const struct vehicle *vehicle =
             vehicle_load(random_traffic_class_name(class), &bench->documents, &diag);
         if (vehicle == NULL)
             fail_msg("%s", diag.text);
-        bench->scene.models[class] =
-            (struct random_model){vehicle->length_m, vehicle->width_m, &vehicle->reflectors};
+        bench->scene.models[class] = (struct random_traffic_model){
+            vehicle->length_m, vehicle->width_m, &vehicle->reflectors};
     }
     *state = bench;
     return 0;
@@ -45,8 +45,8 @@ static int remove_bench(void **state)
     return 0;
 }
 
-static const struct frame *snapshot(struct bench *bench, enum random_density density, uint64_t seed,
-                                    int64_t number)
+static const struct frame *snapshot(struct bench *bench, enum random_traffic_density density,
+                                    uint64_t seed, int64_t number)
 {
     frame_clear(&bench->frame);
     bench->frame.seed = seed;
@@ -55,12 +55,12 @@ static const struct frame *snapshot(struct bench *bench, enum random_density den
     return &bench->frame;
 }
 
-static enum random_class class_of(const struct object *object)
+static enum random_traffic_class class_of(const struct object *object)
 {
-    enum random_class class = 0;
-    while (class < RANDOM_CLASSES && strcmp(object->class, random_traffic_class_name(class)) != 0)
+    enum random_traffic_class class = 0;
+    while (class < TRAFFIC_CLASSES && strcmp(object->class, random_traffic_class_name(class)) != 0)
         class ++;
-    assert_true(class < RANDOM_CLASSES);
+    assert_true(class < TRAFFIC_CLASSES);
     return class;
 }
 
@@ -73,9 +73,9 @@ static void every_vehicle_document_has_a_share(void **state)
     for (const struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder))
         documents += strstr(entry->d_name, ".json") != NULL;
     closedir(folder);
-    assert_int_equal(documents, RANDOM_CLASSES);
+    assert_int_equal(documents, TRAFFIC_CLASSES);
     double sum = 0;
-    for (enum random_class class = 0; class < RANDOM_CLASSES; class ++) {
+    for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
         assert_true(random_traffic_class_share(class) > 0);
         sum += random_traffic_class_share(class);
     }
@@ -84,32 +84,32 @@ static void every_vehicle_document_has_a_share(void **state)
 
 static void classes_come_in_their_shares(void **state)
 {
-    double hits[RANDOM_CLASSES] = {0}, objects = 0;
+    double hits[TRAFFIC_CLASSES] = {0}, objects = 0;
     for (int64_t number = 0; number < 2000; number++) {
-        const struct frame *frame = snapshot(*state, RANDOM_DENSE, 1, number);
+        const struct frame *frame = snapshot(*state, TRAFFIC_DENSE, 1, number);
         for (size_t i = 1; i < frame->objects.count; i++) {
             hits[class_of(&frame->objects.items[i])]++;
             objects++;
         }
     }
-    for (enum random_class class = 0; class < RANDOM_CLASSES; class ++) {
+    for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
         double expected = objects * random_traffic_class_share(class);
         assert_close(hits[class], expected, 5 * sqrt(expected));
     }
 }
 
-/* The counts and radii of NUMERICS C4, all of them used. */
+/* The documented counts and radii, all of them reached. */
 static void densities_keep_to_their_numbers_and_radii(void **state)
 {
     static const struct {
-        enum random_density density;
+        enum random_traffic_density density;
         size_t least, most;
         double radius_m;
     } cases[] = {
-        {RANDOM_SPARSE, 0, 3, 120},
-        {RANDOM_MEDIUM, 0, 8, 60},
-        {RANDOM_DENSE, 4, 15, 25},
-        {RANDOM_ADVERSARIAL, 0, 3, 60},
+        {TRAFFIC_SPARSE, 0, 3, 120},
+        {TRAFFIC_MEDIUM, 0, 8, 60},
+        {TRAFFIC_DENSE, 4, 15, 25},
+        {TRAFFIC_ADVERSARIAL, 0, 3, 60},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         size_t least = SIZE_MAX, most = 0;
@@ -134,12 +134,12 @@ static void densities_keep_to_their_numbers_and_radii(void **state)
 static void size_of(const struct bench *bench, const struct object *object, double *length_m,
                     double *width_m)
 {
-    const struct random_model *model = &bench->scene.models[class_of(object)];
+    const struct random_traffic_model *model = &bench->scene.models[class_of(object)];
     *length_m = object->length_m > 0 ? object->length_m : model->length_m;
     *width_m = object->width_m > 0 ? object->width_m : model->width_m;
 }
 
-/* Does a point of a grid 0.1 m wide over one box lie in the other? */
+/* True if a point of a grid 0.1 m wide over one box lies in the other. */
 static bool covers(const struct bench *bench, const struct object *one, const struct object *other)
 {
     double length_m, width_m, other_length_m, other_width_m;
@@ -160,9 +160,9 @@ static bool covers(const struct bench *bench, const struct object *one, const st
     return false;
 }
 
-static void nothing_stands_on_the_ego(void **state)
+static void no_object_overlaps_the_ego(void **state)
 {
-    for (enum random_density density = 0; density <= RANDOM_ADVERSARIAL; density++)
+    for (enum random_traffic_density density = 0; density <= TRAFFIC_ADVERSARIAL; density++)
         for (int64_t number = 0; number < SNAPSHOTS; number++) {
             const struct frame *frame = snapshot(*state, density, 1, number);
             const struct object *object = frame->objects.items;
@@ -171,11 +171,11 @@ static void nothing_stands_on_the_ego(void **state)
         }
 }
 
-static void overlaps_happen_but_rarely(void **state)
+static void objects_overlap_each_other_but_rarely(void **state)
 {
     double overlaps = 0, objects = 0;
     for (int64_t number = 0; number < 2 * SNAPSHOTS; number++) {
-        const struct frame *frame = snapshot(*state, RANDOM_DENSE, 1, number);
+        const struct frame *frame = snapshot(*state, TRAFFIC_DENSE, 1, number);
         const struct object *object = frame->objects.items;
         for (size_t i = 1; i < frame->objects.count; i++) {
             size_t k = 1;
@@ -205,22 +205,22 @@ static void a_snapshot_is_drawn_by_its_number_alone(void **state)
 {
     void *other;
     make_bench(&other);
-    const struct frame *alone = snapshot(other, RANDOM_DENSE, 5, 13);
+    const struct frame *alone = snapshot(other, TRAFFIC_DENSE, 5, 13);
     for (int64_t number = 0; number < 13; number++)
-        snapshot(*state, RANDOM_DENSE, 5, number);
-    assert_same_objects(snapshot(*state, RANDOM_DENSE, 5, 13), alone);
+        snapshot(*state, TRAFFIC_DENSE, 5, number);
+    assert_same_objects(snapshot(*state, TRAFFIC_DENSE, 5, 13), alone);
     remove_bench(&other);
 }
 
 static void seed_number_and_density_each_make_another_snapshot(void **state)
 {
-    const double x_m = snapshot(*state, RANDOM_DENSE, 5, 13)->objects.items[0].x_m;
-    assert_true(fabs(snapshot(*state, RANDOM_DENSE, 6, 13)->objects.items[0].x_m - x_m) > 0);
-    assert_true(fabs(snapshot(*state, RANDOM_DENSE, 5, 14)->objects.items[0].x_m - x_m) > 0);
-    assert_true(fabs(snapshot(*state, RANDOM_MEDIUM, 5, 13)->objects.items[0].x_m - x_m) > 0);
+    const double x_m = snapshot(*state, TRAFFIC_DENSE, 5, 13)->objects.items[0].x_m;
+    assert_true(fabs(snapshot(*state, TRAFFIC_DENSE, 6, 13)->objects.items[0].x_m - x_m) > 0);
+    assert_true(fabs(snapshot(*state, TRAFFIC_DENSE, 5, 14)->objects.items[0].x_m - x_m) > 0);
+    assert_true(fabs(snapshot(*state, TRAFFIC_MEDIUM, 5, 13)->objects.items[0].x_m - x_m) > 0);
 }
 
-static const struct frame *in_conditions(struct bench *bench, enum random_density density,
+static const struct frame *in_conditions(struct bench *bench, enum random_traffic_density density,
                                          int64_t number)
 {
     snapshot(bench, density, 1, number);
@@ -253,7 +253,7 @@ static void conditions_come_in_their_shares(void **state)
         [CONCRETE] = 0.25, [ONE] = 0.2 / 2, [TWO] = 0.2 / 2, [CLUTTER] = 0.2};
     int hits[KINDS] = {0};
     for (int64_t number = 0; number < FRAMES; number++) {
-        const struct frame *frame = in_conditions(*state, RANDOM_DENSE, number);
+        const struct frame *frame = in_conditions(*state, TRAFFIC_DENSE, number);
         const struct conditions *drawn = &frame->conditions;
         hits[RAIN] += drawn->rain_mmph > 0;
         hits[HEAVY] += drawn->rain_mmph > sqrt(0.05 * 100); /* half way in the logarithm */
@@ -276,7 +276,7 @@ static void conditions_of_few_objects_have_few_interferers(void **state)
 {
     int64_t alone = 0, single = 0;
     for (int64_t number = 0; number < 3000; number++) {
-        const struct frame *frame = in_conditions(*state, RANDOM_SPARSE, number);
+        const struct frame *frame = in_conditions(*state, TRAFFIC_SPARSE, number);
         check_interferers(frame);
         alone += frame->objects.count == 1;
         single += frame->objects.count == 2 && frame->conditions.interferers.count == 1;
@@ -284,13 +284,13 @@ static void conditions_of_few_objects_have_few_interferers(void **state)
     assert_true(alone > 0 && single > 0);
 }
 
-static void conditions_are_drawn_by_number_and_move_nothing_else(void **state)
+static void conditions_are_drawn_by_number_and_change_no_object(void **state)
 {
     for (int64_t number = 0; number < 50; number++) {
-        double x_m = snapshot(*state, RANDOM_DENSE, 1, number)->objects.items[1].x_m;
-        double rain_mmph = in_conditions(*state, RANDOM_DENSE, number)->conditions.rain_mmph;
-        in_conditions(*state, RANDOM_DENSE, number + 1);
-        const struct frame *again = in_conditions(*state, RANDOM_DENSE, number);
+        double x_m = snapshot(*state, TRAFFIC_DENSE, 1, number)->objects.items[1].x_m;
+        double rain_mmph = in_conditions(*state, TRAFFIC_DENSE, number)->conditions.rain_mmph;
+        in_conditions(*state, TRAFFIC_DENSE, number + 1);
+        const struct frame *again = in_conditions(*state, TRAFFIC_DENSE, number);
         assert_close(again->objects.items[1].x_m, x_m, 0);
         assert_close(again->conditions.rain_mmph, rain_mmph, 0);
     }
@@ -302,13 +302,13 @@ int main(void)
         cmocka_unit_test(every_vehicle_document_has_a_share),
         cmocka_unit_test(classes_come_in_their_shares),
         cmocka_unit_test(densities_keep_to_their_numbers_and_radii),
-        cmocka_unit_test(nothing_stands_on_the_ego),
-        cmocka_unit_test(overlaps_happen_but_rarely),
+        cmocka_unit_test(no_object_overlaps_the_ego),
+        cmocka_unit_test(objects_overlap_each_other_but_rarely),
         cmocka_unit_test(a_snapshot_is_drawn_by_its_number_alone),
         cmocka_unit_test(seed_number_and_density_each_make_another_snapshot),
         cmocka_unit_test(conditions_come_in_their_shares),
         cmocka_unit_test(conditions_of_few_objects_have_few_interferers),
-        cmocka_unit_test(conditions_are_drawn_by_number_and_move_nothing_else),
+        cmocka_unit_test(conditions_are_drawn_by_number_and_change_no_object),
     };
     return cmocka_run_group_tests(tests, make_bench, remove_bench);
 }

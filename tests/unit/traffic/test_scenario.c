@@ -43,7 +43,7 @@ static void check_place(struct vec2 place, double x_m, double y_m, double tolera
     assert_close(place.y, y_m, tolerance_m);
 }
 
-static void something_without_segments_keeps_its_start(void **state)
+static void an_object_without_segments_keeps_its_start(void **state)
 {
     (void)state;
     struct actor actor = driver(NULL, 0);
@@ -258,7 +258,7 @@ static void the_way_along_a_curve_is_that_of_its_chords(void **state)
     assert_close(travelled_at(&actor, 0.25), 0, 0);
 }
 
-static void outside_its_waypoints_something_stands(void **state)
+static void outside_its_waypoints_an_object_stands(void **state)
 {
     (void)state;
     struct waypoint waypoints[] = {{2, 1, 1}, {3, 1, 5}, {4, -3, 5}};
@@ -275,8 +275,8 @@ static void outside_its_waypoints_something_stands(void **state)
     assert_close(after.yaw_rate_radps, 0, 0);
 }
 
-/* East, a stop, then north: while it stands it points where it will go. */
-static void between_equal_waypoints_something_stands(void **state)
+/* East, a stop, then north: while the object stands it points to where it goes next. */
+static void between_equal_waypoints_an_object_stands(void **state)
 {
     (void)state;
     struct waypoint waypoints[] = {{0, 0, 0},  {2, 10, 0}, {3, 10, 0},
@@ -303,8 +303,8 @@ static void between_equal_waypoints_something_stands(void **state)
     }
 }
 
-/* There and back on a line: the waypoint in the middle is passed at speed 0. */
-static void a_turning_point_points_where_it_goes_next(void **state)
+/* There and back on a line: the object passes the waypoint in the middle at speed 0. */
+static void at_a_turning_point_an_object_points_where_it_goes_next(void **state)
 {
     (void)state;
     struct waypoint waypoints[] = {{0, 0, 0}, {2, 10, 0}, {4, 0, 0}, {5, 0, 0}};
@@ -317,7 +317,7 @@ static void a_turning_point_points_where_it_goes_next(void **state)
     assert_close(travelled_at(&actor, 4.5), 20, 1e-12);
 }
 
-static void what_never_moves_keeps_its_yaw(void **state)
+static void an_object_that_never_moves_keeps_its_yaw(void **state)
 {
     (void)state;
     struct waypoint waypoints[] = {{0, 4, 2}, {1, 4, 2}, {5, 4, 2}};
@@ -340,7 +340,7 @@ static struct scenario scenario_of(struct actor *actors, size_t count)
     return scenario;
 }
 
-/* What is left is the rounding of the document's own numbers: half a step of 9.3e-10 m. */
+/* The tolerance is the rounding of the document's own numbers: half a step of 9.3e-10 m. */
 static void a_shifted_scenario_moves_like_a_local_one(void **state)
 {
     (void)state;
@@ -377,8 +377,8 @@ static void a_shifted_scenario_moves_like_a_local_one(void **state)
         }
 }
 
-/* NUMERICS 24 and 40: nothing accumulates over 1e6 frames. */
-static void a_million_frames_drift_nowhere(void **state)
+/* No error accumulates over 1e6 frames. */
+static void a_million_frames_do_not_drift(void **state)
 {
     (void)state;
     double rate_hz = 17, speed_mps = 33.3;
@@ -430,7 +430,7 @@ static void frames_are_counted_despite_rounding(void **state)
         }
 }
 
-static void impossible_scenarios_are_refused(void **state)
+static void contradictory_scenarios_are_refused(void **state)
 {
     (void)state;
     struct waypoint good[] = {{0, 0, 0}, {1, 1, 0}}, bad[] = {{0, 0, 0}, {2, 1, 0}, {2, 2, 0}};
@@ -449,12 +449,12 @@ static void impossible_scenarios_are_refused(void **state)
         const char *message;
     } cases[] = {
         {{plain, following}, NULL},
-        {{plain, plain}, "objects[1].id: \"a\" is that of objects[0] already"},
+        {{plain, plain}, "objects[1].id: \"a\" is the id of objects[0] already"},
         {{unnamed, following}, "ego: \"a\" is not the id of an object"},
         {{plain, lonely}, "objects[1].waypoints: only one; expected two or more, or none"},
         {{plain, tangled},
-         "objects[1].waypoints[2].time_s: 2 is not after 2, that of the one before"},
-        {{plain, torn}, "objects[1].segments: expected either segments or waypoints"},
+         "objects[1].waypoints[2].time_s: 2 is not after the previous waypoint's 2"},
+        {{plain, torn}, "objects[1].segments: expected none beside waypoints"},
         {{plain, started},
          "objects[1].waypoints: they give place and speed; expected no x_m, y_m, speed_mps"},
     };
@@ -505,7 +505,7 @@ static void values_outside_their_bounds_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(something_without_segments_keeps_its_start),
+        cmocka_unit_test(an_object_without_segments_keeps_its_start),
         cmocka_unit_test(a_constant_turn_is_a_circle),
         cmocka_unit_test(straight_braking_is_a_parabola_and_then_a_line),
         cmocka_unit_test(braking_beyond_standstill_reverses),
@@ -516,14 +516,14 @@ int main(void)
         cmocka_unit_test(a_curve_is_smooth_at_its_waypoints),
         cmocka_unit_test(velocity_yaw_rate_and_way_are_derivatives_of_the_curve),
         cmocka_unit_test(the_way_along_a_curve_is_that_of_its_chords),
-        cmocka_unit_test(outside_its_waypoints_something_stands),
-        cmocka_unit_test(between_equal_waypoints_something_stands),
-        cmocka_unit_test(a_turning_point_points_where_it_goes_next),
-        cmocka_unit_test(what_never_moves_keeps_its_yaw),
+        cmocka_unit_test(outside_its_waypoints_an_object_stands),
+        cmocka_unit_test(between_equal_waypoints_an_object_stands),
+        cmocka_unit_test(at_a_turning_point_an_object_points_where_it_goes_next),
+        cmocka_unit_test(an_object_that_never_moves_keeps_its_yaw),
         cmocka_unit_test(a_shifted_scenario_moves_like_a_local_one),
-        cmocka_unit_test(a_million_frames_drift_nowhere),
+        cmocka_unit_test(a_million_frames_do_not_drift),
         cmocka_unit_test(frames_are_counted_despite_rounding),
-        cmocka_unit_test(impossible_scenarios_are_refused),
+        cmocka_unit_test(contradictory_scenarios_are_refused),
         cmocka_unit_test(a_scenario_knows_its_interferers),
         cmocka_unit_test(values_outside_their_bounds_are_refused),
     };

@@ -125,7 +125,7 @@ static void tracks_are_known_by_their_ids(void **state)
         assert_false(trajectory_has(&read, strangers[i]));
 }
 
-static void no_rows_are_no_steps(void **state)
+static void a_table_without_rows_has_no_steps(void **state)
 {
     struct trajectories read = trajectories_of(*state, HEADER);
     assert_int_equal(read.step_count, 0);
@@ -188,7 +188,7 @@ static void the_yaw_rate_looks_ahead_and_wraps(void **state)
     assert_close(state_of(&read, 500, "a")->yaw_rad, 2 * PI - 3.3, 1e-15);
 }
 
-static void the_way_travelled_adds_up_place_to_place(void **state)
+static void the_distance_travelled_adds_up_from_place_to_place(void **state)
 {
     struct trajectories read = trajectories_of(*state, HEADER "a,3,300,car,503,5000000,0,0,0,4,2\n"
                                                               "a,2,200,car,503,5000004,0,0,0,4,2\n"
@@ -201,8 +201,8 @@ static void the_way_travelled_adds_up_place_to_place(void **state)
     assert_close(state_of(&read, 300, "b")->travelled_m, 0, 0);
 }
 
-/* One long step, then many that are too short to change a plain sum. */
-static void many_short_ways_are_not_lost(void **state)
+/* One long step, then many too short to change a plain sum. */
+static void many_short_steps_are_not_lost(void **state)
 {
     enum { STEPS = 20000 };
     char *text = malloc(STEPS * 64);
@@ -222,7 +222,7 @@ static void damaged_recordings_are_refused(void **state)
     } cases[] = {
         {HEADER
          "1,1,100,car,0,0,0,0,0,4,2\n\n2,1,100,car,0,0,0,0,0,4,2\n1,2,100,car,1,0,0,0,0,4,2\n",
-         "row 5: track 1 stands at 100 ms already in row 2"},
+         "row 5: track 1 at 100 ms is in row 2 already"},
         {HEADER "1,1,100.5,car,0,0,0,0,0,4,2\n",
          "row 2, column \"timestamp_ms\": 100.5 is not a whole number"},
         {HEADER "1,1,1e16,car,0,0,0,0,0,4,2\n",
@@ -251,13 +251,14 @@ static void damaged_recordings_are_refused(void **state)
 
 static void names_are_short_printable_ascii(void **state)
 {
-    static const char *const names[] = {"", "\"a\nb\"", "a\tb", "\x7f", "Z\xc3\xbcrich", "\xff"};
+    static const char *const names[] = {"", "a\nb", "a\tb", "\x7f", "Z\xc3\xbcrich", "\xff"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char text[256], message[128];
-        snprintf(text, sizeof text, WALKERS "1,1,100,%s,0,0,0,0\n", names[i]);
-        snprintf(message, sizeof message,
-                 "row 2, column \"agent_type\": expected 1 to %d printable ASCII characters",
-                 FIELD_NAME_SIZE);
+        snprintf(text, sizeof text, WALKERS "1,1,100,\"%s\",0,0,0,0\n", names[i]);
+        snprintf(
+            message, sizeof message,
+            "row 2, column \"agent_type\": \"%s\"; expected 1 to %d printable ASCII characters",
+            names[i], FIELD_NAME_SIZE);
         struct trajectories read;
         struct diag diag;
         assert_int_equal(read_text(*state, text, &read, &diag), -1);
@@ -328,12 +329,12 @@ int main(void)
         cmocka_unit_test(columns_may_stand_in_any_order_among_others),
         cmocka_unit_test(steps_ascend_in_time_and_their_states_in_id),
         cmocka_unit_test(tracks_are_known_by_their_ids),
-        cmocka_unit_test(no_rows_are_no_steps),
+        cmocka_unit_test(a_table_without_rows_has_no_steps),
         cmocka_unit_test(classes_are_those_of_vehicle_documents),
         cmocka_unit_test(without_a_box_the_yaw_is_that_of_the_velocity),
         cmocka_unit_test(the_yaw_rate_looks_ahead_and_wraps),
-        cmocka_unit_test(the_way_travelled_adds_up_place_to_place),
-        cmocka_unit_test(many_short_ways_are_not_lost),
+        cmocka_unit_test(the_distance_travelled_adds_up_from_place_to_place),
+        cmocka_unit_test(many_short_steps_are_not_lost),
         cmocka_unit_test(damaged_recordings_are_refused),
         cmocka_unit_test(names_are_short_printable_ascii),
         cmocka_unit_test(names_have_a_greatest_length),
