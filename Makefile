@@ -187,7 +187,7 @@ check: all unit
 bench: all
 	$(Q)scripts/bench
 
-# What accuracy costs, as diagrams and tables in data/accuracy: minutes.
+# What accuracy costs, into data/accuracy: minutes.
 accuracy: all
 	$(Q)scripts/accuracy-cost
 

@@ -1,20 +1,12 @@
-"""The diagrams of scripts/accuracy-cost, by gnuplot."""
+"""The diagram of scripts/accuracy-cost, by gnuplot."""
 import math
 import os
 import subprocess
-import textwrap
 
-import scores
 from scores import pick
 
-BLUE, ORANGE, GREY, INK = "#0072b2", "#d55e00", "#999999", "#333333"
+BLUE, ORANGE = "#0072b2", "#d55e00"
 LEAST = 1e-9  # where exactly nothing is drawn
-
-# Series of the models, how they are drawn, what the legend calls them.
-MODELS = [("front", f'with steps lw 2 lc rgb "{ORANGE}"', "Pareto front"),
-          ("effects", f'with points pt 6 ps 0.5 lc rgb "{GREY}"', "the paper and one effect"),
-          ("contour", f'with points pt 8 ps 0.9 lc rgb "{GREY}"', "against the contour's signal"),
-          ("main", f'with points pt 7 ps 0.9 lc rgb "{BLUE}"', "against the same centres' signal")]
 
 
 def block(name, rows, x, y, least=0):
@@ -40,47 +32,9 @@ def labels(rows, x, y, near, least=0):
     return found
 
 
-def wrapped(text, width):
-    return r"\n".join(textwrap.wrap("Pick: " + text, width))
-
-
-def models_panel(rows, radar, legend):
-    """Blocks of data, and the commands that draw them."""
-    def title(text):
-        return f'title "{text}"' if legend else "notitle"
-
-    floor = scores.floor(rows, radar, "centres")
-    own, contour = (pick(rows, ladder="models", radar=radar, against=against) for against in ("centres", "contour"))
-    effects = [row for row in own if scores.single(row)]
-    best = min(effects, key=lambda row: row["gospa"])
-    series = {"front": scores.front(own), "effects": effects,
-              "main": [row for row in own if row not in effects] + [floor | {"way": "signal, large"}],
-              "contour": [row for row in contour if not scores.single(row)],
-              "best": [best | {"way": best["way"].replace("paper ", "")}]}
-    series["label"] = labels(series["main"], "cpu_us", "gospa", 0.03)
-    plots = [f'{floor["gospa"]} with lines dt 2 lc rgb "{INK}" {title("floor: that signal against itself")}']
-    plots += [f"${name}_{radar} using 1:2 {look} {title(text)}" for name, look, text in MODELS]
-    plots += [f'$label_{radar} using 1:2:3 with labels left rotate by 25 offset 0.7, 0.4 font ",10" notitle',
-              f'$best_{radar} using 1:2:3 with labels right offset -0.8, 0 font ",9" tc rgb "{GREY}" notitle']
-    return [block(f"{name}_{radar}", of, "cpu_us", "gospa") for name, of in series.items()], f"""
-set title "{radar.capitalize()} range"
-set label 1 "{wrapped(scores.advice(rows, radar, "centres"), 68)}" at graph 0, -0.19 font ",10"
-plot {", ".join(plots)}"""
-
-
-def models(rows):
-    panels = [models_panel(rows, radar, radar == "long") for radar in ("long", "short")]
-    parts = [f"set origin {0.5 * number}, 0; set size 0.5, 1{commands}" for number, (_, commands) in enumerate(panels)]
-    return "".join(text for blocks, _ in panels for text in blocks) + """set multiplot
-set border 3; set tics nomirror out; set logscale xy; set xrange [2:1e6]; set yrange [0.8:16]; set bmargin 9
-set ytics (1, 1.5, 2, 3, 4, 5, 7, 10); set format x "10^{%L}"; set key top right samplen 1.5 font ",10"
-set xlabel "CPU time per frame, µs"; set ylabel "GOSPA, cells"
-""" + "\n".join([*parts, "unset multiplot\n"])
-
-
 def knob_panel(rows, ladder, x, y, texts, more="", line="linespoints", least=LEAST):
-    """One series for each radar; texts are title, axes and what to pick."""
-    title, xlabel, ylabel, choice = texts
+    """One series for each radar; texts are title and axes."""
+    title, xlabel, ylabel = texts
     own = pick(rows, ladder=ladder)
     radars = list(dict.fromkeys(row["radar"] for row in own))
     names = [f"{ladder}_{radar or 'any'}" for radar in radars]
@@ -95,7 +49,6 @@ def knob_panel(rows, ladder, x, y, texts, more="", line="linespoints", least=LEA
               for name in names]
     return blocks, f"""
 set title "{title}"; set xlabel "{xlabel}"; set ylabel "{ylabel}"; set autoscale; set key top right; {more}
-set label 1 "{wrapped(choice, 68)}" at graph 0, -0.36 font ",10"
 plot {", ".join(plots)}"""
 
 
@@ -106,33 +59,27 @@ def knobs(rows):
     exact = f"set yrange [{LEAST / 3:g}:30]"
     panels = [
         knob_panel(rows, "table", "cpu_us", "azimuth_rad_max",
-                   ("Angle by a table of so many entries", ANGLE, "greatest error, rad",
-                    "the closed form: an angle is little of a frame"),
+                   ("Angle by a table of so many entries", ANGLE, "greatest error, rad"),
                    "set xrange [0.002:1]; set yrange [1e-17:1]", "points", 0),
         knob_panel(rows, "spacing", "cpu_us", "gospa",
-                   ("Spacing of a contour", FRAME, "GOSPA from its signal, cells",
-                    "as coarse as outlines may be: closer scatterers cost, and make cells that a signal has not"),
+                   ("Spacing of a contour", FRAME, "GOSPA from its signal, cells"),
                    "set yrange [0.8:10]"),
         knob_panel(rows, "digits", "bytes", "gospa",
-                   ("Digits from stage to stage", "bytes written per frame", "GOSPA from all digits, cells",
-                    "all; phases of 77 GHz turn within a millimetre, and digits save little room"),
+                   ("Digits from stage to stage", "bytes written per frame", "GOSPA from all digits, cells"),
                    exact + "; set key center"),
         knob_panel(rows, "plumbing", "cpu_us", "bytes",
-                   ("Plumbing: the same targets", FRAME, "bytes written per frame",
-                    "one process; .gz of its output where room counts"),
+                   ("Plumbing: the same targets", FRAME, "bytes written per frame"),
                    "set xrange [50:3e3]; set yrange [300:3e5]; set key top left", "points"),
     ]
     parts = [f"set origin {number % 2 / 2}, {0.5 - 0.5 * (number // 2)}; set size 0.5, 0.5{commands}"
              for number, (_, commands) in enumerate(panels)]
     return "".join(text for blocks, _ in panels for text in blocks) + """set multiplot
-set border 3; set tics nomirror out; set logscale xy; set key top right samplen 1 font ",9"; set bmargin 7
+set border 3; set tics nomirror out; set logscale xy; set key top right samplen 1 font ",9"; set bmargin 4
 set format x "10^{%L}"; set format y "10^{%L}"
 """ + "\n".join([*parts, "unset multiplot\n"])
 
 
 def draw(rows, folder):
-    for name, script, height in (("models", models(rows), 620), ("knobs", knobs(rows), 800)):
-        for ending, terminal in (("svg", f"svg size 1100,{height} fixed"), ("png", f"pngcairo size 1100,{height}")):
-            place = os.path.join(folder, f"{name}.{ending}")
-            head = f'set terminal {terminal} font "sans-serif,12"\nset output "{place}"\n'
-            subprocess.run(["gnuplot", "-d"], input=head + script, check=True, text=True)
+    place = os.path.join(folder, "knobs.svg")
+    head = f'set terminal svg size 1100,800 fixed font "sans-serif,12"\nset output "{place}"\n'
+    subprocess.run(["gnuplot", "-d"], input=head + knobs(rows), check=True, text=True)

@@ -99,38 +99,9 @@ def pick(of, scene="all", **wanted):
             and all(row[key] == value for key, value in wanted.items())]
 
 
-def front(of):
-    """Pareto's: the rows that none beats in both time and GOSPA."""
-    best, kept = math.inf, []
-    for row in sorted(of, key=lambda row: (row["cpu_us"], row["gospa"])):
-        if row["gospa"] < best:
-            best = row["gospa"]
-            kept.append(row)
-    return kept
-
-
 def floor(of, radar, against):
     return pick(of, ladder="reference", radar=radar, against=against)[0]
 
 
 def spent(us):
     return f"{us:.3g} µs" if us < 1000 else f"{us / 1000:.3g} ms"
-
-
-def single(row):
-    """Is it the paper's model and one effect?"""
-    return " + " in row["way"]
-
-
-def advice(of, radar, against, step=0.05, same=1.3):
-    """What to pick for how much time: of the front, what is nearer by a step or more. What costs
-    nearly the same counts as the same cost."""
-    base, picks = floor(of, radar, against), []
-    own = [row for row in pick(of, ladder="models", radar=radar, against=against) if not single(row)]
-    for row in front(own):
-        if not picks or row["gospa"] < (1 - step) * picks[-1]["gospa"]:
-            if picks and row["cpu_us"] < same * picks[-1]["cpu_us"]:
-                picks.pop()
-            picks.append(row)
-    return "; ".join(f"{row['way']} ({spent(row['cpu_us'])}, {100 * (row['gospa'] / base['gospa'] - 1):.0f} % above the"
-                     " floor)" for row in picks) + f"; signal, large ({spent(base['cpu_us'])})"
