@@ -209,6 +209,8 @@ man: all
 	    name=$$($(BUILD)/bin/$$t --help | sed '/^Usage/d; /^  or/d' | sed -n 's/\.$$//; 1p'); \
 	    help2man --no-info -n "$$name" -o $(BUILD)/man/$$t.1 $(BUILD)/bin/$$t || exit 1; done
 
+# Pages about data and pipelines go with them; the others, with their pictures, go to share/doc.
+doc_pages = README.md CHANGES.md MODEL.md LICENSE $(wildcard stages/README.md tests/*/README.md)
 install: all man
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1 $(DESTDIR)$(PREFIX)/share/glint
 	install -m 755 $(programs) $(DESTDIR)$(PREFIX)/bin
@@ -216,6 +218,10 @@ install: all man
 	    [ ! -e $$page ] || install -m 644 $$page $(DESTDIR)$(PREFIX)/share/man/man1; done
 	cp -R data/* $(DESTDIR)$(PREFIX)/share/glint
 	cp -R pipelines schemas $(DESTDIR)$(PREFIX)/share/glint
+	$(Q)for page in $(doc_pages); do \
+	    install -D -m 644 $$page $(DESTDIR)$(PREFIX)/share/doc/glint/$$page || exit 1; done
+	ln -sfn ../../glint $(DESTDIR)$(PREFIX)/share/doc/glint/data
+	ln -sfn ../../glint/pipelines ../../glint/schemas $(DESTDIR)$(PREFIX)/share/doc/glint
 
 clean:
 	rm -rf build build-*

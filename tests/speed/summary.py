@@ -1,5 +1,5 @@
-"""The lines that the README shows of scripts/bench's output: ratios first, then this machine's
-figures. scripts/test holds the README to their words, never to their numbers."""
+"""The lines that README.md beside this shows of scripts/bench's output: ratios first, then this
+machine's figures. scripts/test holds the page to their words, never to their numbers."""
 import re
 
 BASE = "highway-20x1"
