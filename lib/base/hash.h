@@ -12,7 +12,4 @@
 uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t length);
 uint64_t hash_text(uint64_t hash, const char *text);
 
-/* A faster hash for tables in memory; no output depends on it. */
-uint64_t hash_for_table(uint64_t hash, const char *text);
-
 #endif

@@ -1,74 +1,57 @@
 #include "base/intern.h"
 
-#include <stdbool.h>
 #include <string.h>
 
 #include "base/text.h"
 
-enum { TRIES = 4 };
-
-/* The first and the last eight bytes, which may overlap, are all of most names; of a short one the
- * first are. */
-struct names_ends {
-    uint64_t first, last;
-};
-
-struct intern_slot {
-    const char *text;
-    size_t length;
-    struct names_ends ends;
-};
-
-struct intern intern_begin(struct arena *arena, size_t expected)
-{
-    size_t count = 64;
-    while (count < 2 * expected)
-        count *= 2;
-    return (struct intern){arena, arena_get(arena, count * sizeof(struct intern_slot)), count};
-}
-
-static struct names_ends ends_of(const char *text, size_t length)
+/* The ends are all of a name of up to 16 bytes; the first is all of one shorter than 8. */
+static inline struct intern_name name_of(const char *text, size_t length)
 {
     if (length < 8)
-        return (struct names_ends){text_short_word(text, length), 0};
-    return (struct names_ends){text_word(text), text_word(text + length - 8)};
+        return (struct intern_name){text, length, text_short_word(text, length), 0};
+    return (struct intern_name){text, length, text_word(text), text_word(text + length - 8)};
 }
 
-static uint64_t hash_ends(struct names_ends ends, size_t length)
+static inline bool is_name(const void *names, uint32_t number, const void *wanted)
 {
-    const uint64_t spread = UINT64_C(0x9e3779b97f4a7c15); /* 2^64 over the golden ratio */
-    return ((ends.first * spread ^ ends.last) + length) * spread >> 32;
+    const struct intern_name *a = (const struct intern_name *)names + number, *b = wanted;
+    return a->first == b->first && a->last == b->last && a->length == b->length &&
+           (a->length <= 16 || memcmp(a->text, b->text, a->length) == 0);
 }
 
-static bool is_in(const struct intern_slot *slot, struct names_ends ends, const char *text,
-                  size_t length)
+static inline uint32_t *slot_of(const struct intern *names, const struct intern_name *name)
 {
-    return slot->ends.first == ends.first && slot->ends.last == ends.last &&
-           slot->length == length && (length <= 16 || memcmp(slot->text, text, length) == 0);
+    uint64_t hash = hash_table_hash(0, name->text, name->length);
+    return hash_table_slot(&names->numbers, hash, is_name, names->names.items, name);
 }
 
-const char *intern_keep(struct intern *names, const char *text, size_t length)
+static void grow(struct intern *names, struct arena *arena)
 {
-    struct names_ends ends = ends_of(text, length);
-    uint64_t hash = hash_ends(ends, length);
-    struct intern_slot *slot = NULL;
-    for (uint64_t i = 0; i < TRIES; i++) {
-        slot = &names->slots[(hash + i) & (names->count - 1)];
-        if (slot->text == NULL)
-            break;
-        if (is_in(slot, ends, text, length))
-            return slot->text;
+    names->numbers = hash_table_begin(names->numbers.room, arena);
+    for (uint32_t i = 0; i < names->names.count; i++)
+        *slot_of(names, &names->names.items[i]) = i + 1;
+}
+
+struct intern intern_begin(size_t expected, struct arena *arena)
+{
+    return (struct intern){.numbers = hash_table_begin(expected, arena)};
+}
+
+uint32_t intern_number(struct intern *names, const void *text, size_t length, struct arena *arena)
+{
+    if (2 * names->names.count >= names->numbers.room)
+        grow(names, arena);
+    struct intern_name name = name_of(text, length);
+    uint32_t *slot = slot_of(names, &name);
+    if (*slot == 0) {
+        name.text = arena_text(arena, text, length);
+        *list_add(&names->names, arena) = name;
+        *slot = (uint32_t)names->names.count;
     }
-    *slot = (struct intern_slot){arena_text(names->arena, text, length), length, ends};
-    return slot->text;
+    return *slot - 1;
 }
 
-const char *intern_keep_quoted(struct intern *names, const char *text, const char *end,
-                               size_t *length)
+uint32_t intern_word(struct intern *names, const char *word, struct arena *arena)
 {
-    size_t plain = text_plain(text, (size_t)(end - text));
-    if (plain == 0 || text + plain == end || text[plain] != '"')
-        return NULL;
-    *length = plain;
-    return intern_keep(names, text, plain);
+    return intern_number(names, word, strlen(word), arena);
 }

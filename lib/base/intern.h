@@ -1,30 +1,35 @@
-/* Names that a frame holds many times, kept once.
+/* Names, each kept once and known by its number: 0, 1, 2, ... in the order in which they first
+ * came.
  *
- * The same few ids stand in dozens of places of a line. A table finds the copy made before by a
- * hash of the name's ends, in one of a few places; a newcomer to full ones takes the first. So
- * equal names are nearly always, but not surely, one pointer. */
+ * A name is any bytes, so a record of numbers gets its own number the same way. A zeroed struct is
+ * empty. All memory is the arena's, which must be the same one at every call. */
 #ifndef INTERN_H
 #define INTERN_H
 
-#include <stdint.h>
+#include "base/hash_table.h"
 
-#include "base/arena.h"
-
-struct intern {
-    struct arena *arena;
-    struct intern_slot *slots;
-    size_t count; /* a power of two */
+struct intern_name {
+    const char *text; /* NUL-terminated */
+    size_t length;
+    uint64_t first, last; /* its first and last eight bytes, which may overlap */
 };
 
-/* An empty table that suits about as many different names. It and they live in the arena. */
-struct intern intern_begin(struct arena *arena, size_t expected);
+struct intern {
+    LIST_OF(struct intern_name) names;
+    struct hash_table numbers;
+};
 
-/* A NUL-terminated copy of the first length bytes of text, the one made before if it is there. */
-const char *intern_keep(struct intern *names, const char *text, size_t length);
+/* An empty one with room for about as many different names. */
+struct intern intern_begin(size_t expected, struct arena *arena);
 
-/* The same of the plain characters with which [text, end) begins, up to a quote; NULL if there are
- * none, or they end otherwise. */
-const char *intern_keep_quoted(struct intern *names, const char *text, const char *end,
-                               size_t *length);
+/* The number of a name of length bytes, or of one that ends with NUL. */
+uint32_t intern_number(struct intern *names, const void *text, size_t length, struct arena *arena);
+uint32_t intern_word(struct intern *names, const char *word, struct arena *arena);
+
+/* The name of that number: equal names are one pointer. */
+static inline const char *intern_text(const struct intern *names, uint32_t number)
+{
+    return names->names.items[number].text;
+}
 
 #endif

@@ -38,9 +38,9 @@ static int check_visibility(const char *list, size_t index, double full_rad, dou
 
 /* Checks what field tables cannot: names are unique, and visibility does not end before it is
  * full. */
-static int check_reflectors(const struct reflector_set *set, struct diag *diag)
+static int check_reflectors(const struct reflector_set *set, struct arena *arena, struct diag *diag)
 {
-    const char *twice = reflectors_name_twice(set);
+    const char *twice = reflectors_name_twice(set, arena);
     if (twice != NULL)
         return diag_fail(diag, DIAG_CONFIG, "the name \"%s\" stands twice", twice);
     for (size_t i = 0; i < set->points.count; i++)
@@ -61,7 +61,7 @@ const struct vehicle *vehicle_load(const char *class, struct arena *arena, struc
     if (path == NULL || document_read(path, &vehicle_record, vehicle, arena, diag) != 0)
         return NULL;
     vehicle->reflectors.model = arena_text(arena, class, strlen(class));
-    if (check_reflectors(&vehicle->reflectors, diag) != 0) {
+    if (check_reflectors(&vehicle->reflectors, arena, diag) != 0) {
         diag_prefix(diag, "%s: reflectors: ", path);
         return NULL;
     }

@@ -1,9 +1,8 @@
 #include "frame/frame_account.h"
 
-#include <stdint.h>
 #include <string.h>
 
-#include "base/hash.h"
+#include "base/hash_table.h"
 #include "frame/frame_order.h"
 
 #define LOST SIZE_MAX
@@ -15,13 +14,11 @@ struct outcome {
     size_t place;
 };
 
-/* Endings are told apart by a hash table, one of each echo, so that the audit's time grows as the
- * frame does. */
+/* Echoes are found again by a hash table, so that the time of the check grows as the frame does. */
 struct account_check {
-    struct outcome *outcomes;
-    size_t count;
-    struct outcome **slots;
-    size_t slot_count;             /* a power of two */
+    struct outcome *outcomes; /* the last one of each echo */
+    uint32_t count;
+    struct hash_table numbers;     /* of outcomes */
     const struct outcome *doubled; /* the first in canonical order */
     struct {
         const char *text;
@@ -29,8 +26,9 @@ struct account_check {
     } object; /* the last one: echoes of an object stand together */
 };
 
-static bool same_echo(const struct outcome *a, const struct outcome *b)
+static bool is_echo(const void *outcomes, uint32_t number, const void *wanted)
 {
+    const struct outcome *a = (const struct outcome *)outcomes + number, *b = wanted;
     return frame_same_name(a->sensor, b->sensor) && frame_order_echo_ids(a->id, b->id) == 0;
 }
 
@@ -40,38 +38,39 @@ static bool stands_before(const struct outcome *a, const struct outcome *b)
     return order != 0 ? order < 0 : frame_order_echo_ids(a->id, b->id) < 0;
 }
 
-static struct outcome **slot_of(struct account_check *audit, const struct outcome *outcome)
+static uint64_t hash_name(uint64_t hash, const char *name)
 {
-    const struct echo_id *id = &outcome->id;
-    if (audit->object.text != id->object) {
-        audit->object.text = id->object;
-        audit->object.hash = hash_for_table(HASH_START, id->object);
+    return hash_table_hash(hash, name, strlen(name));
+}
+
+static uint64_t hash_of(struct account_check *check, const struct echo_id *id)
+{
+    if (check->object.text != id->object) {
+        check->object.text = id->object;
+        check->object.hash = hash_name(0, id->object);
     }
-    uint64_t hash = hash_for_table(audit->object.hash, id->reflector);
+    uint64_t hash = hash_name(check->object.hash, id->reflector);
     if (id->mirror != NULL)
-        hash = hash_for_table(hash, id->mirror);
-    hash += (uint64_t)id->path + 31 * (uint64_t)id->number;
-    for (;; hash++) {
-        struct outcome **slot = &audit->slots[hash & (audit->slot_count - 1)];
-        if (*slot == NULL || same_echo(*slot, outcome))
-            return slot;
-    }
+        hash = hash_name(hash, id->mirror);
+    return hash_table_mix(hash, (uint64_t)id->path << 48 ^ (uint64_t)id->number);
 }
 
 /* An echo that feeds several targets is one entry; twice in one target, or lost as well, it is one
  * too many. Targets come first, in their order. True if the echo has not been seen before. */
-static bool note(struct account_check *audit, struct outcome outcome)
+static bool note(struct account_check *check, struct outcome outcome)
 {
-    struct outcome **slot = slot_of(audit, &outcome);
-    if (*slot == NULL) {
-        audit->outcomes[audit->count] = outcome;
-        *slot = &audit->outcomes[audit->count++];
+    uint32_t *slot = hash_table_slot(&check->numbers, hash_of(check, &outcome.id), is_echo,
+                                     check->outcomes, &outcome);
+    if (*slot == 0) {
+        check->outcomes[check->count++] = outcome;
+        *slot = check->count;
         return true;
     }
-    if (((*slot)->place == outcome.place || outcome.place == LOST) &&
-        (audit->doubled == NULL || stands_before(*slot, audit->doubled)))
-        audit->doubled = *slot;
-    (*slot)->place = outcome.place;
+    struct outcome *last = &check->outcomes[*slot - 1];
+    if ((last->place == outcome.place || outcome.place == LOST) &&
+        (check->doubled == NULL || stands_before(last, check->doubled)))
+        check->doubled = last;
+    last->place = outcome.place;
     return false;
 }
 
@@ -88,12 +87,10 @@ static size_t count_outcomes(const struct frame *frame)
 static struct account_check begin(const struct frame *frame)
 {
     size_t count = count_outcomes(frame);
-    struct account_check audit = {.slot_count = 1};
-    while (audit.slot_count < 2 * count + 1)
-        audit.slot_count *= 2;
-    audit.outcomes = arena_room(frame->arena, count * sizeof *audit.outcomes);
-    audit.slots = arena_get(frame->arena, audit.slot_count * sizeof(struct outcome *));
-    return audit;
+    return (struct account_check){
+        .outcomes = arena_room(frame->arena, count * sizeof(struct outcome)),
+        .numbers = hash_table_begin(count, frame->arena),
+    };
 }
 
 /* Adds entries of a sensor to its own, or to those of sensors without a count, which come last. */
@@ -106,14 +103,14 @@ static void add_entries(const struct frame *frame, const char *sensor, int64_t a
     entries[i] += added;
 }
 
-static void collect(const struct frame *frame, struct account_check *audit, int64_t *entries)
+static void collect(const struct frame *frame, struct account_check *check, int64_t *entries)
 {
     for (size_t i = 0; i < frame->targets.count; i++) {
         const struct target *target = &frame->targets.items[i];
         int64_t added = 0;
         for (size_t j = 0; j < target->contributors.count; j++) {
             const struct contributor *from = &target->contributors.items[j];
-            added += note(audit, (struct outcome){target->sensor, from->id, i});
+            added += note(check, (struct outcome){target->sensor, from->id, i});
         }
         add_entries(frame, target->sensor, added, entries);
     }
@@ -122,7 +119,7 @@ static void collect(const struct frame *frame, struct account_check *audit, int6
         int64_t added = 0;
         for (size_t j = 0; j < group->echoes.count; j++) {
             const struct lost_echo *from = &group->echoes.items[j];
-            added += note(audit, (struct outcome){group->sensor, from->id, LOST});
+            added += note(check, (struct outcome){group->sensor, from->id, LOST});
         }
         add_entries(frame, group->sensor, added, entries);
     }
@@ -156,14 +153,14 @@ static int compare_with_counts(const struct frame *frame, const int64_t *entries
 
 int frame_account_check(const struct frame *frame, struct diag *diag)
 {
-    struct account_check audit = begin(frame);
+    struct account_check check = begin(frame);
     int64_t *entries = arena_get(frame->arena, (frame->counts.count + 1) * sizeof *entries);
-    collect(frame, &audit, entries);
-    if (audit.doubled != NULL)
+    collect(frame, &check, entries);
+    if (check.doubled != NULL)
         return diag_fail(diag, DIAG_INTERNAL,
                          "account: sensor \"%s\", object \"%s\", reflector \"%s\" has two "
                          "entries",
-                         audit.doubled->sensor, audit.doubled->id.object,
-                         audit.doubled->id.reflector);
+                         check.doubled->sensor, check.doubled->id.object,
+                         check.doubled->id.reflector);
     return compare_with_counts(frame, entries, diag);
 }

@@ -28,7 +28,8 @@ static int check_sets(const struct frame *frame, struct diag *diag)
 {
     for (size_t i = 0; i < frame->reflectors.count; i++) {
         const struct reflector_set *set = &frame->reflectors.items[i];
-        const char *twice = reflectors_unchanged(set) ? NULL : reflectors_name_twice(set);
+        const char *twice =
+            reflectors_unchanged(set) ? NULL : reflectors_name_twice(set, frame->arena);
         if (twice == NULL)
             twice = object_listed_twice(set);
         if (twice != NULL)

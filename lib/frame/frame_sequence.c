@@ -3,7 +3,7 @@
 static struct scene_progress *progress_of(struct frame_sequence *completeness, const char *name,
                                           struct arena *arena)
 {
-    uint32_t number = numbering_of_word(&completeness->names, name, arena);
+    uint32_t number = intern_word(&completeness->names, name, arena);
     if (number == completeness->scenes.count)
         *list_add(&completeness->scenes, arena) = (struct scene_progress){-1, false};
     return &completeness->scenes.items[number];
@@ -27,6 +27,6 @@ int frame_sequence_end(const struct frame_sequence *completeness, struct diag *d
     for (size_t i = 0; i < completeness->scenes.count; i++)
         if (!completeness->scenes.items[i].closed)
             return diag_fail(diag, DIAG_DATA, "scene \"%s\" ends before its last frame",
-                             completeness->names.pieces.items[i].bytes);
+                             intern_text(&completeness->names, (uint32_t)i));
     return 0;
 }

@@ -4,7 +4,7 @@
 #ifndef FRAME_SEQUENCE_H
 #define FRAME_SEQUENCE_H
 
-#include "base/numbering.h"
+#include "base/intern.h"
 #include "frame/frame.h"
 
 struct scene_progress {
@@ -14,7 +14,7 @@ struct scene_progress {
 
 /* Zeroed, it has seen nothing. */
 struct frame_sequence {
-    struct numbering names;
+    struct intern names;
     LIST_OF(struct scene_progress) scenes; /* by number of the name */
 };
 

@@ -48,18 +48,28 @@ static int read_item(struct reader *reader, const struct field *field, void *bas
     return result == 0 ? 0 : put_before(scan->diag, field->name, index);
 }
 
+/* Equal names of a line are one pointer. */
+static void keep_name(struct reader *reader, const struct field *field, const char *text,
+                      size_t length, void *base)
+{
+    uint32_t number = intern_number(&reader->names, text, length, reader->scan.arena);
+    const char *kept = intern_text(&reader->names, number);
+    STORE(const char *, (char *)base + field->offset, kept);
+}
+
 /* A name of plain characters needs no second look. */
 static bool take_name(struct reader *reader, const struct field *field, void *base)
 {
     struct json_scan *scan = &reader->scan;
-    size_t length;
+    const char *text = scan->at + 1;
     if (scan->at == scan->end || *scan->at != '"')
         return false;
-    const char *kept = intern_keep_quoted(&reader->names, scan->at + 1, scan->end, &length);
-    if (kept == NULL || length > FIELD_NAME_SIZE)
+    size_t length = text_plain(text, (size_t)(scan->end - text));
+    if (length == 0 || length > FIELD_NAME_SIZE || text + length == scan->end ||
+        text[length] != '"')
         return false;
     scan->at += length + 2;
-    STORE(const char *, (char *)base + field->offset, kept);
+    keep_name(reader, field, text, length, base);
     return true;
 }
 
@@ -69,8 +79,7 @@ static int set_name(struct reader *reader, const struct field *field,
     struct json_scan *scan = &reader->scan;
     if (field_set_text(field, base, name->text, name->length, scan->arena, scan->diag) != 0)
         return -1;
-    const char *kept = intern_keep(&reader->names, name->text, name->length);
-    STORE(const char *, (char *)base + field->offset, kept);
+    keep_name(reader, field, name->text, name->length, base);
     return 0;
 }
 
@@ -139,8 +148,7 @@ static int read_steady(struct reader *reader, const struct field *field, void *b
     }
     if (list_cache_full(repeats))
         return read_list(reader, field, base);
-    struct reader apart = {
-        {scan->at, scan->end, &repeats->arena, scan->diag}, intern_begin(&repeats->arena, 0), NULL};
+    struct reader apart = {.scan = {scan->at, scan->end, &repeats->arena, scan->diag}};
     if (read_list(&apart, field, base) != 0)
         return -1;
     list_cache_keep(repeats, field, base, scan->at, (size_t)(apart.scan.at - scan->at));
@@ -342,7 +350,7 @@ static int read_line(const char *line, size_t length, const struct record *recor
                      struct arena *arena, struct list_cache *repeats, struct diag *diag)
 {
     struct reader reader = {
-        {line, line + length, arena, diag}, intern_begin(arena, length / BYTES_PER_NAME), repeats};
+        {line, line + length, arena, diag}, intern_begin(length / BYTES_PER_NAME, arena), repeats};
     struct json_scan *scan = &reader.scan;
     if (json_scan_peek(scan) != '{')
         return no_record(scan, record);

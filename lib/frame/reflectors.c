@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/elementary.h"
-#include "base/hash.h"
+#include "base/hash_table.h"
 #include "base/units.h"
 
 static const char *const shapes[] = {
@@ -223,22 +223,22 @@ static const char *name_of_post(const struct reflector_set *set)
     return NULL;
 }
 
-/* One of 64 bits for a name: names without a common bit differ. */
-static uint64_t mark_of(const char *name)
+static bool is_called(const void *set, uint32_t index, const void *name)
 {
-    return UINT64_C(1) << hash_for_table(HASH_START, name) % 64;
+    return strcmp(name_at(set, index), name) == 0;
 }
 
-const char *reflectors_name_twice(const struct reflector_set *set)
+const char *reflectors_name_twice(const struct reflector_set *set, struct arena *arena)
 {
     size_t count = set->points.count + set->planes.count + set->rows.count;
-    uint64_t marks = 0;
-    for (size_t i = 0; i < count; i++) {
-        uint64_t mark = mark_of(name_at(set, i));
-        for (size_t j = 0; j < i && (marks & mark) != 0; j++)
-            if (strcmp(name_at(set, i), name_at(set, j)) == 0)
-                return name_at(set, i);
-        marks |= mark;
+    struct hash_table names = hash_table_begin(count, arena);
+    for (uint32_t i = 0; i < count; i++) {
+        const char *name = name_at(set, i);
+        uint64_t hash = hash_table_hash(0, name, strlen(name));
+        uint32_t *slot = hash_table_slot(&names, hash, is_called, set, name);
+        if (*slot != 0)
+            return name;
+        *slot = i + 1;
     }
     return name_of_post(set);
 }

@@ -102,7 +102,7 @@ bool reflectors_unchanged(const struct reflector_set *set);
 
 /* The first name that two reflectors of the set share, or NULL. Beside a row "a" no point or plane
  * may be called a_1, as posts are. */
-const char *reflectors_name_twice(const struct reflector_set *set);
+const char *reflectors_name_twice(const struct reflector_set *set, struct arena *arena);
 
 /* Worked out, or that of a document whose lists the set still has; in the arena. */
 const struct reflectors_shape *reflectors_shape(const struct reflector_set *set,

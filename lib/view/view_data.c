@@ -27,7 +27,7 @@ static void add_count(struct view_data *data, enum view_column column, uint32_t 
 
 static uint32_t name_of(struct view_data *data, const char *word)
 {
-    return numbering_of_word(&data->names, word, data->arena);
+    return intern_word(&data->names, word, data->arena);
 }
 
 /* 0 stands for no name. */
@@ -43,7 +43,7 @@ void view_data_begin(struct view_data *data, struct arena *arena)
 
 static uint32_t scene_of(struct view_data *data, const struct frame *frame)
 {
-    uint32_t number = numbering_of_word(&data->scene_names, frame->scene, data->arena);
+    uint32_t number = intern_word(&data->scene_names, frame->scene, data->arena);
     if (number == data->scenes.count) {
         const struct object *ego = frame_object(frame, frame->ego);
         bool seen = (frame->present & SECTION_SENSORS) != 0;
@@ -123,7 +123,7 @@ static void add_target(struct view_data *data, const struct target *target)
     add_count(data, COLUMN_TARGET_UNDECIDED, target->sign_undecided);
     add_count(
         data, COLUMN_TARGET_EFFECTS,
-        numbering_of(&data->effect_sets, &target->effects, sizeof target->effects, data->arena));
+        intern_number(&data->effect_sets, &target->effects, sizeof target->effects, data->arena));
     add_count(data, COLUMN_TARGET_CONTRIBUTORS, (uint32_t)target->contributors.count);
     for (size_t i = 0; i < target->contributors.count; i++)
         add_contributor(data, &target->contributors.items[i]);
@@ -204,8 +204,8 @@ static void add_fate(struct view_data *data, const struct loss_row *rows, size_t
     for (size_t i = 0; i < count; i++)
         items[i] = rows[i].item;
     add_count(data, COLUMN_FATE_OBJECT, rows->object);
-    size_t known = data->patterns.pieces.count;
-    uint32_t pattern = numbering_of(&data->patterns, items, count * sizeof *items, data->arena);
+    size_t known = data->patterns.names.count;
+    uint32_t pattern = intern_number(&data->patterns, items, count * sizeof *items, data->arena);
     add_count(data, COLUMN_FATE_PATTERN, pattern);
     if (pattern < known)
         return;

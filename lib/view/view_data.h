@@ -10,7 +10,7 @@
 #ifndef VIEW_DATA_H
 #define VIEW_DATA_H
 
-#include "base/numbering.h"
+#include "base/intern.h"
 #include "frame/frame.h"
 #include "view/view_columns.h"
 #include "view/view_frame.h"
@@ -26,7 +26,7 @@ struct view_scene {
 struct view_data {
     struct arena *arena;
     struct view_models models;
-    struct numbering names, scene_names, patterns, effect_sets;
+    struct intern names, scene_names, patterns, effect_sets;
     LIST_OF(struct view_scene) scenes;
     LIST_OF(struct sensor_view) sensors;
     struct view_columns columns;

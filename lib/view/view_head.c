@@ -59,9 +59,9 @@ static void write_separator(struct text *text, size_t index)
 static void write_names(const struct view_data *data, struct text *text)
 {
     text_add_word(text, "\"names\":[");
-    for (size_t i = 0; i < data->names.pieces.count; i++) {
+    for (size_t i = 0; i < data->names.names.count; i++) {
         write_separator(text, i);
-        write_word(text, data->names.pieces.items[i].bytes);
+        write_word(text, data->names.names.items[i].text);
     }
     text_add_word(text, "],\n\"reasons\":[");
     for (enum loss loss = 0; frame_loss_name(loss) != NULL; loss++) {
@@ -88,9 +88,9 @@ static void write_effects(const struct view_data *data, struct text *text)
         write_word(text, effects_names[i]);
     }
     text_add_word(text, "],\n\"effect_sets\":[");
-    for (size_t i = 0; i < data->effect_sets.pieces.count; i++) {
+    for (size_t i = 0; i < data->effect_sets.names.count; i++) {
         uint64_t set;
-        memcpy(&set, data->effect_sets.pieces.items[i].bytes, sizeof set);
+        memcpy(&set, data->effect_sets.names.items[i].text, sizeof set);
         write_separator(text, i);
         const char *separator = "[";
         for (int effect = 0; effect < EFFECT_COUNT; effect++)

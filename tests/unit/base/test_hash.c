@@ -35,22 +35,6 @@ static void the_hash_is_fnv_with_an_end_and_a_mix(void **state)
     assert_true(hash_text(HASH_START, "radar") == hash_bytes(HASH_START, "radar", 5));
 }
 
-static void the_hash_for_tables_spreads_names_over_few_bits(void **state)
-{
-    (void)state;
-    enum { NAMES = 4096, SLOTS = 8192 };
-    int taken[SLOTS] = {0}, most = 0;
-    for (int i = 0; i < NAMES; i++) {
-        char name[24];
-        snprintf(name, sizeof name, "vehicle_%d", i);
-        int *slot = &taken[hash_for_table(HASH_START, name) % SLOTS];
-        most = ++*slot > most ? *slot : most;
-    }
-    /* Half full by chance: more than 8 in one slot have a probability below 1e-4. */
-    assert_in_range(most, 1, 8);
-    assert_true(hash_for_table(1, "a") != hash_for_table(2, "a"));
-}
-
 static void the_end_of_a_piece_counts(void **state)
 {
     (void)state;
@@ -119,7 +103,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_hash_is_fnv_with_an_end_and_a_mix),
-        cmocka_unit_test(the_hash_for_tables_spreads_names_over_few_bits),
         cmocka_unit_test(the_end_of_a_piece_counts),
         cmocka_unit_test(similar_names_have_unrelated_hashes),
         cmocka_unit_test(every_bit_of_the_input_counts),

@@ -78,7 +78,7 @@ static void the_points_replace_the_reflectors_of_the_document(void **state)
     assert_int_equal(set.mirrors.count, 1);
     assert_true(set.blocks);
     assert_string_equal(corner.name, "corner");
-    assert_null(reflectors_name_twice(&set));
+    assert_null(reflectors_name_twice(&set, &arena));
     struct diag diag = {0};
     assert_int_equal(field_check(&reflector_set_record, &set, &diag), 0);
     arena_free(&arena);

@@ -340,21 +340,6 @@ static void an_empty_stream_has_a_head(void **state)
     release(&packed);
 }
 
-static void a_pool_numbers_pieces_as_they_come(void **state)
-{
-    (void)state;
-    struct arena arena = {0};
-    struct numbering pool = {0};
-    char word[16];
-    for (int round = 0; round < 2; round++)
-        for (unsigned i = 0; i < 5000; i++) {
-            snprintf(word, sizeof word, "w%u", i);
-            assert_int_equal(numbering_of_word(&pool, word, &arena), i);
-        }
-    assert_int_equal(numbering_of(&pool, "w1\0x", 4, &arena), 5000);
-    arena_free(&arena);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -368,7 +353,6 @@ int main(void)
         cmocka_unit_test(the_same_losses_share_a_pattern),
         cmocka_unit_test(a_column_is_as_wide_as_its_largest_number),
         cmocka_unit_test(an_empty_stream_has_a_head),
-        cmocka_unit_test(a_pool_numbers_pieces_as_they_come),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,56 @@
+/* A hash table of numbers: 0, 1, 2, ..., each found again by what it stands for.
+ *
+ * Open addressing, at most half full. Who uses the table keeps what the numbers stand for, and says
+ * whether that is what is looked for. */
+#ifndef HASH_TABLE_H
+#define HASH_TABLE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/arena.h"
+#include "base/text.h"
+
+struct hash_table {
+    uint32_t *slots; /* number + 1, or 0 */
+    size_t room;     /* a power of two */
+};
+
+/* An empty one, for as many numbers. */
+struct hash_table hash_table_begin(size_t count, struct arena *arena);
+
+/* A product spreads bits upwards only: its upper half is folded down for the next one. */
+static inline uint64_t hash_table_mix(uint64_t hash, uint64_t word)
+{
+    const uint64_t spread = UINT64_C(0x9e3779b97f4a7c15); /* 2^64 over the golden ratio */
+    hash = (hash ^ word) * spread;
+    return hash ^ hash >> 32;
+}
+
+/* A quick hash of bytes, for tables in memory: nothing that is written may depend on it. A call may
+ * go on from the hash of an earlier one. */
+static inline uint64_t hash_table_hash(uint64_t hash, const char *bytes, size_t length)
+{
+    if (length < 8)
+        return hash_table_mix(hash + length, text_short_word(bytes, length));
+    for (size_t i = 0; i + 8 < length; i += 8)
+        hash = hash_table_mix(hash, text_word(bytes + i));
+    return hash_table_mix(hash + length, text_word(bytes + length - 8));
+}
+
+/* The slot that holds the number of what is wanted, or the free one where it belongs. is() compares
+ * that with what a number stands for. */
+static inline uint32_t *hash_table_slot(const struct hash_table *table, uint64_t hash,
+                                        bool (*is)(const void *items, uint32_t number,
+                                                   const void *wanted),
+                                        const void *items, const void *wanted)
+{
+    uint64_t at = (hash >> 32) * table->room >> 32;
+    for (;; at = (at + 1) & (table->room - 1)) {
+        uint32_t *slot = &table->slots[at];
+        if (*slot == 0 || is(items, *slot - 1, wanted))
+            return slot;
+    }
+}
+
+#endif
