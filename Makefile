@@ -194,6 +194,10 @@ accuracy: all
 schemas: all
 	$(Q)$(BUILD)/bin/glint-schema schemas
 
+# One line a module, from the headers.
+lib/README.md: FORCE
+	$(Q)scripts/lib-readme >$@.new && mv $@.new $@
+
 format:
 	clang-format -i $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.c tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
 
