@@ -1,0 +1,213 @@
+#include "frame/frame_account.h"
+
+#include "accounted_frame.h"
+#include "check.h"
+#include "frame/frame_order.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+static void a_whole_account_passes_in_any_order(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct frame frame = accounted_frame(&arena);
+    struct diag diag = {0};
+    assert_int_equal(frame_account_check(&frame, &diag), 0);
+    frame_order(&frame);
+    assert_int_equal(frame_account_check(&frame, &diag), 0);
+    arena_free(&arena);
+}
+
+static void an_echo_may_feed_several_targets(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct frame frame = accounted_frame(&arena);
+    struct diag diag = {0};
+    struct cell cell =
+        accounted_cell(&arena, "left", 1, (struct contributor[]){accounted_echo("b", "corner")});
+    frame_add_target(&frame, &cell, 2);
+    frame_add_target(&frame, &cell, 1);
+    assert_int_equal(frame_account_check(&frame, &diag), 0);
+    arena_free(&arena);
+}
+
+static void forget_one(struct frame *frame)
+{
+    frame->targets.items[0].contributors.count = 1;
+}
+
+static void forget_a_loss(struct frame *frame)
+{
+    frame->lost.count--;
+}
+
+static void double_one_in_a_target(struct frame *frame)
+{
+    frame->targets.items[1].contributors.items[1] = accounted_echo("b", "corner");
+}
+
+static void double_one_between_target_and_lost(struct frame *frame)
+{
+    frame_lose(frame, "noise", "left", LOSS_BELOW_FINAL,
+               &(struct lost_echo){.id.object = "a", .id.reflector = "rear"});
+}
+
+static void double_three(struct frame *frame)
+{
+    double_one_between_target_and_lost(frame);
+    frame_lose(frame, "ideal", "left", LOSS_OUT_OF_VIEW,
+               &(struct lost_echo){.id.object = "a", .id.reflector = "corner"});
+    double_one_in_a_target(frame);
+}
+
+static void double_one_of_each_sensor(struct frame *frame)
+{
+    for (int i = 0; i < 2; i++)
+        frame_lose(frame, "noise", i == 0 ? "left" : "right", LOSS_BELOW_FINAL,
+                   &(struct lost_echo){.id.object = "a", .id.reflector = "rear"});
+}
+
+static void add_a_foreign_one(struct frame *frame)
+{
+    frame_lose(frame, "noise", "right", LOSS_BELOW_FINAL,
+               &(struct lost_echo){.id.object = "x", .id.reflector = "rear"});
+}
+
+static void add_one_of_a_foreign_sensor(struct frame *frame)
+{
+    frame_lose(frame, "ideal", "top", LOSS_BLOCKED,
+               &(struct lost_echo){.id.object = "a", .id.reflector = "rear"});
+}
+
+static void count_one_more(struct frame *frame)
+{
+    frame->counts.items[1].pairs++;
+}
+
+static void planted_faults_in_the_account_are_caught(void **state)
+{
+    (void)state;
+    static const struct {
+        void (*plant)(struct frame *frame);
+        const char *message;
+    } cases[] = {{forget_one, "account: sensor \"right\" has 2 entries; 3 are due"},
+                 {forget_a_loss, "account: sensor \"left\" has 2 entries; 3 are due"},
+                 {double_one_in_a_target,
+                  "account: sensor \"left\", object \"b\", reflector \"corner\" has two entries"},
+                 {double_one_between_target_and_lost,
+                  "account: sensor \"left\", object \"a\", reflector \"rear\" has two entries"},
+                 {double_three,
+                  "account: sensor \"left\", object \"a\", reflector \"corner\" has two entries"},
+                 {double_one_of_each_sensor,
+                  "account: sensor \"left\", object \"a\", reflector \"rear\" has two entries"},
+                 {add_a_foreign_one, "account: sensor \"right\" has 4 entries; 3 are due"},
+                 {add_one_of_a_foreign_sensor, "account: 1 entries of sensors without a count"},
+                 {count_one_more, "account: sensor \"left\" has 3 entries; 4 are due"}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct arena arena = {0};
+        struct frame frame = accounted_frame(&arena);
+        struct diag diag = {0};
+        cases[i].plant(&frame);
+        assert_int_equal(frame_account_check(&frame, &diag), -1);
+        assert_string_equal(diag.text, cases[i].message);
+        assert_int_equal(diag.code, DIAG_INTERNAL);
+        arena_free(&arena);
+    }
+}
+
+/* Direct echoes are those of the pairs; a wheel's and a ghost's come on top. */
+static void echoes_of_other_paths_are_due_beyond_the_pairs(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct frame frame = accounted_frame(&arena);
+    struct diag diag = {0};
+    frame_count_echoes(&frame, "left", PATH_WHEEL, 2);
+    frame_count_echoes(&frame, "left", PATH_WALL_OBJECT, 1);
+    assert_int_equal(frame_account_check(&frame, &diag), -1);
+    assert_string_equal(diag.text, "account: sensor \"left\" has 3 entries; 6 are due");
+    struct lost_echo lost[] = {
+        {.id = {.object = "a", .reflector = "rear", .path = PATH_WHEEL, .number = 1}},
+        {.id = {.object = "a", .reflector = "rear", .path = PATH_WHEEL, .number = 2}},
+        {.id = {.object = "a", .reflector = "rear", .path = PATH_WALL_OBJECT, .mirror = "b"}},
+    };
+    for (size_t i = 0; i < 3; i++)
+        frame_lose(&frame, "sensor", "left", LOSS_BELOW_THRESHOLD, &lost[i]);
+    assert_int_equal(frame_account_check(&frame, &diag), 0);
+    arena_free(&arena);
+}
+
+/* Each pair of echoes differs in one member of the identity alone. */
+static void echoes_that_differ_in_one_member_are_two_entries(void **state)
+{
+    (void)state;
+    static const struct echo_id one = {"a", "p", PATH_WALL_OBJECT, "w", 1};
+    static const struct echo_id others[] = {{"b", "p", PATH_WALL_OBJECT, "w", 1},
+                                            {"a", "q", PATH_WALL_OBJECT, "w", 1},
+                                            {"a", "p", PATH_OBJECT_WALL, "w", 1},
+                                            {"a", "p", PATH_WALL_OBJECT, "v", 1},
+                                            {"a", "p", PATH_WALL_OBJECT, "w", 2}};
+    for (size_t i = 0; i <= COUNT(others); i++) {
+        struct arena arena = {0};
+        struct frame frame = {.arena = &arena, .account = true};
+        struct diag diag = {0};
+        frame_count_pairs(&frame, "s", 2);
+        frame_lose(&frame, "sensor", "s", LOSS_NO_ANGLE, &(struct lost_echo){.id = one});
+        frame_lose(&frame, "noise", "s", LOSS_NO_ANGLE,
+                   &(struct lost_echo){.id = i < COUNT(others) ? others[i] : one});
+        assert_int_equal(frame_account_check(&frame, &diag), i < COUNT(others) ? 0 : -1);
+        arena_free(&arena);
+    }
+}
+
+static void the_same_echo_of_two_sensors_is_one_entry_of_each(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena, .account = true};
+    struct diag diag = {0};
+    static const char *const sensors[] = {"s", "t"};
+    for (int i = 0; i < 2; i++) {
+        frame_count_pairs(&frame, sensors[i], 1);
+        frame_lose(&frame, "ideal", sensors[i], LOSS_BLOCKED,
+                   &(struct lost_echo){.id = {.object = "a", .reflector = "p"}});
+    }
+    assert_int_equal(frame_account_check(&frame, &diag), 0);
+    arena_free(&arena);
+}
+
+/* Whatever their hashes are: 20000 echoes, and the last of them once more. */
+static void one_that_is_doubled_is_found_among_many(void **state)
+{
+    (void)state;
+    enum { MANY = 20000 };
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena, .account = true};
+    struct diag diag = {0};
+    frame_count_pairs(&frame, "s", MANY);
+    struct lost_echo lost = {.id = {.object = "a", .reflector = "p"}};
+    for (lost.id.number = 1; lost.id.number <= MANY; lost.id.number++)
+        frame_lose(&frame, "ideal", "s", LOSS_BLOCKED, &lost);
+    assert_int_equal(frame_account_check(&frame, &diag), 0);
+    lost.id.number = MANY;
+    frame_lose(&frame, "noise", "s", LOSS_NO_ANGLE, &lost);
+    assert_int_equal(frame_account_check(&frame, &diag), -1);
+    assert_string_equal(diag.text,
+                        "account: sensor \"s\", object \"a\", reflector \"p\" has two entries");
+    arena_free(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_whole_account_passes_in_any_order),
+        cmocka_unit_test(an_echo_may_feed_several_targets),
+        cmocka_unit_test(planted_faults_in_the_account_are_caught),
+        cmocka_unit_test(echoes_of_other_paths_are_due_beyond_the_pairs),
+        cmocka_unit_test(echoes_that_differ_in_one_member_are_two_entries),
+        cmocka_unit_test(the_same_echo_of_two_sensors_is_one_entry_of_each),
+        cmocka_unit_test(one_that_is_doubled_is_found_among_many),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

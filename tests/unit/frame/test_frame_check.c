@@ -1,0 +1,227 @@
+#include "frame/frame_check.h"
+
+#include "accounted_frame.h"
+#include "check.h"
+#include "frame/frame_order.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+static void a_frame_without_contradictions_passes(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct frame frame = accounted_frame(&arena);
+    struct diag diag = {0};
+    frame_order(&frame);
+    assert_int_equal(frame_check(&frame, &diag), 0);
+    assert_int_equal(frame_check_part(&frame, (struct frame_part){~0U, NULL}, &diag), 0);
+    arena_free(&arena);
+}
+
+static void name_one_twice(struct frame *frame)
+{
+    frame->objects.items[1].id = "a";
+}
+
+static void lose_the_ego(struct frame *frame)
+{
+    frame->ego = "x";
+}
+
+static void name_a_sensor_twice(struct frame *frame)
+{
+    frame->sensors.list.items[0].name = "left";
+}
+
+static void see_one_twice(struct frame *frame)
+{
+    for (int i = 0; i < 2; i++)
+        *list_add(&frame->echoes, frame->arena) =
+            (struct echo){.sensor = "left", .id.object = "a", .id.reflector = "r"};
+}
+
+static void see_with_no_sensor(struct frame *frame)
+{
+    *list_add(&frame->echoes, frame->arena) =
+        (struct echo){.sensor = "top", .id.object = "a", .id.reflector = "r"};
+}
+
+static void open_a_cell_twice(struct frame *frame)
+{
+    for (int i = 0; i < 2; i++)
+        *list_add(&frame->cells, frame->arena) = accounted_cell(
+            frame->arena, "left", 1, (struct contributor[]){accounted_echo("a", "r")});
+}
+
+static void open_an_empty_cell(struct frame *frame)
+{
+    *list_add(&frame->cells, frame->arena) = (struct cell){.sensor = "left"};
+}
+
+static void report_a_target_without_label(struct frame *frame)
+{
+    frame->targets.items[1].contributors.count = 0;
+}
+
+static void report_with_no_sensor(struct frame *frame)
+{
+    frame->targets.items[1].sensor = "top";
+}
+
+static struct reflector_set *add_set(struct frame *frame)
+{
+    struct reflector_set *set = list_add(&frame->reflectors, frame->arena);
+    *set = (struct reflector_set){.model = "car"};
+    frame->present |= SECTION_REFLECTORS;
+    return set;
+}
+
+static void list_an_object_twice(struct frame *frame)
+{
+    struct reflector_set *set = add_set(frame);
+    for (int i = 0; i < 2; i++)
+        *list_add(&set->objects, frame->arena) = "a";
+}
+
+static void name_two_reflectors_alike(struct frame *frame)
+{
+    struct reflector_set *set = add_set(frame);
+    *list_add(&set->points, frame->arena) = (struct point_reflector){.name = "rear"};
+    *list_add(&set->planes, frame->arena) = (struct plane_reflector){.name = "rear"};
+}
+
+static void frames_that_contradict_themselves_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        void (*plant)(struct frame *frame);
+        const char *message;
+    } cases[] = {
+        {name_one_twice, "objects: the id \"a\" stands twice"},
+        {lose_the_ego, "ego: \"x\" is not among the objects"},
+        {list_an_object_twice, "reflectors[0]: \"a\" stands twice"},
+        {name_two_reflectors_alike, "reflectors[0]: \"rear\" stands twice"},
+        {name_a_sensor_twice, "sensors.list: \"left\" stands twice"},
+        {see_one_twice, "echoes: sensor \"left\", object \"a\", reflector \"r\" stands twice"},
+        {see_with_no_sensor, "echoes[0].sensor: \"top\" is not in sensors.list"},
+        {open_a_cell_twice, "cells: sensor \"left\" has two led by object \"a\", reflector \"r\""},
+        {open_an_empty_cell, "cells[0].members: empty; expected the leader"},
+        {report_a_target_without_label, "targets[0].contributors: empty; expected a label"},
+        {report_with_no_sensor, "targets[1].sensor: \"top\" is not in sensors.list"}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct arena arena = {0};
+        struct frame frame = accounted_frame(&arena);
+        struct diag diag = {0};
+        cases[i].plant(&frame);
+        frame_order(&frame);
+        assert_int_equal(frame_check(&frame, &diag), -1);
+        assert_string_equal(diag.text, cases[i].message);
+        assert_int_equal(diag.code, DIAG_DATA);
+        arena_free(&arena);
+    }
+}
+
+/* What a frame says of one part, in canonical order, after a fault was planted anywhere. */
+static int check_part(void (*plant)(struct frame *frame), unsigned sections, const char *stage,
+                      struct diag *diag)
+{
+    struct arena arena = {0};
+    struct frame frame = accounted_frame(&arena);
+    plant(&frame);
+    frame_order(&frame);
+    int result = frame_check_part(&frame, (struct frame_part){sections, stage}, diag);
+    arena_free(&arena);
+    return result;
+}
+
+static void a_part_is_refused_for_its_own_faults_alone(void **state)
+{
+    (void)state;
+    static const struct {
+        void (*plant)(struct frame *frame);
+        unsigned section, another;
+    } cases[] = {{name_one_twice, SECTION_OBJECTS, SECTION_ECHOES},
+                 {list_an_object_twice, SECTION_REFLECTORS, SECTION_OBJECTS},
+                 {name_a_sensor_twice, SECTION_SENSORS, SECTION_OBJECTS},
+                 {open_an_empty_cell, SECTION_CELLS, SECTION_TARGETS},
+                 {report_a_target_without_label, SECTION_TARGETS, SECTION_CELLS}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct diag diag = {0};
+        assert_int_equal(check_part(cases[i].plant, cases[i].section, NULL, &diag), -1);
+        assert_int_equal(diag.code, DIAG_DATA);
+        assert_int_equal(check_part(cases[i].plant, cases[i].another, NULL, &diag), 0);
+    }
+}
+
+/* Echoes, cells and targets name their sensors: who lists others may leave them without one. */
+static void new_sensors_are_held_against_all_that_names_one(void **state)
+{
+    (void)state;
+    struct diag target = {0}, echo = {0};
+    assert_int_equal(check_part(report_with_no_sensor, SECTION_SENSORS, NULL, &target), -1);
+    assert_string_equal(target.text, "targets[1].sensor: \"top\" is not in sensors.list");
+    assert_int_equal(check_part(see_with_no_sensor, SECTION_SENSORS, NULL, &echo), -1);
+    assert_string_equal(echo.text, "echoes[0].sensor: \"top\" is not in sensors.list");
+}
+
+static void report_beyond_bounds(struct frame *frame)
+{
+    frame->targets.items[1].amplitude_db = 1e5;
+}
+
+static void members_out_of_bounds_are_refused_by_their_path(void **state)
+{
+    (void)state;
+    struct diag diag = {0};
+    assert_int_equal(check_part(report_beyond_bounds, SECTION_TARGETS, NULL, &diag), -1);
+    assert_string_equal(diag.text, "targets[0].amplitude_db: 1e+05 is outside [-10000, 10000] dB");
+    assert_int_equal(check_part(report_beyond_bounds, SECTION_LOST, NULL, &diag), 0);
+}
+
+static void lose_by_too_much(struct frame *frame)
+{
+    frame_lose(frame, "noise", "left", LOSS_BELOW_FINAL,
+               &(struct lost_echo){.id.object = "b", .id.reflector = "p", .shortfall_db = -1});
+}
+
+/* A stage is to blame for what it lost itself. */
+static void losses_are_looked_at_where_their_own_stage_wrote_them(void **state)
+{
+    (void)state;
+    struct diag diag = {0};
+    assert_int_equal(check_part(lose_by_too_much, SECTION_LOST, "ideal", &diag), 0);
+    assert_int_equal(check_part(lose_by_too_much, SECTION_LOST, "noise", &diag), -1);
+    assert_string_equal(diag.text, "lost[1].echoes[0].shortfall_db: -1 is outside [0, 100000] dB");
+    assert_int_equal(check_part(lose_by_too_much, SECTION_LOST, NULL, &diag), -1);
+}
+
+/* A document was checked when it was read: no set that has its lists is searched again. */
+static void the_lists_of_a_document_are_not_searched_again(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct frame frame = accounted_frame(&arena);
+    struct diag diag = {0};
+    name_two_reflectors_alike(&frame);
+    struct reflector_set document = frame.reflectors.items[0];
+    frame.reflectors.items[0].document = &document;
+    frame_order(&frame);
+    assert_int_equal(frame_check(&frame, &diag), 0);
+    list_add(&frame.reflectors.items[0].points, &arena)->name = "left";
+    assert_int_equal(frame_check(&frame, &diag), -1);
+    arena_free(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_frame_without_contradictions_passes),
+        cmocka_unit_test(frames_that_contradict_themselves_are_refused),
+        cmocka_unit_test(a_part_is_refused_for_its_own_faults_alone),
+        cmocka_unit_test(new_sensors_are_held_against_all_that_names_one),
+        cmocka_unit_test(members_out_of_bounds_are_refused_by_their_path),
+        cmocka_unit_test(losses_are_looked_at_where_their_own_stage_wrote_them),
+        cmocka_unit_test(the_lists_of_a_document_are_not_searched_again),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
