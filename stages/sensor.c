@@ -5,19 +5,18 @@
 #include "run/stage.h"
 #include "sensor/cell_margins.h"
 #include "sensor/scan.h"
-#include "sensor/scatterers.h"
 
 /* The cell of these received echoes. False if it has no angle. */
 static bool superpose(const struct scan *scan, const struct selection *selection,
                       const struct received_echo *members, size_t count, struct cell *cell)
 {
-    const struct sensor *sensor = scan->reception.sensor;
+    const struct sensor *sensor = scan->context.sensor;
     bool superposed = effects_forced(selection, EFFECT_SUPERPOSITION) ||
                       (effects_enabled(selection, EFFECT_SUPERPOSITION) && count > 1);
     int64_t begin = effects_begin(selection);
     bool has_angle =
-        resolution_cell_of(sensor, members, count, superposed, scan->reception.frame->arena, cell);
-    cell->interference = scan->reception.interference;
+        resolution_cell_of(sensor, members, count, superposed, scan->context.frame->arena, cell);
+    cell->interference = scan->context.interference;
     if (cell->interference > 0)
         cell->effects |= EFFECT_BIT(EFFECT_INTERFERENCE);
     effects_note(selection, EFFECT_SUPERPOSITION, superposed);
@@ -28,7 +27,7 @@ static bool superpose(const struct scan *scan, const struct selection *selection
 static void report(struct frame *frame, const struct scan *scan, const struct selection *selection,
                    size_t number)
 {
-    const struct sensor *sensor = scan->reception.sensor;
+    const struct sensor *sensor = scan->context.sensor;
     struct cell cell;
     size_t count;
     const struct received_echo *members = scan_members(scan, number, &count);
@@ -50,12 +49,11 @@ static void report(struct frame *frame, const struct scan *scan, const struct se
 static void sense(struct frame *frame, const struct sensor *sensor,
                   const struct selection *selection)
 {
-    struct reception reception = received_echo_begin(frame, sensor, selection->allowed);
-    struct scan scan = scan_make(&reception, selection);
-    received_echo_note(&scan.reception, selection);
+    struct effect_scan context = effect_begin(frame, sensor, selection, EFFECT_HOME_SENSOR);
+    struct scan scan = scan_make(&context, selection);
     effects_note(selection, EFFECT_SUPERPOSITION, false);
     effects_note(selection, EFFECT_THRESHOLD, true);
-    scatterers_count(frame, sensor->name, scan.scatterers);
+    scan_count_added(&scan, frame);
     scan_lose_silent(&scan, frame, "sensor");
     for (size_t number = 0; number < scan.cells; number++)
         report(frame, &scan, selection, number);

@@ -5,7 +5,6 @@
 
 #include "run/stage.h"
 #include "sensor/scan.h"
-#include "sensor/scatterers.h"
 #include "signal/detections.h"
 
 /* A transform of one sensor's channels, in place, with a positive exponent. */
@@ -59,18 +58,18 @@ static void sense(struct frame *frame, const struct transform *transform,
                   const struct selection *selection)
 {
     const struct signal_cube *signal = &transform->signal;
-    struct reception reception = received_echo_begin(frame, signal->sensor, selection->allowed);
-    struct measurement_noise by = measurement_noise_of(signal->sensor, selection);
-    struct scan scan = scan_receive(&reception);
-    received_echo_note(&reception, selection);
-    scatterers_count(frame, signal->sensor->name, scan.scatterers);
+    const struct sensor *sensor = signal->sensor;
+    struct effect_scan context = effect_begin(frame, sensor, selection, EFFECT_HOME_SENSOR);
+    struct effect_scan noise = effect_begin(frame, sensor, selection, EFFECT_HOME_NOISE);
+    struct scan scan = scan_receive(&context);
+    scan_count_added(&scan, frame);
     scan_lose_silent(&scan, frame, "sensor-signal");
-    signal_cube_receive(signal, &scan, by.pointers);
+    signal_cube_receive(signal, &scan, effect_simulates(&noise, EFFECT_ANGLE_NOISE));
     to_spectrum(transform);
     struct range_doppler spectrum = signal_cube_spectrum(signal, frame->arena);
-    struct detections sightings = detections_of(signal, &spectrum, &reception);
+    struct detections sightings = detections_of(signal, &spectrum, &context);
     detections_label(&sightings, frame, "sensor-signal", &scan.resolved);
-    detections_list(&sightings, frame, "sensor-signal", &by);
+    detections_list(&sightings, frame, "sensor-signal", &noise);
     effects_count_scan(selection);
 }
 

@@ -4,7 +4,6 @@
 #include "run/stage.h"
 #include "sensor/cell_margins.h"
 #include "sensor/scan.h"
-#include "sensor/scatterers.h"
 #include "sensor/smear.h"
 
 /* Sight of the members, and how far the threshold and the sign were from the other side. */
@@ -41,15 +40,14 @@ static void report(struct frame *frame, const struct selection *selection,
 static void sense(struct frame *frame, const struct sensor *sensor,
                   const struct selection *selection)
 {
-    struct reception reception = received_echo_begin(frame, sensor, selection->allowed);
-    struct scan scan = scan_receive(&reception);
+    struct effect_scan context = effect_begin(frame, sensor, selection, EFFECT_HOME_SENSOR);
+    struct scan scan = scan_receive(&context);
     bool merge = effects_enabled(selection, EFFECT_MERGING);
     size_t count = scan.resolved.count, together = merge ? count : 1;
-    received_echo_note(&reception, selection);
     effects_note(selection, EFFECT_MERGING, merge);
     effects_note(selection, EFFECT_SUPERPOSITION, merge);
     effects_note(selection, EFFECT_THRESHOLD, true);
-    scatterers_count(frame, sensor->name, scan.scatterers);
+    scan_count_added(&scan, frame);
     scan_lose_silent(&scan, frame, "sensor-smear");
     for (size_t first = 0; first < count; first += together) {
         int64_t begin = effects_begin(selection);
@@ -57,7 +55,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
             smear_make(sensor, &scan.resolved.received_echoes[first], together, frame->arena);
         effects_end(selection, EFFECT_MERGING, begin);
         for (size_t number = 0; number < smear.cells; number++)
-            report(frame, selection, &smear, number, reception.interference);
+            report(frame, selection, &smear, number, context.interference);
     }
 }
 

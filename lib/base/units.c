@@ -1,6 +1,11 @@
 #include "base/units.h"
 
+#include <math.h>
+
 #include "base/elementary.h"
+
+/* Doubles from here on are whole, and infinity is among them: there is nothing to round. */
+#define WHOLE_STEPS 0x1p52
 
 double units_amplitude_db(double amplitude)
 {
@@ -32,4 +37,10 @@ double units_wrap_rad(double angle_rad)
 double units_si(double x)
 {
     return x == 0 ? 1 : elementary_sin(x) / x;
+}
+
+double units_rounded(double value, double step)
+{
+    double steps = step > 0 ? value / step : (double)INFINITY;
+    return fabs(steps) < WHOLE_STEPS ? step * round(steps) : value;
 }

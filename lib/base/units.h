@@ -27,4 +27,8 @@ double units_wrap_rad(double angle_rad);
 /* sin(x)/x, 1 at 0. Within 2 ulp for |x| <= 3 without a series: sin is accurate near 0. */
 double units_si(double x);
 
+/* The nearest multiple of step, halves away from 0. A step of 0 leaves the value as it is, and so
+ * does one too small for the double to have a nearer multiple. */
+double units_rounded(double value, double step);
+
 #endif

@@ -23,38 +23,10 @@
 #include "text/field.h"
 
 /* In the order of the chain. */
-enum effect {
-    EFFECT_LATENCY,
-    EFFECT_VISIBILITY,
-    EFFECT_PLANE_REFLECTION,
-    EFFECT_CURVATURE,
-    EFFECT_ROWS,
-    EFFECT_ELEVATION,
-    EFFECT_OCCLUSION,
-    EFFECT_HEIGHT,
-    EFFECT_DIFFRACTION,
-    EFFECT_GHOSTS,
-    EFFECT_WHEELS,
-    EFFECT_LIMBS,
-    EFFECT_CLUTTER,
-    EFFECT_TWO_RAY,
-    EFFECT_FLUCTUATION,
-    EFFECT_RAIN,
-    EFFECT_FOG,
-    EFFECT_AMBIGUITY,
-    EFFECT_INTERFERENCE,
-    EFFECT_COHERENCE,
-    EFFECT_MERGING,
-    EFFECT_SUPERPOSITION,
-    EFFECT_THRESHOLD,
-    EFFECT_ANGLE_NOISE,
-    EFFECT_RANGE_NOISE,
-    EFFECT_ACCURACY,
-    EFFECT_MISALIGNMENT,
-    EFFECT_FINAL_THRESHOLD,
-    EFFECT_FALSE_ALARMS,
-    EFFECT_LIST_LIMIT,
-    EFFECT_QUANTISATION,
+enum effect_id {
+#define EFFECT(id, name) EFFECT_##id,
+#include "frame/effects.def"
+#undef EFFECT
     EFFECT_COUNT,
     EFFECT_NONE = EFFECT_COUNT,
 };
@@ -62,16 +34,6 @@ enum effect {
 /* Sets of effects, as in a target's label. */
 #define EFFECT_BIT(effect) (UINT64_C(1) << (effect))
 
-struct effect_entry {
-    const char *summary;
-    const char *home;   /* the stage */
-    const char *member; /* of the document that describes its cause */
-    const char *bound;  /* when auto leaves it out: "no object has rows"; "never: ..." if it does so
-                           only where nothing describes it */
-    const char *cost;   /* of simulating it */
-};
-
-extern const struct effect_entry effects_table[EFFECT_COUNT];
 extern const char *const effects_names[]; /* NULL-terminated */
 
 /* What --explain tells: how often each effect was simulated or left out, in frames (scans of one
@@ -94,17 +56,17 @@ struct selection {
  */
 int effects_read(const char *text, struct selection *selection, struct diag *diag);
 
-static inline bool effects_enabled(const struct selection *selection, enum effect effect)
+static inline bool effects_enabled(const struct selection *selection, enum effect_id effect)
 {
     return (selection->allowed & EFFECT_BIT(effect)) != 0;
 }
 
-static inline bool effects_forced(const struct selection *selection, enum effect effect)
+static inline bool effects_forced(const struct selection *selection, enum effect_id effect)
 {
     return effects_enabled(selection, effect) && !selection->automatic;
 }
 
-static inline void effects_note(const struct selection *selection, enum effect effect,
+static inline void effects_note(const struct selection *selection, enum effect_id effect,
                                 bool simulated)
 {
     simulated = simulated && effects_enabled(selection, effect);
@@ -118,7 +80,8 @@ static inline int64_t effects_begin(const struct selection *selection)
     return selection->log != NULL ? selection->log->clock_ns() : 0;
 }
 
-static inline void effects_end(const struct selection *selection, enum effect effect, int64_t begin)
+static inline void effects_end(const struct selection *selection, enum effect_id effect,
+                               int64_t begin)
 {
     if (selection->log != NULL)
         selection->log->spent_ns[effect] += selection->log->clock_ns() - begin;

@@ -34,7 +34,7 @@ static const char *const losses[] = {
     NULL,
 };
 
-static const enum effect losing_effects[] = {
+static const enum effect_id losing_effects[] = {
     [LOSS_FACING_AWAY] = EFFECT_VISIBILITY,
     [LOSS_NO_SPECULAR] = EFFECT_PLANE_REFLECTION,
     [LOSS_OUT_OF_RANGE] = EFFECT_NONE,

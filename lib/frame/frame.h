@@ -177,7 +177,7 @@ struct lost_group {
     const char *sensor;
     const char *stage;
     enum loss reason;
-    enum effect effect; /* that lost them, or EFFECT_NONE */
+    enum effect_id effect; /* that lost them, or EFFECT_NONE */
     LIST_OF(struct lost_echo) echoes;
 };
 

@@ -1,6 +1,8 @@
 #include "noise/noise_targets.h"
 
 #include "base/poisson.h"
+#include "effects/effect.h"
+#include "frame/draw_address.h"
 #include "radar/ground_return.h"
 
 struct contributor noise_targets_contributor(int64_t number)
@@ -46,22 +48,22 @@ double noise_targets_amplitude(double threshold, double noise_sigma, double unif
     return elementary_hypot(threshold, noise_sigma * sqrt(-elementary_log(uniform)));
 }
 
-struct cell_span noise_targets_of(struct frame *frame, const struct sensor *sensor,
-                                  const struct selection *selection, double mean,
-                                  const struct random_address *scan)
+struct cell_span noise_targets_of(struct frame *frame, const struct effect_scan *context)
 {
+    const struct sensor *sensor = context->sensor;
     const struct sensor_view *view = frame_view(frame, sensor->name);
+    struct random_address address =
+        draw_address_in(context->address, noise_targets_contributor(0).id);
     double uniform[4];
-    if (!(mean > 0) || view == NULL || !view->measured)
+    if (!effect_simulates(context, EFFECT_FALSE_ALARMS) || view == NULL || !view->measured)
         return (struct cell_span){0};
-    random_uniform(scan, RANDOM_FALSE_ALARMS, 0, uniform);
-    size_t count = (size_t)poisson_count(mean, uniform[0]);
+    random_uniform(&address, RANDOM_FALSE_ALARMS, 0, uniform);
+    size_t count = (size_t)poisson_count(sensor->false_alarms, uniform[0]);
     struct cell *cells = arena_get(frame->arena, (count + 1) * sizeof *cells);
     for (size_t i = 0; i < count; i++) {
-        random_uniform(scan, RANDOM_FALSE_ALARMS, (uint32_t)i + 1, uniform);
+        random_uniform(&address, RANDOM_FALSE_ALARMS, (uint32_t)i + 1, uniform);
         struct contributor drawn = draw_place(sensor, (int64_t)i + 1, uniform);
-        drawn.time_s = suite_instant_s(sensor, frame->time_s, frame->interval_s,
-                                       effects_enabled(selection, EFFECT_LATENCY));
+        drawn.time_s = context->time_s;
         cells[i] = make_cell(
             frame, sensor, &drawn,
             noise_targets_amplitude(sensor->threshold, sensor->pointer_sigma, uniform[3]));

@@ -7,9 +7,9 @@
 #ifndef NOISE_TARGETS_H
 #define NOISE_TARGETS_H
 
-#include "base/random.h"
-#include "documents/suite.h"
 #include "frame/frame.h"
+
+struct effect_scan;
 
 /* The n-th of a scan, without values. That of 0 is the subject of the scan's draws. */
 struct contributor noise_targets_contributor(int64_t number);
@@ -19,10 +19,8 @@ struct contributor noise_targets_contributor(int64_t number);
  * is the threshold itself. noise_sigma is the RMS of the complex noise on the sum channel. */
 double noise_targets_amplitude(double threshold, double noise_sigma, double uniform);
 
-/* Makes and counts those of one sensor, none if it did not measure in this frame. selection says
- * whether there is latency. */
-struct cell_span noise_targets_of(struct frame *frame, const struct sensor *sensor,
-                                  const struct selection *selection, double mean,
-                                  const struct random_address *scan);
+/* Makes and counts those of one sensor's scan; none if the effect is not simulated, or if the
+ * sensor did not measure in this frame. The frame is that of the context. */
+struct cell_span noise_targets_of(struct frame *frame, const struct effect_scan *context);
 
 #endif

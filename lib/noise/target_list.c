@@ -5,10 +5,8 @@
 #include "base/elementary.h"
 #include "base/sort.h"
 #include "base/units.h"
+#include "effects/effect.h"
 #include "frame/frame_order.h"
-
-/* Doubles from here on are whole, and infinity is among them: there is nothing to round. */
-#define WHOLE_STEPS 0x1p52
 
 struct measurement target_list_measure(const struct cell *cell)
 {
@@ -32,12 +30,6 @@ void target_list_note_margins(const struct sensor *sensor, const struct cell *ce
         margins_note(margins, MARGIN_THRESHOLD,
                      margins_between_db(amplitude, suite_threshold(sensor, cell->interference)));
     margins_note_sign(margins, sensor->angle_estimator, pointers);
-}
-
-double target_list_step(double value, double step)
-{
-    double steps = step > 0 ? value / step : (double)INFINITY;
-    return fabs(steps) < WHOLE_STEPS ? step * round(steps) : value;
 }
 
 static int compare_leaders(const struct measurement *a, const struct measurement *b)
@@ -114,14 +106,17 @@ void target_list_make(struct frame *frame, const char *stage, const struct senso
     }
 }
 
-void target_list_round(struct target *target, const struct sensor *sensor)
+void target_list_round(const struct effect_scan *context, struct target *target)
 {
-    struct target exact = *target;
-    target->range_m = target_list_step(exact.range_m, sensor->range_step_m);
-    target->azimuth_rad =
-        units_wrap_rad(target_list_step(exact.azimuth_rad, sensor->azimuth_step_rad));
-    target->range_rate_mps = target_list_step(exact.range_rate_mps, sensor->range_rate_step_mps);
-    if (target->range_m != exact.range_m || target->azimuth_rad != exact.azimuth_rad ||
-        target->range_rate_mps != exact.range_rate_mps)
-        target->effects |= EFFECT_BIT(EFFECT_QUANTISATION);
+    struct effect_measurement read = {
+        .range_m = target->range_m,
+        .azimuth_rad = target->azimuth_rad,
+        .range_rate_mps = target->range_rate_mps,
+        .effects = target->effects,
+    };
+    effect_measure(context, EFFECT_STEP_ROUNDING, &read);
+    target->range_m = read.range_m;
+    target->azimuth_rad = read.azimuth_rad;
+    target->range_rate_mps = read.range_rate_mps;
+    target->effects = read.effects;
 }

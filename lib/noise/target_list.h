@@ -5,6 +5,8 @@
 #include "documents/suite.h"
 #include "frame/frame.h"
 
+struct effect_scan;
+
 /* One entry of the list before it is one. */
 struct measurement {
     const struct cell *cell;
@@ -24,9 +26,6 @@ void target_list_note_margins(const struct sensor *sensor, const struct cell *ce
                               struct antenna_pointers pointers, double amplitude,
                               bool final_threshold, struct margins *margins);
 
-/* Rounds value to the nearest multiple of step; 0 leaves it as it is. */
-double target_list_step(double value, double step);
-
 /* Writes count measurements of one sensor as targets: strongest or nearest first, ties by the
  * frame's total order, at most limit of them (0: all). The rest is lost for the stage. A
  * measurement without amplitude is lost too: it has no decibels. In a frame with margins, those of
@@ -35,8 +34,9 @@ double target_list_step(double value, double step);
 void target_list_make(struct frame *frame, const char *stage, const struct sensor *sensor,
                       struct measurement *measurements, size_t count, int64_t limit);
 
-/* Rounds the values of a listed target to the sensor's steps; its label keeps the exact ones. The
- * last of all: a sensor orders and cuts its list by what it has itself (EFFECTS 15). */
-void target_list_round(struct target *target, const struct sensor *sensor);
+/* Rounds the values of a listed target to the sensor's steps, if quantisation is simulated; its
+ * contributors keep the exact ones. The last of all: a sensor orders and cuts its list by the
+ * values that it has itself. */
+void target_list_round(const struct effect_scan *context, struct target *target);
 
 #endif

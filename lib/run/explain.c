@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/text.h"
+#include "effects/effect.h"
 
 static int64_t clock_ns(void)
 {
@@ -26,7 +27,7 @@ struct effect_log *explain_begin(struct arena *arena)
 static void explain_effect(const char *stage, int effect, const struct effect_log *log,
                            struct text *text)
 {
-    const struct effect_entry *entry = &effects_table[effect];
+    const struct effect *entry = effect_table[effect];
     text_format(text,
                 "{\"stage\":\"%s\",\"effect\":\"%s\",\"scans\":%" PRId64 ",\"simulated\":%" PRId64
                 ",\"left_out\":%" PRId64 ",\"ns\":%" PRId64 ",\"left_out_when\":",
@@ -64,7 +65,7 @@ int explain_append(const char *path, const char *stage, const struct effect_log 
 {
     struct text text = {0};
     for (int i = 0; i < EFFECT_COUNT; i++) {
-        const char *home = effects_table[i].home;
+        const char *home = effect_homes[effect_table[i]->home];
         if (strncmp(stage, home, strlen(home)) == 0)
             explain_effect(stage, i, log, &text);
     }

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "effects/effect.h"
 #include "run/chain.h"
 #include "run/pipeline.h"
 #include "text/document.h"
@@ -172,12 +173,12 @@ static int print(const char *bytes, size_t length)
 static void list_effects(struct text *text)
 {
     for (int i = 0; i < EFFECT_COUNT; i++) {
-        const struct effect_entry *effect = &effects_table[i];
+        const struct effect *effect = effect_table[i];
         text_format(text,
                     "%-17s %s\n%17s in glint-%s, from %s\n%17s auto leaves it out: %s\n"
                     "%17s costs %s\n",
-                    effects_names[i], effect->summary, "", effect->home, effect->member, "",
-                    effect->bound, "", effect->cost);
+                    effects_names[i], effect->summary, "", effect_homes[effect->home],
+                    effect->cause, "", effect->bound, "", effect->cost);
     }
 }
 

@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include "effects/effect.h"
 #include "frame/frame_text.h"
 
 const char *plan_request(uint64_t allowed, struct arena *arena)
@@ -75,20 +76,20 @@ static const struct effect_log *log_of(const struct plan *plan, int effect)
 
 static void write_effect(const struct plan *plan, int effect, struct text *text)
 {
-    const struct effect_entry *entry = &effects_table[effect];
+    const struct effect *entry = effect_table[effect];
     const struct effect_log *log = log_of(plan, effect);
     text_format(text, "# %-17s ", effects_names[effect]);
     if ((plan->allowed & EFFECT_BIT(effect)) == 0)
         text_add_word(text, "off: not asked for\n");
     else if (log->scans_simulated[effect] > 0)
         text_format(text, "on in %" PRId64 " of %" PRId64 " scans: %s%s%s\n",
-                    log->scans_simulated[effect], log->scans, entry->member,
+                    log->scans_simulated[effect], log->scans, entry->cause,
                     log->scans_left_out[effect] > 0 ? "; else " : "",
                     log->scans_left_out[effect] > 0 ? entry->bound : "");
     else if (log->scans_left_out[effect] > 0 && strncmp(entry->bound, "never", 5) != 0)
         text_format(text, "off: %s\n", entry->bound);
     else
-        text_format(text, "off: nothing describes it (%s)\n", entry->member);
+        text_format(text, "off: nothing describes it (%s)\n", entry->cause);
 }
 
 static void write_stage(const struct plan_position *position, struct text *text)

@@ -2,26 +2,22 @@
 
 #include "base/sort.h"
 #include "radar/resolution.h"
-#include "sensor/scatterers.h"
+#include "sensor/received_echo.h"
 
-struct scan scan_receive(const struct reception *reception)
+struct scan scan_receive(const struct effect_scan *context)
 {
-    struct scan scan = {.reception = *reception};
-    const struct frame *frame = reception->frame;
-    struct echo_span echoes = frame_echoes_of(frame, reception->sensor->name);
-    struct echo_span scatterers = scatterers_of(reception);
-    size_t all = echoes.count + scatterers.count, count = all;
-    struct received_echo *received_echoes =
-        arena_get(frame->arena, (all + 1) * sizeof *received_echoes);
-    for (size_t i = 0; i < echoes.count; i++)
-        received_echoes[i] = received_echo_of(reception, &echoes.items[i]);
-    for (size_t i = 0; i < scatterers.count; i++)
-        received_echoes[echoes.count + i] = received_echo_of(reception, &scatterers.items[i]);
-    sort_items(received_echoes, count, sizeof *received_echoes, resolution_cell_compare,
-               frame->arena);
+    struct echo_span added = effect_added_echoes(context);
+    struct scan scan = {.context = *context, .added = added};
+    struct arena *arena = context->frame->arena;
+    size_t all = context->echoes.count + added.count, count = all;
+    struct received_echo *received_echoes = arena_get(arena, (all + 1) * sizeof *received_echoes);
+    for (size_t i = 0; i < context->echoes.count; i++)
+        received_echoes[i] = received_echo_of(context, &context->echoes.items[i]);
+    for (size_t i = 0; i < added.count; i++)
+        received_echoes[context->echoes.count + i] = received_echo_of(context, &added.items[i]);
+    sort_items(received_echoes, count, sizeof *received_echoes, resolution_cell_compare, arena);
     while (count > 0 && !(received_echoes[count - 1].amplitude > 0))
         count--;
-    scan.scatterers = scatterers;
     scan.resolved.received_echoes = received_echoes;
     scan.resolved.count = count;
     scan.silent = received_echoes + count;
@@ -32,7 +28,7 @@ struct scan scan_receive(const struct reception *reception)
 /* Counts the received echoes of every cell, and puts each behind those that came before it. */
 static void group(struct scan *scan)
 {
-    struct arena *arena = scan->reception.frame->arena;
+    struct arena *arena = scan->context.frame->arena;
     const struct clustered_echoes *all = &scan->resolved;
     struct received_echo *by_cell = arena_get(arena, all->count * sizeof *by_cell);
     size_t *first = arena_get(arena, (scan->cells + 2) * sizeof *first);
@@ -48,8 +44,8 @@ static void group(struct scan *scan)
 
 static void resolve(struct scan *scan, const struct selection *selection)
 {
-    const struct sensor *sensor = scan->reception.sensor;
-    struct arena *arena = scan->reception.frame->arena;
+    const struct sensor *sensor = scan->context.sensor;
+    struct arena *arena = scan->context.frame->arena;
     double half_range_m = sensor->half_range_m, half_rate_mps = sensor->half_range_rate_mps;
     const struct received_echo *received_echoes = scan->resolved.received_echoes;
     size_t count = scan->resolved.count;
@@ -75,9 +71,9 @@ static void resolve(struct scan *scan, const struct selection *selection)
     effects_end(selection, EFFECT_MERGING, begin);
 }
 
-struct scan scan_make(const struct reception *reception, const struct selection *selection)
+struct scan scan_make(const struct effect_scan *context, const struct selection *selection)
 {
-    struct scan scan = scan_receive(reception);
+    struct scan scan = scan_receive(context);
     resolve(&scan, selection);
     return scan;
 }
@@ -88,11 +84,17 @@ const struct received_echo *scan_members(const struct scan *scan, size_t number,
     return scan->by_cell + scan->first[number];
 }
 
+void scan_count_added(const struct scan *scan, struct frame *frame)
+{
+    for (size_t i = 0; i < scan->added.count; i++)
+        frame_count_echoes(frame, scan->context.sensor->name, scan->added.items[i].id.path, 1);
+}
+
 void scan_lose_silent(const struct scan *scan, struct frame *frame, const char *stage)
 {
     for (size_t i = 0; i < scan->silent_count; i++) {
         const struct received_echo *silent = &scan->silent[i];
         struct lost_echo lost = {.id = silent->echo.id, .margins = *silent->margins};
-        frame_lose(frame, stage, scan->reception.sensor->name, LOSS_NO_AMPLITUDE, &lost);
+        frame_lose(frame, stage, scan->context.sensor->name, LOSS_NO_AMPLITUDE, &lost);
     }
 }

@@ -4,6 +4,7 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
+#include "effects/effect.h"
 #include "noise/noise_targets.h"
 #include "radar/interferer.h"
 #include "sensor/cell_margins.h"
@@ -57,11 +58,11 @@ static void add_beams(struct detections *sightings, const struct range_doppler_p
 
 struct detections detections_of(const struct signal_cube *signal,
                                 const struct range_doppler *spectrum,
-                                const struct reception *reception)
+                                const struct effect_scan *context)
 {
-    struct arena *arena = reception->frame->arena;
-    double threshold = signal->sensor->threshold * interferer_noise_factor(reception->interference);
-    struct detections sightings = {signal, spectrum, threshold, reception->time_s, {NULL, 0, 0}};
+    struct arena *arena = context->frame->arena;
+    double threshold = signal->sensor->threshold * interferer_noise_factor(context->interference);
+    struct detections sightings = {signal, spectrum, threshold, context->time_s, {NULL, 0, 0}};
     struct cfar cfar = waveform_cfar(&signal->sensor->waveform);
     struct range_doppler_peak *peaks;
     bool array = signal->array.elements > 0;
@@ -227,15 +228,17 @@ static struct measurement reading_at(const struct sighting *sighting)
 }
 
 void detections_list(const struct detections *sightings, struct frame *frame, const char *stage,
-                     const struct measurement_noise *by)
+                     const struct effect_scan *noise)
 {
     size_t first = frame->targets.count, count = sightings->list.count;
     struct measurement *measurements = arena_get(frame->arena, (count + 1) * sizeof *measurements);
     for (size_t i = 0; i < count; i++) {
         measurements[i] = reading_at(&sightings->list.items[i]);
-        measurement_noise_azimuth(by, &measurements[i]);
+        measurement_noise_turn(noise, &measurements[i]);
     }
-    target_list_make(frame, stage, by->sensor, measurements, count, by->list_limit);
-    for (size_t i = first; i < frame->targets.count && by->steps; i++)
-        target_list_round(&frame->targets.items[i], by->sensor);
+    bool limited = effect_simulates(noise, EFFECT_LIST_LIMIT);
+    target_list_make(frame, stage, noise->sensor, measurements, count,
+                     limited ? noise->sensor->list_limit : 0);
+    for (size_t i = first; i < frame->targets.count; i++)
+        target_list_round(noise, &frame->targets.items[i]);
 }

@@ -33,7 +33,7 @@ struct detections {
  * every beam: range, azimuth, rate and amplitude. Memory comes from the frame's arena. */
 struct detections detections_of(const struct signal_cube *signal,
                                 const struct range_doppler *spectrum,
-                                const struct reception *reception);
+                                const struct effect_scan *context);
 
 /* Gives every sighting its cell, and a range rate as near to that of its strongest echo as its
  * ambiguity allows; writes off the received echoes that no sighting shows, and counts false alarms.
@@ -43,6 +43,6 @@ void detections_label(struct detections *sightings, struct frame *frame, const c
 
 /* Writes the list: misaligned, in its order, up to its limit, rounded. */
 void detections_list(const struct detections *sightings, struct frame *frame, const char *stage,
-                     const struct measurement_noise *by);
+                     const struct effect_scan *noise);
 
 #endif

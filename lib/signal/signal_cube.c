@@ -215,17 +215,16 @@ void signal_cube_weigh(const struct signal_cube *signal)
 
 void signal_cube_receive(const struct signal_cube *signal, const struct scan *scan, bool noisy)
 {
-    const struct reception *reception = &scan->reception;
-    struct contributor noise = noise_targets_contributor(0);
+    const struct effect_scan *context = &scan->context;
     struct random_address address =
-        draw_address_of(reception->frame, reception->sensor->name, noise.id);
+        draw_address_in(context->address, noise_targets_contributor(0).id);
     signal_cube_clear(signal);
     signal_cube_add(signal, scan->resolved.received_echoes, scan->resolved.count,
-                    reception->frame->arena);
+                    context->frame->arena);
     if (noisy)
         signal_cube_add_noise(signal, &address,
                               signal->sensor->pointer_sigma *
-                                  interferer_noise_factor(reception->interference));
+                                  interferer_noise_factor(context->interference));
     signal_cube_weigh(signal);
 }
 

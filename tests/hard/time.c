@@ -5,7 +5,7 @@
 
 #include "base/number.h"
 #include "base/sort.h"
-#include "noise/target_list.h"
+#include "base/units.h"
 #include "radar/resolution.h"
 #include "radar/scan_timing.h"
 #include "sensor/resolution_cell.h"
@@ -223,9 +223,9 @@ static void multiples_of_a_step_stay_in_their_bin(void **state)
         for (int k = 0; k < hard_points(10000); k++) {
             char decimal[32];
             snprintf(decimal, sizeof decimal, "%.10g", k * steps[s]);
-            double value = strtod(decimal, NULL), reported = target_list_step(value, steps[s]);
+            double value = strtod(decimal, NULL), reported = units_rounded(value, steps[s]);
             naive += floor(value / steps[s]) != k;
-            ours += reported != k * steps[s] || target_list_step(reported, steps[s]) != reported;
+            ours += reported != k * steps[s] || units_rounded(reported, steps[s]) != reported;
         }
     hard_case("43", "1e4 multiples of five steps", "wrong", naive, ours, 0);
 }

@@ -11,6 +11,7 @@
 #include <time.h>
 
 #include "compare.h"
+#include "effects/effect.h"
 #include "frame/frame_text.h"
 #include "planted.h"
 #include "run/fused.h"
@@ -287,7 +288,7 @@ static void tell_effects(struct text *text, const struct planner *planner)
     for (int i = 0; i < EFFECT_COUNT; i++)
         for (int j = 0; j < STEPS; j++) {
             const struct effect_log *log = &planner->logs[j];
-            if (strcmp(effects_table[i].home, steps[j]) != 0)
+            if (strcmp(effect_homes[effect_table[i]->home], steps[j]) != 0)
                 continue;
             text_format(text,
                         "%s\"%s\":{\"scans\":%" PRId64 ",\"simulated\":%" PRId64

@@ -110,6 +110,20 @@ static void si_is_sine_over_argument_to_two_ulp(void **state)
     }
 }
 
+static void steps_round_to_the_nearest_multiple(void **state)
+{
+    (void)state;
+    static const double cases[][3] = {{12.3456, 0, 12.3456}, {12.34, 0.25, 12.25},
+                                      {12.4, 0.25, 12.5},    {-12.4, 0.25, -12.5},
+                                      {0.125, 0.25, 0.25},   {-0.125, 0.25, -0.25},
+                                      {0.1, 0.25, 0},        {7, 2, 8},
+                                      {1e6, 1000, 1e6},      {3, 1, 3},
+                                      {1e6, 5e-324, 1e6},    {-0.3, 1e-320, -0.3},
+                                      {0, 5e-324, 0},        {5e-324, 1e3, 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        assert_close(units_rounded(cases[i][0], cases[i][1]), cases[i][2], 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -122,6 +136,7 @@ int main(void)
         cmocka_unit_test(a_wrapped_angle_keeps_its_direction),
         cmocka_unit_test(every_finite_angle_wraps),
         cmocka_unit_test(si_is_sine_over_argument_to_two_ulp),
+        cmocka_unit_test(steps_round_to_the_nearest_multiple),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -48,19 +48,6 @@ static void an_unknown_effect_is_refused_by_name(void **state)
     }
 }
 
-static void every_effect_says_what_it_is(void **state)
-{
-    (void)state;
-    for (int i = 0; i < EFFECT_COUNT; i++) {
-        const struct effect_entry *entry = &effects_table[i];
-        assert_non_null(effects_names[i]);
-        assert_true(entry->summary && entry->home && entry->member && entry->bound && entry->cost);
-        assert_true(strcmp(entry->home, "ideal") == 0 || strcmp(entry->home, "sensor") == 0 ||
-                    strcmp(entry->home, "noise") == 0);
-    }
-    assert_null(effects_names[EFFECT_COUNT]);
-}
-
 static int64_t no_clock(void)
 {
     return 0;
@@ -89,7 +76,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_request_names_what_may_be_simulated),
         cmocka_unit_test(an_unknown_effect_is_refused_by_name),
-        cmocka_unit_test(every_effect_says_what_it_is),
         cmocka_unit_test(a_scan_in_which_one_object_needs_an_effect_counts_as_simulated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,6 @@
 #include "check.h"
 
+#include "effects/effect.h"
 #include "noise/noise_targets.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -24,12 +25,20 @@ struct scan {
 
 static struct cell_span scan_of(struct scan *scan, double mean, uint64_t number, bool measured)
 {
-    *scan = (struct scan){.frame = {.time_s = 3, .interval_s = 0.1, .account = true}};
+    *scan = (struct scan){.frame = {.scene = "s",
+                                    .seed = 1,
+                                    .frame = (int64_t)number,
+                                    .time_s = 3,
+                                    .interval_s = 0.1,
+                                    .account = true}};
     scan->frame.arena = &scan->arena;
     *list_add(&scan->frame.sensors.list, &scan->arena) =
         (struct sensor_view){.name = "s", .measured = measured};
-    struct random_address address = {.seed = 1, .frame = number};
-    return noise_targets_of(&scan->frame, &radar, &everything, mean, &address);
+    struct sensor sensor = radar;
+    sensor.false_alarms = mean;
+    struct effect_scan context =
+        effect_begin(&scan->frame, &sensor, &everything, EFFECT_HOME_NOISE);
+    return noise_targets_of(&scan->frame, &context);
 }
 
 static void every_false_alarm_lies_in_the_sensor_s_cells(void **state)

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "effects/effect.h"
 #include "noise/target_list.h"
 #include "sample.h"
 
@@ -194,25 +195,14 @@ static void no_number_among_the_amplitudes_makes_no_target(void **state)
     arena_free(&list.arena);
 }
 
-static void steps_round_to_the_nearest_multiple(void **state)
-{
-    (void)state;
-    static const double cases[][3] = {{12.3456, 0, 12.3456}, {12.34, 0.25, 12.25},
-                                      {12.4, 0.25, 12.5},    {-12.4, 0.25, -12.5},
-                                      {0.125, 0.25, 0.25},   {-0.125, 0.25, -0.25},
-                                      {0.1, 0.25, 0},        {7, 2, 8},
-                                      {1e6, 1000, 1e6},      {3, 1, 3},
-                                      {1e6, 5e-324, 1e6},    {-0.3, 1e-320, -0.3},
-                                      {0, 5e-324, 0},        {5e-324, 1e3, 0}};
-    for (size_t i = 0; i < COUNT(cases); i++)
-        assert_close(target_list_step(cases[i][0], cases[i][1]), cases[i][2], 0);
-}
-
 static void a_listed_target_is_rounded_and_its_label_is_not(void **state)
 {
     (void)state;
     const struct sensor sensor = {
-        .range_step_m = 0.5, .range_rate_step_mps = 0.25, .azimuth_step_rad = 1.1};
+        .name = "s", .range_step_m = 0.5, .range_rate_step_mps = 0.25, .azimuth_step_rad = 1.1};
+    static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
+    const struct frame frame = {.scene = "s"};
+    struct effect_scan context = effect_begin(&frame, &sensor, &everything, EFFECT_HOME_NOISE);
     static const struct {
         double azimuth_rad, reported_rad;
     } cases[] = {{0.4, 0}, {-1, -1.1}, {3.1, 3.3 - 2 * PI}};
@@ -222,7 +212,7 @@ static void a_listed_target_is_rounded_and_its_label_is_not(void **state)
                                 .range_rate_mps = -3.2,
                                 .cell_range_m = 10.3,
                                 .amplitude_db = 7.7};
-        target_list_round(&target, &sensor);
+        target_list_round(&context, &target);
         assert_close(target.range_m, 10.5, 0);
         assert_close(target.azimuth_rad, cases[i].reported_rad, 1e-15);
         assert_close(target.range_rate_mps, -3.25, 0);
@@ -231,7 +221,7 @@ static void a_listed_target_is_rounded_and_its_label_is_not(void **state)
         assert_int_equal(target.effects, EFFECT_BIT(EFFECT_QUANTISATION));
     }
     struct target even = {.range_m = 10.5, .range_rate_mps = -3.25};
-    target_list_round(&even, &sensor);
+    target_list_round(&context, &even);
     assert_int_equal(even.effects, 0);
 }
 
@@ -243,7 +233,6 @@ int main(void)
         cmocka_unit_test(a_target_has_the_reading_and_the_label_of_its_cell),
         cmocka_unit_test(the_limit_tells_how_near_it_cut),
         cmocka_unit_test(no_number_among_the_amplitudes_makes_no_target),
-        cmocka_unit_test(steps_round_to_the_nearest_multiple),
         cmocka_unit_test(a_listed_target_is_rounded_and_its_label_is_not),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -77,9 +77,10 @@ static void check_cell(const struct scan *scan, size_t number, const char *names
 
 static struct scan scan_of(struct bench *bench)
 {
-    struct reception reception =
-        received_echo_begin(&bench->frame, &bench->sensor, bench->selection.allowed);
-    return scan_make(&reception, &bench->selection);
+    struct effect_scan context =
+        effect_begin(&bench->frame, &bench->sensor, &bench->selection, EFFECT_HOME_SENSOR);
+    bench->log.simulated = bench->log.left_out = 0;
+    return scan_make(&context, &bench->selection);
 }
 
 static void cells_are_numbered_by_their_leaders_strongest_first(void **state)

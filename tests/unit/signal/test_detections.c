@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "effects/effect.h"
 #include "sensor/cell_margins.h"
 #include "signal/detections.h"
 
@@ -71,11 +72,11 @@ static void show(struct bench *bench, double range_m, double rate_mps, double am
 
 static struct detections sight(struct bench *bench)
 {
-    const struct reception reception = {.frame = &bench->frame, .sensor = &bench->sensor};
+    const struct effect_scan context = {.frame = &bench->frame, .sensor = &bench->sensor};
     const struct clustered_echoes received = {.received_echoes = bench->received_echoes,
                                               .count = bench->count};
     bench->spectrum = signal_cube_spectrum(&bench->signal, &bench->arena);
-    struct detections sightings = detections_of(&bench->signal, &bench->spectrum, &reception);
+    struct detections sightings = detections_of(&bench->signal, &bench->spectrum, &context);
     detections_label(&sightings, &bench->frame, "test", &received);
     return sightings;
 }

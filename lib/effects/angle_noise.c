@@ -1,0 +1,34 @@
+#include "effects/effect.h"
+
+#include <complex.h>
+#include <math.h>
+
+#include "radar/interferer.h"
+
+static bool described(const struct effect_scan *scan)
+{
+    return scan->sensor->pointer_sigma > 0;
+}
+
+/* Equation (8): both channels get independent complex noise of the same RMS, which other radars
+ * raise. */
+static bool disturb(const struct effect_scan *scan, struct effect_measurement *measurement)
+{
+    const double _Complex i = (double _Complex)I;
+    double draw[4], sigma = scan->sensor->pointer_sigma * sqrt(0.5) *
+                            interferer_noise_factor(measurement->cell->interference);
+    random_gaussian(&measurement->address, RANDOM_POINTERS, 0, draw);
+    measurement->pointers.sum += sigma * draw[0] + i * (sigma * draw[1]);
+    measurement->pointers.delta += sigma * draw[2] + i * (sigma * draw[3]);
+    return true;
+}
+
+const struct effect effect_angle_noise = {
+    .summary = "noise on both channels disturbs angle and amplitude",
+    .home = EFFECT_HOME_NOISE,
+    .cause = "pointer_sigma of a sensor",
+    .bound = "pointer_sigma is 0",
+    .cost = "four draws and an angle per cell",
+    .described = described,
+    .measure[EFFECT_STEP_POINTERS] = disturb,
+};

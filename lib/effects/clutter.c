@@ -1,0 +1,88 @@
+/* Points of the ground are echoes of the reflector "ground" of the object "clutter", which is no
+ * object of the frame, with numbers from 1. */
+#include "effects/effect.h"
+
+#include <math.h>
+
+#include "base/elementary.h"
+#include "base/poisson.h"
+#include "frame/draw_address.h"
+#include "geometry/sensor_pose.h"
+#include "radar/ground_return.h"
+
+/* Points in a scan: of more, those with higher numbers are left out, so that clutter is thinner
+ * everywhere alike. */
+enum { MOST_POINTS = 1000 };
+
+static bool described(const struct effect_scan *scan)
+{
+    const struct conditions *conditions = &scan->frame->conditions;
+    const struct sensor_view *view = frame_view(scan->frame, scan->sensor->name);
+    return conditions->clutter_per_m2 > 0 && conditions->clutter_ercs > 0 && view != NULL &&
+           view->measured;
+}
+
+/* A body that turns keeps its velocity in its own frame (motion_after), so that latency makes no
+ * difference to how the ground passes by. */
+static struct sensor_pose pose_of(const struct effect_scan *scan)
+{
+    const struct sensor *sensor = scan->sensor;
+    struct motion ego = frame_motion(frame_object(scan->frame, scan->frame->ego), 0);
+    return sensor_pose_on(&ego, sensor->mount_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
+}
+
+static int64_t point_count(const struct effect_scan *scan, double uniform)
+{
+    const struct sensor *sensor = scan->sensor;
+    const struct conditions *conditions = &scan->frame->conditions;
+    double area_m2 =
+        ground_return_area_m2(sensor->range_min_m, sensor->range_max_m, sensor->field_of_view_rad);
+    int64_t count = poisson_overdispersed_count(conditions->clutter_per_m2 * area_m2,
+                                                conditions->clutter_overdispersion, uniform);
+    return count < MOST_POINTS ? count : MOST_POINTS;
+}
+
+/* Places are even over the area, power has an exponential law. */
+static void draw_point(const struct effect_scan *scan, const struct sensor_pose *pose,
+                       const double uniform[3], struct echo *point)
+{
+    const struct sensor *sensor = scan->sensor;
+    point->range_m = ground_return_range_m(sensor->range_min_m, sensor->range_max_m, uniform[0]);
+    point->azimuth_rad = sensor->field_of_view_rad * (uniform[1] - 0.5);
+    point->range_rate_mps =
+        ground_return_range_rate_mps(pose->velocity_mps, pose->boresight, point->azimuth_rad);
+    point->ercs = scan->frame->conditions.clutter_ercs * sqrt(-elementary_log(uniform[2]));
+}
+
+static void add_echoes(const struct effect_scan *scan, struct effect_echoes *echoes)
+{
+    struct sensor_pose pose = pose_of(scan);
+    struct echo ground = {
+        .sensor = scan->sensor->name,
+        .id.object = "clutter",
+        .id.reflector = "ground",
+        .id.path = PATH_CLUTTER,
+        .time_s = scan->time_s,
+        .effects = EFFECT_BIT(EFFECT_CLUTTER),
+    };
+    struct random_address address = draw_address_in(scan->address, ground.id);
+    double uniform[4];
+    random_uniform(&address, RANDOM_CLUTTER, 0, uniform);
+    int64_t count = point_count(scan, uniform[0]);
+    for (ground.id.number = 1; ground.id.number <= count; ground.id.number++) {
+        struct echo point = ground;
+        random_uniform(&address, RANDOM_CLUTTER, (uint32_t)ground.id.number, uniform);
+        draw_point(scan, &pose, uniform, &point);
+        effect_add(scan, echoes, &point);
+    }
+}
+
+const struct effect effect_clutter = {
+    .summary = "the ground and what stands on it echo",
+    .home = EFFECT_HOME_SENSOR,
+    .cause = "clutter_per_m2, clutter_ercs of the conditions",
+    .bound = "one of both is 0",
+    .cost = "a draw per point of clutter",
+    .described = described,
+    .add_echoes = add_echoes,
+};

@@ -1,0 +1,136 @@
+#include "effects/effect.h"
+
+#include <math.h>
+
+#include "frame/draw_address.h"
+
+#define EFFECT(id, name) extern const struct effect effect_##name;
+#include "frame/effects.def"
+#undef EFFECT
+
+const struct effect *const effect_table[EFFECT_COUNT] = {
+#define EFFECT(id, name) &effect_##name,
+#include "frame/effects.def"
+#undef EFFECT
+};
+
+const char *const effect_homes[] = {
+    [EFFECT_HOME_IDEAL] = "ideal",
+    [EFFECT_HOME_SENSOR] = "sensor",
+    [EFFECT_HOME_NOISE] = "noise",
+    NULL,
+};
+
+/* Takes the first effect out of a set that is not empty. */
+static enum effect_id take_first(uint64_t *set)
+{
+    enum effect_id first = (enum effect_id)__builtin_ctzll(*set);
+    *set &= *set - 1;
+    return first;
+}
+
+static void simulate(struct effect_scan *scan, enum effect_id id)
+{
+    const struct effect *effect = effect_table[id];
+    scan->effects |= EFFECT_BIT(id);
+    if (effect->receive != NULL)
+        scan->receiving |= EFFECT_BIT(id);
+    for (int step = 0; step < EFFECT_STEPS; step++)
+        if (effect->measure[step] != NULL)
+            scan->measuring[step] |= EFFECT_BIT(id);
+    if (effect->interference != NULL)
+        scan->interference += effect->interference(scan);
+    if (effect->begin == NULL)
+        return;
+    if (scan->constants == NULL)
+        scan->constants = arena_get(scan->frame->arena, EFFECT_COUNT * sizeof *scan->constants);
+    effect->begin(scan, scan->constants[id]);
+}
+
+struct effect_scan effect_begin(const struct frame *frame, const struct sensor *sensor,
+                                const struct selection *selection, enum effect_home home)
+{
+    struct effect_scan scan = {
+        .frame = frame,
+        .sensor = sensor,
+        .time_s = suite_instant_s(sensor, frame->time_s, frame->interval_s,
+                                  effects_enabled(selection, EFFECT_LATENCY)),
+        .address = draw_address_of_scan(frame, sensor->name),
+    };
+    if (home == EFFECT_HOME_SENSOR)
+        scan.echoes = frame_echoes_of(frame, sensor->name);
+    for (enum effect_id id = 0; id < EFFECT_COUNT; id++) {
+        const struct effect *effect = effect_table[id];
+        if (effect->home != home || effect->described == NULL)
+            continue;
+        bool simulated = effects_enabled(selection, id) && effect->described(&scan);
+        effects_note(selection, id, simulated);
+        if (simulated)
+            simulate(&scan, id);
+    }
+    return scan;
+}
+
+struct echo_span effect_added_echoes(const struct effect_scan *scan)
+{
+    struct effect_echoes echoes = {0};
+    for (uint64_t set = scan->effects; set != 0;) {
+        const struct effect *effect = effect_table[take_first(&set)];
+        if (effect->add_echoes != NULL)
+            effect->add_echoes(scan, &echoes);
+    }
+    return (struct echo_span){echoes.list.items, echoes.list.count};
+}
+
+void effect_add(const struct effect_scan *scan, struct effect_echoes *echoes,
+                const struct echo *echo)
+{
+    const struct sensor *sensor = scan->sensor;
+    if (echo->range_m > 0 && echo->range_m >= sensor->range_min_m &&
+        echo->range_m <= sensor->range_max_m && fabs(echo->azimuth_rad) < suite_border_rad(sensor))
+        *list_add(&echoes->list, scan->frame->arena) = *echo;
+}
+
+bool effect_scale(struct effect_reception *reception, double factor)
+{
+    reception->strength *= factor;
+    reception->amplitude *= factor;
+    return factor != 1;
+}
+
+uint64_t effect_receive(const struct effect_scan *scan, struct effect_reception *reception)
+{
+    uint64_t effects = 0;
+    for (uint64_t set = scan->receiving; set != 0;) {
+        enum effect_id id = take_first(&set);
+        if (effect_table[id]->receive(scan, reception))
+            effects |= EFFECT_BIT(id);
+    }
+    return effects;
+}
+
+struct effect_measurement effect_measurement_of(const struct effect_scan *scan,
+                                                const struct cell *cell)
+{
+    return (struct effect_measurement){
+        .cell = cell,
+        .address = draw_address_in(scan->address, cell->members.items[0].id),
+        .pointers = frame_cell_pointers(cell),
+        .range_m = cell->range_m,
+        .azimuth_rad = cell->azimuth_rad,
+        .range_rate_mps = cell->range_rate_mps,
+        .range_sigma_m = scan->sensor->range_sigma_m,
+        .range_rate_sigma_mps = scan->sensor->range_rate_sigma_mps,
+        .effects = cell->effects,
+    };
+}
+
+void effect_measure(const struct effect_scan *scan, enum effect_step step,
+                    struct effect_measurement *measurement)
+{
+    for (uint64_t set = scan->measuring[step]; set != 0;) {
+        enum effect_id id = take_first(&set);
+        if (effect_table[id]->measure[step](scan, measurement))
+            measurement->effects |= EFFECT_BIT(id);
+    }
+}

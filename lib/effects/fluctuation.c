@@ -1,0 +1,28 @@
+#include "effects/effect.h"
+
+#include "frame/draw_address.h"
+
+static bool described(const struct effect_scan *scan)
+{
+    return scan->sensor->fluctuation != FLUCTUATION_NONE;
+}
+
+static bool receive(const struct effect_scan *scan, struct effect_reception *reception)
+{
+    const struct sensor *sensor = scan->sensor;
+    struct random_address address = draw_address_in(scan->address, reception->echo->id);
+    double uniform[4];
+    random_uniform(&address, RANDOM_FLUCTUATION, 0, uniform);
+    return effect_scale(reception, swerling_amplitude_factor(
+                                       sensor->fluctuation, sensor->fluctuation_sigma_db, uniform));
+}
+
+const struct effect effect_fluctuation = {
+    .summary = "echoes vary in strength from scan to scan",
+    .home = EFFECT_HOME_SENSOR,
+    .cause = "fluctuation of a sensor",
+    .bound = "never: any draw may matter",
+    .cost = "a draw per echo",
+    .described = described,
+    .receive = receive,
+};

@@ -1,0 +1,32 @@
+#include "effects/effect.h"
+
+#include "radar/attenuation.h"
+
+static bool described(const struct effect_scan *scan)
+{
+    return scan->frame->conditions.fog_gpm3 > 0;
+}
+
+static void begin(const struct effect_scan *scan, double *dbpkm)
+{
+    const double temperature_c = 10;
+    *dbpkm = attenuation_fog_dbpkm(scan->sensor->carrier_hz, temperature_c,
+                                   scan->frame->conditions.fog_gpm3);
+}
+
+static bool receive(const struct effect_scan *scan, struct effect_reception *reception)
+{
+    double dbpkm = scan->constants[EFFECT_FOG][0];
+    return effect_scale(reception, attenuation_amplitude_factor(dbpkm, reception->echo->range_m));
+}
+
+const struct effect effect_fog = {
+    .summary = "fog attenuates",
+    .home = EFFECT_HOME_SENSOR,
+    .cause = "fog_gpm3 of the conditions",
+    .bound = "there is none",
+    .cost = "an exponential per echo",
+    .described = described,
+    .begin = begin,
+    .receive = receive,
+};

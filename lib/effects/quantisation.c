@@ -1,0 +1,32 @@
+#include "effects/effect.h"
+
+#include "base/units.h"
+
+static bool described(const struct effect_scan *scan)
+{
+    const struct sensor *sensor = scan->sensor;
+    return sensor->range_step_m > 0 || sensor->range_rate_step_mps > 0 ||
+           sensor->azimuth_step_rad > 0;
+}
+
+static bool round_values(const struct effect_scan *scan, struct effect_measurement *measurement)
+{
+    const struct sensor *sensor = scan->sensor;
+    double range_m = measurement->range_m, azimuth_rad = measurement->azimuth_rad,
+           rate_mps = measurement->range_rate_mps;
+    measurement->range_m = units_rounded(range_m, sensor->range_step_m);
+    measurement->azimuth_rad = units_wrap_rad(units_rounded(azimuth_rad, sensor->azimuth_step_rad));
+    measurement->range_rate_mps = units_rounded(rate_mps, sensor->range_rate_step_mps);
+    return measurement->range_m != range_m || measurement->azimuth_rad != azimuth_rad ||
+           measurement->range_rate_mps != rate_mps;
+}
+
+const struct effect effect_quantisation = {
+    .summary = "reported values are multiples of a step",
+    .home = EFFECT_HOME_NOISE,
+    .cause = "range_step_m, range_rate_step_mps, azimuth_step_rad of a sensor",
+    .bound = "all steps are 0",
+    .cost = "three roundings per target",
+    .described = described,
+    .measure[EFFECT_STEP_ROUNDING] = round_values,
+};

@@ -1,0 +1,32 @@
+#include "effects/effect.h"
+
+#include "radar/attenuation.h"
+
+static bool described(const struct effect_scan *scan)
+{
+    return scan->frame->conditions.rain_mmph > 0;
+}
+
+static void begin(const struct effect_scan *scan, double *dbpkm)
+{
+    const struct sensor *sensor = scan->sensor;
+    struct attenuation_law law = attenuation_rain_law(sensor->carrier_hz, sensor->polarization);
+    *dbpkm = attenuation_rain_dbpkm(law, scan->frame->conditions.rain_mmph);
+}
+
+static bool receive(const struct effect_scan *scan, struct effect_reception *reception)
+{
+    double dbpkm = scan->constants[EFFECT_RAIN][0];
+    return effect_scale(reception, attenuation_amplitude_factor(dbpkm, reception->echo->range_m));
+}
+
+const struct effect effect_rain = {
+    .summary = "rain attenuates",
+    .home = EFFECT_HOME_SENSOR,
+    .cause = "rain_mmph of the conditions",
+    .bound = "there is none",
+    .cost = "an exponential per echo",
+    .described = described,
+    .begin = begin,
+    .receive = receive,
+};

@@ -1,0 +1,33 @@
+#include "effects/effect.h"
+
+#include "base/elementary.h"
+
+static bool described(const struct effect_scan *scan)
+{
+    const struct sensor *sensor = scan->sensor;
+    return sensor->range_sigma_m > 0 || sensor->range_rate_sigma_mps > 0 ||
+           sensor->sigma_law == SIGMA_BY_SNR;
+}
+
+/* No range is below 0. */
+static bool disturb(const struct effect_scan *scan, struct effect_measurement *measurement)
+{
+    double draw[2];
+    effect_measure(scan, EFFECT_STEP_DEVIATION, measurement);
+    random_gaussian_pair(&measurement->address, RANDOM_RANGE_RATE, 0, draw);
+    measurement->range_m =
+        elementary_max(measurement->range_m + measurement->range_sigma_m * draw[0], 0);
+    measurement->range_rate_mps += measurement->range_rate_sigma_mps * draw[1];
+    return measurement->range_m != measurement->cell->range_m ||
+           measurement->range_rate_mps != measurement->cell->range_rate_mps;
+}
+
+const struct effect effect_range_noise = {
+    .summary = "noise on range and range rate",
+    .home = EFFECT_HOME_NOISE,
+    .cause = "range_sigma_m, range_rate_sigma_mps of a sensor",
+    .bound = "both are 0 and sigma_law is not by_snr",
+    .cost = "two draws per cell",
+    .described = described,
+    .measure[EFFECT_STEP_RANGE] = disturb,
+};

@@ -1,0 +1,65 @@
+/* The road mirrors echoes with a known height: direct ones and what moves on their reflectors.
+ * Ghosts and clutter have none. */
+#include "effects/effect.h"
+
+#include <math.h>
+
+#include "base/elementary.h"
+#include "base/units.h"
+#include "radar/road_mirror.h"
+
+static bool described(const struct effect_scan *scan)
+{
+    if (scan->frame->conditions.road == ROAD_UNKNOWN || !(scan->sensor->mount_z_m > 0))
+        return false;
+    for (size_t i = 0; i < scan->echoes.count; i++)
+        if (scan->echoes.items[i].height_m > 0)
+            return true;
+    return false;
+}
+
+/* Permittivity and roughness; asphalt is assumed, concrete ITU-R P.2040's. */
+static void begin(const struct effect_scan *scan, double *constants)
+{
+    double carrier_ghz = scan->sensor->carrier_hz / 1e9;
+    double conductivity_spm = 0.0462 * elementary_pow(carrier_ghz, 0.7822);
+    bool asphalt = scan->frame->conditions.road == ROAD_ASPHALT;
+    constants[0] = asphalt ? 5 : 5.24;
+    constants[1] = asphalt ? 0.25 : 17.98 * conductivity_spm / carrier_ghz;
+    constants[2] = asphalt ? 1e-3 : 3e-4;
+}
+
+/* Along the road, of a range that elevation has made slant, or not. */
+static double distance_m(const struct sensor *sensor, const struct echo *echo)
+{
+    double up_m = fabs(echo->height_m - sensor->mount_z_m);
+    if ((echo->effects & EFFECT_BIT(EFFECT_ELEVATION)) == 0)
+        return echo->range_m;
+    return sqrt(elementary_max(echo->range_m - up_m, 0) * (echo->range_m + up_m));
+}
+
+static bool receive(const struct effect_scan *scan, struct effect_reception *reception)
+{
+    const struct sensor *sensor = scan->sensor;
+    const struct echo *echo = reception->echo;
+    if (!(echo->height_m > 0))
+        return false;
+    const double *constants = scan->constants[EFFECT_TWO_RAY];
+    const struct road_mirror_road road = {constants[0], constants[1], constants[2]};
+    const struct road_mirror_ends ends = {sensor->mount_z_m, echo->height_m, echo->extent_m,
+                                          distance_m(sensor, echo)};
+    return effect_scale(
+        reception, road_mirror_amplitude_factor(&road, sensor->polarization,
+                                                units_wavelength_m(sensor->carrier_hz), &ends));
+}
+
+const struct effect effect_two_ray = {
+    .summary = "the road mirrors, so that echoes fade and rise with range",
+    .home = EFFECT_HOME_SENSOR,
+    .cause = "road of the conditions, mount_z_m of a sensor, z of a reflector",
+    .bound = "one of them is missing",
+    .cost = "a Fresnel coefficient per echo",
+    .described = described,
+    .begin = begin,
+    .receive = receive,
+};

@@ -1,0 +1,44 @@
+#include "effects/effect.h"
+
+#include "effects/moving_part.h"
+#include "frame/draw_address.h"
+#include "radar/micro_doppler.h"
+
+static bool described(const struct effect_scan *scan)
+{
+    return moving_part_any(scan, MOVING_WHEEL);
+}
+
+static void add_points(const struct effect_scan *scan, const struct echo *hub,
+                       struct effect_echoes *echoes)
+{
+    struct random_address address = draw_address_in(scan->address, hub->id);
+    double uniform[4];
+    random_uniform(&address, RANDOM_WHEELS, 0, uniform);
+    int64_t count = micro_doppler_wheel_count(uniform[0]);
+    for (int64_t number = 1; number <= count; number++) {
+        struct echo point =
+            moving_part_of(hub, PATH_WHEEL, number, MICRO_DOPPLER_WHEEL_FACTOR, EFFECT_WHEELS);
+        random_uniform(&address, RANDOM_WHEELS, (uint32_t)number, uniform);
+        point.range_rate_mps = micro_doppler_wheel_rate_mps(
+            hub->range_rate_mps, hub->ground_rate_mps, micro_doppler_wheel_point(uniform));
+        effect_add(scan, echoes, &point);
+    }
+}
+
+static void add_echoes(const struct effect_scan *scan, struct effect_echoes *echoes)
+{
+    for (size_t i = 0; i < scan->echoes.count; i++)
+        if (moving_part_is(&scan->echoes.items[i], MOVING_WHEEL))
+            add_points(scan, &scan->echoes.items[i], echoes);
+}
+
+const struct effect effect_wheels = {
+    .summary = "wheels that roll echo at other rates than their vehicle",
+    .home = EFFECT_HOME_SENSOR,
+    .cause = "micro_motion of a sensor, moving_part of a point",
+    .bound = "no wheel in sight rolls along the sight line",
+    .cost = "a draw per wheel and point",
+    .described = described,
+    .add_echoes = add_echoes,
+};

@@ -1,0 +1,126 @@
+/* One scan for tests of effects: a radar on the ego's centre that looks ahead, whose cells read
+ * amplitude 1 of an echo with cross section 1 at 10 m on boresight; another object 50 m ahead. */
+#ifndef EFFECT_BENCH_H
+#define EFFECT_BENCH_H
+
+#include "check.h"
+
+#include <stdlib.h>
+
+#include "base/units.h"
+#include "effects/effect.h"
+#include "frame/draw_address.h"
+
+#define EVERY_EFFECT (EFFECT_BIT(EFFECT_COUNT) - 1)
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+struct effect_bench {
+    struct arena arena;
+    struct frame frame;
+    struct sensor sensor;
+    struct effect_log log;
+};
+
+static inline int make_effect_bench(void **state)
+{
+    struct effect_bench *bench = calloc(1, sizeof *bench);
+    assert_non_null(bench);
+    struct frame *frame = &bench->frame;
+    *frame = (struct frame){.scene = "s", .ego = "ego", .seed = 1, .arena = &bench->arena};
+    *list_add(&frame->objects, &bench->arena) = (struct object){.id = "ego", .class = "car"};
+    *list_add(&frame->objects, &bench->arena) =
+        (struct object){.id = "other", .class = "car", .x_m = 50};
+    *list_add(&frame->sensors.list, &bench->arena) =
+        (struct sensor_view){.name = "radar", .measured = true};
+    bench->sensor = (struct sensor){.name = "radar",
+                                    .carrier_hz = 76.5e9,
+                                    .range_min_m = 1,
+                                    .range_max_m = 200,
+                                    .field_of_view_rad = PI / 2,
+                                    .polarization = POLARIZATION_VERTICAL,
+                                    .calibration_ercs = 1,
+                                    .calibration_range_m = 10,
+                                    .exponent = 2,
+                                    .range_floor_m = 0.5,
+                                    .cell_range_m = 1,
+                                    .cell_range_rate_mps = 1};
+    suite_derive(&bench->sensor);
+    *state = bench;
+    return 0;
+}
+
+static inline int remove_effect_bench(void **state)
+{
+    struct effect_bench *bench = *state;
+    arena_free(&bench->arena);
+    free(bench);
+    return 0;
+}
+
+static inline struct echo effect_bench_echo(double range_m)
+{
+    return (struct echo){.sensor = "radar",
+                         .id.object = "other",
+                         .id.reflector = "r",
+                         .range_m = range_m,
+                         .range_rate_mps = -3,
+                         .ercs = 1};
+}
+
+static inline int64_t effect_bench_clock_ns(void)
+{
+    return 0;
+}
+
+/* The scan with that set of effects; the bench's log has what it notes. */
+static inline struct effect_scan effect_bench_begin(struct effect_bench *bench, uint64_t effects,
+                                                    enum effect_home home)
+{
+    bench->log = (struct effect_log){.clock_ns = effect_bench_clock_ns};
+    const struct selection selection = {.allowed = effects, .log = &bench->log};
+    return effect_begin(&bench->frame, &bench->sensor, &selection, home);
+}
+
+/* What one effect of the sensor makes of an echo with amplitude 1, before and behind the antenna,
+ * and whether it is in the label. */
+static inline struct effect_reception effect_bench_receive(struct effect_bench *bench,
+                                                           enum effect_id effect,
+                                                           const struct echo *echo, bool *labelled)
+{
+    struct effect_scan scan = effect_bench_begin(bench, EFFECT_BIT(effect), EFFECT_HOME_SENSOR);
+    struct effect_reception reception = {.echo = echo,
+                                         .strength = 1,
+                                         .amplitude = 1,
+                                         .range_m = echo->range_m,
+                                         .range_rate_mps = echo->range_rate_mps};
+    uint64_t effects = effect_receive(&scan, &reception);
+    assert_true((effects & ~EFFECT_BIT(effect)) == 0);
+    *labelled = effects != 0;
+    return reception;
+}
+
+/* The factor of one effect on the amplitude of an echo at that range; labelled unless it is 1. */
+static inline double effect_bench_factor(struct effect_bench *bench, enum effect_id effect,
+                                         const struct echo *echo)
+{
+    bool labelled;
+    struct effect_reception reception = effect_bench_receive(bench, effect, echo, &labelled);
+    assert_true(reception.strength == reception.amplitude);
+    assert_true(labelled == (reception.amplitude != 1));
+    assert_true(reception.range_m == echo->range_m && reception.phase_rad == 0);
+    assert_true(reception.range_rate_mps == echo->range_rate_mps);
+    return reception.amplitude;
+}
+
+/* The draws of an echo's own address for one purpose. */
+static inline void effect_bench_draw(const struct effect_bench *bench, const struct echo *echo,
+                                     enum random_purpose purpose, uint32_t index, double uniform[4])
+{
+    struct random_address address = draw_address_of(&bench->frame, bench->sensor.name, echo->id);
+    random_uniform(&address, purpose, index, uniform);
+}
+
+#define EFFECT_TEST(name)                                                                          \
+    cmocka_unit_test_setup_teardown(name, make_effect_bench, remove_effect_bench)
+
+#endif

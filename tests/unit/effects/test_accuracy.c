@@ -1,0 +1,103 @@
+#include "support/effect_bench.h"
+
+static struct contributor leader = {.id = {.object = "o", .reflector = "r"}};
+
+static void prepare(struct effect_bench *bench)
+{
+    bench->sensor.threshold = 2;
+    bench->sensor.pointer_sigma = 0.5;
+    bench->sensor.cell_range_m = 0.3;
+    bench->sensor.cell_range_rate_mps = 0.5;
+    bench->sensor.range_sigma_m = 0.02;
+    bench->sensor.range_rate_sigma_mps = 0.05;
+    bench->sensor.window_factor = 0.68;
+}
+
+static struct effect_measurement read_cell(struct effect_bench *bench, uint64_t effects,
+                                           double amplitude, double interference)
+{
+    struct cell *cell = arena_get(&bench->arena, sizeof *cell);
+    *cell = (struct cell){.range_m = 10,
+                          .amplitude = amplitude,
+                          .interference = interference,
+                          .members = {&leader, 1, 1}};
+    struct effect_scan scan = effect_bench_begin(bench, effects, EFFECT_HOME_NOISE);
+    struct effect_measurement read = effect_measurement_of(&scan, cell);
+    effect_measure(&scan, EFFECT_STEP_RANGE, &read);
+    return read;
+}
+
+/* By signal to noise: (window_factor cell)^2 / snr + floor^2, at most cell^2 / 12. */
+static void deviations_follow_the_law_of_the_sensor(void **state)
+{
+    struct effect_bench *bench = *state;
+    static const struct {
+        enum sigma_law law;
+        double amplitude, interference, range_m, range_rate_mps;
+    } cases[] = {
+        {SIGMA_FIXED, 8, 0, 0.02, 0.05},
+        {SIGMA_BY_AMPLITUDE, 8, 0, 0.005, 0.0125},
+        {SIGMA_BY_AMPLITUDE, 8, 3, 0.01, 0.025},
+        {SIGMA_BY_AMPLITUDE, 1, 0, 0.02, 0.05},
+        {SIGMA_BY_SNR, 5, 0, 0.028568514137070553, 0.0604648658313239},
+        {SIGMA_BY_SNR, 10, 3, 0.028568514137070553, 0.0604648658313239},
+        {SIGMA_BY_SNR, 0.05, 0, 0.08660254037844387, 0.14433756729740646},
+        {SIGMA_BY_SNR, 0, 0, 0.08660254037844387, 0.14433756729740646},
+        {SIGMA_BY_SNR, 1e300, 0, 0.02, 0.05},
+    };
+    prepare(bench);
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        bench->sensor.sigma_law = cases[i].law;
+        struct effect_measurement read =
+            read_cell(bench, EVERY_EFFECT, cases[i].amplitude, cases[i].interference);
+        assert_near(read.range_sigma_m, cases[i].range_m, 1e-12);
+        assert_near(read.range_rate_sigma_mps, cases[i].range_rate_mps, 1e-12);
+    }
+}
+
+static void without_noise_on_the_pointers_only_the_floor_is_left(void **state)
+{
+    struct effect_bench *bench = *state;
+    prepare(bench);
+    bench->sensor.sigma_law = SIGMA_BY_SNR;
+    bench->sensor.pointer_sigma = 0;
+    struct effect_measurement read = read_cell(bench, EVERY_EFFECT, 4, 0);
+    assert_near(read.range_sigma_m, 0.02, 1e-15);
+    assert_near(read.range_rate_sigma_mps, 0.05, 1e-15);
+}
+
+static void accuracy_scales_the_same_draws(void **state)
+{
+    struct effect_bench *bench = *state;
+    prepare(bench);
+    bench->sensor.sigma_law = SIGMA_BY_SNR;
+    uint64_t without = EVERY_EFFECT & ~EFFECT_BIT(EFFECT_ACCURACY);
+    struct effect_measurement one = read_cell(bench, without, 5, 0);
+    struct effect_measurement other = read_cell(bench, EVERY_EFFECT, 5, 0);
+    assert_true(one.range_m != 10);
+    assert_near(other.range_m - 10, (one.range_m - 10) * 0.028568514137070553 / 0.02, 1e-12);
+    assert_near(other.range_rate_mps, one.range_rate_mps * 0.0604648658313239 / 0.05, 1e-13);
+    assert_true(one.effects == EFFECT_BIT(EFFECT_RANGE_NOISE));
+    assert_true(other.effects == (EFFECT_BIT(EFFECT_RANGE_NOISE) | EFFECT_BIT(EFFECT_ACCURACY)));
+}
+
+static void without_noise_on_range_there_is_nothing_to_be_accurate_about(void **state)
+{
+    struct effect_bench *bench = *state;
+    prepare(bench);
+    bench->sensor.sigma_law = SIGMA_BY_SNR;
+    uint64_t without = EVERY_EFFECT & ~EFFECT_BIT(EFFECT_RANGE_NOISE);
+    struct effect_measurement read = read_cell(bench, without, 5, 0);
+    assert_true(read.range_m == 10 && read.range_rate_mps == 0 && read.effects == 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        EFFECT_TEST(deviations_follow_the_law_of_the_sensor),
+        EFFECT_TEST(without_noise_on_the_pointers_only_the_floor_is_left),
+        EFFECT_TEST(accuracy_scales_the_same_draws),
+        EFFECT_TEST(without_noise_on_range_there_is_nothing_to_be_accurate_about),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,52 @@
+#include "support/effect_bench.h"
+
+#include <complex.h>
+
+/* Complex noise of RMS pointer_sigma on each channel: sigma sqrt(1/2) on each axis, from four
+ * Gaussian draws; other radars of three times the noise's power double it. */
+static void both_channels_get_the_noise_of_the_cell_s_draws(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct contributor leader = {.id = {.object = "o", .reflector = "r"}};
+    static const double interference[] = {0, 3};
+    bench->sensor.pointer_sigma = 0.5;
+    for (size_t i = 0; i < COUNT(interference); i++) {
+        const struct cell cell = {.sum_re = 3,
+                                  .delta_im = -1,
+                                  .interference = interference[i],
+                                  .members = {&leader, 1, 1}};
+        struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
+        struct effect_measurement read = effect_measurement_of(&scan, &cell);
+        struct random_address address = draw_address_of(&bench->frame, "radar", leader.id);
+        double draw[4], sigma = 0.5 * sqrt(0.5) * sqrt(1 + interference[i]);
+        random_gaussian(&address, RANDOM_POINTERS, 0, draw);
+        effect_measure(&scan, EFFECT_STEP_POINTERS, &read);
+        assert_close(creal(read.pointers.sum), 3 + sigma * draw[0], 1e-15);
+        assert_close(cimag(read.pointers.sum), sigma * draw[1], 1e-15);
+        assert_close(creal(read.pointers.delta), sigma * draw[2], 1e-15);
+        assert_close(cimag(read.pointers.delta), -1 + sigma * draw[3], 1e-15);
+        assert_true(read.effects == EFFECT_BIT(EFFECT_ANGLE_NOISE));
+    }
+}
+
+static void without_the_effect_pointers_are_the_cell_s(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct contributor leader = {.id = {.object = "o", .reflector = "r"}};
+    const struct cell cell = {.sum_re = 3, .delta_re = 1, .members = {&leader, 1, 1}};
+    bench->sensor.pointer_sigma = 0.5;
+    uint64_t without = EVERY_EFFECT & ~EFFECT_BIT(EFFECT_ANGLE_NOISE);
+    struct effect_scan scan = effect_bench_begin(bench, without, EFFECT_HOME_NOISE);
+    struct effect_measurement read = effect_measurement_of(&scan, &cell);
+    effect_measure(&scan, EFFECT_STEP_POINTERS, &read);
+    assert_true(read.pointers.sum == 3 && read.pointers.delta == 1 && read.effects == 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        EFFECT_TEST(both_channels_get_the_noise_of_the_cell_s_draws),
+        EFFECT_TEST(without_the_effect_pointers_are_the_cell_s),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,200 @@
+#include "support/effect_bench.h"
+
+#include <string.h>
+
+static void every_effect_says_what_it_is(void **state)
+{
+    (void)state;
+    for (int i = 0; i < EFFECT_COUNT; i++) {
+        const struct effect *effect = effect_table[i];
+        assert_non_null(effects_names[i]);
+        assert_true(effect->summary && effect->cause && effect->bound && effect->cost);
+        assert_true(effect->home <= EFFECT_HOME_NOISE);
+    }
+    assert_null(effects_names[EFFECT_COUNT]);
+    assert_string_equal(effect_homes[EFFECT_HOME_IDEAL], "ideal");
+    assert_string_equal(effect_homes[EFFECT_HOME_SENSOR], "sensor");
+    assert_string_equal(effect_homes[EFFECT_HOME_NOISE], "noise");
+}
+
+/* Which hooks may be called follows from the home. */
+static void an_effect_acts_at_its_home_alone(void **state)
+{
+    (void)state;
+    for (int i = 0; i < EFFECT_COUNT; i++) {
+        const struct effect *effect = effect_table[i];
+        bool receives = effect->receive || effect->add_echoes || effect->interference;
+        bool measures = false;
+        for (int step = 0; step < EFFECT_STEPS; step++)
+            measures |= effect->measure[step] != NULL;
+        assert_true(effect->home == EFFECT_HOME_SENSOR || !receives);
+        assert_true(effect->home == EFFECT_HOME_NOISE || !measures);
+        assert_true(effect->described || !(receives || measures || effect->begin));
+    }
+}
+
+static uint64_t with_described_hook(enum effect_home home)
+{
+    uint64_t effects = 0;
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        if (effect_table[i]->home == home && effect_table[i]->described != NULL)
+            effects |= EFFECT_BIT(i);
+    return effects;
+}
+
+static void what_no_document_describes_is_left_out_and_noted(void **state)
+{
+    struct effect_bench *bench = *state;
+    for (int home = 0; home <= EFFECT_HOME_NOISE; home++) {
+        struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, (enum effect_home)home);
+        assert_true(scan.effects == 0 && scan.receiving == 0 && scan.constants == NULL);
+        assert_close(scan.interference, 0, 0);
+        assert_true(bench->log.simulated == 0);
+        assert_true(bench->log.left_out == with_described_hook((enum effect_home)home));
+    }
+}
+
+/* Each of these doubles of the sensor, with a value of 1. */
+static void a_member_describes_its_effect_and_no_other(void **state)
+{
+    struct effect_bench *bench = *state;
+    const struct sensor plain = bench->sensor;
+    static const struct {
+        enum effect_id effect;
+        size_t offset;
+    } cases[] = {
+        {EFFECT_AMBIGUITY, offsetof(struct sensor, unambiguous_range_m)},
+        {EFFECT_AMBIGUITY, offsetof(struct sensor, unambiguous_rate_mps)},
+        {EFFECT_ANGLE_NOISE, offsetof(struct sensor, pointer_sigma)},
+        {EFFECT_RANGE_NOISE, offsetof(struct sensor, range_sigma_m)},
+        {EFFECT_RANGE_NOISE, offsetof(struct sensor, range_rate_sigma_mps)},
+        {EFFECT_MISALIGNMENT, offsetof(struct sensor, misalignment_rad)},
+        {EFFECT_MISALIGNMENT, offsetof(struct sensor, radome_bias_rad)},
+        {EFFECT_FALSE_ALARMS, offsetof(struct sensor, false_alarms)},
+        {EFFECT_QUANTISATION, offsetof(struct sensor, range_step_m)},
+        {EFFECT_QUANTISATION, offsetof(struct sensor, range_rate_step_mps)},
+        {EFFECT_QUANTISATION, offsetof(struct sensor, azimuth_step_rad)},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        const double one = 1;
+        enum effect_home home = effect_table[cases[i].effect]->home;
+        bench->sensor = plain;
+        memcpy((char *)&bench->sensor + cases[i].offset, &one, sizeof one);
+        assert_true(effect_bench_begin(bench, EVERY_EFFECT, home).effects ==
+                    EFFECT_BIT(cases[i].effect));
+        assert_true(bench->log.simulated == EFFECT_BIT(cases[i].effect));
+        uint64_t others = EVERY_EFFECT & ~EFFECT_BIT(cases[i].effect);
+        assert_true(effect_bench_begin(bench, others, home).effects == 0);
+        assert_true(bench->log.simulated == 0);
+    }
+}
+
+static void flags_choices_and_limits_describe_their_effects(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct sensor *sensor = &bench->sensor;
+    sensor->final_threshold = true;
+    assert_true(effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE).effects ==
+                EFFECT_BIT(EFFECT_FINAL_THRESHOLD));
+    sensor->final_threshold = false;
+    sensor->list_limit = 3;
+    assert_true(effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE).effects ==
+                EFFECT_BIT(EFFECT_LIST_LIMIT));
+    sensor->list_limit = 0;
+    sensor->sigma_law = SIGMA_BY_AMPLITUDE;
+    assert_true(effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE).effects ==
+                EFFECT_BIT(EFFECT_ACCURACY));
+    sensor->sigma_law = SIGMA_BY_SNR;
+    assert_true(effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE).effects ==
+                (EFFECT_BIT(EFFECT_ACCURACY) | EFFECT_BIT(EFFECT_RANGE_NOISE)));
+}
+
+/* A sensor of 70 ms that shows in the frame of 0.22 s what it measured at 0.21 s, 40 ms late. */
+static void a_scan_has_the_instant_of_its_measurement(void **state)
+{
+    struct effect_bench *bench = *state;
+    static const struct {
+        double cycle_s, latency_s;
+        uint64_t effects;
+        double time_s;
+    } cases[] = {
+        {0, 0, EVERY_EFFECT, 0.22},
+        {0.07, 0, EVERY_EFFECT, 0.21},
+        {0.07, 0, 0, 0.21},
+        {0, 0.04, EVERY_EFFECT, 0.18},
+        {0.07, 0.04, EVERY_EFFECT, 0.17},
+        {0.07, 0.04, EVERY_EFFECT & ~EFFECT_BIT(EFFECT_LATENCY), 0.21},
+    };
+    bench->frame.time_s = 0.22;
+    bench->frame.interval_s = 0.05;
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        bench->sensor.cycle_s = cases[i].cycle_s;
+        bench->sensor.latency_s = cases[i].latency_s;
+        for (int home = 0; home <= EFFECT_HOME_NOISE; home++)
+            assert_close(effect_bench_begin(bench, cases[i].effects, (enum effect_home)home).time_s,
+                         cases[i].time_s, 1e-15);
+    }
+}
+
+/* Factors of the amplitude multiply, bit for bit in the order of the chain; the range that they
+ * count by is the true one, though it is folded. */
+static void effects_act_in_the_order_of_the_chain(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct sensor *sensor = &bench->sensor;
+    sensor->fluctuation = FLUCTUATION_SWERLING_3;
+    sensor->unambiguous_range_m = 60;
+    sensor->unambiguous_rate_mps = 24.5;
+    bench->frame.conditions.rain_mmph = 25;
+    bench->frame.conditions.fog_gpm3 = 0.5;
+    struct echo echo = effect_bench_echo(100);
+    double amplitude = 1;
+    static const enum effect_id order[] = {EFFECT_FLUCTUATION, EFFECT_RAIN, EFFECT_FOG};
+    for (size_t i = 0; i < COUNT(order); i++)
+        amplitude *= effect_bench_factor(bench, order[i], &echo);
+    struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_SENSOR);
+    struct effect_reception reception = {
+        .echo = &echo, .strength = 2, .amplitude = 1, .range_m = 100, .range_rate_mps = 45};
+    assert_true(effect_receive(&scan, &reception) == scan.effects);
+    assert_true(scan.effects == (EFFECT_BIT(EFFECT_FLUCTUATION) | EFFECT_BIT(EFFECT_RAIN) |
+                                 EFFECT_BIT(EFFECT_FOG) | EFFECT_BIT(EFFECT_AMBIGUITY)));
+    assert_close(reception.amplitude, amplitude, 0);
+    assert_close(reception.strength, 2 * amplitude, 0);
+    assert_close(reception.range_m, 40, 0);
+    assert_close(reception.range_rate_mps, -4, 0);
+}
+
+static void an_added_echo_is_in_range_and_in_view(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct effect_scan scan = effect_bench_begin(bench, 0, EFFECT_HOME_SENSOR);
+    double border_rad = suite_border_rad(&bench->sensor);
+    static const double ranges_m[] = {0, 0.999, 1, 200, 200.001};
+    struct effect_echoes echoes = {0};
+    for (size_t i = 0; i < COUNT(ranges_m); i++) {
+        struct echo echo = effect_bench_echo(ranges_m[i]);
+        effect_add(&scan, &echoes, &echo);
+        echo.azimuth_rad = border_rad * (i % 2 == 0 ? 1 : -1);
+        effect_add(&scan, &echoes, &echo);
+        echo.azimuth_rad *= 0.999;
+        effect_add(&scan, &echoes, &echo);
+    }
+    assert_int_equal(echoes.list.count, 4);
+    for (size_t i = 0; i < 4; i++)
+        assert_close(echoes.list.items[i].range_m, i < 2 ? 1 : 200, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        EFFECT_TEST(every_effect_says_what_it_is),
+        EFFECT_TEST(an_effect_acts_at_its_home_alone),
+        EFFECT_TEST(what_no_document_describes_is_left_out_and_noted),
+        EFFECT_TEST(a_member_describes_its_effect_and_no_other),
+        EFFECT_TEST(flags_choices_and_limits_describe_their_effects),
+        EFFECT_TEST(a_scan_has_the_instant_of_its_measurement),
+        EFFECT_TEST(effects_act_in_the_order_of_the_chain),
+        EFFECT_TEST(an_added_echo_is_in_range_and_in_view),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,50 @@
+#include "support/effect_bench.h"
+
+/* Power is exponential (Swerling 1) or the mean of two exponentials (Swerling 3). */
+static void the_factor_is_that_of_the_echo_s_own_draw(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct echo echo = effect_bench_echo(100);
+    double uniform[4];
+    for (bench->frame.frame = 0; bench->frame.frame < 20; bench->frame.frame++) {
+        effect_bench_draw(bench, &echo, RANDOM_FLUCTUATION, 0, uniform);
+        bench->sensor.fluctuation = FLUCTUATION_SWERLING_1;
+        assert_near(effect_bench_factor(bench, EFFECT_FLUCTUATION, &echo), sqrt(-log(uniform[0])),
+                    1e-14);
+        bench->sensor.fluctuation = FLUCTUATION_SWERLING_3;
+        assert_near(effect_bench_factor(bench, EFFECT_FLUCTUATION, &echo),
+                    sqrt(-(log(uniform[0]) + log(uniform[1])) / 2), 1e-14);
+    }
+}
+
+static void another_echo_and_another_scan_have_other_factors(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct echo echo = effect_bench_echo(100), other = echo;
+    other.id.reflector = "q";
+    bench->sensor.fluctuation = FLUCTUATION_SWERLING_1;
+    double first = effect_bench_factor(bench, EFFECT_FLUCTUATION, &echo);
+    assert_close(effect_bench_factor(bench, EFFECT_FLUCTUATION, &echo), first, 0);
+    assert_true(effect_bench_factor(bench, EFFECT_FLUCTUATION, &other) != first);
+    bench->frame.frame = 1;
+    assert_true(effect_bench_factor(bench, EFFECT_FLUCTUATION, &echo) != first);
+}
+
+static void a_spread_of_0_changes_nothing(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct echo echo = effect_bench_echo(100);
+    bench->sensor.fluctuation = FLUCTUATION_LOG_NORMAL;
+    bench->sensor.fluctuation_sigma_db = 0;
+    assert_close(effect_bench_factor(bench, EFFECT_FLUCTUATION, &echo), 1, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        EFFECT_TEST(the_factor_is_that_of_the_echo_s_own_draw),
+        EFFECT_TEST(another_echo_and_another_scan_have_other_factors),
+        EFFECT_TEST(a_spread_of_0_changes_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

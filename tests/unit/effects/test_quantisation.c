@@ -1,0 +1,73 @@
+#include "support/effect_bench.h"
+
+static struct effect_measurement reported(struct effect_bench *bench,
+                                          struct effect_measurement exact)
+{
+    struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
+    effect_measure(&scan, EFFECT_STEP_ROUNDING, &exact);
+    return exact;
+}
+
+static void values_are_rounded_to_their_steps_and_azimuth_is_wrapped(void **state)
+{
+    struct effect_bench *bench = *state;
+    bench->sensor.range_step_m = 0.5;
+    bench->sensor.range_rate_step_mps = 0.25;
+    bench->sensor.azimuth_step_rad = 1.1;
+    static const struct {
+        double azimuth_rad, reported_rad;
+    } cases[] = {{0.4, 0}, {-1, -1.1}, {3.1, 3.3 - 2 * PI}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct effect_measurement read =
+            reported(bench, (struct effect_measurement){.range_m = 10.3,
+                                                        .azimuth_rad = cases[i].azimuth_rad,
+                                                        .range_rate_mps = -3.2});
+        assert_close(read.range_m, 10.5, 0);
+        assert_close(read.azimuth_rad, cases[i].reported_rad, 1e-15);
+        assert_close(read.range_rate_mps, -3.25, 0);
+    }
+}
+
+/* One value of three is off its step, or none. */
+static void whichever_value_changes_is_in_the_label(void **state)
+{
+    struct effect_bench *bench = *state;
+    bench->sensor.range_step_m = 0.5;
+    bench->sensor.range_rate_step_mps = 0.25;
+    bench->sensor.azimuth_step_rad = 0.125;
+    static const struct {
+        struct effect_measurement exact;
+        bool labelled;
+    } cases[] = {
+        {{.range_m = 10.5, .azimuth_rad = 0.25, .range_rate_mps = -3.25}, false},
+        {{.range_m = 10.6, .azimuth_rad = 0.25, .range_rate_mps = -3.25}, true},
+        {{.range_m = 10.5, .azimuth_rad = 0.26, .range_rate_mps = -3.25}, true},
+        {{.range_m = 10.5, .azimuth_rad = 0.25, .range_rate_mps = -3.26}, true},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++)
+        assert_true(reported(bench, cases[i].exact).effects ==
+                    (cases[i].labelled ? EFFECT_BIT(EFFECT_QUANTISATION) : 0));
+}
+
+static void a_value_without_a_step_stays(void **state)
+{
+    struct effect_bench *bench = *state;
+    bench->sensor.azimuth_step_rad = 0.125;
+    struct effect_measurement read = reported(
+        bench,
+        (struct effect_measurement){.range_m = 10.3, .azimuth_rad = 0.26, .range_rate_mps = -3.2});
+    assert_close(read.range_m, 10.3, 0);
+    assert_close(read.range_rate_mps, -3.2, 0);
+    assert_close(read.azimuth_rad, 0.25, 0);
+    assert_true(read.effects == EFFECT_BIT(EFFECT_QUANTISATION));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        EFFECT_TEST(values_are_rounded_to_their_steps_and_azimuth_is_wrapped),
+        EFFECT_TEST(whichever_value_changes_is_in_the_label),
+        EFFECT_TEST(a_value_without_a_step_stays),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

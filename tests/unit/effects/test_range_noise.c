@@ -1,0 +1,52 @@
+#include "support/effect_bench.h"
+
+static struct contributor leader = {.id = {.object = "o", .reflector = "r"}};
+
+static struct effect_measurement read_cell(struct effect_bench *bench, const struct cell *cell)
+{
+    struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
+    struct effect_measurement read = effect_measurement_of(&scan, cell);
+    effect_measure(&scan, EFFECT_STEP_RANGE, &read);
+    return read;
+}
+
+static void range_and_rate_get_the_noise_of_the_cell_s_draws(void **state)
+{
+    struct effect_bench *bench = *state;
+    const struct cell cell = {.range_m = 10, .range_rate_mps = -3, .members = {&leader, 1, 1}};
+    bench->sensor.range_sigma_m = 0.02;
+    bench->sensor.range_rate_sigma_mps = 0.05;
+    for (bench->frame.frame = 0; bench->frame.frame < 20; bench->frame.frame++) {
+        struct random_address address = draw_address_of(&bench->frame, "radar", leader.id);
+        double draw[2];
+        random_gaussian_pair(&address, RANDOM_RANGE_RATE, 0, draw);
+        struct effect_measurement read = read_cell(bench, &cell);
+        assert_close(read.range_m, 10 + 0.02 * draw[0], 1e-15);
+        assert_close(read.range_rate_mps, -3 + 0.05 * draw[1], 1e-15);
+        assert_true(read.azimuth_rad == 0);
+        assert_true(read.effects == EFFECT_BIT(EFFECT_RANGE_NOISE));
+    }
+}
+
+static void no_range_is_below_0(void **state)
+{
+    struct effect_bench *bench = *state;
+    const struct cell cell = {.range_m = 0.1, .members = {&leader, 1, 1}};
+    size_t cut = 0;
+    bench->sensor.range_sigma_m = 1;
+    for (bench->frame.frame = 0; bench->frame.frame < 100; bench->frame.frame++) {
+        struct effect_measurement read = read_cell(bench, &cell);
+        assert_true(read.range_m >= 0);
+        cut += read.range_m == 0;
+    }
+    assert_in_range(cut, 30, 65);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        EFFECT_TEST(range_and_rate_get_the_noise_of_the_cell_s_draws),
+        EFFECT_TEST(no_range_is_below_0),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,90 @@
+#include "support/effect_bench.h"
+
+#include <complex.h>
+
+static const double _Complex i = (double _Complex)I;
+static const double sensor_m = 0.5, reflector_m = 0.6, concrete_loss = 0.318;
+
+/* g R1/R2 for concrete by Fresnel's vertical coefficient; the direct path, there. */
+static double _Complex road_echo(double wave_m, double along_m, double *direct_m, double *longer_m)
+{
+    const double ghz = 76.5, roughness_m = 3e-4;
+    double bounced_m = hypot(along_m, sensor_m + reflector_m);
+    double _Complex eps = 5.24 - i * (17.98 * 0.0462 * pow(ghz, 0.7822) / ghz);
+    double sine = (sensor_m + reflector_m) / bounced_m;
+    double _Complex bent = csqrt(eps - (1 - sine * sine));
+    double _Complex g = (eps * sine - bent) / (eps * sine + bent);
+    *direct_m = hypot(along_m, sensor_m - reflector_m);
+    *longer_m = bounced_m - *direct_m;
+    assert_close(-cimag(eps), concrete_loss, 5e-3);
+    return g * exp(-8 * pow(PI * roughness_m * sine / wave_m, 2)) * *direct_m / bounced_m;
+}
+
+static void prepare(struct effect_bench *bench, struct echo *echo)
+{
+    bench->sensor.mount_z_m = sensor_m;
+    bench->frame.conditions.road = ROAD_CONCRETE;
+    echo->height_m = reflector_m;
+    *list_add(&bench->frame.echoes, &bench->arena) = *echo;
+}
+
+static void a_point_rises_and_fades_by_the_interference_of_both_paths(void **state)
+{
+    struct effect_bench *bench = *state;
+    double wave_m = 299792458 / 76.5e9;
+    struct echo echo = effect_bench_echo(20);
+    prepare(bench, &echo);
+    for (double along_m = 5; along_m < 100; along_m *= 1.1) {
+        double direct_m, longer_m;
+        double _Complex g = road_echo(wave_m, along_m, &direct_m, &longer_m);
+        double field = cabs(1 + g * cexp(-2 * i * PI * longer_m / wave_m));
+        echo.range_m = along_m;
+        echo.effects = 0;
+        assert_close(effect_bench_factor(bench, EFFECT_TWO_RAY, &echo), field * field, 1e-8);
+        /* A range that elevation has made slant is that of the direct path. */
+        echo.range_m = direct_m;
+        echo.effects = EFFECT_BIT(EFFECT_ELEVATION);
+        assert_close(effect_bench_factor(bench, EFFECT_TWO_RAY, &echo), field * field, 1e-8);
+    }
+}
+
+static void an_extended_echo_gets_the_mean_over_all_phases(void **state)
+{
+    struct effect_bench *bench = *state;
+    double direct_m, longer_m;
+    struct echo echo = effect_bench_echo(20);
+    prepare(bench, &echo);
+    echo.extent_m = 0.6;
+    double g = cabs(road_echo(299792458 / 76.5e9, 20, &direct_m, &longer_m));
+    assert_near(effect_bench_factor(bench, EFFECT_TWO_RAY, &echo),
+                sqrt(1 + 4 * g * g + g * g * g * g), 1e-12);
+}
+
+static void the_road_needs_all_its_causes(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct echo echo = effect_bench_echo(20), flat = echo;
+    prepare(bench, &echo);
+    assert_true(effect_bench_factor(bench, EFFECT_TWO_RAY, &echo) != 1);
+    assert_close(effect_bench_factor(bench, EFFECT_TWO_RAY, &flat), 1, 0);
+    bench->frame.conditions.road = ROAD_UNKNOWN;
+    assert_close(effect_bench_factor(bench, EFFECT_TWO_RAY, &echo), 1, 0);
+    bench->frame.conditions.road = ROAD_ASPHALT;
+    assert_true(effect_bench_factor(bench, EFFECT_TWO_RAY, &echo) != 1);
+    bench->sensor.mount_z_m = 0;
+    assert_close(effect_bench_factor(bench, EFFECT_TWO_RAY, &echo), 1, 0);
+    bench->sensor.mount_z_m = sensor_m;
+    bench->frame.echoes.items[0].height_m = 0;
+    effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_SENSOR);
+    assert_true((bench->log.left_out & EFFECT_BIT(EFFECT_TWO_RAY)) != 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        EFFECT_TEST(a_point_rises_and_fades_by_the_interference_of_both_paths),
+        EFFECT_TEST(an_extended_echo_gets_the_mean_over_all_phases),
+        EFFECT_TEST(the_road_needs_all_its_causes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,95 @@
+#include "support/effect_bench.h"
+
+enum { FRAMES = 300 };
+
+static struct echo hub(void)
+{
+    struct echo echo = effect_bench_echo(20);
+    echo.moving_part = MOVING_WHEEL;
+    echo.ground_rate_mps = 5;
+    echo.height_m = 0.3;
+    echo.effects = EFFECT_BIT(EFFECT_VISIBILITY);
+    return echo;
+}
+
+static struct echo_span points_of(struct effect_bench *bench, uint64_t effects, struct echo echo)
+{
+    bench->frame.echoes.count = 0;
+    *list_add(&bench->frame.echoes, &bench->arena) = echo;
+    struct effect_scan scan = effect_bench_begin(bench, effects, EFFECT_HOME_SENSOR);
+    return effect_added_echoes(&scan);
+}
+
+/* The least k with P(N <= k) >= uniform of a Poisson law. */
+static size_t poisson(double mean, double uniform)
+{
+    double chance = exp(-mean), sum = chance;
+    size_t count = 0;
+    for (; sum < uniform; sum += chance)
+        chance *= mean / (double)++count;
+    return count;
+}
+
+/* A Poisson count of mean 1.5; rho even from 0.3 to 1 and psi even around the wheel, at -10 dB. */
+static void points_have_the_count_and_the_rates_of_their_draws(void **state)
+{
+    struct effect_bench *bench = *state;
+    size_t all = 0;
+    for (bench->frame.frame = 0; bench->frame.frame < FRAMES; bench->frame.frame++) {
+        const struct echo parent = hub();
+        struct echo_span points = points_of(bench, EVERY_EFFECT, parent);
+        double uniform[4];
+        effect_bench_draw(bench, &parent, RANDOM_WHEELS, 0, uniform);
+        assert_int_equal(points.count, poisson(1.5, uniform[0]));
+        for (size_t i = 0; i < points.count; i++) {
+            const struct echo *point = &points.items[i];
+            effect_bench_draw(bench, &parent, RANDOM_WHEELS, (uint32_t)i + 1, uniform);
+            double forward = (0.3 + 0.7 * uniform[0]) * cos(2 * PI * uniform[1]);
+            assert_close(point->range_rate_mps, -3 + 5 * forward, 1e-13);
+            assert_near(point->ercs, pow(10, -0.5), 1e-15);
+            assert_true(point->range_m == 20 && point->azimuth_rad == 0 && point->height_m == 0.3);
+            assert_int_equal(point->id.path, PATH_WHEEL);
+            assert_int_equal(point->id.number, i + 1);
+            assert_string_equal(point->id.object, "other");
+            assert_true(point->effects ==
+                        (EFFECT_BIT(EFFECT_VISIBILITY) | EFFECT_BIT(EFFECT_WHEELS)));
+            assert_int_equal(point->moving_part, MOVING_NONE);
+        }
+        all += points.count;
+    }
+    assert_true(all > FRAMES);
+}
+
+static void a_wheel_that_does_not_roll_along_the_sight_line_has_none(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct echo still = hub(), limbs = hub(), plain = hub();
+    still.ground_rate_mps = 0;
+    limbs.moving_part = MOVING_LIMBS;
+    plain.moving_part = MOVING_NONE;
+    const struct echo echoes[] = {still, plain, limbs};
+    for (bench->frame.frame = 0; bench->frame.frame < FRAMES; bench->frame.frame++)
+        for (size_t i = 0; i < COUNT(echoes); i++) {
+            uint64_t effects = EFFECT_BIT(EFFECT_WHEELS);
+            assert_int_equal(points_of(bench, effects, echoes[i]).count, 0);
+            assert_true(bench->log.simulated == 0);
+        }
+}
+
+static void switched_off_there_are_none(void **state)
+{
+    struct effect_bench *bench = *state;
+    uint64_t without = EVERY_EFFECT & ~EFFECT_BIT(EFFECT_WHEELS);
+    for (bench->frame.frame = 0; bench->frame.frame < FRAMES; bench->frame.frame++)
+        assert_int_equal(points_of(bench, without, hub()).count, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        EFFECT_TEST(points_have_the_count_and_the_rates_of_their_draws),
+        EFFECT_TEST(a_wheel_that_does_not_roll_along_the_sight_line_has_none),
+        EFFECT_TEST(switched_off_there_are_none),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
