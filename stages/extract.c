@@ -1,10 +1,10 @@
 /* Vehicle model extraction: objects become reflection centres (MODEL 2). */
-#include "run/stage.h"
+#include "run/extraction.h"
 
 static int extract_step(void *state, struct frame *frame, struct runner *runner)
 {
     (void)state;
-    return runner_extract(runner, frame, NULL);
+    return extraction_step(frame, runner, NULL, NULL);
 }
 
 const struct stage stage_extract = {

@@ -1,7 +1,6 @@
 /* Vehicle model extraction by 3GPP: cars become five scattering points with lobes, people one point
  * (MODEL 2.8). */
-#include "documents/vehicle.h"
-#include "run/stage.h"
+#include "run/extraction.h"
 
 static void describe(const void *state, const struct vehicle *vehicle, struct reflector_set *set,
                      struct arena *arena)
@@ -13,8 +12,7 @@ static void describe(const void *state, const struct vehicle *vehicle, struct re
 
 static int extract_3gpp_step(void *state, struct frame *frame, struct runner *runner)
 {
-    (void)state;
-    return runner_extract(runner, frame, describe);
+    return extraction_step(frame, runner, describe, state);
 }
 
 const struct stage stage_extract_3gpp = {

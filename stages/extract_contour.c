@@ -1,7 +1,6 @@
 /* Vehicle model extraction by contour: the outline of an object as closely spaced scatterers that
  * share the cross section of its class (MODEL 2.7). */
-#include "documents/vehicle.h"
-#include "run/stage.h"
+#include "run/extraction.h"
 
 struct extract_contour {
     double spacing_m;
@@ -18,8 +17,7 @@ static void describe(const void *state, const struct vehicle *vehicle, struct re
 
 static int extract_contour_step(void *state, struct frame *frame, struct runner *runner)
 {
-    (void)state;
-    return runner_extract(runner, frame, describe);
+    return extraction_step(frame, runner, describe, state);
 }
 
 static const struct field extract_contour_options[] = {

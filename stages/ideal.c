@@ -4,7 +4,7 @@
 #include "ideal/ghost_echoes.h"
 #include "ideal/look.h"
 #include "radar/scan_timing.h"
-#include "run/stage.h"
+#include "run/suite_choice.h"
 
 struct ideal {
     struct suite_choice choice; /* first: its options are ideal's */
@@ -16,11 +16,10 @@ struct ideal {
 static int ideal_start(void *state, struct runner *runner)
 {
     struct ideal *ideal = state;
-    ideal->suite =
-        catalogue_suite(ideal->choice.sensors, runner_arena(runner), runner_diag(runner));
-    return ideal->suite != NULL
-               ? runner_request(runner, &ideal->choice, ideal->suite, &ideal->request)
-               : -1;
+    ideal->suite = runner_suite(runner, ideal->choice.sensors);
+    return ideal->suite == NULL ? -1
+                                : suite_choice_request(&ideal->choice, ideal->suite,
+                                                       &ideal->request, runner_diag(runner));
 }
 
 static struct sensor_view view_of(const struct sensor *sensor, bool measured)
@@ -54,7 +53,7 @@ static int ideal_step(void *state, struct frame *frame, struct runner *runner)
     frame->account = ideal->account;
     frame->margins = ideal->margins;
     frame->sensors = ideal->request;
-    if (runner_selection(runner, frame, &ideal->choice, &selection) != 0)
+    if (suite_choice_effects(&ideal->choice, frame, runner, &selection) != 0)
         return -1;
     for (size_t i = 0; i < suite->sensors.count; i++) {
         const struct sensor *sensor = &suite->sensors.items[i];
@@ -82,9 +81,7 @@ static int ideal_step(void *state, struct frame *frame, struct runner *runner)
 }
 
 static const struct field ideal_options[] = {
-    {FIELD_NAME_OF(struct suite_choice, sensors,
-                   "the sensor suite: a name in data/sensors/, or a path")},
-    SUITE_CHOICE_EFFECTS,
+    SUITE_CHOICE_OF_IDEAL,
     {FIELD_FLAG_OF(struct ideal, account, "account for every reflector from here on, in lost"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct ideal, margins,

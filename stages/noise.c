@@ -5,7 +5,7 @@
 #include "effects/effect.h"
 #include "noise/measurement_noise.h"
 #include "noise/noise_targets.h"
-#include "run/stage.h"
+#include "run/suite_choice.h"
 
 /* The measurements of all cells that are still a target after noise. */
 static size_t read_cells(struct frame *frame, const struct effect_scan *context,
@@ -50,8 +50,7 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
 
 static int noise_step(void *state, struct frame *frame, struct runner *runner)
 {
-    (void)state;
-    return runner_visit_sensors(runner, frame, list_targets);
+    return suite_choice_visit(state, frame, runner, list_targets);
 }
 
 const struct stage stage_noise = {

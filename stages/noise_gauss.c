@@ -5,7 +5,7 @@
 #include "base/units.h"
 #include "frame/draw_address.h"
 #include "noise/target_list.h"
-#include "run/stage.h"
+#include "run/suite_choice.h"
 
 static struct measurement measure(const struct frame *frame, const struct sensor *sensor,
                                   const struct cell *cell)
@@ -36,8 +36,7 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
 
 static int noise_gauss_step(void *state, struct frame *frame, struct runner *runner)
 {
-    (void)state;
-    return runner_visit_sensors(runner, frame, list_targets);
+    return suite_choice_visit(state, frame, runner, list_targets);
 }
 
 const struct stage stage_noise_gauss = {

@@ -1,6 +1,6 @@
 /* No noise: the target list of the cells as they are. */
 #include "noise/target_list.h"
-#include "run/stage.h"
+#include "run/suite_choice.h"
 
 static void list_targets(struct frame *frame, const struct sensor *sensor,
                          const struct selection *selection)
@@ -15,8 +15,7 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
 
 static int noise_none_step(void *state, struct frame *frame, struct runner *runner)
 {
-    (void)state;
-    return runner_visit_sensors(runner, frame, list_targets);
+    return suite_choice_visit(state, frame, runner, list_targets);
 }
 
 const struct stage stage_noise_none = {

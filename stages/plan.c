@@ -1,7 +1,7 @@
 /* A plan: the pipeline that the frames call for. Tries the chain on every frame, the simpler stages
  * beside those they may stand in for, and prints what was needed. */
 #include "run/plan.h"
-#include "run/stage.h"
+#include "run/suite_choice.h"
 #include "run/tool.h"
 #include "text/output.h"
 
@@ -32,10 +32,10 @@ static int begin(struct plan_state *own, struct runner *runner)
     struct plan *plan = &own->plan;
     struct sensors request;
     struct selection selection;
-    const struct suite *suite =
-        catalogue_suite(own->choice.sensors, runner_arena(runner), runner_diag(runner));
-    if (suite == NULL || runner_request(runner, &own->choice, suite, &request) != 0 ||
-        effects_read(request.effects, &selection, runner_diag(runner)) != 0)
+    struct diag *diag = runner_diag(runner);
+    const struct suite *suite = runner_suite(runner, own->choice.sensors);
+    if (suite == NULL || suite_choice_request(&own->choice, suite, &request, diag) != 0 ||
+        effects_read(request.effects, &selection, diag) != 0)
         return -1;
     own->choice.effects = plan_request(selection.allowed, runner_arena(runner));
     plan->sensors = own->choice.sensors;
@@ -106,9 +106,7 @@ static int plan_run(void *state, struct runner *runner)
 }
 
 static const struct field plan_options[] = {
-    {FIELD_NAME_OF(struct suite_choice, sensors,
-                   "the sensor suite: a name in data/sensors/, or a path")},
-    SUITE_CHOICE_EFFECTS,
+    SUITE_CHOICE_OF_IDEAL,
     {0},
 };
 

@@ -1,4 +1,5 @@
 /* Scores: how far the targets of this stream are from those of another one, frame by frame. */
+#include "base/units.h"
 #include "run/stage.h"
 #include "score/reference_stream.h"
 #include "score/score_table.h"
@@ -17,7 +18,7 @@ static int score_start(void *state, struct runner *runner)
 {
     struct score_state *own = state;
     own->summary = own->summary || own->table;
-    own->other = runner_counterpart(runner, own->truth, own->partial);
+    own->other = runner_reference_stream(runner, own->truth, own->partial);
     return own->other != NULL ? 0 : -1;
 }
 

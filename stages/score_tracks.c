@@ -19,7 +19,7 @@ static int score_tracks_start(void *state, struct runner *runner)
 {
     struct score_tracks *own = state;
     own->summary = own->summary || own->table;
-    own->other = runner_counterpart(runner, own->tracks, own->partial);
+    own->other = runner_reference_stream(runner, own->tracks, own->partial);
     return own->other != NULL ? 0 : -1;
 }
 

@@ -2,7 +2,7 @@
  * lies on the ground (14), resolution cells (6), threshold on the summed amplitude, superposed sum
  * and delta pointers of each cell (7, 8). */
 #include "base/units.h"
-#include "run/stage.h"
+#include "run/suite_choice.h"
 #include "sensor/cell_margins.h"
 #include "sensor/scan.h"
 
@@ -61,8 +61,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
 
 static int sensor_step(void *state, struct frame *frame, struct runner *runner)
 {
-    (void)state;
-    return runner_visit_sensors(runner, frame, sense);
+    return suite_choice_visit(state, frame, runner, sense);
 }
 
 const struct stage stage_sensor = {

@@ -1,5 +1,5 @@
 /* A perfect sensor: one exact cell per visible echo. Nothing merges and nothing is too weak. */
-#include "run/stage.h"
+#include "run/suite_choice.h"
 #include "sensor/resolution_cell.h"
 
 static void keep(struct frame *frame, const struct sensor *sensor, const struct echo *echo)
@@ -29,8 +29,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
 
 static int sensor_perfect_step(void *state, struct frame *frame, struct runner *runner)
 {
-    (void)state;
-    return runner_visit_sensors(runner, frame, sense);
+    return suite_choice_visit(state, frame, runner, sense);
 }
 
 const struct stage stage_sensor_perfect = {

@@ -3,7 +3,7 @@
 /* needs: fftw3 */
 #include <fftw3.h>
 
-#include "run/stage.h"
+#include "run/suite_choice.h"
 #include "sensor/scan.h"
 #include "signal/detections.h"
 
@@ -77,8 +77,8 @@ static int sensor_signal_step(void *state, struct frame *frame, struct runner *r
 {
     struct sensor_signal *own = state;
     struct selection selection;
-    const struct suite *suite = runner_suite(runner, frame, own->choice.sensors);
-    if (suite == NULL || runner_selection(runner, frame, &own->choice, &selection) != 0)
+    const struct suite *suite = suite_choice_suite(&own->choice, frame, runner);
+    if (suite == NULL || suite_choice_effects(&own->choice, frame, runner, &selection) != 0)
         return -1;
     for (size_t i = 0; i < suite->sensors.count; i++) {
         const struct sensor *sensor = &suite->sensors.items[i];
@@ -100,9 +100,7 @@ static void sensor_signal_release(void *state)
 }
 
 static const struct field sensor_signal_fields[] = {
-    {FIELD_NAME_OF(struct suite_choice, sensors, "sensor suite: a name in sensors/, or a path"),
-     FIELD_OPTIONAL},
-    SUITE_CHOICE_EFFECTS,
+    SUITE_CHOICE_AFTER_IDEAL,
     {0},
 };
 

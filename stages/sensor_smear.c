@@ -1,7 +1,7 @@
 /* The sensor as a windowed range-Doppler transform shows it: every echo smeared over the bins
  * around it by the window's kernel, cells where the sum of all has its peaks (EFFECTS 4). */
 #include "base/units.h"
-#include "run/stage.h"
+#include "run/suite_choice.h"
 #include "sensor/cell_margins.h"
 #include "sensor/scan.h"
 #include "sensor/smear.h"
@@ -61,8 +61,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
 
 static int sensor_smear_step(void *state, struct frame *frame, struct runner *runner)
 {
-    (void)state;
-    return runner_visit_sensors(runner, frame, sense);
+    return suite_choice_visit(state, frame, runner, sense);
 }
 
 const struct stage stage_sensor_smear = {

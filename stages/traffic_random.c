@@ -36,8 +36,7 @@ static int traffic_random_start(void *state, struct runner *runner)
     }
     runner_expect(runner, traffic->frames);
     if (traffic->sensors != NULL)
-        traffic->suite =
-            catalogue_suite(traffic->sensors, runner_arena(runner), runner_diag(runner));
+        traffic->suite = runner_suite(runner, traffic->sensors);
     return traffic->sensors == NULL || traffic->suite != NULL ? 0 : -1;
 }
 

@@ -7,17 +7,6 @@
 
 const struct record no_options_record = {.name = "stage", .fields = field_none};
 
-static const struct field suite_choice_fields[] = {
-    {FIELD_NAME_OF(struct suite_choice, sensors,
-                   "the suite by another name; its digest must be the frame's"),
-     FIELD_OPTIONAL},
-    SUITE_CHOICE_EFFECTS,
-    {0},
-};
-
-const struct record suite_choice_record = {
-    .name = "stage", .size = sizeof(struct suite_choice), .fields = suite_choice_fields};
-
 static const struct field common_fields[] = {
     {FIELD_NAME_OF(struct common_options, output,
                    "write to this file instead of standard output; .gz compresses"),

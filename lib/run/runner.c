@@ -2,13 +2,14 @@
 
 #include <string.h>
 
-#include "base/sort.h"
+#include "documents/catalogue.h"
 #include "documents/vehicle.h"
 #include "frame/frame_account.h"
 #include "frame/frame_check.h"
 #include "frame/frame_order.h"
 #include "frame/frame_text.h"
 #include "run/explain.h"
+#include "run/suite_choice.h"
 #include "score/reference_stream.h"
 
 struct arena *runner_arena(struct runner *runner)
@@ -19,6 +20,11 @@ struct arena *runner_arena(struct runner *runner)
 struct diag *runner_diag(struct runner *runner)
 {
     return &runner->diag;
+}
+
+struct effect_log *runner_log(struct runner *runner)
+{
+    return runner->log;
 }
 
 void runner_expect(struct runner *runner, int64_t frames)
@@ -40,45 +46,26 @@ int runner_write_record(struct runner *runner, const struct record *record, cons
     return result;
 }
 
-/* A sensor that only the frame knows would lose its echoes without a word. */
-static int check_views(struct runner *runner, const struct frame *frame, const struct suite *suite)
+const struct suite *runner_suite(struct runner *runner, const char *name)
 {
-    for (size_t i = 0; i < frame->sensors.list.count; i++)
-        if (suite_sensor(suite, frame->sensors.list.items[i].name) == NULL)
-            return diag_fail(&runner->diag, DIAG_DATA,
-                             "sensors.list[%zu].name: \"%s\" is not in the suite \"%s\"", i,
-                             frame->sensors.list.items[i].name, suite->name);
-    if (frame->sensors.list.count != suite->sensors.count)
-        return diag_fail(&runner->diag, DIAG_DATA,
-                         "sensors.list: %zu sensors; the suite \"%s\" has %zu",
-                         frame->sensors.list.count, suite->name, suite->sensors.count);
-    return 0;
+    for (size_t i = 0; i < runner->suites.count; i++)
+        if (strcmp(runner->suites.items[i]->name, name) == 0)
+            return runner->suites.items[i];
+    const struct suite *suite = catalogue_suite(name, &runner->arena, &runner->diag);
+    if (suite != NULL)
+        *list_add(&runner->suites, &runner->arena) = suite;
+    return suite;
 }
 
-const struct suite *runner_suite(struct runner *runner, const struct frame *frame, const char *name)
+const struct vehicle *runner_vehicle(struct runner *runner, const char *class)
 {
-    bool seen = (frame->present & SECTION_SENSORS) != 0;
-    if (name == NULL)
-        name = frame->sensors.suite;
-    const struct suite *suite = NULL;
-    for (size_t i = 0; i < runner->suites.count && suite == NULL; i++)
-        if (strcmp(runner->suites.items[i]->name, name) == 0)
-            suite = runner->suites.items[i];
-    if (suite == NULL) {
-        suite = catalogue_suite(name, &runner->arena, &runner->diag);
-        if (suite == NULL)
-            return NULL;
-        *list_add(&runner->suites, &runner->arena) = suite;
-    }
-    if (seen && strcmp(suite->digest, frame->sensors.digest) != 0) {
-        diag_fail(
-            &runner->diag, DIAG_CONFIG,
-            "sensors.digest: the frame was seen with %s, \"%s\" is now %s; run the whole chain "
-            "with one suite",
-            frame->sensors.digest, name, suite->digest);
-        return NULL;
-    }
-    return !seen || check_views(runner, frame, suite) == 0 ? suite : NULL;
+    for (size_t i = 0; i < runner->vehicles.count; i++)
+        if (frame_same_name(runner->vehicles.items[i]->reflectors.model, class))
+            return runner->vehicles.items[i];
+    const struct vehicle *vehicle = vehicle_load(class, &runner->arena, &runner->diag);
+    if (vehicle != NULL)
+        *list_add(&runner->vehicles, &runner->arena) = vehicle;
+    return vehicle;
 }
 
 static bool reads_standard_input(const struct runner *runner)
@@ -89,146 +76,15 @@ static bool reads_standard_input(const struct runner *runner)
     return runner->common.files.count == 0;
 }
 
-struct reference_stream *runner_counterpart(struct runner *runner, const char *path, bool partial)
+struct reference_stream *runner_reference_stream(struct runner *runner, const char *path,
+                                                 bool partial)
 {
     if (strcmp(path, "-") == 0 && reads_standard_input(runner))
         diag_fail(&runner->diag, DIAG_USAGE,
                   "\"-\" is standard input, where the frames come from; name their file");
-    else if (runner->counterpart == NULL)
-        runner->counterpart = reference_stream_open(path, partial, &runner->diag);
-    return runner->counterpart;
-}
-
-int runner_request(struct runner *runner, const struct suite_choice *choice,
-                   const struct suite *suite, struct sensors *request)
-{
-    *request = (struct sensors){
-        .suite = suite->name,
-        .digest = suite->digest,
-        .effects = choice->effects != NULL ? choice->effects : suite->effects,
-    };
-    if (request->effects == NULL)
-        request->effects = "auto";
-    struct selection selection;
-    if (effects_read(request->effects, &selection, &runner->diag) == 0)
-        return 0;
-    if (choice->effects != NULL)
-        runner->diag.code = DIAG_USAGE;
-    return -1;
-}
-
-int runner_selection(struct runner *runner, const struct frame *frame,
-                     const struct suite_choice *choice, struct selection *selection)
-{
-    const struct sensors *sensors = &frame->sensors;
-    const char *effects = sensors->effects != NULL ? sensors->effects : "auto";
-    if (choice->effects != NULL && strcmp(choice->effects, effects) != 0)
-        return diag_fail(&runner->diag, DIAG_CONFIG,
-                         "sensors.effects: the frame was seen with \"%s\", not with \"%s\"; give "
-                         "the effects to glint-ideal",
-                         effects, choice->effects);
-    if (effects_read(effects, selection, &runner->diag) != 0)
-        return diag_prefix(&runner->diag, "sensors.");
-    selection->log = runner->log;
-    return 0;
-}
-
-static bool measured(const struct frame *frame, const char *sensor)
-{
-    for (size_t i = 0; i < frame->sensors.list.count; i++)
-        if (strcmp(frame->sensors.list.items[i].name, sensor) == 0)
-            return frame->sensors.list.items[i].measured;
-    return false;
-}
-
-int runner_visit_sensors(struct runner *runner, struct frame *frame,
-                         void (*visit)(struct frame *frame, const struct sensor *sensor,
-                                       const struct selection *selection))
-{
-    const struct suite_choice *choice = runner->state;
-    struct selection selection;
-    const struct suite *suite = runner_suite(runner, frame, choice->sensors);
-    if (suite == NULL || runner_selection(runner, frame, choice, &selection) != 0)
-        return -1;
-    for (size_t i = 0; i < suite->sensors.count; i++) {
-        const struct sensor *sensor = &suite->sensors.items[i];
-        selection.log = measured(frame, sensor->name) ? runner->log : NULL;
-        visit(frame, sensor, &selection);
-        effects_count_scan(&selection);
-    }
-    return 0;
-}
-
-static int compare_vehicles(const void *left, const void *right)
-{
-    return strcmp((*(const struct vehicle *const *)left)->reflectors.model,
-                  (*(const struct vehicle *const *)right)->reflectors.model);
-}
-
-const struct vehicle *runner_vehicle(struct runner *runner, const char *class)
-{
-    for (size_t i = 0; i < runner->vehicles.count; i++)
-        if (frame_same_name(runner->vehicles.items[i]->reflectors.model, class))
-            return runner->vehicles.items[i];
-    const struct vehicle *vehicle = vehicle_load(class, &runner->arena, &runner->diag);
-    if (vehicle == NULL)
-        return NULL;
-    *list_add(&runner->vehicles, &runner->arena) = vehicle;
-    sort_list(&runner->vehicles, compare_vehicles, &runner->arena);
-    return vehicle;
-}
-
-/* An object of size zero takes its class's default size. */
-static void complete_size(struct object *object, const struct vehicle *vehicle)
-{
-    if (object->length_m == 0)
-        object->length_m = vehicle->length_m;
-    if (object->width_m == 0)
-        object->width_m = vehicle->width_m;
-    if (object->height_m == 0)
-        object->height_m = vehicle->height_m;
-}
-
-/* Adds the reflector set of one vehicle, with the objects that are of it; of[i] is the vehicle of
- * object[i]. */
-static void add_set(struct runner *runner, struct frame *frame, const struct vehicle *vehicle,
-                    const struct vehicle *const *of,
-                    void (*describe)(const void *state, const struct vehicle *vehicle,
-                                     struct reflector_set *set, struct arena *arena))
-{
-    struct object *const *object = frame_order_objects(frame);
-    struct reflector_set *set = NULL;
-    for (size_t i = 0; i < frame->objects.count; i++) {
-        if (of[i] != vehicle)
-            continue;
-        if (set == NULL) {
-            set = list_add(&frame->reflectors, frame->arena);
-            *set = vehicle->reflectors;
-            if (describe != NULL)
-                describe(runner->state, vehicle, set, frame->arena);
-        }
-        *list_add(&set->objects, frame->arena) = object[i]->id;
-    }
-}
-
-int runner_extract(struct runner *runner, struct frame *frame,
-                   void (*describe)(const void *state, const struct vehicle *vehicle,
-                                    struct reflector_set *set, struct arena *arena))
-{
-    struct object *const *object = frame_order_objects(frame);
-    const struct vehicle **of = arena_get(frame->arena, frame->objects.count * sizeof(*of));
-    for (size_t i = 0; i < frame->objects.count; i++) {
-        const struct vehicle *vehicle = runner_vehicle(runner, object[i]->class);
-        if (vehicle == NULL)
-            return diag_prefix(&runner->diag,
-                               "objects[%zu].class: ", (size_t)(object[i] - frame->objects.items));
-        complete_size(object[i], vehicle);
-        if (!frame_same_name(object[i]->id, frame->ego))
-            of[i] = vehicle;
-    }
-    for (size_t i = 0; i < runner->vehicles.count; i++)
-        add_set(runner, frame, runner->vehicles.items[i], of, describe);
-    return 0;
+    else if (runner->reference_stream == NULL)
+        runner->reference_stream = reference_stream_open(path, partial, &runner->diag);
+    return runner->reference_stream;
 }
 
 static int prepare(struct runner *runner, size_t count, const char *const *words)
@@ -259,7 +115,7 @@ void runner_free(struct runner *runner)
 {
     for (size_t i = 0; i < runner->tried.count; i++)
         runner_free(runner->tried.items[i]);
-    reference_stream_close(runner->counterpart);
+    reference_stream_close(runner->reference_stream);
     if (runner->stage != NULL && runner->stage->release != NULL)
         runner->stage->release(runner->state);
     arena_free(&runner->arena);

@@ -28,12 +28,12 @@ struct runner {
     LIST_OF(struct output *) outputs; /* those of a chain's last runner, until it ends */
     struct frame_source frames;       /* of a tool, set by the chain */
     LIST_OF(const struct suite *) suites;
-    LIST_OF(const struct vehicle *) vehicles; /* by class */
-    struct frame_sequence completeness;       /* followed only under --complete */
-    int64_t expected_frames;                  /* 0 if the source does not say */
-    struct effect_log *log;                   /* NULL unless --explain was given */
-    LIST_OF(struct runner *) tried;           /* other stages, inside a tool */
-    struct reference_stream *counterpart;     /* NULL: none was asked for */
+    LIST_OF(const struct vehicle *) vehicles;
+    struct frame_sequence completeness;        /* followed only under --complete */
+    int64_t expected_frames;                   /* 0 if the source does not say */
+    struct effect_log *log;                    /* NULL unless --explain was given */
+    LIST_OF(struct runner *) tried;            /* other stages, inside a tool */
+    struct reference_stream *reference_stream; /* NULL: none was asked for */
 };
 
 /* All return 0, or -1 after a message in runner->diag; runner_next returns 1 with a frame and 0 at

@@ -16,12 +16,12 @@
 #ifndef STAGE_H
 #define STAGE_H
 
-#include "base/units.h"
-#include "documents/catalogue.h"
 #include "frame/frame.h"
 
 struct reference_stream;
 struct runner;
+struct suite;
+struct vehicle;
 struct vehicle;
 
 struct stage {
@@ -48,74 +48,35 @@ struct stage {
     void (*release)(void *state);
 };
 
-/* For stages without options and without state. (These two records are in options.c.) */
+/* For stages without options and without state (options.c). */
 extern const struct record no_options_record;
 
-/* Which suite, and which effects of it. It is the state of stages after ideal, for which the frame
- * has the answers: other ones are refused. ideal's state begins with it. */
-struct suite_choice {
-    const char *sensors; /* NULL: the suite that the frame names */
-    const char *effects; /* NULL: those that the frame names, or the suite does */
-};
-extern const struct record suite_choice_record;
-
-/* The member after `sensors`, for tables of options. */
-#define SUITE_CHOICE_EFFECTS                                                                       \
-    {                                                                                              \
-        FIELD_NAME_OF(struct suite_choice, effects, "auto, all, none, or effects by their names"), \
-            FIELD_OPTIONAL, .word = "LIST"                                                         \
-    }
-
-/* What the runner does for stages (runner.c). */
+/* What the runner does for stages (runner.c). Those that return a pointer return NULL after a
+ * message, unless they say otherwise. */
 
 /* Memory that lasts as long as the stage, for what it loads. */
 struct arena *runner_arena(struct runner *runner);
 
 struct diag *runner_diag(struct runner *runner);
 
-/* The suite that the frame was seen with, or the one called name if it is not NULL. NULL after a
- * message; another digest than the frame's is refused (DIAG_CONFIG). Loaded once. */
-const struct suite *runner_suite(struct runner *runner, const struct frame *frame,
-                                 const char *name);
+/* Where the stage notes what it simulates and leaves out; NULL unless --explain was given. */
+struct effect_log *runner_log(struct runner *runner);
 
-/* What ideal writes of its suite into every frame: name, digest, and which effects, by its
- * options or else by the suite itself. */
-int runner_request(struct runner *runner, const struct suite_choice *choice,
-                   const struct suite *suite, struct sensors *request);
-
-/* The effects that the frame asks for. Refuses options that ask for others (DIAG_CONFIG). */
-int runner_selection(struct runner *runner, const struct frame *frame,
-                     const struct suite_choice *choice, struct selection *selection);
-
-/* The whole step of a stage whose state is a suite_choice: visits every sensor of the suite that
- * the frame was seen with. */
-int runner_visit_sensors(struct runner *runner, struct frame *frame,
-                         void (*visit)(struct frame *frame, const struct sensor *sensor,
-                                       const struct selection *selection));
-
-/* The vehicle document of a class. NULL after a message. Loaded once. */
+/* The suite of that name (documents/catalogue.h), and the vehicle document of a class. Each is
+ * loaded once. Stages after ideal ask for the frame's suite instead (suite_choice.h). */
+const struct suite *runner_suite(struct runner *runner, const char *name);
 const struct vehicle *runner_vehicle(struct runner *runner, const char *class);
 
-/* The whole step of a stage that extracts: completes the objects' sizes and has every object but
- * the ego listed in its class's set: the document's, of which describe, if it is not NULL, may put
- * others in place of any list, in memory of the arena. Sizes come from documents that were checked,
- * so objects are not among what the stage writes. */
-int runner_extract(struct runner *runner, struct frame *frame,
-                   void (*describe)(const void *state, const struct vehicle *vehicle,
-                                    struct reflector_set *set, struct arena *arena));
-
-/* A sink's way out. */
+/* What a sink writes: bytes, or a record as a line of JSON. */
 int runner_write(struct runner *runner, const char *bytes, size_t length);
-
-/* The same for a line of JSON, as the record says. */
 int runner_write_record(struct runner *runner, const struct record *record, const void *base);
 
-/* Another stream beside the one that is read, for sinks that compare: opened once, closed at the
- * end.
- * "-" is standard input where the frames come from files. NULL after a message. */
-struct reference_stream *runner_counterpart(struct runner *runner, const char *path, bool partial);
+/* A second stream beside the one that is read, for sinks that compare the two. "-" is standard
+ * input, and refused where the frames come from there. A sink has one; the runner closes it. */
+struct reference_stream *runner_reference_stream(struct runner *runner, const char *path,
+                                                 bool partial);
 
-/* For the progress bar of a source: how many frames there will be. */
+/* How many frames a source will make, for the progress bar. */
 void runner_expect(struct runner *runner, int64_t frames);
 
 #endif

@@ -20,6 +20,7 @@
 #include "run/stage.h"
 
 struct output;
+struct suite_choice;
 
 struct tool {
     const char *name;    /* "plan": the executable is glint-plan */

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/units.h"
+#include "documents/suite.h"
 #include "run/runner.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -30,7 +31,7 @@ static void bench_open(struct bench *bench, const struct stage *stage, const cha
     const char *words[] = {"--sensors", suite};
     assert_int_equal(runner_prepare(&bench->runner, stage, COUNT(words), words), 0);
     assert_int_equal(runner_start(&bench->runner), 0);
-    bench->suite = runner_suite(&bench->runner, &bench->frame, suite);
+    bench->suite = runner_suite(&bench->runner, suite);
     if (bench->suite == NULL)
         fail_msg("%s", bench->runner.diag.text);
 }

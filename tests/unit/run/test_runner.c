@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "frame/frame_text.h"
+#include "run/extraction.h"
 #include "run/fused.h"
 #include "run/runner.h"
 
@@ -24,7 +25,7 @@ static const struct stage *stage_of(const char *name)
     return stages[i];
 }
 
-/* Whoever writes reflectors completes sizes, by documents that were checked (runner_extract). */
+/* Whoever writes reflectors completes sizes, by documents that were checked (extraction_step). */
 static void forget_sizes(struct frame *frame, struct arena *arena)
 {
     struct object *objects = arena_room(arena, frame->objects.count * sizeof *objects);
@@ -215,8 +216,7 @@ static void describe_nonsense(const void *state, const struct vehicle *vehicle,
 
 static int extract_nonsense(void *state, struct frame *frame, struct runner *runner)
 {
-    (void)state;
-    return runner_extract(runner, frame, describe_nonsense);
+    return extraction_step(frame, runner, describe_nonsense, state);
 }
 
 /* A document's reflectors were checked when it was read; others in their place were not. */

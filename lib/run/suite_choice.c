@@ -1,0 +1,92 @@
+#include "run/suite_choice.h"
+
+#include <string.h>
+
+static const struct field suite_choice_fields[] = {SUITE_CHOICE_AFTER_IDEAL, {0}};
+
+const struct record suite_choice_record = {
+    .name = "stage", .size = sizeof(struct suite_choice), .fields = suite_choice_fields};
+
+int suite_choice_request(const struct suite_choice *choice, const struct suite *suite,
+                         struct sensors *request, struct diag *diag)
+{
+    *request = (struct sensors){
+        .suite = suite->name,
+        .digest = suite->digest,
+        .effects = choice->effects != NULL ? choice->effects : suite->effects,
+    };
+    if (request->effects == NULL)
+        request->effects = "auto";
+    struct selection selection;
+    if (effects_read(request->effects, &selection, diag) == 0)
+        return 0;
+    if (choice->effects != NULL)
+        diag->code = DIAG_USAGE;
+    return -1;
+}
+
+/* A sensor that only the frame knows would lose its echoes without a word. */
+static int check_sensors(const struct suite *suite, const struct frame *frame, struct diag *diag)
+{
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        if (suite_sensor(suite, frame->sensors.list.items[i].name) == NULL)
+            return diag_fail(diag, DIAG_DATA,
+                             "sensors.list[%zu].name: \"%s\" is not in the suite \"%s\"", i,
+                             frame->sensors.list.items[i].name, suite->name);
+    if (frame->sensors.list.count != suite->sensors.count)
+        return diag_fail(diag, DIAG_DATA, "sensors.list: %zu sensors; the suite \"%s\" has %zu",
+                         frame->sensors.list.count, suite->name, suite->sensors.count);
+    return 0;
+}
+
+const struct suite *suite_choice_suite(const struct suite_choice *choice, const struct frame *frame,
+                                       struct runner *runner)
+{
+    const char *name = choice->sensors != NULL ? choice->sensors : frame->sensors.suite;
+    struct diag *diag = runner_diag(runner);
+    const struct suite *suite = runner_suite(runner, name);
+    if (suite == NULL)
+        return NULL;
+    if (strcmp(suite->digest, frame->sensors.digest) != 0) {
+        diag_fail(diag, DIAG_CONFIG,
+                  "sensors.digest: the frame was seen with %s, \"%s\" is now %s; run the whole "
+                  "chain with one suite",
+                  frame->sensors.digest, name, suite->digest);
+        return NULL;
+    }
+    return check_sensors(suite, frame, diag) == 0 ? suite : NULL;
+}
+
+int suite_choice_effects(const struct suite_choice *choice, const struct frame *frame,
+                         struct runner *runner, struct selection *selection)
+{
+    struct diag *diag = runner_diag(runner);
+    const char *asked = frame->sensors.effects != NULL ? frame->sensors.effects : "auto";
+    if (choice->effects != NULL && strcmp(choice->effects, asked) != 0)
+        return diag_fail(diag, DIAG_CONFIG,
+                         "sensors.effects: the frame was seen with \"%s\", not with \"%s\"; give "
+                         "the effects to glint-ideal",
+                         asked, choice->effects);
+    if (effects_read(asked, selection, diag) != 0)
+        return diag_prefix(diag, "sensors.");
+    selection->log = runner_log(runner);
+    return 0;
+}
+
+int suite_choice_visit(const struct suite_choice *choice, struct frame *frame,
+                       struct runner *runner,
+                       void (*visit)(struct frame *frame, const struct sensor *sensor,
+                                     const struct selection *selection))
+{
+    struct selection selection;
+    const struct suite *suite = suite_choice_suite(choice, frame, runner);
+    if (suite == NULL || suite_choice_effects(choice, frame, runner, &selection) != 0)
+        return -1;
+    for (size_t i = 0; i < suite->sensors.count; i++) {
+        const struct sensor *sensor = &suite->sensors.items[i];
+        selection.log = frame_view(frame, sensor->name)->measured ? runner_log(runner) : NULL;
+        visit(frame, sensor, &selection);
+        effects_count_scan(&selection);
+    }
+    return 0;
+}

@@ -1,0 +1,57 @@
+/* Which suite of sensors, and which of its effects: asked for at glint-ideal, written into every
+ * frame, and obeyed by the stages after it.
+ *
+ * A stage after ideal may be given a suite or effects as well, but only those that the frame was
+ * seen with: others are refused with DIAG_CONFIG. All functions that return an int give 0, or -1
+ * after a message. */
+#ifndef SUITE_CHOICE_H
+#define SUITE_CHOICE_H
+
+#include "documents/suite.h"
+#include "run/stage.h"
+
+/* The options --sensors and --effects. Stages after ideal have it as their state. */
+struct suite_choice {
+    const char *sensors; /* NULL: the suite that the frame names */
+    const char *effects; /* NULL: those that the frame names; at ideal, those of the suite */
+};
+extern const struct record suite_choice_record;
+
+/* For the tables of options of states that begin with a suite_choice: at ideal, where the suite is
+ * required; and after it. */
+#define SUITE_CHOICE_OF_IDEAL                                                                      \
+    {FIELD_NAME_OF(struct suite_choice, sensors,                                                   \
+                   "the sensor suite: a name in data/sensors/, or a path")},                       \
+        SUITE_CHOICE_EFFECTS
+#define SUITE_CHOICE_AFTER_IDEAL                                                                   \
+    {FIELD_NAME_OF(struct suite_choice, sensors,                                                   \
+                   "the suite by another name; its digest must be the frame's"),                   \
+     FIELD_OPTIONAL},                                                                              \
+        SUITE_CHOICE_EFFECTS
+#define SUITE_CHOICE_EFFECTS                                                                       \
+    {                                                                                              \
+        FIELD_NAME_OF(struct suite_choice, effects, "auto, all, none, or effects by their names"), \
+            FIELD_OPTIONAL, .word = "LIST"                                                         \
+    }
+
+/* What ideal writes into every frame: name and digest of the suite, and the text of the effects,
+ * which is the option's, or else the suite's, or else "auto". */
+int suite_choice_request(const struct suite_choice *choice, const struct suite *suite,
+                         struct sensors *request, struct diag *diag);
+
+/* The suite that the frame was seen with. NULL after a message: another digest, or other sensors
+ * than the frame has. */
+const struct suite *suite_choice_suite(const struct suite_choice *choice, const struct frame *frame,
+                                       struct runner *runner);
+
+/* The effects that the frame asks for, to be noted in the runner's log. */
+int suite_choice_effects(const struct suite_choice *choice, const struct frame *frame,
+                         struct runner *runner, struct selection *selection);
+
+/* The whole step of a stage after ideal: visits every sensor of the suite. */
+int suite_choice_visit(const struct suite_choice *choice, struct frame *frame,
+                       struct runner *runner,
+                       void (*visit)(struct frame *frame, const struct sensor *sensor,
+                                     const struct selection *selection));
+
+#endif
