@@ -42,7 +42,7 @@ static int score_step(void *state, struct frame *frame, struct runner *runner)
         struct score_tally scan = {.sensor = view->name};
         target_score_scan(&scan, truth, frame, &cell, frame->arena);
         if (own->summary)
-            score_keep(&own->sensors, &scan, runner_arena(runner));
+            score_merge_sensor(&own->sensors, &scan, runner_arena(runner));
         else
             *list_add(&line.sensors, frame->arena) = score_of(&scan, 1, frame->arena);
     }
@@ -56,8 +56,8 @@ static int score_stop(void *state, struct runner *runner)
         return -1;
     struct score_summary summary = {
         .frames = own->frames,
-        .true_frames = reference_stream_left(own->other),
-        .listed_frames = reference_stream_absent(own->other),
+        .true_frames = reference_stream_unmatched(own->other),
+        .listed_frames = reference_stream_missing(own->other),
         .cutoff = own->cutoff,
         .azimuth_cell_rad = own->azimuth_cell_rad,
     };

@@ -59,8 +59,8 @@ static int score_tracks_stop(void *state, struct runner *runner)
         return 0;
     struct score_track_summary summary = {
         .frames = own->frames,
-        .true_frames = reference_stream_absent(own->other),
-        .listed_frames = reference_stream_left(own->other),
+        .true_frames = reference_stream_missing(own->other),
+        .listed_frames = reference_stream_unmatched(own->other),
         .cutoff_m = own->cutoff_m,
         .id_switches = own->id_switches,
         .all = score_of(&own->tally, 1, runner_arena(runner)),

@@ -3,30 +3,32 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* No more rows than columns. Costs less the prices of their row and column are never negative, and
- * 0 where a row has its column. */
+/* The matrix, with no more rows than columns, and the pairs so far. Costs less the prices of their
+ * row and column are never negative, and 0 where a row has its column. */
 struct pairing {
     const double *cost;
     size_t columns;
     double *row_price, *column_price;
     size_t *column_of, *row_of;
-    /* Of the row that is being added: how cheaply each column is reached, from which row, and
-     * whether that is settled. */
+    /* For the row that is being added: the least cost at which each column is reached, the row
+     * before it on that path, and whether that is settled. */
     double *reach;
     size_t *from;
     bool *settled;
 };
 
-/* Is it reached for less, or for the same without moving a row? */
+/* True if a column is reached at less cost than another, or at the same cost without moving a
+ * row. */
 static bool is_nearer(const struct pairing *pairing, size_t column, size_t than)
 {
     double reach = pairing->reach[column], least = pairing->reach[than];
-    bool frees =
+    bool is_free =
         pairing->row_of[column] == ASSIGNMENT_NONE && pairing->row_of[than] != ASSIGNMENT_NONE;
-    return reach < least || (reach <= least && frees);
+    return reach < least || (reach <= least && is_free);
 }
 
-/* Looks on from a row that is reached for `spent`, and settles the nearest column. */
+/* Extends the paths from a row that is reached at the cost `spent`, and settles the nearest
+ * column. */
 static size_t settle_next(struct pairing *pairing, size_t row, double spent)
 {
     size_t next = ASSIGNMENT_NONE;
@@ -59,7 +61,7 @@ static void change_prices(struct pairing *pairing, size_t row, double spent)
     }
 }
 
-/* Gives a row a column, at the least extra cost; rows on the way to a free column move on. */
+/* Gives a row a column at the least extra cost; rows along the path to a free column move on. */
 static void add_row(struct pairing *pairing, size_t row)
 {
     for (size_t column = 0; column < pairing->columns; column++) {

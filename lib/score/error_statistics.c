@@ -17,7 +17,7 @@ static void sort(double *values, size_t count, struct arena *arena)
     sort_items(values, count, sizeof *values, ascending, arena);
 }
 
-/* Sums run over sorted values, so that the order of the differences changes no bit. */
+/* Sums over the sorted values, so that the order of the differences changes no bit. */
 struct error_statistics error_statistics_of(double *differences, size_t count, struct arena *arena)
 {
     double sum = 0, squares = 0, *size = differences;
@@ -42,7 +42,7 @@ double error_statistics_wasserstein(double *one, size_t one_count, double *other
     sort(one, one_count, arena);
     sort(other, other_count, arena);
     double area = 0, from = elementary_min(one[0], other[0]);
-    size_t i = 0, j = 0; /* how many of each are at most `from` */
+    size_t i = 0, j = 0; /* number of values of each that are at most `from` */
     while (i < one_count || j < other_count) {
         bool first = j == other_count || (i < one_count && one[i] <= other[j]);
         double to = first ? one[i] : other[j];

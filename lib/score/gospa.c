@@ -5,8 +5,8 @@
 #include "base/elementary.h"
 #include "score/assignment.h"
 
-/* With costs of at most c^2 every item of the shorter list gets a partner; one at the cut-off costs
- * what two items left alone do, and is none. */
+/* Costs are at most c^2, so every item of the shorter list gets a partner. A partner at the cut-off
+ * costs as much as two unpaired items, and does not count as one. */
 size_t gospa_pair(const double *distance, size_t truths, size_t listed, double cutoff,
                   size_t *item_of, struct arena *arena)
 {

@@ -10,12 +10,12 @@
 #include "text/input.h"
 #include "text/json_scan.h"
 
-/* Streams of the same scenes agree in time but for how it was written. */
+/* Times in streams of the same scenes agree but for how they were written. */
 static const double same_time_s = 1e-6;
 
-/* A line that waits. Each is one piece of memory of its own. */
-struct waiting {
-    struct waiting *next;
+/* A line that waits for its frame, with its text in one piece of memory. */
+struct waiting_line {
+    struct waiting_line *next;
     size_t number;
     int64_t frame;
     const char *scene;
@@ -26,13 +26,13 @@ struct waiting {
 struct reference_stream {
     struct input *input;
     bool partial, ended;
-    size_t number;    /* of the line read last */
-    size_t found;     /* of the line found last: */
-    const char *line; /* valid until the next is looked for */
+    size_t number;    /* number of the line read last */
+    size_t found;     /* number of the line found last, which is: */
+    const char *line; /* valid until the next line is read */
     size_t length;
-    struct waiting *first, **last;
-    struct waiting *taken; /* the one that was taken out last */
-    int64_t left, absent;
+    struct waiting_line *first, **last;
+    struct waiting_line *taken; /* the waiting line that was taken out last */
+    int64_t unmatched, missing;
     struct frame frame;
     struct arena arena, words;
 };
@@ -44,49 +44,49 @@ struct reference_stream *reference_stream_open(const char *path, bool partial, s
         diag_prefix(diag, "%s: ", path);
         return NULL;
     }
-    struct reference_stream *counterpart = memory_get(sizeof *counterpart);
-    *counterpart = (struct reference_stream){.input = input, .partial = partial};
-    counterpart->last = &counterpart->first;
-    counterpart->frame.arena = &counterpart->arena;
-    return counterpart;
+    struct reference_stream *reference = memory_get(sizeof *reference);
+    *reference = (struct reference_stream){.input = input, .partial = partial};
+    reference->last = &reference->first;
+    reference->frame.arena = &reference->arena;
+    return reference;
 }
 
-void reference_stream_close(struct reference_stream *counterpart)
+void reference_stream_close(struct reference_stream *reference)
 {
-    if (counterpart == NULL)
+    if (reference == NULL)
         return;
-    free(counterpart->taken);
-    for (struct waiting *line = counterpart->first, *next; line != NULL; line = next) {
+    free(reference->taken);
+    for (struct waiting_line *line = reference->first, *next; line != NULL; line = next) {
         next = line->next;
         free(line);
     }
-    arena_free(&counterpart->arena);
-    arena_free(&counterpart->words);
-    input_close(counterpart->input);
-    free(counterpart);
+    arena_free(&reference->arena);
+    arena_free(&reference->words);
+    input_close(reference->input);
+    free(reference);
 }
 
-static int place(const struct reference_stream *counterpart, struct diag *diag)
+static int prefix_place(const struct reference_stream *reference, struct diag *diag)
 {
     if (diag->code == DIAG_NO_INPUT) /* a folder has no lines */
-        return diag_prefix(diag, "%s: ", input_name(counterpart->input));
-    return diag_prefix(diag, "%s:%zu: ", input_name(counterpart->input), counterpart->found);
+        return diag_prefix(diag, "%s: ", input_name(reference->input));
+    return diag_prefix(diag, "%s:%zu: ", input_name(reference->input), reference->found);
 }
 
-int64_t reference_stream_left(const struct reference_stream *counterpart)
+int64_t reference_stream_unmatched(const struct reference_stream *reference)
 {
-    return counterpart->left;
+    return reference->unmatched;
 }
 
-int64_t reference_stream_absent(const struct reference_stream *counterpart)
+int64_t reference_stream_missing(const struct reference_stream *reference)
 {
-    return counterpart->absent;
+    return reference->missing;
 }
 
-/* Which scene and frame a line is of. */
+/* The scene and frame of a line. */
 struct key {
     const char *scene;
-    double frame; /* -1: not there */
+    double frame; /* -1: missing */
 };
 
 static int read_member(struct json_scan *scan, struct key *key)
@@ -112,12 +112,12 @@ static int read_member(struct json_scan *scan, struct key *key)
     return json_scan_value(scan, &text);
 }
 
-/* Reads no further than both members: whoever takes the line reads all of it. */
-static int read_key(struct reference_stream *counterpart, struct key *key, struct diag *diag)
+/* Reads the line up to both members; the rest is read when the line is taken. */
+static int read_key(struct reference_stream *reference, struct key *key, struct diag *diag)
 {
-    arena_clear(&counterpart->words);
-    const char *line = counterpart->line;
-    struct json_scan scan = {line, line + counterpart->length, &counterpart->words, diag};
+    arena_clear(&reference->words);
+    const char *line = reference->line;
+    struct json_scan scan = {line, line + reference->length, &reference->words, diag};
     *key = (struct key){.frame = -1};
     if (!json_scan_take(&scan, '{'))
         return json_scan_unexpected(&scan, "an object");
@@ -126,90 +126,91 @@ static int read_key(struct reference_stream *counterpart, struct key *key, struc
         if (read_member(&scan, key) != 0)
             return -1;
     if (key->scene == NULL)
-        return diag_fail(diag, DIAG_DATA, "scene: missing; expected a name");
+        return diag_fail(diag, DIAG_DATA, "scene: missing; expected the name of a scene");
     if (key->frame < 0 || key->frame != floor(key->frame) || key->frame > 0x1p53)
         return diag_fail(diag, DIAG_DATA, "frame: %s; expected the number of a frame",
                          key->frame < 0 ? "missing" : "not a whole number");
     return 0;
 }
 
-static void hold(struct reference_stream *counterpart, const struct key *key)
+static void keep_line(struct reference_stream *reference, const struct key *key)
 {
     size_t scene = strlen(key->scene) + 1;
-    struct waiting *line = memory_get(sizeof *line + scene + counterpart->length);
+    struct waiting_line *line = memory_get(sizeof *line + scene + reference->length);
     char *text = (char *)(line + 1);
-    *line = (struct waiting){.number = counterpart->number,
-                             .frame = (int64_t)key->frame,
-                             .scene = text,
-                             .length = counterpart->length,
-                             .bytes = text + scene};
+    *line = (struct waiting_line){.number = reference->number,
+                                  .frame = (int64_t)key->frame,
+                                  .scene = text,
+                                  .length = reference->length,
+                                  .bytes = text + scene};
     memcpy(text, key->scene, scene);
-    memcpy(line->bytes, counterpart->line, line->length);
-    *counterpart->last = line;
-    counterpart->last = &line->next;
+    memcpy(line->bytes, reference->line, line->length);
+    *reference->last = line;
+    reference->last = &line->next;
 }
 
-static int leave(struct reference_stream *counterpart, size_t number, const char *scene,
-                 int64_t frame, struct diag *diag)
+static int skip_line(struct reference_stream *reference, size_t number, const char *scene,
+                     int64_t frame, struct diag *diag)
 {
-    counterpart->left++;
-    if (counterpart->partial)
+    reference->unmatched++;
+    if (reference->partial)
         return 0;
-    counterpart->found = number;
-    diag_fail(diag, DIAG_DATA, "frame %lld of scene \"%s\" is not in the stream", (long long)frame,
-              scene);
-    return place(counterpart, diag);
+    reference->found = number;
+    diag_fail(diag, DIAG_DATA, "frame %lld of scene \"%s\" is not in the other stream",
+              (long long)frame, scene);
+    return prefix_place(reference, diag);
 }
 
-/* Takes a line out of those that wait: it goes with the next call. */
-static struct waiting *take(struct reference_stream *counterpart, struct waiting **at)
+/* Takes a line out of the waiting ones; its memory is freed by the next call. */
+static struct waiting_line *take_line(struct reference_stream *reference, struct waiting_line **at)
 {
-    struct waiting *line = *at;
+    struct waiting_line *line = *at;
     *at = line->next;
-    if (counterpart->last == &line->next)
-        counterpart->last = at;
-    free(counterpart->taken);
-    counterpart->taken = line;
+    if (reference->last == &line->next)
+        reference->last = at;
+    free(reference->taken);
+    reference->taken = line;
     return line;
 }
 
 enum search { SEARCH_FAILED, SEARCH_ON, SEARCH_FOUND, SEARCH_PAST };
 
-/* Among the lines that wait. */
-static enum search look(struct reference_stream *counterpart, const char *scene, int64_t frame,
-                        struct diag *diag)
+/* Searches the waiting lines. */
+static enum search find_waiting(struct reference_stream *reference, const char *scene,
+                                int64_t frame, struct diag *diag)
 {
-    for (struct waiting **at = &counterpart->first; *at != NULL;) {
+    for (struct waiting_line **at = &reference->first; *at != NULL;) {
         if (strcmp((*at)->scene, scene) != 0) {
             at = &(*at)->next;
             continue;
         }
         if ((*at)->frame > frame)
             return SEARCH_PAST;
-        struct waiting *line = take(counterpart, at);
+        struct waiting_line *line = take_line(reference, at);
         if (line->frame == frame) {
-            counterpart->found = line->number;
-            counterpart->line = line->bytes;
-            counterpart->length = line->length;
+            reference->found = line->number;
+            reference->line = line->bytes;
+            reference->length = line->length;
             return SEARCH_FOUND;
         }
-        if (leave(counterpart, line->number, line->scene, line->frame, diag) != 0)
+        if (skip_line(reference, line->number, line->scene, line->frame, diag) != 0)
             return SEARCH_FAILED;
     }
     return SEARCH_ON;
 }
 
-/* The line that comes next; one that is not wanted waits, or is left. Without a scene none is. */
-static enum search read_next(struct reference_stream *counterpart, const char *scene, int64_t frame,
+/* Reads the next line. A line for a later frame or another scene waits; one that can match no frame
+ * any more is skipped. If scene is NULL, no line matches. */
+static enum search read_next(struct reference_stream *reference, const char *scene, int64_t frame,
                              struct diag *diag)
 {
     struct key key;
-    counterpart->found = ++counterpart->number;
-    int more = input_line(counterpart->input, FRAME_TEXT_SIZE, &counterpart->line,
-                          &counterpart->length, diag);
-    counterpart->ended = more == 0;
-    if (more < 0 || (more > 0 && read_key(counterpart, &key, diag) != 0)) {
-        place(counterpart, diag);
+    reference->found = ++reference->number;
+    int more =
+        input_line(reference->input, FRAME_TEXT_SIZE, &reference->line, &reference->length, diag);
+    reference->ended = more == 0;
+    if (more < 0 || (more > 0 && read_key(reference, &key, diag) != 0)) {
+        prefix_place(reference, diag);
         return SEARCH_FAILED;
     }
     if (more == 0)
@@ -218,84 +219,84 @@ static enum search read_next(struct reference_stream *counterpart, const char *s
     if (same && (int64_t)key.frame == frame)
         return SEARCH_FOUND;
     if (scene == NULL || (same && key.frame < (double)frame)) {
-        int left = leave(counterpart, counterpart->number, key.scene, (int64_t)key.frame, diag);
-        return left == 0 ? SEARCH_ON : SEARCH_FAILED;
+        int unmatched =
+            skip_line(reference, reference->number, key.scene, (int64_t)key.frame, diag);
+        return unmatched == 0 ? SEARCH_ON : SEARCH_FAILED;
     }
-    hold(counterpart, &key);
+    keep_line(reference, &key);
     return same ? SEARCH_PAST : SEARCH_ON;
 }
 
 /* Finds the line for a scene and frame: 1, 0 if there is none, -1. */
-static int find(struct reference_stream *counterpart, const struct frame *frame, struct diag *diag)
+static int find(struct reference_stream *reference, const struct frame *frame, struct diag *diag)
 {
-    enum search search = look(counterpart, frame->scene, frame->frame, diag);
+    enum search search = find_waiting(reference, frame->scene, frame->frame, diag);
     while (search == SEARCH_ON)
-        search = counterpart->ended ? SEARCH_PAST
-                                    : read_next(counterpart, frame->scene, frame->frame, diag);
+        search =
+            reference->ended ? SEARCH_PAST : read_next(reference, frame->scene, frame->frame, diag);
     if (search != SEARCH_PAST)
         return search == SEARCH_FOUND ? 1 : -1;
-    counterpart->absent++;
-    if (counterpart->partial)
+    reference->missing++;
+    if (reference->partial)
         return 0;
     return diag_fail(diag, DIAG_DATA, "frame: %s has no frame %lld of scene \"%s\"",
-                     input_name(counterpart->input), (long long)frame->frame, frame->scene);
+                     input_name(reference->input), (long long)frame->frame, frame->scene);
 }
 
-/* Refuses streams of other scenes under the same names. */
+/* Refuses a stream of other scenes with the same names. */
 static int check_time(const struct frame *frame, double time_s, struct diag *diag)
 {
     if (fabs(time_s - frame->time_s) <= same_time_s)
         return 0;
-    return diag_fail(
-        diag, DIAG_DATA,
-        "time_s: %.9g; that frame of the stream is at %.9g s: are these the same scenes?", time_s,
-        frame->time_s);
+    return diag_fail(diag, DIAG_DATA,
+                     "time_s: %.9g; expected %.9g, the time of this frame in the other stream",
+                     time_s, frame->time_s);
 }
 
-int reference_stream_frame(struct reference_stream *counterpart, const struct frame *frame,
+int reference_stream_frame(struct reference_stream *reference, const struct frame *frame,
                            unsigned sections, const struct frame **other, struct diag *diag)
 {
-    int found = find(counterpart, frame, diag);
+    int found = find(reference, frame, diag);
     if (found <= 0)
         return found;
-    struct frame *own = &counterpart->frame;
-    if (frame_text_read(counterpart->line, counterpart->length, own, diag) != 0)
-        return place(counterpart, diag);
+    struct frame *own = &reference->frame;
+    if (frame_text_read(reference->line, reference->length, own, diag) != 0)
+        return prefix_place(reference, diag);
     frame_order(own);
-    unsigned missing = sections & ~own->present;
-    if (missing != 0)
-        diag_fail(diag, DIAG_DATA, "%s: missing; there is nothing to compare with",
-                  frame_section_name(missing & -missing));
-    if (missing != 0 || frame_check(own, diag) != 0 || check_time(frame, own->time_s, diag) != 0)
-        return place(counterpart, diag);
+    unsigned lacking = sections & ~own->present;
+    if (lacking != 0)
+        diag_fail(diag, DIAG_DATA, "%s: missing; expected the section, to compare with",
+                  frame_section_name(lacking & -lacking));
+    if (lacking != 0 || frame_check(own, diag) != 0 || check_time(frame, own->time_s, diag) != 0)
+        return prefix_place(reference, diag);
     *other = own;
     return 1;
 }
 
-int reference_stream_tracks(struct reference_stream *counterpart, const struct frame *frame,
+int reference_stream_tracks(struct reference_stream *reference, const struct frame *frame,
                             struct track_list *tracks, struct diag *diag)
 {
-    int found = find(counterpart, frame, diag);
+    int found = find(reference, frame, diag);
     if (found <= 0)
         return found;
     field_clear(&track_list_record, tracks);
-    if (frame_text_read_record(counterpart->line, counterpart->length, &track_list_record, tracks,
+    if (frame_text_read_record(reference->line, reference->length, &track_list_record, tracks,
                                frame->arena, diag) != 0 ||
         track_order(tracks, frame->arena, diag) != 0 ||
         ((tracks->present & TRACK_TIME) != 0 && check_time(frame, tracks->time_s, diag) != 0))
-        return place(counterpart, diag);
+        return prefix_place(reference, diag);
     return 1;
 }
 
-int reference_stream_finish(struct reference_stream *counterpart, struct diag *diag)
+int reference_stream_finish(struct reference_stream *reference, struct diag *diag)
 {
-    while (counterpart->first != NULL) {
-        struct waiting *left = take(counterpart, &counterpart->first);
-        if (leave(counterpart, left->number, left->scene, left->frame, diag) != 0)
+    while (reference->first != NULL) {
+        struct waiting_line *unmatched = take_line(reference, &reference->first);
+        if (skip_line(reference, unmatched->number, unmatched->scene, unmatched->frame, diag) != 0)
             return -1;
     }
-    while (!counterpart->ended)
-        if (read_next(counterpart, NULL, 0, diag) == SEARCH_FAILED)
+    while (!reference->ended)
+        if (read_next(reference, NULL, 0, diag) == SEARCH_FAILED)
             return -1;
     return 0;
 }

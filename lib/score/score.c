@@ -22,10 +22,10 @@
     }
 
 static const struct field differences_fields[] = {
-    DIFFERENCE(mean, -1e300, SCORE_PAIRS, "of the pairs' differences, listed less true"),
-    DIFFERENCE(rms, 0, SCORE_PAIRS, "their root mean square"),
-    DIFFERENCE(p95, 0, SCORE_PAIRS, "95 % of them are no larger"),
-    DIFFERENCE(max, 0, SCORE_PAIRS, "the largest"),
+    DIFFERENCE(mean, -1e300, SCORE_PAIRS, "mean of the pairs' differences, listed less true"),
+    DIFFERENCE(rms, 0, SCORE_PAIRS, "root mean square of the pairs' differences"),
+    DIFFERENCE(p95, 0, SCORE_PAIRS, "size that 95 % of the pairs' differences do not exceed"),
+    DIFFERENCE(max, 0, SCORE_PAIRS, "size of the largest of the pairs' differences"),
     DIFFERENCE(wasserstein, 0, SCORE_LISTS, "Wasserstein-1 distance of the two lists, unpaired"),
     {0},
 };
@@ -47,26 +47,31 @@ static const struct record differences_record = {
     }
 
 static const struct field score_fields[] = {
-    {FIELD_NAME_OF(struct score, sensor, "absent: all of them"), FIELD_OPTIONAL},
-    COUNT(struct score, scans, "pairs of lists: a sensor's in one frame, or the tracks of one"),
-    COUNT(struct score, true_count, "items of the truth"),
-    COUNT(struct score, listed_count, "items of the stream"),
+    {FIELD_NAME_OF(struct score, sensor, "name of the sensor; absent: all sensors"),
+     FIELD_OPTIONAL},
+    COUNT(struct score, scans,
+          "pairs of lists: of one sensor in one frame, or the tracks of one frame"),
+    COUNT(struct score, true_count, "items of the true lists"),
+    COUNT(struct score, listed_count, "items of the scored lists"),
     COUNT(struct score, pair_count, "pairs closer than the cut-off"),
-    COUNT(struct score, missed_count, "of the truth, without a pair"),
-    COUNT(struct score, false_count, "of the stream, without a pair"),
-    MEASURE(gospa, "mean over the scans"),
-    MEASURE(gospa_rms, "root mean square over the scans: its square is the sum of the parts"),
-    MEASURE(gospa_max, "of one scan"),
-    MEASURE(gospa_localisation, "mean over the scans of the pairs' squared distances"),
-    MEASURE(gospa_missed, "mean over the scans of half the squared cut-off for each missed one"),
-    MEASURE(gospa_false, "mean over the scans of half the squared cut-off for each false one"),
-    MEASURE(ospa, "mean over the scans"),
+    COUNT(struct score, missed_count, "true items without a pair"),
+    COUNT(struct score, false_count, "scored items without a pair"),
+    MEASURE(gospa, "mean GOSPA over the scans"),
+    MEASURE(gospa_rms,
+            "root mean square of GOSPA over the scans; its square is the sum of the parts"),
+    MEASURE(gospa_max, "largest GOSPA of a scan"),
+    MEASURE(gospa_localisation, "part of the pairs' squared distances, mean over the scans"),
+    MEASURE(gospa_missed,
+            "part of missed items, half the squared cut-off each, mean over the scans"),
+    MEASURE(gospa_false, "part of false items, half the squared cut-off each, mean over the scans"),
+    MEASURE(ospa, "mean OSPA over the scans"),
     COMPONENT(range_m, SCORE_RANGE, "differences in range"),
     COMPONENT(azimuth_rad, SCORE_AZIMUTH, "differences in azimuth"),
     COMPONENT(range_rate_mps, SCORE_RANGE_RATE, "differences in range rate"),
     COMPONENT(amplitude_db, SCORE_AMPLITUDE, "differences in amplitude"),
     COMPONENT(position_m, SCORE_POSITION, "distances of tracks and objects"),
-    COMPONENT(velocity_mps, SCORE_VELOCITY, "sizes of their differences in velocity"),
+    COMPONENT(velocity_mps, SCORE_VELOCITY,
+              "sizes of the differences in velocity of tracks and objects"),
     {0},
 };
 
@@ -80,77 +85,83 @@ const struct record score_record = {
 };
 
 #define LINE_HEAD(owner)                                                                           \
-    {FIELD_NAME_OF(owner, scene, "of the frame")}, COUNT(owner, frame, "number in the scene"),     \
+    {FIELD_NAME_OF(owner, scene, "scene of the frame")},                                           \
+        COUNT(owner, frame, "number of the frame in its scene"),                                   \
     {                                                                                              \
-        FIELD_REAL_IN(owner, time_s, -1e10, 1e10, "of the frame")                                  \
+        FIELD_REAL_IN(owner, time_s, -1e10, 1e10, "time of the frame")                             \
     }
 #define SUMMARY_HEAD(owner)                                                                        \
-    COUNT(owner, frames, "on both sides: scored"),                                                 \
-        COUNT(owner, true_frames, "of the truth alone"),                                           \
-        COUNT(owner, listed_frames, "of what is scored alone")
+    COUNT(owner, frames, "frames in both streams, which are scored"),                              \
+        COUNT(owner, true_frames, "frames in the truth alone"),                                    \
+        COUNT(owner, listed_frames, "frames in the scored stream alone")
 
 static const struct field line_fields[] = {
     LINE_HEAD(struct score_line),
-    {FIELD_LIST_OF(struct score_line, sensors, &score_record, "that measured, by name")},
+    {FIELD_LIST_OF(struct score_line, sensors, &score_record,
+                   "scores of the sensors that measured, by name")},
     {0},
 };
 
 const struct record score_line_record = {
     .name = "score_line",
-    .help = "What glint-score writes of one frame.",
+    .help = "Scores of one frame, by glint-score.",
     .size = sizeof(struct score_line),
     .fields = line_fields,
 };
 
 static const struct field summary_fields[] = {
     SUMMARY_HEAD(struct score_summary),
-    {FIELD_REAL_IN(struct score_summary, cutoff, 0, 1e6, "in cells")},
+    {FIELD_REAL_IN(struct score_summary, cutoff, 0, 1e6, "cut-off distance, in cells")},
     {FIELD_REAL_IN(struct score_summary, azimuth_cell_rad, 0, 10,
-                   "taken for one cell; absent: a twentieth of each field of view"),
+                   "size of a cell in azimuth; absent: a twentieth of each field of view"),
      FIELD_OPTIONAL},
-    {FIELD_RECORD_OF(struct score_summary, all, &score_record, "over all sensors")},
-    {FIELD_LIST_OF(struct score_summary, sensors, &score_record, "that measured, by name")},
+    {FIELD_RECORD_OF(struct score_summary, all, &score_record, "score over all sensors")},
+    {FIELD_LIST_OF(struct score_summary, sensors, &score_record,
+                   "scores of the sensors that measured, by name")},
     {0},
 };
 
 const struct record score_summary_record = {
     .name = "score_summary",
-    .help = "What glint-score --summary writes.",
+    .help = "Scores of a stream, by glint-score --summary.",
     .size = sizeof(struct score_summary),
     .fields = summary_fields,
 };
 
 static const struct field track_line_fields[] = {
     LINE_HEAD(struct score_track_line),
-    COUNT(struct score_track_line, id_switches, "objects paired with another track than last"),
-    {FIELD_RECORD_OF(struct score_track_line, all, &score_record, "over all tracks")},
+    COUNT(struct score_track_line, id_switches,
+          "objects paired with another track than the last time"),
+    {FIELD_RECORD_OF(struct score_track_line, all, &score_record, "score over all tracks")},
     {0},
 };
 
 const struct record score_track_line_record = {
     .name = "score_track_line",
-    .help = "What glint-score-tracks writes of one frame.",
+    .help = "Score of one frame, by glint-score-tracks.",
     .size = sizeof(struct score_track_line),
     .fields = track_line_fields,
 };
 
 static const struct field track_summary_fields[] = {
     SUMMARY_HEAD(struct score_track_summary),
-    {FIELD_REAL_IN(struct score_track_summary, cutoff_m, 0, 1e6, "tracks as far off are no pair")},
-    COUNT(struct score_track_summary, id_switches, "objects paired with another track than last"),
-    {FIELD_RECORD_OF(struct score_track_summary, all, &score_record, "over all frames")},
+    {FIELD_REAL_IN(struct score_track_summary, cutoff_m, 0, 1e6,
+                   "tracks this far off or farther are no pair")},
+    COUNT(struct score_track_summary, id_switches,
+          "objects paired with another track than the last time"),
+    {FIELD_RECORD_OF(struct score_track_summary, all, &score_record, "score over all frames")},
     {0},
 };
 
 const struct record score_track_summary_record = {
     .name = "score_track_summary",
-    .help = "What glint-score-tracks --summary writes.",
+    .help = "Score of a stream, by glint-score-tracks --summary.",
     .size = sizeof(struct score_track_summary),
     .fields = track_summary_fields,
 };
 
-void score_count(struct score_tally *tally, double squares, size_t pairs, size_t truths,
-                 size_t listed, double cutoff)
+void score_add_scan(struct score_tally *tally, double squares, size_t pairs, size_t truths,
+                    size_t listed, double cutoff)
 {
     struct gospa gospa = gospa_of(squares, pairs, truths, listed, cutoff);
     tally->scans++;
@@ -165,7 +176,7 @@ void score_count(struct score_tally *tally, double squares, size_t pairs, size_t
     tally->ospa_sum += gospa_ospa(squares, pairs, truths, listed, cutoff);
 }
 
-void score_add(struct score_values *values, double value, struct arena *arena)
+void score_add_value(struct score_values *values, double value, struct arena *arena)
 {
     *list_add(&values->list, arena) = value;
 }
@@ -174,11 +185,11 @@ static void append(struct score_values *values, const struct score_values *more,
                    struct arena *arena)
 {
     for (size_t i = 0; i < more->list.count; i++)
-        score_add(values, more->list.items[i], arena);
+        score_add_value(values, more->list.items[i], arena);
 }
 
-/* Counts and sums, without the values. */
-static void sum(struct score_tally *tally, const struct score_tally *other)
+/* Adds counts and sums, but no values. */
+static void add_sums(struct score_tally *tally, const struct score_tally *other)
 {
     tally->scans += other->scans;
     tally->truths += other->truths;
@@ -194,13 +205,13 @@ static void sum(struct score_tally *tally, const struct score_tally *other)
 
 void score_merge(struct score_tally *tally, const struct score_tally *other, struct arena *arena)
 {
-    sum(tally, other);
+    add_sums(tally, other);
     for (int kind = 0; kind < SCORE_KINDS; kind++)
         for (int i = 0; i < SCORE_COMPONENTS; i++)
             append(&tally->values[kind][i], &other->values[kind][i], arena);
 }
 
-/* The values of one kind of all tallies, in one list that has just their room. */
+/* The values of one kind of all tallies, in one list allocated at their number. */
 static struct score_values gather(const struct score_tally *tallies, size_t count, int kind,
                                   int component, struct arena *arena)
 {
@@ -216,17 +227,19 @@ static struct score_values gather(const struct score_tally *tallies, size_t coun
 static struct score_differences differences_of(const struct score_tally *tallies, size_t count,
                                                int component, struct arena *arena)
 {
-    struct score_values apart = gather(tallies, count, SCORE_APART, component, arena);
+    struct score_values errors = gather(tallies, count, SCORE_ERROR, component, arena);
     struct score_values truth = gather(tallies, count, SCORE_TRUTH, component, arena);
-    struct score_values list = gather(tallies, count, SCORE_LISTED, component, arena);
+    struct score_values listed = gather(tallies, count, SCORE_LISTED, component, arena);
     struct score_differences differences = {0};
-    if (apart.list.count > 0) {
-        struct error_statistics of = error_statistics_of(apart.list.items, apart.list.count, arena);
-        differences = (struct score_differences){of.mean, of.rms, of.p95, of.max, 0, SCORE_PAIRS};
+    if (errors.list.count > 0) {
+        struct error_statistics statistics =
+            error_statistics_of(errors.list.items, errors.list.count, arena);
+        differences = (struct score_differences){
+            statistics.mean, statistics.rms, statistics.p95, statistics.max, 0, SCORE_PAIRS};
     }
-    if (truth.list.count > 0 && list.list.count > 0) {
+    if (truth.list.count > 0 && listed.list.count > 0) {
         differences.wasserstein = error_statistics_wasserstein(
-            truth.list.items, truth.list.count, list.list.items, list.list.count, arena);
+            truth.list.items, truth.list.count, listed.list.items, listed.list.count, arena);
         differences.present |= SCORE_LISTS;
     }
     return differences;
@@ -236,7 +249,7 @@ struct score score_of(const struct score_tally *tallies, size_t count, struct ar
 {
     struct score_tally all = {0};
     for (size_t i = 0; i < count; i++)
-        sum(&all, &tallies[i]);
+        add_sums(&all, &tallies[i]);
     double scans = all.scans > 0 ? (double)all.scans : 1;
     struct score score = {
         .sensor = count > 0 ? tallies->sensor : NULL,
@@ -259,7 +272,8 @@ struct score score_of(const struct score_tally *tallies, size_t count, struct ar
     return score;
 }
 
-void score_keep(struct score_tallies *tallies, const struct score_tally *scan, struct arena *arena)
+void score_merge_sensor(struct score_tallies *tallies, const struct score_tally *scan,
+                        struct arena *arena)
 {
     for (size_t i = 0; i < tallies->list.count; i++)
         if (strcmp(tallies->list.items[i].sensor, scan->sensor) == 0) {

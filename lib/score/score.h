@@ -1,7 +1,7 @@
-/* Scores: how lists differ from the truth, over one pair of lists or many.
+/* Scores of target lists and tracks against the truth.
  *
- * A tally takes in pairs of lists, one after the other, and keeps every value, so that quantiles
- * and distributions over all of them are exact; a score is what is read off it. */
+ * A tally takes pairs of lists, one after the other, and keeps every value, so that quantiles and
+ * distributions over all of them are exact. A score is computed from one or more tallies. */
 #ifndef SCORE_H
 #define SCORE_H
 
@@ -12,24 +12,24 @@ enum score_component {
     SCORE_RANGE,
     SCORE_AZIMUTH,
     SCORE_RANGE_RATE,
-    SCORE_AMPLITUDE, /* of targets, up to here */
-    SCORE_POSITION,  /* how far apart, and how different in velocity, tracks are */
+    SCORE_AMPLITUDE, /* up to here of targets, below of tracks */
+    SCORE_POSITION,  /* distance of track and object, and size of their difference in velocity */
     SCORE_VELOCITY,
     SCORE_COMPONENTS,
 };
 
 enum { SCORE_PAIRS = 1 << 0, SCORE_LISTS = 1 << 1 };
 
-/* Of one component, in its unit. */
+/* The differences in one component, in its unit. */
 struct score_differences {
-    double mean, rms, p95, max; /* listed less true, over the pairs */
-    double wasserstein;         /* of the two lists, unpaired */
-    unsigned present;           /* SCORE_PAIRS, SCORE_LISTS: there were any */
+    double mean, rms, p95, max; /* of listed less true, over the pairs */
+    double wasserstein;         /* between the two lists, unpaired */
+    unsigned present;           /* SCORE_PAIRS: there are pairs; SCORE_LISTS: no list is empty */
 };
 
 struct score {
-    const char *sensor; /* NULL: all of them */
-    int64_t scans;      /* pairs of lists: a sensor's in one frame, or the tracks of one */
+    const char *sensor; /* NULL: all sensors */
+    int64_t scans;      /* pairs of lists: of one sensor in one frame, or the tracks of one frame */
     int64_t true_count, listed_count, pair_count, missed_count, false_count;
     /* Over the scans: mean, root mean square and maximum of GOSPA, the parts of its mean square,
      * and the mean of OSPA. */
@@ -39,7 +39,7 @@ struct score {
     struct score_differences differences[SCORE_COMPONENTS];
 };
 
-/* The scores of one frame, and of a stream: of targets, and of tracks. */
+/* The scores of one frame and of a stream, of targets and of tracks. */
 struct score_line {
     const char *scene;
     int64_t frame;
@@ -48,8 +48,10 @@ struct score_line {
 };
 
 struct score_summary {
-    int64_t frames, true_frames, listed_frames; /* on both sides, on one alone */
-    double cutoff, azimuth_cell_rad;            /* 0: by the fields of view */
+    int64_t frames, true_frames, listed_frames; /* in both streams, in the truth alone, in the
+                                                 * scored one alone */
+    double cutoff, azimuth_cell_rad;            /* azimuth_cell_rad 0: a twentieth of each field of
+                                                 * view */
     struct score all;
     LIST_OF(struct score) sensors;
 };
@@ -78,9 +80,9 @@ struct score_values {
 };
 
 enum score_kind {
-    SCORE_APART, /* listed less true, of pairs */
-    SCORE_TRUTH, /* of the lists themselves */
-    SCORE_LISTED,
+    SCORE_ERROR,  /* listed less true value, of pairs */
+    SCORE_TRUTH,  /* values of the true list, paired or not */
+    SCORE_LISTED, /* values of the scored list, paired or not */
     SCORE_KINDS,
 };
 
@@ -88,31 +90,33 @@ struct score_tally {
     const char *sensor;
     int64_t scans, truths, listed, pairs;
     double gospa_sum, gospa_max, ospa_sum;
-    double localisation, missed_part, false_part; /* sums */
+    double localisation, missed_part, false_part; /* sums over the scans */
     struct score_values values[SCORE_KINDS][SCORE_COMPONENTS];
 };
 
-/* By sensor, in the order in which they first come. */
+/* One tally per sensor, in the order in which sensors first come. */
 struct score_tallies {
     LIST_OF(struct score_tally) list;
 };
 
-/* Counts one pair of lists. squares is the sum of d^2 over its pairs. */
-void score_count(struct score_tally *tally, double squares, size_t pairs, size_t truths,
-                 size_t listed, double cutoff);
+/* Adds one pair of lists to the counts and sums. squares is the sum of d^2 over its pairs. */
+void score_add_scan(struct score_tally *tally, double squares, size_t pairs, size_t truths,
+                    size_t listed, double cutoff);
 
-void score_add(struct score_values *values, double value, struct arena *arena);
+void score_add_value(struct score_values *values, double value, struct arena *arena);
 
-/* Adds all that the other tally holds. */
+/* Adds all values, counts and sums of the other tally. */
 void score_merge(struct score_tally *tally, const struct score_tally *other, struct arena *arena);
 
-/* Merges a tally into that of its sensor. */
-void score_keep(struct score_tallies *tallies, const struct score_tally *scan, struct arena *arena);
+/* Merges a scan's tally into that of its sensor. */
+void score_merge_sensor(struct score_tallies *tallies, const struct score_tally *scan,
+                        struct arena *arena);
 
-/* What tallies amount to together, under the name of the first. Without any scan all is 0. */
+/* The score of several tallies together, under the sensor's name of the first. Without any scan all
+ * is 0. */
 struct score score_of(const struct score_tally *tallies, size_t count, struct arena *arena);
 
-/* Fills in the scores, by the names of sensors. */
+/* Fills in the summary's scores, in ascending order of the sensors' names. */
 void score_summarize(struct score_tallies *tallies, struct score_summary *summary,
                      struct arena *arena);
 

@@ -22,7 +22,7 @@ static void write_cell(const struct record *record, const struct field *field, c
     }
 }
 
-/* The rows of a record that lies at this place in each score. */
+/* Writes the rows of a record that lies at this offset in each score. */
 static void write_rows(const struct record *record, const char *prefix, const struct score *scores,
                        size_t offset, size_t count, struct text *text)
 {
@@ -58,8 +58,8 @@ static void write_frames(int64_t frames, int64_t only_true, int64_t only_listed,
     text_format(text, "%" PRId64 " frames", frames);
     if (only_true + only_listed > 0)
         text_format(text,
-                    " on both sides, %" PRId64 " of the truth alone, %" PRId64
-                    " of what is scored alone",
+                    " in both streams, %" PRId64 " in the truth alone, %" PRId64
+                    " in the scored stream alone",
                     only_true, only_listed);
 }
 

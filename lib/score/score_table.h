@@ -1,11 +1,12 @@
-/* Scores as a table for people: a column each, a row for every figure that any of them has. */
+/* Scores as a table for people: a column for each score, a row for every figure that any of them
+ * has. */
 #ifndef SCORE_TABLE_H
 #define SCORE_TABLE_H
 
 #include "base/text.h"
 #include "score/score.h"
 
-/* The heads are printed above the columns; as many as there are scores. */
+/* Writes count scores; each has its head above its column. */
 void score_table_write(const struct score *scores, const char *const *heads, size_t count,
                        struct text *text);
 

@@ -49,14 +49,14 @@ int target_score_check(const struct frame *truth, const struct frame *listed, st
               view->field_of_view_rad > 0))
             return diag_fail(
                 diag, DIAG_DATA,
-                "sensors.list[%zu]: the truth's \"%s\" has cells of %g m by %g m/s in a "
-                "view of %g rad; distances in cells need more than 0",
+                "sensors.list[%zu]: the truth's \"%s\" has cells of %g m by %g m/s in a field of "
+                "view of %g rad; expected more than 0 of each",
                 i, name, view->cell_range_m, view->cell_range_rate_mps, view->field_of_view_rad);
     }
     return 0;
 }
 
-/* Ties between pairs go by this order, not by the one in which a model happens to list. */
+/* Ties between pairs go by this order, not by that of the lists. */
 static int compare(const void *left, const void *right)
 {
     const struct target *a = *(const struct target *const *)left;
@@ -100,17 +100,17 @@ static void add_values(struct score_values *values, const struct target_list *ta
 {
     for (int which = 0; which < COMPONENTS; which++)
         for (size_t i = 0; i < targets->list.count; i++)
-            score_add(&values[which], component(targets->list.items[i], which), arena);
+            score_add_value(&values[which], component(targets->list.items[i], which), arena);
 }
 
 static void add_pair(struct score_tally *tally, const struct target *truth,
                      const struct target *listed, struct arena *arena)
 {
     for (int which = 0; which < COMPONENTS; which++) {
-        double apart = component(listed, which) - component(truth, which);
+        double error = component(listed, which) - component(truth, which);
         if (which == SCORE_AZIMUTH)
-            apart = units_wrap_rad(apart);
-        score_add(&tally->values[SCORE_APART][which], apart, arena);
+            error = units_wrap_rad(error);
+        score_add_value(&tally->values[SCORE_ERROR][which], error, arena);
     }
 }
 
@@ -130,13 +130,13 @@ void target_score_scan(struct score_tally *tally, const struct frame *truth,
     size_t pairs = gospa_pair(distance, rows, columns, cell->cutoff, item_of, arena);
     double squares = 0;
     for (size_t i = 0; i < rows; i++) {
-        if (item_of[i] >= columns) /* ASSIGNMENT_NONE is beyond them all */
+        if (item_of[i] >= columns) /* ASSIGNMENT_NONE is above all columns */
             continue;
-        double apart = distance[i * columns + item_of[i]];
-        squares += apart * apart;
+        double error = distance[i * columns + item_of[i]];
+        squares += error * error;
         add_pair(tally, true_list.list.items[i], list.list.items[item_of[i]], arena);
     }
-    score_count(tally, squares, pairs, rows, columns, cell->cutoff);
+    score_add_scan(tally, squares, pairs, rows, columns, cell->cutoff);
     add_values(tally->values[SCORE_TRUTH], &true_list, arena);
     add_values(tally->values[SCORE_LISTED], &list, arena);
 }

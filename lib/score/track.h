@@ -1,13 +1,13 @@
-/* What a tracker says of one frame: a line of its own small format. */
+/* Line format for a tracker's tracks in one frame. */
 #ifndef TRACK_H
 #define TRACK_H
 
 #include "text/field.h"
 
-/* Where the tracker has an object, in the frame's coordinates and as frames give objects: the
- * centre of its box and that one's velocity over ground, relative to the frame's origin. */
+/* A track, in the coordinates of the frame's objects: the centre of the object's box, relative to
+ * the frame's origin, and the velocity of that centre over ground. */
 struct track {
-    const char *id; /* the same as long as the tracker takes it for the same object */
+    const char *id; /* constant while the tracker takes it for the same object */
     double x_m, y_m, vx_mps, vy_mps;
     const char *extra;
 };
@@ -20,12 +20,12 @@ struct track_list {
     double time_s;
     LIST_OF(struct track) tracks;
     const char *extra;
-    unsigned present; /* TRACK_TIME: time_s is there */
+    unsigned present; /* TRACK_TIME: the line has time_s */
 };
 
 extern const struct record track_list_record;
 
-/* Brings the tracks into the order of their ids; refuses an id that stands twice (DIAG_DATA). */
+/* Sorts the tracks by id; refuses an id of two tracks (DIAG_DATA). */
 int track_order(struct track_list *list, struct arena *arena, struct diag *diag);
 
 #endif

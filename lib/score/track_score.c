@@ -116,8 +116,8 @@ static int compare(const void *left, const void *right)
                   (*(const struct object *const *)right)->id);
 }
 
-static struct object_list truths_of(const struct frame *frame, enum track_truth truth,
-                                    const char *classes)
+static struct object_list true_objects(const struct frame *frame, enum track_truth truth,
+                                       const char *classes)
 {
     struct object_list objects = {0};
     for (size_t i = 0; i < frame->objects.count; i++)
@@ -132,7 +132,7 @@ int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
                           const char *classes, double cutoff_m, struct track_memory *memory,
                           struct arena *lasting)
 {
-    struct object_list objects = truths_of(frame, truth, classes);
+    struct object_list objects = true_objects(frame, truth, classes);
     size_t rows = objects.list.count, columns = list->tracks.count;
     double *distance = arena_get(frame->arena, rows * columns * sizeof *distance);
     size_t *track_of = arena_get(frame->arena, rows * sizeof *track_of);
@@ -151,12 +151,13 @@ int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
         const struct track *track = &list->tracks.items[track_of[i]];
         double apart_m = distance[i * columns + track_of[i]];
         squares += apart_m * apart_m;
-        score_add(&tally->values[SCORE_APART][SCORE_POSITION], apart_m, frame->arena);
-        score_add(&tally->values[SCORE_APART][SCORE_VELOCITY],
-                  elementary_hypot(object->vx_mps - track->vx_mps, object->vy_mps - track->vy_mps),
-                  frame->arena);
+        score_add_value(&tally->values[SCORE_ERROR][SCORE_POSITION], apart_m, frame->arena);
+        score_add_value(
+            &tally->values[SCORE_ERROR][SCORE_VELOCITY],
+            elementary_hypot(object->vx_mps - track->vx_mps, object->vy_mps - track->vy_mps),
+            frame->arena);
         switches += track_score_switches(memory, frame->scene, object->id, track->id, lasting);
     }
-    score_count(tally, squares, pairs, rows, columns, cutoff_m);
+    score_add_scan(tally, squares, pairs, rows, columns, cutoff_m);
     return switches;
 }

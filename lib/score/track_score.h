@@ -1,7 +1,7 @@
-/* A tracker's tracks, compared with the objects that are there.
+/* Score of a tracker's tracks against the frame's objects.
  *
  * The distance of a track and an object is that of their centres in the plane, in metres. An
- * identity switch is an object that is paired with another track than when it was paired last in
+ * identity switch is an object that is paired with another track than when it was last paired in
  * its scene, however long ago. */
 #ifndef TRACK_SCORE_H
 #define TRACK_SCORE_H
@@ -10,22 +10,23 @@
 #include "score/score.h"
 #include "score/track.h"
 
-/* Which objects a tracker is expected to have. The ego never is one. */
+/* The objects that a tracker is expected to have. The ego is never one. */
 enum track_truth {
-    TRACK_TRUTH_IN_VIEW,  /* the centre is within the range and field of view of some sensor */
-    TRACK_TRUTH_DETECTED, /* some target of the frame has an echo of it */
+    TRACK_TRUTH_IN_VIEW,  /* objects whose centre is within range and field of view of a sensor */
+    TRACK_TRUTH_DETECTED, /* objects with an echo in a target of the frame */
     TRACK_TRUTH_ALL,
 };
 extern const char *const track_score_truths[];
 
-/* Is what decides that in the frame? Refuses with DIAG_DATA. */
+/* Refuses a frame without the section that decides which objects count (DIAG_DATA). */
 int track_score_check(const struct frame *frame, enum track_truth truth, struct diag *diag);
 
-/* Does the object count? classes is a list of names with commas between, NULL for any. */
+/* True if the tracker is expected to have the object. classes is a list of names separated by
+ * commas, NULL for any. */
 bool track_score_counts(const struct frame *frame, const struct object *object,
                         enum track_truth truth, const char *classes);
 
-/* Who was paired with whom last, by scene. Lies in the arena it is given, and grows with the
+/* The last track of every object, by scene. It lies in the arena it is given and grows with the
  * objects. A zeroed one is empty. */
 struct track_pairing {
     const char *scene, *object, *track;
@@ -34,15 +35,15 @@ struct track_memory {
     LIST_OF(struct track_pairing) pairings;
 };
 
-/* Notes a pair; true if that is a switch. */
+/* Records a pair; true if it is an identity switch. */
 bool track_score_switches(struct track_memory *memory, const char *scene, const char *object,
                           const char *track, struct arena *arena);
 
-/* A scene is over: its pairings are forgotten. */
+/* Forgets the pairs of a scene that is over. */
 void track_score_forget(struct track_memory *memory, const char *scene);
 
-/* Adds one frame to the tally, with tracks in the order of their ids. Pairs are noted in memory,
- * which lies in the lasting arena. Returns how many switches there were. */
+/* Adds one frame, with tracks in the order of their ids, to the tally. Pairs are recorded in
+ * memory, which lies in the lasting arena. Returns the number of identity switches. */
 int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
                           const struct track_list *list, enum track_truth truth,
                           const char *classes, double cutoff_m, struct track_memory *memory,

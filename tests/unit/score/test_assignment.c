@@ -5,8 +5,8 @@
 
 enum { SIDE = 6 };
 
-/* The least cost of giving every row from this one on a column that is not used, by trying all;
- * rows may go without only where there are more of them. */
+/* The least cost of giving every row from this one on an unused column, by trying all; rows may go
+ * without a column only where there are more rows than columns. */
 static double try_all(const double *cost, size_t rows, size_t columns, size_t row, unsigned used,
                       size_t spare)
 {
@@ -22,7 +22,7 @@ static double try_all(const double *cost, size_t rows, size_t columns, size_t ro
     return best;
 }
 
-/* The cost of what was answered, after a look whether it is a full assignment. */
+/* The cost of the pairs found, after a check that they are a full assignment. */
 static double answered(const double *cost, size_t rows, size_t columns, const size_t *column_of)
 {
     unsigned used = 0;
@@ -79,7 +79,7 @@ static void costs_that_tie_are_paired_as_cheaply_as_trying_all_finds(void **stat
     }
 }
 
-/* The nearest first would take 1 + 9; the best is 2 + 3. */
+/* Pairing the nearest first would cost 1 + 9; the best is 2 + 3. */
 static void a_row_moves_on_where_that_is_cheaper(void **state)
 {
     (void)state;
@@ -107,7 +107,8 @@ static void equal_costs_are_paired_in_order(void **state)
     arena_free(&arena);
 }
 
-/* Costs i j are least when the longest go with the shortest: rows ascend, columns descend. */
+/* The sum of costs i j is least when the longest go with the shortest: rows ascend, columns
+ * descend. */
 static void a_large_matrix_is_paired_as_the_rearrangement_inequality_says(void **state)
 {
     (void)state;

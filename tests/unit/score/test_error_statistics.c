@@ -3,7 +3,7 @@
 #include "sample.h"
 #include "score/error_statistics.h"
 
-static void mean_is_signed_and_the_rest_are_sizes(void **state)
+static void the_mean_is_signed_and_the_other_figures_are_sizes(void **state)
 {
     (void)state;
     struct arena arena = {0};
@@ -32,7 +32,7 @@ static void ninety_five_of_a_hundred_are_no_larger(void **state)
     arena_free(&arena);
 }
 
-static void a_shifted_sample_is_as_far_as_it_was_shifted(void **state)
+static void a_shifted_sample_is_apart_by_its_shift(void **state)
 {
     (void)state;
     struct arena arena = {0};
@@ -52,20 +52,22 @@ static void a_shifted_sample_is_as_far_as_it_was_shifted(void **state)
     arena_free(&arena);
 }
 
-static void samples_of_other_sizes_share_their_mass(void **state)
+static void samples_of_different_sizes_share_their_mass(void **state)
 {
     (void)state;
     struct arena arena = {0};
     double zero[] = {0}, pair[] = {3, 1}, three[] = {0, 3, 3};
     assert_near(error_statistics_wasserstein(zero, 1, pair, 2, &arena), 2.0, 1e-15);
     assert_near(error_statistics_wasserstein(three, 3, zero, 1, &arena), 2.0, 1e-15);
-    /* Up to the quantile 1/3 they are 1 and 0, up to 1/2 they are 1 and 3, then both are 3. */
+    /* Up to the quantile 1/3 the values are 1 and 0, up to 1/2 they are 1 and 3, then both are
+     * 3. */
     assert_near(error_statistics_wasserstein(pair, 2, three, 3, &arena), 2.0 / 6 + 1.0 / 3, 1e-15);
     arena_free(&arena);
 }
 
-/* By its definition over quantiles: the mean of |sorted one - sorted other| for equal counts. */
-static void equal_counts_are_as_far_as_their_sorted_values(void **state)
+/* Compared with the definition over quantiles: the mean of |sorted one - sorted other| for equal
+ * counts. */
+static void samples_of_one_size_are_apart_as_their_sorted_values(void **state)
 {
     (void)state;
     struct arena arena = {0};
@@ -88,11 +90,11 @@ static void equal_counts_are_as_far_as_their_sorted_values(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mean_is_signed_and_the_rest_are_sizes),
+        cmocka_unit_test(the_mean_is_signed_and_the_other_figures_are_sizes),
         cmocka_unit_test(ninety_five_of_a_hundred_are_no_larger),
-        cmocka_unit_test(a_shifted_sample_is_as_far_as_it_was_shifted),
-        cmocka_unit_test(samples_of_other_sizes_share_their_mass),
-        cmocka_unit_test(equal_counts_are_as_far_as_their_sorted_values),
+        cmocka_unit_test(a_shifted_sample_is_apart_by_its_shift),
+        cmocka_unit_test(samples_of_different_sizes_share_their_mass),
+        cmocka_unit_test(samples_of_one_size_are_apart_as_their_sorted_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

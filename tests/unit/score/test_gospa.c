@@ -6,7 +6,7 @@
 
 enum { LARGEST = 5 };
 
-/* Points on a line, far apart by their difference. */
+/* Points on a line, whose distance is their difference. */
 struct set {
     size_t count;
     double at[LARGEST];
@@ -43,7 +43,7 @@ static struct set draw(uint64_t *sample)
     return set;
 }
 
-static void two_empty_lists_are_the_same(void **state)
+static void two_empty_lists_have_no_distance(void **state)
 {
     (void)state;
     struct answer answer = compare(&(struct set){0}, &(struct set){0}, 2);
@@ -51,7 +51,7 @@ static void two_empty_lists_are_the_same(void **state)
     assert_close(answer.ospa, 0, 0);
 }
 
-static void an_empty_list_is_far_by_half_a_squared_cutoff_for_each(void **state)
+static void every_missed_or_false_item_costs_half_a_squared_cutoff(void **state)
 {
     (void)state;
     const struct set some = {4, {1, 2, 3, 4}}, none = {0};
@@ -65,7 +65,7 @@ static void an_empty_list_is_far_by_half_a_squared_cutoff_for_each(void **state)
     assert_close(missed.ospa, 3, 0);
 }
 
-static void one_pair_is_as_far_as_it_is_apart(void **state)
+static void one_pair_has_its_own_distance(void **state)
 {
     (void)state;
     struct answer near = compare(&(struct set){1, {1}}, &(struct set){1, {2.5}}, 2);
@@ -78,7 +78,7 @@ static void one_pair_is_as_far_as_it_is_apart(void **state)
     assert_close(far.ospa, 2, 0);
 }
 
-static void what_is_exactly_at_the_cutoff_is_no_pair(void **state)
+static void items_exactly_at_the_cutoff_are_no_pair(void **state)
 {
     (void)state;
     struct answer answer = compare(&(struct set){1, {1}}, &(struct set){1, {3}}, 2);
@@ -88,7 +88,7 @@ static void what_is_exactly_at_the_cutoff_is_no_pair(void **state)
 }
 
 /* Ten targets with a cut-off of 2: one moved by 1, one missing, one false, one of each, five
- * missing; and none, with one and ten false. */
+ * missing; and empty lists against one of one and of ten. */
 static void ten_targets_give_the_figures_of_the_definitions(void **state)
 {
     (void)state;
@@ -159,10 +159,10 @@ static void the_parts_add_up(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_empty_lists_are_the_same),
-        cmocka_unit_test(an_empty_list_is_far_by_half_a_squared_cutoff_for_each),
-        cmocka_unit_test(one_pair_is_as_far_as_it_is_apart),
-        cmocka_unit_test(what_is_exactly_at_the_cutoff_is_no_pair),
+        cmocka_unit_test(two_empty_lists_have_no_distance),
+        cmocka_unit_test(every_missed_or_false_item_costs_half_a_squared_cutoff),
+        cmocka_unit_test(one_pair_has_its_own_distance),
+        cmocka_unit_test(items_exactly_at_the_cutoff_are_no_pair),
         cmocka_unit_test(ten_targets_give_the_figures_of_the_definitions),
         cmocka_unit_test(both_are_metrics),
         cmocka_unit_test(the_order_of_a_list_changes_no_distance),

@@ -15,8 +15,8 @@ static void write_line(FILE *file, int scene, int frame)
         scene, frame, scene, frame);
 }
 
-/* Asks for a frame: 1 if its own line is found, else what the counterpart answers. */
-static int ask(struct reference_stream *counterpart, int scene, int64_t number, struct diag *diag)
+/* Looks for a frame: 1 if its own line is found, else the result of the stream. */
+static int ask(struct reference_stream *reference, int scene, int64_t number, struct diag *diag)
 {
     struct arena arena = {0};
     char name[32], id[32];
@@ -24,7 +24,7 @@ static int ask(struct reference_stream *counterpart, int scene, int64_t number, 
     snprintf(id, sizeof id, "%d.%d", scene, (int)number);
     struct frame frame = {.scene = name, .frame = number, .arena = &arena};
     struct track_list tracks;
-    int found = reference_stream_tracks(counterpart, &frame, &tracks, diag);
+    int found = reference_stream_tracks(reference, &frame, &tracks, diag);
     if (found == 1) {
         assert_int_equal(tracks.tracks.count, 1);
         assert_string_equal(tracks.tracks.items[0].id, id);
@@ -33,7 +33,7 @@ static int ask(struct reference_stream *counterpart, int scene, int64_t number, 
     return found;
 }
 
-/* The scenes' frames in some order that ascends within each: scene numbers. */
+/* Scene numbers in random order; the frames of each scene ascend. */
 static void interleave(uint64_t *sample, int order[SCENES * FRAMES])
 {
     int left[SCENES];
@@ -49,7 +49,7 @@ static void interleave(uint64_t *sample, int order[SCENES * FRAMES])
     }
 }
 
-static void every_interleaving_meets_every_other(void **state)
+static void frames_meet_in_every_interleaving(void **state)
 {
     struct scratch *scratch = *state;
     uint64_t sample = 1;
@@ -61,20 +61,20 @@ static void every_interleaving_meets_every_other(void **state)
             write_line(file, order[i], next[order[i]]++);
         fclose(file);
         struct diag diag = {0};
-        struct reference_stream *counterpart = reference_stream_open(scratch->path, false, &diag);
+        struct reference_stream *reference = reference_stream_open(scratch->path, false, &diag);
         interleave(&sample, order);
         memset(next, 0, sizeof next);
         for (int i = 0; i < SCENES * FRAMES; i++)
-            assert_int_equal(ask(counterpart, order[i], next[order[i]]++, &diag), 1);
-        assert_int_equal(reference_stream_finish(counterpart, &diag), 0);
-        assert_int_equal(reference_stream_left(counterpart), 0);
-        assert_int_equal(reference_stream_absent(counterpart), 0);
-        reference_stream_close(counterpart);
+            assert_int_equal(ask(reference, order[i], next[order[i]]++, &diag), 1);
+        assert_int_equal(reference_stream_finish(reference, &diag), 0);
+        assert_int_equal(reference_stream_unmatched(reference), 0);
+        assert_int_equal(reference_stream_missing(reference), 0);
+        reference_stream_close(reference);
     }
 }
 
-/* Both lack frames of their own; all others meet, and each lacking one is counted once. */
-static void frames_of_one_side_alone_are_counted(void **state)
+/* Each stream lacks some frames; all others meet, and each that lacks is counted once. */
+static void frames_of_one_stream_alone_are_counted(void **state)
 {
     struct scratch *scratch = *state;
     uint64_t sample = 2;
@@ -95,17 +95,17 @@ static void frames_of_one_side_alone_are_counted(void **state)
                 write_line(file, order[i], next[order[i]]);
         fclose(file);
         struct diag diag = {0};
-        struct reference_stream *counterpart = reference_stream_open(scratch->path, true, &diag);
+        struct reference_stream *reference = reference_stream_open(scratch->path, true, &diag);
         interleave(&sample, order);
         memset(next, 0, sizeof next);
         for (int i = 0; i < SCENES * FRAMES; i++, next[order[i - 1]]++)
             if (asked[order[i]][next[order[i]]])
-                assert_int_equal(ask(counterpart, order[i], next[order[i]], &diag),
+                assert_int_equal(ask(reference, order[i], next[order[i]], &diag),
                                  there[order[i]][next[order[i]]]);
-        assert_int_equal(reference_stream_finish(counterpart, &diag), 0);
-        assert_int_equal(reference_stream_left(counterpart), left);
-        assert_int_equal(reference_stream_absent(counterpart), absent);
-        reference_stream_close(counterpart);
+        assert_int_equal(reference_stream_finish(reference, &diag), 0);
+        assert_int_equal(reference_stream_unmatched(reference), left);
+        assert_int_equal(reference_stream_missing(reference), absent);
+        reference_stream_close(reference);
     }
 }
 
@@ -117,12 +117,12 @@ static void a_frame_without_a_line_is_refused(void **state)
     write_line(file, 0, 2);
     fclose(file);
     struct diag diag = {0};
-    struct reference_stream *counterpart = reference_stream_open(scratch->path, false, &diag);
-    assert_int_equal(ask(counterpart, 0, 0, &diag), 1);
-    assert_int_equal(ask(counterpart, 0, 1, &diag), -1);
+    struct reference_stream *reference = reference_stream_open(scratch->path, false, &diag);
+    assert_int_equal(ask(reference, 0, 0, &diag), 1);
+    assert_int_equal(ask(reference, 0, 1, &diag), -1);
     assert_int_equal(diag.code, DIAG_DATA);
     assert_non_null(strstr(diag.text, "lines.jsonl has no frame 1 of scene \"scene 0\""));
-    reference_stream_close(counterpart);
+    reference_stream_close(reference);
 }
 
 static void a_line_without_a_frame_is_refused_with_its_place(void **state)
@@ -133,12 +133,12 @@ static void a_line_without_a_frame_is_refused_with_its_place(void **state)
         write_line(file, scene, 3);
     fclose(file);
     struct diag diag = {0};
-    struct reference_stream *counterpart = reference_stream_open(scratch->path, false, &diag);
-    assert_int_equal(ask(counterpart, 3, 3, &diag), 1);
-    assert_int_equal(ask(counterpart, 0, 3, &diag), 1);
-    assert_int_equal(reference_stream_finish(counterpart, &diag), -1);
+    struct reference_stream *reference = reference_stream_open(scratch->path, false, &diag);
+    assert_int_equal(ask(reference, 3, 3, &diag), 1);
+    assert_int_equal(ask(reference, 0, 3, &diag), 1);
+    assert_int_equal(reference_stream_finish(reference, &diag), -1);
     assert_non_null(strstr(diag.text, "lines.jsonl:2: frame 3 of scene \"scene 1\" is not in"));
-    reference_stream_close(counterpart);
+    reference_stream_close(reference);
 }
 
 static void a_file_that_is_not_there_is_refused(void **state)
@@ -154,8 +154,8 @@ static void a_file_that_is_not_there_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_interleaving_meets_every_other),
-        cmocka_unit_test(frames_of_one_side_alone_are_counted),
+        cmocka_unit_test(frames_meet_in_every_interleaving),
+        cmocka_unit_test(frames_of_one_stream_alone_are_counted),
         cmocka_unit_test(a_frame_without_a_line_is_refused),
         cmocka_unit_test(a_line_without_a_frame_is_refused_with_its_place),
         cmocka_unit_test(a_file_that_is_not_there_is_refused),

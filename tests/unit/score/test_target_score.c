@@ -11,14 +11,14 @@ enum { MOST = 8 };
 
 static const struct target_cell cell = {0.5, 0.1, 0.25, 2};
 
-/* One radar's frame with these targets. */
-struct playback {
+/* A frame of one radar with these targets. */
+struct score_scene {
     struct sensor_view view;
     struct target targets[MOST];
     struct frame frame;
 };
 
-static void fill(struct playback *scene, size_t count)
+static void fill(struct score_scene *scene, size_t count)
 {
     scene->view = (struct sensor_view){
         .name = "front", .cell_range_m = 1, .cell_range_rate_mps = 1, .measured = true};
@@ -35,7 +35,7 @@ static struct target draw_target(uint64_t *sample)
                            .amplitude_db = sample_between(sample, 6, 30)};
 }
 
-static void draw(struct playback *scene, uint64_t *sample)
+static void draw(struct score_scene *scene, uint64_t *sample)
 {
     size_t count = sample_bits(sample) % (MOST + 1);
     for (size_t i = 0; i < count; i++)
@@ -43,7 +43,7 @@ static void draw(struct playback *scene, uint64_t *sample)
     fill(scene, count);
 }
 
-static struct score score_scan(const struct playback *truth, const struct playback *listed,
+static struct score score_scan(const struct score_scene *truth, const struct score_scene *listed,
                                struct arena *arena)
 {
     struct score_tally tally = {.sensor = "front"};
@@ -62,7 +62,7 @@ static void assert_same_text(const struct score *one, const struct score *other)
     text_free(&other_text);
 }
 
-static void one_cell_is_one_in_each_component(void **state)
+static void one_cell_is_a_distance_of_one_in_each_component(void **state)
 {
     (void)state;
     const struct target at = {.range_m = 10, .azimuth_rad = 0.2, .range_rate_mps = -3};
@@ -85,8 +85,8 @@ static void azimuths_differ_the_short_way_round(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct playback left = {.targets = {{.sensor = "front", .azimuth_rad = PI - 0.01}}};
-    struct playback right = {.targets = {{.sensor = "front", .azimuth_rad = 0.02 - PI}}};
+    struct score_scene left = {.targets = {{.sensor = "front", .azimuth_rad = PI - 0.01}}};
+    struct score_scene right = {.targets = {{.sensor = "front", .azimuth_rad = 0.02 - PI}}};
     fill(&left, 1);
     fill(&right, 1);
     assert_close(target_score_distance(&left.targets[0], &right.targets[0], &cell), 0.3, 1e-14);
@@ -101,7 +101,7 @@ static void the_order_of_targets_changes_no_bit(void **state)
     struct arena arena = {0};
     uint64_t sample = 1;
     for (int round = 0; round < 2000; round++) {
-        struct playback truth, listed, turned;
+        struct score_scene truth, listed, turned;
         draw(&truth, &sample);
         draw(&listed, &sample);
         size_t count = listed.frame.targets.count;
@@ -116,14 +116,14 @@ static void the_order_of_targets_changes_no_bit(void **state)
     arena_free(&arena);
 }
 
-/* The other way round, what was missed is false, and differences change their sign. */
+/* With both lists exchanged, missed targets are false ones and differences change their sign. */
 static void scores_are_symmetric(void **state)
 {
     (void)state;
     struct arena arena = {0};
     uint64_t sample = 2;
     for (int round = 0; round < 2000; round++) {
-        struct playback truth, listed;
+        struct score_scene truth, listed;
         draw(&truth, &sample);
         draw(&listed, &sample);
         struct score there = score_scan(&truth, &listed, &arena);
@@ -142,13 +142,13 @@ static void scores_are_symmetric(void **state)
     arena_free(&arena);
 }
 
-static void a_list_is_nothing_from_itself(void **state)
+static void a_list_has_no_distance_from_itself(void **state)
 {
     (void)state;
     struct arena arena = {0};
     uint64_t sample = 3;
     for (int round = 0; round < 200; round++) {
-        struct playback scene;
+        struct score_scene scene;
         draw(&scene, &sample);
         struct score score = score_scan(&scene, &scene, &arena);
         assert_close(score.gospa, 0, 0);
@@ -160,12 +160,12 @@ static void a_list_is_nothing_from_itself(void **state)
     arena_free(&arena);
 }
 
-static void other_sensors_targets_do_not_count(void **state)
+static void targets_of_other_sensors_do_not_count(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct playback truth = {.targets = {{.sensor = "front", .range_m = 5}}};
-    struct playback listed = {
+    struct score_scene truth = {.targets = {{.sensor = "front", .range_m = 5}}};
+    struct score_scene listed = {
         .targets = {{.sensor = "front", .range_m = 5}, {.sensor = "rear", .range_m = 5}}};
     fill(&truth, 1);
     fill(&listed, 2);
@@ -173,14 +173,15 @@ static void other_sensors_targets_do_not_count(void **state)
     arena_free(&arena);
 }
 
-/* Means are over scans, differences over all pairs, and a tally of parts is the tally of all. */
+/* Means are over scans, differences over all pairs; the merged tally of parts equals the tally of
+ * all. */
 static void tallies_add_up(void **state)
 {
     (void)state;
     struct arena arena = {0};
     struct score_tally near = {.sensor = "front"}, far = {.sensor = "front"}, both = {0};
-    struct playback truth = {.targets = {{.sensor = "front", .range_m = 5}}};
-    struct playback one = {.targets = {{.sensor = "front", .range_m = 5.25}}};
+    struct score_scene truth = {.targets = {{.sensor = "front", .range_m = 5}}};
+    struct score_scene one = {.targets = {{.sensor = "front", .range_m = 5.25}}};
     fill(&truth, 1);
     fill(&one, 1);
     target_score_scan(&near, &truth.frame, &one.frame, &cell, &arena);
@@ -220,12 +221,12 @@ static void without_scans_all_is_zero(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_cell_is_one_in_each_component),
+        cmocka_unit_test(one_cell_is_a_distance_of_one_in_each_component),
         cmocka_unit_test(azimuths_differ_the_short_way_round),
         cmocka_unit_test(the_order_of_targets_changes_no_bit),
         cmocka_unit_test(scores_are_symmetric),
-        cmocka_unit_test(a_list_is_nothing_from_itself),
-        cmocka_unit_test(other_sensors_targets_do_not_count),
+        cmocka_unit_test(a_list_has_no_distance_from_itself),
+        cmocka_unit_test(targets_of_other_sensors_do_not_count),
         cmocka_unit_test(tallies_add_up),
         cmocka_unit_test(without_scans_all_is_zero),
     };

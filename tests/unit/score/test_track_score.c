@@ -5,7 +5,7 @@
 #include "base/units.h"
 #include "score/track_score.h"
 
-/* The ego at (100, 50) looks along y; its radar sits 2 m ahead, turned 90 degrees to the left (to
+/* The ego at (100, 50) looks along y. Its radar sits 2 m ahead, turned 90 degrees to the left (to
  * -x), and sees 20 m far and 45 degrees to each side. */
 static struct sensor_view view = {.name = "left",
                                   .mount_x_m = 2,
@@ -36,7 +36,7 @@ static bool in_view(double x_m, double y_m)
     return track_score_counts(&frame, &objects[1], TRACK_TRUTH_IN_VIEW, NULL);
 }
 
-static void what_is_in_range_and_view_counts(void **state)
+static void objects_in_range_and_view_count(void **state)
 {
     (void)state;
     assert_true(in_view(81, 52));
@@ -56,7 +56,7 @@ static void the_ego_never_counts(void **state)
     assert_true(track_score_counts(&frame, &objects[1], TRACK_TRUTH_ALL, NULL));
 }
 
-static void what_has_an_echo_in_a_target_is_detected(void **state)
+static void objects_with_an_echo_in_a_target_are_detected(void **state)
 {
     (void)state;
     struct frame frame = frame_with_thing_at(500, 52);
@@ -81,7 +81,7 @@ static void classes_are_whole_words(void **state)
                          cases[i].counts);
 }
 
-static void sections_that_decide_must_be_there(void **state)
+static void a_frame_without_the_section_that_decides_is_refused(void **state)
 {
     (void)state;
     struct diag diag = {0};
@@ -137,7 +137,7 @@ static void a_track_three_and_four_metres_off_is_five_off(void **state)
     arena_free(&arena);
 }
 
-static void tracks_come_into_the_order_of_their_ids(void **state)
+static void tracks_are_sorted_by_id(void **state)
 {
     (void)state;
     struct arena arena = {0};
@@ -155,14 +155,14 @@ static void tracks_come_into_the_order_of_their_ids(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_in_range_and_view_counts),
+        cmocka_unit_test(objects_in_range_and_view_count),
         cmocka_unit_test(the_ego_never_counts),
-        cmocka_unit_test(what_has_an_echo_in_a_target_is_detected),
+        cmocka_unit_test(objects_with_an_echo_in_a_target_are_detected),
         cmocka_unit_test(classes_are_whole_words),
-        cmocka_unit_test(sections_that_decide_must_be_there),
+        cmocka_unit_test(a_frame_without_the_section_that_decides_is_refused),
         cmocka_unit_test(a_switch_is_another_track_than_last_in_its_scene),
         cmocka_unit_test(a_track_three_and_four_metres_off_is_five_off),
-        cmocka_unit_test(tracks_come_into_the_order_of_their_ids),
+        cmocka_unit_test(tracks_are_sorted_by_id),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
