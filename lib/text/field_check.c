@@ -51,7 +51,8 @@ static bool is_plain_name(const char *text)
 }
 
 /* Neighbours often share a name: the same one is not looked at twice in a row. */
-static int check_names(const struct field *field, struct items *items, struct diag *diag)
+static int check_names(const struct record *record, const struct field *field, struct items *items,
+                       struct diag *diag)
 {
     const char *item = items->first, *good = NULL;
     for (size_t i = 0; i < items->count; i++, item += items->size) {
@@ -61,7 +62,8 @@ static int check_names(const struct field *field, struct items *items, struct di
         items->at = i;
         if (name == NULL)
             return diag_fail(diag, DIAG_DATA, "%s: missing", field->name);
-        if (!is_plain_name(name) && field_require_name(field, name, strlen(name), diag) != 0)
+        if (!is_plain_name(name) && field_present(record, field, item) &&
+            field_require_name(field, name, strlen(name), diag) != 0)
             return -1;
         good = name;
     }
@@ -77,12 +79,13 @@ static int check_lists(const struct record *record, const struct field *field, s
     for (size_t i = 0; i < items->count; i++, item += items->size) {
         struct field_list list = field_list(field, item);
         struct items own = {.first = list.items, .count = list.count};
-        if (field->steady && field_unchanged(record, field, item))
+        if (!field_present(record, field, item) ||
+            (field->steady && field_unchanged(record, field, item)))
             continue;
         items->at = i;
         if (field->kind == FIELD_NAMES) {
             own.size = sizeof(const char *);
-            if (check_names(&name, &own, diag) != 0)
+            if (check_names(record, &name, &own, diag) != 0)
                 return diag_prefix(diag, "%s[%zu]", field->name, own.at);
         } else {
             own.size = field->record->size;
@@ -93,13 +96,21 @@ static int check_lists(const struct record *record, const struct field *field, s
     return 0;
 }
 
-static int check_embedded(const struct field *field, struct items *items, struct diag *diag)
+/* All side by side; of a section one by one, because not every item need have it. */
+static int check_embedded(const struct record *record, const struct field *field,
+                          struct items *items, struct diag *diag)
 {
-    struct items embedded = {items->first + field->offset, items->size, items->count, 0};
-    if (check_records(field->record, &embedded, ~0U, diag) == 0)
-        return 0;
-    items->at = embedded.at;
-    return diag_prefix(diag, "%s.", field->name);
+    size_t step = field->section == 0 ? items->count : 1;
+    for (size_t i = 0; i < items->count; i += step) {
+        const char *item = items->first + i * items->size;
+        struct items embedded = {item + field->offset, items->size, step, 0};
+        if ((field->section != 0 && !field_present(record, field, item)) ||
+            check_records(field->record, &embedded, ~0U, diag) == 0)
+            continue;
+        items->at = i + embedded.at;
+        return diag_prefix(diag, "%s.", field->name);
+    }
+    return 0;
 }
 
 static int check_member(const struct record *record, const struct field *field, struct items *items,
@@ -107,33 +118,19 @@ static int check_member(const struct record *record, const struct field *field, 
 {
     switch (field->kind) {
     case FIELD_REAL:
+        return reals_inside(field, items) ? 0 : check_numbers(record, field, items, diag);
     case FIELD_INTEGER:
         return check_numbers(record, field, items, diag);
     case FIELD_NAME:
-        return check_names(field, items, diag);
+        return check_names(record, field, items, diag);
     case FIELD_NAMES:
     case FIELD_LIST:
         return check_lists(record, field, items, diag);
     case FIELD_RECORD:
-        return check_embedded(field, items, diag);
+        return check_embedded(record, field, items, diag);
     default: /* every value of the others can be written and read back */
         return 0;
     }
-}
-
-/* A member with a section is checked in those items that have it. */
-static int check_section(const struct record *record, const struct field *field,
-                         struct items *items, struct diag *diag)
-{
-    for (size_t i = 0; i < items->count; i++) {
-        struct items one = {items->first + i * items->size, items->size, 1, 0};
-        if (!field_present(record, field, one.first))
-            continue;
-        items->at = i;
-        if (check_member(record, field, &one, diag) != 0)
-            return -1;
-    }
-    return 0;
 }
 
 /* The sections that any of the items has. */
@@ -152,9 +149,7 @@ static int check_records(const struct record *record, struct items *items, unsig
         return 0;
     for (const struct field *field = record->fields; field->name != NULL; field++) {
         bool wanted = field->section == 0 || (field->section & sections) != 0;
-        if (!wanted || (field->kind == FIELD_REAL && reals_inside(field, items)))
-            continue;
-        if ((field->section == 0 ? check_member : check_section)(record, field, items, diag) != 0)
+        if (wanted && check_member(record, field, items, diag) != 0)
             return -1;
     }
     return 0;
