@@ -1,4 +1,5 @@
-/* NUMERICS A1: the antenna's patterns, the angle read off them, and the angle of visibility. */
+/* Hard cases 1 to 12: the antenna's patterns, the angle read off them, and the angle of
+ * visibility. */
 #include "hard.h"
 
 #include <complex.h>
@@ -19,8 +20,8 @@ enum { BITS = 400 };
 static const struct antenna CENTRE = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = PHASE_CENTRE};
 static const struct antenna ELEMENT = {.pattern = ANTENNA_DIPOLE_PAIR, .phase = PHASE_ELEMENT};
 
-/* Azimuths above 0: all over the quadrant, ever nearer to boresight, and to 1e-12 rad before the
- * side. */
+/* A random azimuth above 0: anywhere in the quadrant, near boresight on every scale, or near the
+ * side, down to 1e-12 rad before it. */
 static double azimuth_at(int i, int count, double least)
 {
     double part = (double)(i / 3 + 1) / (count / 3 + 2);
@@ -29,7 +30,7 @@ static double azimuth_at(int i, int count, double least)
     return i % 3 == 1 ? pow(least, part) : PI / 2 - pow(1e-12, part);
 }
 
-/* cos u, sin u and f of MODEL 7.1. */
+/* Exact cos u, sin u and f of MODEL 7.1. */
 struct pattern {
     mpfr_t cos_u, sin_u, element;
 };
@@ -135,7 +136,7 @@ static void exact_sum(mpfr_t result, const struct pattern *exact)
     mpfr_mul(result, exact->element, exact->cos_u, MPFR_RNDN);
 }
 
-/* NUMERICS 1 to 5, each with the element factor that both channels share. */
+/* Hard cases 1 to 5, each with the element factor that both channels share. */
 static void pointers_keep_their_digits_from_boresight_to_the_side(void **state)
 {
     (void)state;
@@ -178,7 +179,7 @@ static double naive_azimuth(double delta, double sum)
     return asin(2 / PI * atan2(delta, sum));
 }
 
-/* NUMERICS 6: an echo from the side has an angle there or none, never one ahead. */
+/* Hard case 6: an echo from the side has its angle there or none, never one ahead. */
 static void an_echo_from_the_side_is_not_invented_elsewhere(void **state)
 {
     (void)state;
@@ -202,7 +203,7 @@ static void an_echo_from_the_side_is_not_invented_elsewhere(void **state)
     hard_case("6", "an echo at exactly 90 degrees", "wrong", naive, ours, 0);
 }
 
-/* asin((2/pi) atan2(delta, sum)). */
+/* The exact azimuth of a pair: asin((2/pi) atan2(delta, sum)). */
 static void set_azimuth(mpfr_t azimuth, double delta, double sum)
 {
     mpfr_t quarter;
@@ -217,7 +218,7 @@ static void set_azimuth(mpfr_t azimuth, double delta, double sum)
     mpfr_clear(quarter);
 }
 
-/* The pair at an azimuth as the nearest doubles. */
+/* Delta and sum at an azimuth, each rounded to the nearest double. */
 static void round_pair(struct pattern *exact, double azimuth_rad, double *delta, double *sum)
 {
     set_pattern(exact, azimuth_rad);
@@ -225,7 +226,7 @@ static void round_pair(struct pattern *exact, double azimuth_rad, double *delta,
     *sum = mpfr_get_d(exact->cos_u, MPFR_RNDN);
 }
 
-/* NUMERICS 7. */
+/* Hard case 7. */
 static void the_pair_is_inverted_up_to_the_side(void **state)
 {
     (void)state;
@@ -266,7 +267,7 @@ static void add_cell(struct frame *frame, struct antenna_pointers pointers)
         (struct contributor){.id.object = "o", .id.reflector = "r", .range_m = 1, .weight = 1};
 }
 
-/* The same cells after a trip through a pipe. */
+/* The cells after a trip through a pipe. */
 static void send_cells(const struct frame *frame, struct frame *received, struct text *line)
 {
     struct diag diag = {0};
@@ -286,8 +287,8 @@ static double cell_azimuth(const struct cell *cell)
     return monopulse_angle(&ELEMENT, MONOPULSE_MAGNITUDE, pointers).azimuth_rad;
 }
 
-/* NUMERICS 8: frames carry the pointers, from which the next stage reads the angle; a sensing ratio
- * with all of its digits carries less. */
+/* Hard case 8: frames carry the pointers, from which the next stage reads the angle; a sensing
+ * ratio carries less of it, even with all of its digits. */
 static void the_angle_survives_the_pipe(void **state)
 {
     (void)state;
@@ -327,12 +328,12 @@ static void the_angle_survives_the_pipe(void **state)
 
 enum { ROWS = 1024 };
 
-/* The sensing ratio over azimuth. */
+/* A table of the sensing ratio over azimuth. */
 struct asr_row {
     double azimuth_rad, asr;
 };
 
-/* The paper's suggestion: straight lines between rows. */
+/* The angle by the paper's suggestion: straight lines between rows of the table. */
 static double tabled_azimuth(const struct asr_row *rows, double delta, double sum)
 {
     double asr = (delta - sum) / (delta + sum);
@@ -348,7 +349,7 @@ static double tabled_azimuth(const struct asr_row *rows, double delta, double su
     return rows[low].azimuth_rad + part * (rows[high].azimuth_rad - rows[low].azimuth_rad);
 }
 
-/* NUMERICS 9. */
+/* Hard case 9. */
 static void the_closed_form_beats_a_table(void **state)
 {
     (void)state;
@@ -390,7 +391,7 @@ static void set_si(mpfr_t exact, double x)
     mpfr_clear(divisor);
 }
 
-/* NUMERICS 10. */
+/* Hard case 10. */
 static void si_needs_no_series(void **state)
 {
     (void)state;
@@ -411,7 +412,7 @@ static void si_needs_no_series(void **state)
     mpfr_clear(exact);
 }
 
-/* Equal echoes to both sides, the left one stronger by extra. */
+/* Pointers of equal echoes to both sides, the left one stronger by extra. */
 static struct antenna_pointers opposite(const struct antenna *antenna, double azimuth_rad,
                                         double extra)
 {
@@ -421,14 +422,14 @@ static struct antenna_pointers opposite(const struct antenna *antenna, double az
                                      (1 + extra) * left.delta + right.delta};
 }
 
-/* The paper's rule with the sign as it comes. */
+/* The angle by the paper's rule, with the sign that rounding gives it. */
 static double naive_signed_azimuth(struct antenna_pointers pointers)
 {
     double azimuth_rad = naive_azimuth(cabs(pointers.delta), cabs(pointers.sum));
     return copysign(azimuth_rad, -cimag(pointers.delta * conj(pointers.sum)));
 }
 
-/* NUMERICS 11, up to 75 degrees: beyond, under the phase of the element, the exact ratio itself
+/* Hard case 11, up to 75 degrees: beyond, under the phase of the element, the exact ratio itself
  * moves by more, by 2^-52 sin u / (2 cos^3 u) where cos u falls below 0.04. */
 static void one_ulp_does_not_move_the_ratio(void **state)
 {
@@ -455,7 +456,7 @@ static void one_ulp_does_not_move_the_ratio(void **state)
     hard_case("11", "one ulp moves a symmetric pair's angle by", "rad", naive, ours, 1e-12);
 }
 
-/* NUMERICS 12. */
+/* Hard case 12. */
 static void parallel_directions_have_an_angle(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The stages from random traffic to targets, one by one in this process, and a frame to run them
- * on. */
+/* The stages from random traffic to targets, one by one in this process, and a frame for them to
+ * work on. */
 #ifndef HARD_CHAIN_H
 #define HARD_CHAIN_H
 
@@ -31,7 +31,7 @@ static inline void hard_chain_stage(struct runner *runner, const char *name, siz
     runner->common.keep = true;
 }
 
-/* Adversarial scenes (they have ties), frames first to first + frames - 1. */
+/* The frames of adversarial scenes, which have ties, from first to first + frames - 1. */
 static inline void hard_chain_start(struct hard_chain *chain, int first, int frames)
 {
     static const char suite[] = "srr24-pair-every-frame";
@@ -62,7 +62,7 @@ static inline void hard_chain_next(struct hard_chain *chain)
         fail_msg("%s", chain->runners[0].diag.text);
 }
 
-/* The frame through stages from to to. */
+/* Passes the frame through the stages from the first given to the last. */
 static inline void hard_chain_step(struct hard_chain *chain, size_t from, size_t to)
 {
     for (size_t i = from; i <= to; i++)
@@ -70,7 +70,7 @@ static inline void hard_chain_step(struct hard_chain *chain, size_t from, size_t
             fail_msg("%s", chain->runners[i].diag.text);
 }
 
-/* Appends the frame's line. */
+/* Appends the frame's line to a text. */
 static inline void hard_chain_write(const struct hard_chain *chain, struct text *text)
 {
     struct diag diag = {0};

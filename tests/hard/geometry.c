@@ -1,4 +1,4 @@
-/* Which side, which foot, what is in the way: NUMERICS A3, 22 and 26 to 34, decided exactly. */
+/* Which side, which foot, what is in the way: hard cases 22 and 26 to 34, decided exactly. */
 #include "hard.h"
 
 #include <stdbool.h>
@@ -33,7 +33,7 @@ static struct vec2 draw_place(uint64_t *random, double bound_m)
     return (struct vec2){x, sample_between(random, -bound_m, bound_m)};
 }
 
-/* To a multiple of unit_m, so that the sums below stay exact. */
+/* Rounds a place to a multiple of unit_m, so that the sums below stay exact. */
 static struct vec2 on_grid(struct vec2 place, double unit_m)
 {
     return (struct vec2){round(place.x / unit_m) * unit_m, round(place.y / unit_m) * unit_m};
@@ -71,7 +71,7 @@ static struct vec2 posts_of_a_row_without_length(int64_t *count)
     return reflectors_post_place(&box, &row, first);
 }
 
-/* What stands on nothing has one answer: no NaN, no guess. */
+/* Hard case 26: every question about something of size 0 has one fixed answer, which is no NaN. */
 static void what_has_no_size_has_a_fixed_answer(void **state)
 {
     (void)state;
@@ -137,7 +137,8 @@ static int plain_sign(struct vec2 a, struct vec2 b, struct vec2 c)
     return sign_of((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
 }
 
-/* A corner of the grid beside the diagonal, and steps of an integer lattice along a line. */
+/* Triples of points: a corner of the grid beside the diagonal, and steps of an integer lattice
+ * along a line. */
 static void near_collinear_points_have_their_side(void **state)
 {
     (void)state;
@@ -186,7 +187,8 @@ static int exact_sign(struct vec2 a, struct vec2 b, struct vec2 c, mpfr_t *work)
     return mpfr_sgn(work[0]);
 }
 
-/* All 62 196 triples of the first 73 points, spelled as multiples and as quotients. */
+/* Hard case 28: all 62 196 triples of the first 73 points, written as multiples and as
+ * quotients. */
 static void decimal_road_points_have_their_side(void **state)
 {
     (void)state;
@@ -217,7 +219,8 @@ static bool strict_cross(struct vec2 p, struct vec2 q, struct vec2 a, struct vec
            plain_sign(a, b, p) * plain_sign(a, b, q) < 0;
 }
 
-/* Where on p-q and on a-b the lines meet, with contracted products as some builds have them. */
+/* Touch by the parameters at which the lines p-q and a-b meet, with contracted products as some
+ * builds have them. */
 static bool parametric_touch(struct vec2 p, struct vec2 q, struct vec2 a, struct vec2 b)
 {
     struct vec2 r = vec2_sub(q, p), s = vec2_sub(b, a), w = vec2_sub(a, p);
@@ -226,8 +229,8 @@ static bool parametric_touch(struct vec2 p, struct vec2 q, struct vec2 a, struct
     return t >= 0 && t <= 1 && u >= 0 && u <= 1;
 }
 
-/* Rays aimed exactly at a corner of a turned car: on the grid 2^-36 m the target, as far behind the
- * corner as the sensor is before it, is exact. */
+/* Hard cases 29 and 30: rays aimed exactly at a corner of a turned car. On the grid of 2^-36 m the
+ * target, as far behind the corner as the sensor is before it, is exact. */
 static void no_ray_leaks_through_a_corner(void **state)
 {
     (void)state;
@@ -258,8 +261,8 @@ static void no_ray_leaks_through_a_corner(void **state)
     hard_case("30", "the same, products contracted", "wrong", parametric, ours, 0);
 }
 
-/* Two rails of at least 4 m that share a rounded vertex, and received echoes within rounding of it
- * from 1 m to either side. */
+/* Hard case 31: two rails of at least 4 m that share a rounded vertex, and rays that pass it within
+ * rounding from 1 m on to either side. */
 static void no_ray_leaks_through_a_joint(void **state)
 {
     (void)state;
@@ -280,7 +283,7 @@ static void no_ray_leaks_through_a_joint(void **state)
     hard_case("31", "rays through a rail's joint that leak", "wrong", naive, ours, 0);
 }
 
-/* A frame in which "e" carries a sensor, and what else is there. */
+/* A frame in which the object "e" carries a sensor, and the other objects of the frame. */
 struct playback {
     struct arena arena;
     struct frame frame;
@@ -380,7 +383,7 @@ static void no_object_hides_its_own_outline(void **state)
     hard_case("32", "points hidden by their own outline", "wrong", naive, ours, 0);
 }
 
-/* Feet on the two sides that a plain test finds, ends included. */
+/* The number of feet on two sides that a plain test finds, ends included. */
 static int plain_feet(struct vec2 a, struct vec2 joint, struct vec2 b, struct vec2 sensor)
 {
     struct vec2 first = vec2_sub(joint, a), second = vec2_sub(b, joint);
@@ -389,7 +392,8 @@ static int plain_feet(struct vec2 a, struct vec2 joint, struct vec2 b, struct ve
     return before + beyond;
 }
 
-/* A wall in two pieces: of one object, or of two whose ends coincide as doubles. */
+/* A wall in two pieces: two sides of one object, or of two objects whose ends coincide as
+ * doubles. */
 static struct vec2 build_wall(struct playback *scene, uint64_t *random, bool straight,
                               double yaw_rad)
 {
@@ -428,8 +432,8 @@ static struct vec2 build_wall(struct playback *scene, uint64_t *random, bool str
     return box_place(&box, part, -0.5);
 }
 
-/* The sensor stands before the joint but for rounding; every eighth wall is straight and the sensor
- * exactly before it. */
+/* Hard case 33: the sensor stands before the joint but for rounding; every eighth wall is straight
+ * and has the sensor exactly before its joint. */
 static void every_joint_has_one_foot(void **state)
 {
     (void)state;
@@ -457,7 +461,8 @@ static void every_joint_has_one_foot(void **state)
     hard_case("33", "joints of a wall without just one foot", "wrong", naive, ours, 0);
 }
 
-/* Two boxes whose ends coincide only up to rounding, and a sensor 1e-12 m beside the joint. */
+/* Hard case 33 where ends differ: two boxes whose ends coincide only up to rounding, and a sensor
+ * 1e-12 m beside the joint. */
 static void a_joint_up_to_rounding_has_one_foot_beside_it(void **state)
 {
     (void)state;
@@ -490,7 +495,8 @@ static void a_joint_up_to_rounding_has_one_foot_beside_it(void **state)
     hard_case("33 apart", "ends that differ: at, and 1e-12 m beside", "wrong", naive, ours, 0);
 }
 
-/* A side along an axis, and another object whose corner or side lies exactly on its sight line. */
+/* A side along an axis, and another object whose corner or side lies exactly on the sight line to
+ * its foot. */
 static void an_outline_along_the_sight_line_blocks_the_foot(void **state)
 {
     (void)state;
@@ -521,7 +527,7 @@ static void an_outline_along_the_sight_line_blocks_the_foot(void **state)
     hard_case("foot", "outlines along its sight line missed", "wrong", naive, ours, 0);
 }
 
-/* Of the largest coordinate or distance. */
+/* How far the foot is off the line of sight, in ulp of the largest coordinate or distance. */
 static double foot_error_ulp(struct vec2 a, struct vec2 b, struct vec2 sensor, struct vec2 foot,
                              mpfr_t *w)
 {
@@ -575,7 +581,7 @@ static void a_turned_foot_is_off_its_sight_line_by_rounding_alone(void **state)
     hard_case("foot, turned", "foot off the line of sight", "ulp", naive, ours, 2);
 }
 
-/* Points at the sensor's very place, and next to it by anything from 2^-1074 m up. */
+/* Hard case 34: points at the sensor's own place, and beside it by anything from 2^-1074 m up. */
 static void nothing_at_range_zero_is_infinite(void **state)
 {
     (void)state;
@@ -601,8 +607,8 @@ static void nothing_at_range_zero_is_infinite(void **state)
     hard_case("34", "not finite at coincident points", "wrong", naive, ours, 0);
 }
 
-/* The whole look with no blind range: the same place is out of range, and what is next to it has a
- * finite echo. */
+/* Hard case 34 in a look without a blind range: a point at the sensor's own place is out of range,
+ * and one beside it has a finite echo. */
 static void a_look_at_its_own_place_is_out_of_range(void **state)
 {
     (void)state;
@@ -623,7 +629,7 @@ static void a_look_at_its_own_place_is_out_of_range(void **state)
     hard_case("34 look", "looks at the sensor's own place", "wrong", looks, ours, 0);
 }
 
-/* A sensor inside a turned box sees the point in there with it and not the one beyond. */
+/* A sensor inside a turned box sees a point that is inside with it and not a point outside. */
 static void a_sensor_inside_an_object_sees_the_inside_alone(void **state)
 {
     (void)state;

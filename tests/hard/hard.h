@@ -1,8 +1,9 @@
-/* One hard case: how far the plain form and ours come from the exact answer, and how far ours may.
+/* One hard case: the errors of the plain form and of glint's against the exact answer, and the
+ * bound on glint's.
  *
- * Cases carry the numbers of MODEL's sources on stability (NUMERICS 1 to 64); what has no number is
- * named. Exact answers are MPFR's, computed in the test. Every case prints one row, which
- * scripts/numerics collects, and fails if ours is worse than its bound. */
+ * Cases carry the numbers of README.md beside this file, 1 to 64; what has no number is named.
+ * Exact answers are MPFR's, computed in the test. Every case prints one row, which scripts/numerics
+ * collects, and fails if glint's error is beyond its bound. */
 #ifndef HARD_H
 #define HARD_H
 
@@ -13,7 +14,8 @@
 
 #include <mpfr.h>
 
-/* All of the points, or a tenth of them where HARD_TENTH is set, as in builds with sanitizers. */
+/* The number of points to test: all, or a tenth of them where HARD_TENTH is set, as in builds with
+ * sanitizers. */
 static inline int hard_points(int all)
 {
     return getenv("HARD_TENTH") != NULL ? (all + 9) / 10 : all;
@@ -25,8 +27,9 @@ static inline double hard_worse(double error, double other)
     return isnan(error) || other <= error ? error : other;
 }
 
-/* The row of one case: naive and ours are the worst errors over its points, in unit ("ulp", "rad",
- * "m", "wrong of 1e6"); NaN is written as such. Fails unless ours <= bound. */
+/* Prints the row of one case: naive and ours are the worst errors over its points of the plain form
+ * and of glint's, in unit ("ulp", "rad", "m", "wrong of 1e6"); NaN is written as such. Fails unless
+ * ours <= bound. */
 static inline void hard_case(const char *number, const char *title, const char *unit, double naive,
                              double ours, double bound)
 {
@@ -35,7 +38,8 @@ static inline void hard_case(const char *number, const char *title, const char *
         fail_msg("case %s, %s: %.17g %s, at most %.17g allowed", number, title, ours, unit, bound);
 }
 
-/* In units in the last place of the exact result, which is used up; subnormal results share one. */
+/* The error of a result in units in the last place of the exact one, which is used up; subnormal
+ * results share one unit. */
 static inline double hard_ulp(double result, mpfr_t exact)
 {
     if (mpfr_zero_p(exact))

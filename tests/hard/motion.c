@@ -1,4 +1,4 @@
-/* Places, speeds and headings: NUMERICS A3, 23, 24 and 35 to 38. */
+/* Places, speeds and headings: hard cases 23, 24 and 35 to 38. */
 #define SCRATCH_FILE "tracks.csv"
 #include "support/scratch.h"
 
@@ -10,7 +10,7 @@
 #include "traffic/playback.h"
 #include "traffic/scenario.h"
 
-/* |actual - exact|, which is used up. */
+/* |actual - exact|; the exact value is used up. */
 static double distance(double actual, mpfr_t exact)
 {
     mpfr_sub_d(exact, exact, actual, MPFR_RNDN);
@@ -30,7 +30,7 @@ static struct vec2 draw_vector(uint64_t *random, double bound)
 
 enum { TRACKS = 100 };
 
-/* Micrometres around (5e5, 5.3e6) m, as a table writes them. */
+/* A coordinate in micrometres, around (5e5, 5.3e6) m, and as a table writes it. */
 struct utm {
     int64_t x_um, y_um;
 };
@@ -58,7 +58,7 @@ static int write_tracks(const char *path, struct utm *places, int steps)
     return fclose(file);
 }
 
-/* um / 1e6 - origin, which the frame names. */
+/* The exact local coordinate: um / 1e6 - origin, the origin being the one that the frame names. */
 static double local_error_m(double local_m, int64_t um, double origin_m, mpfr_t work)
 {
     mpfr_set_sj(work, um, MPFR_RNDN);
@@ -67,7 +67,8 @@ static double local_error_m(double local_m, int64_t um, double origin_m, mpfr_t 
     return distance(local_m, work);
 }
 
-/* The same for a heading of (0.6, 0.8): the plain way turns before it subtracts. */
+/* The exact coordinate in a frame with the heading (0.6, 0.8); the plain way turns before it
+ * subtracts. */
 static double turned_error_m(struct utm utm, struct vec2 origin_m, mpfr_t *work)
 {
     struct vec2 heading = {0.6, 0.8}, place = {(double)utm.x_um / 1e6, (double)utm.y_um / 1e6};
@@ -94,7 +95,8 @@ static double range_error_m(double range_m, struct utm one, struct utm other, mp
     return distance(range_m, work[0]);
 }
 
-/* A table of UTM places, read as the product reads it: local places and ranges from the ego. */
+/* Hard case 23: a table of UTM places, read as glint-traffic reads it; local places and ranges from
+ * the ego. */
 static void utm_places_keep_a_nanometre(void **state)
 {
     struct scratch *scratch = *state;
@@ -133,7 +135,7 @@ static void utm_places_keep_a_nanometre(void **state)
     hard_case("23", "UTM places of a table, and ranges", "m", naive, ours, 1e-9);
 }
 
-/* A million frames of a body that goes straight from a UTM place. */
+/* Hard case 24: a million frames of a body that goes straight from a UTM place. */
 static void a_million_frames_go_straight(void **state)
 {
     (void)state;
@@ -172,7 +174,7 @@ static void a_million_frames_go_straight(void **state)
     hard_case("24", "1e6 frames straight on", "m", naive, ours, 1e-9);
 }
 
-/* v . r / |r| of the doubles. */
+/* The exact v . r / |r| of the given doubles. */
 static void exact_rate(struct vec2 r, struct vec2 v, mpfr_t exact, mpfr_t work)
 {
     mpfr_set_d(exact, r.x, MPFR_RNDN);
@@ -189,7 +191,8 @@ static void exact_rate(struct vec2 r, struct vec2 v, mpfr_t exact, mpfr_t work)
     mpfr_clears(x, y, (mpfr_ptr)NULL);
 }
 
-/* Tangential but for rounding; the sign is right if the error is a few ulp. */
+/* Hard case 35: motion that is tangential but for rounding; the sign is right if the error is a few
+ * ulp. */
 static void a_nearly_tangential_speed_keeps_its_sign(void **state)
 {
     (void)state;
@@ -234,9 +237,11 @@ static void ranges_are_never_differenced(void **state)
 
 enum { WORKS = 8 };
 
-/* The way along one axis, for turn > 0 in closed form over plenty of bits: of
- * e^(i yaw) ((v + a t) e^(i w t) / (i w) - v / (i w) + a (e^(i w t) - 1) / w^2)
- * the real part; its imaginary part is that for yaw - pi/2. */
+/* The exact way along one axis, for turn > 0 in closed form over plenty of bits: the real part of
+ *
+ * e^(i yaw) ((v + a t) e^(i w t) / (i w) - v / (i w) + a (e^(i w t) - 1) / w^2);
+ *
+ * its imaginary part is the way for yaw - pi/2. */
 static void exact_way(double yaw_rad, bool across, double v, double a, double w, double t,
                       mpfr_t way, mpfr_t *m)
 {
@@ -264,7 +269,7 @@ static void exact_way(double yaw_rad, bool across, double v, double a, double w,
     mpfr_div_d(way, way, w, MPFR_RNDN);
 }
 
-/* Steps of up to a second, from no turn to speak of to one radian. */
+/* Hard case 37: steps of up to a second, with turns from next to nothing to one radian. */
 static void a_turning_step_needs_no_small_angle(void **state)
 {
     (void)state;
@@ -296,7 +301,8 @@ static void a_turning_step_needs_no_small_angle(void **state)
     hard_case("37", "a turning, accelerating step", "m/m", naive, ours, 1e-15);
 }
 
-/* On the circle, against 2 pi to 1400 bits: any double, and doubles next to half turns. */
+/* Hard case 38: angles on the circle, against 2 pi to 1400 bits: any double, and doubles next to
+ * half turns. */
 static double wrap_error_rad(double angle_rad, double wrapped_rad, mpfr_t turn, mpfr_t exact)
 {
     mpfr_set_d(exact, angle_rad, MPFR_RNDN);
@@ -338,7 +344,7 @@ static void every_angle_wraps_exactly(void **state)
     hard_case("38", "wrapped angles of every size", "rad", naive, ours, 1e-15);
 }
 
-/* Headings up to 1e17 rad: where a body comes that drives along them. */
+/* Headings up to 1e17 rad: the place where a body arrives that drives along them. */
 static void a_heading_of_any_size_points_somewhere(void **state)
 {
     (void)state;

@@ -2,9 +2,9 @@
  * a margin said so (MODEL 11.1), and what stays listed moves no farther than its condition lets it.
  *
  * Three scenes of four move the traffic (poses, velocities, turn rates, sizes), the fourth the
- * sensors (thresholds, cells, mounts and all else that is a number). Compared are cells and
- * targets, that is, the list before noise and after; noise is drawn by the leader and so the same.
- */
+ * sensors (thresholds, cells, mounts and every other number). Cells and targets are compared, that
+ * is, the list before noise and after; noise is drawn by the leader and is the same in both
+ * runs. */
 #include "hard.h"
 
 #include <stdlib.h>
@@ -24,8 +24,8 @@
 enum { SENSORS = 2, SCENES = 6250 };
 
 /* The shipped suites, and the first of them made harder: without noise and with equation (6) as
- * printed, so that mirrored echoes leave the sign undecided, and with lists of one, so that ties
- * meet the limit. */
+ * printed, so that mirrored echoes leave the sign undecided, and with lists of one target, so that
+ * ties meet the limit. */
 static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
 
 static const struct {
@@ -40,11 +40,11 @@ enum { SUITES = sizeof suites / sizeof *suites };
 /* The largest relative step of one unit in the last place. */
 #define ULP 0x1p-52
 
-/* How far the last digits of the inputs may carry a decision, by kind. Coordinates are up to 620 m
- * and lever arms 150 m, so places move by up to 2e-12 m (error_of). From 1 m on that is an angle of
- * 2e-12 rad; amplitudes follow it up to tenfold, and the range to the exponent, both by less than
- * 3e-11 or 3e-10 dB. Rates turn with it by speeds of up to 80 m/s, and half a cell is 0.014 m/s:
- * 2e-8 half cells. */
+/* How far the last digits of the inputs may carry a decision, by the kind of its margin.
+ * Coordinates are up to 620 m and lever arms 150 m, so places move by up to 2e-12 m (error_of).
+ * From 1 m on that is an angle of 2e-12 rad; amplitudes follow it up to tenfold, and the range to
+ * the exponent, both by less than 3e-11 or 3e-10 dB. Rates turn with it by speeds of up to 80 m/s,
+ * and half a cell is 0.014 m/s: 2e-8 half cells. */
 static const struct {
     enum margin kind;
     size_t offset;
@@ -58,7 +58,7 @@ static const struct {
 };
 enum { KINDS = sizeof overrun / sizeof *overrun };
 
-/* An azimuth may turn to the other side where the sign's margin is below this. */
+/* The azimuth may change its side where the sign's margin is below this. */
 #define SIGN_OVERRUN 1e-9
 
 enum quantity { RANGE, RATE, AZIMUTH, AMPLITUDE, QUANTITIES };
@@ -66,12 +66,12 @@ static const char *const quantity_names[QUANTITIES] = {
     "one ulp moves range", "one ulp moves range rate", "one ulp moves azimuth",
     "one ulp moves amplitude"};
 
-/* Where one echo ended: in a cell or target, or lost (outcome 0). */
+/* Outcome of one echo: the cell or target that it is in, or 0 if it is lost. */
 struct fate {
     uint64_t echo, outcome;
     size_t sensor;
     const struct margins *margins;
-    const void *entry; /* of a leader: struct cell or struct target */
+    const void *entry; /* the struct cell or struct target that this echo leads, or NULL */
 };
 
 struct fates {
@@ -93,7 +93,8 @@ struct bench {
     struct random_traffic scene;
     struct chain before, after;
     double lists, changed, entries, near, values, undecided;
-    double farthest; /* of all changed lists: the nearest margin in units of its bound */
+    double
+        farthest; /* the farthest of all changed lists: its nearest margin in units of its bound */
     double worst[QUANTITIES];
 };
 
@@ -159,8 +160,9 @@ static int remove_bench(void **state)
 
 /* Moving the inputs. */
 
-/* To one of the two neighbours within the field's bounds; a zero to that of 1 beside it, as what is
- * zero by rounding would be. Sizes of zero are left: they stand for those of the class. */
+/* A value's neighbour within the field's bounds, on either side; for zero an ulp of 1 on either
+ * side, as a value that is zero by rounding may have. Sizes of zero stay: they stand for those of
+ * the class. */
 static double neighbour(const struct field *field, double value, uint64_t *coin)
 {
     double side = sample_bits(coin) % 2 == 0 ? 1 : -1;
@@ -201,7 +203,7 @@ static void move_traffic(struct frame *frame, uint64_t *coin)
         move_all(object, &frame->objects.items[i], coin);
 }
 
-/* Running the chain. */
+/* The chain. */
 
 static void begin(struct chain *chain, int64_t number)
 {
@@ -220,7 +222,7 @@ static void step(struct runner *runner, struct frame *frame)
         fail_msg("%s: %s", runner->stage->name, runner->diag.text);
 }
 
-/* What glint-ideal does for sensors that measure in every frame. */
+/* Looks at the scene as glint-ideal does for sensors that measure in every frame. */
 static void see(struct frame *frame, const struct suite *suite)
 {
     frame->sensors.suite = suite->name;
@@ -255,7 +257,7 @@ static void run_chain(struct chain *chain, const struct suite *suite)
     step(&chain->noise, &chain->frame);
 }
 
-/* Where echoes ended. */
+/* Outcomes of echoes. */
 
 static uint64_t hash_echo(uint64_t hash, const char *object, const char *reflector)
 {
@@ -325,7 +327,7 @@ static void collect(struct chain *chain, const struct suite *suite)
     sort_list(&chain->targets.list, compare_fates, frame->arena);
 }
 
-/* How far values may move. */
+/* Bounds on how far values may move. */
 
 /* The fastest that a pointer of the antenna changes with the azimuth, and the fastest that the
  * azimuth changes with the angle atan(delta/sum) that it is read off: for the dipole pair
@@ -367,18 +369,19 @@ static bool is_foot(const struct frame *frame, const struct contributor *echo)
     return false;
 }
 
-/* The error of one echo, of its strength and of each of its pointers. */
+/* Bounds on the error of one echo: of its range, its range rate and each of its pointers. */
 struct error {
     double range_m, rate_mps, pointer;
 };
 
 /* A place moves by the last digits of its own and the ego's coordinates, and of headings (up to pi)
- * at the lever arms of sizes and mount, the foot on a side also as the side turns, at its range:
- * once as moved, once as rounded. The direction turns by that at this range, to a foot at the
- * length of a side that may be short, and by the headings. Range rates are speeds turned in
- * direction, of a body that turns at another place. Strengths go with range to the exponent, and
- * with the direction at most as the steepest visibility, that from 40 to 60 degrees, (pi/2)/0.35,
- * of the largest cross section, 1.5; pointers as the antenna's slope besides. */
+ * at the lever arms of sizes and mount. A foot moves also as its side turns, at its range. Each
+ * counts twice: once as moved, once as rounded. The direction to the place turns by that at its
+ * range (to a foot: at the length of a side, which may be short), and by the headings. A range rate
+ * is a speed turned in direction, of a body that turns at another place. A strength goes with range
+ * to the exponent, and with the direction at most as the steepest visibility, from 40 to 60
+ * degrees, (pi/2)/0.35, of the largest cross section, 1.5; a pointer changes as the antenna's slope
+ * besides. */
 static struct error error_of(const struct frame *frame, const struct sensor *sensor,
                              const struct contributor *echo)
 {
@@ -407,8 +410,8 @@ static struct error error_of(const struct frame *frame, const struct sensor *sen
     };
 }
 
-/* Of a cell: of its means, whose members lie within two half cells and are weighted by amplitude,
- * and of its sum and delta pointers. */
+/* Bounds on the error of a cell: of its means, whose members lie within two half cells and are
+ * weighted by amplitude, and of its sum and delta pointers. */
 static struct error error_of_cell(const struct frame *frame, const struct sensor *sensor,
                                   const struct contributor *members, size_t count, double amplitude)
 {
@@ -426,15 +429,16 @@ static struct error error_of_cell(const struct frame *frame, const struct sensor
     return all;
 }
 
-/* The angle atan(delta/sum) turns by the pointers' error over their length, and the azimuth with
- * it. The ratio rule takes delta along sum, which turns by the error over the sum alone. */
+/* Bound on the error of an azimuth. The angle atan(delta/sum) turns by the pointers' error over
+ * their length, and the azimuth with it; the ratio rule takes delta along sum, which turns by the
+ * error over the sum alone. */
 static double azimuth_error_rad(const struct sensor *sensor, double pointer, double sum,
                                 double azimuth_rad)
 {
     return reading_slope(&sensor->antenna, azimuth_rad) * pointer / sum + ULP * PI;
 }
 
-/* What the two runs say of one cell or target. */
+/* The values of one cell or target in one run. */
 struct value {
     double of[QUANTITIES];
 };
@@ -486,9 +490,9 @@ static void compare_targets(struct bench *bench, const struct sensor *sensor,
         azimuth_rad, &before->margins);
 }
 
-/* Comparing the lists. */
+/* Comparison of the lists. */
 
-/* The least margin in units of what one unit in the last place may overrun. */
+/* The least margin of an entry, in units of what one unit in the last place may overrun. */
 static double nearness(const struct margins *margins)
 {
     double least = (double)INFINITY;
@@ -501,7 +505,8 @@ static double nearness(const struct margins *margins)
     return least;
 }
 
-/* Echoes that are in one list alone are lost in the other, farther off than anyone looks. */
+/* Compares the outcomes of all echoes. An echo that is in one list alone is lost in the other,
+ * where its margin counts as infinite. */
 static void compare_fates_of(struct bench *bench, const struct fates *before,
                              const struct fates *after, const char *what, int64_t number)
 {
@@ -538,7 +543,7 @@ static void compare_fates_of(struct bench *bench, const struct fates *before,
     }
 }
 
-/* The cells, or targets, that are the same in both, found by their leaders. */
+/* Compares the values of cells, or of targets, that are in both lists under the same leader. */
 static void compare_entries(struct bench *bench, const struct fates *before,
                             const struct fates *after, bool targets)
 {
@@ -621,8 +626,8 @@ static void run_density(struct bench *bench, enum random_traffic_density density
     }
 }
 
-/* In ordinary scenes hardly any margin is so small, or the answer would be cheap; in adversarial
- * ones lists must change, and signs be undecided, or nothing was tried. */
+/* Ordinary scenes have hardly any margin so small, or the answer would be cheap; adversarial scenes
+ * must change lists and leave signs undecided, or nothing was tried. */
 static void lists_change_only_where_a_margin_said_so(void **state)
 {
     struct bench *bench = *state;
@@ -633,7 +638,7 @@ static void lists_change_only_where_a_margin_said_so(void **state)
     print_message("%g lists, %g changed; %g echoes, %g near a border; %g signs undecided\n",
                   bench->lists, bench->changed, bench->entries, bench->near, bench->undecided);
     assert_true(bench->changed > 0 && bench->undecided > 0);
-    hard_case("C4", "one ulp changes lists", "of margin", (double)NAN, bench->farthest, 1);
+    hard_case("margins", "one ulp changes lists", "of margin", (double)NAN, bench->farthest, 1);
 }
 
 static void values_move_no_farther_than_their_condition_lets_them(void **state)
@@ -641,7 +646,7 @@ static void values_move_no_farther_than_their_condition_lets_them(void **state)
     const struct bench *bench = *state;
     assert_true(bench->values > 0);
     for (int i = 0; i < QUANTITIES; i++)
-        hard_case("C4", quantity_names[i], "of condition", (double)NAN, bench->worst[i], 1);
+        hard_case("margins", quantity_names[i], "of condition", (double)NAN, bench->worst[i], 1);
 }
 
 int main(void)

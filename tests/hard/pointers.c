@@ -105,8 +105,8 @@ static void add_echo(struct frame *frame, const char *object, double range_m, do
                                                             .ercs = ercs};
 }
 
-/* Both stages. Whatever is not finite, and whatever is neither in a target nor lost, they refuse.
- */
+/* Runs both stages. They refuse values that are not finite, and echoes that are neither in a target
+ * nor lost. */
 static bool bench_step(struct bench *bench)
 {
     frame_order(&bench->frame);
@@ -114,7 +114,7 @@ static bool bench_step(struct bench *bench)
            runner_step(&bench->list, &bench->frame) == 0;
 }
 
-/* The only target's azimuth, or NaN. */
+/* The azimuth of a lone echo's target, or NaN if there is not one target. */
 static double lone_azimuth(struct bench *bench, double azimuth_rad, double ercs)
 {
     bench_begin(bench);
@@ -125,7 +125,7 @@ static double lone_azimuth(struct bench *bench, double azimuth_rad, double ercs)
     return bench->frame.targets.items[0].azimuth_rad;
 }
 
-/* Without lib: equation (6) as printed, and the arcsine of (7). */
+/* The same azimuth without glint's functions: equation (6) as printed, and the arcsine of (7). */
 static double naive_lone_azimuth(double azimuth_rad)
 {
     double x = PI * sin(azimuth_rad);
@@ -160,7 +160,8 @@ static struct look look_at_pole(struct bench *bench, struct vec2 ego, struct vec
     return look;
 }
 
-/* A pole on the sensor itself is out of range by rule; one that is an ulp ahead is a target. */
+/* A pole at the sensor's own place is out of range by rule; one that is an ulp ahead is a
+ * target. */
 static void a_target_on_the_sensor_is_told(void **state)
 {
     (void)state;
@@ -185,7 +186,8 @@ static void a_target_on_the_sensor_is_told(void **state)
     bench_close(&bench);
 }
 
-/* Azimuths towards boresight, and towards the side up to the double that stands for it. */
+/* Azimuths ever nearer to boresight, and to the side up to the double that stands for 90
+ * degrees. */
 static void lone_targets_stay_where_they_are(void **state)
 {
     (void)state;
@@ -219,7 +221,7 @@ static void lone_targets_stay_where_they_are(void **state)
     mpfr_clear(exact);
 }
 
-/* The cell of received echoes in whatever order. */
+/* The cell of received echoes that are given in any order. */
 static struct cell cell_of(const struct sensor *sensor, struct received_echo *received_echoes,
                            size_t count, struct arena *arena)
 {
@@ -248,7 +250,7 @@ static struct cell pair_of(const struct sensor *sensor, double azimuth_rad, doub
     return cell_of(sensor, received_echoes, 2, arena);
 }
 
-/* The same through plain sums and the paper's sign as it comes. */
+/* The azimuth of a pair by plain sums and the paper's sign, as rounding gives it. */
 static double naive_pair(double azimuth_rad, double left, double right, bool element)
 {
     double x = PI * sin(azimuth_rad), u = x / 2;
@@ -259,15 +261,16 @@ static double naive_pair(double azimuth_rad, double left, double right, bool ele
     return copysign(asin(2 / PI * atan2(cabs(delta), cabs(sum))), -cimag(delta * conj(sum)));
 }
 
-/* From 1e-9 rad to the given azimuth, by ratio below 1 deg and by angle above. */
+/* The azimuth of the i-th pair, from 1e-9 rad to the given one: in equal ratios below 1 deg and in
+ * equal steps above. */
 static double pair_azimuth(int i, int count, double most_rad)
 {
     double part = (double)(i / 2) / (count / 2);
     return i % 2 == 0 ? 1e-9 * pow(DEGREE / 1e-9, part) : DEGREE + part * (most_rad - DEGREE);
 }
 
-/* u' = atan(tan^2 u), EFFECTS 0.3 item 2: what equal echoes to both sides look like under the phase
- * of the element. */
+/* The exact azimuth at which equal echoes to both sides appear under the phase of the element: u' =
+ * atan(tan^2 u), MODEL 8.1. */
 static void set_equal_pair(mpfr_t azimuth, double azimuth_rad)
 {
     mpfr_t quarter;
@@ -322,7 +325,7 @@ static void equal_echoes_meet_where_their_closed_form_says(void **state)
     arena_free(&arena);
 }
 
-/* How far one ulp of either strength moves the angle of a pair that was even. */
+/* How far one ulp of either strength moves the azimuth of a pair of equal echoes. */
 static double pair_jump(const struct sensor *sensor, double azimuth_rad, double strength,
                         struct arena *arena)
 {
@@ -382,7 +385,7 @@ static void one_ulp_of_an_echo_does_not_make_the_angle_jump(void **state)
     arena_free(&arena);
 }
 
-/* Sums as plain as can be, in the cell's order. */
+/* Sums of the pointers by plain additions, in the cell's order. */
 static struct antenna_pointers naive_pointers(const struct sensor *sensor,
                                               const struct received_echo *received_echoes,
                                               size_t count)
@@ -397,8 +400,8 @@ static struct antenna_pointers naive_pointers(const struct sensor *sensor,
     return total;
 }
 
-/* As many equal echoes to the left as to the right have no sign, however many they are: what plain
- * sums leave of delta's phase passes for one. */
+/* As many equal echoes to the left as to the right have no sign, however many they are; plain sums
+ * leave a phase of delta that passes for a sign. */
 static void an_even_cell_has_no_sign(void **state)
 {
     (void)state;
@@ -424,7 +427,7 @@ static void an_even_cell_has_no_sign(void **state)
     arena_free(&arena);
 }
 
-/* The delta sum of the products as they are rounded, and the sum of their sizes. */
+/* The exact delta sum of the rounded products, and the sum of their sizes. */
 static void set_delta(mpfr_t total, mpfr_t sizes, const struct sensor *sensor,
                       const struct received_echo *received_echoes, size_t count)
 {
@@ -439,7 +442,7 @@ static void set_delta(mpfr_t total, mpfr_t sizes, const struct sensor *sensor,
     }
 }
 
-/* NUMERICS 13: echoes up to 1e16 to one side cancel with two of half their strength to the other;
+/* Hard case 13: echoes up to 1e16 to one side cancel with two of half their strength to the other;
  * what is left is the echo of a weak target. */
 static void a_weak_target_outlives_strong_ones_that_cancel(void **state)
 {
@@ -490,7 +493,7 @@ static void add_unseen(uint64_t *seen, int *count, uint64_t value)
     seen[(*count)++] = value;
 }
 
-/* NUMERICS 14: a crowd of equal amplitudes with random phases, in random orders. */
+/* Hard case 14: a crowd of equal amplitudes with random phases, in random orders. */
 static void the_order_of_echoes_does_not_change_a_byte(void **state)
 {
     (void)state;
@@ -522,7 +525,7 @@ static void the_order_of_echoes_does_not_change_a_byte(void **state)
         count_echoes(&bench.frame);
         assert_int_equal(runner_step(&bench.sense, &bench.frame), 0);
         assert_int_equal(bench.frame.cells.count, 1);
-        frame_drop(&bench.frame, SECTION_ECHOES); /* as they were listed */
+        frame_drop(&bench.frame, SECTION_ECHOES); /* their order is another each time */
         struct diag diag = {0};
         line.length = 0;
         assert_int_equal(frame_text_write(&bench.frame, &line, &diag), 0);
@@ -536,7 +539,7 @@ static void the_order_of_echoes_does_not_change_a_byte(void **state)
     bench_close(&bench);
 }
 
-/* Equation (8) with u' = atan(|sum of g sin u| : sum of g cos u), g = G f. */
+/* The exact azimuth by equation (8): u' = atan(|sum of g sin u| : sum of g cos u), g = G f. */
 static void set_azimuth(mpfr_t azimuth, const struct received_echo *received_echoes, size_t count)
 {
     mpfr_t quarter, u, sine, cosine, delta, sum;
@@ -564,7 +567,7 @@ static void set_azimuth(mpfr_t azimuth, const struct received_echo *received_ech
     mpfr_clears(quarter, u, sine, cosine, delta, sum, (mpfr_ptr)0);
 }
 
-/* Whether two echoes in one cell end as a target or as lost, as the threshold says. */
+/* True if two echoes in one cell end as one target or as one lost group, by the threshold. */
 static bool two_are_told(struct bench *bench, double first, double second,
                          struct received_echo received_echoes[2])
 {
@@ -582,14 +585,15 @@ static bool two_are_told(struct bench *bench, double first, double second,
     return told && frame->targets.count == targets && frame->lost.count == 1 - targets;
 }
 
-/* The ratio of MODEL 7.2 as it is written. */
+/* The ratio of MODEL 7.2 computed as it is written. */
 static double naive_ratio(struct antenna_pointers pointers)
 {
     double square = creal(pointers.sum) * creal(pointers.sum);
     return -cimag(pointers.delta * conj(pointers.sum)) / square;
 }
 
-/* From 1e-300 to 1e300 through amplitude, mean, pointers, angle, threshold and list. */
+/* Amplitudes from 1e-300 to 1e300 go through amplitude, mean, pointers, angle, threshold and
+ * list. */
 static void every_amplitude_is_a_target_or_told(void **state)
 {
     (void)state;
@@ -622,7 +626,7 @@ static void every_amplitude_is_a_target_or_told(void **state)
     arena_free(&arena);
 }
 
-/* Two echoes whose sum is no double. */
+/* Two echoes whose sum of amplitudes is beyond the doubles. */
 static void an_amplitude_beyond_doubles_is_told(void **state)
 {
     (void)state;
@@ -638,7 +642,7 @@ static void an_amplitude_beyond_doubles_is_told(void **state)
     bench_close(&bench);
 }
 
-/* In radians what turns differ from the exact ones, whole turns aside; uses the exact ones up. */
+/* The error in radians of phases in turns, leaving out whole turns; uses the exact values up. */
 static double turn_error_rad(mpfr_t exact, double turns)
 {
     mpfr_sub_d(exact, exact, turns, MPFR_RNDN);
@@ -654,7 +658,7 @@ static void set_turns(mpfr_t exact, double range_m, double carrier_hz)
     mpfr_div_ui(exact, exact, 299792458, MPFR_RNDN);
 }
 
-/* NUMERICS 39. */
+/* Hard case 39. */
 static void the_phase_of_the_path_keeps_its_digits(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Random numbers (NUMERICS A7). What draws cost (53) is scripts/bench's. */
+/* Random numbers: hard cases 48 to 53. What draws cost is measured by scripts/bench. */
 #include "chain.h"
 
 #include <stdlib.h>
@@ -17,7 +17,8 @@ static double any_uniform(struct random_address *address, uint32_t index)
     return uniform[0];
 }
 
-/* What a plain mapping of bits makes of all zeros and all ones. */
+/* How many uniforms of a plain mapping of bits are outside (0, 1), for bits that are all zeros and
+ * all ones. */
 static double count_plain_ends(void)
 {
     const double ends[] = {0 / 0x1p32, (double)((float)UINT32_MAX / 0x1p32f),
@@ -28,7 +29,8 @@ static double count_plain_ends(void)
     return wrong;
 }
 
-/* An odd multiple of 2^-53 is (k + 1/2) 2^-52: all 52 bits count, and neither 0 nor 1 is one. */
+/* Hard case 48: an odd multiple of 2^-53 is (k + 1/2) 2^-52, so all 52 bits count, and it is
+ * neither 0 nor 1. */
 static void a_uniform_draw_is_never_0_or_1(void **state)
 {
     (void)state;
@@ -49,7 +51,8 @@ static void a_uniform_draw_is_never_0_or_1(void **state)
               ours, 0);
 }
 
-/* sqrt(-2 log 2^-53) against the 2^-33 of 32-bit draws: how much of the tail is missing. */
+/* Hard case 49: the reach sqrt(-2 log 2^-53) of the tail against that of 32-bit draws, which end at
+ * 2^-33. */
 static void the_tail_reaches_as_far_as_52_bits_let_it(void **state)
 {
     (void)state;
@@ -58,14 +61,14 @@ static void the_tail_reaches_as_far_as_52_bits_let_it(void **state)
     double expected = sqrt(-2 * log(0x1p-53)), least = 1;
     for (uint32_t i = 0; i < last; i++)
         least = fmin(least, any_uniform(&address, i));
-    /* The least of n draws is beyond 20/n with probability e^-20. */
+    /* The least of n uniform draws is beyond 20/n with probability e^-20. */
     assert_true(least < 20.0 / last);
     hard_case("49", "reach of the Gaussian tail cut off", "sigma",
               expected - sqrt(-2 * log(0x1p-33)), expected - sqrt(-2 * elementary_log(0x1p-53)),
               1e-15);
 }
 
-/* Box and Muller of the uniforms that the same address gives. */
+/* A Gaussian draw by Box and Muller with the C library, of the uniforms at the same address. */
 static void exact_gaussian(mpfr_t result, double radius_draw, double angle_draw, bool sine)
 {
     mpfr_t angle;
@@ -111,7 +114,7 @@ static void gaussian_draws_are_exact_to_a_few_ulp(void **state)
 
 enum { SCENES = 64 };
 
-/* All targets of 64 scenes, made in so many runs: hashed in the scenes' order. */
+/* Hash of all targets of 64 scenes in the scenes' order, made in so many runs. */
 static double hash_of_shards(int shards)
 {
     uint64_t hash = HASH_START;
@@ -123,7 +126,7 @@ static double hash_of_shards(int shards)
             struct text text = {0};
             hard_chain_next(&chain);
             hard_chain_step(&chain, 1, CHAIN_STAGES - 1);
-            /* It says where a run ends, not what is in the scene. */
+            /* Leaves out the end marker: it says where a run ends, not what is in the scene. */
             chain.frame.last = false;
             hard_chain_write(&chain, &text);
             hash = hash_bytes(hash, text.bytes, text.length);
@@ -134,7 +137,7 @@ static double hash_of_shards(int shards)
     return (double)(hash >> 11);
 }
 
-/* One stream of numbers per run, ten for each scene. */
+/* Hash of 64 scenes that draw ten numbers each from one stream per run. */
 static double hash_of_streams(int shards)
 {
     uint64_t hash = HASH_START;
@@ -169,7 +172,8 @@ static double correlation(const double *values, size_t count)
     return fabs(sum / (double)(count - 1));
 }
 
-/* By chance 0.01, and 0.04 in one of 16,000 trials. */
+/* Hard case 51. Independent seeds have a correlation of 0.01 by chance, and of 0.04 in one of
+ * 16,000 trials. */
 static void neighbouring_seeds_are_independent(void **state)
 {
     (void)state;
@@ -194,7 +198,7 @@ static uint64_t high_product(uint64_t a, uint64_t b)
     return (a >> 32) * (b >> 32) + (middle >> 32) + (other >> 32);
 }
 
-/* Ten rounds of Philox4x64, written from the published description. */
+/* Ten rounds of Philox4x64, written from the publication (Salmon et al., SC'11). */
 static void philox(uint64_t c[4], uint64_t key, uint64_t other_key)
 {
     const uint64_t one = UINT64_C(0xd2e7470ee14c6c93), other = UINT64_C(0xca5a826395121157);

@@ -1,5 +1,5 @@
-/* Sums and weights (NUMERICS A2). 13 is a case of the superposition's pointers; 18 has no place in
- * glint, which computes no variance. */
+/* Sums and weights: hard cases 14 to 21. Case 13 is in pointers.c; 18 has no place in glint, which
+ * computes no variance. */
 #include "hard.h"
 
 #include <float.h>
@@ -21,7 +21,7 @@ struct members {
     size_t count;
 };
 
-/* Two to ten values within half_span of a leader, weights falling from at most 1. */
+/* Draws two to ten values within half_span of a leader, with weights falling from at most 1. */
 static struct members draw_members(uint64_t *random, double low, double high, double half_span)
 {
     struct members drawn = {.count = 2 + (size_t)(sample_bits(random) % (MOST - 1))};
@@ -88,7 +88,7 @@ static int is_outside(double mean, const struct members *of)
     return !(mean >= least && mean <= most);
 }
 
-/* A few ulp apart, where rounding can carry a mean out of their span. */
+/* Draws values a few ulp apart, where rounding can carry a mean out of their span. */
 static struct members draw_neighbours(uint64_t *random)
 {
     struct members of = draw_members(random, 0.2, 200, 0);
@@ -97,7 +97,7 @@ static struct members draw_neighbours(uint64_t *random)
     return of;
 }
 
-/* All weight at the farthest value, whose distance is rounded. */
+/* Puts nearly all weight on the farthest value, whose distance is rounded. */
 static struct members draw_at_the_end(uint64_t *random)
 {
     struct members of = draw_members(random, -1, 1, 0);
@@ -143,7 +143,8 @@ static void a_mean_range_is_within_an_ulp(void **state)
     hard_case("16", "mean range", "ulp", naive, ours, 1);
 }
 
-/* Rates cancel to nearly nothing, where an ulp of the mean means nothing. */
+/* Hard case 16 for rates: a mean may cancel to nearly nothing, where an ulp of it means nothing, so
+ * the error is in m/s. */
 static void a_mean_rate_near_zero_is_as_exact_as_its_members(void **state)
 {
     (void)state;
@@ -204,7 +205,7 @@ static double count_distinct(double *values, size_t count)
     return distinct;
 }
 
-/* Every number of the cell, folded into one: equal cells have equal ones. */
+/* All numbers of the cell folded into one, which equal cells share. */
 static double fingerprint(const struct cell *cell)
 {
     double numbers[] = {cell->range_m, cell->range_rate_mps, cell->amplitude, cell->sum_re,
@@ -250,7 +251,7 @@ static void a_cell_is_the_same_for_every_order_of_its_echoes(void **state)
     arena_free(&arena);
 }
 
-/* Amplitudes from 1e-300 to 1e300, ten decades between the members of a cell. */
+/* Hard case 17: amplitudes from 1e-300 to 1e300, ten decades between the members of a cell. */
 static void cells_of_any_amplitude_are_finite_and_exact(void **state)
 {
     (void)state;
@@ -355,7 +356,8 @@ static void decibels_in_targets_are_within_two_ulp(void **state)
     hard_case("19", "amplitude_db of a target (naive: by ln)", "ulp", naive, ours, 2);
 }
 
-/* The chain's own decision: a cell is dropped if its amplitude < threshold, both linear. */
+/* Hard case 20, by the chain's own decision: a cell is dropped if its amplitude < threshold, both
+ * linear. */
 static int is_dropped(const struct sensor *sensor, double amplitude)
 {
     struct arena arena = {0};

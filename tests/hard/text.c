@@ -1,4 +1,4 @@
-/* Numbers and records as text (NUMERICS A8). */
+/* Numbers and records as text: hard cases 54 to 64. */
 #define SCRATCH_FILE "locale"
 #include "hard.h"
 #include "support/scratch.h"
@@ -96,7 +96,7 @@ static void small_and_large_numbers_keep_their_digits(void **state)
     hard_case("55", "UTM and 1e-9 as text (naive: %g, %f)", "relative", naive, ours, 0);
 }
 
-/* A frame with one object; what stands for SEED, X and MORE goes into its line. */
+/* A line of a frame with one object; its words SEED, X and MORE are replaced. */
 static int read_frame(struct arena *arena, const char *seed, const char *x, const char *more,
                       struct frame *frame, struct diag *diag)
 {
@@ -125,7 +125,7 @@ static bool reads_x(struct arena *arena, const char *x, double *value)
     return true;
 }
 
-/* The same number in a document, which jansson reads. */
+/* The number in a document, which jansson reads. */
 static bool document_reads_x(struct arena *arena, const char *x, double *value)
 {
     struct text text = {0};
@@ -172,7 +172,7 @@ static bool option_reads_x(struct arena *arena, const char *x, double *value)
 static bool (*const readers[])(struct arena *, const char *, double *) = {
     reads_x, document_reads_x, table_reads_x, option_reads_x};
 
-/* How many readers do not take the text as this double, bit for bit. */
+/* How many readers do not read the text as this double, bit for bit. */
 static double count_misread(const char *text, double expected)
 {
     double wrong = 0;
@@ -199,7 +199,7 @@ static double count_taken(const char *text)
     return wrong;
 }
 
-/* What becomes of a number under json_real_value, or json_number_value. */
+/* The value of a number under json_real_value, or under json_number_value. */
 static double by_jansson(const char *text, double (*value_of)(const json_t *))
 {
     json_t *tree = json_loads(text, JSON_DECODE_ANY, NULL);
@@ -228,7 +228,7 @@ static void minus_zero_keeps_its_sign(void **state)
 static bool refuses(const struct field *field, double value)
 {
     struct field alone[] = {*field, {0}};
-    alone->section = 0; /* there is no mask of what is present in a record of one member */
+    alone->section = 0; /* A record of one member has no mask of the members that are present. */
     const struct record record = {.size = field->offset + sizeof value, .fields = alone};
     size_t length = strlen(field->name);
     struct diag diag = {0};
@@ -241,7 +241,7 @@ static bool refuses(const struct field *field, double value)
            diag.text[length] == ':';
 }
 
-/* Over all real members that a line can have: how many let something through that is no number. */
+/* Over all real members that a line can have: how many let a value through that is no number. */
 static double count_careless(const struct record *record, size_t *members)
 {
     static const double values[] = {(double)NAN, (double)INFINITY, (double)-INFINITY};
@@ -382,7 +382,7 @@ static bool takes_frame(const char *x, const char *more)
     return taken;
 }
 
-/* An object's extra, so deep. */
+/* An object's extra member, nested so deep. */
 static bool takes_depth(size_t depth)
 {
     char x[3000] = "0,\"extra\":";
@@ -444,7 +444,7 @@ static void ambiguous_json_is_refused(void **state)
     hard_case("61", "twins, NUL, BOM, trailing text, depth", "wrong", naive, ours, 0);
 }
 
-/* A locale with a decimal comma: one that is there, or one made for the test. */
+/* The name of a locale with a decimal comma: one that is installed, or one made for the test. */
 static bool set_german(const char *path)
 {
     char command[256];
@@ -503,7 +503,7 @@ struct plain_csv {
     size_t count;
 };
 
-/* As libcsv's fields are by default: without an end. */
+/* Reads a table as libcsv gives its fields by default: without an end. */
 static void take_plain_cell(void *text, size_t length, void *context)
 {
     (void)length;
@@ -529,7 +529,8 @@ static double count_plain_csv_wrong(void)
     return wrong;
 }
 
-/* The message a table is refused with, or what its last cell holds and the number of its row. */
+/* The message that a table is refused with, or the number in its last cell and the row of that
+ * cell. */
 static bool table_says(const char *bytes, const char *expected)
 {
     struct arena arena = {0};

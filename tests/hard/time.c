@@ -1,4 +1,4 @@
-/* Time, binning and order (NUMERICS A4), and straight motion over a million frames (24). */
+/* Time, binning and order: hard cases 40 to 47, and 24, straight motion over a million frames. */
 #define SCRATCH_FILE "hard"
 #include "chain.h"
 #include "support/scratch.h"
@@ -30,7 +30,7 @@ static void write_file(const struct scratch *scratch, const char *text)
 #define SPEED_MPS 50.0
 #define YAW_RAD 0.6
 
-/* A car at 50 m/s in UTM coordinates for a million frames. */
+/* A scenario of a car at 50 m/s in UTM coordinates for a million frames. */
 static struct playback open_scene(struct scratch *scratch, double rate_hz)
 {
     char text[512];
@@ -48,7 +48,8 @@ static struct playback open_scene(struct scratch *scratch, double rate_hz)
     return scene;
 }
 
-/* Every frame, or a tenth of them up to the last. */
+/* The step between frames that are checked: every frame, or every tenth one where HARD_TENTH is
+ * set. */
 static int64_t frame_step(void)
 {
     return FRAMES / hard_points(FRAMES);
@@ -105,7 +106,8 @@ static void a_frame_is_found_again_from_its_time(void **state)
     hard_case("41", "frame number back from its time", "wrong", naive, ours, 0);
 }
 
-/* A sensor with a scan in every second frame, its cycle written as a decimal. */
+/* Hard case 41 for scans: a sensor with a scan in every second frame, its cycle written as a
+ * decimal. */
 static void scans_fall_on_their_frames(void **state)
 {
     struct arena arena = {0};
@@ -213,7 +215,8 @@ static void straight_motion_does_not_drift(void **state)
     hard_case("24", "place after 1e6 frames at 50 m/s from UTM", "m", naive, ours, 1e-9);
 }
 
-/* Every multiple stays the multiple it is, and reporting it twice changes nothing. */
+/* Hard case 43: every multiple of a step is reported as that multiple, and rounding it twice
+ * changes nothing. */
 static void multiples_of_a_step_stay_in_their_bin(void **state)
 {
     (void)state;
@@ -230,8 +233,9 @@ static void multiples_of_a_step_stay_in_their_bin(void **state)
     hard_case("43", "1e4 multiples of five steps", "wrong", naive, ours, 0);
 }
 
-/* The border of a cell is where the doubles put it: |a - b| rounded once, then <=. The naive count
- * is of decimals, a multiple of 0.01 m apart, that the doubles put on the other side. */
+/* Hard case 44: the border of a cell is where the doubles put it: |a - b| rounded once, then <=.
+ * The naive count is of decimals, a multiple of 0.01 m apart, that the doubles put on the other
+ * side. */
 static size_t cluster(const struct resolution_echo *echoes, size_t count, double half_range_m,
                       double half_range_rate_mps, size_t *cell)
 {
@@ -286,7 +290,7 @@ static void shuffle(uint64_t *random, void *items, size_t count, size_t size)
     }
 }
 
-/* Echoes 0 to 0.28 m apart, amplitudes the same or apart_ulp steps apart. */
+/* Draws echoes 0 to 0.28 m apart, with amplitudes that are the same or apart_ulp steps apart. */
 static void draw_rays(uint64_t *random, int64_t apart_ulp,
                       struct received_echo received_echoes[TIED])
 {
@@ -302,7 +306,7 @@ static void draw_rays(uint64_t *random, int64_t apart_ulp,
     }
 }
 
-/* The means of the cells, in their order. */
+/* The mean ranges of the cells, in their order. */
 static size_t find_cells(const struct received_echo received_echoes[TIED], double range_m[TIED])
 {
     struct resolution_echo echoes[TIED];
@@ -330,7 +334,7 @@ static int compare_amplitudes(const void *left, const void *right)
     return (a->amplitude < b->amplitude) - (a->amplitude > b->amplitude);
 }
 
-/* Whether two orders of the received echoes make different lists under an order of strength. */
+/* True if two orders of the received echoes make different lists under an order of strength. */
 static bool differ(const struct received_echo one[TIED], const struct received_echo other[TIED],
                    int (*compare)(const void *, const void *), struct arena *arena)
 {
@@ -375,7 +379,7 @@ static double through_text(double value, int digits)
     return back;
 }
 
-/* One ulp decides, so a pipe between two stages must not move it. */
+/* Hard case 46: one ulp decides, so a pipe between two stages must not move it. */
 static void near_ties_survive_the_pipe(void **state)
 {
     (void)state;
@@ -409,7 +413,7 @@ static int compare_keys(const void *left, const void *right)
     return ((const struct keyed *)left)->key - ((const struct keyed *)right)->key;
 }
 
-/* Selection by exchange, as some qsort may order what ties. */
+/* Sorts by selection and exchange, which changes the order of ties, as some qsort may. */
 static void sort_unstably(struct keyed *items, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -452,7 +456,7 @@ static void sorting_keeps_the_order_of_ties(void **state)
     hard_case("47", "64 tied keys sorted (naive: by exchange)", "wrong", naive, ours, 0);
 }
 
-/* The echoes of each sensor, which stand together. */
+/* Reorders the echoes of each sensor, which stand together. */
 static void shuffle_echoes(uint64_t *random, struct frame *frame)
 {
     struct echo *echoes = frame->echoes.items;
@@ -464,8 +468,8 @@ static void shuffle_echoes(uint64_t *random, struct frame *frame)
     }
 }
 
-/* What stages from to the last make of the chain's frame: cells, targets, and echoes if not given.
- */
+/* What the stages from the given one to the last make of the chain's frame: cells, targets, and
+ * echoes if not given. */
 static void find_targets(struct hard_chain *chain, size_t from, struct text *text)
 {
     hard_chain_step(chain, from, CHAIN_STAGES - 1);
@@ -477,7 +481,8 @@ static void find_targets(struct hard_chain *chain, size_t from, struct text *tex
 
 enum { ORDERS = 1000, SCENES = 20 };
 
-/* Runs one scene in 50 orders of its objects, or of its echoes: how often a byte changed. */
+/* Runs one scene in 50 orders of its objects, or of its echoes, and counts how often a byte
+ * changed. */
 static double count_changes(struct hard_chain *chain, uint64_t *random, bool objects)
 {
     struct text line = {0}, first = {0}, text = {0};
