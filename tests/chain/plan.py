@@ -1,4 +1,4 @@
-"""What glint-plan prints, run: the targets of the whole chain, from what it left.
+"""The pipelines that glint-plan prints, run: they make the targets of the whole chain.
 
 Usage: python3 tests/chain/plan.py BIN_DIR
 
@@ -70,7 +70,8 @@ def same(bench, what, scenes, suite, options=(), expected=()):
 
 
 def shipped(bench):
-    """Every pipeline with a suite: its source's frames, run through the plan and through the whole chain."""
+    """For every pipeline with a suite: the frames of its source, run through the printed plan and through the
+    whole chain."""
     count = 0
     for path in sorted(glob.glob(ROOT + "/pipelines/*.sh")):
         with open(path, encoding="utf-8") as file:
@@ -95,7 +96,7 @@ def later_frames(bench):
 
 
 def spared(bench):
-    """Stages that a simpler one stands in for, and those that only look like it."""
+    """Stages that a simpler one stands in for, and stages that only look as if it could."""
     scenes = bench.chain("glint-traffic two-vehicles")
     quiet = bench.suite("quiet", QUIET)
     same(bench, "no noise", scenes, quiet, (), ["goes: glint-noise-none has the same targets"])

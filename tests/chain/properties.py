@@ -83,7 +83,7 @@ def writes_frames(command):
 
 
 def hops_of(path):
-    """What leaves every stage of ours in a pipeline file that writes frames."""
+    """The streams that leave each of glint's own stages in a pipeline file that writes frames."""
     header, commands = stages_of(path)
     for count in range(1, len(commands) + 1):
         if writes_frames(commands[count - 1]):
@@ -99,7 +99,7 @@ def parse(data):
 
 
 def exact(data):
-    """Frames with every number as it is spelled, for comparisons byte by byte."""
+    """Frames whose numbers stay as they are spelled, for comparisons byte by byte."""
     return [json.loads(line, parse_float=str, parse_int=str) for line in data.splitlines()]
 
 
@@ -145,8 +145,8 @@ def speed(body):
 
 
 def posts(frame, ego, sensor, owner, row):
-    """The posts of a row that must be named, and those that may be: objects stand where they are
-    at the end of the frame, so a sensor with a cycle gets some slack."""
+    """The posts of a row that must be accounted for, and those that may be: objects stand where they are at
+    the end of the frame, so a sensor with a cycle gets some slack."""
     cycle, time = sensor.get("cycle_s", 0), frame["time_s"]
     age = time - math.floor(time / cycle + 1e-9) * cycle if cycle else 0
     slack = 1e-6 + (speed(ego) + speed(owner)) * abs(age)
@@ -193,7 +193,8 @@ def endings(frame):
 
 
 def check_laws(frame):
-    """Both laws of the account, from the vehicle documents and not from what ideal says."""
+    """Both laws of the account, with what must be accounted for taken from the vehicle documents and not from
+    glint-ideal."""
     where, ends = place(frame), endings(frame)
     check(len(ends) == len(set(ends)), f"{where}: an echo ends twice")
     direct = {end[:4] for end in ends if end[3] == "direct"}
@@ -220,7 +221,7 @@ def check_laws(frame):
 
 
 def close(one, other, key):
-    """Within 1e-9; amplitudes, which have no scale of their own, relative to themselves."""
+    """True within 1e-9; amplitudes, which have no scale of their own, relative to themselves."""
     scale = abs(one) if key == "cell_amplitude" else 1
     return abs(one - other) <= 1e-9 * scale
 
@@ -238,8 +239,8 @@ def label(target):
 
 
 def by_label(frame, rename):
-    """Targets by sensor and label, in which the leader is one like all: exact ties may choose
-    another one."""
+    """Targets by sensor and label, in which the leader is a member like all others: exact ties may choose
+    another leader."""
     found = {}
     for target in frame["targets"]:
         names = {rename(target["sensor"], key): one for key, one in label(target).items()}
@@ -282,7 +283,7 @@ def compare_lists(left, right, sign=1, rename=plain):
 
 
 def noise_free(suite, data):
-    """Without clutter too, whose places are drawn."""
+    """The chain without noise, and without clutter, whose places are drawn."""
     return parse(fused(chain(f"{suite} --effects=-clutter", noise="glint-noise-none"), data))
 
 
@@ -294,7 +295,7 @@ def angle_key(angle):
 
 
 def mirror_names(model):
-    """Which reflector stands where another would stand in the mirror, by their places."""
+    """For each reflector the one whose place it takes in the mirror."""
     def point(one, sign):
         return ("point", one["x"], sign * one["y"] + 0.0, angle_key(sign * one["facing_rad"]))
 
@@ -342,9 +343,9 @@ def save(folder, name, document):
 
 
 def general_position(name):
-    """A scenario without the coincidences of hand-written numbers (a wall exactly at the border of
-    the view, a corner exactly in the line of sight), which rounding may decide either way. Places
-    lie on a grid that a shift by 1e6 m keeps."""
+    """A scenario without the coincidences of hand-written numbers (a wall exactly at the border of the view,
+    a corner exactly in the line of sight), which rounding may decide either way. Places lie on a grid that a
+    shift by 1e6 m keeps."""
     document, draw = json.load(open(f"{ROOT}/data/scenarios/{name}.json")), random.Random(name)
     for body in document["objects"]:
         moved = [draw.uniform(-0.01, 0.01) for _ in range(3)]
@@ -385,7 +386,8 @@ def piped_is_fused(folder):
 
 
 def laws_hold(folder):
-    """Where reflectors are those of the vehicle documents, which say what must be accounted for."""
+    """The account of scenes whose reflectors are those of the vehicle documents, which say what must be
+    accounted for."""
     frames = 0
     for path in PIPELINES:
         commands = stages_of(path)[1]
@@ -476,8 +478,8 @@ def shards(folder):
 
 
 def lines_alone(folder):
-    """What a stage remembers of a line never shows in another: other scenes, other orders of
-    objects, other reflectors of the same class."""
+    """What a stage remembers of a line never shows in another line: other scenes, other orders of objects,
+    other reflectors of the same class."""
     draw = random.Random(2)
     frames = [frame for name in ("cut-in", "intersection", "highway-straight")
               for frame in parse(piped(f"glint-traffic {name}"))[::12]]
@@ -538,7 +540,7 @@ def seeds(folder):
 
 
 def unseen_objects(folder):
-    """What has no echo and hides nothing can go without a trace in any target."""
+    """An object that has no echo and hides nothing can go without a trace in any target."""
     for source, suite in (("cut-in", "srr24-pair"), ("highway-straight", "lrr77")):
         text = chain(suite)
         frames = parse(piped(f"glint-traffic {source}"))
@@ -652,7 +654,7 @@ EXTRAS = ['{"b" : [1.0,1e5, -0,\t"\\u00e4\u00e4\\/"] ,"a":null,"b":{}}', '"x"', 
 
 
 def add_extra(data, pick, after):
-    """Puts an extra member behind the first key of what pick names, and counts them."""
+    """Puts an extra member behind the first key of the part that pick names, and counts the parts."""
     lines, added = [], 0
     for number, line in enumerate(data.decode().splitlines(keepends=True)):
         extra = f'"extra": {EXTRAS[number % len(EXTRAS)]} ,"{after}":'
@@ -671,7 +673,7 @@ def check_extras(data, count, where):
 
 def extras(folder):
     stages = ["glint-traffic cut-in"] + chain("srr24-pair").split(" | ")
-    # Where one is put in, what carries it, its key, and the stages it must outlive.
+    # An extra member: where it is put in, what carries it, its key, and the stages that must pass it on.
     carriers = [(1, "{", "version", "glint-extract | glint-ideal --sensors srr24-pair | "
                  "glint-sensor | glint-noise"),
                 (1, '"objects":', "id", "glint-extract | glint-ideal --sensors srr24-pair | "

@@ -2,10 +2,10 @@
 
 Usage: python3 tests/chain/score.py BIN_DIR        exit status 1 if any check fails
 
-Lists of random scenes, noise-free and noisy, are compared here by trying every assignment (with
-what is best for the rest of a list remembered), distances and statistics from their definitions:
-Wasserstein-1 as an integral over quantiles in fractions, percentiles by counting. Tracks are the
-objects, moved, renamed, dropped and added by a seeded generator.
+Lists of random scenes, noise-free and noisy, are compared here by trying every assignment (remembering the
+best one for the rest of a list), with distances and statistics from their definitions: Wasserstein-1 as an
+integral over quantiles in fractions, percentiles by counting. Tracks are the objects, moved, renamed, dropped
+and added by a seeded generator.
 """
 import functools
 import json
@@ -19,7 +19,7 @@ from fractions import Fraction
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 COMPONENTS = ["range_m", "azimuth_rad", "range_rate_mps", "amplitude_db"]
-MOST = 11  # targets a side that trying all is good for
+MOST = 11  # the most targets a side for which trying all assignments is feasible
 checks = failures = 0
 
 
@@ -40,7 +40,8 @@ def near(actual, expected, what):
 
 
 def assign(distance, truths, listed, cutoff):
-    """The least sum of squared distances below the cut-off and of half its square for all others."""
+    """The least sum of squared distances of pairs below the cut-off, plus half the squared cut-off for every
+    other item."""
 
     @functools.lru_cache(None)
     def best(row, used):
@@ -62,7 +63,7 @@ def assign(distance, truths, listed, cutoff):
 
 
 def least_ospa(distance, truths, listed, cutoff):
-    """Every item of the shorter list has a partner, at most the cut-off away."""
+    """Least sum of squares where every item of the shorter list has a partner, at most the cut-off away."""
     if max(truths, listed) == 0:
         return 0
     if truths > listed:
@@ -100,14 +101,14 @@ def statistics(differences):
 
 
 class Tally:
-    """One scan, or several together."""
+    """The scores of one scan, or of several together."""
 
     def __init__(self):
         self.gospa, self.ospa, self.parts, self.counts = [], [], [], [0, 0, 0]
         self.apart, self.truth, self.listed = {}, {}, {}
 
     def scan(self, distance, truth, listed, cutoff):
-        """Counts the lists; returns the pairs."""
+        """Counts the lists of one scan; returns the pairs."""
         total, pairs = assign(distance, len(truth), len(listed), cutoff)
         alone = cutoff**2 / 2
         missed, false = len(truth) - len(pairs), len(listed) - len(pairs)
@@ -192,7 +193,7 @@ class Bench:
 
 
 def thin(rng, frames):
-    """Few enough for trying all, in any order: no score may depend on that."""
+    """Lists short enough for trying all assignments, in any order, as no score may depend on that."""
     for frame in frames:
         names = [view["name"] for view in frame["sensors"]["list"]]
         targets = {name: [t for t in frame["targets"] if t["sensor"] == name] for name in names}
@@ -251,7 +252,7 @@ def check_summary(summary, sensors, what):
 
 
 def invented_tracks(rng, frame, names):
-    """The objects as a poor tracker might have them; names are the ids that it gives."""
+    """The objects as a poor tracker might report them; names holds the ids that it gives."""
     tracks = []
     for thing in rng.sample(frame["objects"], min(len(frame["objects"]), MOST - 2)):
         if thing["id"] == frame["ego"] or rng.random() < 0.2:

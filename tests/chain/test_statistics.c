@@ -16,7 +16,7 @@
 
 extern const struct stage stage_sensor, stage_noise, stage_noise_gauss;
 
-/* One stage at work on frames made by hand. */
+/* One stage that works on frames made by hand. */
 struct bench {
     struct runner runner;
     const struct suite *suite;
@@ -42,7 +42,7 @@ static void bench_close(struct bench *bench)
     arena_free(&bench->arena);
 }
 
-/* An empty frame that is read by what the bench's stage reads. */
+/* Empties the frame and puts into it what the bench's stage needs beside its input. */
 static void bench_begin(struct bench *bench, int64_t number)
 {
     struct frame *frame = &bench->frame;
@@ -79,7 +79,7 @@ static void count_pair(struct frame *frame, const char *sensor)
             frame->counts.items[i].pairs++;
 }
 
-/* A cell with one member; pointers and angle are the caller's. */
+/* Adds a cell with one member; pointers and angle are the caller's. */
 static struct cell *add_cell(struct frame *frame, const char *sensor, const char *object,
                              double range_m, double amplitude)
 {
@@ -109,7 +109,8 @@ static double si(double u)
     return u == 0 ? 1 : sin(u) / u;
 }
 
-/* Monte Carlo: a reflector of strength G at an azimuth, seen by one of the pair's sensors. */
+/* One point of a Monte Carlo: a reflector of strength G at an azimuth, seen by one of the pair's
+ * sensors. */
 struct point {
     const char *sensor, *object;
     double strength, azimuth_deg; /* G / sigma_H */
@@ -146,7 +147,7 @@ struct errors {
 
 struct sample {
     struct sensor sensor;
-    struct errors *at; /* POINTS of them */
+    struct errors *at; /* one for each of POINTS */
 };
 
 static struct sample *draw_sample(const struct stage *stage)
@@ -221,7 +222,7 @@ static double correlation(const double *a, const double *b)
     return covariance / sqrt(variance(a) * variance(b));
 }
 
-/* MODEL 7.3, first order and away from boresight, for G in units of sigma_H. */
+/* The law of MODEL 7.3, first order and away from boresight, for G in units of sigma_H. */
 static double azimuth_sigma_rad(const struct point *point)
 {
     double azimuth = point->azimuth_deg * PI / 180, cosine = cos(azimuth);
@@ -356,7 +357,7 @@ static void errors_of_other_frames_are_independent(void **state)
     check_unrelated_in_time(sample->at[AT_30_16].azimuth_rad);
 }
 
-/* Suites of one sensor "front", whose threshold is 1. */
+/* Suites of one sensor "front" with a threshold of 1. */
 struct scratch {
     char folder[40];
     char suite[60];
@@ -382,7 +383,7 @@ static int free_scratch(void **state)
     return 0;
 }
 
-/* No noise, everything listed. */
+/* Members of a sensor without noise; with noise; and one that lists everything. */
 #define QUIET                                                                                      \
     "\"pointer_sigma\": 0, \"range_sigma_m\": 0, \"range_rate_sigma_mps\": 0,"                     \
     "\"azimuth_sigma_rad\": 0"
@@ -415,7 +416,7 @@ struct listed {
     double amplitude, range_m, range_rate_mps, azimuth_rad;
 };
 
-/* The leaders' ideal values are set apart from the cells', which do not break ties. */
+/* Adds a cell whose leader has other ideal values than the cell; the leader's do not break ties. */
 static void add_listed(struct frame *frame, const struct listed *listed)
 {
     struct cell *cell =
@@ -522,7 +523,8 @@ static void without_a_final_threshold_all_that_has_an_angle_stays(void **state)
     bench_close(&bench);
 }
 
-/* The same draws under another suite: one cell of amplitude 4 and one of 1, over many frames. */
+/* Errors of the same draws under another suite, for one cell of amplitude 4 and one of 1, over many
+ * frames. */
 struct pair {
     double range_m[2], range_rate_mps[2], azimuth_rad[2];
 };
@@ -589,7 +591,7 @@ static void by_amplitude_the_strong_scatter_less(void **state)
         }
 }
 
-/* The same cell with one name changed: all draws must differ. */
+/* One cell and the same cell with one name changed: all draws must differ. */
 struct address {
     const char *scene, *object, *reflector;
     int64_t frame;
@@ -757,8 +759,8 @@ static void a_random_phase_turns_pointers_and_leaves_membership(void **state)
     bench_close(&random);
 }
 
-/* An eighth of a wavelength farther is a quarter of a turn later than the leader, in whatever frame
- * and wherever both are; reflectors start from phases of their own. */
+/* An echo an eighth of a wavelength farther away lags the leader by a quarter of a turn, in
+ * whatever frame and wherever both are; reflectors start from phases of their own. */
 static void phases_by_path_follow_the_range(void **state)
 {
     const double wave_m = 299792458 / 24e9;

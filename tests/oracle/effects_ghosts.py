@@ -1,4 +1,4 @@
-"""Mirror ghosts through the executables, against EFFECTS 7 and closed forms.
+"""Mirror ghosts through the executables, against the example of MODEL 14.1 and closed forms.
 
 Usage: python3 tests/oracle/effects_ghosts.py BIN_DIR
 
@@ -27,7 +27,7 @@ SENSOR = {"range_max_m": 100, "calibration_range_m": 100, "bounces": 3, "phase_r
 APART = "all,-merging"
 
 
-def effects_7_scene():
+def example_scene():
     """The object at (30, -2) m with v = (-5, 0) m/s, and a wall at y = 4 m."""
     return model.frame([ego(), thing("o", "dot", 30, -2, velocity=(-5, 0)), thing("w", "mirror", 15, 4.25)])
 
@@ -43,7 +43,7 @@ def see(bench, frames, one, effects="all", noise="glint-noise-none"):
 
 
 def by_path(frame):
-    """Targets of one member each, by its path."""
+    """Targets of one member each, by the path of that member."""
     return {target["contributors"][0]["path"]: target for target in frame["targets"]
             if len(target["contributors"]) == 1}
 
@@ -55,8 +55,8 @@ def flat(**changes):
 # ---- the checks ---------------------------------------------------------------------------------
 
 
-def effects_7(bench):
-    targets = by_path(see(bench, [effects_7_scene()], flat(), APART)[0])
+def the_example_has_its_ghosts(bench):
+    targets = by_path(see(bench, [example_scene()], flat(), APART)[0])
     bench.check(set(targets) == {"direct", *GHOSTS}, f"targets of the paths {sorted(targets)}")
     for path, distance, rate, azimuth, relative in (
             ("direct", "30.066593", "-4.988926", "-3.814075", "0.000000"),
@@ -80,8 +80,9 @@ def pattern(azimuth):
 
 
 def one_way_each(bench):
-    """The paper's antenna: the root of its pattern on each way, and the azimuth of the arrival."""
-    targets = by_path(see(bench, [effects_7_scene()], sensor(**SENSOR), APART)[0])
+    """Under the paper's antenna a ghost has the root of the pattern on each way, and the azimuth of the
+    arrival."""
+    targets = by_path(see(bench, [example_scene()], sensor(**SENSOR), APART)[0])
     law = 10 ** (6 / 20) / 0.8 * 100 ** 2
     leave, image = math.atan2(-2, 30), math.atan2(10, 30)
     ways = {"direct": (leave, leave, math.sqrt(904), 1), "wall_object": (image, leave, 0, 0.9),
@@ -96,8 +97,8 @@ def one_way_each(bench):
 
 
 def resolved_ghosts(bench):
-    """Both one-way paths are in one cell, as no radar can tell them apart by range and rate."""
-    targets = see(bench, [effects_7_scene()], flat())[0]["targets"]
+    """Both one-way paths share one cell, as no radar can tell them apart by range and rate."""
+    targets = see(bench, [example_scene()], flat())[0]["targets"]
     labels = sorted(sorted(one["path"] for one in target["contributors"]) for target in targets)
     bench.check(labels == [["direct"], ["object_wall", "wall_object"], ["wall_object_wall"]], f"cells of {labels}")
     both = next(target for target in targets if len(target["contributors"]) == 2)
@@ -109,7 +110,7 @@ def bounces(bench):
         one = flat(bounces=count) if count is not None else flat()
         if count is None:
             del one["bounces"]
-        frame = see(bench, [effects_7_scene()], one, APART)[0]
+        frame = see(bench, [example_scene()], one, APART)[0]
         bench.check(set(by_path(frame)) == {"direct", *paths}, f"bounces {count}: {sorted(by_path(frame))}")
         made = {path["path"]: path["echoes"] for path in frame["counts"][0]["paths"]}
         bench.check(made == {path: 1 for path in ["direct", *paths]}, f"bounces {count}: counts {made}")
@@ -118,7 +119,7 @@ def bounces(bench):
 
 
 def shipped_mirrors(bench):
-    """A dot at (20, 0) m in the side of everything that mirrors, at y = 4 m: O' is (20, 8)."""
+    """A dot at (20, 0) m is mirrored in the side, at y = 4 m, of every class that mirrors: O' is (20, 8)."""
     for name, reflection in (("wall", 0.6), ("guardrail", 0.8), ("car", 0.8), ("van", 0.8), ("truck", 0.8),
                              ("bus", 0.8), ("articulated_truck", 0.8)):
         width = bench.vehicles[name]["width_m"]
@@ -141,7 +142,7 @@ def full_sensor():
 
 
 def street(draw):
-    """Cars, people and posts between walls and guardrails that are not quite parallel."""
+    """A scene of cars, people and posts between walls and guardrails that are not quite parallel."""
     things = [thing(f"wall{i}", draw.choice(["wall", "guardrail", "mirror"]), draw.uniform(-10, 60),
                     draw.choice([-1, 1]) * draw.uniform(4, 12), draw.gauss(0, 0.1) + draw.choice([0, math.pi]),
                     length=draw.uniform(5, 80)) for i in range(3)]
@@ -174,7 +175,7 @@ def auto_is_all(bench):
 
 
 def switched_off(bench):
-    """The list is then that of a sensor without bounces."""
+    """Without the effect the list is that of a sensor without bounces."""
     for name, frames, one in scenes(bench):
         without = stripped(see(bench, frames, one, "all,-ghosts"))
         plain = stripped(see(bench, frames, {key: one[key] for key in one if key != "bounces"}))
@@ -184,7 +185,7 @@ def switched_off(bench):
 
 
 CHECKS = [
-    ("EFFECTS 7 has its ghosts, told apart by their paths", effects_7),
+    ("the example of MODEL 14.1 has its ghosts, told apart by their paths", the_example_has_its_ghosts),
     ("the antenna counts one way each", one_way_each),
     ("both one-way ghosts share a cell", resolved_ghosts),
     ("a sensor sees as many bounces as it says", bounces),

@@ -2,7 +2,7 @@
 
 Usage: python3 tests/oracle/effects_heights.py BIN_DIR        exit status 1 if any check fails
 
-The figures are those printed in EFFECTS 15, 16, 17 and 19, or closed forms.
+The figures are those printed in MODEL 14.2 to 14.6, or closed forms.
 """
 
 import json
@@ -46,7 +46,7 @@ def ideal(bench, things, suite, effects="auto", *options):
 
 
 def look(bench, things, suite, effects="auto"):
-    """Echoes by object and reflector, and losses with their reasons, of one frame."""
+    """One frame of glint-ideal: echoes by object and reflector, and losses with their reasons."""
     answer = ideal(bench, things, suite, effects)
     lost = {(one["object"], one["reflector"]): group["reason"]
             for group in answer.get("lost", []) for one in group["echoes"]}
@@ -76,8 +76,8 @@ def slant_ranges_are_as_published(bench):
             bench.check(echo["effects"] == ["elevation"], f"label {echo.get('effects')}")
             bench.check(echo["ercs"] == 0.5, "a beam without a width weakens")
             if height == 1.0:
-                near(bench, echo["range_m"] - distance, farther, 5.1e-7, "EFFECTS 19, range")
-                near(bench, echo["range_rate_mps"] / 4, cosine, 5.1e-7, "EFFECTS 19, cosine")
+                near(bench, echo["range_m"] - distance, farther, 5.1e-7, "MODEL 14.2, range")
+                near(bench, echo["range_rate_mps"] / 4, cosine, 5.1e-7, "MODEL 14.2, cosine")
 
 
 def azimuths_are_those_of_a_cone(bench):
@@ -97,7 +97,7 @@ def the_beam_is_down_by_half_at_its_half_width(bench):
 
 
 def without_heights(seen):
-    """What a flat world would show: echoes without the height that only the road asks for."""
+    """Echoes without height_m, which only the road asks for: what a flat world shows."""
     echoes, lost = seen
     return {names: {key: echo[key] for key in echo if key not in ("height_m", "extent_m")}
             for names, echo in echoes.items()}, lost
@@ -118,7 +118,7 @@ def equal_heights_change_no_bit(bench):
 
 
 def a_truck_is_seen_over_a_car(bench):
-    """The ray from 0.5 m to 3 m, 40 m away, is over 1.5 m from 16 m on."""
+    """The ray from 0.5 m up to 3 m, 40 m away, is above 1.5 m from 16 m on."""
     suite = suite_of(wide(mount_z_m=0.5))
     for begin, seen in (10, False), (15.9, False), (16.1, True), (25, True):
         things = [body("car", "block", begin + 2, 0, 1.5, length=4, width=1.8), body("truck", "high", 40, 0, 3)]
@@ -133,7 +133,7 @@ def a_truck_is_seen_over_a_car(bench):
 
 
 def a_low_reflector_hides_from_a_high_sensor(bench):
-    """From 4 m down to 0.5 m, 40 m away: under 1.5 m for the last 11.43 m."""
+    """The ray from 4 m down to 0.5 m, 40 m away, is below 1.5 m for the last 11.43 m."""
     suite = suite_of(wide(mount_z_m=4))
     for end, seen in (28, True), (28.5, True), (28.65, False), (35, False):
         things = [body("car", "block", end - 2, 0, 1.5, length=4, width=1.8), body("low", "high", 40, 0, 0.5)]
@@ -148,7 +148,8 @@ def a_level_ray_at_a_top_is_blocked(bench):
 
 
 def under_and_over_vehicles(bench):
-    """Under a truck a tenth is left; over a car nothing is lost; over neither, nothing is seen."""
+    """Under a truck a tenth of the cross section is left; over a car nothing is lost; where neither way is
+    free, nothing is seen."""
     suite = suite_of(wide(mount_z_m=0.5))
     car, truck = (body(kind, kind, x, 0, height, 4, 2) for kind, x, height in (("block", 20, 1), ("raised", 12, 4)))
     far = body("far", "under", 40, 0, 2.5)
@@ -162,7 +163,8 @@ def under_and_over_vehicles(bench):
 
 
 def behind_an_edge(bench, carrier_hz, depth, effects="auto", **changes):
-    """What is left 30 m away of a sight line that passes depth inside an edge at 15 m."""
+    """The part of a cross section that is left 30 m away, on a sight line that passes depth inside an edge at
+    15 m."""
     suite = suite_of(wide(carrier_hz=carrier_hz, diffraction=True, **changes))
     things = [body("wall", "block", 15, depth - 2, 5, length=1e-6, width=4), body("far", "flat", 30, 0, 1)]
     echoes, lost = look(bench, things, suite, effects)
@@ -189,7 +191,7 @@ def shadows_are_as_deep_as_published(bench):
 
 
 def loss_db(depth, before, behind, carrier_hz):
-    """EFFECTS 16, both ways."""
+    """The loss of MODEL 14.4, there and back."""
     nu = depth * math.sqrt(2 * (before + behind) / (LIGHT_MPS / carrier_hz * before * behind))
     return 2 * (6.9 + db(math.sqrt((nu - .1) ** 2 + 1) + nu - .1)) if nu > -.78 else 0
 
@@ -214,7 +216,7 @@ def several_edges_multiply_and_the_easiest_way_counts(bench):
 
 
 def an_edge_just_beside_the_sector_still_counts(bench):
-    """A box that stands on its corner, beside a thin pole: the circle around it ends at the corner."""
+    """A box stands on its corner beside a thin pole; the circle around the box ends at that corner."""
     suite = suite_of(wide(diffraction=True))
     far = body("far", "flat", 30, 0, 1, length=1e-3, width=1e-3)
     for depth, whole in (-0.02, False), (-0.1, False), (-0.2, True):
@@ -234,7 +236,7 @@ def margin_of(bench, things, suite):
 
 
 def margins_tell_of_tops_and_soft_shadows(bench):
-    """The ray from 0.5 m to 3 m, 40 m away, over a car of 1.5 m that begins at 25 m and at 10 m."""
+    """The ray from 0.5 m to 3 m, 40 m away, passes over a car of 1.5 m that begins at 25 m, then at 10 m."""
     suite = suite_of(wide(mount_z_m=0.5))
     for begin, margin in (25, 0.5625), (10, 0.375):
         things = [body("car", "block", begin + 2, 0, 1.5, length=4, width=1.8), body("truck", "high", 40, 0, 3)]
@@ -251,7 +253,7 @@ def margins_tell_of_tops_and_soft_shadows(bench):
 
 
 def a_rail_reflects_by_its_corrugation(bench):
-    """EFFECTS 17: sigma = pi r2 R^2/(r2 + R), as ERCS over 10 m^2."""
+    """MODEL 14.5: sigma = pi r2 R^2/(r2 + R), as ERCS over 10 m^2."""
     for distance in 2.0, 10.0, 50.0:
         rail = [body("rail", "rail", 0, distance + 0.1, 1, length=20)]
         for suite, curved in (suite_of(aside(curved_sides=True)), True), (suite_of(aside()), False):
@@ -264,7 +266,7 @@ def a_rail_reflects_by_its_corrugation(bench):
 
 
 def a_late_scan_lags_by_the_way_in_its_latency(bench):
-    """EFFECTS 15: 1.5 m at 30 m/s and 50 ms."""
+    """MODEL 14.6: 1.5 m at 30 m/s and 50 ms."""
     things = [body("a", "flat", 60, 0, 1, velocity=(-30, 0)), body("b", "flat", 60, 4, 1)]
     now, late = (look(bench, things, suite_of(wide(**changes)))[0] for changes in ({}, {"latency_s": 0.05}))
     near(bench, late["a", "p"]["range_m"] - now["a", "p"]["range_m"], 1.5, 1e-12, "latency")
@@ -280,7 +282,7 @@ def a_late_scan_lags_by_the_way_in_its_latency(bench):
 
 
 def full_suite():
-    """A pair of wide radars on a roof with everything of this file."""
+    """A pair of wide radars on a roof with every effect of this file."""
     suite = json.loads((model.ROOT / "data/sensors/corner77-every-frame.json").read_text())
     for one in suite["sensors"]:
         one.pop("sources")

@@ -2,8 +2,8 @@
 
 Usage: python3 tests/oracle/effects_noise.py BIN_DIR
 
-Exit status 1 if any check fails. Statistics are of fixed seeds, held to five standard errors or to
-three per cent.
+Exit status 1 if any check fails. Statistics use fixed seeds and are held to five standard errors or to three
+per cent.
 """
 
 import itertools
@@ -29,7 +29,7 @@ def frames_of(objects, count, interval=0.1):
 
 
 def listen(bench, frames, sensors, effects="all", margins=False):
-    """What the whole chain reports, with its account."""
+    """The output of the whole chain, with its account."""
     path = bench.write_suite(suite_of(*sensors))
     text = (f"glint-extract | glint-ideal --sensors {path} --effects {effects} --account"
             f"{' --margins' if margins else ''} | glint-sensor | glint-noise")
@@ -41,12 +41,12 @@ def listen(bench, frames, sensors, effects="all", margins=False):
 
 
 def targets_of(frames, name):
-    """One target of the sensor in every frame."""
+    """The one target that the sensor has in every frame."""
     return [target for one in frames for target in one["targets"] if target["sensor"] == name]
 
 
 def check_switch(bench, frames, sensors, effect, everything):
-    """auto is all to the byte; what is switched off marks nothing."""
+    """auto and all give the same bytes; an effect that is switched off marks nothing."""
     auto = listen(bench, frames, sensors, "auto")
     for one in everything + auto:
         one["sensors"].pop("effects")
@@ -94,14 +94,14 @@ def pole(name="pole", x=10.0, y=0.0):
 
 
 def snr_sensor(name, snr_db, **rest):
-    """Sees the pole at 10 m with amplitude 4 T."""
+    """A sensor that sees the pole at 10 m with amplitude 4 T."""
     sigma = 4 * THRESHOLD / 10 ** (snr_db / 20)
     return sensor(name, **{**QUIET, "pointer_sigma": sigma, "calibration_ercs": 0.3, "calibration_range_m": 20,
                            "cell_range_m": 0.299792458, "sigma_law": "by_snr", "window_factor": 0.389848401, **rest})
 
 
 def accuracy_by_snr(bench):
-    """EFFECTS 3: the Cramer-Rao bound of 500 MHz and of half a metre per second."""
+    """MODEL 14.7: the Cramer-Rao bound of 500 MHz and of half a metre per second."""
     published = {6: (0.058576, None), 13: (0.026165, 0.043638), 20: (0.011687, 0.019492)}
     frames = frames_of([pole()], DRAWS)
     sensors = [snr_sensor(f"snr{db}", db) for db in published]
@@ -117,7 +117,7 @@ def accuracy_by_snr(bench):
 
 
 def check_scaled(bench, targets, plain, key, sigma, what):
-    """The errors are those of sigma 1, times sigma."""
+    """Errors are those under sigma 1, times sigma."""
     bench.check(len(targets) == len(plain) > 0, f"{what}: {len(targets)} targets")
     for one, other in zip(targets, plain):
         error, drawn = one[key] - one["cell_" + key], other[key] - other["cell_" + key]
@@ -125,7 +125,7 @@ def check_scaled(bench, targets, plain, key, sigma, what):
 
 
 def accuracy_to_the_last_digit(bench):
-    """The same draws under sigmas of 1 say what every sigma is."""
+    """The same draws under sigmas of 1 give the error under every other sigma."""
     floor = {"range_sigma_m": 0.05, "range_rate_sigma_mps": 0.05}
     cases = {
         "bound": (20, {}, lambda cell: 0.0389848401 * cell),
@@ -167,7 +167,7 @@ def range_noise(bench):
 
 
 def angle_noise(bench):
-    """EFFECTS 3: the dipole pair at 30 dB in the sum channel, here of a pole aside of boresight."""
+    """MODEL 7.3: the dipole pair at 30 dB in the sum channel, for a pole aside of boresight."""
     published = {20: 0.7457, 40: 0.5666}
     sensors = []
     for degrees in published:
@@ -191,7 +191,7 @@ def angle_noise(bench):
 
 
 def misalignment(bench):
-    """EFFECTS 14: a yaw error of one degree shifts what is straight ahead aside."""
+    """MODEL 14.8: a yaw error of one degree shifts what is straight ahead aside."""
     published = {10: 0.174551, 30: 0.523652, 100: 1.745506}
     poles = [pole(f"p{x}", x) for x in published]
     turned = sensor("turned", range_max_m=200, calibration_range_m=1000, misalignment_rad=math.radians(1), **QUIET)
@@ -209,7 +209,7 @@ def misalignment(bench):
 
 
 def radome(bench):
-    """A sine of the azimuth, and the same for every range."""
+    """The bias is a sine of the azimuth and the same at every range."""
     members = {"radome_bias_rad": 0.01, "radome_period_rad": 0.5, "radome_phase_rad": 0.3, "misalignment_rad": -0.02}
     poles = [pole(f"p{i}", 5 * math.cos(i / 10) + i, 5 * math.sin(i / 10)) for i in range(-12, 13) if i > -5]
     bent = sensor("bent", range_max_m=200, calibration_range_m=1000, cell_range_m=1e-3, **members, **QUIET)
@@ -222,7 +222,7 @@ def radome(bench):
 
 
 def standing_world(bench):
-    """EFFECTS 14: at 30 m/s what stands has another rate than its reported azimuth says."""
+    """MODEL 14.8: at 30 m/s what stands has another rate than its reported azimuth says."""
     turned = sensor("turned", range_max_m=200, calibration_range_m=1000, misalignment_rad=math.radians(1), **QUIET)
     for degrees, expected in ((30, 0.265743), (0, 0.004569)):
         aside = math.radians(degrees)
@@ -245,7 +245,7 @@ def alarms_of(frame, name):
 
 
 def false_alarm_counts(bench):
-    """EFFECTS 9: 6400 cells at 1e-4 are 0.64 false alarms a scan, and none in 52.7292 % of them."""
+    """MODEL 14.9: 6400 cells at 1e-4 are 0.64 false alarms a scan, and none in 52.7292 % of them."""
     frames = frames_of([], DRAWS)
     sensors = [alarm_sensor("a"), alarm_sensor("b"), alarm_sensor("many", 5), alarm_sensor("silent", 0)]
     out = listen(bench, frames, sensors)
@@ -269,7 +269,7 @@ def false_alarm_counts(bench):
 
 
 def false_alarm_values(bench):
-    """Even over all cells; in power without memory above the threshold."""
+    """False alarms are even over all cells; their power has no memory above the threshold."""
     scans = [alarms_of(frame, "s") for frame in listen(bench, frames_of([], 4000), [alarm_sensor("s", 5)])]
     alarms = [one for scan in scans for one in scan]
     excess = [(10 ** (one["amplitude_db"] / 10) - THRESHOLD ** 2) / 0.25 for one in alarms]
@@ -293,7 +293,7 @@ def false_alarm_values(bench):
 
 
 def false_alarm_labels(bench):
-    """The label says what was drawn; numbers count up; beyond the limit they are lost."""
+    """The label has the drawn values; numbers count up; false alarms beyond the list's limit are lost."""
     steps = {"range_step_m": 0.5, "azimuth_step_rad": 0.01, "range_rate_step_mps": 0.25}
     sensors = [alarm_sensor("full", 8, list_limit=3), alarm_sensor("rough", 8, **steps),
                alarm_sensor("slow", 8, cycle_s=0.3, latency_s=0.05), alarm_sensor("turned", 8, misalignment_rad=0.1)]
@@ -328,7 +328,7 @@ def false_alarm_labels(bench):
 
 
 def final_threshold(bench):
-    """EFFECTS 0.3: a steady echo at a threshold of 6 dB above the noise passes with 0.571892."""
+    """MODEL 14.14: a steady echo at a threshold of 6 dB above the noise passes with 0.571892."""
     frames = frames_of([pole()], DRAWS)
     at = {"pointer_sigma": 1, "calibration_range_m": 10 * (1 + 1e-9), "sigma_law": "fixed"}
     sensors = [snr_sensor("twice", 0, final_threshold=True, **at), snr_sensor("once", 0, final_threshold=False, **at)]
@@ -346,7 +346,7 @@ def final_threshold(bench):
 
 
 def quantisation(bench):
-    """EFFECTS 15: the error of rounding is even within a step."""
+    """MODEL 9: the error of rounding is even within a step."""
     steps = {"range_step_m": 0.2, "range_rate_step_mps": 0.25, "azimuth_step_rad": math.radians(0.1)}
     expected = {"range_m": 0.057735, "range_rate_mps": 0.072169, "azimuth_rad": math.radians(0.028868)}
     frames = frames_of([pole()], DRAWS)
@@ -368,7 +368,7 @@ def quantisation(bench):
 
 
 def list_limit(bench):
-    """Nearest or strongest first, by what the sensor has before it rounds."""
+    """Targets are listed nearest or strongest first, by the values that the sensor has before it rounds."""
     things = [thing("walker", "pedestrian", 10, 0), pole("near", 10.5), pole("far", 20), pole("farther", 25)]
     order = {"nearest": ["walker", "near", "far", "farther"], "strongest": ["near", "walker", "far", "farther"]}
     for limit in range(5):
@@ -387,7 +387,7 @@ def list_limit(bench):
 
 
 def alternatives(bench):
-    """glint-noise-none and glint-noise-gauss simulate none of these."""
+    """glint-noise-none and glint-noise-gauss simulate none of these effects."""
     frames = frames_of([pole()], 50)
     radar = snr_sensor("s", 20, misalignment_rad=0.1, false_alarms=5, azimuth_sigma_rad=0, range_step_m=0.5)
     path = bench.write_suite(suite_of(radar))

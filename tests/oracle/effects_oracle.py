@@ -26,7 +26,7 @@ OURS = ["latency", "curvature", "elevation", "occlusion", "height", "diffraction
 EFFECTS_OFF = [[], ["diffraction"], ["elevation"], ["height", "curvature"], ["ghosts", "latency"],
                ["ambiguity", "interference", "quantisation", "two_ray"], ["diffraction", "misalignment", "rain"]]
 RELATIVE, ABSOLUTE, FAINT = 1e-9, 1e-9, 1e-11
-# Where a shadow is deep or a point nearly out of sight, its cross section hangs on the last digits of its place.
+# In a deep shadow, or nearly out of sight, a cross section depends on the last digits of its place.
 STEEP = 1e-7
 
 
@@ -34,7 +34,7 @@ STEEP = 1e-7
 
 
 def described():
-    """A value for every member of the sensor that causes an effect."""
+    """The members of a sensor, with a value for each that causes an effect."""
     return {"mount_z_m": 0.6, "elevation_half_width_rad": 0.12, "diffraction": True, "curved_sides": True,
             "latency_s": 0.04, "bounces": 3, "unambiguous_range_m": 61.7, "unambiguous_rate_mps": 17.3,
             "receiver_bandwidth_hz": 1e7, "noise_figure_db": 12, "antenna_gain_dbi": 12, "chirp_slope_hzps": 7.5e12,
@@ -68,14 +68,15 @@ def rows_of(sensor):
 
 
 def shaken(item, draw):
-    """Low and high things, some of which turn."""
+    """A scene of low and high things, some of which turn."""
     objects = [dict(thing, height_m=draw.choice([0, 0, draw.uniform(0.3, 1.2), draw.uniform(0.3, 4)]),
                     yaw_rate_radps=draw.choice([0, draw.uniform(-1, 1)])) for thing in item["objects"]]
     return dict(item, objects=objects, time_s=draw.randrange(1000) * item["interval_s"])
 
 
 def walled(draw, number):
-    """A road along walls, rails and lorries, some in line, some on the move; other things between them."""
+    """A scene of a road along walls, rails and lorries, some in line, some on the move, with other things
+    between them."""
     yaw = draw.uniform(-3, 3)
 
     def put(name, kind, x, y, turn, speed, length=0.0):
@@ -135,7 +136,8 @@ def near(a, b, absolute=ABSOLUTE, relative=RELATIVE):
 
 
 def compare_set(bench, where, told, mine, doubtful, what):
-    """The entries that both have; the doubtful may be missing on one side. False if any is."""
+    """Compares the entries that both sides have; doubtful ones may be missing on one side. False if any is
+    missing."""
     odd = told.keys() ^ mine.keys()
     for key in sorted(odd - doubtful):
         bench.check(False, f"{where}: {what} {key} of the {'program' if key in told else 'oracle'} only")
@@ -271,7 +273,8 @@ def check_suite(bench, title, document, density, frames, turn, tally):
 
 
 def jointed(yaw, aside):
-    """Two walls in line, and a post that is seen so far beside their joint; how they meet depends on rounding."""
+    """A scene of two walls in line, and a post that is seen close beside their joint; rounding decides how
+    they meet."""
     def put(name, kind, x, y, length=0):
         c, s = math.cos(yaw), math.sin(yaw)
         return model.thing(name, kind, c * x - s * y, s * x + c * y, yaw, length=length)

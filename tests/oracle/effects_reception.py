@@ -2,8 +2,8 @@
 
 Usage: python3 tests/oracle/effects_reception.py BIN_DIR
 
-Fluctuation, rain and fog, ambiguity, interference and coherence. Exit status 1 if any check fails.
-Statistics are of fixed seeds, held to five standard errors.
+Fluctuation, rain and fog, ambiguity, interference and coherence. Exit status 1 if any check fails. Statistics
+use fixed seeds and are held to five standard errors.
 """
 
 import json
@@ -22,7 +22,7 @@ C_MPS = 299792458
 
 
 def radar(name, **changes):
-    """Without noise; a spot 40 m ahead is 4 times as strong as the threshold."""
+    """A radar without noise, to which a spot 40 m ahead is 4 times as strong as the threshold."""
     return sensor(name, **{**QUIET, "range_max_m": 300, "calibration_ercs": 0.5, "calibration_range_m": 80,
                            "phase_reference": "centre", "angle_estimator": "ratio", **changes})
 
@@ -40,7 +40,7 @@ def run(bench, text, frames=()):
 
 
 def receive(bench, frames, sensors, effects="all", source=""):
-    """What the whole chain reports, with its cells and its account."""
+    """The output of the whole chain, with its cells and its account."""
     path = bench.write_suite(suite_of(*sensors))
     return run(bench, f"{source}glint-extract | glint-ideal --sensors {path} --account --effects {effects}"
                       " | glint-sensor | glint-noise --keep", frames)
@@ -51,7 +51,8 @@ def cells_by_leader(frame):
 
 
 def check_switch(bench, frames, sensors, effect):
-    """auto is all to the byte; switched off it is gone; labelled is exactly what it changed."""
+    """auto and all give the same bytes; switched off, the effect is gone; labels name it exactly where it
+    changed a value."""
     everything = receive(bench, frames, sensors)
     auto = receive(bench, frames, sensors, "auto")
     without = receive(bench, frames, sensors, f"all,-{effect}")
@@ -82,7 +83,7 @@ def amplitudes_db(frames, name):
 
 RADARS = [radar("v77", carrier_hz=76.5e9), radar("v24", carrier_hz=24.125e9),
           radar("h77", carrier_hz=76.5e9, polarization="horizontal")]
-# EFFECTS 13, there and back. Sensor, weather, range, decibels.
+# MODEL 14.15, there and back: sensor, weather, range, decibels.
 WEATHER = [("v77", {"rain_mmph": 25}, 100, 2.190804), ("v24", {"rain_mmph": 25}, 100, 0.614704),
            ("v77", {"rain_mmph": 50}, 250, 8.948216), ("v77", {"fog_gpm3": 0.5}, 100, 0.311546),
            ("h77", {"rain_mmph": 25}, 100, 0.2 * 1.125295 * 25 ** 0.718767),
@@ -90,7 +91,7 @@ WEATHER = [("v77", {"rain_mmph": 25}, 100, 2.190804), ("v24", {"rain_mmph": 25},
 
 
 def weather(bench):
-    """Of the frame's conditions, of a scenario's and of the options."""
+    """Weather may come from the frame's conditions, from a scenario's and from options."""
     options = {"rain_mmph": "--rain-mmph", "fog_gpm3": "--fog-gpm3"}
     sensors = [dict(one, calibration_range_m=800) for one in RADARS]
     path = bench.scratch / "weather.json"
@@ -114,7 +115,7 @@ def weather(bench):
 
 
 def weather_loses(bench):
-    """50 mm/h takes 8.948216 dB of what is 8.9 or 9 dB above the threshold at 250 m."""
+    """50 mm/h take 8.948216 dB of an echo that is 8.9 or 9 dB above the threshold at 250 m."""
     frames = [dict(one, conditions={"rain_mmph": 50, "fog_gpm3": 0.01}) for one in frames_of([spot("a", 250)], 3)]
     sensors = [radar(f"above{above}", carrier_hz=76.5e9, calibration_range_m=250 * 10 ** (above / 40))
                for above in (8.9, 9.0)]
@@ -135,7 +136,8 @@ LAWS = {"swerling_1": (-2.506816, 5.570043), "swerling_3": (-1.174171, 3.487723)
 
 
 def distribution(law, power):
-    """Of power: what is even over (0, 1) if the law is the law's, and 1 where the log-normal one is cut."""
+    """Maps power to values that are even over (0, 1) if the power has this law; to 1 where the log-normal law
+    is cut."""
     if law == "swerling_1":
         return 1 - math.exp(-power)
     if law == "swerling_3":
@@ -145,7 +147,7 @@ def distribution(law, power):
 
 
 def fluctuation(bench):
-    """EFFECTS 2.3 and 5: mean and deviation in decibels; scans, objects and sensors vary on their own."""
+    """MODEL 14.14: mean and deviation in decibels; scans, objects and sensors vary on their own."""
     frames = frames_of([spot("a", 40), spot("b", 50)], FRAMES)
     sensors = [radar(law, fluctuation=law, calibration_range_m=8e5) for law in LAWS]
     sensors += [radar("same", fluctuation="swerling_1", calibration_range_m=8e5), radar("steady", calibration_range_m=8e5)]
@@ -184,7 +186,7 @@ def fluctuation(bench):
 
 
 def detection(bench):
-    """EFFECTS 1: one look, false alarms of 1e-4; the final threshold is the only one."""
+    """MODEL 14.14: one look, false alarms of 1e-4; the final threshold is the only one."""
     published = {6: (0.092480, 0.157384, 0.140198), 10: (0.616136, 0.432876, 0.491042),
                  15: (0.999910, 0.754026, 0.876107)}
     ratio = -math.log(1e-4)
@@ -203,7 +205,8 @@ def detection(bench):
 
 
 def ambiguity(bench):
-    """EFFECTS 10: alias(45; 24.5) = -4, alias(-60; 24.5) = -11; 2.5 MHz tell ranges apart up to 59.958492 m."""
+    """MODEL 14.16: alias(45; 24.5) = -4, alias(-60; 24.5) = -11; ranges are told apart up to 59.958492 m at
+    2.5 MHz."""
     rates = {45: -4, -60: -11, 24: 24, -24.5: -24.5, 24.5: -24.5, 0: 0}
     things = [spot(f"v{rate}", 20 + i, velocity=(rate, 0)) for i, rate in enumerate(rates)]
     ranges = {10: 10, 59: 59, 100: 100 - 59.958492, 135: 135 - 2 * 59.958492}
@@ -229,7 +232,7 @@ def ambiguity(bench):
 
 
 def folded_together(bench):
-    """What stands 60 m apart shares a cell if ranges fold at 60 m."""
+    """Two things 60 m apart share a cell if ranges fold at 60 m."""
     frames = frames_of([spot("near", 40), spot("far", 100.05)], 1)
     out = receive(bench, frames, [radar("s", unambiguous_range_m=60)])
     target = out[0]["targets"][0]
@@ -259,7 +262,7 @@ def floor_db(frame):
 
 
 def floor(bench):
-    """EFFECTS 12: 40.8746 dB in band, 29.1190 and 16.2086 dB with other slopes; ratios add."""
+    """MODEL 14.17: 40.8746 dB in band, 29.1190 and 16.2086 dB with other slopes; ratios add."""
     objects = [spot("other", 50), spot("a", 40)]
     cases = [([interferer(slope=7.5e12)], 10 * math.log10(1 + 10 ** 4.08746)), ([interferer()], 29.1190),
              ([interferer(hits=0.05)], 16.2086), ([interferer(hits=0)], 0), ([interferer("gone")], 0),
@@ -287,7 +290,8 @@ def floor(bench):
 
 
 def threshold(bench):
-    """The threshold rises with the noise: of what is 12.0412 dB above it, the rest is missing."""
+    """The threshold rises with the noise: an echo that was 12.0412 dB above it is lost by the rest of the
+    rise."""
     objects = [spot("other", 50), spot("a", 40)]
     above = 20 * math.log10(4)
     for hits, rise in ((1, 29.1190), (0.05, 16.2086)):
@@ -307,7 +311,8 @@ def threshold(bench):
 
 
 def noise(bench):
-    """On the pointers, and so on angle, and by signal to noise on range, in the same draws."""
+    """Interference raises the noise on pointers, and so on the angle, and by signal to noise on range, in the
+    same draws."""
     objects = [spot("other", 50), spot("a", 40)]
     noisy = radar("s", **RECEIVER, pointer_sigma=1e-4 * THRESHOLD, sigma_law="by_snr", calibration_range_m=800)
     frames = disturbed(objects, [interferer(hits=0.05)], 50)
@@ -326,13 +331,13 @@ FADES = {-10: 0.143566, -20: 0.045053}
 
 
 def fades(frames, single):
-    """In decibels to the mean power of two such echoes."""
+    """Sum pointers in decibels to the mean power of two such echoes."""
     return [10 * math.log10(max(one["sum_re"] ** 2 + one["sum_im"] ** 2, 1e-30) / (2 * single ** 2))
             for frame in frames for one in frame["cells"] if len(one["members"]) == 2]
 
 
 def coherence(bench):
-    """EFFECTS 5: two equal echoes in one cell, over phases that are drawn or pass by once."""
+    """MODEL 14.18: two equal echoes in one cell, over phases that are drawn or that all pass by once."""
     wave = C_MPS / 76.5e9
     together = frames_of([spot("a", 40), spot("b", 40), spot("alone", 60)], FRAMES)
     passing = [dict(one, objects=[ego(), spot("a", 40), spot("b", 40 + wave / 2 * i / FRAMES), spot("alone", 60)])
@@ -357,7 +362,7 @@ def coherence(bench):
 
 
 def coherence_loses(bench):
-    """Pairs that fade out are below the final threshold as often as below that depth."""
+    """Pairs are lost below the final threshold as often as they fade by 10 dB."""
     frames = frames_of([spot("a", 40), spot("b", 40)], FRAMES)
     reach = 40 * math.sqrt(math.sqrt(0.5) * 10 ** 0.5)
     out = receive(bench, frames, [radar("s", cell_phase="random", final_threshold=True, calibration_range_m=reach)])
@@ -367,7 +372,8 @@ def coherence_loses(bench):
 
 
 def logged(bench):
-    """--explain tells of every effect described that it was simulated, and of the others that it was not."""
+    """--explain says of every effect that is described that it was simulated, and of the others that they
+    were not."""
     path = bench.scratch / "log"
     Path(path).write_text("")
     radars = [radar("s", **RECEIVER, fluctuation="swerling_1", cell_phase="random", unambiguous_range_m=30)]

@@ -1,8 +1,8 @@
-"""The road as a mirror, wheels, limbs and clutter through the executables, against EFFECTS 6, 8, 9 and 18.
+"""The road as a mirror, wheels, limbs and clutter through the executables, against MODEL 14.10 to 14.13.
 
 Usage: python3 tests/oracle/effects_scatterers.py BIN_DIR        exit status 1 if any check fails
 
-Statistics are of fixed seeds, held to five standard errors.
+Statistics use fixed seeds and are held to five standard errors.
 """
 
 import cmath
@@ -101,7 +101,8 @@ def f4_db(low, high, distance, wavelength, reflection):
 
 
 def oracle_agrees(bench):
-    """What the executables are held to below is EFFECTS 6 to its last digit."""
+    """The formulas that the executables are held to below agree with the figures of MODEL 14.10 to the last
+    digit."""
     for carrier, reflection, figures in (
             (76.5e9, -1, {20: "10.038205", 50: "-16.559920", 100: "11.958099", 200: "5.130529"}),
             (76.5e9, -0.7, {20: "7.287194", 50: "-14.238719", 100: "9.137532", 200: "2.630125"}),
@@ -199,7 +200,7 @@ def rolling_cart(count, **carrier):
 
 
 def wheel_share(part):
-    """Of all points, those whose rho cos(psi) is at most this: rho is even over 0.3 to 1."""
+    """The share of all points whose rho cos(psi) is at most this: rho is even over 0.3 to 1."""
     steps = 200
     rhos = [0.3 + 0.7 * (i + 0.5) / steps for i in range(steps)]
     return sum(1 - math.acos(max(-1, min(1, part / rho))) / math.pi for rho in rhos) / steps
@@ -233,7 +234,7 @@ def wheels_spread(bench):
 
 
 def wheels_roll_over_ground(bench):
-    """The ego's own speed moves all rates alike; what stands, or moves across, has no points."""
+    """The ego's own speed moves all rates alike; a wheel that stands, or moves across, has no points."""
     one = flat(micro_motion=True)
     still, driving = (see(bench, rolling_cart(50, **rest), one) for rest in ({}, {"velocity": (10, 0)}))
     for a, b in zip(still, driving):
@@ -434,14 +435,14 @@ def perfect_has_none(bench):
 
 
 CHECKS = [
-    ("the oracle has EFFECTS 6's figures", oracle_agrees),
+    ("the oracle has the figures of MODEL 14.10", oracle_agrees),
     ("compact echoes rise and fade over the road", compact_echoes_fade),
-    ("nulls lie where EFFECTS 6 has them", nulls_where_published),
+    ("nulls lie where MODEL 14.10 has them", nulls_where_published),
     ("extended echoes get the mean", extended_echoes_do_not),
     ("the road counts with all its causes only, and not for ghosts", all_causes),
-    ("points on a wheel spread as EFFECTS 8 says", wheels_spread),
+    ("points on a wheel spread as MODEL 14.11 says", wheels_spread),
     ("wheels roll over ground", wheels_roll_over_ground),
-    ("limbs swing as EFFECTS 18 says", limbs_swing),
+    ("limbs swing as MODEL 14.12 says", limbs_swing),
     ("limbs are in view", limbs_in_view),
     ("clutter lies evenly on the ground and stands", clutter_lies_on_the_ground),
     ("how much clutter there is", clutter_counts),

@@ -2,7 +2,8 @@
 
 Usage: python3 tests/oracle/effects_signal.py BIN_DIR
 
-Exit status 1 if any check fails; 0 with a word if the build has no such stage. Statistics are of fixed seeds.
+Exit status 1 if any check fails; 0, with a message, if the build has no such stage. Statistics use fixed
+seeds.
 """
 
 import json
@@ -18,7 +19,7 @@ from effects_noise import QUIET, frames_of, rms  # noqa: E402
 from model import ego, sensor, suite_of, thing  # noqa: E402
 
 CRAMER_RAO = 0.389848401
-SNR = 100.0  # 20 dB, in a cell after windows and transforms
+SNR = 100.0  # signal to noise in a cell, after windows and transforms: 20 dB
 BINS = 32
 DRAWS = 1200
 PLAIN = "glint-sensor | glint-noise-none"
@@ -27,8 +28,8 @@ CELL_M, CELL_MPS = 1.0, 0.25
 
 
 def radar(name="radar", amplitude=40.0, waveform=None, **changes):
-    """A post ten metres ahead, of ERCS 0.3, has this amplitude there; amplitude / 10 is the noise. All else is far
-    above the threshold."""
+    """A radar to which a post ten metres ahead, of ERCS 0.3, has this amplitude; its noise is amplitude / 10.
+    Everything else is far above the threshold."""
     shape = {"kind": "chirp", "samples": BINS, "repetitions": BINS, "cfar_false_alarm": 1e-6, **(waveform or {})}
     return sensor(name, **{"carrier_hz": 76.5e9, "calibration_ercs": 0.3 * 10 ** (6 / 20) / amplitude,
                            "calibration_range_m": 10, "range_max_m": BINS * CELL_M, "cell_range_m": CELL_M,
@@ -41,7 +42,7 @@ def quiet(name="radar", **changes):
 
 
 def run(bench, frames, sensors, stages=SIGNAL, effects="all"):
-    """The frames that come out, audited by the account."""
+    """The frames of the chain, whose account is audited."""
     path = bench.write_suite(suite_of(*sensors))
     text = f"glint-extract | glint-ideal --sensors {path} --account --effects {effects} | {stages}"
     data = "".join(json.dumps(one) + "\n" for one in frames).encode()
@@ -82,8 +83,8 @@ def spread(count, step):
 
 
 def one_point_without_noise(bench):
-    """Range, rate, azimuth and amplitude of glint-sensor for one echo alone, wherever it stands in its cell; 40 dB
-    less for ten times the range."""
+    """One echo alone has the range, rate, azimuth and amplitude of glint-sensor, wherever it stands in its
+    cell; 40 dB less at ten times the range."""
     kinds = {"chirp": {}, "array": {"elements": 4, "spacing": 0.5}, "rectangular": {"window": "rectangular"}}
     frames = spread(60, 2.0)
     for frame in frames:
@@ -120,14 +121,15 @@ def pulses(bench):
 
 
 def along(key, part):
-    """Frames of one post that stands at this part of a cell from the middle of one, in the middle of the other."""
+    """Frames of one post that stands at this part of a cell from a cell's middle on one axis, in the middle
+    on the other."""
     place = {"x": 10 + part * CELL_M} if key == "range_m" else {"rate": 3 + part * CELL_MPS}
     return frames_of([post(**place)], DRAWS)
 
 
 def accuracy(bench):
-    """At 20 dB within 1.3 of the Cramer-Rao bound without a window, wherever an echo stands. With Hann's about 1.74 as
-    in EFFECTS 3, against the bound before that window, whose loss is 1.5."""
+    """At 20 dB errors are within 1.3 of the Cramer-Rao bound without a window, wherever an echo stands. With
+    Hann's they are about 1.74 times, as in MODEL 14.7, the bound before that window, whose loss is 1.5."""
     for window, low, high, gain in (("rectangular", 0.95, 1.3, 1.0), ("hann", 1.6, 2.0, 1.5)):
         sensors = [radar(waveform={"window": window, "cfar_false_alarm": 1e-4})]
         for key, cell in (("range_m", CELL_M), ("range_rate_mps", CELL_MPS)):
@@ -160,8 +162,8 @@ def accuracy(bench):
 
 
 def two_points(bench):
-    """EFFECTS 4b: a bin apart and in phase, one peak at the middle, 4.60 dB up. And with the phases of their paths,
-    within a cell, what glint-sensor says: amplitude and azimuth."""
+    """MODEL 6.1: a bin apart and in phase, two echoes have one peak at the middle, 4.60 dB up. With the
+    phases of their paths and within a cell they have the amplitude and azimuth of glint-sensor."""
     alone = made(run(bench, frames_of([post()], 1), [quiet()]))[0]
     pair = [post("a", 9.5), post("b", 10.5)]
     table = {"calibration_ercs": 0.3 * 10 ** (6 / 20) / 40, "exponent": 0.1}
@@ -211,14 +213,15 @@ def false_alarms(bench):
 
 
 def ambiguity(bench):
-    """Rates beyond half a span are those next to their echo's."""
+    """Rates beyond half a span are reported next to those of their echoes."""
     for rate in (-30.0, 3.9, 4.1, 55.5):
         one = made(run(bench, frames_of([post(rate=rate)], 1), [quiet()]))[0]
         bench.check(abs(one["range_rate_mps"] - rate) < 0.1 * CELL_MPS, f"{rate} is read as {one['range_rate_mps']}")
 
 
 def lost(bench):
-    """Too weak; beside something strong; and nothing twice: the account is audited in every run."""
+    """Echoes are lost that are too weak, or beside something strong, and none twice: the account is audited
+    in every run."""
     weak = [post("strong", 10.0), post("hidden", 10.0, 1.0), post("weak", 30.0)]
     weak[1].update({"class": "faint", "x_m": 12.2})
     bench.add_vehicle("faint", {"origin": "Made by tests/oracle/effects_signal.py.", "length_m": 1, "width_m": 1, "height_m": 1,
@@ -234,7 +237,7 @@ def lost(bench):
 
 
 def shipped(bench):
-    """Every shipped suite with a signal: fused, piped and in pieces the same bytes."""
+    """Every shipped suite with a signal gives the same bytes fused, piped and in pieces."""
     root = Path(__file__).resolve().parents[2]
     for suite in sorted((root / "data/sensors").glob("*-signal*.json")):
         source = f"glint-traffic {root}/data/scenarios/cut-in.json | glint-extract | glint-ideal --sensors {suite} --account"

@@ -51,7 +51,7 @@ class Bench:
         return str(path)
 
     def chain(self, frames, suite, account=False):
-        """Frames with echoes, cells and targets."""
+        """Runs the chain and returns frames with echoes, cells and targets."""
         ideal = ["glint-ideal", "--sensors", self.write_suite(suite)] + (["--account"] if account else [])
         text = "".join(json.dumps(f) + "\n" for f in frames)
         for words in (["glint-extract"], ideal, ["glint-sensor", "--keep"], ["glint-noise-none", "--keep"]):
@@ -61,7 +61,7 @@ class Bench:
         return answer
 
     def cells_of(self, echo_lists, suite):
-        """What glint-sensor makes of hand-made echoes of the suite's only sensor."""
+        """The cells that glint-sensor makes of hand-made echoes of the suite's only sensor."""
         empty = self.stage(["glint-extract"], json.dumps(frame([ego()])) + "\n")
         empty = json.loads(self.stage(["glint-ideal", "--sensors", self.write_suite(suite)], empty))
         lines = [json.dumps(dict(empty, scene=f"s{n}", echoes=echoes)) for n, echoes in enumerate(echo_lists)]
@@ -77,7 +77,7 @@ class Bench:
         return good
 
     def check_printed(self, value, printed, what):
-        """A value agrees with a figure as printed, to its last digit."""
+        """A value agrees with a figure as printed, to the figure's last digit."""
         digits = len(printed.partition(".")[2])
         good = abs(value - float(printed)) <= 0.5000001 * 10.0 ** -digits
         self.check(good, f"{what}: {value:.9g}, MODEL prints {printed}")
@@ -90,7 +90,8 @@ class Bench:
 
 
 def run(doc, prepare, checks):
-    """A program of sentences: proves each on one bench, and exits with 1 if any is false."""
+    """Runs a table of (sentence, check): each check on one bench, and exit status 1 if any sentence is
+    false."""
     if len(sys.argv) != 2:
         sys.exit(doc)
     with tempfile.TemporaryDirectory(prefix="glint-") as scratch:
@@ -286,7 +287,8 @@ def check_clusters(bench):
 
 
 def check_cell_edges(bench):
-    """Half widths are 0.25 m and 0.5 m/s here; the edge belongs to the cell. Half a width up, twice that with half_width."""
+    """Half widths are 0.25 m and 0.5 m/s here, and the edge belongs to the cell: pairs stand half a width
+    apart, and twice that with half_width."""
     tiny = 2.0 ** -40
     places = [(0.25, 0, 1), (0.25 + tiny, 0, 2), (-0.25, 0, 1), (-0.25 - tiny, 0, 2), (0, 0.5, 1), (0, 0.5 + tiny, 2),
               (0, -0.5, 1), (0, -0.5 - tiny, 2), (0.25, -0.5, 1)]
@@ -298,7 +300,7 @@ def check_cell_edges(bench):
 
 
 def check_ties(bench):
-    """Equal amplitudes (both nearer than the range floor): the first of each pair must lead."""
+    """Equal amplitudes, as both are nearer than the range floor: the first of each pair must lead."""
     suite = suite_of(sensor())
     base = ("o", "r", 0.375, 0.125, 1.0)
     pairs = [("range", ("o", "z", 0.25, 0.125, 1.125), base), ("rate", ("o", "z", 0.375, 0.125, 0.875), base),
@@ -359,10 +361,10 @@ def check_car_scenes(bench):
 
 
 def check_visibility_edges(bench):
-    """Seen along its x axis, every point of a gate is exactly zero_rad off its facing: V = 0 there,
-    unless full_rad reaches as far, whose branch comes first in 2.2. A hard edge belongs to the
-    visible range, a cosine has no flat part. A point that is full up to pi is seen from everywhere,
-    from exactly behind too."""
+    """Seen along its x axis, every point of a gate is exactly zero_rad off its facing: V = 0 there, unless
+    full_rad reaches as far, whose branch comes first in MODEL 2.2. A hard edge belongs to the visible range;
+    a cosine has no flat part. A point that is full up to pi is seen from everywhere, also from exactly
+    behind."""
     suite = suite_of(sensor(mount_yaw_rad=math.pi))
     [answer] = bench.chain([frame([ego(), thing("gate", "gate", -8, 0)])], suite)
     found = {e["reflector"]: e["ercs"] for e in answer["echoes"]}
@@ -426,7 +428,7 @@ def check_merge(bench):
 
 
 def check_undecided(bench):
-    """|Im(H_D conj H_S)| <= 2^-47 |H_D| |H_S| is reported positive and flagged."""
+    """An azimuth with |Im(H_D conj H_S)| <= 2^-47 |H_D| |H_S| is reported positive and flagged."""
     suite, angle = suite_of(sensor()), math.radians(30)  # there |H_D| = |H_S|, and rounding is far below the bound
     lists = [[echo("p", 10, -angle, 0, 0.5), echo("q", 10, angle + step, 0, 0.5)] for step in (1e-6, -1e-6)]
     wide = bench.cells_of(lists, suite)
@@ -492,7 +494,7 @@ def random_objects(draw, kinds):
 
 
 def grid_objects(draw):
-    """Everything on halves of metres and parallel: touching happens often and is exact."""
+    """Objects on halves of metres and parallel, so that touching happens often and is exact."""
     half = lambda low, high: draw.randint(2 * low, 2 * high) / 2
     still = draw.random() < 0.5
     speed = lambda: 0.0 if still else half(-5, 5)
@@ -522,8 +524,8 @@ def compare_echoes(bench, where, found, view, item):
 
 
 def compare_angle(bench, where, cell, mine):
-    """Where rounding alone decides the sign (or the flag), only the magnitude is compared; the rule
-    itself is tested by check_undecided."""
+    """Where rounding alone decides the sign (or the flag), only the magnitude is compared; the rule itself is
+    tested by check_undecided."""
     size, a, b = mine["amplitude"], cell["azimuth_rad"], mine["azimuth_rad"]
     vague = 1e-16 < mine["sine"] < 1e-13 or abs(mine["delta"]) < 1e-12 * size
     good = near(abs(a), abs(b), absolute=ABSOLUTE) if vague else near(a, b, absolute=ABSOLUTE)
@@ -549,7 +551,7 @@ def compare_cell(bench, where, cell, mine):
 
 
 def compare_target(bench, where, target, cell):
-    """glint-noise-none hands the cell on as it is."""
+    """glint-noise-none passes the values of the cell on unchanged."""
     level = 20 * math.log10(math.hypot(cell["sum_re"], cell["sum_im"]))
     bench.check(near(target["amplitude_db"], level, absolute=1e-9), f"{where} amplitude_db {target['amplitude_db']}")
     for name in ("range_m", "azimuth_rad", "range_rate_mps"):
@@ -567,7 +569,8 @@ def compare_account(bench, where, answer, name):
 
 
 def compare_scene(bench, title, answer, item, views, exact):
-    """False if the scene was skipped because of a doubtful decision; none about echoes if exact."""
+    """Compares one scene; with exact no decision about echoes may be doubtful. False if the scene was skipped
+    because of a doubtful decision."""
     for name, view in views.items():
         where = f"{title} {name}"
         found = {(e["object"], e["reflector"]): e for e in answer["echoes"] if e["sensor"] == name}

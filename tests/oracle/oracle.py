@@ -14,12 +14,13 @@ from fractions import Fraction
 
 DOUBT = 1e-12
 UNDECIDED = 2.0 ** -47
-# Reading: the border is outside and this wide: the foot on a wall along boresight lies on it but for rounding.
+# Reading: the border of the view is outside and this wide: the foot on a wall along boresight lies on it but
+# for rounding.
 VIEW_BORDER_RAD = 1e-9
 
 
 class View:
-    """What one sensor sees: echoes by (object, reflector), cells in the order of their making."""
+    """What one sensor sees: echoes by (object, reflector), and cells in the order in which they are made."""
 
     def __init__(self, name):
         self.sensor = name
@@ -84,7 +85,8 @@ def point_place(point, body):
 
 
 def visibility(point, delta):
-    """delta: |angle off the facing|. The first branch wins where full and zero are equal."""
+    """V of MODEL 2.2; delta is |angle off the facing|. The first branch wins where full and zero are
+    equal."""
     shape, full, zero = point.get("shape", "raised_cosine"), point["full_rad"], point["zero_rad"]
     if shape == "cosine":  # Reading: MODEL 2.2's formula has no flat part, so full is not used
         return math.cos(0.5 * math.pi * delta / zero) if delta < zero else 0.0
@@ -112,7 +114,7 @@ def visibility_doubtful(point, delta):
 
 
 def side(a, b, c):
-    """(sign of the turn a -> b -> c decided exactly on the doubles, is it within DOUBT of 0)."""
+    """(sign of the turn a -> b -> c, decided exactly on the doubles; is it within DOUBT of 0)."""
     value = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
     size = (abs(b[0] - a[0]) + abs(b[1] - a[1])) * (abs(c[0] - a[0]) + abs(c[1] - a[1]))
     reach = max(abs(v) for p in (a, b, c) for v in p)
@@ -142,7 +144,7 @@ def segments_touch(a, b, c, d):
 
 
 def sight(sensor, place, owner, blockers):
-    """("clear", "under" raised vehicles only, or "blocked"; is that doubtful)."""
+    """What the sight line meets: ("clear", "under" raised vehicles only, or "blocked"; is that doubtful)."""
     state, doubtful = "clear", False
     for other, edges in blockers:
         if other is owner:
@@ -167,20 +169,20 @@ class Radar:
         self.boresight = ego.yaw + document["mount_yaw_rad"]
 
     def to(self, place):
-        """(distance, unit vector towards the place)."""
+        """The way to a place: (distance, unit vector)."""
         dx, dy = place[0] - self.place[0], place[1] - self.place[1]
         distance = math.hypot(dx, dy)
         return distance, (dx / distance, dy / distance) if distance > 0 else (1.0, 0.0)
 
     def observe(self, towards, velocity):
-        """(azimuth, range rate)."""
+        """The reading of a moving place: (azimuth, range rate)."""
         c, s = math.cos(self.boresight), math.sin(self.boresight)
         azimuth = math.atan2(c * towards[1] - s * towards[0], c * towards[0] + s * towards[1])
         wx, wy = velocity[0] - self.velocity[0], velocity[1] - self.velocity[1]
         return azimuth, wx * towards[0] + wy * towards[1]
 
     def limits(self, distance, azimuth):
-        """(within range and field of view, is that doubtful)."""
+        """(is it within range and field of view, is that doubtful)."""
         low, high = self.document["range_min_m"], self.document["range_max_m"]
         half = min(0.5 * self.document["field_of_view_rad"], 0.5 * math.pi) - VIEW_BORDER_RAD
         inside = distance > 0 and low <= distance <= high and abs(azimuth) < half
@@ -216,7 +218,7 @@ def look_at_point(view, radar, body, blockers, point, local, doubtful=False):
 
 
 def look_at_plane(view, radar, body, blockers, plane):
-    """MODEL 2.3; the outer face is to the right of from -> to."""
+    """The foot on a flat side by MODEL 2.3; the outer face is to the right of from -> to."""
     a = body.world(body.scaled(plane["from_x"], plane["from_y"]))
     b = body.world(body.scaled(plane["to_x"], plane["to_y"]))
     e, s = (b[0] - a[0], b[1] - a[1]), radar.place
@@ -252,7 +254,7 @@ def threshold(sensor):
 
 
 def reference_amplitude(sensor, distance):
-    """Equation (3), calibrated: calibration_ercs meets the threshold at calibration_range_m."""
+    """A_ref of equation (3): calibration_ercs just meets the threshold at calibration_range_m."""
     q = sensor.get("exponent", 2.0)
     a_1 = threshold(sensor) / sensor["calibration_ercs"] * sensor["calibration_range_m"] ** q
     return a_1 / max(distance, sensor.get("range_floor_m", 0.5)) ** q
@@ -298,7 +300,8 @@ def make_cell(sensor, members):
 
 
 def cluster(view, sensor):
-    """MODEL 6. Order: amplitude descending, range, range rate, azimuth, object, reflector."""
+    """Cells by MODEL 6. Leaders in the order: amplitude descending, range, range rate, azimuth, object,
+    reflector."""
     remaining = []
     for key, echo in view.echoes.items():
         h_s, _ = pointers(echo["azimuth_rad"], sensor["phase_reference"])

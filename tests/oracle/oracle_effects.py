@@ -1,9 +1,10 @@
 """The effects beyond the paper (MODEL 14), computed a second time and independently.
 
 scan(frame, vehicles, document, sensor, effects) gives what one sensor makes of a frame with `objects`: a Scan
-with echoes, losses, cells and targets before any draw. Plain formulas in doubles, decisions within NEAR of their
-border are doubtful: another order of rounding may rightly decide the other way. `effects` is the set of names that
-are simulated. What depends on draws (fluctuation, wheels, limbs, clutter, noise, false alarms, phases) is not here.
+with echoes, losses, cells and targets before any draw. All formulas are in plain doubles; decisions within
+NEAR of their border are doubtful, as another order of rounding may rightly decide the other way. `effects` is
+the set of names that are simulated. What depends on draws (fluctuation, wheels, limbs, clutter, noise, false
+alarms, phases) is not here.
 
 Readings taken where MODEL leaves room are marked "Reading:".
 """
@@ -48,7 +49,7 @@ def unit(a):
 
 
 def carried(item, seconds):
-    """At constant speed and turn rate: along the chord of the arc."""
+    """A body carried on at constant speed and turn rate, along the chord of its arc."""
     turn = item["yaw_rate_radps"] * seconds
     chord = math.sin(turn / 2) / (turn / 2) if turn != 0 else 1.0
     c, s = math.cos(turn / 2), math.sin(turn / 2)
@@ -62,7 +63,7 @@ def carried(item, seconds):
 
 
 def instant(sensor, frame):
-    """Of the scan that falls into (time_s - interval_s, time_s], or None."""
+    """The instant of the scan that falls into (time_s - interval_s, time_s], or None."""
     if not sensor.get("cycle_s"):
         return frame["time_s"]
     last = math.floor(frame["time_s"] / sensor["cycle_s"] + NEAR) * sensor["cycle_s"]
@@ -87,13 +88,15 @@ class Body(oracle.Body):
 
 
 def stretch(corners, a, b, wider):
-    """Where a to b runs inside the convex outline, grown by so much, as shares of its length; or None."""
+    """The part of the line a to b, as shares of its length, that is inside the convex outline grown by so
+    much; or None."""
     low, high = crossings(corners, a, b, wider)
     return (low, high) if low <= high else None
 
 
 def crossings(corners, a, b, wider=0.0):
-    """Where the line is inside of the last side and still inside of the first; the other way round beside the body."""
+    """Shares of the line at which it has entered the last side and at which it leaves the first, sides
+    prolonged; beside the body the second is the smaller."""
     low, high, way = 0.0, 1.0, minus(b, a)
     for n, corner in enumerate(corners):
         inward = unit(minus(corners[(n + 1) % len(corners)], corner))
@@ -109,7 +112,8 @@ def crossings(corners, a, b, wider=0.0):
 
 
 def touches(corners, a, b, wider):
-    """The stretch of a line that touches an edge; a line inside from end to end does not."""
+    """The part of a line that touches an edge, or None; a line that is inside from end to end touches
+    none."""
     inside = stretch(corners, a, b, -wider)
     if inside == (0.0, 1.0):
         return None
@@ -117,7 +121,7 @@ def touches(corners, a, b, wider):
 
 
 def loss_factor(nu):
-    """There and back, on amplitude."""
+    """The factor of a knife edge on amplitude, there and back."""
     if nu >= DARK:
         return 0.0
     if nu <= -0.78:
@@ -131,7 +135,7 @@ def edge(depth, before, after, wavelength):
 
 
 class Line:
-    """From a to b, between heights (None in a flat world)."""
+    """A sight line from a to b, between heights (None in a flat world)."""
 
     def __init__(self, a, b, heights=None):
         self.a, self.b, self.heights = a, b, heights
@@ -141,7 +145,7 @@ class Line:
 
 
 def over_the_top(body, line, length, wavelength, ends):
-    """nu of the way over, and how far the line stays above the top."""
+    """(nu of the way over a body, how far the line stays above its top)."""
     ends = [min(max(share, 0.0), 1.0) for share in ends]
     depths = [body.height - line.height(share) for share in ends]
     ways = [edge(depth, share * length, (1 - share) * length, wavelength) for depth, share in zip(depths, ends)]
@@ -193,7 +197,7 @@ class Way:
 
 
 def joined(one, other):
-    """Two sides in line that meet at an end, but for rounding."""
+    """True for two sides in line that meet at an end, but for rounding."""
     if abs(cross(unit(minus(*one)), unit(minus(*other)))) > NEAR:
         return False
     return any(math.hypot(*minus(p, q)) <= NEAR for p, q in ((one[0], other[1]), (one[1], other[0])))
@@ -227,7 +231,7 @@ class Leg:
 
 
 class Scene:
-    """One sensor in the world of its instant."""
+    """One sensor in the world at the instant of its scan."""
 
     def __init__(self, frame, vehicles, sensor, effects):
         self.sensor, self.effects = sensor, effects
@@ -249,7 +253,7 @@ class Scene:
         return c * way[0] + s * way[1], c * way[1] - s * way[0]
 
     def rise(self, body, item):
-        """Of a reflector above the sensor; 0 in a flat world and for one without a height."""
+        """Height of a reflector above the sensor; 0 in a flat world and for a reflector without a height."""
         return item["z"] * body.height - self.height if self.height and item.get("z") else 0.0
 
     def heights(self, rise):
@@ -280,7 +284,8 @@ class Scan:
 
 
 def points_of(body):
-    """Points and posts: (document, local place, is it doubtful whether it is there, is it a post)."""
+    """Points and posts of a body: (document, local place, is it doubtful whether it is there, is it a
+    post)."""
     for point in body.model.get("points", []):
         yield point, oracle.point_place(point, body), False, False
     for row in body.model.get("rows", []):
@@ -289,7 +294,7 @@ def points_of(body):
 
 
 def seen_from(body, point, place, eye):
-    """(V, is it doubtful that it is 0 or not)."""
+    """Visibility: (V, is it doubtful whether it is 0)."""
     alpha = math.atan2(eye[1] - place[1], eye[0] - place[0]) - body.yaw
     delta = abs(math.remainder(alpha - point["facing_rad"], math.tau))
     doubtful = point["full_rad"] < math.pi and near(delta, point["zero_rad"])
@@ -299,7 +304,8 @@ def seen_from(body, point, place, eye):
 
 
 def foot_of(side, margin, eye):
-    """(foot, height of the eye over it, is there one, is that doubtful) of a side, MODEL 2.3."""
+    """The foot on a side by MODEL 2.3: (foot, height of the eye over the side, is there one, is that
+    doubtful)."""
     a, b = side
     length, along = math.hypot(*minus(b, a)), unit(minus(b, a))
     outward = (along[1], -along[0])
@@ -325,7 +331,7 @@ def rate_along(scene, body, place):
 
 
 class Direct:
-    """One reflector, its direct way, and what the ghosts need of it."""
+    """One reflector, its direct way, and what its ghosts need of that way."""
 
     def __init__(self, scene, body, item, place):
         self.body, self.name, self.place, self.rise = body, item["name"], place, scene.rise(body, item)
@@ -340,7 +346,7 @@ class Direct:
 
 
 def note(scene, scan, direct, ercs, reason, doubtful, post=False, free=()):
-    """Enters a direct echo or its loss."""
+    """Enters a direct echo, or the reason of its loss."""
     key = (direct.body.id, direct.name, "direct", "", 0)
     leg, by = direct.leg, set()
     limit, limit_doubt = scene.limits(leg.range, leg.azimuth)
@@ -402,7 +408,8 @@ class Mirror:
         return plus(place, self.outward, -2 * self.before(place))
 
     def bounce(self, eye, place):
-        """(W or None, its share of the way from the eye, is that doubtful) by similar triangles."""
+        """(W or None, the share of the way from the eye at which it lies, is that doubtful), by similar
+        triangles."""
         here, there = self.before(eye), self.before(place)
         if here <= -NEAR or there <= -NEAR or here + there <= 0:
             return None, 0.0, False
@@ -416,7 +423,7 @@ class Mirror:
 
 
 def mirrors_for(scene, body):
-    """Reading: an object is no mirror for itself."""
+    """The mirrors that may show an object. Reading: an object is no mirror for itself."""
     if "ghosts" not in scene.effects or scene.sensor.get("bounces", 0) < 2:
         return []
     if not hasattr(scene, "mirrors"):
@@ -427,7 +434,8 @@ def mirrors_for(scene, body):
 
 
 def bent_rate(scene, mirror, body, place, bounce):
-    """How fast S-W-O grows: every end and the mirror at W add their speed along the ways that meet there."""
+    """The rate at which S-W-O grows: each end and the mirror at W add their speed along the ways that meet
+    there."""
     out, back = unit(minus(bounce, scene.place)), unit(minus(bounce, place))
     middle = mirror.body.velocity_at(bounce)
     return (dot(minus(middle, scene.velocity), out) + dot(minus(middle, body.velocity_at(place)), back))
@@ -460,7 +468,7 @@ class Bent:
 
 
 def enter_ghost(scene, scan, mirror, body, name, path, legs, ercs, reach, doubtful):
-    """legs: the way out and the way back. Ghosts that are not seen are not made."""
+    """Enters the ghost of two legs, the way out and the way back. Ghosts that are not seen are not made."""
     out, back = legs
     key = (body.id, name, path, mirror.body.id, mirror.number)
     distance = (out.range + back.range) / 2
@@ -501,7 +509,8 @@ def ghosts_of_point(scene, scan, mirror, direct, point, seen, doubtful):
 
 
 def ghost_of_plane(scene, scan, mirror, body, plane, side):
-    """Only out and back by the mirror: the foot of the sensor's image, so the way meets the side squarely."""
+    """The one ghost of a flat side, out and back by the mirror: only from the foot of the sensor's image does
+    the wave return."""
     if scene.sensor["bounces"] < 3:
         return
     foot, height, there, doubtful = foot_of(side, plane.get("margin_m", 0), mirror.image(scene.place))
@@ -522,7 +531,7 @@ def ghost_of_plane(scene, scan, mirror, body, plane, side):
 
 
 def road_of(scene, frame):
-    """(complex permittivity, roughness in m), or None."""
+    """The road of the conditions: (complex permittivity, roughness in m), or None."""
     road, f = frame.get("conditions", {}).get("road"), scene.sensor["carrier_hz"] / 1e9
     if not scene.height or "two_ray" not in scene.effects:
         return None
@@ -531,7 +540,7 @@ def road_of(scene, frame):
 
 
 def road_factor(scene, road, along, heights):
-    """(F squared, is it doubtful whether the reflector is compact)."""
+    """The factor of the road: (F squared, is it doubtful whether the reflector is compact)."""
     own, (high, extent) = scene.height, heights
     wavelength = LIGHT_MPS / scene.sensor["carrier_hz"]
     near_m, far_m = math.hypot(along, own - high), math.hypot(along, own + high)
@@ -572,7 +581,7 @@ def rain_dbpkm(sensor, rate):
 
 
 def fog_dbpkm(sensor, water):
-    """ITU-R P.840, double Debye."""
+    """Attenuation by fog, ITU-R P.840, double-Debye permittivity of water."""
     f, theta = sensor["carrier_hz"] / 1e9, 300 / (273.15 + FOG_CELSIUS)
     e0 = 77.66 + 103.3 * (theta - 1)
     e1, e2 = 0.0671 * e0, 3.52
@@ -617,7 +626,7 @@ def interference(scene, frame, antenna):
 
 
 class Antenna:
-    """The dipoles, or rows of (azimuth, sum, delta), linear between and zero outside."""
+    """An antenna: the dipoles, or rows of (azimuth, sum, delta), linear between rows and zero outside."""
 
     def __init__(self, sensor, rows=None):
         self.sensor, self.rows = sensor, rows
@@ -634,7 +643,8 @@ class Antenna:
         return total, -1j * delta
 
     def azimuth(self, total, delta):
-        """(azimuth, is its sign undecided, |sine of the phase|); None where the table has no such ratio."""
+        """The azimuth of two pointers: (azimuth, is its sign undecided, |sine of the phase|); None where the
+        table has no such ratio."""
         if self.rows is None:
             return oracle.estimate(total, delta, self.sensor["angle_estimator"])
         ratio = -(delta * complex(total).conjugate()).imag / abs(total) ** 2
@@ -691,7 +701,7 @@ class Cell:
 
 
 def resolve(scan, sensor, antenna, rays, limit):
-    """MODEL 6; losses of the cells go to scan.dark with their amplitude."""
+    """Cells by MODEL 6; lost cells go to scan.dark with their amplitude."""
     share = 1.0 if sensor.get("cell_extent", "width") == "half_width" else 0.5
     half_range, half_rate = share * sensor["cell_range_m"], share * sensor["cell_range_rate_mps"]
     left = sorted((ray for ray in rays if ray.amplitude > 0), key=Ray.order)
@@ -710,7 +720,8 @@ def resolve(scan, sensor, antenna, rays, limit):
 
 
 class Target:
-    """Of a cell, without draws: what a bumper and a touched mount make of its azimuth, and rounding."""
+    """The target of a cell without draws: its azimuth after bumper and misaligned mount, and its rounded
+    values."""
 
     def __init__(self, cell, sensor, effects):
         self.cell, self.doubtful = cell, False
@@ -737,7 +748,7 @@ class Target:
 
 
 def list_targets(scan, sensor, limit, effects):
-    """In the list's order, cut."""
+    """Targets in the list's order, cut at its limit."""
     targets = [Target(cell, sensor, effects) for cell in scan.cells]
     scan.doubtful_cells |= any(near(t.amplitude, limit, limit) for t in targets) and sensor["final_threshold"]
     kept = [t for t in targets if not sensor["final_threshold"] or t.amplitude >= limit]
@@ -769,7 +780,7 @@ def scan(frame, vehicles, sensor, effects, rows=None):
     made.no_amplitude = {ray.key for ray in rays if ray.amplitude == 0}
     made.doubtful_cells |= fold_doubtful(sensor, rays, effects)
     made.interference = interference(scene, frame, antenna)
-    # The floor and with it the threshold rise by what other radars add.
+    # The floor, and with it the threshold, rise by what other radars add.
     limit = oracle.threshold(sensor) * math.sqrt(1 + made.interference)
     made.threshold = limit
     resolve(made, sensor, antenna, rays, limit)

@@ -1,4 +1,4 @@
-"""Random scenes: what glint-traffic-random makes, sent through the chain and held to the oracle.
+"""Random scenes by glint-traffic-random, sent through the chain and compared with the oracle.
 
 Usage: python3 tests/oracle/random_scenes.py BIN_DIR [FRAMES]
 
@@ -98,7 +98,7 @@ def near_tie(frame, sensor):
 
 
 def near_tie_in_reach(frame, sensor):
-    """Two members of one cell, either of which might lead."""
+    """Two members of one cell, either of which might lead it."""
     return any(abs(a["weight"] / b["weight"] - 1) <= 1.001e-3 for c in frame["cells"] if c["sensor"] == sensor["name"]
                for a, b in zip(c["members"], c["members"][1:]))
 
@@ -138,7 +138,7 @@ def check_hits(bench, frames):
 
 
 def with_dipoles(bench, suite):
-    """The suite with the one antenna that the oracle knows."""
+    """The suite with dipoles, the one antenna that the oracle knows."""
     document = json.loads((model.ROOT / f"data/sensors/{suite}.json").read_text())
     for sensor in document["sensors"]:
         sensor.pop("antenna_table", None)

@@ -12,7 +12,8 @@ static bool same_text(const char *a, const char *b)
     return a == b || (a != NULL && b != NULL && strcmp(a, b) == 0);
 }
 
-/* Pointers in lists and names have no type that the table knows. */
+/* The text at the place of a name: items of lists have no type that the compiler knows, so they are
+ * copied. */
 static const char *text_at(const void *place)
 {
     const char *text;

@@ -1,5 +1,5 @@
-/* Two frames that ought to be one: the same scene, seen with every effect and with those that a
- * planner chose. */
+/* Compares two frames that ought to be equal: one scene seen with every effect and with those that
+ * a planner chose. */
 #ifndef SOUNDNESS_COMPARE_H
 #define SOUNDNESS_COMPARE_H
 

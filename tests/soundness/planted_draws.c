@@ -1,5 +1,6 @@
-/* Draws in their order, of which merging takes one: where it is left out, all that follow move.
- * Traffic is drawn by address all the same: scenes stay what they are. */
+/* The planted fault: draws are numbered in their order, and merging takes one of them. Where
+ * merging is left out, all that follow move. Traffic is drawn by address all the same, so that
+ * scenes stay what they are. */
 #include "base/random.h"
 #include "planted.h"
 #include "radar/resolution.h"

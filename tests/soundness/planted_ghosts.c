@@ -1,4 +1,4 @@
-/* A heuristic: a mirror matters to a body if it shows the body's centre. */
+/* The planted fault: a mirror is asked for a body only if it shows the body's centre. */
 #include "geometry/mirror.h"
 #include "planted.h"
 

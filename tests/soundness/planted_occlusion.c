@@ -1,4 +1,5 @@
-/* A heuristic: the outer half of a vehicle hides nothing, and is no part of what is hidden. */
+/* The planted fault: the outer half of a vehicle hides nothing, and is no part of what is
+ * hidden. */
 #include "geometry/silhouette.h"
 #include "planted.h"
 

@@ -1,10 +1,11 @@
-/* Is choosing effects from the scene sound? Random scenes, each seen with every effect and with
- * those that a planner chose, in this process and without text.
+/* Is it sound to choose effects from the scene? Random scenes are seen with every effect and with
+ * those that a planner chose, in this process and without text. A planner is a way to choose
+ * effects: auto, or auto without one of them.
  *
  * Frame number n is that of glint-traffic-random --conditions --first n --frames 1 with the same
- * options; --first n --frames 1 --print writes it, for the chain to read. The answer is
- * one JSON line: per planner the violations, the first of them, how often each effect was simulated
- * and left out, and the time. Exit status 1 if there is a violation. */
+ * options; --first n --frames 1 --print writes it, for the chain to read. The output is one JSON
+ * line: per planner the violations, the first of them, how often each effect was simulated and left
+ * out, and the time. Exit status 1 if there is a violation. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -28,7 +29,7 @@ struct finding {
     char what[160];
 };
 
-/* One way to choose effects. */
+/* One way to choose effects, with the stages that work by it and what it has found. */
 struct planner {
     const char *effects;
     struct runner runners[STEPS];
@@ -56,7 +57,8 @@ struct bench {
     struct runner source, extract;
     struct arena arena, documents;
     struct frame scene;
-    struct planner planners[EFFECT_COUNT + 1]; /* the first simulates all; it judges the others */
+    struct planner planners[EFFECT_COUNT +
+                            1]; /* the first simulates all effects; its frames judge the others */
     size_t count;
 };
 
@@ -143,7 +145,7 @@ static int start_scenes(struct bench *bench)
                : -1;
 }
 
-/* What glint-ideal is told; the stages after it read it off the frame. */
+/* Starts glint-ideal with its options; the stages after it read theirs off the frame. */
 static int start_ideal(struct planner *planner, const struct soundness *wanted)
 {
     const char *const words[] = {"--sensors", wanted->sensors,
@@ -168,7 +170,8 @@ static int start_planner(struct planner *planner, const struct bench *bench, con
     return 0;
 }
 
-/* The next planner to compare: auto, or all, but for what nobody simulates and for one effect. */
+/* Adds the next planner: the word (auto or all) without the effects that nobody simulates and
+ * without one more. */
 static int add_planner(struct bench *bench, const char *word, const char *but)
 {
     const char *without = bench->wanted->without;
@@ -192,7 +195,7 @@ static int start(struct bench *bench)
     return 0;
 }
 
-/* A planner's own view of a scene; the scene itself is shared. */
+/* Runs the chain over a planner's own copy of the scene's frame; the scene itself is shared. */
 static int run(struct planner *planner, const struct frame *scene)
 {
     struct frame *frame = &planner->frame;
@@ -236,7 +239,7 @@ static bool lists(const char *names, const char *name)
     }
 }
 
-/* The ego's class does not count. */
+/* True if every object is of a class that is asked for; the class of the ego does not count. */
 static bool wants(const struct soundness *wanted, const struct frame *scene)
 {
     for (size_t i = 1; i < scene->objects.count && wanted->only != NULL; i++)
@@ -254,7 +257,7 @@ static int print(struct bench *bench)
     return result == 0 ? 1 : refuse(&bench->source);
 }
 
-/* 1 after a scene, 0 if no planner needs another. */
+/* Compares one scene. Returns 1 after a scene, 0 if no planner needs another one. */
 static int visit(struct bench *bench, int64_t number)
 {
     int needed = 0;
@@ -352,7 +355,7 @@ static void free_bench(struct bench *bench)
     arena_free(&bench->documents);
 }
 
-/* The exit status. */
+/* Compares the scenes and prints the result; returns the exit status. */
 static int prove(struct bench *bench)
 {
     struct progress progress;

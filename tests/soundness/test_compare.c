@@ -1,4 +1,4 @@
-/* The comparison that scripts/soundness rests on finds what is different and nothing else. */
+/* The comparison of scripts/soundness finds every difference and nothing else. */
 #include "check.h"
 
 #include <string.h>
@@ -83,7 +83,7 @@ static void change(struct sample *sample, enum change change)
     }
 }
 
-/* What the comparison answers; NULL: no difference. */
+/* The comparison's message; NULL if there is no difference. */
 static const struct {
     enum change change;
     const char *answer;

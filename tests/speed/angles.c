@@ -1,6 +1,6 @@
-/* What it costs, and spares, to invert the sensing ratio by a table instead of by its closed form:
- * ROUNDS lines per way of ENTRIES (0: the closed form), NS per call, MEAN and GREATEST error in
- * radians, between tabs, all ways in turn each round. scripts/accuracy-cost takes the medians.
+/* Time and error of inverting the sensing ratio by a table instead of by its closed form: ROUNDS
+ * lines per way with ENTRIES (0: the closed form), NS per call, MEAN and GREATEST error in radians,
+ * between tabs, all ways in turn each round. scripts/accuracy-cost takes the medians.
  *
  * The table is the paper's way (equation 7): azimuths at even steps of the ratio (|delta| - |sum|)
  * / (|delta| + |sum|), straight between them. Echoes are even over 80 degrees to either side. */
@@ -23,7 +23,7 @@ struct inverse {
     double azimuth_rad[MOST_ENTRIES];
 };
 
-/* What the closed form says of a ratio: sum 1 - ratio, delta 1 + ratio. */
+/* The azimuth of a ratio by the closed form, from sum 1 - ratio and delta 1 + ratio. */
 static void inverse_make(struct inverse *inverse, size_t entries)
 {
     inverse->entries = entries;

@@ -1,9 +1,9 @@
-"""What valgrind counts: instructions and allocations per frame, which repeat to the digit, so they
-may decide a test where time never may.
+"""Instructions and allocations per frame as valgrind counts them. They repeat to the digit, so they may decide a
+test where time never may.
 
-Start-up, documents and the growing of buffers belong to the first frames and are left out (jansson
-hashes by a random seed, so reading documents does not repeat). The C library picks its string
-functions by CPU; here it is held to those that every x86-64 has.
+Start-up, documents and the growth of buffers belong to the first frames and are left out (jansson hashes by a
+random seed, so reading documents does not repeat). The C library picks its string functions by CPU; here it
+is held to those that every x86-64 has.
 """
 import concurrent.futures
 import os
@@ -21,7 +21,7 @@ ENVIRONMENT = {
     "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-AVX2_Usable,-AVX_Fast_Unaligned_Load,-ERMS,-FSRM,-BMI2,"
                       "-SSE4_2,-SSE4_1,-SSSE3,-Fast_Unaligned_Copy"}
 FIRST = 6
-# Functions whose inclusive counts tell the parts apart; what is left is the runner's.
+# Functions whose inclusive counts tell the parts apart; the rest is the runner's.
 PARTS = {"traffic": "traffic_next", "extract": "extract_step", "ideal": "ideal_step",
          "sensor": "sensor_step", "noise": "noise_step", "read": "frame_text_read",
          "write": "frame_text_write"}
@@ -51,8 +51,8 @@ def jobs(glint, scene, frames, labels, folder):
 
 
 def run(tool, binary, job, *options):
-    """What valgrind says. The input comes without a name, so that the place of a folder for it
-    makes no difference."""
+    """The output of valgrind. The input comes on standard input, so that the name of its folder makes no
+    difference."""
     text, path = job
     with open(path) as lines:
         done = subprocess.run(["valgrind", f"--tool={tool}", *options, binary, "-c", text],
@@ -64,8 +64,8 @@ def run(tool, binary, job, *options):
 
 
 def read_dump(path):
-    """Of one dump of callgrind: instructions of the whole, and with all that they call, of the
-    functions of PARTS."""
+    """Instructions of one dump of callgrind: of the whole, and of the functions of PARTS with all that they
+    call."""
     parts = {function: part for part, function in PARTS.items()}
     counts, names, called = {}, {}, None
     with open(path) as file:
@@ -85,8 +85,8 @@ def read_dump(path):
 
 
 def instructions(binary, job):
-    """Per frame, from frame FIRST to the last but one: {"all": ...} and every part. Callgrind is
-    made to dump wherever a frame begins."""
+    """Instructions per frame, from frame FIRST to the last but one: {"all": ...} and every part. Callgrind
+    dumps its counts wherever a frame begins."""
     name = job[0].split()[0][len("glint-"):].replace("-", "_")
     begins = f"{name}_next" if job[1] == os.devnull else f"{name}_step"
     with tempfile.TemporaryDirectory() as folder:
@@ -101,7 +101,7 @@ def instructions(binary, job):
 
 
 def side_by_side(count, jobs_):
-    """count(job) of every job, on all processors."""
+    """count(job) of every job, run side by side on all processors."""
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         return list(pool.map(count, jobs_))
 
@@ -112,7 +112,7 @@ def allocations(binary, job):
 
 
 def platform(binary):
-    """What else decides how many instructions a frame takes: compiler, its options, C library."""
+    """What else decides the number of instructions of a frame: compiler, its options, C library."""
     told = subprocess.run(["readelf", "--debug-dump=info", "--dwarf-depth=1", binary], check=True,
                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout
     producers = sorted(set(re.findall(r"DW_AT_producer .*: (GNU C\d.*|.*clang.*)", told)))

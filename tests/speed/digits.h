@@ -1,5 +1,5 @@
-/* Numbers as text by the compiler's own C++ library: the floor of shortest digits, which stays
- * where it is when lib/number.cc gets faster. */
+/* Numbers as text by the compiler's own C++ library: the floor of shortest digits, which does not
+ * move when lib/base/number.cc gets faster. */
 #ifndef DIGITS_H
 #define DIGITS_H
 
@@ -7,7 +7,7 @@
 extern "C" {
 #endif
 
-/* Writes the shortest decimal that reads back, at most 32 bytes; returns its end. */
+/* Writes the shortest decimal that reads back to the value, at most 32 bytes; returns its end. */
 char *digits_write(double value, char *at);
 
 /* Reads a decimal; returns its end. */

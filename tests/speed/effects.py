@@ -1,8 +1,8 @@
 """scripts/bench --effects: what leaving out effects gains.
 
-The same frames of four scenes in rain, under lrr77-full, with --effects all, auto, and none, as the
-floor. physics: the steps of ideal, sensor and noise; end to end: from a file of frames to target
-lists. Each ratio is that of all to this line.
+The same frames of four scenes in rain, under lrr77-full, with --effects all, auto, and none, which is the
+floor. The part physics is the steps of ideal, sensor and noise; end to end is from a file of frames to target
+lists. Each ratio is the time of all divided by that of its line.
 """
 import json
 import os

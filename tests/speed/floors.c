@@ -1,5 +1,5 @@
-/* The machine's floors, against which scripts/bench sets what glint takes: ROUNDS lines per floor
- * of NAME, UNIT and VALUE between tabs, all floors in turn each round. FRAMES is what zlib
+/* The machine's floors, with which scripts/bench compares glint's times: ROUNDS lines per floor of
+ * NAME, UNIT and VALUE between tabs, all floors in turn each round. FRAMES is the file that zlib
  * compresses. */
 #include <stdint.h>
 #include <stdio.h>
@@ -40,7 +40,7 @@ static char *put_text(char *at, const char *text)
     return at + length;
 }
 
-/* Numbers one after the other, each ended by one byte. */
+/* Reads the next of numbers that are ended by one byte each; returns the place after it. */
 static const char *get(const char *at, double *number)
 {
     return digits_read(at, at + 32, number) + 1;
@@ -95,7 +95,7 @@ static void write_scene(struct bench *bench)
     *at = '\0';
 }
 
-/* A chain to throw away: numbers in, the same plain computation, JSON out; no labels, no checks. */
+/* A chain with no care: numbers in, the computation of plain.h, JSON out; no labels, no checks. */
 static void run_plain_chain(struct bench *bench)
 {
     struct plain_vehicle vehicles[VEHICLES];
@@ -134,7 +134,7 @@ static double time_ns(void (*floor)(struct bench *bench), struct bench *bench, i
     return (cpu_ns() - begin_ns) / sweeps;
 }
 
-/* Three lanes ahead of the radar and beside it. */
+/* Vehicles on three lanes ahead of the radar and beside it. */
 static void prepare(struct bench *bench, const char *path)
 {
     uint64_t random = 1;

@@ -1,6 +1,6 @@
-/* What the elementary functions cost next to libm's: ROUNDS lines per function of
- * NAME, OURS_NS and LIBM_NS between tabs, per call, all functions in turn each round. scripts/bench
- * --functions takes the medians. */
+/* Times of the elementary functions and of libm's: ROUNDS lines per function of NAME, OURS_NS and
+ * LIBM_NS between tabs, per call, all functions in turn each round. scripts/bench --functions takes
+ * the medians. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -14,7 +14,7 @@
 
 enum { CALLS = 4096, SWEEPS = 25 };
 
-/* ours and theirs of x, or of (x, y). */
+/* glint's function and libm's, of x or of (x, y). */
 #define ONE(name)                                                                                  \
     static double our_##name(double x, double y)                                                   \
     {                                                                                              \
@@ -59,7 +59,7 @@ static double libm_turns(double x, double y)
     return libm_pair(2 * PI * x, y);
 }
 
-/* Four normal draws, both from the same four uniform ones; y is the index. */
+/* Four Gaussian draws, both from the same four uniform ones; y is the index. */
 static double our_gaussians(double x, double y)
 {
     double of[4];

@@ -1,9 +1,9 @@
-"""scripts/bench --guard: the part of the bench that a test can hold to, for it measures no time.
+"""scripts/bench --guard: the part of the bench that a test can rely on, as it measures no time.
 
-Instructions per frame of a few chains must be within 3 % of tests/speed/instructions.json where
-machine, compiler, its options and C library are those of the record; elsewhere they are printed. A
-gain is a change too: --renew writes down what this build takes. And no chain may allocate anything
-after its first frames, anywhere.
+Instructions per frame of a few chains must be within 3 % of tests/speed/instructions.json where machine,
+compiler, its options and C library are those of the record; elsewhere they are only printed. A gain beyond
+that fails too: --renew writes down the instructions of this build. No chain may allocate anything after its
+first frames, anywhere.
 """
 import json
 import os
@@ -21,7 +21,7 @@ PIPED = CHAINS[0]
 
 
 def chains(glint, folder):
-    """{name: job}"""
+    """The chains whose instructions are counted: {name: job}."""
     found = {}
     for scene in CHAINS:
         for mode, job in counts.jobs(glint, scene[:3], FRAMES, scene[3], folder).items():
@@ -31,7 +31,8 @@ def chains(glint, folder):
 
 
 def pairs(glint, folder):
-    """Chains over few and over more frames, made by a source and read from text: (name, job)."""
+    """The chains whose allocations are counted, over few and over more frames, made by a source and read from
+    text: (name, job)."""
     for frames in (FRAMES, 4 * FRAMES):
         commands = scenes.commands("highway", 20, 1, frames, "account")
         lines = os.path.join(folder, f"lines-{frames}.jsonl")
@@ -41,7 +42,7 @@ def pairs(glint, folder):
 
 
 def growing(glint, folder):
-    """How chains allocate after their first frames: a line for each that does."""
+    """A line for each chain that allocates after its first frames."""
     names, jobs = zip(*pairs(glint, folder))
     counted = counts.side_by_side(lambda job: counts.allocations(glint, job), jobs)
     return [f"frames {name}: {few} allocations in {FRAMES} frames, {many} in {4 * FRAMES}"
@@ -49,7 +50,7 @@ def growing(glint, folder):
 
 
 def compare(found, record):
-    """A line for every chain, and the names of those that leave the budget."""
+    """A line for every chain, and the names of the chains that leave the budget."""
     outside = []
     for name, count in found.items():
         before = record.get(name)
@@ -67,7 +68,7 @@ def write(record):
 
 
 def run(glint, renew, folder):
-    """The exit status."""
+    """Runs the guard; returns the exit status."""
     if not counts.available():
         return 0
     with open(RECORD) as file:

@@ -17,7 +17,8 @@ struct echo {
 static const double wavelength_m = 0.0039, ego_mps = 30, threshold = 2;
 static const double cell_range_m = 1.79, cell_rate_mps = 0.103;
 
-/* Corners and sides as fractions of half the length and width; each faces away from the centre. */
+/* Corners and sides of a vehicle as fractions of half its length and width; each faces away from
+ * the centre. */
 static const double centres[8][2] = {{1, 1}, {1, -1}, {-1, 1}, {-1, -1},
                                      {1, 0}, {-1, 0}, {0, 1},  {0, -1}};
 
@@ -41,7 +42,7 @@ static bool faces(const struct box *box, const double *place, double x, double y
     return u * x + v * y < 0;
 }
 
-/* Does the line from the radar to (x, y) cross the box? By slabs, in the box's own frame. */
+/* True if the line from the radar to (x, y) crosses the box; by slabs, in the box's own frame. */
 static bool crosses(const struct box *box, double x, double y)
 {
     double from[2] = {-box->cosine * box->x - box->sine * box->y,
@@ -66,7 +67,7 @@ static bool hidden(const struct box *boxes, size_t count, const struct echo *ech
     return false;
 }
 
-/* Of two apertures side by side. */
+/* Sum pattern of two apertures side by side. */
 static double gain(double azimuth)
 {
     double phase = 6.9 * sin(azimuth);
@@ -94,8 +95,7 @@ static int stronger(const void *a, const void *b)
     return (left < right) - (left > right);
 }
 
-/* The cell that the echo opens: pointers of both channels added up, and the angle off their ratio.
- */
+/* The target of a cell: pointers of both channels added up, and the angle by their ratio. */
 static struct plain_target cell_of(struct echo *echoes, size_t count, size_t leader)
 {
     double sum_re = 0, sum_im = 0, delta_re = 0, delta_im = 0;

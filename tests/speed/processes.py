@@ -1,5 +1,5 @@
-"""What scripts/bench measures of whole processes: how fast they start, what two shards gain, and
-whether a long stream costs the same at its end as at its beginning."""
+"""What scripts/bench measures of whole processes: how fast they start, what two shards gain, and whether the end
+of a long stream costs as much as its beginning."""
 import os
 import statistics
 import subprocess
@@ -8,7 +8,7 @@ import scenes
 import timing
 
 SUITE = "--sensors lrr77-every-frame"
-# What each executable is given to do of one frame: options, and after which stage it reads.
+# What each executable gets to do with one frame: options, and the stage whose output it reads.
 STARTS = {"extract": ("", 0), "ideal": (SUITE, 1), "plan": (SUITE, 1), "sensor": ("", 2),
           "sensor-perfect": ("", 2), "noise": ("", 3), "noise-gauss": ("", 3),
           "noise-none": ("", 3), "export-csv": ("", 4), "summary": ("", 4), "view": ("", 4)}
@@ -28,7 +28,7 @@ def one_frame(glint, folder):
 
 
 def start_commands(glint, folder):
-    """{executable: (command, frames)}; one that is not known here is asked for its version."""
+    """{executable: (command, frames)}; an executable that is not known here is asked for its version."""
     bin_folder = os.path.dirname(glint)
     commands, files = one_frame(glint, folder)
     found = {"true": (["true"], 0), "glint": ([glint, "-c", " | ".join(commands)], 1)}
@@ -47,7 +47,7 @@ def start_commands(glint, folder):
 
 
 def start_lines(glint, repeat, folder):
-    """From start to end over one frame, documents and all; `true` is what any process takes."""
+    """Times from start to end over one frame, documents included; `true` is the time of any process."""
     commands, samples = start_commands(glint, folder), {}
     for _ in range(4 * repeat):
         for program, (command, _) in commands.items():
@@ -60,7 +60,7 @@ def start_lines(glint, repeat, folder):
 
 
 def shard_lines(glint, repeat, folder, frames=1000, reads=15):
-    """One process over a stream of frames, and two over half of it each."""
+    """Times of one process over a stream of frames, and of two processes over half of it each."""
     source, *stages = scenes.commands("highway", 20, 1, frames, "default")
     lines = os.path.join(folder, "shards.jsonl")
     subprocess.run([glint, "-c", f"{source} -o {lines}"], check=True)
@@ -91,8 +91,8 @@ def seen(processes):
 
 
 def follow(title, processes, frames):
-    """Reads what the last process writes; (CPU, memory) at the end of every tenth but the last,
-    after which there may be no process to ask."""
+    """Reads the output of the last process; (CPU, memory) at the end of every tenth but the last, after which
+    there may be no process to ask."""
     found, done = [(0, 0)], 0
     while chunk := os.read(processes[-1].stdout.fileno(), 1 << 20):
         done += chunk.count(b"\n")
@@ -115,7 +115,7 @@ def pipe(commands):
 
 
 def stream_lines(glint, frames):
-    """The platoon (everyone at the ego's speed) in so many frames, fused and piped."""
+    """Lines about the platoon, in which everyone has the ego's speed, in so many frames, fused and piped."""
     commands = scenes.commands("platoon", 20, 1, frames, "default")
     fused = [subprocess.Popen([glint, "-c", " | ".join(commands)], stdout=subprocess.PIPE)]
     for mode, processes in (("fused", fused), ("piped", None)):

@@ -1,12 +1,12 @@
 """The scenes that scripts/bench runs: documents written to build/bench, the same everywhere.
 
-A scene has 2, 20, 100 or 1,000 objects beside the ego. The highway of 20 is highway-straight
-without its guardrails, the intersection of 20 a crossing on four arms; larger ones are copies of
-it side by side and one after the other, so the density stays the same and the scene grows. A radar
-reaches 250 m and four corner radars 100 m, so what they have in view grows less: that is "highway"
-and "intersection". Where everything is in view whatever the number, a radar with 120 degrees and
-3 km of reach looks at a highway that lies ahead: "in-view", where vehicles hide each other, the more
-so the more they are, and "unhidden", the same places with motorcycles, which hide nothing.
+A scene has 2, 20, 100 or 1,000 objects beside the ego. The highway of 20 is highway-straight without its
+guardrails, the intersection of 20 a crossing of four arms; larger scenes are copies of these side by side and
+one after the other, so that the density stays the same and the scene grows. These are the scenes "highway"
+and "intersection". A radar reaches 250 m and four corner radars 100 m, so what they have in view grows less
+than the scene. In "in-view" and "unhidden" everything is in view whatever the number: a radar with 120
+degrees and 3 km of reach looks at a highway that lies ahead. In "in-view" vehicles hide each other, the more
+so the more they are; "unhidden" has the same places with motorcycles, which hide nothing.
 """
 import json
 import math
@@ -18,7 +18,7 @@ SUITES = {1: "lrr77-every-frame", 4: "corner77-four"}
 DURATION_S = {"highway": 10, "intersection": 4, "in-view": 10, "unhidden": 10, "platoon": 100}
 
 NORTH, WEST, SOUTH = math.pi / 2, math.pi, -math.pi / 2
-# class, x, y, yaw, speed: across, everyone drives; up and down, everyone waits.
+# Class, x, y, yaw, speed: on the road across everyone drives, on the other everyone waits.
 CROSSING = [
     ("van", 0, -1.75, 0, 10), ("car", 12, 1.75, WEST, 10),
     ("car", 24, -1.75, 0, 10), ("truck", 45, -1.75, 0, 10), ("car", -48, -1.75, 0, 10),
@@ -44,7 +44,7 @@ def crossing():
 
 
 def highway():
-    """The ego and the 20 vehicles; the two that a scene of two has come first."""
+    """The ego and the 20 vehicles; the two of the scene of two come first."""
     with open("data/scenarios/highway-straight.json") as file:
         ego, *others = json.load(file)["objects"]
     others = [other for other in others if other["class"] != "guardrail"]
@@ -52,7 +52,7 @@ def highway():
 
 
 def copies(count, block, tile_m, ahead):
-    """The block at as many places of a grid as it takes: around the ego, or all ahead of it."""
+    """The block repeated at as many places of a grid as it takes: around the ego, or all ahead of it."""
     places = [(i, j) for i in range(0 if ahead else -8, 9) for j in range(-8, 9)]
     places.sort(key=lambda place: (max(map(abs, place)), -place[0], abs(place[1]), place[1]))
     objects = []
@@ -81,7 +81,7 @@ def objects_of(kind, count):
 
 
 def write(name, document):
-    """To build/bench, whole or not at all; returns the path."""
+    """Writes a file to build/bench, whole or not at all; returns its path."""
     os.makedirs(FOLDER, exist_ok=True)
     path = os.path.join(FOLDER, name + ".json")
     with open(f"{path}.{os.getpid()}", "w") as out:
@@ -91,7 +91,7 @@ def write(name, document):
 
 
 def write_scene(kind, count, frames):
-    """A scenario with this many frames, spread evenly over its time; returns its path."""
+    """Writes a scenario with this many frames, spread evenly over its time; returns its path."""
     duration_s = DURATION_S[kind]
     return write(f"{kind}-{count}-{frames}", {
         "origin": "Made by tests/speed/scenes.py.", "ego": "ego",

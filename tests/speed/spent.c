@@ -1,6 +1,6 @@
-/* What a command spends: runs it and prints one line of JSON on stderr with wall clock and CPU time
- * of it and all its children, and the peak memory of the largest one. (Python cannot tell: a child
- * of a large process starts with its parent's peak.) */
+/* Runs a command and prints one line of JSON on stderr with wall clock and CPU time of it and all
+ * its children, and the peak memory of the largest one. (Python cannot tell: a child of a large
+ * process starts with its parent's peak.) */
 #define _DEFAULT_SOURCE /* wait4 */
 #include <stdio.h>
 #include <sys/resource.h>

@@ -1,5 +1,5 @@
-"""The lines that README.md beside this shows of scripts/bench's output: ratios first, then this
-machine's figures. scripts/test holds the page to their words, never to their numbers."""
+"""The table of README.md beside this file from scripts/bench's output: ratios first, then this machine's
+figures. scripts/test holds the page to the table's words, never to its numbers."""
 import re
 
 BASE = "highway-20x1"
@@ -8,7 +8,7 @@ SCENES = [f"{kind}-{count}x1" for kind in GROWING for count in (20, 1000)]
 
 
 class Output:
-    """Lines of an output, found by what they are about."""
+    """Lines of an output, found by what they measure."""
 
     def __init__(self, lines):
         self.lines = lines
@@ -61,7 +61,7 @@ def start(output):
     return ns / output.find(start="true")["ns"], ns / 1e6
 
 
-# What is compared, the figure of this machine, and both from an output.
+# What is compared, the figure of this machine, and both of an output.
 LINES = [
     ("a frame, fused, to a plain chain without labels", "{:,.0f} frames/s",
      lambda output: chain(output, "default")),
@@ -85,7 +85,7 @@ def row(ratio, about, figure):
 
 
 def table(lines):
-    """The rows from an output."""
+    """The rows of an output."""
     rows = [row("ratio", "", "here")]
     for about, figure, measure in LINES:
         ratio, *values = measure(Output(lines))
@@ -99,7 +99,7 @@ def form(text):
 
 
 def check(text):
-    """Does a text have the rows of a table, whatever their numbers?"""
+    """True if a text has the rows of a table, whatever their numbers."""
     blank = [row("ratio", "", "here")]
     blank += [row("", about, re.sub(r"{.*?}", "", figure)) for about, figure, _ in LINES]
     wanted, found = form("\n".join(blank)), form(text)

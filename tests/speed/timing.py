@@ -1,8 +1,8 @@
 """What scripts/bench times: scenes fused and piped, the machine's floors, start-up, two shards, a
 long stream.
 
-Nanoseconds are CPU time, so that a busy machine counts little. Only what is called wall is wall
-clock, and so are start-up and shards. Every number is a median, with minimum and maximum."""
+Nanoseconds are CPU time, so that a busy machine counts little; times called wall, start-up and shards are
+wall-clock time. Every number is a median, with minimum and maximum."""
 import json
 import os
 import shlex
@@ -14,8 +14,8 @@ import scenes
 
 TOOLS = os.path.join("build", "tests", "speed")
 SPENT = os.path.join(TOOLS, "spent")
-# Frames of a run by objects, so many that starting is a small part of it, and how often a piped
-# stage reads its file, so that the frames of one file are few on the disk and many in the run.
+# Frames of a run by number of objects, so many that starting is a small part of the run; and how often a
+# piped stage reads its file, so that a small file makes a long run.
 FRAMES = {2: 10000, 20: 4000, 100: 800, 1000: 60}
 READS = {2: 100, 20: 40, 100: 20, 1000: 6}
 
@@ -26,7 +26,7 @@ def spread(values, name="ns_per_frame"):
 
 
 def spent(command, stdout=subprocess.DEVNULL):
-    """The lines of JSON that a command prints on stderr, and what it took; by part."""
+    """The lines of JSON that a command prints on stderr about its times, by part."""
     done = subprocess.run([SPENT] + command, check=False, stdin=subprocess.DEVNULL, stdout=stdout,
                           stderr=subprocess.PIPE, text=True)
     if done.returncode != 0:
@@ -56,8 +56,8 @@ def part_times(glint, text, folder):
 
 
 class Chain:
-    """One pipeline to measure: fused, each stage alone between the lines that a pipe would carry,
-    and in real pipes."""
+    """One pipeline to measure: fused, each stage alone between the lines that a pipe would carry, and in real
+    pipes."""
 
     def __init__(self, glint, commands, frames, reads, folder):
         self.glint, self.frames, self.samples, self.bytes, self.peak_kB = glint, frames, {}, {}, {}
@@ -73,7 +73,7 @@ class Chain:
             read = [written]
 
     def write_lines(self, text, path, frames):
-        """A source makes all its frames; the file gets so many of them, spread evenly."""
+        """Lets a source make all its frames; the file gets so many of them, spread evenly."""
         subprocess.run([self.glint, "-c", f"{text} -o {path}"], check=True)
         with open(path) as file:
             lines = file.readlines()
@@ -84,7 +84,7 @@ class Chain:
         self.samples.setdefault((mode, part), []).append(value)
 
     def add_run(self, mode, told, prefix=""):
-        """Every part of one process; returns their sum."""
+        """Adds every part of one process; returns their sum."""
         total = 0
         for part, line in told.items():
             if "ns_per_frame" in line:
@@ -137,7 +137,7 @@ class Floors:
         self.frames, self.samples = frames, {}
 
     def sample(self):
-        """Returns what the plain chain takes, in ns."""
+        """Samples the floors; returns the time of the plain chain in ns."""
         done = subprocess.run([os.path.join(TOOLS, "floors"), "1", self.frames], check=True,
                               stdout=subprocess.PIPE, text=True)
         for line in done.stdout.splitlines():
@@ -151,7 +151,7 @@ class Floors:
 
 
 def census(glint, text):
-    """Echoes and targets per frame; text has --account."""
+    """Echoes and targets per frame; the text has --account."""
     done = subprocess.run([glint, "-c", text], check=True, stdout=subprocess.PIPE, text=True)
     frames = [json.loads(line) for line in done.stdout.splitlines()]
     echoes = sum(path["echoes"] for frame in frames for count in frame["counts"]
