@@ -80,7 +80,7 @@ static const struct field traffic_random_options[] = {
     {FIELD_REAL_IN(struct traffic_random, rate_hz, 1, 1e4,
                    "frame number n is at n/rate; absent: 20"),
      FIELD_OPTIONAL, .absent = 20},
-    {FIELD_FLAG_OF(struct traffic_random, conditions, "draw road, rain, fog and other radars too"),
+    {FIELD_FLAG_OF(struct traffic_random, conditions, "draw road, weather and other radars too"),
      FIELD_OPTIONAL},
     {FIELD_NAME_OF(struct traffic_random, sensors,
                    "the suite whose decisions adversarial scenes are built around"),

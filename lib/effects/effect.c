@@ -6,12 +6,10 @@
 
 #define EFFECT(id, name) extern const struct effect effect_##name;
 #include "frame/effects.def"
-#undef EFFECT
 
 const struct effect *const effect_table[EFFECT_COUNT] = {
 #define EFFECT(id, name) &effect_##name,
 #include "frame/effects.def"
-#undef EFFECT
 };
 
 const char *const effect_homes[] = {

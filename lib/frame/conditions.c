@@ -1,5 +1,7 @@
 #include "frame/conditions.h"
 
+#include <string.h>
+
 static const char *const roads[] = {
     [ROAD_UNKNOWN] = "unknown", [ROAD_ASPHALT] = "asphalt", [ROAD_CONCRETE] = "concrete", NULL};
 
@@ -18,47 +20,37 @@ static const struct record interferer_record = {
     .fields = interferer_fields,
 };
 
-#define ROAD(absent_)                                                                              \
-    {                                                                                              \
-        FIELD_CHOICE_OF(struct conditions, road, roads, "what the road is made of: it mirrors"),   \
-            FIELD_OPTIONAL, .absent = (absent_)                                                    \
-    }
-#define RAIN(absent_)                                                                              \
-    {                                                                                              \
-        FIELD_REAL_IN(struct conditions, rain_mmph, 0, 500, "rain"), FIELD_OPTIONAL,               \
-            .absent = (absent_)                                                                    \
-    }
-#define FOG(absent_)                                                                               \
-    {                                                                                              \
-        FIELD_REAL_IN(struct conditions, fog_gpm3, 0, 10, "fog, liquid water; dense fog has 0.5"), \
-            FIELD_OPTIONAL, .absent = (absent_)                                                    \
-    }
-
-#define CLUTTER(absent_)                                                                           \
-    {FIELD_REAL_IN(struct conditions, clutter_per_m2, 0, 10,                                       \
-                   "points of the ground that echo, at most 1000 of them in a scan"),              \
-     FIELD_OPTIONAL, .absent = (absent_)},                                                         \
-        {FIELD_REAL_IN(struct conditions, clutter_ercs, 0, 1e3,                                    \
-                       "of these, on average over power"),                                         \
-         FIELD_OPTIONAL, .absent = (absent_)},                                                     \
-    {                                                                                              \
-        FIELD_REAL_IN(struct conditions, clutter_overdispersion, 0, 1e3,                           \
-                      "variance of their number in a scan over its mean; absent: 1"),              \
-            FIELD_OPTIONAL, .absent = (absent_)                                                    \
-    }
-
+#define NUMBER(member, most, help, ...)                                                            \
+    {FIELD_REAL_IN(struct conditions, member, 0, most, help), FIELD_OPTIONAL},
+#define CHOICE(member, choices, help, ...)                                                         \
+    {FIELD_CHOICE_OF(struct conditions, member, choices, help), FIELD_OPTIONAL},
+#define LIST(member, record, help, ...)                                                            \
+    {FIELD_LIST_OF(struct conditions, member, record, help), FIELD_OPTIONAL},
 static const struct field condition_fields[] = {
-    ROAD(ROAD_UNKNOWN),
-    RAIN(0),
-    FOG(0),
-    CLUTTER(0),
-    {FIELD_LIST_OF(struct conditions, interferers, &interferer_record, "other radars"),
-     FIELD_OPTIONAL},
+#include "frame/conditions.def"
     {0},
 };
 
+#define UNSAID (-1)
+#define NUMBER(member, most, help, ...)                                                            \
+    {FIELD_REAL_IN(struct conditions, member, 0, most, help), FIELD_OPTIONAL, .absent = UNSAID},
+#define CHOICE(member, choices, help, ...)                                                         \
+    {FIELD_CHOICE_OF(struct conditions, member, choices, help), FIELD_OPTIONAL, .absent = UNSAID},
+#define LIST(...)
 static const struct field change_fields[] = {
-    ROAD(ROAD_UNSAID), RAIN(-1), FOG(-1), CLUTTER(-1), {0}};
+#include "frame/conditions.def"
+    {0},
+};
+
+#define DRAW(kind, member, draw, share, law, low, high)                                            \
+    [(draw)-1] = {kind, offsetof(struct conditions, member), share, law, low, high},
+#define NUMBER(member, most, help, ...) DRAW(FIELD_REAL, member, __VA_ARGS__)
+#define CHOICE(member, choices, help, ...) DRAW(FIELD_CHOICE, member, __VA_ARGS__)
+#define LIST(member, record, help, ...) DRAW(FIELD_LIST, member, __VA_ARGS__)
+const struct condition_draw conditions_draws[] = {
+#include "frame/conditions.def"
+};
+const size_t conditions_draw_count = sizeof conditions_draws / sizeof conditions_draws[0];
 
 const struct record conditions_record = {
     .name = "conditions",
@@ -76,16 +68,9 @@ const struct record conditions_changes_record = {
 
 void conditions_change(struct conditions *conditions, const struct conditions *changes)
 {
-    if (changes->road != ROAD_UNSAID)
-        conditions->road = changes->road;
-    if (changes->rain_mmph >= 0)
-        conditions->rain_mmph = changes->rain_mmph;
-    if (changes->fog_gpm3 >= 0)
-        conditions->fog_gpm3 = changes->fog_gpm3;
-    if (changes->clutter_per_m2 >= 0)
-        conditions->clutter_per_m2 = changes->clutter_per_m2;
-    if (changes->clutter_ercs >= 0)
-        conditions->clutter_ercs = changes->clutter_ercs;
-    if (changes->clutter_overdispersion >= 0)
-        conditions->clutter_overdispersion = changes->clutter_overdispersion;
+    for (const struct field *field = change_fields; field->name != NULL; field++) {
+        size_t size = field->kind == FIELD_REAL ? sizeof(double) : sizeof(enum road);
+        if (field_present(&conditions_changes_record, field, changes))
+            memcpy((char *)conditions + field->offset, (const char *)changes + field->offset, size);
+    }
 }

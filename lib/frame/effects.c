@@ -5,7 +5,6 @@
 const char *const effects_names[] = {
 #define EFFECT(id, name) #name,
 #include "frame/effects.def"
-#undef EFFECT
     NULL,
 };
 

@@ -26,7 +26,6 @@
 enum effect_id {
 #define EFFECT(id, name) EFFECT_##id,
 #include "frame/effects.def"
-#undef EFFECT
     EFFECT_COUNT,
     EFFECT_NONE = EFFECT_COUNT,
 };

@@ -261,11 +261,12 @@ static struct interferer draw_interferer(struct random_sequence *sequence,
     };
 }
 
-/* The second interferer is one of the others after the first, in cyclic order. */
-static void draw_interferers(struct random_sequence *sequence, struct frame *frame)
+/* Every further interferer is one of the others after the last, in cyclic order. */
+static void draw_interferers(struct random_sequence *sequence, const struct condition_draw *draw,
+                             struct frame *frame)
 {
     int64_t others = (int64_t)frame->objects.count - 1;
-    int64_t count = random_sequence_whole(sequence, 1, 2);
+    int64_t count = random_sequence_whole(sequence, (int64_t)draw->low, (int64_t)draw->high);
     int64_t place = random_sequence_whole(sequence, 0, others > 0 ? others - 1 : 0);
     for (int64_t i = 0; i < count && i < others; i++) {
         *list_add(&frame->conditions.interferers, frame->arena) =
@@ -274,29 +275,37 @@ static void draw_interferers(struct random_sequence *sequence, struct frame *fra
     }
 }
 
-/* A size drawn evenly in its logarithm. */
-static double draw_size(struct random_sequence *sequence, double least, double most)
+static double draw_number(struct random_sequence *sequence, const struct condition_draw *draw)
 {
-    return least * elementary_pow(most / least, random_sequence_next(sequence));
+    if (draw->law == CONDITION_EVENLY)
+        return random_sequence_between(sequence, draw->low, draw->high);
+    return draw->low * elementary_pow(draw->high / draw->low, random_sequence_next(sequence));
+}
+
+static void draw_condition(struct random_sequence *sequence, const struct condition_draw *draw,
+                           struct frame *frame)
+{
+    void *member = (char *)&frame->conditions + draw->offset;
+    if (draw->kind == FIELD_LIST)
+        draw_interferers(sequence, draw, frame);
+    else if (draw->kind == FIELD_CHOICE)
+        *(int *)member =
+            (int)random_sequence_whole(sequence, (int64_t)draw->low, (int64_t)draw->high);
+    else
+        *(double *)member = draw_number(sequence, draw);
 }
 
 void random_traffic_conditions(const struct random_traffic *traffic, int64_t number,
                                struct frame *frame)
 {
-    struct conditions *conditions = &frame->conditions;
     struct random_address address = random_traffic_address(traffic, frame->seed, number);
     struct random_sequence sequence = random_sequence_at(address, RANDOM_CONDITIONS);
-    if (random_sequence_chance(&sequence, 0.4))
-        conditions->rain_mmph = draw_size(&sequence, 0.05, 100);
-    if (random_sequence_chance(&sequence, 0.15))
-        conditions->fog_gpm3 = draw_size(&sequence, 0.005, 1);
-    if (random_sequence_chance(&sequence, 0.5))
-        conditions->road = random_sequence_chance(&sequence, 0.5) ? ROAD_ASPHALT : ROAD_CONCRETE;
-    if (random_sequence_chance(&sequence, 0.2))
-        draw_interferers(&sequence, frame);
-    if (random_sequence_chance(&sequence, 0.2)) {
-        conditions->clutter_per_m2 = draw_size(&sequence, 1e-5, 3e-3);
-        conditions->clutter_ercs = draw_size(&sequence, 0.01, 1);
-        conditions->clutter_overdispersion = random_sequence_between(&sequence, 0, 4);
+    bool has = false;
+    for (size_t i = 0; i < conditions_draw_count; i++) {
+        const struct condition_draw *draw = &conditions_draws[i];
+        if (draw->share > 0)
+            has = random_sequence_chance(&sequence, draw->share);
+        if (has)
+            draw_condition(&sequence, draw, frame);
     }
 }

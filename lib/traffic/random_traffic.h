@@ -60,12 +60,10 @@ struct random_address random_traffic_address(const struct random_traffic *traffi
  * the origin along x, so that places can be exact. */
 void random_traffic_fill(const struct random_traffic *traffic, int64_t number, struct frame *frame);
 
-/* Draws road, weather and the objects with a radar for snapshot number, by an address of their own:
- * rain in 40 % of the snapshots (0.05 to 100 mm/h, evenly in the logarithm), fog in 15 % (0.005 to
- * 1 g/m^3, likewise), asphalt or concrete in 50 %, clutter in 20 % (1e-5 to 3e-3 points per m^2 of
- * 0.01 to 1 ERCS, likewise, up to four times overdispersed), one or two interferers in 20 % (fewer
- * where there are not that many objects beside the ego; 0 to 40 dBm, 1 to 50 MHz/us up or down, up
- * to 30 % of the chirps hit). */
+/* Draws road, weather and the objects with a radar for snapshot number, by an address of their own
+ * and as the rows of frame/conditions.def say. Interferers are fewer where there are not that many
+ * objects beside the ego; each has 0 to 40 dBm, chirps of 1 to 50 MHz/us up or down, and hits up to
+ * 30 % of the chirps. */
 void random_traffic_conditions(const struct random_traffic *traffic, int64_t number,
                                struct frame *frame);
 

@@ -1,5 +1,7 @@
 #include "check.h"
 
+#include <string.h>
+
 #include "frame/conditions.h"
 #include "text/field_check.h"
 
@@ -37,6 +39,58 @@ static void what_is_said_replaces_and_what_is_not_stays(void **state)
     }
 }
 
+/* Every member that may change alone, to the most that it may be and to nothing. */
+static void a_change_of_one_member_leaves_all_others(void **state)
+{
+    (void)state;
+    const struct field *field = conditions_changes_record.fields;
+    for (; field->name != NULL; field++)
+        for (int most = 0; most <= 1; most++) {
+            struct conditions before, changed, changes;
+            struct diag diag = {0};
+            memset(&before, 0, sizeof before);
+            before.rain_mmph = before.fog_gpm3 = before.clutter_ercs = 0.25;
+            before.road = ROAD_ASPHALT;
+            field_clear(&conditions_changes_record, &changes);
+            if (field->kind == FIELD_CHOICE)
+                assert_int_equal(field_set_text(field, &changes, most ? "concrete" : "unknown",
+                                                most ? 8 : 7, NULL, &diag),
+                                 0);
+            else
+                assert_int_equal(
+                    field_set_number(field, &changes, most ? field->high : field->low, &diag), 0);
+            changed = before;
+            conditions_change(&changed, &changes);
+            size_t size = field->kind == FIELD_CHOICE ? sizeof(enum road) : sizeof(double);
+            assert_memory_equal((char *)&changed + field->offset, (char *)&changes + field->offset,
+                                size);
+            memcpy((char *)&changed + field->offset, (char *)&before + field->offset, size);
+            assert_memory_equal(&changed, &before, sizeof before);
+        }
+}
+
+/* Of its own field; the first draw has a share, and none is missing. */
+static void what_random_scenes_draw_is_what_documents_may_say(void **state)
+{
+    (void)state;
+    size_t rows = 0;
+    assert_true(conditions_draws[0].share > 0);
+    for (const struct field *field = conditions_record.fields; field->name != NULL; field++) {
+        const struct condition_draw *draw = conditions_draws;
+        while (draw->offset != field->offset || draw->kind != field->kind)
+            assert_true(++draw < conditions_draws + conditions_draw_count);
+        assert_true(draw->share >= 0 && draw->share <= 1 && draw->low <= draw->high);
+        assert_true(draw->low > 0 || draw->law == CONDITION_EVENLY);
+        if (field->kind == FIELD_REAL)
+            assert_true(draw->low >= field->low && draw->high <= field->high);
+        if (field->kind == FIELD_CHOICE)
+            assert_true(field->choices[0] && draw->low == 1 &&
+                        field->choices[(int)draw->high + 1] == NULL);
+        rows++;
+    }
+    assert_int_equal(rows, conditions_draw_count);
+}
+
 static void impossible_conditions_are_refused(void **state)
 {
     (void)state;
@@ -62,6 +116,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_said_replaces_and_what_is_not_stays),
+        cmocka_unit_test(a_change_of_one_member_leaves_all_others),
+        cmocka_unit_test(what_random_scenes_draw_is_what_documents_may_say),
         cmocka_unit_test(impossible_conditions_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -245,31 +245,52 @@ static void check_interferers(const struct frame *frame)
         assert_string_not_equal(interferers[0].object, interferers[1].object);
 }
 
-static void conditions_come_in_their_shares(void **state)
+static void roads_and_interferers_come_in_their_shares(void **state)
 {
-    enum { FRAMES = 20000, RAIN, HEAVY, FOG, ASPHALT, CONCRETE, ONE, TWO, CLUTTER, KINDS };
+    enum { FRAMES = 20000, ASPHALT, CONCRETE, ONE, TWO, KINDS };
     static const double shares[KINDS] = {
-        [RAIN] = 0.4,      [HEAVY] = 0.2,   [FOG] = 0.15,    [ASPHALT] = 0.25,
-        [CONCRETE] = 0.25, [ONE] = 0.2 / 2, [TWO] = 0.2 / 2, [CLUTTER] = 0.2};
+        [ASPHALT] = 0.25, [CONCRETE] = 0.25, [ONE] = 0.2 / 2, [TWO] = 0.2 / 2};
     int hits[KINDS] = {0};
     for (int64_t number = 0; number < FRAMES; number++) {
         const struct frame *frame = in_conditions(*state, TRAFFIC_DENSE, number);
         const struct conditions *drawn = &frame->conditions;
-        hits[RAIN] += drawn->rain_mmph > 0;
-        hits[HEAVY] += drawn->rain_mmph > sqrt(0.05 * 100); /* half way in the logarithm */
-        hits[FOG] += drawn->fog_gpm3 > 0;
         hits[ASPHALT] += drawn->road == ROAD_ASPHALT;
         hits[CONCRETE] += drawn->road == ROAD_CONCRETE;
         hits[ONE] += drawn->interferers.count == 1;
-        hits[CLUTTER] += drawn->clutter_per_m2 > 0 && drawn->clutter_ercs > 0;
         hits[TWO] += drawn->interferers.count == 2;
-        assert_true(drawn->rain_mmph == 0 || (drawn->rain_mmph > 0.05 && drawn->rain_mmph < 100));
-        assert_true(drawn->fog_gpm3 == 0 || (drawn->fog_gpm3 > 0.005 && drawn->fog_gpm3 < 1));
         check_interferers(frame);
     }
-    for (int kind = RAIN; kind < KINDS; kind++)
+    for (int kind = ASPHALT; kind < KINDS; kind++)
         assert_close((double)hits[kind] / FRAMES, shares[kind],
                      5 * sqrt(shares[kind] * (1 - shares[kind]) / FRAMES));
+}
+
+/* The share of scenes that have a condition, and its law: the middle of its range, evenly or in the
+ * logarithm, is in the middle of what is drawn. */
+static void every_number_is_drawn_as_its_row_says(void **state)
+{
+    enum { FRAMES = 20000 };
+    double share = 0;
+    for (size_t row = 0; row < conditions_draw_count; row++) {
+        const struct condition_draw *draw = &conditions_draws[row];
+        share = draw->share > 0 ? draw->share : share;
+        if (draw->kind != FIELD_REAL)
+            continue;
+        bool evenly = draw->law == CONDITION_EVENLY;
+        double middle = evenly ? (draw->low + draw->high) / 2 : sqrt(draw->low * draw->high);
+        int has = 0, above = 0;
+        for (int64_t number = 0; number < FRAMES; number++) {
+            const struct frame *frame = in_conditions(*state, TRAFFIC_SPARSE, number);
+            double value;
+            memcpy(&value, (const char *)&frame->conditions + draw->offset, sizeof value);
+            assert_true(value == 0 || (value > draw->low && value < draw->high));
+            has += value > 0;
+            above += value > middle;
+        }
+        double slack = 5 * sqrt(share * (1 - share) / FRAMES);
+        assert_close((double)has / FRAMES, share, slack);
+        assert_close((double)above / FRAMES, share / 2, slack);
+    }
 }
 
 static void conditions_of_few_objects_have_few_interferers(void **state)
@@ -306,7 +327,8 @@ int main(void)
         cmocka_unit_test(objects_overlap_each_other_but_rarely),
         cmocka_unit_test(a_snapshot_is_drawn_by_its_number_alone),
         cmocka_unit_test(seed_number_and_density_each_make_another_snapshot),
-        cmocka_unit_test(conditions_come_in_their_shares),
+        cmocka_unit_test(roads_and_interferers_come_in_their_shares),
+        cmocka_unit_test(every_number_is_drawn_as_its_row_says),
         cmocka_unit_test(conditions_of_few_objects_have_few_interferers),
         cmocka_unit_test(conditions_are_drawn_by_number_and_change_no_object),
     };
