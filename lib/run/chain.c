@@ -3,9 +3,8 @@
 #include <stdio.h>
 #include <time.h>
 
-#include "frame/frame_check.h"
-#include "frame/frame_order.h"
 #include "frame/frame_text.h"
+#include "run/frame_stream.h"
 #include "run/progress.h"
 #include "text/document.h"
 #include "text/input.h"
@@ -17,8 +16,7 @@ struct chain {
     struct frame frame;
     struct arena arena; /* the frame's */
     struct list_cache repeats;
-    struct input *input;
-    size_t file, line_number;
+    struct frame_stream input; /* of the first runner, unless it is a source */
     struct chain_times *times;
     bool tool_has_frame;   /* and what it says is about this frame */
     int64_t tool_begin_ns; /* since when the tool has been working */
@@ -67,65 +65,12 @@ static bool failed(const struct runner *runner)
     return runner->diag.code != DIAG_OK;
 }
 
-static int open_next(struct chain *chain)
+/* Puts in front of a message which line it is about, or which frame of those passed on. */
+static void name_place(const struct chain *chain, struct runner *runner)
 {
-    struct runner *first = &chain->runners[0];
-    size_t files = first->common.files.count;
-    if (chain->file >= (files > 0 ? files : 1))
-        return 0;
-    const char *path = files > 0 ? first->common.files.items[chain->file] : "-";
-    chain->file++;
-    chain->line_number = 0;
-    chain->input = input_open(path, &first->diag);
-    return chain->input != NULL ? 1 : diag_prefix(&first->diag, "%s: ", path);
-}
-
-/* Foreign stages may write sections in any order; ours rely on the canonical one. */
-static int take_line(struct chain *chain, const char *line, size_t length, struct diag *diag)
-{
-    if (frame_text_read(line, length, &chain->frame, diag) != 0)
-        return -1;
-    frame_order(&chain->frame);
-    return frame_check(&chain->frame, diag) == 0 ? 1 : -1;
-}
-
-/* The next frame from the inputs, one after the other: 1, 0 at the end of the last, -1. */
-static int read_frame(struct chain *chain)
-{
-    struct diag *diag = &chain->runners[0].diag;
-    for (;;) {
-        if (chain->input == NULL) {
-            int opened = open_next(chain);
-            if (opened <= 0)
-                return opened;
-        }
-        const char *line;
-        size_t length;
-        chain->line_number++;
-        int more = input_line(chain->input, FRAME_TEXT_SIZE, &line, &length, diag);
-        if (more > 0 && chain->times != NULL)
-            chain->times->bytes_read += (int64_t)length + 1;
-        if (more < 0 && diag->code == DIAG_NO_INPUT)
-            chain->line_number = 0; /* a folder has no lines */
-        if (more > 0)
-            more = take_line(chain, line, length, diag);
-        if (more != 0)
-            return more;
-        input_close(chain->input);
-        chain->input = NULL;
-    }
-}
-
-/* Puts the place in front of a message: the line that was read, or the frame that was passed on. */
-static void place_message(const struct chain *chain, struct runner *runner)
-{
-    bool first = runner == &chain->runners[0];
-    bool line = first && chain->input != NULL;
-    if (line && chain->line_number == 0)
-        diag_prefix(&runner->diag, "%s: ", input_name(chain->input));
-    else if (line)
-        diag_prefix(&runner->diag, "%s:%zu: ", input_name(chain->input), chain->line_number);
-    else if (!first)
+    if (runner == &chain->runners[0])
+        frame_stream_name_line(&chain->input, &runner->diag);
+    else
         diag_prefix(&runner->diag, "scene \"%s\", frame %lld: ", chain->frame.scene,
                     (long long)chain->frame.frame);
 }
@@ -150,11 +95,12 @@ static int first_frame(struct chain *chain)
     struct runner *first = &chain->runners[0];
     bool source = first->program.kind == PROGRAM_SOURCE;
     int64_t begin = clock_ns(chain);
-    int more = source ? runner_next(first, &chain->frame) : read_frame(chain);
+    int more = source ? runner_next(first, &chain->frame)
+                      : frame_stream_next(&chain->input, &chain->frame, &first->diag);
     if (chain->times != NULL)
         add_time(chain, source ? &chain->times->step_ns[0] : &chain->times->read_ns, begin);
     if (more < 0)
-        place_message(chain, first);
+        name_place(chain, first);
     return more;
 }
 
@@ -169,7 +115,7 @@ static int run_frame(struct chain *chain)
         struct runner *runner = &chain->runners[index];
         int64_t begin = clock_ns(chain);
         if (runner_step(runner, &chain->frame) != 0) {
-            place_message(chain, runner);
+            name_place(chain, runner);
             return -1;
         }
         if (chain->times != NULL)
@@ -215,7 +161,7 @@ static void run_tool(struct chain *chain)
     tool->frames = (struct frame_source){next_frame, chain};
     chain->tool_begin_ns = clock_ns(chain);
     if (runner_run_tool(tool) != 0 && chain->tool_has_frame)
-        place_message(chain, tool);
+        name_place(chain, tool);
     if (chain->times != NULL)
         add_time(chain, &chain->times->step_ns[chain->stages], chain->tool_begin_ns);
 }
@@ -259,6 +205,8 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
 {
     struct chain chain = {.runners = runners, .count = count, .times = times};
     chain.stages = runners[count - 1].tool != NULL ? count - 1 : count;
+    chain.input.paths = runners[0].common.files.items;
+    chain.input.count = runners[0].common.files.count;
     chain.frame.arena = &chain.arena;
     chain.frame.repeats = &chain.repeats;
     if (times != NULL)
@@ -266,13 +214,15 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
     start(&chain);
     run(&chain);
     finish(&chain);
+    if (times != NULL)
+        times->bytes_read = chain.input.bytes;
     int code = DIAG_OK;
     for (size_t i = 0; i < count; i++)
         if (failed(&runners[i])) {
             chain_complain(&runners[i]);
             code = (int)runners[i].diag.code;
         }
-    input_close(chain.input);
+    frame_stream_close(&chain.input);
     arena_free(&chain.arena);
     list_cache_free(&chain.repeats);
     return code;

@@ -1,0 +1,65 @@
+#include "run/frame_stream.h"
+
+#include "frame/frame_check.h"
+#include "frame/frame_order.h"
+#include "frame/frame_text.h"
+#include "text/input.h"
+
+static int open_next(struct frame_stream *stream, struct diag *diag)
+{
+    if (stream->path >= (stream->count > 0 ? stream->count : 1))
+        return 0;
+    const char *path = stream->count > 0 ? stream->paths[stream->path] : "-";
+    stream->path++;
+    stream->line = 0;
+    stream->input = input_open(path, diag);
+    return stream->input != NULL ? 1 : diag_prefix(diag, "%s: ", path);
+}
+
+/* Lines of other programs may have sections in any order; stages rely on the canonical one. */
+static int read_line(const char *line, size_t length, struct frame *frame, struct diag *diag)
+{
+    if (frame_text_read(line, length, frame, diag) != 0)
+        return -1;
+    frame_order(frame);
+    return frame_check(frame, diag) == 0 ? 1 : -1;
+}
+
+int frame_stream_next(struct frame_stream *stream, struct frame *frame, struct diag *diag)
+{
+    for (;;) {
+        if (stream->input == NULL) {
+            int opened = open_next(stream, diag);
+            if (opened <= 0)
+                return opened;
+        }
+        const char *line;
+        size_t length;
+        int more = input_line(stream->input, FRAME_TEXT_SIZE, &line, &length, diag);
+        if (more > 0)
+            stream->bytes += (int64_t)length + 1;
+        if (more >= 0 || diag->code != DIAG_NO_INPUT) /* a folder has no lines */
+            stream->line++;
+        if (more > 0)
+            more = read_line(line, length, frame, diag);
+        if (more != 0)
+            return more;
+        frame_stream_close(stream);
+    }
+}
+
+void frame_stream_name_line(const struct frame_stream *stream, struct diag *diag)
+{
+    if (stream->input == NULL)
+        return;
+    if (stream->line == 0)
+        diag_prefix(diag, "%s: ", input_name(stream->input));
+    else
+        diag_prefix(diag, "%s:%zu: ", input_name(stream->input), stream->line);
+}
+
+void frame_stream_close(struct frame_stream *stream)
+{
+    input_close(stream->input);
+    stream->input = NULL;
+}

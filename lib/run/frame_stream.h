@@ -1,0 +1,24 @@
+/* The frames that a program reads: JSON lines from files, one file after the other, or from
+ * standard input. */
+#ifndef FRAME_STREAM_H
+#define FRAME_STREAM_H
+
+#include "frame/frame.h"
+
+struct frame_stream {
+    const char *const *paths;
+    size_t count; /* of paths; 0: standard input */
+    struct input *input;
+    size_t path, line; /* how many paths are open or done, and lines of the last of them */
+    int64_t bytes;     /* of all lines so far */
+};
+
+/* The next frame, in canonical order and checked: 1; 0 at the end; -1 after a message. */
+int frame_stream_next(struct frame_stream *stream, struct frame *frame, struct diag *diag);
+
+/* Puts file and line of the last frame in front of a message. Nothing at the end of the stream. */
+void frame_stream_name_line(const struct frame_stream *stream, struct diag *diag);
+
+void frame_stream_close(struct frame_stream *stream);
+
+#endif

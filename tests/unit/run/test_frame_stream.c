@@ -1,0 +1,135 @@
+#define SCRATCH_FILE "a"
+#include "scratch.h"
+
+#include "run/frame_stream.h"
+
+#define FRAME(number)                                                                              \
+    "{\"version\":0,\"scene\":\"s\",\"frame\":" number ",\"time_s\":" number                       \
+    ",\"interval_s\":1,\"seed\":\"1\",\"ego\":\"e\"}"
+#define LAST(number)                                                                               \
+    "{\"version\":0,\"scene\":\"s\",\"frame\":" number ",\"time_s\":" number                       \
+    ",\"interval_s\":1,\"last\":true,\"seed\":\"1\",\"ego\":\"e\"}"
+
+struct bench {
+    struct frame_stream stream;
+    struct frame frame;
+    struct diag diag;
+};
+
+/* A stream of the scratch file, times over. */
+static void begin(struct bench *bench, struct scratch *scratch, const char *text, size_t times)
+{
+    static const char *paths[3];
+    FILE *file = fopen(scratch->path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
+    for (size_t i = 0; i < times; i++)
+        paths[i] = scratch->path;
+    *bench = (struct bench){.stream = {.paths = paths, .count = times}};
+    bench->frame.arena = &scratch->arena;
+}
+
+static int next(struct bench *bench)
+{
+    return frame_stream_next(&bench->stream, &bench->frame, &bench->diag);
+}
+
+static void assert_refuses(struct scratch *scratch, struct bench *bench, const char *message)
+{
+    char expected[256];
+    snprintf(expected, sizeof expected, "%s%s", scratch->path, message);
+    assert_int_equal(next(bench), -1);
+    frame_stream_name_line(&bench->stream, &bench->diag);
+    assert_string_equal(bench->diag.text, expected);
+    frame_stream_close(&bench->stream);
+}
+
+static void files_are_read_one_after_the_other(void **state)
+{
+    struct bench bench;
+    begin(&bench, *state, FRAME("0") "\n" LAST("1"), 2);
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(next(&bench), 1);
+        assert_int_equal(bench.frame.frame, i % 2);
+    }
+    assert_int_equal(next(&bench), 0);
+    assert_int_equal(next(&bench), 0);
+    assert_int_equal(bench.stream.bytes, 2 * strlen(FRAME("0") "\n" LAST("1") "\n"));
+}
+
+static void an_empty_file_has_no_frames(void **state)
+{
+    struct bench bench;
+    begin(&bench, *state, "", 3);
+    assert_int_equal(next(&bench), 0);
+}
+
+static void a_message_names_file_and_line(void **state)
+{
+    struct bench bench;
+    begin(&bench, *state, FRAME("0") "\n" FRAME("1") "\nbroken", 2);
+    assert_int_equal(next(&bench), 1);
+    assert_int_equal(next(&bench), 1);
+    assert_refuses(*state, &bench, ":3: 'b' where a frame is expected");
+}
+
+static void lines_are_counted_from_one_in_every_file(void **state)
+{
+    struct bench bench;
+    begin(&bench, *state, FRAME("0") "\n" FRAME("1"), 2);
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(next(&bench), 1);
+    bench.diag.code = DIAG_DATA;
+    frame_stream_name_line(&bench.stream, &bench.diag);
+    assert_non_null(strstr(bench.diag.text, "/a:1: "));
+    frame_stream_close(&bench.stream);
+}
+
+static void a_folder_has_no_lines(void **state)
+{
+    struct scratch *scratch = *state;
+    struct bench bench;
+    begin(&bench, scratch, "", 1);
+    bench.stream.paths = (const char *[]){scratch->directory};
+    assert_int_equal(next(&bench), -1);
+    frame_stream_name_line(&bench.stream, &bench.diag);
+    assert_int_equal(bench.diag.code, DIAG_NO_INPUT);
+    assert_null(strstr(bench.diag.text, ":0:"));
+    assert_int_equal(strncmp(bench.diag.text, scratch->directory, strlen(scratch->directory)), 0);
+    frame_stream_close(&bench.stream);
+}
+
+static void a_file_that_is_not_there_is_named(void **state)
+{
+    struct bench bench;
+    begin(&bench, *state, "", 1);
+    bench.stream.paths = (const char *[]){"/nonexistent/a"};
+    assert_int_equal(next(&bench), -1);
+    assert_string_equal(bench.diag.text, "/nonexistent/a: No such file or directory");
+    assert_int_equal(bench.diag.code, DIAG_NO_INPUT);
+}
+
+/* A line may be well-formed, and each of its members too, and yet be no frame. */
+static void frames_are_checked(void **state)
+{
+    struct bench bench;
+    begin(&bench, *state,
+          "{\"version\":0,\"scene\":\"s\",\"frame\":0,\"time_s\":0,\"interval_s\":1,\"seed\":\"1\","
+          "\"ego\":\"e\",\"objects\":[]}",
+          1);
+    assert_refuses(*state, &bench, ":1: ego: \"e\" is not among the objects");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(files_are_read_one_after_the_other),
+        cmocka_unit_test(an_empty_file_has_no_frames),
+        cmocka_unit_test(a_message_names_file_and_line),
+        cmocka_unit_test(lines_are_counted_from_one_in_every_file),
+        cmocka_unit_test(a_folder_has_no_lines),
+        cmocka_unit_test(a_file_that_is_not_there_is_named),
+        cmocka_unit_test(frames_are_checked),
+    };
+    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}
