@@ -18,8 +18,8 @@ struct chain {
     struct list_cache repeats;
     struct frame_stream input; /* of the first runner, unless it is a source */
     struct chain_times *times;
-    bool tool_has_frame;   /* and what it says is about this frame */
-    int64_t tool_begin_ns; /* since when the tool has been working */
+    bool tool_has_frame;   /* its messages are about this frame */
+    int64_t tool_begin_ns; /* when the tool last went to work: at its begin, with its frame */
     struct progress progress;
 };
 
@@ -45,7 +45,8 @@ static void add_time(const struct chain *chain, int64_t *total, int64_t begin)
         *total += clock_ns(chain) - begin - chain->times->clock_ns;
 }
 
-/* This clock is a call of the system, and a frame may take no more than a few of them. */
+/* Measures how long one look at the clock takes: it is a system call, and a frame may take no
+ * longer than a few of those. */
 static void time_clock(const struct chain *chain)
 {
     enum { CALLS = 1000 };
@@ -65,7 +66,8 @@ static bool failed(const struct runner *runner)
     return runner->diag.code != DIAG_OK;
 }
 
-/* Puts in front of a message which line it is about, or which frame of those passed on. */
+/* Puts the place in front of a message: the line that the first runner reads, or the frame that a
+ * later one was given. */
 static void name_place(const struct chain *chain, struct runner *runner)
 {
     if (runner == &chain->runners[0])
@@ -139,8 +141,7 @@ static bool any_failed(const struct chain *chain)
     return false;
 }
 
-/* What the tool's runner asks when the tool wants a frame. A stage that failed before it has ended
- * the stream. */
+/* Gives the tool's runner its next frame. For the tool the stream ends where a stage fails. */
 static int next_frame(void *from, struct frame **frame)
 {
     struct chain *chain = from;
@@ -166,8 +167,7 @@ static void run_tool(struct chain *chain)
         add_time(chain, &chain->times->step_ns[chain->stages], chain->tool_begin_ns);
 }
 
-/* A runner that has failed already, by its command line, is in the chain like one that fails now.
- */
+/* Runners whose command line was refused stay in the chain, as programs that fail do in a pipe. */
 static void start(struct chain *chain)
 {
     for (size_t i = 0; i < chain->stages; i++)
@@ -245,7 +245,7 @@ static int print_about(struct runner *runner)
     return (int)runner->diag.code;
 }
 
-/* A runner that is prepared, or failed to be, by itself. */
+/* Runs a prepared runner by itself, or says why its command line was refused. */
 static int run_alone(struct runner *runner)
 {
     int code;

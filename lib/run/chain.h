@@ -9,11 +9,11 @@
 
 #include "run/runner.h"
 
-/* Where the time of a chain went, in nanoseconds of CPU time, which other processes do not count
- * into; what measurement the clock takes is off. */
+/* Where the time of a chain went: nanoseconds of this process's CPU time, without those that
+ * reading the clock takes. */
 struct chain_times {
     int64_t frames, bytes_read, bytes_written;
-    int64_t clock_ns;
+    int64_t clock_ns; /* of one look at the clock */
     int64_t read_ns, write_ns;
     int64_t *step_ns; /* one for each runner */
 };
@@ -22,7 +22,7 @@ struct chain_times {
  * fail to stderr. Returns the exit code. Clocks are read only if times is not NULL. */
 int chain_run(struct runner *runners, size_t count, struct chain_times *times);
 
-/* The whole of main for one stage, and for one tool. */
+/* The main of a stage's program, and of a tool's. */
 int chain_main(const struct stage *stage, int count, char **words);
 int chain_main_tool(const struct tool *tool, int count, char **words);
 

@@ -1,18 +1,20 @@
-/* --explain: what a stage simulated, what it left out, and what that took, as JSON lines. */
+/* The option --explain: JSON lines that say which effects a stage simulated, which it left out, and
+ * how much time they took. */
 #ifndef EXPLAIN_H
 #define EXPLAIN_H
 
 #include "frame/effects.h"
 
-/* An empty log with a clock. */
+/* An empty log whose times are measured. */
 struct effect_log *explain_begin(struct arena *arena);
 
-/* Makes the file if it is not there: who cannot write it shall hear so before a long run. */
+/* Creates the file if it is not there, so that one that cannot be written is refused before the run
+ * and not after it. */
 int explain_check(const char *path, struct diag *diag);
 
-/* Appends one line for every effect at home in the stage (alternatives of a stage share its
- * effects): in how many scans it was simulated and left out, what it took, and when auto leaves it
- * out. Stages of one pipeline may share the file: the lines go out in one write. */
+/* Appends one line for every effect that is at home in the stage or in the one that it stands in
+ * for: in how many scans it was simulated and left out, how much time it took, and when auto leaves
+ * it out. The lines go out in one write, so stages of one pipeline may share the file. */
 int explain_append(const char *path, const char *stage, const struct effect_log *log,
                    struct diag *diag);
 

@@ -17,21 +17,19 @@ static const char usage[] =
     "  or:  glint --list stages | tools | effects\n"
     "Run a pipeline of glint stages, and a tool at its end, in one process.\n"
     "\n"
-    "The text is the same that bash would run, with the same bytes and the same exit code,\n"
-    "without the pipes.\n"
-    "\n"
-    "Understood are words, quotes, comments, continued lines, | and the line\n"
-    "`set -o pipefail`; anything else is refused with its line.\n"
+    "FILE is a script that bash would run too, with the same output and exit code. It holds\n"
+    "one pipeline: words, quotes, comments, continued lines, |, and the line\n"
+    "`set -o pipefail`. Anything else is refused, with its line.\n"
     "\n"
     "Options:\n"
-    "  -c TEXT              the pipeline itself\n"
-    "      --times FILE     run it, then say on stderr where the time went (JSON lines)\n"
+    "  -c TEXT              run TEXT instead of a file\n"
+    "      --times FILE     run FILE, then print where the time went to stderr (JSON lines)\n"
     "      --list WHAT      list the stages, the tools, or the effects\n"
     "      --help           print this help\n"
     "      --version        print the version\n"
     "\n"
-    "Exit status: that of the rightmost failing stage, as under bash's pipefail; 64 if the\n"
-    "text is refused.\n";
+    "Exit status: that of the rightmost program that fails, as with bash's pipefail; 64 if the\n"
+    "pipeline is refused.\n";
 
 static int complain(const struct diag *diag)
 {
@@ -39,7 +37,7 @@ static int complain(const struct diag *diag)
     return (int)diag->code;
 }
 
-/* "plan" of "/usr/bin/glint-plan"; NULL for a program of others. */
+/* "plan" for "/usr/bin/glint-plan"; NULL for a program that is not called glint-NAME. */
 static const char *name_of(const char *program)
 {
     const char *slash = strrchr(program, '/');
@@ -47,7 +45,8 @@ static const char *name_of(const char *program)
     return strncmp(name, "glint-", 6) == 0 ? name + 6 : NULL;
 }
 
-/* False if the command's program is none of this build. */
+/* False if this build has no such stage or tool. A runner whose command line is refused is prepared
+ * all the same: it fails when the chain starts, as it would in a pipe. */
 static bool prepare(struct runner *runner, const struct command *command)
 {
     const char *name = name_of(command->words.items[0]);
@@ -66,7 +65,7 @@ static bool prepare(struct runner *runner, const struct command *command)
     return false;
 }
 
-/* What a pipe would do differently in one process is refused, not approximated. */
+/* Refuses what a pipe of processes would do in another way than one process. */
 static int check_place(const struct runner *runner, const struct command *command, size_t index,
                        size_t count, struct diag *diag)
 {
@@ -96,11 +95,10 @@ static int run_commands(const struct pipeline *pipeline, struct runner *runners,
     size_t count = pipeline->commands.count;
     for (size_t i = 0; i < count; i++) {
         const struct command *command = &pipeline->commands.items[i];
-        /* One that refuses its command line stays in the chain as failed, as it would in a pipe. */
         if (!prepare(&runners[i], command))
             return diag_fail(diag, DIAG_USAGE,
-                             "%zu: %s is no stage of this build; run it with bash", command->line,
-                             command->words.items[0]);
+                             "%zu: %s is no stage or tool of this build; run it with bash",
+                             command->line, command->words.items[0]);
         if (check_place(&runners[i], command, i, count, diag) != 0)
             return -1;
     }

@@ -1,4 +1,4 @@
-/* `glint`: a whole pipeline in one process. */
+/* The program glint: a whole pipeline in one process. */
 #ifndef FUSED_H
 #define FUSED_H
 
@@ -10,7 +10,7 @@
 extern const struct stage *const stages[];
 extern const struct tool *const tools[];
 
-/* The whole of glint's main. */
+/* glint's main. */
 int fused_main(int count, char **words);
 
 #endif

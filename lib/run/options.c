@@ -11,14 +11,19 @@ static const struct field common_fields[] = {
     {FIELD_NAME_OF(struct common_options, output,
                    "write to this file instead of standard output; .gz compresses"),
      FIELD_OPTIONAL, .word = "FILE"},
-    {FIELD_FLAG_OF(struct common_options, keep, "keep the sections that this stage uses up"),
+    {FIELD_FLAG_OF(struct common_options, keep,
+                   "keep the sections that this stage consumes, which are dropped otherwise"),
      FIELD_OPTIONAL},
-    {FIELD_SEED_OF(struct common_options, seed, "seed of every draw from here on; sources take 1"),
+    {FIELD_SEED_OF(struct common_options, seed,
+                   "seed of all random numbers from this stage on; absent: a source takes 1, "
+                   "others leave the frame's"),
      FIELD_OPTIONAL, .absent = 1},
     {FIELD_NAME_OF(struct common_options, explain,
-                   "append what was simulated, what was left out, why, and the time it took"),
+                   "append for every effect in how many scans it was simulated or left out, "
+                   "why, and the time it took"),
      FIELD_OPTIONAL, .word = "FILE"},
-    {FIELD_FLAG_OF(struct common_options, complete, "fail unless every scene is there to its end"),
+    {FIELD_FLAG_OF(struct common_options, complete,
+                   "fail unless every scene has all frames from 0 to its last"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct common_options, help, "print this help"), FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct common_options, version, "print the version"), FIELD_OPTIONAL},
@@ -31,17 +36,18 @@ static const struct record common_record = {
     .fields = common_fields,
 };
 
-/* Where the words of a command line go. */
-struct reading_options {
+/* A command line that is being read. */
+struct command_line {
     const struct program *program;
     void *state;
     struct common_options *common;
-    uint64_t seen, common_seen; /* bit i: fields[i] was given */
+    uint64_t seen, common_seen; /* bit i: fields[i] of the table was given */
     struct arena *arena;
     struct diag *diag;
 };
 
-/* A member's name becomes what people type: radius_m is --radius-m. Up to a colon, for messages. */
+/* Spells the name of a member as an option, radius_m as radius-m. In a message "radius_m: ..." only
+ * the name changes. */
 static void use_dashes(char *text)
 {
     for (char *letter = text; *letter != '\0' && *letter != ':'; letter++)
@@ -77,29 +83,30 @@ static bool applies(const struct program *program, const struct field *field)
     }
 }
 
-/* The program's options without its operand, which is the first. */
+/* The fields that are options: all but the operand, which is the first. */
 static const struct field *named_options(const struct program *program)
 {
     return program->options->fields + (program->operand != NULL ? 1 : 0);
 }
 
-/* What a word stands for: a member of a table's struct, or of a record in it. */
+/* An option that was found: a member of the table's struct, or of a record that is a member of it.
+ */
 struct option {
-    const struct field *field; /* NULL: nothing */
-    size_t base;               /* of its struct in the table's */
-    size_t index;              /* of the table's own entry */
+    const struct field *field; /* NULL: the table has no such option */
+    size_t offset;             /* of the record in the table's struct; 0 without one */
+    size_t index;              /* of the entry in the table */
 };
 
-static struct option find(const struct field *fields, const char *word, size_t length)
+static struct option find_option(const struct field *fields, const char *word, size_t length)
 {
     for (size_t i = 0; fields[i].name != NULL; i++) {
         const struct field *field = &fields[i];
         char spelling[80];
         spell(field->name, spelling, sizeof spelling);
         if (field->kind == FIELD_RECORD) {
-            struct option member = find(field->record->fields, word, length);
+            struct option member = find_option(field->record->fields, word, length);
             if (member.field != NULL)
-                return (struct option){member.field, field->offset + member.base, i};
+                return (struct option){member.field, field->offset + member.offset, i};
         } else if (field->kind != FIELD_LIST && strlen(spelling) == length &&
                    memcmp(spelling, word, length) == 0) {
             return (struct option){field, 0, i};
@@ -108,8 +115,8 @@ static struct option find(const struct field *fields, const char *word, size_t l
     return (struct option){0};
 }
 
-static int set(const struct field *field, void *base, const char *value, struct arena *arena,
-               struct diag *diag)
+static int set_option(const struct field *field, void *base, const char *value, struct arena *arena,
+                      struct diag *diag)
 {
     int result;
     double number;
@@ -125,76 +132,87 @@ static int set(const struct field *field, void *base, const char *value, struct 
     return diag_prefix(diag, "--");
 }
 
-/* One option at words[*at]; moves *at past its value if that is a word of its own. */
-static int read_option(struct reading_options *options, size_t count, const char *const *words,
+/* Finds the option of that name, the program's own or else a shared one, and notes that it was
+ * given. *base becomes the struct that its field belongs to. NULL if there is none. */
+static const struct field *take_option(struct command_line *line, const char *name, size_t length,
+                                       void **base)
+{
+    const struct program *program = line->program;
+    struct option own = find_option(named_options(program), name, length);
+    if (own.field != NULL) {
+        size_t operands = program->operand != NULL ? 1 : 0;
+        line->seen |= UINT64_C(1) << (own.index + operands);
+        *base = (char *)line->state + own.offset;
+        return own.field;
+    }
+    struct option shared = find_option(common_fields, name, length);
+    if (shared.field == NULL || !applies(program, shared.field))
+        return NULL;
+    line->common_seen |= UINT64_C(1) << shared.index;
+    *base = (char *)line->common + shared.offset;
+    return shared.field;
+}
+
+/* Reads the option at words[*at]; advances *at if its value is the word after it. */
+static int read_option(struct command_line *line, size_t count, const char *const *words,
                        size_t *at)
 {
-    struct diag *diag = options->diag;
-    const char *word = words[*at], *name = strcmp(word, "-o") == 0 ? "output" : word + 2;
+    struct diag *diag = line->diag;
+    const char *word = words[*at];
+    bool output = strcmp(word, "-o") == 0, spelled = word[1] == '-' || output;
+    const char *name = output ? "output" : word + 2;
     size_t length = strcspn(name, "=");
-    bool spelled = word[1] == '-' || strcmp(word, "-o") == 0;
-    struct option own = find(named_options(options->program), name, length);
-    struct option common = find(common_fields, name, length);
-    bool known =
-        own.field != NULL || (common.field != NULL && applies(options->program, common.field));
-    if (!spelled || !known)
+    void *base;
+    const struct field *field = spelled ? take_option(line, name, length, &base) : NULL;
+    if (field == NULL)
         return diag_fail(diag, DIAG_USAGE, "unknown option %s; see --help", word);
-    struct option option = own.field != NULL ? own : common;
-    const struct field *field = option.field;
-    void *base =
-        (char *)(own.field != NULL ? options->state : (void *)options->common) + option.base;
-    size_t operands = options->program->operand != NULL ? 1 : 0;
-    if (own.field != NULL)
-        options->seen |= UINT64_C(1) << (own.index + operands);
-    else
-        options->common_seen |= UINT64_C(1) << common.index;
     const char *value = name[length] == '=' ? name + length + 1 : NULL;
     if (field->kind == FIELD_FLAG) {
+        if (value != NULL)
+            return diag_fail(diag, DIAG_USAGE, "--%.*s takes no value", (int)length, name);
         memcpy((char *)base + field->offset, &(bool){true}, sizeof(bool));
-        return value == NULL
-                   ? 0
-                   : diag_fail(diag, DIAG_USAGE, "--%.*s takes no value", (int)length, name);
+        return 0;
     }
     if (value == NULL && *at + 1 < count)
         value = words[++*at];
     if (value == NULL)
         return diag_fail(diag, DIAG_USAGE, "%s needs a value", word);
-    return set(field, base, value, options->arena, diag);
+    return set_option(field, base, value, line->arena, diag);
 }
 
 /* A word that is no option: the operand, or a file of frames. */
-static int read_argument(struct reading_options *options, const char *word)
+static int read_argument(struct command_line *line, const char *word)
 {
-    const struct program *program = options->program;
-    if (program->operand != NULL && (options->seen & 1) == 0) {
-        options->seen |= 1;
-        return field_set_text(program->options->fields, options->state, word, strlen(word),
-                              options->arena, options->diag);
+    const struct program *program = line->program;
+    if (program->operand != NULL && (line->seen & 1) == 0) {
+        line->seen |= 1;
+        return field_set_text(program->options->fields, line->state, word, strlen(word),
+                              line->arena, line->diag);
     }
     if (!program->takes_files)
-        return diag_fail(options->diag, DIAG_USAGE, "one argument too many: %s", word);
-    *list_add(&options->common->files, options->arena) =
-        arena_text(options->arena, word, strlen(word));
+        return diag_fail(line->diag, DIAG_USAGE, "one argument too many: %s", word);
+    *list_add(&line->common->files, line->arena) = arena_text(line->arena, word, strlen(word));
     return 0;
 }
 
-static int check_required(const struct reading_options *options)
+static int check_required(const struct command_line *line)
 {
-    const struct program *program = options->program;
+    const struct program *program = line->program;
     for (size_t i = 0; program->options->fields[i].name != NULL; i++) {
         const struct field *field = &program->options->fields[i];
-        if (field->optional || (options->seen >> i & 1) != 0)
+        if (field->optional || (line->seen >> i & 1) != 0)
             continue;
         char spelling[80];
         spell(field->name, spelling, sizeof spelling);
         bool operand = program->operand != NULL && i == 0;
-        return diag_fail(options->diag, DIAG_USAGE, "missing %s%s: %s; see --help",
+        return diag_fail(line->diag, DIAG_USAGE, "missing %s%s: %s; see --help",
                          operand ? "" : "--", operand ? program->operand : spelling, field->help);
     }
     return 0;
 }
 
-/* The output takes its name in the end, and what was appended to that would be gone. */
+/* --explain cannot append to the output: that file is replaced when it takes its name at the end.
+ */
 static int check_explain(const struct common_options *common, struct diag *diag)
 {
     if (common->explain == NULL)
@@ -210,7 +228,7 @@ static int check_explain(const struct common_options *common, struct diag *diag)
 int options_read(const struct program *program, size_t count, const char *const *words, void *state,
                  struct common_options *common, struct arena *arena, struct diag *diag)
 {
-    struct reading_options options = {
+    struct command_line line = {
         .program = program, .state = state, .common = common, .arena = arena, .diag = diag};
     field_clear(program->options, state);
     field_clear(&common_record, common);
@@ -222,13 +240,12 @@ int options_read(const struct program *program, size_t count, const char *const 
         if (option && strcmp(word, "--") == 0)
             only_arguments = true;
         else
-            result =
-                option ? read_option(&options, count, words, &at) : read_argument(&options, word);
+            result = option ? read_option(&line, count, words, &at) : read_argument(&line, word);
     }
-    size_t seed = find(common_fields, "seed", strlen("seed")).index;
-    common->seed_given = (options.common_seen >> seed & 1) != 0;
+    size_t seed = find_option(common_fields, "seed", strlen("seed")).index;
+    common->seed_given = (line.common_seen >> seed & 1) != 0;
     if (result == 0 && !common->help && !common->version)
-        result = check_required(&options);
+        result = check_required(&line);
     if (result == 0)
         result = check_explain(common, diag);
     if (result != 0)

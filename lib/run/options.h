@@ -10,26 +10,26 @@
 
 #define GLINT_VERSION "0.1.0"
 
-/* What every program understands, as far as it is of use there. */
+/* The options that programs share; each understands those that mean something for it. */
 struct common_options {
-    const char *output; /* NULL is standard output */
+    const char *output; /* NULL: standard output */
     const char *explain;
     bool keep;
     bool complete;
     uint64_t seed;
     bool seed_given;
     bool help, version;
-    LIST_OF(const char *) files; /* of frames; empty is standard input */
+    LIST_OF(const char *) files; /* of frames; none: standard input */
 };
 
-/* Reads the words after the program's name into state (which is cleared first) and common. GNU
- * style: --radius-m 50, --radius-m=50, -o FILE, -- ends the options. Refuses unknown options,
- * missing values and values out of bounds with DIAG_USAGE; required options may be missing only
- * next to --help and --version. */
+/* Reads the words after the program's name into state and common, both cleared first, in GNU style:
+ * --radius-m 50, --radius-m=50, -o FILE; -- ends the options; a flag takes no value; the last of
+ * two counts. Refuses unknown options, missing values and values out of bounds with DIAG_USAGE.
+ * Required options may be missing beside --help and --version. */
 int options_read(const struct program *program, size_t count, const char *const *words, void *state,
                  struct common_options *common, struct arena *arena, struct diag *diag);
 
-/* What --help prints, in the form that help2man reads. */
+/* The text of --help, in the form from which help2man makes a manual page. */
 void options_help(const struct program *program, struct text *text);
 
 #endif

@@ -32,7 +32,8 @@ static char take(struct parser *parser)
     return character;
 }
 
-/* Blanks, comments and continued lines; newlines too, where a pipeline may go on after them. */
+/* Skips blanks, comments and continued lines, and newlines where a pipeline may go on after them.
+ */
 static void skip(struct parser *parser, bool newlines)
 {
     while (parser->at < parser->end) {
@@ -124,7 +125,7 @@ static int read_word(struct parser *parser, const char **word)
     return result;
 }
 
-/* Words up to a newline, a bar or the end. */
+/* Reads words up to a newline, a bar or the end of the text. */
 static int read_command(struct parser *parser, struct command *command)
 {
     command->line = parser->line;
@@ -167,7 +168,7 @@ int pipeline_parse(const char *text, size_t length, struct pipeline *pipeline, s
     for (;;) {
         skip(&parser, true);
         if (parser.at == parser.end && open)
-            return refuse(&parser, "there is no command where one must stand");
+            return refuse(&parser, "a command is missing");
         if (parser.at == parser.end)
             return 0;
         if (!open)
@@ -184,7 +185,7 @@ int pipeline_parse(const char *text, size_t length, struct pipeline *pipeline, s
                 "%zu: of set, only `set -o pipefail` is understood here; run it with bash",
                 command.line);
         if (command.words.count == 0)
-            return refuse(&parser, "there is no command before |");
+            return refuse(&parser, "a command is missing before |");
         *list_add(&pipeline->commands, arena) = command;
         open = piped;
         if (piped)

@@ -1,7 +1,7 @@
-/* The text of a pipeline, as far as it means to us what it means to bash: words, quotes, comments,
- * continuations, `|`, and the line `set -o pipefail`. Anything else (variables, redirections,
- * globs, a second pipeline) is refused with its line and the advice to use bash, because running it
- * differently would be worse than not running it. */
+/* A pipeline read from the text of a bash script: words, quotes, comments, continued lines, `|`,
+ * and the line `set -o pipefail`. Anything else (variables, redirections, file name patterns, a
+ * second pipeline) is refused with its line and the advice to use bash: a script must not do here
+ * what it would not do there. */
 #ifndef PIPELINE_H
 #define PIPELINE_H
 

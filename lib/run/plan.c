@@ -61,7 +61,7 @@ uint64_t plan_effects(const struct plan *plan)
     return effects;
 }
 
-/* The log that says most of an effect: its home's, whose note the others lack. */
+/* The log of the stage where the effect is at home: the others do not note it. */
 static const struct effect_log *log_of(const struct plan *plan, int effect)
 {
     const struct effect_log *best = &plan->positions[0].log;
@@ -96,11 +96,11 @@ static void write_stage(const struct plan_position *position, struct text *text)
 {
     text_format(text, "# glint-%s ", position->stage);
     if (position->stand_in == NULL) {
-        text_add_word(text, "stays: nothing stands in for it\n");
+        text_add_word(text, "stays: no simpler stage stands in for it\n");
         return;
     }
     bool replaced = plan_stands_in(position);
-    text_format(text, "%s: glint-%s has ", replaced ? "goes" : "stays", position->stand_in);
+    text_format(text, "%s: glint-%s writes ", replaced ? "goes" : "stays", position->stand_in);
     if (position->differs) {
         text_format(text, "other %s, first in frame %" PRId64 " of scene ",
                     frame_section_name(position->section), position->frame);
@@ -111,7 +111,7 @@ static void write_stage(const struct plan_position *position, struct text *text)
     text_add_word(text, "\n");
 }
 
-/* As bash and `glint FILE` read it back. */
+/* Writes the word so that bash and glint read it back as it is, in quotes if need be. */
 static void write_word(const char *word, struct text *text)
 {
     static const char plain[] =
@@ -142,11 +142,10 @@ void plan_write(const struct plan *plan, struct text *text)
 {
     if (plan->frames == 0)
         return;
-    text_format(text, "# What %" PRId64 " frames call for.\n", plan->frames);
+    text_format(text, "# What these %" PRId64 " frames need, and why.\n", plan->frames);
     for (int i = 0; i < EFFECT_COUNT; i++)
         write_effect(plan, i, text);
-    text_add_word(text,
-                  "# glint-extract stays: what stands in for it models objects, not effects\n");
+    text_add_word(text, "# glint-extract stays: no simpler stage stands in for it\n");
     for (int i = 0; i < PLAN_POSITIONS; i++)
         write_stage(&plan->positions[i], text);
     text_add_word(text, "set -o pipefail\nglint-extract");

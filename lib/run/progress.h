@@ -1,5 +1,5 @@
-/* A progress bar on stderr, for people only: nothing unless the source knows how many frames it
- * will make, stderr is a terminal, and standard output is not the same screen. */
+/* A progress bar on stderr. It is shown only if the source knows how many frames it will make,
+ * stderr is a terminal, and standard output is none. */
 #ifndef PROGRESS_H
 #define PROGRESS_H
 

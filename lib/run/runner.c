@@ -136,22 +136,23 @@ static int check_sections(struct runner *runner, const struct frame *frame)
     return 0;
 }
 
-/* Nonsense is the stage's own, unless it can name the place that it read it from. */
+/* A frame that fails its check is an error of the stage itself (DIAG_INTERNAL), unless the stage
+ * finds the fault in what it read. */
 static int refuse(struct runner *runner, const struct frame *frame)
 {
     const struct stage *stage = runner->stage;
-    struct diag nonsense = runner->diag;
+    struct diag fault = runner->diag;
     runner->diag = (struct diag){0};
     if (stage->locate_fault != NULL && stage->locate_fault(runner->state, frame, runner) != 0)
         return -1;
-    runner->diag = nonsense;
+    runner->diag = fault;
     runner->diag.code = DIAG_INTERNAL;
-    return diag_prefix(&runner->diag, "made nonsense: ");
+    return diag_prefix(&runner->diag, "wrote an invalid frame: ");
 }
 
-/* What follows every step: sections that were used up go, what the stage wrote is ordered and
- * checked, so that the stage that makes nonsense fails, not its neighbour. The rest was checked
- * before, by the reader or after an earlier stage. */
+/* After every step: drops the sections that the stage consumed; orders and checks those that it
+ * wrote, so that a stage that writes an invalid frame fails itself and not its neighbour. The other
+ * sections were checked when they were read or written. */
 static int finish_step(struct runner *runner, struct frame *frame)
 {
     const struct stage *stage = runner->stage;
@@ -169,7 +170,7 @@ static int finish_step(struct runner *runner, struct frame *frame)
     return 0;
 }
 
-/* A stage that fails without a word would look like the end of the stream. */
+/* A stage or tool that fails without a message would look as if it had succeeded. */
 static int ensure_message(struct runner *runner, int result)
 {
     if (result < 0)
@@ -195,8 +196,8 @@ int runner_next(struct runner *runner, struct frame *frame)
     return more == 1 && finish_step(runner, frame) != 0 ? -1 : more;
 }
 
-/* What precedes every step: the frame takes the seed of the command line and must have what the
- * program reads. */
+/* Before every step: the frame takes the seed of the command line, must have the sections that the
+ * program reads, and must follow the frames before it (--complete). */
 static int take_frame(struct runner *runner, struct frame *frame)
 {
     if (runner->common.seed_given)
@@ -204,7 +205,7 @@ static int take_frame(struct runner *runner, struct frame *frame)
     if (check_sections(runner, frame) != 0)
         return -1;
     return runner->common.complete
-               ? frame_sequence_follow(&runner->completeness, frame, &runner->arena, &runner->diag)
+               ? frame_sequence_follow(&runner->sequence, frame, &runner->arena, &runner->diag)
                : 0;
 }
 
@@ -220,7 +221,7 @@ int runner_frame(struct runner *runner, struct frame **frame)
 {
     int more = runner->frames.next(runner->frames.from, frame);
     if (more == 0)
-        return frame_sequence_end(&runner->completeness, &runner->diag);
+        return frame_sequence_end(&runner->sequence, &runner->diag);
     return more > 0 && take_frame(runner, *frame) == 0 ? 1 : -1;
 }
 
@@ -254,7 +255,7 @@ int runner_try_stage(struct runner *runner, const struct stage *stage,
 
 int runner_finish(struct runner *runner)
 {
-    if (frame_sequence_end(&runner->completeness, &runner->diag) != 0)
+    if (frame_sequence_end(&runner->sequence, &runner->diag) != 0)
         return -1;
     const struct stage *stage = runner->stage;
     if (stage->stop != NULL && ensure_message(runner, stage->stop(runner->state, runner)) != 0)

@@ -23,21 +23,23 @@ struct runner {
     const struct tool *tool;   /* NULL for a stage */
     void *state;
     struct common_options common;
-    struct arena arena; /* options and documents: as long as the stage */
+    struct arena arena; /* of options and documents: as long as the runner */
     struct diag diag;
-    LIST_OF(struct output *) outputs; /* those of a chain's last runner, until it ends */
-    struct frame_source frames;       /* of a tool, set by the chain */
+    LIST_OF(struct output *) outputs; /* only the last runner of a chain has any */
+    struct frame_source frames;       /* of a tool; set by the chain */
     LIST_OF(const struct suite *) suites;
     LIST_OF(const struct vehicle *) vehicles;
-    struct frame_sequence completeness;        /* followed only under --complete */
+    struct frame_sequence sequence;            /* of the frames so far, under --complete */
     int64_t expected_frames;                   /* 0 if the source does not say */
     struct effect_log *log;                    /* NULL unless --explain was given */
-    LIST_OF(struct runner *) tried;            /* other stages, inside a tool */
+    LIST_OF(struct runner *) tried;            /* of the stages that a tool tries */
     struct reference_stream *reference_stream; /* NULL: none was asked for */
 };
 
-/* All return 0, or -1 after a message in runner->diag; runner_next returns 1 with a frame and 0 at
- * the end. */
+/* A runner is prepared with the words of its command line, started, given its frames (runner_next
+ * for a source, runner_step for the others) and finished; a tool is only prepared and run. It is
+ * freed in any case. All return 0, or -1 after a message in runner->diag; runner_next returns 1
+ * with a frame and 0 at the end. */
 int runner_prepare(struct runner *runner, const struct stage *stage, size_t count,
                    const char *const *words);
 int runner_prepare_tool(struct runner *runner, const struct tool *tool, size_t count,
@@ -46,12 +48,10 @@ int runner_start(struct runner *runner);
 int runner_next(struct runner *runner, struct frame *frame);
 int runner_step(struct runner *runner, struct frame *frame);
 int runner_finish(struct runner *runner);
-
-/* The whole work of a tool. */
 int runner_run_tool(struct runner *runner);
 
-/* Closes the outputs. They take their names if all went well, also in writing the last of them, and
- * leave nothing behind otherwise. */
+/* Closes the outputs: all are written to the disk, and then take their names; after any failure
+ * none does, and nothing is left of them. */
 int runner_close_outputs(struct runner *runner);
 
 void runner_free(struct runner *runner);

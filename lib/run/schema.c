@@ -107,7 +107,7 @@ static void write_required(const struct record *record, struct text *text)
     text_add_word(text, *separator == ',' ? "]," : "\"required\": [],");
 }
 
-/* The members of a schema object, after its opening brace. */
+/* Writes the members of a schema object; its braces are the caller's. */
 static void write_record(const struct record *record, int depth, struct text *text)
 {
     indent(depth, text);
@@ -125,7 +125,7 @@ static void write_record(const struct record *record, int depth, struct text *te
             text_add_word(text, ",");
         indent(depth + 1, text);
         text_format(text, "\"%s\": {", field->name);
-        /* A record's own description stands in it. */
+        /* A record's schema has a description of its own. */
         if (field->kind != FIELD_RECORD)
             write_text_member("description", field->help, text);
         else

@@ -6,10 +6,10 @@
 
 #include "base/text.h"
 
-/* The names of the schemas, "frame" and so on; NULL after the last. */
+/* The name of a schema, "frame" and so on, by its number from 0; NULL after the last. */
 const char *schema_name(size_t index);
 
-/* The schema of that number. */
+/* Writes the schema of that number. */
 void schema_write(size_t index, struct text *text);
 
 #endif

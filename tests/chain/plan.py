@@ -99,11 +99,11 @@ def spared(bench):
     """Stages that a simpler one stands in for, and stages that only look as if it could."""
     scenes = bench.chain("glint-traffic two-vehicles")
     quiet = bench.suite("quiet", QUIET)
-    same(bench, "no noise", scenes, quiet, (), ["goes: glint-noise-none has the same targets"])
+    same(bench, "no noise", scenes, quiet, (), ["goes: glint-noise-none writes the same targets"])
     short = bench.suite("short", {**QUIET, "list_limit": 1})
-    same(bench, "a short list", scenes, short, (), ["stays: glint-noise-none has other targets"])
+    same(bench, "a short list", scenes, short, (), ["stays: glint-noise-none writes other targets"])
     fine = bench.suite("fine", {**QUIET, "cell_range_m": 1e-6, "threshold_db": -100})
-    same(bench, "nothing merges", scenes, fine, (), ["stays: glint-sensor-perfect has other cells"])
+    same(bench, "nothing merges", scenes, fine, (), ["stays: glint-sensor-perfect writes other cells"])
 
 
 def main(bin_dir):

@@ -638,7 +638,7 @@ static void an_amplitude_beyond_doubles_is_told(void **state)
     count_echoes(&bench.frame);
     assert_false(bench_step(&bench));
     assert_int_equal(bench.sense.diag.code, DIAG_INTERNAL);
-    assert_non_null(strstr(bench.sense.diag.text, "made nonsense: cells[0]"));
+    assert_non_null(strstr(bench.sense.diag.text, "wrote an invalid frame: cells[0]"));
     bench_close(&bench);
 }
 

@@ -232,13 +232,13 @@ static void everything_else_is_refused_with_its_line(void **state)
 #define MORE "only one pipeline of words and | is understood here"
     static const struct {
         const char *text, *message;
-    } cases[] = {{"", "1: there is no command where one must stand"},
-                 {"# nothing\n", "2: there is no command where one must stand"},
-                 {"set -o pipefail\n", "2: there is no command where one must stand"},
-                 {"a |", "1: there is no command where one must stand"},
-                 {"a |\n\n", "3: there is no command where one must stand"},
-                 {"| a", "1: there is no command before |"},
-                 {"a | | b", "1: there is no command before |"},
+    } cases[] = {{"", "1: a command is missing"},
+                 {"# nothing\n", "2: a command is missing"},
+                 {"set -o pipefail\n", "2: a command is missing"},
+                 {"a |", "1: a command is missing"},
+                 {"a |\n\n", "3: a command is missing"},
+                 {"| a", "1: a command is missing before |"},
+                 {"a | | b", "1: a command is missing before |"},
                  {"a || b", "1: " MORE},
                  {"a |& b", "1: " MORE},
                  {"a && b", "1: " MORE},

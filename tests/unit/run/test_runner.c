@@ -151,7 +151,7 @@ static int meddle(void *state, struct frame *frame, struct runner *runner)
     return 0;
 }
 
-static int make_nonsense(void *state, struct frame *frame, struct runner *runner)
+static int write_negative_length(void *state, struct frame *frame, struct runner *runner)
 {
     (void)state;
     (void)runner;
@@ -183,29 +183,29 @@ static void a_change_that_is_not_declared_is_found(void **state)
     arena_free(&arena);
 }
 
-static void a_stage_that_makes_nonsense_fails_itself(void **state)
+static void a_stage_that_writes_an_invalid_frame_fails_itself(void **state)
 {
     (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
-    const struct stage stage = {.name = "nonsense",
+    const struct stage stage = {.name = "invalid",
                                 .options = &no_options_record,
                                 .reads = SECTION_OBJECTS,
                                 .writes = SECTION_OBJECTS,
-                                .step = make_nonsense};
+                                .step = write_negative_length};
     struct runner runner;
     begin_frame(&frame);
     begin(&runner, &stage, 0, NULL);
     assert_int_equal(runner_step(&runner, &frame), -1);
     assert_int_equal(runner.diag.code, DIAG_INTERNAL);
     assert_string_equal(runner.diag.text,
-                        "made nonsense: objects[1].length_m: -1 is outside [0, 1e6] m");
+                        "wrote an invalid frame: objects[1].length_m: -1 is outside [0, 1e6] m");
     runner_free(&runner);
     arena_free(&arena);
 }
 
-static void describe_nonsense(const void *state, const struct vehicle *vehicle,
-                              struct reflector_set *set, struct arena *arena)
+static void describe_negative_ercs(const void *state, const struct vehicle *vehicle,
+                                   struct reflector_set *set, struct arena *arena)
 {
     (void)state;
     (void)vehicle;
@@ -214,9 +214,9 @@ static void describe_nonsense(const void *state, const struct vehicle *vehicle,
     *point = (struct point_reflector){.name = "glare", .ercs = -1};
 }
 
-static int extract_nonsense(void *state, struct frame *frame, struct runner *runner)
+static int extract_negative_ercs(void *state, struct frame *frame, struct runner *runner)
 {
-    return extraction_step(frame, runner, describe_nonsense, state);
+    return extraction_step(frame, runner, describe_negative_ercs, state);
 }
 
 /* A document's reflectors were checked when it was read; others in their place were not. */
@@ -225,17 +225,18 @@ static void a_list_in_place_of_the_documents_is_checked(void **state)
     (void)state;
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
-    const struct stage stage = {.name = "nonsense",
+    const struct stage stage = {.name = "invalid",
                                 .options = &no_options_record,
                                 .reads = SECTION_OBJECTS,
                                 .writes = SECTION_OBJECTS | SECTION_REFLECTORS,
-                                .step = extract_nonsense};
+                                .step = extract_negative_ercs};
     struct runner runner;
     begin_frame(&frame);
     begin(&runner, &stage, 0, NULL);
     assert_int_equal(runner_step(&runner, &frame), -1);
-    assert_string_equal(runner.diag.text,
-                        "made nonsense: reflectors[0].points[0].ercs: -1 is outside [0, 1000]");
+    assert_string_equal(
+        runner.diag.text,
+        "wrote an invalid frame: reflectors[0].points[0].ercs: -1 is outside [0, 1000]");
     runner_free(&runner);
     arena_free(&arena);
 }
@@ -245,7 +246,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_stage_changes_what_it_does_not_declare),
         cmocka_unit_test(a_change_that_is_not_declared_is_found),
-        cmocka_unit_test(a_stage_that_makes_nonsense_fails_itself),
+        cmocka_unit_test(a_stage_that_writes_an_invalid_frame_fails_itself),
         cmocka_unit_test(a_list_in_place_of_the_documents_is_checked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
