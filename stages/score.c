@@ -1,6 +1,7 @@
 /* Scores: how far the targets of this stream are from those of another one, frame by frame. */
 #include "base/units.h"
 #include "run/stage.h"
+#include "score/ensemble.h"
 #include "score/reference_stream.h"
 #include "score/score_table.h"
 #include "score/target_score.h"
@@ -8,16 +9,18 @@
 struct score_state {
     const char *truth;
     double cutoff, azimuth_cell_rad;
-    bool partial, summary, table;
+    bool partial, summary, table, ensemble;
     struct reference_stream *other;
     int64_t frames;
     struct score_tallies sensors; /* for the summary */
+    struct ensemble lists;        /* for the ensemble */
 };
 
 static int score_start(void *state, struct runner *runner)
 {
     struct score_state *own = state;
     own->summary = own->summary || own->table;
+    own->lists.arena = runner_arena(runner);
     own->other = runner_reference_stream(runner, own->truth, own->partial);
     return own->other != NULL ? 0 : -1;
 }
@@ -26,6 +29,8 @@ static int score_step(void *state, struct frame *frame, struct runner *runner)
 {
     struct score_state *own = state;
     const struct frame *truth;
+    if (own->ensemble)
+        return ensemble_add(&own->lists, frame, runner_diag(runner));
     int found = reference_stream_frame(own->other, frame, SECTION_SENSORS | SECTION_TARGETS, &truth,
                                        runner_diag(runner));
     if (found <= 0)
@@ -49,9 +54,34 @@ static int score_step(void *state, struct frame *frame, struct runner *runner)
     return own->summary ? 0 : runner_write_record(runner, &score_line_record, &line);
 }
 
+/* The stream is read; now the whole truth is. */
+static int write_ensemble(struct score_state *own, struct runner *runner)
+{
+    struct ensemble truth = {.arena = runner_arena(runner)};
+    const struct frame *frame;
+    int more;
+    while ((more = reference_stream_next(own->other, SECTION_SENSORS | SECTION_TARGETS, &frame,
+                                         runner_diag(runner))) > 0)
+        if (ensemble_add(&truth, frame, runner_diag(runner)) != 0)
+            return diag_prefix(runner_diag(runner), "%s: ", own->truth);
+    struct ensemble_score score;
+    if (more < 0 || ensemble_compare(&truth, &own->lists, own->azimuth_cell_rad,
+                                     runner_arena(runner), &score, runner_diag(runner)) != 0)
+        return -1;
+    if (!own->table)
+        return runner_write_record(runner, &ensemble_score_record, &score);
+    struct text text = {0};
+    score_table_ensemble(&score, &text);
+    int result = runner_write(runner, text.bytes, text.length);
+    text_free(&text);
+    return result;
+}
+
 static int score_stop(void *state, struct runner *runner)
 {
     struct score_state *own = state;
+    if (own->ensemble)
+        return write_ensemble(own, runner);
     if (reference_stream_finish(own->other, runner_diag(runner)) != 0)
         return -1;
     struct score_summary summary = {
@@ -87,6 +117,9 @@ static const struct field score_options[] = {
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct score_state, summary, "write one line for the whole stream"),
      FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct score_state, ensemble,
+                   "compare the lists of many seeds as random lists, by their energy distance"),
+     FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct score_state, table, "write that as a table for people"), FIELD_OPTIONAL},
     {0},
 };
@@ -106,7 +139,14 @@ const struct stage stage_score = {
         "is in cells, d^2 = (range / cell_range_m)^2 + (range rate / cell_range_rate_mps)^2 +\n"
         "(azimuth / azimuth_cell_rad)^2, with the cells of the truth's sensors. Frames that one\n"
         "side lacks are errors unless --partial is given. For the summary every value is kept,\n"
-        "half a kilobyte for each target. glint-score-tracks scores trackers.",
+        "half a kilobyte for each target. glint-score-tracks scores trackers.\n"
+        "\n"
+        "With --ensemble each stream holds its scenes with at least 3 seeds each, and the lists "
+        "of\n"
+        "a scene, frame and sensor are samples of two random lists: one line has the energy\n"
+        "distance of each scene with its standard error, and the mean over scenes with a 95 %\n"
+        "interval. It is 0 in the mean if both streams draw from one law. Cells as above, level\n"
+        "in steps of 3 dB.",
     .options = &score_state_record,
     .sink = true,
     .reads = SECTION_SENSORS | SECTION_TARGETS,

@@ -26,6 +26,7 @@ enum random_purpose {
     RANDOM_LIMBS = 12,       /* per person: number and rates of arms and legs */
     RANDOM_CLUTTER = 13,     /* per scan: number and places of the points on the ground */
     RANDOM_SIGNAL = 14,      /* per scan: noise on two samples of its signal */
+    RANDOM_BOOTSTRAP = 15,   /* which scenes a resample has (glint-score --ensemble) */
 };
 
 struct random_address {

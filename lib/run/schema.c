@@ -5,6 +5,7 @@
 #include "documents/catalogue.h"
 #include "documents/vehicle.h"
 #include "frame/frame.h"
+#include "score/ensemble.h"
 #include "score/score.h"
 #include "score/track.h"
 #include "traffic/scenario.h"
@@ -16,6 +17,7 @@ static const struct {
     {"frame", &frame_record},
     {"scenario", &scenario_record},
     {"score", &score_line_record},
+    {"score-ensemble", &ensemble_score_record},
     {"score-summary", &score_summary_record},
     {"score-tracks", &score_track_line_record},
     {"score-tracks-summary", &score_track_summary_record},

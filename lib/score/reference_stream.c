@@ -9,7 +9,6 @@
 #include "frame/frame_text.h"
 #include "text/input.h"
 #include "text/json_scan.h"
-#include "text/record_text.h"
 
 /* Times in streams of the same scenes agree but for how they were written. */
 static const double same_time_s = 1e-6;
@@ -254,24 +253,44 @@ static int check_time(const struct frame *frame, double time_s, struct diag *dia
                      time_s, frame->time_s);
 }
 
+/* Reads the line found as a frame that has these sections. */
+static int read_frame(struct reference_stream *reference, unsigned sections,
+                      const struct frame **other, struct diag *diag)
+{
+    struct frame *own = &reference->frame;
+    if (frame_text_read(reference->line, reference->length, own, diag) != 0)
+        return -1;
+    frame_order(own);
+    unsigned missing = sections & ~own->present;
+    if (missing != 0)
+        return diag_fail(diag, DIAG_DATA, "%s: missing; expected the section, to compare with",
+                         frame_section_name(missing & -missing));
+    *other = own;
+    return frame_check(own, diag);
+}
+
 int reference_stream_frame(struct reference_stream *reference, const struct frame *frame,
                            unsigned sections, const struct frame **other, struct diag *diag)
 {
     int found = find(reference, frame, diag);
     if (found <= 0)
         return found;
-    struct frame *own = &reference->frame;
-    if (frame_text_read(reference->line, reference->length, own, diag) != 0)
+    if (read_frame(reference, sections, other, diag) != 0 ||
+        check_time(frame, (*other)->time_s, diag) != 0)
         return prefix_place(reference, diag);
-    frame_order(own);
-    unsigned lacking = sections & ~own->present;
-    if (lacking != 0)
-        diag_fail(diag, DIAG_DATA, "%s: missing; expected the section, to compare with",
-                  frame_section_name(lacking & -lacking));
-    if (lacking != 0 || frame_check(own, diag) != 0 || check_time(frame, own->time_s, diag) != 0)
-        return prefix_place(reference, diag);
-    *other = own;
     return 1;
+}
+
+int reference_stream_next(struct reference_stream *reference, unsigned sections,
+                          const struct frame **other, struct diag *diag)
+{
+    reference->found = ++reference->number;
+    int more =
+        input_line(reference->input, FRAME_TEXT_SIZE, &reference->line, &reference->length, diag);
+    if (more < 0 || (more > 0 && read_frame(reference, sections, other, diag) != 0))
+        return prefix_place(reference, diag);
+    reference->ended = more == 0;
+    return more;
 }
 
 int reference_stream_tracks(struct reference_stream *reference, const struct frame *frame,
@@ -281,8 +300,8 @@ int reference_stream_tracks(struct reference_stream *reference, const struct fra
     if (found <= 0)
         return found;
     field_clear(&track_list_record, tracks);
-    if (record_text_read(reference->line, reference->length, &track_list_record, tracks,
-                         frame->arena, NULL, diag) != 0 ||
+    if (frame_text_read_record(reference->line, reference->length, &track_list_record, tracks,
+                               frame->arena, diag) != 0 ||
         track_order(tracks, frame->arena, diag) != 0 ||
         ((tracks->present & TRACK_TIME) != 0 && check_time(frame, tracks->time_s, diag) != 0))
         return prefix_place(reference, diag);

@@ -23,6 +23,11 @@ void reference_stream_close(struct reference_stream *reference);
 int reference_stream_frame(struct reference_stream *reference, const struct frame *frame,
                            unsigned sections, const struct frame **other, struct diag *diag);
 
+/* Reads the next line as such a frame, whatever its scene: for streams that are read alone, never
+ * between calls of the other functions. Returns 1, 0 at the end, -1 after a message. */
+int reference_stream_next(struct reference_stream *reference, unsigned sections,
+                          const struct frame **other, struct diag *diag);
+
 /* Like reference_stream_frame, but reads tracks, in the order of their ids; all lie in the frame's
  * arena. */
 int reference_stream_tracks(struct reference_stream *reference, const struct frame *frame,

@@ -93,3 +93,17 @@ void score_table_track_summary(const struct score_track_summary *summary, struct
                 summary->cutoff_m, summary->id_switches);
     score_table_write(&summary->all, (const char *const[]){"all"}, 1, text);
 }
+
+void score_table_ensemble(const struct ensemble_score *score, struct text *text)
+{
+    text_format(text, "%-32s %8s %9s %9s %11s %11s\n", "scene", "lists", "targets", "in truth", "D",
+                "error");
+    for (size_t i = 0; i < score->scenes.count; i++) {
+        const struct ensemble_scene_score *scene = &score->scenes.items[i];
+        text_format(text, "%-32s %8" PRId64 " %9.2f %9.2f %11.5f %11.5f\n", scene->scene,
+                    scene->lists, scene->listed_targets, scene->true_targets, scene->energy,
+                    scene->energy_error);
+    }
+    text_format(text, "mean %.5f, 95 %% interval %.5f to %.5f\n", score->energy, score->low,
+                score->high);
+}

@@ -4,6 +4,7 @@
 #define SCORE_TABLE_H
 
 #include "base/text.h"
+#include "score/ensemble.h"
 #include "score/score.h"
 
 /* Writes count scores; each has its head above its column. */
@@ -13,5 +14,8 @@ void score_table_write(const struct score *scores, const char *const *heads, siz
 void score_table_summary(const struct score_summary *summary, struct text *text,
                          struct arena *arena);
 void score_table_track_summary(const struct score_track_summary *summary, struct text *text);
+
+/* Energy distances of all scenes, a row each, and of all together. */
+void score_table_ensemble(const struct ensemble_score *score, struct text *text);
 
 #endif

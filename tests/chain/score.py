@@ -317,6 +317,80 @@ def check_tracks(bench, rng, frames, which, cutoff):
     check(summary["id_switches"] == total > 0, f"tracks {which}: {summary['id_switches']} switches, expected {total}")
 
 
+# ---- ensembles --------------------------------------------------------------------------------
+
+
+def embed(frame, sensor, azimuth_cell):
+    """Targets in cells and steps of 3 dB."""
+    return [(target["range_m"] / sensor["cell_range_m"], target["azimuth_rad"] / azimuth_cell,
+             target["range_rate_mps"] / sensor["cell_range_rate_mps"], target["amplitude_db"] / 3)
+            for target in frame["targets"] if target["sensor"] == sensor["name"]]
+
+
+def kernels(one, other):
+    """Sum of the kernels of three widths over all pairs."""
+    return math.fsum(math.exp(-math.dist(a, b) ** 2 / (2 * width ** 2))
+                     for a in one for b in other for width in (1, 3, 10))
+
+
+def apart(one, other):
+    return math.sqrt(max(0, kernels(one, one) + kernels(other, other) - 2 * kernels(one, other)))
+
+
+def energy(ones, others):
+    """The U-statistic of 2 E d(X, Y) - E d(X, X') - E d(Y, Y')."""
+    def among(lists):
+        pairs = [apart(a, b) for i, a in enumerate(lists) for b in lists[:i]]
+        return sum(pairs) / len(pairs)
+
+    between = [apart(a, b) for a in ones for b in others]
+    return 2 * sum(between) / len(between) - among(ones) - among(others)
+
+
+def jackknife(ones, others, mean):
+    """Standard error of the mean over lists of the energy distance, of lists by seed."""
+    variance = 0
+    for part in (ones, others):
+        left_out = [mean([of for of in ones if of is not seed], [of for of in others if of is not seed])
+                    for seed in part]
+        middle = sum(left_out) / len(part)
+        variance += (len(part) - 1) / len(part) * sum((value - middle) ** 2 for value in left_out)
+    return math.sqrt(variance)
+
+
+def check_ensemble(bench):
+    """Two models of one scene, with four and five seeds."""
+    def stream(sensor, seeds):
+        return [frame for seed in seeds for frame in bench.run(
+            f"glint-traffic two-vehicles --seed {seed} | glint-extract"
+            f" | glint-ideal --sensors srr24-pair-every-frame | {sensor} | glint-noise")[:6]]
+
+    truth, listed = stream("glint-sensor", range(1, 5)), stream("glint-sensor-smear", range(11, 16))
+    bench.write("truth.jsonl", truth)
+    bench.write("list.jsonl", listed)
+    score, = bench.run("glint-score --ensemble --azimuth-cell-rad 0.05 --truth truth.jsonl list.jsonl")
+    scene, = score["scenes"]
+    sensors = truth[0]["sensors"]["list"]
+
+    def by_seed(frames):
+        seeds = {}
+        for frame in frames:
+            seeds.setdefault(frame["seed"], []).extend(embed(frame, sensor, 0.05) for sensor in sensors)
+        return list(seeds.values())
+
+    def mean(ones, others):
+        values = [energy([seed[k] for seed in ones], [seed[k] for seed in others]) for k in range(len(ones[0]))]
+        return sum(values) / len(values)
+
+    ones, others = by_seed(truth), by_seed(listed)
+    error = jackknife(ones, others, mean)
+    near(score["energy"], mean(ones, others), "ensemble: energy")
+    near(scene["energy_error"], error, "ensemble: error")
+    near(score["high"], score["energy"] + 1.96 * error, "ensemble: high")
+    near(scene["true_targets"], sum(len(of) for seed in ones for of in seed) / len(ones) / len(ones[0]),
+         "ensemble: targets")
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
@@ -332,6 +406,7 @@ def main():
                            " | glint-ideal --sensors corner77-every-frame | glint-sensor | glint-noise")[:80]
         for which, cutoff in (("all", 5), ("in_view", 3), ("detected", 5)):
             check_tracks(bench, rng, frames, which, cutoff)
+        check_ensemble(bench)
     print(f"score: {checks} checks, {failures} failed")
     return 1 if failures else 0
 

@@ -1,4 +1,4 @@
-// Zooming, panning and fitting of the map's camera.
+// Moving the camera.
 
 function zoomBy(factor, x, y) {
     const before = screenToLocal(x, y);
@@ -21,8 +21,7 @@ function panBy(dx, dy) {
     redraw();
 }
 
-// Places that must be in view when the page fits the map: the sensors, the chosen object and its
-// targets; without a chosen object all objects and targets.
+// What a first look must show: the sensors, the chosen object and its targets; without one, all.
 function placesToFit() {
     const places = [];
     const scans = scansOf(state.frame);
@@ -63,8 +62,7 @@ function fitView() {
     redraw();
 }
 
-// Follows the ego or not; the middle of the view stays where it is, although local coordinates
-// change.
+// Keeps what is in the middle of the view there while the coordinates under it change.
 function setFollow(follow) {
     const middle = fromLocal(camera);
     state.follow = follow;

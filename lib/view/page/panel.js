@@ -1,5 +1,4 @@
-// The panel: a description of what is chosen on the map. Names enter the page as text only, never
-// as HTML.
+// The panel: in words, what was chosen on the map. Text only ever enters the page as text.
 
 const panel = document.getElementById('panel');
 
@@ -21,7 +20,7 @@ function symbolCanvas(style, colour, size, ghost) {
     small.style.width = small.style.height = size + 'px';
     const drawing = small.getContext('2d');
     drawing.scale(ratio, ratio);
-    drawTargetSymbol(drawing, style, size / 2, size / 2, size * 0.36, colour, ghost);
+    drawSymbol(drawing, style, size / 2, size / 2, size * 0.36, colour, ghost);
     return small;
 }
 
@@ -44,7 +43,7 @@ const otherPaths = {
     false_alarm: 'nothing but noise',
 };
 
-// The path of an echo in words: "direct", or a ghost's legs from the radar and back.
+// The way of an echo: "direct", or a ghost's legs from the radar to it and back.
 function pathWords(path, mirror, number) {
     const name = head.paths[path];
     const stops = {wall: mirror > 0 ? names[mirror - 1] : 'a wall', object: 'it', ego: 'the ego'};
@@ -173,14 +172,14 @@ function summary(scan, targets, near, far) {
     if (!column('scan_measured')[scan]) {
         return 'did not measure in this frame';
     }
-    const parts = [plural(targets.length, 'target')];
+    const told = [plural(targets.length, 'target')];
     if (near.length > 0) {
-        parts.push(near.length === 1 ? '1 echo lost' : `${near.length} echoes lost`);
+        told.push(near.length === 1 ? '1 echo lost' : `${near.length} echoes lost`);
     }
     if (far.length > 0) {
-        parts.push(`${far.length} sent no echo`);
+        told.push(`${far.length} sent no echo`);
     }
-    return parts.join(', ');
+    return told.join(', ');
 }
 
 function sensorTitle(scan, text) {
@@ -346,7 +345,7 @@ function targetNotes(scan) {
     return notes;
 }
 
-// What became of the echoes of the chosen reflection centre in a scan.
+// What became of one reflection centre, by sensor.
 function reflectorFates(scan) {
     const fates = [];
     for (const {target, number} of targetsFrom(scan, state.object)) {
@@ -409,7 +408,7 @@ function showFrame() {
     panel.replaceChildren(...parts);
 }
 
-// Fills the panel; the keyboard's focus stays in it if it was there.
+// Whoever walks through the panel with the keyboard stays in it when it changes.
 function showPanel() {
     const walking = panel.querySelector(':focus-visible') !== null;
     fillPanel();

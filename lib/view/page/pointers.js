@@ -1,4 +1,4 @@
-// Mouse and touch: one pointer pans or clicks, two zoom.
+// Pointers: one pans or clicks, two zoom.
 
 const pointers = new Map();
 let moved = 0;
@@ -90,12 +90,11 @@ function reflectorHits() {
             hits.push({...toScreen(reflectorPlace(row, name).place), object, name});
         }
     }
-    return hits.concat(contributorHits());
+    return hits.concat(partHits());
 }
 
-// Contributors of targets can be clicked where they were seen: a flat side reflects from its
-// specular point, not from its middle.
-function contributorHits() {
+// A flat side reflects from where it mirrors, not from its middle.
+function partHits() {
     const hits = [];
     eachTarget(state.frame, (scan, target) => {
         const {begin, end} = contributorsOf(target);

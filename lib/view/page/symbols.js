@@ -1,13 +1,11 @@
-// Colours and marks, in light and dark: a target's symbol by its sensor, a ghost's, and the cross
-// of a lost echo.
+// Colours and symbols, in light and dark.
 
 // Colours that people with any colour vision can tell apart, in a light and a dark tone each.
 const palettes = {
     light: ['#0072b2', '#c74e00', '#00805e', '#a8478a', '#8a6d00', '#3a6fd8', '#7a4a2b', '#4d4d4d'],
     dark: ['#56b4e9', '#f0a030', '#2fc79a', '#e79ac6', '#e6d94c', '#9db8ff', '#d2a07c', '#c8c8c8'],
 };
-// Shapes of targets, by sensor.
-const targetShapes = ['star', 'circle', 'diamond', 'triangle', 'square', 'four-point star'];
+const symbols = ['star', 'circle', 'diamond', 'triangle', 'square', 'cross'];
 
 let ink = {};
 
@@ -24,21 +22,21 @@ function readInk() {
     }
 }
 
-// Gives a canvas the pixels of its place on the screen; returns its size in CSS pixels.
-function fitCanvas(element, drawing) {
+// Gives a canvas the pixels of its place on the screen and returns its size in CSS pixels.
+function fitCanvas(one, drawing) {
     const ratio = window.devicePixelRatio || 1;
-    const width = element.clientWidth;
-    const height = element.clientHeight;
-    if (element.width !== Math.round(width * ratio) || element.height !== Math.round(height * ratio)) {
-        element.width = Math.round(width * ratio);
-        element.height = Math.round(height * ratio);
+    const width = one.clientWidth;
+    const height = one.clientHeight;
+    if (one.width !== Math.round(width * ratio) || one.height !== Math.round(height * ratio)) {
+        one.width = Math.round(width * ratio);
+        one.height = Math.round(height * ratio);
     }
     drawing.setTransform(ratio, 0, 0, ratio, 0, 0);
     drawing.clearRect(0, 0, width, height);
     return {width, height};
 }
 
-// Colours of numbers: range rates from blue through grey to red, amplitudes from dark to bright.
+// Colours of numbers: blue through grey to red for rates, dark to bright for amplitudes.
 function mix(from, to, part) {
     const channel = i => Math.round(from[i] + part * (to[i] - from[i]));
     return `rgb(${channel(0)},${channel(1)},${channel(2)})`;
@@ -60,7 +58,7 @@ function amplitudeColour(level) {
 
 const objectOrders = new Map();
 
-// Objects take colours in the order of their first targets, so that few objects share a colour.
+// Objects take colours in the order in which they make targets, so that as few as can be share one.
 function objectOrder(number) {
     let order = objectOrders.get(number);
     if (order === undefined) {
@@ -83,8 +81,7 @@ function objectColour(object) {
     return place === undefined ? ink.edge : ink.palette[place % ink.palette.length];
 }
 
-// The colour of a sensor's symbol outside the map: its own where targets are coloured by sensor,
-// else grey.
+// Of a sensor's symbol where no target's colour counts.
 function sensorColour(style) {
     const own = state.colour === 'sensor' && state.effect < 0;
     return own ? ink.palette[style % ink.palette.length] : ink.soft;
@@ -118,9 +115,9 @@ function tracePolygon(drawing, x, y, radius, corners, inner, turn) {
     drawing.closePath();
 }
 
-function traceTargetShape(drawing, style, x, y, radius) {
+function traceSymbol(drawing, style, x, y, radius) {
     drawing.beginPath();
-    switch (targetShapes[style % targetShapes.length]) {
+    switch (symbols[style % symbols.length]) {
     case 'star': return tracePolygon(drawing, x, y, 1.3 * radius, 5, 0.42, 0);
     case 'circle': return drawing.arc(x, y, 0.95 * radius, 0, 2 * Math.PI);
     case 'diamond': return tracePolygon(drawing, x, y, 1.2 * radius, 4, 0, 0);
@@ -130,7 +127,7 @@ function traceTargetShape(drawing, style, x, y, radius) {
     }
 }
 
-// Draws the traced circle hollow, so that another sensor's symbol at the same place shows through.
+// Hollow, so that another sensor's symbol at the same place is seen through it.
 function drawRing(drawing, radius, colour) {
     drawing.lineWidth = radius * 0.36 + 2;
     drawing.strokeStyle = ink.paper;
@@ -140,7 +137,7 @@ function drawRing(drawing, radius, colour) {
     drawing.stroke();
 }
 
-// Draws the traced shape as a ghost's: hollow, with a dashed outline.
+// A ghost: hollow, with a broken outline.
 function drawGhost(drawing, colour) {
     drawing.fillStyle = ink.paper;
     drawing.fill();
@@ -151,13 +148,13 @@ function drawGhost(drawing, colour) {
     drawing.setLineDash([]);
 }
 
-function drawTargetSymbol(drawing, style, x, y, radius, colour, ghost) {
-    traceTargetShape(drawing, style, x, y, radius);
+function drawSymbol(drawing, style, x, y, radius, colour, ghost) {
+    traceSymbol(drawing, style, x, y, radius);
     if (ghost) {
         drawGhost(drawing, colour);
         return;
     }
-    if (targetShapes[style % targetShapes.length] === 'circle') {
+    if (symbols[style % symbols.length] === 'circle') {
         drawRing(drawing, radius, colour);
         return;
     }
@@ -165,17 +162,5 @@ function drawTargetSymbol(drawing, style, x, y, radius, colour, ghost) {
     drawing.fill();
     drawing.lineWidth = 1.2;
     drawing.strokeStyle = ink.paper;
-    drawing.stroke();
-}
-
-// Marks a lost echo with a cross.
-function drawLostMark(drawing, at, radius) {
-    drawing.strokeStyle = ink.lost;
-    drawing.lineWidth = 2;
-    drawing.beginPath();
-    for (const side of [-1, 1]) {
-        drawing.moveTo(at.x - radius, at.y - side * radius);
-        drawing.lineTo(at.x + radius, at.y + side * radius);
-    }
     drawing.stroke();
 }

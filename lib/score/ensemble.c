@@ -1,0 +1,301 @@
+#include "score/ensemble.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/random_sequence.h"
+#include "base/sort.h"
+#include "score/energy_distance.h"
+#include "score/list_embedding.h"
+
+#define LEVEL_DB 3
+#define FEWEST_SEEDS 3
+#define RESAMPLES 4000
+
+/* A target list as it was read; the cells are those of its own stream. */
+struct ensemble_list {
+    int64_t frame;
+    const char *sensor;
+    double cell_range_m, cell_range_rate_mps, field_of_view_rad;
+    const struct embedded_target *targets; /* in m, rad, m/s and dB */
+    size_t count;
+};
+
+struct ensemble_seed {
+    uint64_t seed;
+    LIST_OF(struct ensemble_list) lists;
+};
+
+struct ensemble_scene {
+    const char *name;
+    LIST_OF(struct ensemble_seed) seeds;
+};
+
+static const struct field scene_fields[] = {
+    {FIELD_NAME_OF(struct ensemble_scene_score, scene, "its name; seeds are counted")},
+    {FIELD_INTEGER_IN(struct ensemble_scene_score, lists, 0, 0x1p53,
+                      "frames times the sensors that measured in them")},
+    {FIELD_INTEGER_IN(struct ensemble_scene_score, true_seeds, 0, 0x1p53, "of the truth")},
+    {FIELD_INTEGER_IN(struct ensemble_scene_score, listed_seeds, 0, 0x1p53, "of the stream")},
+    {FIELD_REAL_IN(struct ensemble_scene_score, true_targets, 0, 1e300, "mean number in a list")},
+    {FIELD_REAL_IN(struct ensemble_scene_score, listed_targets, 0, 1e300, "mean number in a list")},
+    {FIELD_REAL_IN(struct ensemble_scene_score, energy, -1e300, 1e300,
+                   "energy distance, mean over the lists; unbiased, so it may be negative")},
+    {FIELD_REAL_IN(struct ensemble_scene_score, energy_error, 0, 1e300,
+                   "its standard error, by the jackknife over seeds")},
+    {0},
+};
+
+static const struct record scene_record = {
+    .name = "scene_score",
+    .help = "A scene of the truth against the same of the stream.",
+    .size = sizeof(struct ensemble_scene_score),
+    .fields = scene_fields,
+};
+
+static const struct field score_fields[] = {
+    {FIELD_LIST_OF(struct ensemble_score, scenes, &scene_record, "as the truth has them")},
+    {FIELD_REAL_IN(struct ensemble_score, energy, -1e300, 1e300, "mean over the scenes")},
+    {FIELD_REAL_IN(struct ensemble_score, low, -1e300, 1e300, "of the 95 % interval")},
+    {FIELD_REAL_IN(struct ensemble_score, high, -1e300, 1e300, "of the 95 % interval")},
+    {0},
+};
+
+const struct record ensemble_score_record = {
+    .name = "score_ensemble",
+    .help = "What glint-score --ensemble writes: energy distances of random target lists.",
+    .size = sizeof(struct ensemble_score),
+    .fields = score_fields,
+};
+
+static const char *copy(const char *text, struct arena *arena)
+{
+    return arena_text(arena, text, strlen(text));
+}
+
+/* Streams mostly stay with one scene, so the search begins with the scene added last. */
+static struct ensemble_scene *scene_of(struct ensemble *ensemble, const char *name)
+{
+    for (size_t i = ensemble->scenes.count; i-- > 0;)
+        if (strcmp(ensemble->scenes.items[i].name, name) == 0)
+            return &ensemble->scenes.items[i];
+    struct ensemble_scene *scene = list_add(&ensemble->scenes, ensemble->arena);
+    *scene = (struct ensemble_scene){.name = copy(name, ensemble->arena)};
+    return scene;
+}
+
+static struct ensemble_seed *seed_of(struct ensemble_scene *scene, uint64_t seed,
+                                     struct arena *arena)
+{
+    for (size_t i = scene->seeds.count; i-- > 0;)
+        if (scene->seeds.items[i].seed == seed)
+            return &scene->seeds.items[i];
+    struct ensemble_seed *added = list_add(&scene->seeds, arena);
+    *added = (struct ensemble_seed){.seed = seed};
+    return added;
+}
+
+static struct ensemble_list list_of(const struct frame *frame, const struct sensor_view *view,
+                                    struct arena *arena)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < frame->targets.count; i++)
+        count += strcmp(frame->targets.items[i].sensor, view->name) == 0;
+    struct embedded_target *targets = arena_get(arena, (count + 1) * sizeof *targets);
+    for (size_t i = 0, k = 0; i < frame->targets.count; i++) {
+        const struct target *target = &frame->targets.items[i];
+        if (strcmp(target->sensor, view->name) == 0)
+            targets[k++] = (struct embedded_target){{target->range_m, target->azimuth_rad,
+                                                     target->range_rate_mps, target->amplitude_db}};
+    }
+    return (struct ensemble_list){
+        .frame = frame->frame,
+        .sensor = copy(view->name, arena),
+        .cell_range_m = view->cell_range_m,
+        .cell_range_rate_mps = view->cell_range_rate_mps,
+        .field_of_view_rad = view->field_of_view_rad,
+        .targets = targets,
+        .count = count,
+    };
+}
+
+int ensemble_add(struct ensemble *ensemble, const struct frame *frame, struct diag *diag)
+{
+    struct ensemble_seed *seed =
+        seed_of(scene_of(ensemble, frame->scene), frame->seed, ensemble->arena);
+    for (size_t i = seed->lists.count; i-- > 0;)
+        if (seed->lists.items[i].frame == frame->frame)
+            return diag_fail(diag, DIAG_DATA,
+                             "frame %" PRId64 " of scene \"%s\" with seed %" PRIu64
+                             " stands twice in the stream",
+                             frame->frame, frame->scene, frame->seed);
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        if (frame->sensors.list.items[i].measured)
+            *list_add(&seed->lists, ensemble->arena) =
+                list_of(frame, &frame->sensors.list.items[i], ensemble->arena);
+    return 0;
+}
+
+/* The seed's list of that number, if it is of the same frame and sensor as the first seed's. */
+static bool same_lists(const struct ensemble_seed *first, const struct ensemble_seed *seed)
+{
+    if (seed->lists.count != first->lists.count)
+        return false;
+    for (size_t i = 0; i < first->lists.count; i++)
+        if (seed->lists.items[i].frame != first->lists.items[i].frame ||
+            strcmp(seed->lists.items[i].sensor, first->lists.items[i].sensor) != 0)
+            return false;
+    return true;
+}
+
+static int check_scene(const struct ensemble_scene *scene, const struct ensemble_seed *first,
+                       const char *stream, struct diag *diag)
+{
+    if (scene->seeds.count < FEWEST_SEEDS)
+        return diag_fail(diag, DIAG_DATA, "scene \"%s\": seeds in %s: %zu; expected at least %d",
+                         scene->name, stream, scene->seeds.count, FEWEST_SEEDS);
+    for (size_t i = 0; i < scene->seeds.count; i++)
+        if (!same_lists(first, &scene->seeds.items[i]))
+            return diag_fail(diag, DIAG_DATA,
+                             "scene \"%s\": seed %" PRIu64
+                             " in %s has other frames or sensors than the first seed of the truth",
+                             scene->name, scene->seeds.items[i].seed, stream);
+    return 0;
+}
+
+static struct embedded_list embed(const struct ensemble_list *list,
+                                  const struct ensemble_list *unit, double azimuth_rad,
+                                  struct arena *arena)
+{
+    const double cell[LIST_EMBEDDING_AXES] = {
+        unit->cell_range_m, azimuth_rad > 0 ? azimuth_rad : unit->field_of_view_rad / 20,
+        unit->cell_range_rate_mps, LEVEL_DB};
+    struct embedded_list embedded = {0};
+    for (size_t i = 0; i < list->count; i++) {
+        struct embedded_target *target = list_add(&embedded.targets, arena);
+        for (int axis = 0; axis < LIST_EMBEDDING_AXES; axis++)
+            target->axis[axis] = list->targets[i].axis[axis] / cell[axis];
+    }
+    list_embedding_close(&embedded, arena);
+    return embedded;
+}
+
+/* Adds a share of the distances between all lists of one frame and sensor. */
+static void add_distances(const struct embedded_list *lists, size_t count, double share,
+                          double *distance)
+{
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j < i; j++) {
+            double apart = share * list_embedding_distance(&lists[i], &lists[j]);
+            distance[i * count + j] += apart;
+            distance[j * count + i] += apart;
+        }
+}
+
+static double mean_count(const struct ensemble_scene *scene)
+{
+    double sum = 0, lists = 0;
+    for (size_t i = 0; i < scene->seeds.count; i++)
+        for (size_t k = 0; k < scene->seeds.items[i].lists.count; k++, lists++)
+            sum += (double)scene->seeds.items[i].lists.items[k].count;
+    return lists > 0 ? sum / lists : 0;
+}
+
+static struct ensemble_scene_score score_scene(const struct ensemble_scene *truth,
+                                               const struct ensemble_scene *listed,
+                                               double azimuth_rad, struct arena *arena)
+{
+    size_t ones = truth->seeds.count, all = ones + listed->seeds.count;
+    size_t lists = truth->seeds.items[0].lists.count;
+    double *distance = arena_get(arena, all * all * sizeof *distance);
+    struct embedded_list *embedded = arena_get(arena, all * sizeof *embedded);
+    struct arena scratch = {0};
+    for (size_t k = 0; k < lists; k++) {
+        for (size_t i = 0; i < all; i++) {
+            const struct ensemble_seed *seed =
+                i < ones ? &truth->seeds.items[i] : &listed->seeds.items[i - ones];
+            embedded[i] = embed(&seed->lists.items[k], &truth->seeds.items[0].lists.items[k],
+                                azimuth_rad, &scratch);
+        }
+        add_distances(embedded, all, 1 / (double)lists, distance);
+        arena_clear(&scratch);
+    }
+    arena_free(&scratch);
+    const struct energy_sample sample = {distance, ones, all - ones};
+    return (struct ensemble_scene_score){
+        .scene = truth->name,
+        .lists = (int64_t)lists,
+        .true_seeds = (int64_t)ones,
+        .listed_seeds = (int64_t)(all - ones),
+        .true_targets = mean_count(truth),
+        .listed_targets = mean_count(listed),
+        .energy = energy_distance_of(&sample),
+        .energy_error = sqrt(energy_distance_variance(&sample)),
+    };
+}
+
+static int ascending(const void *left, const void *right)
+{
+    double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+/* The percentile interval over resampled scenes. */
+static void bootstrap(struct ensemble_score *score, struct arena *arena)
+{
+    size_t count = score->scenes.count;
+    double *means = arena_get(arena, RESAMPLES * sizeof *means);
+    struct random_sequence draws =
+        random_sequence_at((struct random_address){.seed = 1}, RANDOM_BOOTSTRAP);
+    for (size_t i = 0; i < RESAMPLES; i++)
+        for (size_t k = 0; k < count; k++) {
+            int64_t drawn = random_sequence_whole(&draws, 0, (int64_t)count - 1);
+            means[i] += score->scenes.items[drawn].energy / (double)count;
+        }
+    sort_items(means, RESAMPLES, sizeof *means, ascending, arena);
+    score->low = means[RESAMPLES / 40];
+    score->high = means[RESAMPLES - 1 - RESAMPLES / 40];
+}
+
+static const struct ensemble_scene *find_scene(const struct ensemble *ensemble, const char *name)
+{
+    for (size_t i = 0; i < ensemble->scenes.count; i++)
+        if (strcmp(ensemble->scenes.items[i].name, name) == 0)
+            return &ensemble->scenes.items[i];
+    return NULL;
+}
+
+int ensemble_compare(const struct ensemble *truth, const struct ensemble *listed,
+                     double azimuth_cell_rad, struct arena *arena, struct ensemble_score *score,
+                     struct diag *diag)
+{
+    *score = (struct ensemble_score){0};
+    if (truth->scenes.count != listed->scenes.count || truth->scenes.count == 0)
+        return diag_fail(
+            diag, DIAG_DATA,
+            "scenes: %zu in the stream, %zu in the truth; expected the same, at least 1",
+            listed->scenes.count, truth->scenes.count);
+    for (size_t i = 0; i < truth->scenes.count; i++) {
+        const struct ensemble_scene *scene = &truth->scenes.items[i];
+        const struct ensemble_scene *other = find_scene(listed, scene->name);
+        const struct ensemble_seed *first = &scene->seeds.items[0];
+        if (other == NULL)
+            return diag_fail(diag, DIAG_DATA, "scene \"%s\": in the truth, not in the stream",
+                             scene->name);
+        if (check_scene(scene, first, "the truth", diag) != 0 ||
+            check_scene(other, first, "the stream", diag) != 0)
+            return -1;
+        *list_add(&score->scenes, arena) = score_scene(scene, other, azimuth_cell_rad, arena);
+    }
+    for (size_t i = 0; i < score->scenes.count; i++)
+        score->energy += score->scenes.items[i].energy / (double)score->scenes.count;
+    if (score->scenes.count > 1) {
+        bootstrap(score, arena);
+        return 0;
+    }
+    double margin = 1.96 * score->scenes.items[0].energy_error;
+    score->low = score->energy - margin;
+    score->high = score->energy + margin;
+    return 0;
+}

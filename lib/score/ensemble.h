@@ -1,0 +1,51 @@
+/* Target lists of many seeds, compared as random lists.
+ *
+ * Two streams hold the same scenes, each of several independent seeds. For every scene, frame and
+ * sensor the lists of the seeds are samples of two random lists, and their energy distance
+ * (energy_distance.h) over the distance of embedded lists (list_embedding.h) is 0 in the mean if
+ * both streams draw from one law. It is averaged over the frames and sensors of a scene, and then
+ * over scenes. */
+#ifndef ENSEMBLE_H
+#define ENSEMBLE_H
+
+#include "frame/frame.h"
+#include "text/field.h"
+
+struct ensemble_scene;
+
+/* The seeds of each scene in one stream, with their target lists. */
+struct ensemble {
+    struct arena *arena; /* of all that it keeps */
+    LIST_OF(struct ensemble_scene) scenes;
+};
+
+struct ensemble_scene_score {
+    const char *scene;
+    int64_t lists; /* frames times the sensors that measured in them */
+    int64_t true_seeds, listed_seeds;
+    double true_targets, listed_targets; /* mean number in a list */
+    double energy;                       /* D, dimensionless: of embedded lists */
+    double energy_error;                 /* its standard error, by the jackknife over seeds */
+};
+
+struct ensemble_score {
+    LIST_OF(struct ensemble_scene_score) scenes;
+    double energy;    /* mean of the scenes' */
+    double low, high; /* 95 % interval: bootstrap over scenes; of one scene 1.96 standard errors */
+};
+
+extern const struct record ensemble_score_record;
+
+/* Adds the lists of a frame, of every sensor that measured in it. Refuses a frame that its scene
+ * and seed have already (DIAG_DATA). */
+int ensemble_add(struct ensemble *ensemble, const struct frame *frame, struct diag *diag);
+
+/* Scores listed against truth. Cells are those of the sensors of the truth; azimuth_cell_rad counts
+ * as one cell of azimuth (0: a twentieth of the field of view), 3 dB as one of level. Refuses with
+ * DIAG_DATA streams of other scenes, frames or sensors, seeds of one scene with other frames, and
+ * scenes of fewer than 3 seeds on either side. */
+int ensemble_compare(const struct ensemble *truth, const struct ensemble *listed,
+                     double azimuth_cell_rad, struct arena *arena, struct ensemble_score *score,
+                     struct diag *diag);
+
+#endif

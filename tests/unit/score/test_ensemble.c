@@ -1,0 +1,210 @@
+#include "check.h"
+
+#include <string.h>
+
+#include "base/units.h"
+#include "sample.h"
+#include "score/ensemble.h"
+#include "score/gospa.h"
+#include "score/target_score.h"
+
+/* Cells of 2 m, 0.5 m/s and, a twentieth of the view, 0.05 rad. */
+static const struct sensor_view VIEW = {.name = "front",
+                                        .field_of_view_rad = 1,
+                                        .cell_range_m = 2,
+                                        .cell_range_rate_mps = 0.5,
+                                        .measured = true};
+
+/* One stream with one scene "s", a seed per list, and its frame. */
+struct stream {
+    struct arena arena;
+    struct ensemble ensemble;
+    struct frame frame;
+};
+
+static void begin(struct stream *stream)
+{
+    memset(stream, 0, sizeof *stream);
+    stream->ensemble.arena = stream->frame.arena = &stream->arena;
+    stream->frame.scene = "s";
+    *list_add(&stream->frame.sensors.list, &stream->arena) = VIEW;
+}
+
+/* Adds the next seed's list: count targets at these ranges. */
+static void add(struct stream *stream, const double *range_m, size_t count)
+{
+    struct diag diag = {0};
+    stream->frame.seed++;
+    stream->frame.targets.count = 0;
+    for (size_t i = 0; i < count; i++)
+        *list_add(&stream->frame.targets, &stream->arena) =
+            (struct target){.sensor = "front", .range_m = range_m[i], .amplitude_db = 20};
+    assert_int_equal(ensemble_add(&stream->ensemble, &stream->frame, &diag), 0);
+}
+
+static struct ensemble_score compare(struct stream *truth, struct stream *listed)
+{
+    struct diag diag = {0};
+    struct ensemble_score score;
+    int result =
+        ensemble_compare(&truth->ensemble, &listed->ensemble, 0, &truth->arena, &score, &diag);
+    if (result != 0)
+        print_error("%s\n", diag.text);
+    assert_int_equal(result, 0);
+    return score;
+}
+
+static void end(struct stream *stream)
+{
+    arena_free(&stream->arena);
+}
+
+/* Of fixed lists D is twice their distance. One target stands s cells aside in range; the other is
+ * in both lists and cancels. */
+static void shifted_lists_are_at_twice_their_distance(void **state)
+{
+    (void)state;
+    for (double cells = 0; cells <= 4; cells += 0.5) {
+        struct stream truth, listed;
+        begin(&truth), begin(&listed);
+        for (int seed = 0; seed < 3; seed++) {
+            add(&truth, (double[]){20, 60}, 2);
+            add(&listed, (double[]){20 + 2 * cells, 60}, 2);
+        }
+        struct ensemble_score score = compare(&truth, &listed);
+        double s = cells, sum = 0;
+        for (int i = 0; i < 3; i++) {
+            double width[] = {1, 3, 10}, w = 2 * width[i] * width[i];
+            sum += 2 * (1 - exp(-s * s / w));
+        }
+        assert_close(score.energy, 2 * sqrt(sum), 1e-12);
+        assert_close(score.scenes.items[0].energy_error, 0, 1e-12);
+        end(&truth), end(&listed);
+    }
+}
+
+/* A target seen in one of four lists against three of four: the U-statistic by hand. */
+static void thinned_lists_are_as_far_as_they_are_thinned(void **state)
+{
+    (void)state;
+    struct stream truth, listed;
+    begin(&truth), begin(&listed);
+    for (int seed = 0; seed < 4; seed++) {
+        add(&truth, (double[]){20}, seed < 3);
+        add(&listed, (double[]){20}, seed < 1);
+    }
+    struct ensemble_score score = compare(&truth, &listed);
+    /* 2 * 10/16 - 3/6 - 3/6, times the length of a kernel */
+    assert_near(score.energy, 0.25 * sqrt(3), 1e-12);
+    assert_close(score.scenes.items[0].true_targets, 0.75, 0);
+    assert_close(score.scenes.items[0].listed_targets, 0.25, 0);
+    end(&truth), end(&listed);
+}
+
+static double mean_gospa(const double *truth, const double *listed, int count)
+{
+    struct arena arena = {0};
+    double sum = 0;
+    for (int i = 0; i < count; i++) {
+        size_t item;
+        double apart = fabs(truth[i] - listed[i]) / VIEW.cell_range_m;
+        size_t pairs = gospa_pair(&apart, 1, 1, 2, &item, &arena);
+        sum += gospa_of(pairs > 0 ? apart * apart : 0, pairs, 1, 1, 2).value / count;
+    }
+    arena_free(&arena);
+    return sum;
+}
+
+/* Lists that never scatter have the smaller mean GOSPA from lists that do, though lists of the same
+ * law as the truth are what is wanted. The energy distance is near 0 for those alone. */
+static void gospa_favours_lists_without_scatter_and_energy_does_not(void **state)
+{
+    (void)state;
+    enum { SEEDS = 60 };
+    uint64_t random = 11;
+    double truth[SEEDS], same[SEEDS], still[SEEDS];
+    struct stream streams[3];
+    for (int i = 0; i < 3; i++)
+        begin(&streams[i]);
+    for (int i = 0; i < SEEDS; i++) {
+        truth[i] = sample_between(&random, 18, 22);
+        same[i] = sample_between(&random, 18, 22);
+        still[i] = 20;
+        add(&streams[0], &truth[i], 1);
+        add(&streams[1], &same[i], 1);
+        add(&streams[2], &still[i], 1);
+    }
+    assert_true(mean_gospa(truth, still, SEEDS) < 0.9 * mean_gospa(truth, same, SEEDS));
+    struct ensemble_score equal = compare(&streams[0], &streams[1]);
+    struct ensemble_score stiff = compare(&streams[0], &streams[2]);
+    assert_true(equal.low < 0 && equal.high > 0);
+    assert_true(stiff.low > equal.high);
+    for (int i = 0; i < 3; i++)
+        end(&streams[i]);
+}
+
+/* Scenes of their own: the mean is over scenes, and resampling spreads from one to the other. */
+static void the_interval_spans_the_scenes(void **state)
+{
+    (void)state;
+    struct stream truth, listed;
+    begin(&truth), begin(&listed);
+    for (int scene = 0; scene < 2; scene++)
+        for (int seed = 0; seed < 3; seed++) {
+            truth.frame.scene = listed.frame.scene = scene == 0 ? "s" : "t";
+            add(&truth, (double[]){20}, 1);
+            add(&listed, (double[]){20}, scene == 0);
+        }
+    struct ensemble_score score = compare(&truth, &listed);
+    assert_int_equal(score.scenes.count, 2);
+    assert_close(score.scenes.items[0].energy, 0, 0);
+    assert_near(score.scenes.items[1].energy, 2 * sqrt(3), 1e-12);
+    assert_near(score.energy, sqrt(3), 1e-12);
+    assert_close(score.low, 0, 0);
+    assert_near(score.high, 2 * sqrt(3), 1e-12);
+    end(&truth), end(&listed);
+}
+
+static void streams_that_do_not_match_are_refused(void **state)
+{
+    (void)state;
+    struct stream truth, listed;
+    struct ensemble_score score;
+    struct diag diag = {0};
+    begin(&truth), begin(&listed);
+    add(&truth, NULL, 0);
+    assert_int_not_equal(ensemble_add(&truth.ensemble, &truth.frame, &diag), 0);
+    assert_non_null(strstr(diag.text, "stands twice"));
+    diag = (struct diag){0};
+    add(&listed, NULL, 0);
+    assert_int_not_equal(
+        ensemble_compare(&truth.ensemble, &listed.ensemble, 0, &truth.arena, &score, &diag), 0);
+    assert_non_null(strstr(diag.text, "at least 3"));
+    diag = (struct diag){0};
+    add(&truth, NULL, 0), add(&truth, NULL, 0);
+    add(&listed, NULL, 0);
+    listed.frame.frame = 1;
+    add(&listed, NULL, 0);
+    assert_int_not_equal(
+        ensemble_compare(&truth.ensemble, &listed.ensemble, 0, &truth.arena, &score, &diag), 0);
+    assert_non_null(strstr(diag.text, "other frames"));
+    diag = (struct diag){0};
+    listed.frame.scene = "t";
+    add(&listed, NULL, 0);
+    assert_int_not_equal(
+        ensemble_compare(&truth.ensemble, &listed.ensemble, 0, &truth.arena, &score, &diag), 0);
+    assert_non_null(strstr(diag.text, "scenes: 2"));
+    end(&truth), end(&listed);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shifted_lists_are_at_twice_their_distance),
+        cmocka_unit_test(thinned_lists_are_as_far_as_they_are_thinned),
+        cmocka_unit_test(gospa_favours_lists_without_scatter_and_energy_does_not),
+        cmocka_unit_test(the_interval_spans_the_scenes),
+        cmocka_unit_test(streams_that_do_not_match_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
