@@ -7,7 +7,7 @@
 #include "ideal/line_of_sight.h"
 #include "ideal/sight_margins.h"
 
-/* Losses name the stage whose work this is. */
+/* The stage that losses name. */
 static const char stage_name[] = "ideal";
 
 static struct margins margins_of(const struct look *look, double margin_m)
@@ -30,31 +30,34 @@ static void lose(struct look *look, const struct look_body *body, const char *re
                                    .margins = margins_of(look, margin_m)});
 }
 
-/* One reflector that may face the sensor. */
+/* A reflector that may become an echo. */
 struct candidate {
     const char *reflector;
-    const struct side *side; /* that it is, or NULL for a point */
+    const struct side *side; /* the flat side that it is; NULL for a point */
     struct vec2 place;
-    double height_m;
-    double z, extent; /* as described */
+    double height_m;  /* over the road */
+    double z, extent; /* fractions of the object's height, as described */
     enum moving_part moving_part;
     double ercs;
     double under_vehicles;
-    double margin_m;  /* by which it faces the sensor */
-    uint64_t effects; /* that changed something so far */
-    bool sought;      /* is the way to it known, */
-    struct line_of_sight way;
-    bool under; /* and does it lead under what stands there? */
+    double margin_m;  /* the least sight margin so far */
+    uint64_t effects; /* the effects that changed a value so far */
+    bool line_known;  /* are line_of_sight and under known? */
+    struct line_of_sight line_of_sight;
+    bool under; /* does the line lead under raised vehicles? */
 };
 
-static struct obstruction_line line_to(const struct look *look, const struct candidate *seen)
+static struct obstruction_line line_from_sensor(const struct look *look,
+                                                const struct candidate *candidate)
 {
-    return (struct obstruction_line){look->pose.position_m, seen->place, look->height_m,
-                                     seen->height_m};
+    return (struct obstruction_line){look->pose.position_m, candidate->place, look->height_m,
+                                     candidate->height_m};
 }
 
-static double sight_margin_m(const struct look *look, const struct look_body *body,
-                             const struct obstruction_line *line, bool under)
+/* How near the line of an echo came to being blocked. One that leads under raised vehicles also has
+ * the depth in them: out of it, the echo would change too. */
+static double blocking_margin_m(const struct look *look, const struct look_body *body,
+                                const struct obstruction_line *line, bool under)
 {
     if (!under)
         return line_of_sight_clearance_m(look, line, &body, 1);
@@ -62,140 +65,153 @@ static double sight_margin_m(const struct look *look, const struct look_body *bo
                           line_of_sight_margin_m(look, &body, 1, line, false, true));
 }
 
-/* The way past what stands there, or under it where that lets more through. */
-static void seek_way(const struct look *look, struct candidate *seen)
+/* The line of sight past the blockers, or under those that are raised if more passes there. */
+static void find_line_of_sight(const struct look *look, struct candidate *candidate)
 {
-    if (seen->sought)
+    if (candidate->line_known)
         return;
-    const struct obstruction_line line = line_to(look, seen);
+    const struct obstruction_line line = line_from_sensor(look, candidate);
     int64_t begin = effects_begin(look->selection);
-    seen->sought = true;
-    seen->way = line_of_sight_past_blockers(look, seen->side, &line, false);
-    if (seen->under_vehicles != 0 && seen->way.factor != 1) {
-        struct line_of_sight below = line_of_sight_past_blockers(look, seen->side, &line, true);
-        below.factor *= seen->under_vehicles;
-        below.effects |= EFFECT_BIT(EFFECT_OCCLUSION);
-        seen->under = below.factor > seen->way.factor;
-        seen->way = seen->under ? below : seen->way;
+    candidate->line_known = true;
+    candidate->line_of_sight = line_of_sight_past_blockers(look, candidate->side, &line, false);
+    if (candidate->under_vehicles != 0 && candidate->line_of_sight.factor != 1) {
+        struct line_of_sight under =
+            line_of_sight_past_blockers(look, candidate->side, &line, true);
+        under.factor *= candidate->under_vehicles;
+        under.effects |= EFFECT_BIT(EFFECT_OCCLUSION);
+        candidate->under = under.factor > candidate->line_of_sight.factor;
+        candidate->line_of_sight = candidate->under ? under : candidate->line_of_sight;
     }
     effects_end(look->selection, EFFECT_OCCLUSION, begin);
 }
 
-/* That it is out of view or blocked is found with a few products, what it reads with arctangents:
- * the latter are spared unless somebody asks what comes first of the reasons for its loss. */
-static bool is_hidden(const struct look *look, const struct look_body *body, struct candidate *seen)
+/* Is the candidate out of reach or blocked? A few products tell, and spare the arctangents of the
+ * candidate's azimuth. An account forbids the short cut, as it names the first reason in the order
+ * of MODEL 2.5, and a log the one by reach, as it counts the effects that the full test tries. */
+static bool is_plainly_lost(const struct look *look, const struct look_body *body,
+                            struct candidate *candidate)
 {
     if (look->frame->account)
         return false;
-    struct silhouette place = silhouette_of_place(vec2_sub(seen->place, look->pose.position_m));
+    struct silhouette place =
+        silhouette_of_place(vec2_sub(candidate->place, look->pose.position_m));
     if (look->selection->log == NULL && look_out_of_reach(look, body, &place))
         return true;
-    seek_way(look, seen);
-    return seen->way.by != NULL;
+    find_line_of_sight(look, candidate);
+    return candidate->line_of_sight.by != NULL;
 }
 
-/* Is it in range and in view? If not, it is lost. */
-static bool in_reach(struct look *look, const struct look_body *body, struct candidate *seen,
-                     const struct kinematics *sight)
+/* Is the candidate in range and in view? If not, adds its loss. */
+static bool in_reach(struct look *look, const struct look_body *body, struct candidate *candidate,
+                     const struct kinematics *read)
 {
     const struct sensor *sensor = look->sensor;
-    double azimuth = fabs(sight->azimuth_rad);
+    double azimuth = fabs(read->azimuth_rad);
     double reach_m = fabs(
-        elementary_min(sight->range_m - sensor->range_min_m, sensor->range_max_m - sight->range_m));
-    double view_m = sight->range_m * fabs(suite_border_rad(sensor) - azimuth);
-    if (!(sight->range_m > 0 && sight->range_m >= sensor->range_min_m &&
-          sight->range_m <= sensor->range_max_m)) {
-        lose(look, body, seen->reflector, LOSS_OUT_OF_RANGE, NULL, reach_m);
+        elementary_min(read->range_m - sensor->range_min_m, sensor->range_max_m - read->range_m));
+    double view_m = read->range_m * fabs(suite_border_rad(sensor) - azimuth);
+    if (!(read->range_m > 0 && read->range_m >= sensor->range_min_m &&
+          read->range_m <= sensor->range_max_m)) {
+        lose(look, body, candidate->reflector, LOSS_OUT_OF_RANGE, NULL, reach_m);
         return false;
     }
     if (!(azimuth < suite_border_rad(sensor))) {
-        lose(look, body, seen->reflector, LOSS_OUT_OF_VIEW, NULL, view_m);
+        lose(look, body, candidate->reflector, LOSS_OUT_OF_VIEW, NULL, view_m);
         return false;
     }
-    seen->margin_m = elementary_min(seen->margin_m, elementary_min(reach_m, view_m));
+    candidate->margin_m = elementary_min(candidate->margin_m, elementary_min(reach_m, view_m));
     return true;
 }
 
-/* Its height over the road, where that is described, in a world that is not flat. */
-static void tell_height(const struct look *look, const struct look_body *body,
-                        const struct candidate *seen, struct echo *echo)
+/* Gives the echo its height over the road and its extent, where the road mirrors and both the
+ * sensor and the reflector have a height. */
+static void describe_height(const struct look *look, const struct look_body *body,
+                            const struct candidate *candidate, struct echo *echo)
 {
-    bool mirrors = look->frame->conditions.road != ROAD_UNKNOWN;
-    if (!(mirrors && look->height_m > 0 && seen->z > 0))
+    bool mirroring = look->frame->conditions.road != ROAD_UNKNOWN;
+    if (!(mirroring && look->height_m > 0 && candidate->z > 0))
         return;
-    echo->height_m = seen->height_m;
-    echo->extent_m = seen->extent * body->object->height_m;
+    echo->height_m = candidate->height_m;
+    echo->extent_m = candidate->extent * body->object->height_m;
 }
 
-/* How a part moves that turns or swings: its motion over ground has the same share of the range
- * rate along the line on which it is seen as in the plane. */
-static void tell_motion(const struct look *look, const struct look_body *body,
-                        const struct candidate *seen, struct vec2 velocity, struct echo *echo)
+/* Gives the echo of a wheel or limb what micro-Doppler is made of: kind, heading and rate over
+ * ground. Of the echo's range rate, the motion over ground makes the same share along the slant as
+ * in the plane. */
+static void describe_motion(const struct look *look, const struct look_body *body,
+                            const struct candidate *candidate, struct vec2 velocity,
+                            struct echo *echo)
 {
     struct vec2 still = {0, 0}, boresight = look->pose.boresight, heading = body->box.heading;
-    if (!look->sensor->micro_motion || seen->moving_part == MOVING_NONE)
+    if (!look->sensor->micro_motion || candidate->moving_part == MOVING_NONE)
         return;
     struct kinematics ground =
-        kinematics_of(look->pose.position_m, still, boresight, seen->place, velocity);
-    echo->moving_part = seen->moving_part;
+        kinematics_of(look->pose.position_m, still, boresight, candidate->place, velocity);
+    echo->moving_part = candidate->moving_part;
     echo->ground_rate_mps = ground.range_rate_mps * (ground.range_m / echo->range_m);
     echo->heading_rad =
         elementary_atan2(vec2_cross(boresight, heading), vec2_dot(boresight, heading));
 }
 
-/* An echo if it is in range, in view and not blocked. */
-static void look_at(struct look *look, const struct look_body *body, struct candidate *seen)
+static void add_echo(struct look *look, const struct look_body *body,
+                     const struct candidate *candidate, const struct kinematics *read,
+                     struct vec2 velocity)
 {
-    bool tell = look->frame->margins;
-    struct vec2 velocity = motion_velocity_at(&body->box.motion, seen->place);
-    double gain;
-    struct kinematics sight =
-        look_slant(look, seen->height_m,
-                   kinematics_of(look->pose.position_m, look->pose.velocity_mps,
-                                 look->pose.boresight, seen->place, velocity),
-                   &gain, &seen->effects);
-    seen->ercs *= gain;
-    if (!in_reach(look, body, seen, &sight))
-        return;
-    const struct obstruction_line line = line_to(look, seen);
-    seek_way(look, seen);
-    if (seen->way.by != NULL) {
-        lose(look, body, seen->reflector, LOSS_BLOCKED, seen->way.by,
-             tell ? line_of_sight_margin_m(look, &body, 1, &line, seen->under_vehicles > 0, true)
-                  : 0);
-        return;
-    }
-    if (tell)
-        seen->margin_m =
-            elementary_min(seen->margin_m, sight_margin_m(look, body, &line, seen->under));
     look->echoes++;
     struct echo *echo = list_add(&look->frame->echoes, look->frame->arena);
     *echo = (struct echo){
         .sensor = look->sensor->name,
         .id.object = body->object->id,
-        .id.reflector = seen->reflector,
+        .id.reflector = candidate->reflector,
         .id.path = PATH_DIRECT,
-        .range_m = sight.range_m,
-        .azimuth_rad = sight.azimuth_rad,
-        .range_rate_mps = sight.range_rate_mps,
-        .ercs = seen->way.factor * seen->ercs,
+        .range_m = read->range_m,
+        .azimuth_rad = read->azimuth_rad,
+        .range_rate_mps = read->range_rate_mps,
+        .ercs = candidate->line_of_sight.factor * candidate->ercs,
         .time_s = look->time_s,
-        .effects = seen->effects | seen->way.effects,
-        .margins = margins_of(look, seen->margin_m),
+        .effects = candidate->effects | candidate->line_of_sight.effects,
+        .margins = margins_of(look, candidate->margin_m),
     };
-    tell_height(look, body, seen, echo);
-    tell_motion(look, body, seen, velocity, echo);
+    describe_height(look, body, candidate, echo);
+    describe_motion(look, body, candidate, velocity, echo);
 }
 
-static void look_at_point(struct look *look, const struct look_body *body,
-                          const struct point_reflector *point, struct vec2 facing,
-                          struct vec2 place)
+/* Adds the candidate's echo if it is in range, in view and not blocked, else its loss. */
+static void add_candidate(struct look *look, const struct look_body *body,
+                          struct candidate *candidate)
+{
+    bool margins = look->frame->margins;
+    struct vec2 velocity = motion_velocity_at(&body->box.motion, candidate->place);
+    struct kinematics plane = kinematics_of(look->pose.position_m, look->pose.velocity_mps,
+                                            look->pose.boresight, candidate->place, velocity);
+    double gain;
+    struct kinematics read =
+        look_slant(look, candidate->height_m, plane, &gain, &candidate->effects);
+    candidate->ercs *= gain;
+    if (!in_reach(look, body, candidate, &read))
+        return;
+    const struct obstruction_line line = line_from_sensor(look, candidate);
+    find_line_of_sight(look, candidate);
+    if (candidate->line_of_sight.by != NULL) {
+        bool under = candidate->under_vehicles > 0;
+        lose(look, body, candidate->reflector, LOSS_BLOCKED, candidate->line_of_sight.by,
+             margins ? line_of_sight_margin_m(look, &body, 1, &line, under, true) : 0);
+        return;
+    }
+    if (margins)
+        candidate->margin_m = elementary_min(
+            candidate->margin_m, blocking_margin_m(look, body, &line, candidate->under));
+    add_echo(look, body, candidate, &read, velocity);
+}
+
+static void add_point(struct look *look, const struct look_body *body,
+                      const struct point_reflector *point, struct vec2 facing, struct vec2 place)
 {
     look->pairs++;
-    struct candidate seen = {
+    struct candidate candidate = {
         .reflector = point->name,
         .place = place,
-        .height_m = look_height_m(look, body, point->z),
+        .height_m = look_reflector_height_m(look, body, point->z),
         .z = point->z,
         .extent = point->extent,
         .moving_part = point->moving_part,
@@ -203,23 +219,23 @@ static void look_at_point(struct look *look, const struct look_body *body,
         .margin_m = (double)INFINITY,
         .effects = look_latency_effect(look, body),
     };
-    if (is_hidden(look, body, &seen))
+    if (is_plainly_lost(look, body, &candidate))
         return;
     double visible = look_visibility(look, body, point, facing, place, look->pose.position_m);
     if (look->frame->margins && effects_enabled(look->selection, EFFECT_VISIBILITY))
-        seen.margin_m = sight_margins_facing_m(&body->box, point->shape, point->facing_rad,
-                                               point->zero_rad, place, look->pose.position_m);
+        candidate.margin_m = sight_margins_facing_m(&body->box, point->shape, point->facing_rad,
+                                                    point->zero_rad, place, look->pose.position_m);
     if (visible == 0) {
-        lose(look, body, point->name, LOSS_FACING_AWAY, NULL, seen.margin_m);
+        lose(look, body, point->name, LOSS_FACING_AWAY, NULL, candidate.margin_m);
         return;
     }
-    seen.ercs = visible * point->ercs;
-    seen.effects |= visible < 1 ? EFFECT_BIT(EFFECT_VISIBILITY) : 0;
-    look_at(look, body, &seen);
+    candidate.ercs = visible * point->ercs;
+    candidate.effects |= visible < 1 ? EFFECT_BIT(EFFECT_VISIBILITY) : 0;
+    add_candidate(look, body, &candidate);
 }
 
-static void look_at_plane(struct look *look, const struct look_body *body,
-                          const struct plane_reflector *plane)
+static void add_plane(struct look *look, const struct look_body *body,
+                      const struct plane_reflector *plane)
 {
     look->pairs++;
     if (!effects_enabled(look->selection, EFFECT_PLANE_REFLECTION)) {
@@ -235,27 +251,26 @@ static void look_at_plane(struct look *look, const struct look_body *body,
     if (specular_point_foot(side.from, side.to, side.along, plane->margin_m, look->pose.position_m,
                             &foot) &&
         !line_of_sight_next_side_has_foot(look, &side)) {
-        struct candidate seen = {
+        struct candidate candidate = {
             .reflector = plane->name,
             .side = &side,
             .place = foot,
-            .height_m = look_height_m(look, body, plane->z),
+            .height_m = look_reflector_height_m(look, body, plane->z),
             .z = plane->z,
             .extent = plane->extent,
             .margin_m = margin_m,
             .effects = look_latency_effect(look, body) | EFFECT_BIT(EFFECT_PLANE_REFLECTION),
         };
-        if (is_hidden(look, body, &seen))
+        if (is_plainly_lost(look, body, &candidate))
             return;
         double range_m = vec2_length(vec2_sub(foot, look->pose.position_m));
-        seen.ercs = look_plane_ercs(look, plane, range_m, &seen.effects);
-        look_at(look, body, &seen);
+        candidate.ercs = look_plane_ercs(look, plane, range_m, &candidate.effects);
+        add_candidate(look, body, &candidate);
     } else
         lose(look, body, plane->name, LOSS_NO_SPECULAR, NULL, margin_m);
 }
 
-static void look_along_row(struct look *look, const struct look_body *body,
-                           const struct post_row *row)
+static void add_row(struct look *look, const struct look_body *body, const struct post_row *row)
 {
     struct vec2 facing = vec2_heading(row->facing_rad);
     int64_t first, end;
@@ -263,74 +278,75 @@ static void look_along_row(struct look *look, const struct look_body *body,
                             &first, &end);
     for (int64_t number = first; number < end; number++) {
         const struct point_reflector post = look_post(look, row, number);
-        look_at_point(look, body, &post, facing, reflectors_post_place(&body->box, row, number));
+        add_point(look, body, &post, facing, reflectors_post_place(&body->box, row, number));
     }
 }
 
-/* Does nobody ask why the set's reflectors are not seen, or what was tried? How many a row has in
- * range takes a look. */
-static bool unasked(const struct look *look, const struct look_set *set)
+/* May a body's reflectors be skipped all at once? An account needs the reason of each, a log the
+ * effects that were tried, and the count of pairs how many posts of a row are in range. */
+static bool may_skip(const struct look *look, const struct look_set *set)
 {
     return !look->frame->account && look->selection->log == NULL &&
            set->reflectors->rows.count == 0;
 }
 
-/* Is the whole body out of range, out of view or hidden? If not, its blockers are found. */
-static bool passed_over(struct look *look, const struct look_body *body, const struct look_set *set)
+/* Are all reflectors of a body skipped, because it is plainly out of reach or hidden? If not, finds
+ * the body's blockers. */
+static bool is_skipped(struct look *look, const struct look_body *body, const struct look_set *set)
 {
-    struct look_extent seen = look_reflectors(look, body, set);
-    bool plain = unasked(look, set);
-    if (plain && look_out_of_reach(look, body, &seen.silhouette))
+    struct look_extent extent = look_reflectors_extent(look, body, set);
+    bool skippable = may_skip(look, set);
+    if (skippable && look_out_of_reach(look, body, &extent.silhouette))
         return true;
-    line_of_sight_find_blockers(look, body, &seen);
-    return plain && !effects_forced(look->selection, EFFECT_OCCLUSION) &&
-           line_of_sight_all_hidden(look, set, &seen);
+    line_of_sight_find_blockers(look, body, &extent);
+    return skippable && !effects_forced(look->selection, EFFECT_OCCLUSION) &&
+           line_of_sight_all_hidden(look, set, &extent);
 }
 
-/* Those that do not plainly face away, unless somebody asks why not. */
-static void look_at_points(struct look *look, const struct look_body *body,
-                           const struct look_set *set, bool all)
+/* Adds the points of a set. Those that plainly face away are only counted, unless all is true. */
+static void add_points(struct look *look, const struct look_body *body, const struct look_set *set,
+                       bool all)
 {
     for (size_t i = 0; i < set->reflectors->points.count; i++) {
         const struct point_reflector *point = &set->reflectors->points.items[i];
         const struct reflectors_face *face = &set->shape->faces[i];
         if (all || !reflectors_plainly_away(&body->box, point, face, body->sensor_m))
-            look_at_point(look, body, point, face->heading,
-                          reflectors_point_place(&body->box, point));
+            add_point(look, body, point, face->heading, reflectors_point_place(&body->box, point));
         else
             look->pairs++;
     }
 }
 
-static void look_at_planes(struct look *look, const struct look_body *body,
-                           const struct reflector_set *set, bool all)
+/* Adds the planes of a set. Those that plainly have no foot are only counted, unless all is true.
+ */
+static void add_planes(struct look *look, const struct look_body *body,
+                       const struct reflector_set *set, bool all)
 {
     for (size_t i = 0; i < set->planes.count; i++) {
         const struct plane_reflector *plane = &set->planes.items[i];
         if (all || !reflectors_plainly_aside(&body->box, plane, body->sensor_m))
-            look_at_plane(look, body, plane);
+            add_plane(look, body, plane);
         else
             look->pairs++;
     }
 }
 
-static void look_at_body(struct look *look, const struct look_body *body,
-                         const struct look_set *set)
+static void add_body(struct look *look, const struct look_body *body, const struct look_set *set)
 {
     const struct selection *selection = look->selection;
     const struct reflector_set *all = set->reflectors;
-    if (passed_over(look, body, set)) {
+    if (is_skipped(look, body, set)) {
         look->pairs += (int64_t)(all->points.count + all->planes.count);
         return;
     }
     effects_note(selection, EFFECT_VISIBILITY, all->points.count + all->rows.count > 0);
     effects_note(selection, EFFECT_PLANE_REFLECTION, all->planes.count > 0);
     effects_note(selection, EFFECT_ROWS, all->rows.count > 0);
-    bool asked = look->frame->account;
-    look_at_points(look, body, set, asked || !effects_enabled(selection, EFFECT_VISIBILITY));
-    look_at_planes(look, body, all, asked);
+    bool account = look->frame->account;
+    add_points(look, body, set, account || !effects_enabled(selection, EFFECT_VISIBILITY));
+    add_planes(look, body, all, account);
     for (size_t i = 0; i < all->rows.count && effects_enabled(selection, EFFECT_ROWS); i++)
-        look_along_row(look, body, &all->rows.items[i]);
+        add_row(look, body, &all->rows.items[i]);
 }
 
 void direct_echoes_add(struct look *look)
@@ -339,7 +355,7 @@ void direct_echoes_add(struct look *look)
     look->blockers = arena_get(frame->arena, (look->body_count + 1) * sizeof(*look->blockers));
     for (size_t i = 0; i < frame->reflectors.count; i++)
         for (size_t j = 0; j < look->sets[i].reflectors->objects.count; j++)
-            look_at_body(look, look->sets[i].bodies[j], &look->sets[i]);
+            add_body(look, look->sets[i].bodies[j], &look->sets[i]);
     frame_count_pairs(frame, look->sensor->name, look->pairs);
     frame_count_echoes(frame, look->sensor->name, PATH_DIRECT, look->echoes);
 }

@@ -1,14 +1,15 @@
-/* Direct echoes: which reflectors a look sees, and as what (MODEL 2.2 to 2.5, 5).
+/* Direct echoes of one sensor, or why there is none.
  *
- * Every reflector of an object either becomes an echo in the frame or is written down as lost, with
- * the first reason that applies: it faces away or mirrors past the sensor, it is out of range, out
- * of view, or blocked. */
+ * Every reflector of an object either becomes an echo of the frame or is listed in lost, with the
+ * first reason that applies (MODEL 2.5): it faces away or has no specular point, it is out of
+ * range, out of view, or blocked. */
 #ifndef DIRECT_ECHOES_H
 #define DIRECT_ECHOES_H
 
 #include "ideal/look.h"
 
-/* Every reflector of every object: adds echoes, losses and the sensor's count to the frame. */
+/* Adds the echoes and losses of every reflector of every object to the frame, and the sensor's
+ * counts of pairs and direct echoes. */
 void direct_echoes_add(struct look *look);
 
 #endif

@@ -10,20 +10,22 @@
 #include "ideal/line_of_sight.h"
 #include "ideal/sight_margins.h"
 
-enum { ONE_WAY = 2, BOTH_WAYS = 3 };
+/* A path has so many bounces if it takes the mirror one way, or both ways. */
+enum { BOUNCES_ONE_WAY = 2, BOUNCES_BOTH_WAYS = 3 };
 
-/* Posts of a row that are asked for together. */
-enum { PIECE = 8 };
+/* So many posts of a row are tested against a mirror at once. */
+enum { POSTS_AT_ONCE = 8 };
 
 /* A mirror in the world. */
 struct mirror_face {
     const struct look_body *body;
     int64_t number;
     struct mirror mirror;
-    struct vec2 along;
+    struct vec2 along; /* unit vector from a to b */
     double reflection;
-    const struct look_body *before, *after; /* with a mirror in line that meets this one there */
-    bool shares_end;                        /* bit by bit, with the mirror of after */
+    /* Bodies with a mirror in line that ends where this one begins, or begins where it ends. */
+    const struct look_body *before, *after;
+    bool shares_end; /* is b, bit by bit, where another mirror in line begins? */
 };
 
 struct mirror_faces {
@@ -50,11 +52,11 @@ static size_t mirrors_of(const struct look_body *body)
     return body->set != NULL ? body->set->reflectors->mirrors.count : 0;
 }
 
-static void join(struct mirror_faces *mirror_faces)
+static void join_faces(struct mirror_faces *faces)
 {
-    for (size_t i = 0; i < mirror_faces->count; i++)
-        for (size_t j = 0; j < mirror_faces->count; j++) {
-            struct mirror_face *first = &mirror_faces->items[i], *second = &mirror_faces->items[j];
+    for (size_t i = 0; i < faces->count; i++)
+        for (size_t j = 0; j < faces->count; j++) {
+            struct mirror_face *first = &faces->items[i], *second = &faces->items[j];
             struct vec2 gap = vec2_sub(second->mirror.a, first->mirror.b);
             if (vec2_length(gap) <= LINE_OF_SIGHT_JOINT_M &&
                 vec2_same(first->along, second->along)) {
@@ -67,304 +69,305 @@ static void join(struct mirror_faces *mirror_faces)
 
 static struct mirror_faces mirror_faces_of(const struct look *look)
 {
-    struct mirror_faces mirror_faces = {0};
+    struct mirror_faces faces = {0};
     size_t count = 0;
     for (size_t i = 0; i < look->body_count; i++)
         count += mirrors_of(&look->bodies[i]);
-    mirror_faces.items = arena_get(look->frame->arena, (count + 1) * sizeof *mirror_faces.items);
+    faces.items = arena_get(look->frame->arena, (count + 1) * sizeof *faces.items);
     for (size_t i = 0; i < look->body_count; i++)
         for (size_t j = 0; j < mirrors_of(&look->bodies[i]); j++)
-            mirror_faces.items[mirror_faces.count++] = mirror_face_of(&look->bodies[i], j);
-    join(&mirror_faces);
-    return mirror_faces;
+            faces.items[faces.count++] = mirror_face_of(&look->bodies[i], j);
+    join_faces(&faces);
+    return faces;
 }
 
-/* One of two ways between the sensor and a reflector: straight, or by the mirror. */
-struct leg {
-    struct kinematics sight;
-    double factor; /* on amplitude, for there and back */
-    double margin_m;
-    uint64_t effects;
+/* A route between the sensor and a reflector: the direct one, or that by the mirror. */
+struct route {
+    struct kinematics read; /* of the reflector, or of its image */
+    double factor;          /* on amplitude, for there and back */
+    double margin_m;        /* the least sight margin so far */
+    uint64_t effects;       /* the effects that changed a value */
 };
 
-/* A reflector and how a mirror shows it. */
+/* A reflector that may have ghosts in a mirror. */
 struct ghost_candidate {
-    const struct mirror_face *mirror_face;
+    const struct mirror_face *face;
     const struct look_body *body;
     const char *reflector;
     struct vec2 place, bounce;
-    double height_m;
+    double height_m; /* of the reflector over the road */
     double ercs;
-    struct leg direct, mirrored;
+    struct route direct, mirrored;
 };
 
-static struct leg leg_to(const struct look *look, struct vec2 place, struct vec2 velocity,
-                         double height_m)
+static struct route route_to(const struct look *look, struct vec2 place, struct vec2 velocity,
+                             double height_m)
 {
-    struct leg leg = {.margin_m = (double)INFINITY};
-    struct kinematics sight = kinematics_of(look->pose.position_m, look->pose.velocity_mps,
+    struct route route = {.margin_m = (double)INFINITY};
+    struct kinematics plane = kinematics_of(look->pose.position_m, look->pose.velocity_mps,
                                             look->pose.boresight, place, velocity);
-    leg.sight = look_slant(look, height_m, sight, &leg.factor, &leg.effects);
-    return leg;
+    route.read = look_slant(look, height_m, plane, &route.factor, &route.effects);
+    return route;
 }
 
-static struct ghost_candidate ghost_candidate_of(const struct look *look,
-                                                 const struct mirror_face *mirror_face,
-                                                 const struct look_body *body, struct vec2 place,
-                                                 double z, struct vec2 bounce)
+static struct ghost_candidate candidate_of(const struct look *look, const struct mirror_face *face,
+                                           const struct look_body *body, struct vec2 place,
+                                           double z, struct vec2 bounce)
 {
     struct vec2 velocity = motion_velocity_at(&body->box.motion, place);
-    struct mirror_image image = mirror_image(&mirror_face->mirror, place, velocity);
-    double height_m = look_height_m(look, body, z);
+    struct mirror_image image = mirror_image(&face->mirror, place, velocity);
+    double height_m = look_reflector_height_m(look, body, z);
     return (struct ghost_candidate){
-        .mirror_face = mirror_face,
+        .face = face,
         .body = body,
         .place = place,
         .bounce = bounce,
         .height_m = height_m,
-        .direct = leg_to(look, place, velocity, height_m),
-        .mirrored = leg_to(look, image.place_m, image.velocity_mps, height_m),
+        .direct = route_to(look, place, velocity, height_m),
+        .mirrored = route_to(look, image.place_m, image.velocity_mps, height_m),
     };
 }
 
-static bool bounces(const struct look *look, const struct mirror_face *mirror_face,
-                    struct vec2 place, struct vec2 *bounce)
+/* Has the mirror a bounce for the place? One exactly on the end that it shares is the next
+ * mirror's.
+ */
+static bool has_bounce(const struct look *look, const struct mirror_face *face, struct vec2 place,
+                       struct vec2 *bounce)
 {
-    if (!mirror_bounce(&mirror_face->mirror, look->pose.position_m, place, bounce))
+    if (!mirror_bounce(&face->mirror, look->pose.position_m, place, bounce))
         return false;
-    if (!mirror_face->shares_end)
+    if (!face->shares_end)
         return true;
-    struct vec2 image = mirror_image(&mirror_face->mirror, place, (struct vec2){0, 0}).place_m;
-    return predicates_orientation(look->pose.position_m, image, mirror_face->mirror.b) != 0;
+    struct vec2 image = mirror_image(&face->mirror, place, (struct vec2){0, 0}).place_m;
+    return predicates_orientation(look->pose.position_m, image, face->mirror.b) != 0;
 }
 
-/* Of the bounce from the mirror's ends, and of the sensor and the reflector from its line. */
-static double bounce_margin_m(const struct look *look,
-                              const struct ghost_candidate *ghost_candidate)
+/* How near the bounce was to vanishing: its distance from the mirror's ends, and the distances of
+ * sensor and reflector from the mirror's line. */
+static double bounce_margin_m(const struct look *look, const struct ghost_candidate *candidate)
 {
-    const struct mirror_face *mirror_face = ghost_candidate->mirror_face;
-    struct vec2 a = mirror_face->mirror.a, b = mirror_face->mirror.b, along = mirror_face->along;
-    double ends_m = elementary_min(fabs(vec2_dot(vec2_sub(ghost_candidate->bounce, a), along)),
-                                   fabs(vec2_dot(vec2_sub(b, ghost_candidate->bounce), along)));
+    const struct mirror_face *face = candidate->face;
+    struct vec2 a = face->mirror.a, b = face->mirror.b, along = face->along;
+    double ends_m = elementary_min(fabs(vec2_dot(vec2_sub(candidate->bounce, a), along)),
+                                   fabs(vec2_dot(vec2_sub(b, candidate->bounce), along)));
     double line_m = elementary_min(fabs(vec2_cross(along, vec2_sub(look->pose.position_m, a))),
-                                   fabs(vec2_cross(along, vec2_sub(ghost_candidate->place, a))));
+                                   fabs(vec2_cross(along, vec2_sub(candidate->place, a))));
     return elementary_min(ends_m, line_m);
 }
 
-/* Adds one leg to a course. False if nothing comes through. */
-static bool pass(const struct look *look, struct leg *leg, struct obstruction_line line,
-                 const struct look_body *const *but, size_t count)
+/* Takes a route along one of its legs, which the bodies of except do not block. False if nothing
+ * passes. */
+static bool pass_leg(const struct look *look, struct route *route, struct obstruction_line line,
+                     const struct look_body *const *except, size_t count)
 {
-    struct line_of_sight way = line_of_sight_along(look, &line, but, count);
-    leg->factor *= way.factor;
-    leg->effects |= way.effects;
-    if (look->frame->margins && way.factor > 0)
-        leg->margin_m =
-            elementary_min(leg->margin_m, line_of_sight_clearance_m(look, &line, but, count));
-    return leg->factor > 0;
+    struct line_of_sight passed = line_of_sight_along(look, &line, except, count);
+    route->factor *= passed.factor;
+    route->effects |= passed.effects;
+    if (look->frame->margins && passed.factor > 0)
+        route->margin_m =
+            elementary_min(route->margin_m, line_of_sight_clearance_m(look, &line, except, count));
+    return route->factor > 0;
 }
 
-static bool pass_directly(const struct look *look, struct ghost_candidate *ghost_candidate)
+static bool pass_directly(const struct look *look, struct ghost_candidate *candidate)
 {
-    struct obstruction_line line = {look->pose.position_m, ghost_candidate->place, look->height_m,
-                                    ghost_candidate->height_m};
-    return pass(look, &ghost_candidate->direct, line, &ghost_candidate->body, 1);
+    struct obstruction_line line = {look->pose.position_m, candidate->place, look->height_m,
+                                    candidate->height_m};
+    return pass_leg(look, &candidate->direct, line, &candidate->body, 1);
 }
 
-static bool pass_by_mirror(const struct look *look, struct ghost_candidate *ghost_candidate)
+static bool pass_by_mirror(const struct look *look, struct ghost_candidate *candidate)
 {
-    const struct mirror_face *mirror_face = ghost_candidate->mirror_face;
-    const struct look_body *touched[] = {mirror_face->body, mirror_face->before, mirror_face->after,
-                                         ghost_candidate->body};
-    double out_m = vec2_length(vec2_sub(ghost_candidate->bounce, look->pose.position_m));
-    double on_m = vec2_length(vec2_sub(ghost_candidate->place, ghost_candidate->bounce));
+    const struct mirror_face *face = candidate->face;
+    const struct look_body *touched[] = {face->body, face->before, face->after, candidate->body};
+    double out_m = vec2_length(vec2_sub(candidate->bounce, look->pose.position_m));
+    double onward_m = vec2_length(vec2_sub(candidate->place, candidate->bounce));
     double height_m =
-        look->height_m + (ghost_candidate->height_m - look->height_m) * (out_m / (out_m + on_m));
-    double below_m = look_top_m(look, mirror_face->body) - height_m;
-    struct leg *leg = &ghost_candidate->mirrored;
-    struct obstruction_line out = {look->pose.position_m, ghost_candidate->bounce, look->height_m,
+        look->height_m + (candidate->height_m - look->height_m) * (out_m / (out_m + onward_m));
+    double below_m = look_top_m(look, face->body) - height_m;
+    struct route *route = &candidate->mirrored;
+    struct obstruction_line out = {look->pose.position_m, candidate->bounce, look->height_m,
                                    height_m};
-    struct obstruction_line on = {ghost_candidate->bounce, ghost_candidate->place, height_m,
-                                  ghost_candidate->height_m};
-    if (!(leg->factor > 0 && below_m >= 0) || !pass(look, leg, out, touched, 3) ||
-        !pass(look, leg, on, touched, 4))
+    struct obstruction_line onward = {candidate->bounce, candidate->place, height_m,
+                                      candidate->height_m};
+    if (!(route->factor > 0 && below_m >= 0) || !pass_leg(look, route, out, touched, 3) ||
+        !pass_leg(look, route, onward, touched, 4))
         return false;
     if (look->frame->margins)
-        leg->margin_m = elementary_min(
-            leg->margin_m, elementary_min(bounce_margin_m(look, ghost_candidate), below_m));
+        route->margin_m = elementary_min(route->margin_m,
+                                         elementary_min(bounce_margin_m(look, candidate), below_m));
     return true;
 }
 
-static bool is_listed(const struct sensor *sensor, const struct kinematics *sight,
-                      double departure_rad)
+static bool is_within_limits(const struct sensor *sensor, const struct kinematics *read,
+                             double departure_rad)
 {
-    return sight->range_m >= sensor->range_min_m && sight->range_m <= sensor->range_max_m &&
-           fabs(sight->azimuth_rad) < suite_border_rad(sensor) && fabs(departure_rad) <= PI / 2;
+    return read->range_m >= sensor->range_min_m && read->range_m <= sensor->range_max_m &&
+           fabs(read->azimuth_rad) < suite_border_rad(sensor) && fabs(departure_rad) <= PI / 2;
 }
 
-static double limits_margin_m(const struct sensor *sensor, const struct kinematics *sight,
+static double limits_margin_m(const struct sensor *sensor, const struct kinematics *read,
                               double departure_rad)
 {
-    double view_rad = elementary_min(suite_border_rad(sensor) - fabs(sight->azimuth_rad),
+    double view_rad = elementary_min(suite_border_rad(sensor) - fabs(read->azimuth_rad),
                                      PI / 2 - fabs(departure_rad));
     return elementary_min(
-        elementary_min(sight->range_m - sensor->range_min_m, sensor->range_max_m - sight->range_m),
-        sight->range_m * view_rad);
+        elementary_min(read->range_m - sensor->range_min_m, sensor->range_max_m - read->range_m),
+        read->range_m * view_rad);
 }
 
-static struct margins margins_of(const struct look *look, const struct kinematics *sight,
-                                 const struct leg *out, const struct leg *back)
+static struct margins margins_of(const struct look *look, const struct kinematics *read,
+                                 const struct route *out, const struct route *back)
 {
     struct margins margins = {0};
-    double limits_m = limits_margin_m(look->sensor, sight, out->sight.azimuth_rad);
+    double limits_m = limits_margin_m(look->sensor, read, out->read.azimuth_rad);
     if (look->frame->margins)
         margins_note(&margins, MARGIN_SIGHT,
                      elementary_min(limits_m, elementary_min(out->margin_m, back->margin_m)));
     return margins;
 }
 
-static void add(struct look *look, const struct ghost_candidate *ghost_candidate, enum path path,
-                struct ghost_path ghost, const struct leg *out, const struct leg *back)
+static void add_ghost(struct look *look, const struct ghost_candidate *candidate, enum path path,
+                      struct ghost_path ghost, const struct route *out, const struct route *back)
 {
-    double departure_rad = out->sight.azimuth_rad;
+    double departure_rad = out->read.azimuth_rad;
     frame_count_echoes(look->frame, look->sensor->name, path, 1);
     *list_add(&look->frame->echoes, look->frame->arena) = (struct echo){
         .sensor = look->sensor->name,
-        .id.object = ghost_candidate->body->object->id,
-        .id.reflector = ghost_candidate->reflector,
+        .id.object = candidate->body->object->id,
+        .id.reflector = candidate->reflector,
         .id.path = path,
-        .id.mirror = ghost_candidate->mirror_face->body->object->id,
-        .id.number = ghost_candidate->mirror_face->number,
+        .id.mirror = candidate->face->body->object->id,
+        .id.number = candidate->face->number,
         .range_m = ghost.kinematics.range_m,
         .azimuth_rad = ghost.kinematics.azimuth_rad,
         .range_rate_mps = ghost.kinematics.range_rate_mps,
-        .ercs = sqrt(out->factor * back->factor) * ghost_candidate->ercs * ghost.ercs_factor,
+        .ercs = sqrt(out->factor * back->factor) * candidate->ercs * ghost.ercs_factor,
         .departure_rad = departure_rad - ghost.kinematics.azimuth_rad,
         .time_s = look->time_s,
         .effects = EFFECT_BIT(EFFECT_GHOSTS) | out->effects | back->effects |
-                   look_latency_effect(look, ghost_candidate->body) |
-                   look_latency_effect(look, ghost_candidate->mirror_face->body),
+                   look_latency_effect(look, candidate->body) |
+                   look_latency_effect(look, candidate->face->body),
         .margins = margins_of(look, &ghost.kinematics, out, back),
     };
 }
 
-/* Whatever of the reflector's paths there is. What stands in their way is only asked where the
- * sensor would list one. */
-static void add_paths(struct look *look, struct ghost_candidate *ghost_candidate, bool one_way)
+/* Adds the ghosts of a candidate, on all three paths or, unless one_way is true, on
+ * wall_object_wall alone. Bodies in the way are looked for only if a path is within the sensor's
+ * limits. */
+static void add_paths(struct look *look, struct ghost_candidate *candidate, bool one_way)
 {
     const struct sensor *sensor = look->sensor;
-    const struct leg *direct = &ghost_candidate->direct, *mirrored = &ghost_candidate->mirrored;
-    const struct kinematics *straight = &direct->sight, *image = &mirrored->sight;
-    double reflection = ghost_candidate->mirror_face->reflection;
+    const struct route *direct = &candidate->direct, *mirrored = &candidate->mirrored;
+    const struct kinematics *object = &direct->read, *image = &mirrored->read;
+    double reflection = candidate->face->reflection;
     struct ghost_path both = ghost_path_both(reflection, image), out = both, back = both;
-    one_way = one_way && direct->factor > 0 && straight->range_m > 0;
+    one_way = one_way && direct->factor > 0 && object->range_m > 0;
     if (one_way) {
-        out = ghost_path_out(reflection, straight, image);
-        back = ghost_path_back(reflection, straight, image);
+        out = ghost_path_out(reflection, object, image);
+        back = ghost_path_back(reflection, object, image);
     }
-    bool has_both =
-        sensor->bounces >= BOTH_WAYS && is_listed(sensor, &both.kinematics, image->azimuth_rad);
-    bool has_out = one_way && is_listed(sensor, &out.kinematics, image->azimuth_rad);
-    bool has_back = one_way && is_listed(sensor, &back.kinematics, straight->azimuth_rad);
-    if (!(has_both || has_out || has_back) || !pass_by_mirror(look, ghost_candidate))
+    bool has_both = sensor->bounces >= BOUNCES_BOTH_WAYS &&
+                    is_within_limits(sensor, &both.kinematics, image->azimuth_rad);
+    bool has_out = one_way && is_within_limits(sensor, &out.kinematics, image->azimuth_rad);
+    bool has_back = one_way && is_within_limits(sensor, &back.kinematics, object->azimuth_rad);
+    if (!(has_both || has_out || has_back) || !pass_by_mirror(look, candidate))
         return;
     if (has_both)
-        add(look, ghost_candidate, PATH_WALL_OBJECT_WALL, both, mirrored, mirrored);
-    if (!(has_out || has_back) || !pass_directly(look, ghost_candidate))
+        add_ghost(look, candidate, PATH_WALL_OBJECT_WALL, both, mirrored, mirrored);
+    if (!(has_out || has_back) || !pass_directly(look, candidate))
         return;
     if (has_out)
-        add(look, ghost_candidate, PATH_WALL_OBJECT, out, mirrored, direct);
+        add_ghost(look, candidate, PATH_WALL_OBJECT, out, mirrored, direct);
     if (has_back)
-        add(look, ghost_candidate, PATH_OBJECT_WALL, back, direct, mirrored);
+        add_ghost(look, candidate, PATH_OBJECT_WALL, back, direct, mirrored);
 }
 
-/* What a viewer at the sensor or the bounce sees of a point. */
-static void show(const struct look *look, const struct ghost_candidate *ghost_candidate,
-                 const struct point_reflector *point, struct vec2 facing, struct vec2 viewer,
-                 struct leg *leg)
+/* Multiplies a route by what its viewer, the sensor or the bounce, sees of the point. */
+static void apply_visibility(const struct look *look, const struct ghost_candidate *candidate,
+                             const struct point_reflector *point, struct vec2 facing,
+                             struct vec2 viewer, struct route *route)
 {
-    const struct box *box = &ghost_candidate->body->box;
+    const struct box *box = &candidate->body->box;
     if (!effects_enabled(look->selection, EFFECT_VISIBILITY))
         return;
     double visible =
-        look_visibility(look, ghost_candidate->body, point, facing, ghost_candidate->place, viewer);
-    leg->factor *= visible;
+        look_visibility(look, candidate->body, point, facing, candidate->place, viewer);
+    route->factor *= visible;
     if (visible < 1)
-        leg->effects |= EFFECT_BIT(EFFECT_VISIBILITY);
+        route->effects |= EFFECT_BIT(EFFECT_VISIBILITY);
     if (look->frame->margins)
-        leg->margin_m = sight_margins_facing_m(box, point->shape, point->facing_rad,
-                                               point->zero_rad, ghost_candidate->place, viewer);
+        route->margin_m = sight_margins_facing_m(box, point->shape, point->facing_rad,
+                                                 point->zero_rad, candidate->place, viewer);
 }
 
-/* Can the sensor list any path of the point, as far as ranges and its face tell? Asked before what
- * costs more. No path is shorter than half of the way there by the mirror and straight back. */
-static bool may_list(const struct look *look, const struct look_body *body,
-                     const struct point_reflector *point, struct vec2 facing, struct vec2 place,
-                     struct vec2 bounce)
+/* A cheap test before all others: false if every path of the point is out of range, or the point
+ * faces away from the bounce. The shortest path goes there by the mirror and straight back. */
+static bool may_have_path(const struct look *look, const struct look_body *body,
+                          const struct point_reflector *point, struct vec2 facing,
+                          struct vec2 place, struct vec2 bounce)
 {
     double out_m = vec2_length(vec2_sub(bounce, look->pose.position_m));
-    double on_m = vec2_length(vec2_sub(place, bounce));
-    double straight_m = vec2_length(vec2_sub(place, look->pose.position_m));
-    return out_m + on_m + straight_m <= 2 * look->sensor->range_max_m + 1e-6 &&
+    double onward_m = vec2_length(vec2_sub(place, bounce));
+    double direct_m = vec2_length(vec2_sub(place, look->pose.position_m));
+    return out_m + onward_m + direct_m <= 2 * look->sensor->range_max_m + 1e-6 &&
            (!effects_enabled(look->selection, EFFECT_VISIBILITY) ||
             reflectors_visibility(&body->box, point, facing, place, bounce) > 0);
 }
 
-static void add_point(struct look *look, const struct mirror_face *mirror_face,
+static void add_point(struct look *look, const struct mirror_face *face,
                       const struct look_body *body, const struct point_reflector *point,
                       struct vec2 facing, struct vec2 place, struct vec2 bounce)
 {
-    if (!may_list(look, body, point, facing, place, bounce))
+    if (!may_have_path(look, body, point, facing, place, bounce))
         return;
-    struct ghost_candidate ghost_candidate =
-        ghost_candidate_of(look, mirror_face, body, place, point->z, bounce);
-    ghost_candidate.reflector = point->name;
-    ghost_candidate.ercs = point->ercs;
-    show(look, &ghost_candidate, point, facing, look->pose.position_m, &ghost_candidate.direct);
-    show(look, &ghost_candidate, point, facing, bounce, &ghost_candidate.mirrored);
-    add_paths(look, &ghost_candidate, true);
+    struct ghost_candidate candidate = candidate_of(look, face, body, place, point->z, bounce);
+    candidate.reflector = point->name;
+    candidate.ercs = point->ercs;
+    apply_visibility(look, &candidate, point, facing, look->pose.position_m, &candidate.direct);
+    apply_visibility(look, &candidate, point, facing, bounce, &candidate.mirrored);
+    add_paths(look, &candidate, true);
 }
 
-static void add_points(struct look *look, const struct mirror_face *mirror_face,
+static void add_points(struct look *look, const struct mirror_face *face,
                        const struct look_body *body)
 {
     const struct reflector_set *set = body->set->reflectors;
     for (size_t i = 0; i < set->points.count; i++) {
         const struct point_reflector *point = &set->points.items[i];
         struct vec2 place = reflectors_point_place(&body->box, point), bounce;
-        if (bounces(look, mirror_face, place, &bounce))
-            add_point(look, mirror_face, body, point, body->set->shape->faces[i].heading, place,
-                      bounce);
+        if (has_bounce(look, face, place, &bounce))
+            add_point(look, face, body, point, body->set->shape->faces[i].heading, place, bounce);
     }
 }
 
-/* Can the mirror show any of the posts from first to last? */
-static bool may_show(const struct look *look, const struct mirror_face *mirror_face,
-                     const struct look_body *body, const struct post_row *row, int64_t first,
-                     int64_t last)
+/* May the mirror have a bounce for any of the posts from first to last? */
+static bool may_mirror_posts(const struct look *look, const struct mirror_face *face,
+                             const struct look_body *body, const struct post_row *row,
+                             int64_t first, int64_t last)
 {
     struct vec2 from = reflectors_post_place(&body->box, row, first);
     struct vec2 to = reflectors_post_place(&body->box, row, last);
     struct vec2 centre = vec2_scale(0.5, vec2_add(from, to));
-    return mirror_may_bounce(&mirror_face->mirror, look->pose.position_m, centre,
+    return mirror_may_bounce(&face->mirror, look->pose.position_m, centre,
                              0.5 * vec2_length(vec2_sub(to, from)) + 1e-6);
 }
 
-static void add_post(struct look *look, const struct mirror_face *mirror_face,
+static void add_post(struct look *look, const struct mirror_face *face,
                      const struct look_body *body, const struct post_row *row, struct vec2 facing,
                      int64_t number)
 {
     struct vec2 place = reflectors_post_place(&body->box, row, number), bounce;
-    if (!bounces(look, mirror_face, place, &bounce))
+    if (!has_bounce(look, face, place, &bounce))
         return;
     struct point_reflector post = look_post(look, row, number);
-    add_point(look, mirror_face, body, &post, facing, place, bounce);
+    add_point(look, face, body, &post, facing, place, bounce);
 }
 
-/* No path is shorter than the direct one: posts out of its range have no ghost in range. A row is
- * longer than most mirrors: of most of its pieces they can show nothing. */
-static void add_row(struct look *look, const struct mirror_face *mirror_face,
-                    const struct look_body *body, const struct post_row *row)
+/* No path is shorter than the direct one, so posts out of range have no ghost in range. Rows are
+ * longer than most mirrors, which have no bounce for most of a row's posts. */
+static void add_row(struct look *look, const struct mirror_face *face, const struct look_body *body,
+                    const struct post_row *row)
 {
     bool all = effects_forced(look->selection, EFFECT_GHOSTS);
     struct vec2 facing = vec2_heading(row->facing_rad);
@@ -372,65 +375,65 @@ static void add_row(struct look *look, const struct mirror_face *mirror_face,
     reflectors_posts_within(&body->box, row, look->pose.position_m, look->sensor->range_max_m,
                             &first, &end);
     for (int64_t next; first < end; first = next) {
-        next = first + PIECE < end ? first + PIECE : end;
-        if (all || may_show(look, mirror_face, body, row, first, next - 1))
+        next = first + POSTS_AT_ONCE < end ? first + POSTS_AT_ONCE : end;
+        if (all || may_mirror_posts(look, face, body, row, first, next - 1))
             for (int64_t number = first; number < next; number++)
-                add_post(look, mirror_face, body, row, facing, number);
+                add_post(look, face, body, row, facing, number);
     }
 }
 
-static void add_plane(struct look *look, const struct mirror_face *mirror_face,
+static void add_plane(struct look *look, const struct mirror_face *face,
                       const struct look_body *body, const struct plane_reflector *plane)
 {
     const struct side side = line_of_sight_side(body, plane);
     struct vec2 eye =
-        mirror_image(&mirror_face->mirror, look->pose.position_m, (struct vec2){0, 0}).place_m;
+        mirror_image(&face->mirror, look->pose.position_m, (struct vec2){0, 0}).place_m;
     struct vec2 foot, bounce;
     if (!specular_point_foot(side.from, side.to, side.along, plane->margin_m, eye, &foot) ||
-        !bounces(look, mirror_face, foot, &bounce))
+        !has_bounce(look, face, foot, &bounce))
         return;
-    struct ghost_candidate ghost_candidate =
-        ghost_candidate_of(look, mirror_face, body, foot, plane->z, bounce);
-    struct leg *leg = &ghost_candidate.mirrored;
+    struct ghost_candidate candidate = candidate_of(look, face, body, foot, plane->z, bounce);
+    struct route *route = &candidate.mirrored;
     double range_m = vec2_length(vec2_sub(foot, eye));
-    ghost_candidate.reflector = plane->name;
-    ghost_candidate.ercs = look_plane_ercs(look, plane, range_m, &leg->effects);
-    leg->effects |= EFFECT_BIT(EFFECT_PLANE_REFLECTION);
+    candidate.reflector = plane->name;
+    candidate.ercs = look_plane_ercs(look, plane, range_m, &route->effects);
+    route->effects |= EFFECT_BIT(EFFECT_PLANE_REFLECTION);
     if (look->frame->margins)
-        leg->margin_m = sight_margins_foot_m(side.from, side.to, side.along, plane->margin_m, eye);
-    add_paths(look, &ghost_candidate, false);
+        route->margin_m =
+            sight_margins_foot_m(side.from, side.to, side.along, plane->margin_m, eye);
+    add_paths(look, &candidate, false);
 }
 
-static void add_body(struct look *look, const struct mirror_face *mirror_face,
+static void add_body(struct look *look, const struct mirror_face *face,
                      const struct look_body *body)
 {
     const struct reflector_set *set = body->set->reflectors;
-    bool planes = look->sensor->bounces >= BOTH_WAYS &&
+    bool planes = look->sensor->bounces >= BOUNCES_BOTH_WAYS &&
                   effects_enabled(look->selection, EFFECT_PLANE_REFLECTION);
     bool rows = effects_enabled(look->selection, EFFECT_ROWS);
-    add_points(look, mirror_face, body);
+    add_points(look, face, body);
     for (size_t i = 0; i < set->planes.count && planes; i++)
-        add_plane(look, mirror_face, body, &set->planes.items[i]);
+        add_plane(look, face, body, &set->planes.items[i]);
     for (size_t i = 0; i < set->rows.count && rows; i++)
-        add_row(look, mirror_face, body, &set->rows.items[i]);
+        add_row(look, face, body, &set->rows.items[i]);
 }
 
-static void add_all(struct look *look, const struct mirror_faces *mirror_faces,
-                    const struct look_body *body)
+static void add_ghosts_of(struct look *look, const struct mirror_faces *faces,
+                          const struct look_body *body)
 {
     const struct selection *selection = look->selection;
     bool all = effects_forced(selection, EFFECT_GHOSTS);
     struct vec2 centre = body->box.motion.position_m;
     double radius_m = look_reflectors_radius_m(body, body->set);
-    for (size_t i = 0; i < mirror_faces->count; i++) {
-        const struct mirror_face *mirror_face = &mirror_faces->items[i];
-        if (mirror_face->body == body)
+    for (size_t i = 0; i < faces->count; i++) {
+        const struct mirror_face *face = &faces->items[i];
+        if (face->body == body)
             continue;
         bool reach =
-            all || mirror_may_bounce(&mirror_face->mirror, look->pose.position_m, centre, radius_m);
+            all || mirror_may_bounce(&face->mirror, look->pose.position_m, centre, radius_m);
         effects_note(selection, EFFECT_GHOSTS, reach);
         if (reach)
-            add_body(look, mirror_face, body);
+            add_body(look, face, body);
     }
 }
 
@@ -438,12 +441,12 @@ void ghost_echoes_add(struct look *look)
 {
     const struct selection *selection = look->selection;
     effects_note(selection, EFFECT_GHOSTS, false);
-    if (look->sensor->bounces < ONE_WAY || !effects_enabled(selection, EFFECT_GHOSTS))
+    if (look->sensor->bounces < BOUNCES_ONE_WAY || !effects_enabled(selection, EFFECT_GHOSTS))
         return;
     int64_t begin = effects_begin(selection);
-    struct mirror_faces mirror_faces = mirror_faces_of(look);
-    for (size_t i = 0; i < look->body_count && mirror_faces.count > 0; i++)
+    struct mirror_faces faces = mirror_faces_of(look);
+    for (size_t i = 0; i < look->body_count && faces.count > 0; i++)
         if (look->bodies[i].set != NULL)
-            add_all(look, &mirror_faces, &look->bodies[i]);
+            add_ghosts_of(look, &faces, &look->bodies[i]);
     effects_end(selection, EFFECT_GHOSTS, begin);
 }

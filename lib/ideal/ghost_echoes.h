@@ -1,39 +1,40 @@
-/* Mirror ghosts: what a sensor sees by way of walls, guardrails and the sides of vehicles
- * (EFFECTS 7; mirror.h and ghost_path.h have the formulas).
+/* Mirror ghosts: echoes by way of walls, guardrails and vehicles.
  *
- * A sensor's `bounces` says how many a path may have, off objects and mirrors together: 2 allows
- * wall_object (sensor, wall, object, sensor) and object_wall, its reverse; 3 allows
- * wall_object_wall too. Every mirror of every other body than the reflector's own counts, and none
- * twice on a path: there is no recursion.
+ * MODEL 14.1 has the rules, mirror.h and ghost_path.h the formulas. A sensor's `bounces` limits the
+ * bounces of a path, off objects and mirrors together: 2 allows wall_object (sensor, wall, object,
+ * sensor) and object_wall, its reverse; 3 also allows wall_object_wall. A path has one mirror: any
+ * mirror of any body but the reflector's own.
  *
- * A ghost of a point or post exists where the mirror has a bounce for it (mirror_bounce), the point
- * is visible from the bounce, the ways between sensor, bounce and point are free, and range and
- * arrival are within the sensor's limits. Paths with a direct way need the point visible on it and
- * that way free too, and their other end less than 90 degrees off boresight, where the antenna
- * still has a pattern. Their cross section is that of the geometric mean of both visibilities, so
- * that both ways round are equally strong. A plane has a ghost where the sensor's image has a foot
- * on it, on wall_object_wall alone: only there does the wave come back on itself.
+ * A point or post has a ghost if the mirror has a bounce for it (mirror_bounce), the point is
+ * visible from the bounce, no body blocks a leg between sensor, bounce and point, and the ghost's
+ * range and azimuth are within the sensor's limits. A one-way path, wall_object or object_wall,
+ * also needs the point to be visible from the sensor, the direct leg to be free, and the wave to
+ * leave no more than 90 degrees off boresight, where the antenna still has a pattern. Its ERCS is
+ * that of the geometric mean of both visibilities, so that both ways round are equally strong. A
+ * plane has a ghost on wall_object_wall alone, where the sensor's image has a foot on it: only
+ * there does the wave return on its own path.
  *
- * No way is blocked by what it begins or ends on: neither by the mirror's own body, of which it
- * touches the outer face alone (nor by one with a mirror in line that meets this one at an end: two
- * such are one wall, and a bounce exactly on their joint is the second one's), nor by the
- * reflector's, whose visibility decides. But the mirror's body can stand in a direct way, and the
- * reflector's between sensor and mirror. Nothing passes under vehicles.
+ * A body blocks no leg that begins or ends on it. At the bounce that is the mirror's body, of which
+ * the leg touches the outer face alone, and a body with a mirror in line that meets this one at an
+ * end: two such mirrors are one wall, and a bounce exactly on their joint is the second one's. At
+ * the point it is the reflector's body, whose visibility decides instead. The mirror's body can
+ * still block the direct leg, and the reflector's body the leg between sensor and mirror. Nothing
+ * passes under vehicles.
  *
- * Heights run straight along the unfolded path, and a bounce above the mirror's top is none. What a
- * height, a beam or a soft shadow takes of a way there and back (look.h), a path that goes that way
- * once loses the root of. Planes have the curvature of direct echoes, at the image's distance.
+ * Heights run straight along the unfolded path, and a bounce above the mirror's top does not exist.
+ * A path that travels a leg once has the square root of the leg's factors for height, beam and soft
+ * shadow, which look.h has for there and back. Planes have the curvature of direct echoes, at the
+ * image's distance.
  *
- * A ghost that is not seen is not made: it has no entry in lost. */
+ * A ghost that is not seen is not made and has no entry in lost. */
 #ifndef GHOST_ECHOES_H
 #define GHOST_ECHOES_H
 
 #include "ideal/look.h"
 
-/* Every ghost of the look's sensor: adds echoes and the sensor's counts to the frame, after
- * look_around. An echo's mirror is the id of the mirror's object, its number which of the mirrors
- * there, from 1. Under auto a body and a mirror that can have nothing to do with each other
- * (mirror_may_bounce) are passed over at once. */
+/* Adds all ghosts of the look's sensor to the frame, and the sensor's counts of them. An echo's
+ * `mirror` is the id of the mirror's object, its `number` which of that object's mirrors, from 1.
+ * auto passes over a body and a mirror that surely have no bounce (mirror_may_bounce). */
 void ghost_echoes_add(struct look *look);
 
 #endif

@@ -8,47 +8,49 @@
 #include "geometry/predicates.h"
 #include "ideal/sight_margins.h"
 
-/* Both ends of a line beyond the same side of a body. */
-static bool passes_beside(double from_m, double to_m, double reach_m)
+/* Do both ends of a line lie beyond the same side of a body? The ends and the reach of the body are
+ * measured along one of its axes. */
+static bool ends_beside(double from_m, double to_m, double reach_m)
 {
     return (from_m > reach_m && to_m > reach_m) || (from_m < -reach_m && to_m < -reach_m);
 }
 
-/* How a sight line and a body's outline lie to each other: told from circles where it is plain. */
-enum meeting { MEETING_UNSURE, MEETING_NONE, MEETING_THROUGH };
+/* Does a line touch a body's outline? Cheap tests are sure of most answers. */
+enum crossing { CROSSING_UNSURE, CROSSING_NONE, CROSSING_SURE };
 
-/* A sight line that stays clear of the circle around a body, or has both ends beyond one of its
- * sides, cannot touch its outline; one with both ends outside that circle that runs through the
- * circle within its sides must. The slack covers the rounding of this test, so the exact one is
- * only spared where it would say the same. */
-static enum meeting meeting_of(const struct look_body *body, struct vec2 from, struct vec2 to,
-                               double bend_m)
+/* A line cannot touch the outline of a body if it stays clear of the circle around the body and its
+ * rim, or if both its ends lie beyond the same side. It surely crosses the outline if it runs
+ * through the circle inside the body's sides from end to end of the circle around it. The slack
+ * covers the rounding of these tests, so that they answer only what the exact test would. */
+static enum crossing crossing_by_circles(const struct look_body *body, struct vec2 from,
+                                         struct vec2 to, double rim_m)
 {
     struct vec2 line = vec2_sub(to, from), centre = vec2_sub(body->box.motion.position_m, from);
     double square = vec2_dot(line, line), length_m = sqrt(square), along = vec2_dot(line, centre);
-    double aside = fabs(vec2_cross(line, centre)), slack_m = 1e-6 + bend_m;
+    double aside = fabs(vec2_cross(line, centre)), slack_m = 1e-6 + rim_m;
     double reach = (body->radius_m + slack_m) * (1 + 1e-9) * length_m;
     if (aside > reach || along < -reach || along > square + reach)
-        return MEETING_NONE;
+        return CROSSING_NONE;
     double inner_m =
         0.5 * elementary_min(body->box.length_m, body->box.width_m) * (1 - 1e-9) - slack_m;
     if (aside < inner_m * length_m && along > reach && along < square - reach)
-        return MEETING_THROUGH;
+        return CROSSING_SURE;
     struct vec2 ahead = body->box.heading, rest = vec2_sub(centre, line);
     slack_m += 1e-9 * (length_m + body->radius_m);
-    bool beside = passes_beside(vec2_cross(ahead, centre), vec2_cross(ahead, rest),
-                                0.5 * body->box.width_m + slack_m) ||
-                  passes_beside(vec2_dot(ahead, centre), vec2_dot(ahead, rest),
-                                0.5 * body->box.length_m + slack_m);
-    return beside ? MEETING_NONE : MEETING_UNSURE;
+    bool beside = ends_beside(vec2_cross(ahead, centre), vec2_cross(ahead, rest),
+                              0.5 * body->box.width_m + slack_m) ||
+                  ends_beside(vec2_dot(ahead, centre), vec2_dot(ahead, rest),
+                              0.5 * body->box.length_m + slack_m);
+    return beside ? CROSSING_NONE : CROSSING_UNSURE;
 }
 
-/* The same of a line from the sensor to a place. */
-static enum meeting meeting_before(const struct look_body *body, const struct silhouette *place)
+/* The same for a line from the sensor to a place, whose silhouette is given. */
+static enum crossing crossing_by_silhouette(const struct look_body *body,
+                                            const struct silhouette *place)
 {
     if (!silhouette_overlaps(&body->shadow.silhouette, place))
-        return MEETING_NONE;
-    return silhouette_covers(&body->shadow.silhouette, place) ? MEETING_THROUGH : MEETING_UNSURE;
+        return CROSSING_NONE;
+    return silhouette_covers(&body->shadow.silhouette, place) ? CROSSING_SURE : CROSSING_UNSURE;
 }
 
 struct side line_of_sight_side(const struct look_body *body, const struct plane_reflector *plane)
@@ -59,8 +61,8 @@ struct side line_of_sight_side(const struct look_body *body, const struct plane_
         .along = box_along(&body->box, plane->from_x, plane->from_y, plane->to_x, plane->to_y)};
 }
 
-/* Has the body a side in line with this one that begins where it ends (or ends where it begins),
- * but for so much? */
+/* Has the body a side in line with this one that begins at its end, or else ends at its beginning,
+ * within within_m? */
 static bool joins(const struct look_body *body, const struct side *side, bool begins,
                   double within_m)
 {
@@ -96,10 +98,10 @@ void line_of_sight_find_blockers(struct look *look, const struct look_body *own,
         return;
     bool all = effects_forced(selection, EFFECT_OCCLUSION);
     struct azimuth_index_span span = all ? azimuth_index_everywhere : wanted->span;
-    size_t count = azimuth_index_find(&look->bearings, span);
+    size_t count = azimuth_index_find(&look->blocker_index, span);
     for (size_t i = 0; i < count; i++) {
-        const struct look_body *body = &look->bodies[look->bearings.found[i]];
-        /* Without a branch, which would go either way too often to be foreseen. */
+        const struct look_body *body = &look->bodies[look->blocker_index.found[i]];
+        /* No branch here: it would go either way too often to be predicted. */
         look->blockers[look->blocker_count] = body;
         look->blocker_count +=
             (size_t)((body != own) &
@@ -107,22 +109,23 @@ void line_of_sight_find_blockers(struct look *look, const struct look_body *own,
     }
     bool some = all || look->blocker_count > 0;
     effects_note(selection, EFFECT_OCCLUSION, some);
-    effects_note(selection, EFFECT_HEIGHT, look->over && some);
+    effects_note(selection, EFFECT_HEIGHT, look->sees_over && some);
     effects_note(selection, EFFECT_DIFFRACTION, look->wavelength_m > 0 && some);
     effects_end(selection, EFFECT_OCCLUSION, begin);
 }
 
-/* Does whatever has a line run through it hide all? */
-static bool hides_all(const struct look *look)
+/* Does a body hide all that a line through its outline leads to? */
+static bool blocks_sharply(const struct look *look)
 {
-    return look->wavelength_m == 0 && !look->over;
+    return look->wavelength_m == 0 && !look->sees_over;
 }
 
 bool line_of_sight_all_hidden(const struct look *look, const struct look_set *set,
                               const struct look_extent *wanted)
 {
-    /* What keeps within its box and ends before the set begins has no side that joins one of it. */
-    for (size_t i = 0; i < look->blocker_count && hides_all(look); i++) {
+    /* A blocker whose reflectors lie within its box, and which ends before the set begins, has no
+     * side that joins one of the set's. */
+    for (size_t i = 0; i < look->blocker_count && blocks_sharply(look); i++) {
         const struct look_body *body = look->blockers[i];
         if (silhouette_covers(&body->shadow.silhouette, &wanted->silhouette) &&
             body->set->shape->share == 1 && !(set->shape->under && body->raised))
@@ -131,46 +134,46 @@ bool line_of_sight_all_hidden(const struct look *look, const struct look_set *se
     return false;
 }
 
-/* What one body lets through that a line meets so, and which effects beside occlusion matter to
- * it. */
-static struct line_of_sight past(const struct look *look, const struct look_body *body,
-                                 const struct obstruction_line *line, enum meeting meeting)
+/* What passes one body on a line; crossing says whether the line touches the body's outline. */
+static struct line_of_sight past_body(const struct look *look, const struct look_body *body,
+                                      const struct obstruction_line *line, enum crossing crossing)
 {
-    if (meeting == MEETING_NONE)
+    if (crossing == CROSSING_NONE)
         return (struct line_of_sight){.factor = 1};
-    if (meeting == MEETING_THROUGH && hides_all(look))
+    if (crossing == CROSSING_SURE && blocks_sharply(look))
         return (struct line_of_sight){.factor = 0, .by = body};
-    struct obstruction passage =
+    struct obstruction obstruction =
         obstruction_of(body->corner, 4, look_top_m(look, body), line, look->wavelength_m);
     return (struct line_of_sight){
-        .factor = passage.factor,
-        .by = passage.factor == 0 ? body : NULL,
-        .effects = (passage.bent ? EFFECT_BIT(EFFECT_DIFFRACTION) : 0) |
-                   (passage.over ? EFFECT_BIT(EFFECT_HEIGHT) : 0),
+        .factor = obstruction.factor,
+        .by = obstruction.factor == 0 ? body : NULL,
+        .effects = (obstruction.bent ? EFFECT_BIT(EFFECT_DIFFRACTION) : 0) |
+                   (obstruction.over ? EFFECT_BIT(EFFECT_HEIGHT) : 0),
     };
 }
 
 struct line_of_sight line_of_sight_past_blockers(const struct look *look, const struct side *side,
-                                                 const struct obstruction_line *line, bool solid)
+                                                 const struct obstruction_line *line, bool under)
 {
     struct line_of_sight all = {.factor = 1};
     struct silhouette place = silhouette_of_place(vec2_sub(line->to, look->pose.position_m));
     bool exact = effects_forced(look->selection, EFFECT_OCCLUSION);
     for (size_t i = 0; i < look->blocker_count; i++) {
         const struct look_body *body = look->blockers[i];
-        if (solid && body->raised)
+        if (under && body->raised)
             continue;
-        enum meeting meeting = exact ? meeting_of(body, line->from, line->to, look->bend_m)
-                                     : meeting_before(body, &place);
-        struct line_of_sight way = past(look, body, line, meeting);
-        if ((way.factor == 1 && way.effects == 0) ||
+        enum crossing crossing = exact
+                                     ? crossing_by_circles(body, line->from, line->to, look->rim_m)
+                                     : crossing_by_silhouette(body, &place);
+        struct line_of_sight past = past_body(look, body, line, crossing);
+        if ((past.factor == 1 && past.effects == 0) ||
             (side != NULL && (joins(body, side, true, LINE_OF_SIGHT_JOINT_M) ||
                               joins(body, side, false, LINE_OF_SIGHT_JOINT_M))))
             continue;
-        if (way.by != NULL)
-            return way;
-        all.factor *= way.factor;
-        all.effects |= way.effects;
+        if (past.by != NULL)
+            return past;
+        all.factor *= past.factor;
+        all.effects |= past.effects;
     }
     return all;
 }
@@ -186,7 +189,7 @@ static bool is_among(const struct look_body *body, const struct look_body *const
 
 struct line_of_sight line_of_sight_along(const struct look *look,
                                          const struct obstruction_line *line,
-                                         const struct look_body *const *but, size_t count)
+                                         const struct look_body *const *except, size_t count)
 {
     struct line_of_sight all = {.factor = 1};
     if (!effects_enabled(look->selection, EFFECT_OCCLUSION))
@@ -196,23 +199,23 @@ struct line_of_sight line_of_sight_along(const struct look *look,
             ? azimuth_index_everywhere
             : azimuth_index_between(vec2_sub(line->from, look->pose.position_m),
                                     vec2_sub(line->to, look->pose.position_m));
-    size_t near = azimuth_index_find(&look->bearings, span);
+    size_t near = azimuth_index_find(&look->blocker_index, span);
     for (size_t i = 0; i < near; i++) {
-        const struct look_body *body = &look->bodies[look->bearings.found[i]];
-        if (is_among(body, but, count))
+        const struct look_body *body = &look->bodies[look->blocker_index.found[i]];
+        if (is_among(body, except, count))
             continue;
-        struct line_of_sight way =
-            past(look, body, line, meeting_of(body, line->from, line->to, look->bend_m));
-        if (way.by != NULL)
-            return way;
-        all.factor *= way.factor;
-        all.effects |= way.effects;
+        struct line_of_sight past = past_body(
+            look, body, line, crossing_by_circles(body, line->from, line->to, look->rim_m));
+        if (past.by != NULL)
+            return past;
+        all.factor *= past.factor;
+        all.effects |= past.effects;
     }
     return all;
 }
 
-double line_of_sight_margin_m(const struct look *look, const struct look_body *const *but,
-                              size_t count, const struct obstruction_line *line, bool solid,
+double line_of_sight_margin_m(const struct look *look, const struct look_body *const *except,
+                              size_t count, const struct obstruction_line *line, bool under,
                               bool blocked)
 {
     double nearest_m = (double)INFINITY, deepest_m = 0;
@@ -221,7 +224,7 @@ double line_of_sight_margin_m(const struct look *look, const struct look_body *c
     for (size_t i = 0; i < look->body_count; i++) {
         const struct look_body *body = &look->bodies[i];
         const struct vec2 *corner = body->corner, from = line->from, to = line->to;
-        if (!body->blocks || (solid && body->raised) || is_among(body, but, count))
+        if (!body->blocks || (under && body->raised) || is_among(body, except, count))
             continue;
         if (!outline_crossing_blocks(corner, 4, from, to)) {
             nearest_m = elementary_min(nearest_m, sight_margins_outline_m(corner, 4, from, to));
@@ -237,9 +240,9 @@ double line_of_sight_margin_m(const struct look *look, const struct look_body *c
 }
 
 double line_of_sight_clearance_m(const struct look *look, const struct obstruction_line *line,
-                                 const struct look_body *const *but, size_t count)
+                                 const struct look_body *const *except, size_t count)
 {
     return effects_enabled(look->selection, EFFECT_OCCLUSION)
-               ? line_of_sight_margin_m(look, but, count, line, false, false)
+               ? line_of_sight_margin_m(look, except, count, line, false, false)
                : (double)INFINITY;
 }

@@ -15,22 +15,22 @@
 #include "ideal/sight_margins.h"
 #include "radar/curved_surface.h"
 
-/* In ranges of the sensor, of all ways that are asked for: by a mirror and straight back, a thing
- * in range is at most twice as far by the mirror. */
-#define LONGEST_WAY 2
+/* No leg of an echo is longer than this times the sensor's range: a ghost in range that returns
+ * straight is at most twice that far away by the mirror. */
+#define LONGEST_LEG 2
 
-/* What is LEVEL times as far as it is high is seen at an azimuth whose sine is less than it would
- * be in the plane, by a factor of 1 / LIFTED at least (slant.h). */
+/* A reflector at least LEVEL times as far away as it is high above or below the sensor is read at
+ * an azimuth whose sine is at least 1 / LIFTED of that in the plane (slant.h). */
 #define LEVEL 5
 #define LIFTED 1.02
 
-/* Of metres and sines, far more than rounding. */
-#define PLAIN 1e-6
+/* Slack of bounds in metres and on sines, far more than their rounding. */
+#define SLACK 1e-6
 
 static struct box box_at(const struct object *object, double age_s)
 {
-    struct motion then = frame_motion(object, age_s);
-    return (struct box){then, vec2_heading(then.yaw_rad), object->length_m, object->width_m};
+    struct motion motion = frame_motion(object, age_s);
+    return (struct box){motion, vec2_heading(motion.yaw_rad), object->length_m, object->width_m};
 }
 
 static struct look_body *body_of_id(const struct look *look, const char *id)
@@ -46,16 +46,16 @@ static struct look_body *body_of_id(const struct look *look, const char *id)
     return NULL;
 }
 
-static bool moves(const struct object *object, const struct motion *then)
+static bool has_moved(const struct object *object, const struct motion *motion)
 {
-    return object->x_m != then->position_m.x || object->y_m != then->position_m.y ||
-           object->yaw_rad != then->yaw_rad;
+    return object->x_m != motion->position_m.x || object->y_m != motion->position_m.y ||
+           object->yaw_rad != motion->yaw_rad;
 }
 
 static struct look_body body_at(const struct look *look, const struct object *object, double age_s)
 {
     struct look_body body = {.object = object, .box = box_at(object, age_s)};
-    body.moved = age_s != 0 && moves(object, &body.box.motion);
+    body.moved = age_s != 0 && has_moved(object, &body.box.motion);
     body.radius_m = 0.5 * vec2_length((struct vec2){object->length_m, object->width_m});
     body.sensor_m = vec2_turn_back(vec2_sub(look->pose.position_m, body.box.motion.position_m),
                                    body.box.heading);
@@ -106,7 +106,7 @@ static int attach_reflectors(struct look *look, struct diag *diag)
     return 0;
 }
 
-/* Of what reaches beyond the body's box by that share of its size, and so far to every side. */
+/* Extent of the body's box, scaled by share and motion wider by beyond_m to every side. */
 static struct look_extent extent_around(const struct look_body *body, double share, double beyond_m)
 {
     struct vec2 half_m = {0.5 * share * body->box.length_m + beyond_m,
@@ -115,21 +115,21 @@ static struct look_extent extent_around(const struct look_body *body, double sha
     return (struct look_extent){silhouette, azimuth_index_of(&silhouette)};
 }
 
-static void enter_blockers(struct look *look)
+static void index_blockers(struct look *look)
 {
-    look->bearings = azimuth_index_begin(look->body_count, look->frame->arena);
+    look->blocker_index = azimuth_index_begin(look->body_count, look->frame->arena);
     for (size_t i = 0; i < look->body_count; i++) {
         struct look_body *body = &look->bodies[i];
-        body->shadow = extent_around(body, 1, look->bend_m);
+        body->shadow = extent_around(body, 1, look->rim_m);
         if (body->blocks)
-            azimuth_index_enter(&look->bearings, i, body->shadow.span);
+            azimuth_index_enter(&look->blocker_index, i, body->shadow.span);
     }
 }
 
-static void open_view(struct look *look)
+static void set_view_borders(struct look *look)
 {
-    double border_rad = suite_border_rad(look->sensor), lift = look->height_m > 0 ? LIFTED : 1;
-    double sine = border_rad < PI / 2 ? lift * elementary_sin(border_rad) + PLAIN : 1;
+    double border_rad = suite_border_rad(look->sensor), lifted = look->height_m > 0 ? LIFTED : 1;
+    double sine = border_rad < PI / 2 ? lifted * elementary_sin(border_rad) + SLACK : 1;
     if (!(sine < 1))
         return;
     struct vec2 edge = {sqrt((1 - sine) * (1 + sine)), sine};
@@ -145,18 +145,18 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
     struct motion ego = frame_motion(carrier, age_s);
     *look =
         (struct look){.frame = frame, .sensor = sensor, .selection = selection, .time_s = time_s};
-    look->moved = age_s != 0 && moves(carrier, &ego);
+    look->ego_moved = age_s != 0 && has_moved(carrier, &ego);
     look->pose = sensor_pose_on(&ego, sensor->mount_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
     look->height_m = sensor->mount_z_m;
-    look->over = look->height_m > 0 && effects_enabled(selection, EFFECT_HEIGHT);
+    look->sees_over = look->height_m > 0 && effects_enabled(selection, EFFECT_HEIGHT);
     if (sensor->diffraction && effects_enabled(selection, EFFECT_DIFFRACTION))
         look->wavelength_m = units_wavelength_m(sensor->carrier_hz);
-    look->bend_m = knife_edge_reach_m(LONGEST_WAY * sensor->range_max_m, look->wavelength_m);
-    open_view(look);
+    look->rim_m = knife_edge_reach_m(LONGEST_LEG * sensor->range_max_m, look->wavelength_m);
+    set_view_borders(look);
     place_bodies(look, age_s);
     if (attach_reflectors(look, diag) != 0)
         return -1;
-    enter_blockers(look);
+    index_blockers(look);
     return 0;
 }
 
@@ -165,11 +165,12 @@ double look_reflectors_radius_m(const struct look_body *body, const struct look_
     return set->shape->share * body->radius_m + set->shape->inset_m;
 }
 
-struct look_extent look_reflectors(const struct look *look, const struct look_body *body,
-                                   const struct look_set *set)
+struct look_extent look_reflectors_extent(const struct look *look, const struct look_body *body,
+                                          const struct look_set *set)
 {
-    bool in_shadow = set->shape->share == 1 && set->shape->inset_m <= look->bend_m;
-    return in_shadow ? body->shadow : extent_around(body, set->shape->share, set->shape->inset_m);
+    bool within_shadow = set->shape->share == 1 && set->shape->inset_m <= look->rim_m;
+    return within_shadow ? body->shadow
+                         : extent_around(body, set->shape->share, set->shape->inset_m);
 }
 
 bool look_out_of_reach(const struct look *look, const struct look_body *body,
@@ -177,52 +178,53 @@ bool look_out_of_reach(const struct look *look, const struct look_body *body,
 {
     double rise_m =
         look->height_m > 0 ? elementary_max(look->height_m, 2 * body->object->height_m) : 0;
-    return silhouette->nearest_m > look->sensor->range_max_m + PLAIN ||
+    return silhouette->nearest_m > look->sensor->range_max_m + SLACK ||
            (silhouette->nearest_m > LEVEL * rise_m &&
             silhouette_outside(silhouette, look->view_right, look->view_left));
 }
 
 double look_top_m(const struct look *look, const struct look_body *body)
 {
-    return look->over && body->object->height_m > 0 ? body->object->height_m : (double)INFINITY;
+    return look->sees_over && body->object->height_m > 0 ? body->object->height_m
+                                                         : (double)INFINITY;
 }
 
-double look_height_m(const struct look *look, const struct look_body *body, double z)
+double look_reflector_height_m(const struct look *look, const struct look_body *body, double z)
 {
     return z > 0 ? z * body->object->height_m : look->height_m;
 }
 
 uint64_t look_latency_effect(const struct look *look, const struct look_body *body)
 {
-    return look->moved || body->moved ? EFFECT_BIT(EFFECT_LATENCY) : 0;
+    return look->ego_moved || body->moved ? EFFECT_BIT(EFFECT_LATENCY) : 0;
 }
 
-struct kinematics look_slant(const struct look *look, double reflector_m, struct kinematics sight,
+struct kinematics look_slant(const struct look *look, double reflector_m, struct kinematics plane,
                              double *gain, uint64_t *effects)
 {
     const struct selection *selection = look->selection;
     double height_m = reflector_m - look->height_m;
     *gain = 1;
-    bool lift = look->height_m > 0 && effects_enabled(selection, EFFECT_ELEVATION) &&
-                (effects_forced(selection, EFFECT_ELEVATION) || height_m != 0);
-    effects_note(selection, EFFECT_ELEVATION, lift);
-    if (!lift)
-        return sight;
+    bool tilted = look->height_m > 0 && effects_enabled(selection, EFFECT_ELEVATION) &&
+                  (effects_forced(selection, EFFECT_ELEVATION) || height_m != 0);
+    effects_note(selection, EFFECT_ELEVATION, tilted);
+    if (!tilted)
+        return plane;
     int64_t begin = effects_begin(selection);
-    struct slant elevation = slant_of(sight.range_m, height_m);
-    struct kinematics slant = {
-        .range_m = elevation.range_m,
-        .azimuth_rad = slant_azimuth_rad(elevation, sight.azimuth_rad),
-        .range_rate_mps = elevation.cosine * sight.range_rate_mps,
+    struct slant slant = slant_of(plane.range_m, height_m);
+    struct kinematics read = {
+        .range_m = slant.range_m,
+        .azimuth_rad = slant_azimuth_rad(slant, plane.azimuth_rad),
+        .range_rate_mps = slant.cosine * plane.range_rate_mps,
     };
     double half_width_rad = look->sensor->elevation_half_width_rad;
     if (half_width_rad > 0)
-        *gain = slant_amplitude_factor(elevation, half_width_rad);
-    if (slant.range_m != sight.range_m || slant.azimuth_rad != sight.azimuth_rad ||
-        slant.range_rate_mps != sight.range_rate_mps || *gain != 1)
+        *gain = slant_amplitude_factor(slant, half_width_rad);
+    if (read.range_m != plane.range_m || read.azimuth_rad != plane.azimuth_rad ||
+        read.range_rate_mps != plane.range_rate_mps || *gain != 1)
         *effects |= EFFECT_BIT(EFFECT_ELEVATION);
     effects_end(selection, EFFECT_ELEVATION, begin);
-    return slant;
+    return read;
 }
 
 double look_plane_ercs(const struct look *look, const struct plane_reflector *plane, double range_m,
@@ -250,10 +252,10 @@ double look_visibility(const struct look *look, const struct look_body *body,
     double visible = reflectors_visibility(box, point, facing, place, viewer);
     if (point->lobe.depth_db == 0 || visible == 0)
         return visible;
-    bool level = !(look->height_m > 0 && effects_enabled(look->selection, EFFECT_ELEVATION));
+    bool tilted = look->height_m > 0 && effects_enabled(look->selection, EFFECT_ELEVATION);
     double range_m =
         vec2_length(vec2_sub(viewer, place)) + vec2_length(vec2_sub(look->pose.position_m, viewer));
-    double rise_m = level ? 0 : look->height_m - look_height_m(look, body, point->z);
+    double rise_m = tilted ? look->height_m - look_reflector_height_m(look, body, point->z) : 0;
     return visible * reflectors_lobe(box, point, place, viewer, elementary_atan2(range_m, rise_m));
 }
 

@@ -1,13 +1,13 @@
-/* One sensor's look at a scene: where it stands, what is there, and what a sensor at that place
- * reads of it (MODEL 2.4).
+/* The surroundings of one sensor at the instant of measurement.
  *
- * A look stands at the instant of the measurement: the ego and all objects are moved there in
- * closed form, the sensor's place and speed follow from its mount on the moving, turning ego. What
- * lies in the way is in line_of_sight.h, what echoes in direct_echoes.h and ghost_echoes.h.
+ * The ego and all objects are moved to that instant in closed form; the sensor's place and velocity
+ * follow from its mount on the moving, turning ego (MODEL 2.4). line_of_sight.h answers what lies
+ * between two places of a look, direct_echoes.h and ghost_echoes.h make the echoes.
  *
- * With mount_z_m reflectors that have a height are seen from the sensor's: their slant range, the
- * angle that a linear array reads, and the rate along the slant decide and are reported (EFFECTS
- * 19), and objects hide what they are high enough for. An object without a height hides all. */
+ * A sensor with mount_z_m sees a reflector that has a height from its own height (MODEL 14.2): the
+ * slant range, the range rate along the slant and the azimuth that a linear array reads are
+ * compared with the sensor's limits and reported. Objects then hide only what is not seen over them
+ * (MODEL 14.3); an object without a height hides all behind it. */
 #ifndef LOOK_H
 #define LOOK_H
 
@@ -24,86 +24,95 @@ struct look_set {
     struct look_body **bodies; /* those of reflectors->objects, in that order */
 };
 
-/* What of the view something covers. */
+/* The directions from the sensor that a body, its shadow or its reflectors cover. */
 struct look_extent {
     struct silhouette silhouette;
-    struct azimuth_index_span span; /* of it */
+    struct azimuth_index_span span; /* the silhouette's sectors */
 };
 
+/* An object at the instant of measurement. */
 struct look_body {
     const struct object *object;
     const struct look_set *set; /* NULL: no reflectors are described for it */
     struct box box;
     struct vec2 corner[4];
     double radius_m;           /* of the circle around the box */
-    struct vec2 sensor_m;      /* in the body's frame */
-    struct look_extent shadow; /* of the box and where it bends what passes */
-    bool blocks;
-    bool raised;
-    bool moved; /* between the instant of the measurement and the frame's time */
+    struct vec2 sensor_m;      /* the sensor's place in the body's frame */
+    struct look_extent shadow; /* where the box and its rim may change what passes */
+    bool blocks;               /* does its outline stop sight lines? */
+    bool raised;               /* can a radar look under it? */
+    bool moved;                /* between the measurement and the frame's time */
 };
 
 struct look {
     struct frame *frame;
     const struct sensor *sensor;
     const struct selection *selection;
-    double time_s;
+    double time_s; /* of the measurement */
     struct sensor_pose pose;
-    double height_m;          /* 0: in a flat world */
-    bool over;                /* is something seen over what is low? */
-    double wavelength_m;      /* that bends around edges; 0: none does */
-    double bend_m;            /* how far beside a body it may matter that it does */
-    bool moved;               /* the ego, since then */
-    struct vec2 view_right;   /* what is not high above or below is in view from here */
-    struct vec2 view_left;    /* to here; both zero: all around */
+    double height_m;          /* the sensor's over the road; 0: in a flat world */
+    bool sees_over;           /* may the sensor see over tops? */
+    double wavelength_m;      /* of waves that bend around edges; 0: there is no diffraction */
+    double rim_m;             /* so far beside a body, diffraction may change what passes */
+    bool ego_moved;           /* between the measurement and the frame's time */
+    struct vec2 view_right;   /* directions between these two may be in view, at low elevations; */
+    struct vec2 view_left;    /* both zero: all directions */
     struct look_body *bodies; /* all objects but the ego, by id */
     size_t body_count;
-    struct look_set *sets;             /* of the frame */
-    struct azimuth_index bearings;     /* of the bodies that block, as they are numbered here */
-    const struct look_body **blockers; /* of the body that is looked at, by id */
+    struct look_set *sets;              /* of the frame, in its order */
+    struct azimuth_index blocker_index; /* of the bodies that block, numbered as in bodies */
+    const struct look_body **blockers;  /* those that may hide the body at hand, by id */
     size_t blocker_count;
-    int64_t pairs, echoes;
+    int64_t pairs, echoes; /* reflectors tried and direct echoes made so far */
 };
 
-/* The frame must have objects (the ego among them) and reflectors. Refuses a reflector set that
- * lists an object that is not among them, or the ego. */
+/* Sets up a look for a measurement at time_s. The frame must have reflectors, and objects with the
+ * ego among them. Fails if a reflector set lists the ego, or an object that the frame does not
+ * have. */
 int look_begin(struct look *look, struct frame *frame, const struct sensor *sensor,
                const struct selection *selection, double time_s, struct diag *diag);
 
-/* Of a reflector at a fraction of the object's height, or at the sensor's for z = 0. */
-double look_height_m(const struct look *look, const struct look_body *body, double z);
+/* The height over the road of a reflector at the fraction z of the body's height; the sensor's
+ * height for z = 0. */
+double look_reflector_height_m(const struct look *look, const struct look_body *body, double z);
 
-/* The height over which a body is looked; INFINITY where nothing is. */
+/* The height up to which a body hides what is behind it; INFINITY if nothing is seen over it. */
 double look_top_m(const struct look *look, const struct look_body *body);
 
-/* What a sensor reads of a reflector at that height which it would see so in the plane, with the
- * factor on amplitude of its beam; adds to effects. */
-struct kinematics look_slant(const struct look *look, double reflector_m, struct kinematics sight,
+/* What the sensor reads of a reflector at reflector_m over the road, whose kinematics in the plane
+ * are given (MODEL 14.2). Sets gain to the beam's factor on amplitude at that elevation, and adds
+ * elevation to effects if it changes anything. */
+struct kinematics look_slant(const struct look *look, double reflector_m, struct kinematics plane,
                              double *gain, uint64_t *effects);
 
-/* The cross section of a side at its specular point, range_m away in the plane; adds to effects. */
+/* The ERCS of a flat side at its specular point, range_m away in the plane (MODEL 14.5). Adds
+ * curvature to effects if it changes the value. */
 double look_plane_ercs(const struct look *look, const struct plane_reflector *plane, double range_m,
                        uint64_t *effects);
 
-/* The circle around the body's centre with all reflectors of that set, and their extent. */
+/* Radius of a circle around the body's centre that holds all its reflectors of the set. */
 double look_reflectors_radius_m(const struct look_body *body, const struct look_set *set);
-struct look_extent look_reflectors(const struct look *look, const struct look_body *body,
-                                   const struct look_set *set);
 
-/* True only if nothing of the body within that silhouette can be in range and in view. */
+/* Extent of all reflectors of the set on a body. */
+struct look_extent look_reflectors_extent(const struct look *look, const struct look_body *body,
+                                          const struct look_set *set);
+
+/* True only if nothing of the body within the silhouette can be in range and in view. */
 bool look_out_of_reach(const struct look *look, const struct look_body *body,
                        const struct silhouette *silhouette);
 
-/* How much of a point is seen from the viewer, the sensor itself or a bounce on the way to it: its
- * visibility, and its lobe at the sensor's elevation. 1 without the effect visibility. */
+/* The factor on a point's ERCS for a viewer, the sensor itself or a bounce on the way to it: its
+ * visibility (MODEL 2.2), times its lobe (MODEL 2.8) at the sensor's elevation. facing is the
+ * heading of the point's facing_rad in the body's frame. 1 if visibility is not selected. */
 double look_visibility(const struct look *look, const struct look_body *body,
                        const struct point_reflector *point, struct vec2 facing, struct vec2 place,
                        struct vec2 viewer);
 
-/* A post of a row as the point it is, under its name. */
+/* Post number `post` of a row, as a point with its own name. */
 struct point_reflector look_post(const struct look *look, const struct post_row *row, int64_t post);
 
-/* EFFECT_BIT of latency if it changes how the sensor sees this body, else 0. */
+/* EFFECT_BIT of latency if the ego or the body moved between the measurement and the frame's time,
+ * else 0. */
 uint64_t look_latency_effect(const struct look *look, const struct look_body *body);
 
 #endif

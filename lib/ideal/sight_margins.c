@@ -19,10 +19,10 @@ double sight_margins_foot_m(struct vec2 a, struct vec2 b, struct vec2 along, dou
 {
     if (vec2_same(a, b))
         return (double)NAN;
-    double before_m = -vec2_cross(along, vec2_sub(sensor, a));
+    double outside_m = -vec2_cross(along, vec2_sub(sensor, a));
     double from_a_m = vec2_dot(vec2_sub(sensor, a), along) - margin_m;
     double from_b_m = vec2_dot(vec2_sub(b, sensor), along) - margin_m;
-    return fabs(elementary_min(before_m, elementary_min(from_a_m, from_b_m)));
+    return fabs(elementary_min(outside_m, elementary_min(from_a_m, from_b_m)));
 }
 
 static double to_line_m(struct vec2 a, struct vec2 b, struct vec2 point)
@@ -42,7 +42,7 @@ static double to_segment_m(struct vec2 a, struct vec2 b, struct vec2 point)
     return to_line_m(a, b, point);
 }
 
-/* The least over the ends of two segments, each against the other. */
+/* The least distance of an end of p to q from a to b, or of an end of a to b from p to q. */
 static double least_m(double (*distance_m)(struct vec2 a, struct vec2 b, struct vec2 point),
                       struct vec2 p, struct vec2 q, struct vec2 a, struct vec2 b)
 {

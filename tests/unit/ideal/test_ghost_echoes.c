@@ -15,15 +15,15 @@
 #define DEGREE (PI / 180)
 #define EVERYTHING (EFFECT_BIT(EFFECT_COUNT) - 1)
 
-/* A sensor at the origin that looks along +x over a half plane, as EFFECTS 7 has it. */
-struct playback {
+/* A scene with a sensor at the origin that looks along +x over a half plane. */
+struct scene {
     struct arena arena;
     struct frame frame;
     struct sensor sensor;
     struct selection selection;
 };
 
-static void clear_scene(struct playback *scene)
+static void clear_scene(struct scene *scene)
 {
     arena_clear(&scene->arena);
     scene->frame = (struct frame){.scene = "s", .ego = "e", .time_s = 10, .account = true};
@@ -40,7 +40,7 @@ static void clear_scene(struct playback *scene)
 
 static int make_scene(void **state)
 {
-    struct playback *scene = calloc(1, sizeof *scene);
+    struct scene *scene = calloc(1, sizeof *scene);
     assert_non_null(scene);
     clear_scene(scene);
     *state = scene;
@@ -49,13 +49,13 @@ static int make_scene(void **state)
 
 static int remove_scene(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     arena_free(&scene->arena);
     free(scene);
     return 0;
 }
 
-static struct object *add_object(struct playback *scene, const char *id, double x_m, double y_m,
+static struct object *add_object(struct scene *scene, const char *id, double x_m, double y_m,
                                  double length_m, double width_m)
 {
     struct object *object = list_add(&scene->frame.objects, &scene->arena);
@@ -64,7 +64,7 @@ static struct object *add_object(struct playback *scene, const char *id, double 
     return object;
 }
 
-static struct reflector_set *add_set(struct playback *scene, const char *object, bool blocks)
+static struct reflector_set *add_set(struct scene *scene, const char *object, bool blocks)
 {
     struct reflector_set *set = list_add(&scene->frame.reflectors, &scene->arena);
     *set = (struct reflector_set){.model = object, .blocks = blocks};
@@ -72,15 +72,15 @@ static struct reflector_set *add_set(struct playback *scene, const char *object,
     return set;
 }
 
-/* Mirrors on the right side of an object along the x axis, facing -y. */
-static void add_right_mirror(struct playback *scene, struct reflector_set *set, double reflection)
+/* Adds a mirror on the right side of an object: of one that heads along +x it faces -y. */
+static void add_right_mirror(struct scene *scene, struct reflector_set *set, double reflection)
 {
     *list_add(&set->mirrors, &scene->arena) =
         (struct mirror_plane){-0.5, -0.5, 0.5, -0.5, reflection};
 }
 
-static struct object *add_wall(struct playback *scene, const char *id, double from_x_m,
-                               double to_x_m, double y_m)
+static struct object *add_wall(struct scene *scene, const char *id, double from_x_m, double to_x_m,
+                               double y_m)
 {
     struct object *wall =
         add_object(scene, id, (from_x_m + to_x_m) / 2, y_m + 0.25, to_x_m - from_x_m, 0.5);
@@ -88,7 +88,7 @@ static struct object *add_wall(struct playback *scene, const char *id, double fr
     return wall;
 }
 
-static struct point_reflector *add_point(struct playback *scene, struct reflector_set *set)
+static struct point_reflector *add_point(struct scene *scene, struct reflector_set *set)
 {
     struct point_reflector *point = list_add(&set->points, &scene->arena);
     *point = (struct point_reflector){
@@ -96,13 +96,13 @@ static struct point_reflector *add_point(struct playback *scene, struct reflecto
     return point;
 }
 
-static void add_standard_pole(struct playback *scene)
+static void add_standard_pole(struct scene *scene)
 {
     add_object(scene, "o", 30, -2, 0.2, 0.2)->vx_mps = -5;
     add_point(scene, add_set(scene, "o", true));
 }
 
-static struct look ghosts_at(struct playback *scene, double time_s)
+static struct look ghosts_at(struct scene *scene, double time_s)
 {
     struct look look;
     struct diag diag = {0};
@@ -116,7 +116,7 @@ static struct look ghosts_at(struct playback *scene, double time_s)
     return look;
 }
 
-static const struct echo *ghost_of(const struct playback *scene, enum path path)
+static const struct echo *ghost_of(const struct scene *scene, enum path path)
 {
     for (size_t i = 0; i < scene->frame.echoes.count; i++)
         if (scene->frame.echoes.items[i].id.path == path)
@@ -128,7 +128,7 @@ static const struct echo *ghost_of(const struct playback *scene, enum path path)
 #define BACK (1 << PATH_OBJECT_WALL)
 #define BOTH (1 << PATH_WALL_OBJECT_WALL)
 
-static int paths_of(struct playback *scene)
+static int paths_of(struct scene *scene)
 {
     int paths = 0;
     ghosts_at(scene, 10);
@@ -137,9 +137,10 @@ static int paths_of(struct playback *scene)
     return paths;
 }
 
-static void effects_7_has_its_ghosts(void **state)
+/* The case to check against of MODEL 14.1. */
+static void a_pole_before_a_wall_has_the_ghosts_of_the_model(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     add_standard_pole(scene);
     add_wall(scene, "w", -10, 50, 4);
     ghosts_at(scene, 10);
@@ -176,7 +177,7 @@ static void effects_7_has_its_ghosts(void **state)
 
 static void bounces_and_the_selection_say_which_ghosts_there_are(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     static const int paths[] = {0, 0, OUT | BACK, OUT | BACK | BOTH};
     add_standard_pole(scene);
     add_wall(scene, "w", -10, 50, 4);
@@ -188,10 +189,11 @@ static void bounces_and_the_selection_say_which_ghosts_there_are(void **state)
     assert_int_equal(paths_of(scene), 0);
 }
 
-/* The ways of the standard case: (0, 0) to (12, 4), on to (30, -2), and back. */
-static void every_way_must_be_free(void **state)
+/* The legs of the standard case are (0, 0) to (12, 4) and on to (30, -2), and (0, 0) to (30, -2).
+ */
+static void every_leg_must_be_free(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     static const struct {
         double x_m, y_m;
         int paths;
@@ -219,14 +221,14 @@ static void every_way_must_be_free(void **state)
 /* A box with a pole at its far left corner, (12, 2), whose image is (12, 6). */
 static void an_object_hides_its_own_bounce_but_not_its_reflectors(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     add_wall(scene, "w", -10, 50, 4);
     struct object *box = add_object(scene, "o", 10, 0, 4, 4);
     struct reflector_set *set = add_set(scene, "o", true);
     struct point_reflector *point = add_point(scene, set);
     point->x = point->y = 0.5;
     assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
-    /* From here the way to the bounce touches its near corner, and then a smaller one does not. */
+    /* From here the leg to the bounce touches the box's near corner. A smaller box clears it. */
     scene->frame.objects.items->y_m = -6;
     assert_int_equal(paths_of(scene), 0);
     box->y_m = -0.01;
@@ -238,9 +240,9 @@ static void an_object_hides_its_own_bounce_but_not_its_reflectors(void **state)
     assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
 }
 
-static void a_body_does_not_mirror_itself_and_two_mirror_twice(void **state)
+static void no_body_mirrors_itself_and_every_mirror_has_its_ghosts(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     add_standard_pole(scene);
     add_right_mirror(scene, &scene->frame.reflectors.items[0], 0.9);
     assert_int_equal(paths_of(scene), 0);
@@ -252,7 +254,7 @@ static void a_body_does_not_mirror_itself_and_two_mirror_twice(void **state)
     inner->blocks = false;
     ghosts_at(scene, 10);
     assert_int_equal(scene->frame.echoes.count, 6);
-    /* Two of one body are told apart by their numbers. */
+    /* Two mirrors of one body differ by their numbers. */
     add_right_mirror(scene, inner, 0.3);
     ghosts_at(scene, 10);
     assert_int_equal(scene->frame.echoes.count, 9);
@@ -265,13 +267,13 @@ static void a_body_does_not_mirror_itself_and_two_mirror_twice(void **state)
 
 static void two_walls_in_line_are_one(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     for (int step = -4; step <= 4; step++) {
         clear_scene(scene);
         add_standard_pole(scene);
         add_wall(scene, "v", -12, 12, 4);
         add_wall(scene, "w", 12, 36, 4);
-        /* The bounce passes over the joint as the object passes by. */
+        /* As the pole moves, its bounce crosses the joint. */
         scene->frame.objects.items[1].x_m = 30 + (double)step * 0x1p-48;
         assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
         assert_int_equal(scene->frame.echoes.count, 3);
@@ -284,9 +286,9 @@ static double raised_cosine(double full_rad, double zero_rad, double delta_rad)
     return 0.5 * (1 + cos(PI * (delta_rad - full_rad) / (zero_rad - full_rad)));
 }
 
-static void one_way_is_seen_as_well_as_the_other(void **state)
+static void both_one_way_ghosts_are_equally_strong(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     add_standard_pole(scene);
     add_wall(scene, "w", -10, 50, 4);
     struct point_reflector *pole = scene->frame.reflectors.items[0].points.items;
@@ -295,18 +297,18 @@ static void one_way_is_seen_as_well_as_the_other(void **state)
     pole->full_rad = 0;
     pole->zero_rad = 60 * DEGREE;
     ghosts_at(scene, 10);
-    /* Seen from the sensor at 180 - 3.814 degrees, from the bounce at 180 - 18.435. */
+    /* The pole sees the sensor at 180 - 3.814 degrees and the bounce at 180 - 18.435. */
     double sensor = raised_cosine(0, 60, 176.185925166 - 160);
     double bounce = raised_cosine(0, 60, 161.565051177 - 160);
     const struct echo *out = ghost_of(scene, PATH_WALL_OBJECT);
     const struct echo *back = ghost_of(scene, PATH_OBJECT_WALL);
     const struct echo *both = ghost_of(scene, PATH_WALL_OBJECT_WALL);
-    double way = 0.9 * out->range_m * out->range_m / sqrt(904 * 1000.);
-    assert_close(out->ercs, sqrt(sensor * bounce) * way, 1e-9);
+    double one_way = 0.9 * out->range_m * out->range_m / sqrt(904 * 1000.);
+    assert_close(out->ercs, sqrt(sensor * bounce) * one_way, 1e-9);
     assert_close(back->ercs, out->ercs, 0);
     assert_close(both->ercs, bounce * 0.81, 1e-9);
     assert_true((out->effects & EFFECT_BIT(EFFECT_VISIBILITY)) != 0);
-    /* Facing away from the sensor but not from the wall. */
+    /* The pole faces away from the sensor but not from the wall. */
     pole->facing_rad = 100 * DEGREE;
     pole->zero_rad = 70 * DEGREE;
     assert_int_equal(paths_of(scene), BOTH);
@@ -318,7 +320,7 @@ static void one_way_is_seen_as_well_as_the_other(void **state)
 
 static void limits_hold_for_the_ghost_and_its_last_leg(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     static const struct {
         double range_min_m, range_max_m, view_deg;
         int paths;
@@ -350,20 +352,20 @@ static void limits_hold_for_the_ghost_and_its_last_leg(void **state)
     assert_int_equal(paths_of(scene), BOTH);
 }
 
-static void planes_are_seen_by_their_foot_from_the_image(void **state)
+static void planes_have_a_ghost_at_the_foot_of_the_sensors_image(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     add_wall(scene, "w", -10, 50, 4);
-    /* A side at x = 12 that faces -x cannot be square to a way from the wall; one that is turned by
-     * the image's bearing is. The image of the sensor is (0, 8), the foot (12, -8). */
+    /* The image of the sensor is (0, 8). A side at (12, -8) that is turned to face it has its foot
+     * there; a side that faces -x has none. */
     struct object *box = add_object(scene, "o", 0, 0, 2, 2);
     struct reflector_set *set = add_set(scene, "o", true);
     *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
         .name = "front", .from_x = 0.5, .from_y = -0.5, .to_x = 0.5, .to_y = 0.5, .ercs = 0.7};
-    double bearing_rad = atan2(16, -12);
-    box->yaw_rad = bearing_rad;
-    box->x_m = 12 - cos(bearing_rad);
-    box->y_m = -8 - sin(bearing_rad);
+    double turn_rad = atan2(16, -12);
+    box->yaw_rad = turn_rad;
+    box->x_m = 12 - cos(turn_rad);
+    box->y_m = -8 - sin(turn_rad);
     box->vx_mps = 3;
     box->vy_mps = 1;
     assert_int_equal(paths_of(scene), BOTH);
@@ -374,7 +376,7 @@ static void planes_are_seen_by_their_foot_from_the_image(void **state)
     assert_near(ghost->ercs, 0.81 * 0.7, 1e-12);
     assert_true(ghost->effects ==
                 (EFFECT_BIT(EFFECT_GHOSTS) | EFFECT_BIT(EFFECT_PLANE_REFLECTION)));
-    /* With a rail's profile, and at half of 6 m, 2.5 m above the sensor. */
+    /* With the curvature of a guardrail; then at half of 6 m, which is 2.5 m above the sensor. */
     struct plane_reflector *front = set->planes.items;
     scene->sensor.curved_sides = true;
     front->profile_radius_m = 0.04;
@@ -392,13 +394,13 @@ static void planes_are_seen_by_their_foot_from_the_image(void **state)
     scene->sensor.bounces = 2;
     assert_int_equal(paths_of(scene), 0);
     scene->sensor.bounces = 3;
-    box->yaw_rad = bearing_rad + 0.2;
+    box->yaw_rad = turn_rad + 0.2;
     assert_int_equal(paths_of(scene), 0);
 }
 
 static void posts_have_ghosts_by_their_names(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     add_wall(scene, "w", -10, 50, 4);
     add_object(scene, "r", 20, -3, 40, 0.2);
     struct reflector_set *rail = add_set(scene, "r", false);
@@ -412,8 +414,8 @@ static void posts_have_ghosts_by_their_names(void **state)
                                                               .ercs = 0.2};
     scene->sensor.range_max_m = 30;
     ghosts_at(scene, 10);
-    /* Posts at x = 0, 10, 20, 30, of which the last has no ghost nearer than its 30.15 m; that of
-     * the first arrives square to boresight, at the border of the view, but one way goes past. */
+    /* There are posts at x = 0, 10, 20 and 30. The last one is 30.15 m away and so out of range;
+     * the ghosts of the first arrive square to boresight, at the border of the view. */
     static const char *const names[] = {"post_1", "post_1", "post_1", "post_2", "post_2", "post_2"};
     assert_int_equal(scene->frame.echoes.count, COUNT(names));
     for (size_t i = 0; i < COUNT(names); i++)
@@ -430,10 +432,10 @@ static void set_motion(struct object *object, uint64_t *sample)
     object->yaw_rate_radps = sample_between(sample, -0.5, 0.5);
 }
 
-/* Sensor, wall and object on their ways, all turning: a rate is the derivative of its range. */
+/* Sensor, wall and object all move and turn. */
 static void rates_are_derivatives_of_ranges(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     uint64_t sample = 1;
     int compared = 0;
     for (int round = 0; round < 300; round++) {
@@ -465,7 +467,7 @@ static void rates_are_derivatives_of_ranges(void **state)
 }
 
 /* Boxes with poles at their corners and mirrors on their sides. */
-static void add_random_bodies(struct playback *scene, uint64_t *sample)
+static void add_random_bodies(struct scene *scene, uint64_t *sample)
 {
     static const char *const ids[] = {"a", "b", "c", "d", "f", "g"};
     for (size_t i = 0; i < COUNT(ids); i++) {
@@ -492,17 +494,17 @@ static void add_random_bodies(struct playback *scene, uint64_t *sample)
     }
 }
 
-static int64_t no_time(void)
+static int64_t stopped_clock_ns(void)
 {
     return 0;
 }
 
 static void auto_leaves_out_no_ghost(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     uint64_t sample = 2;
     size_t ghosts = 0;
-    struct effect_log log = {.clock_ns = no_time};
+    struct effect_log log = {.clock_ns = stopped_clock_ns};
     for (int round = 0; round < 500; round++) {
         clear_scene(scene);
         add_random_bodies(scene, &sample);
@@ -521,7 +523,7 @@ static void auto_leaves_out_no_ghost(void **state)
         ghosts += count;
     }
     assert_true(ghosts > 2000);
-    /* And it does leave out what is in no reach. */
+    /* A wall too short for a bounce is left out. */
     clear_scene(scene);
     add_standard_pole(scene);
     add_wall(scene, "w", -10, 5, 4);
@@ -533,14 +535,14 @@ static void auto_leaves_out_no_ghost(void **state)
 
 static void margins_tell_how_near_a_ghost_is_to_vanishing(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     add_standard_pole(scene);
     add_wall(scene, "w", -10, 50, 4);
     assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
     assert_int_equal(scene->frame.echoes.items[0].margins.present, 0);
     scene->frame.margins = true;
-    /* What is nearest: the sensor's 4 m to the wall's line, a blocker beside the direct way or
-     * beside the one to the wall, the wall's end past the bounce. */
+    /* The nearest border is the wall's line, 4 m from the sensor; a blocker beside the direct leg;
+     * a blocker beside the leg to the wall; the wall's end beyond the bounce. */
     const struct {
         double end_x_m, x_m, y_m, one_way_m, both_m;
     } cases[] = {
@@ -565,9 +567,9 @@ static void margins_tell_how_near_a_ghost_is_to_vanishing(void **state)
     }
 }
 
-static void a_late_look_says_so_where_the_wall_has_moved(void **state)
+static void a_ghost_in_a_wall_that_moved_has_the_label_latency(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     add_standard_pole(scene);
     scene->frame.objects.items[1].vx_mps = 0;
     struct object *wall = add_wall(scene, "w", -10, 50, 4);
@@ -577,17 +579,17 @@ static void a_late_look_says_so_where_the_wall_has_moved(void **state)
     ghosts_at(scene, 9);
     uint64_t late = EFFECT_BIT(EFFECT_GHOSTS) | EFFECT_BIT(EFFECT_LATENCY);
     assert_true(scene->frame.echoes.items->effects == late);
-    /* The wall stood at y = 3 and moved away from both. */
+    /* One second earlier the wall stood at y = 3 and moved away from sensor and pole. */
     const struct echo *both = ghost_of(scene, PATH_WALL_OBJECT_WALL);
     assert_close(both->time_s, 9, 0);
     assert_close(both->range_m, sqrt(900 + 64), 1e-12);
     assert_close(both->range_rate_mps, 2 * 8 / sqrt(900 + 64), 1e-12);
 }
 
-/* Sensor and wall as before; what is h above the sensor is that much farther on every way. */
-static void heights_count_on_every_way(void **state)
+/* The standard case with a pole 3 m above the sensor: every path is longer by that height. */
+static void heights_count_on_every_leg(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     add_standard_pole(scene);
     add_wall(scene, "w", -10, 50, 4);
     scene->sensor.mount_z_m = 0.5;
@@ -596,7 +598,7 @@ static void heights_count_on_every_way(void **state)
     pole->height_m = 4;
     wall->height_m = 2;
     scene->frame.reflectors.items[0].points.items->z = 0.875;
-    /* 3.5 m is 3 m up: the way by the wall is at 0.5 + 3 * 0.4 there, below its top. */
+    /* The pole is at 3.5 m. The path is at 0.5 + 3 * 0.4 m at the wall, below its top. */
     assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
     double direct_m = sqrt(904 + 9), image_m = sqrt(1000 + 9);
     double direct_rad = atan2(3, sqrt(904)), image_rad = atan2(3, sqrt(1000));
@@ -622,8 +624,7 @@ static void heights_count_on_every_way(void **state)
     assert_int_equal(paths_of(scene), 0);
     wall->height_m = 0;
     assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
-    /* Over what is low: the direct way is at 2 m half way, the other one at 1.1 m before the wall.
-     */
+    /* A low box hides nothing: the direct leg is at 2 m half way, the leg to the wall at 1.1 m. */
     struct object *box = add_object(scene, "b", 15, -1, 0.4, 0.4);
     add_set(scene, "b", true);
     box->height_m = 1.9;
@@ -639,10 +640,10 @@ static void heights_count_on_every_way(void **state)
     assert_int_equal(paths_of(scene), 0);
 }
 
-/* Knife edges count once on a way that is taken once. */
+/* The factor of a knife edge counts both ways, its root one way. */
 static void soft_shadows_count_once_for_every_leg(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     static const struct {
         double x_m, y_m;
         struct obstruction_line leg;
@@ -684,21 +685,21 @@ static void soft_shadows_count_once_for_every_leg(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(effects_7_has_its_ghosts),
+        TEST(a_pole_before_a_wall_has_the_ghosts_of_the_model),
         TEST(bounces_and_the_selection_say_which_ghosts_there_are),
-        TEST(every_way_must_be_free),
+        TEST(every_leg_must_be_free),
         TEST(an_object_hides_its_own_bounce_but_not_its_reflectors),
-        TEST(a_body_does_not_mirror_itself_and_two_mirror_twice),
+        TEST(no_body_mirrors_itself_and_every_mirror_has_its_ghosts),
         TEST(two_walls_in_line_are_one),
-        TEST(one_way_is_seen_as_well_as_the_other),
+        TEST(both_one_way_ghosts_are_equally_strong),
         TEST(limits_hold_for_the_ghost_and_its_last_leg),
-        TEST(planes_are_seen_by_their_foot_from_the_image),
+        TEST(planes_have_a_ghost_at_the_foot_of_the_sensors_image),
         TEST(posts_have_ghosts_by_their_names),
         TEST(rates_are_derivatives_of_ranges),
         TEST(auto_leaves_out_no_ghost),
         TEST(margins_tell_how_near_a_ghost_is_to_vanishing),
-        TEST(a_late_look_says_so_where_the_wall_has_moved),
-        TEST(heights_count_on_every_way),
+        TEST(a_ghost_in_a_wall_that_moved_has_the_label_latency),
+        TEST(heights_count_on_every_leg),
         TEST(soft_shadows_count_once_for_every_leg),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,8 +11,8 @@
 #include "ideal/line_of_sight.h"
 #include "sample.h"
 
-/* A frame in which object "e" carries a sensor with a view all around ahead. */
-struct playback {
+/* A frame in which object "e" carries a sensor that looks over the half plane ahead. */
+struct scene {
     struct arena arena;
     struct frame frame;
     struct sensor sensor;
@@ -24,7 +24,7 @@ static const struct selection automatic = {.allowed = EFFECT_BIT(EFFECT_COUNT) -
 
 static int make_scene(void **state)
 {
-    struct playback *scene = calloc(1, sizeof *scene);
+    struct scene *scene = calloc(1, sizeof *scene);
     assert_non_null(scene);
     scene->frame =
         (struct frame){.scene = "s", .ego = "e", .time_s = 10, .interval_s = 1, .account = true};
@@ -39,13 +39,13 @@ static int make_scene(void **state)
 
 static int remove_scene(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     arena_free(&scene->arena);
     free(scene);
     return 0;
 }
 
-static struct object *add_object(struct playback *scene, const char *id, double x_m, double y_m)
+static struct object *add_object(struct scene *scene, const char *id, double x_m, double y_m)
 {
     struct object *object = list_add(&scene->frame.objects, &scene->arena);
     *object = (struct object){
@@ -53,7 +53,7 @@ static struct object *add_object(struct playback *scene, const char *id, double 
     return object;
 }
 
-static struct reflector_set *add_set(struct playback *scene, const char *object)
+static struct reflector_set *add_set(struct scene *scene, const char *object)
 {
     struct reflector_set *set = list_add(&scene->frame.reflectors, &scene->arena);
     *set = (struct reflector_set){.model = object, .blocks = true};
@@ -61,7 +61,7 @@ static struct reflector_set *add_set(struct playback *scene, const char *object)
     return set;
 }
 
-static struct point_reflector *add_point(struct playback *scene, struct reflector_set *set)
+static struct point_reflector *add_point(struct scene *scene, struct reflector_set *set)
 {
     struct point_reflector *point = list_add(&set->points, &scene->arena);
     *point = (struct point_reflector){
@@ -69,7 +69,7 @@ static struct point_reflector *add_point(struct playback *scene, struct reflecto
     return point;
 }
 
-static struct look look_around_at(struct playback *scene, double time_s)
+static struct look look_at(struct scene *scene, double time_s)
 {
     struct look look;
     struct diag diag = {0};
@@ -80,7 +80,7 @@ static struct look look_around_at(struct playback *scene, double time_s)
 }
 
 /* The one loss of a frame with no echo. */
-static const struct lost_group *only_loss(const struct playback *scene)
+static const struct lost_group *only_loss(const struct scene *scene)
 {
     assert_int_equal(scene->frame.echoes.count, 0);
     assert_int_equal(scene->frame.lost.count, 1);
@@ -90,7 +90,7 @@ static const struct lost_group *only_loss(const struct playback *scene)
 
 static void the_sensor_moves_with_the_lever_arm_of_a_turning_ego(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     struct object *ego = scene->frame.objects.items;
     ego->x_m = 100;
     ego->y_m = 50;
@@ -102,7 +102,7 @@ static void the_sensor_moves_with_the_lever_arm_of_a_turning_ego(void **state)
     scene->sensor.mount_yaw_rad = -PI / 2;
     add_point(scene, add_set(scene, "a"));
     add_object(scene, "a", 111, 52);
-    struct look look = look_around_at(scene, 10);
+    struct look look = look_at(scene, 10);
     /* Facing north: 2 m ahead is +y, 1 m to the right is +x; ω × (1, 2) = 0.5 (-2, 1). */
     assert_close(look.pose.position_m.x, 101, 1e-12);
     assert_close(look.pose.position_m.y, 52, 1e-12);
@@ -118,9 +118,9 @@ static void the_sensor_moves_with_the_lever_arm_of_a_turning_ego(void **state)
     assert_close(echo->ercs, 0.5, 0);
 }
 
-static void a_late_look_shows_where_everything_was(void **state)
+static void a_late_measurement_shows_where_everything_was(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     struct object *ego = scene->frame.objects.items;
     ego->vx_mps = 20;
     add_point(scene, add_set(scene, "a"));
@@ -133,14 +133,14 @@ static void a_late_look_shows_where_everything_was(void **state)
     turning->yaw_rad = PI / 2;
     turning->yaw_rate_radps = 1;
     double age_s = PI / 2;
-    look_around_at(scene, 10 - age_s);
+    look_at(scene, 10 - age_s);
     const struct echo *echo = scene->frame.echoes.items;
     assert_int_equal(scene->frame.echoes.count, 2);
     assert_string_equal(echo[0].id.object, "a");
     assert_close(echo[0].range_m, 30 + 5 * age_s + 20 * age_s, 1e-9);
     assert_close(echo[0].range_rate_mps, -25, 1e-9);
     assert_close(echo[0].time_s, 10 - age_s, 0);
-    /* Its front, 2 m ahead of (40, -10), where it headed along +x. */
+    /* The front of b was 2 m ahead of (40, -10), where b headed along +x. */
     double x = 40 + 2 + 20 * age_s, y = -10;
     assert_close(echo[1].range_m, hypot(x, y), 1e-9);
     assert_close(echo[1].azimuth_rad, atan2(y, x), 1e-12);
@@ -150,7 +150,7 @@ static void a_late_look_shows_where_everything_was(void **state)
 
 static void the_first_blocker_by_id_is_named(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     add_point(scene, add_set(scene, "far"))->ercs = 1;
     add_set(scene, "y");
     add_set(scene, "x");
@@ -159,7 +159,7 @@ static void the_first_blocker_by_id_is_named(void **state)
     add_object(scene, "y", 10, 0);
     add_object(scene, "x", 20, 0);
     add_object(scene, "w", 30, 0);
-    struct look look = look_around_at(scene, 10);
+    struct look look = look_at(scene, 10);
     const struct lost_group *lost = only_loss(scene);
     assert_int_equal(lost->reason, LOSS_BLOCKED);
     assert_string_equal(lost->stage, "ideal");
@@ -173,19 +173,19 @@ static void the_first_blocker_by_id_is_named(void **state)
 
 static void an_object_does_not_block_itself_and_the_ego_blocks_nothing(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     struct reflector_set *set = add_set(scene, "a");
     add_point(scene, set)->x = 0.5; /* the far end */
     add_object(scene, "a", 20, 0);
     scene->sensor.mount_x_m = -2; /* looks through its own car */
-    look_around_at(scene, 10);
+    look_at(scene, 10);
     assert_int_equal(scene->frame.echoes.count, 1);
     assert_close(scene->frame.echoes.items[0].range_m, 24, 1e-12);
 }
 
 static void wheel_houses_are_seen_under_raised_vehicles_only(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     struct reflector_set *set = add_set(scene, "far");
     add_point(scene, set)->name = "corner";
     struct point_reflector *wheel = add_point(scene, set);
@@ -194,22 +194,22 @@ static void wheel_houses_are_seen_under_raised_vehicles_only(void **state)
     add_set(scene, "truck")->raised = true;
     add_object(scene, "far", 40, 0);
     struct object *truck = add_object(scene, "truck", 20, 0);
-    look_around_at(scene, 10);
+    look_at(scene, 10);
     assert_int_equal(scene->frame.echoes.count, 1);
     assert_string_equal(scene->frame.echoes.items[0].id.reflector, "wheel");
     assert_close(scene->frame.echoes.items[0].ercs, 0.25, 0);
     assert_string_equal(scene->frame.lost.items[0].echoes.items[0].id.reflector, "corner");
     assert_string_equal(scene->frame.lost.items[0].echoes.items[0].by, "truck");
-    /* With a solid one behind it both are gone; without anything both are whole. */
+    /* Behind a wall both are lost; without wall and truck both have their full ERCS. */
     add_set(scene, "wall");
     struct object *wall = add_object(scene, "wall", 30, 0);
     scene->frame.echoes.count = 0;
-    look_around_at(scene, 10);
+    look_at(scene, 10);
     assert_int_equal(scene->frame.echoes.count, 0);
     wall->y_m = 20;
     truck = &scene->frame.objects.items[2];
     truck->y_m = 20;
-    look_around_at(scene, 10);
+    look_at(scene, 10);
     assert_int_equal(scene->frame.echoes.count, 2);
     assert_close(scene->frame.echoes.items[1].ercs, 0.5, 0);
 }
@@ -227,13 +227,13 @@ static void every_loss_has_its_reason(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         void *place;
         make_scene(&place);
-        struct playback *scene = place;
+        struct scene *scene = place;
         scene->sensor.field_of_view_rad = PI / 2;
         struct point_reflector *point = add_point(scene, add_set(scene, "a"));
         point->facing_rad = cases[i].facing_rad;
         point->zero_rad = 1;
         add_object(scene, "a", cases[i].x_m, cases[i].y_m);
-        look_around_at(scene, 10);
+        look_at(scene, 10);
         assert_int_equal(only_loss(scene)->reason, cases[i].reason);
         remove_scene(&place);
     }
@@ -241,26 +241,27 @@ static void every_loss_has_its_reason(void **state)
 
 static void planes_mirror_from_the_foot_of_the_perpendicular(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     struct reflector_set *set = add_set(scene, "a");
     *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
         .name = "rear", .from_x = -0.5, .from_y = 0.5, .to_x = -0.5, .to_y = -0.5, .ercs = 0.7};
     struct object *car = add_object(scene, "a", 20, 0.9);
-    look_around_at(scene, 10);
+    look_at(scene, 10);
     assert_int_equal(scene->frame.echoes.count, 1);
     assert_close(scene->frame.echoes.items[0].range_m, 18, 1e-12);
     assert_close(scene->frame.echoes.items[0].azimuth_rad, 0, 1e-12);
     scene->frame.echoes.count = 0;
     car = &scene->frame.objects.items[1];
     car->y_m = 1.1;
-    look_around_at(scene, 10);
+    look_at(scene, 10);
     assert_int_equal(only_loss(scene)->reason, LOSS_NO_SPECULAR);
 }
 
-/* Two walls of 4 m in line, the sensor before their joint, then a hair to either side. */
+/* Two walls of 4 m in line, with the sensor exactly before their joint, then an ulp to either side.
+ */
 static void the_joint_of_two_walls_mirrors_once(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     struct reflector_set *set = add_set(scene, "a");
     *list_add(&set->objects, &scene->arena) = "b";
     *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
@@ -268,19 +269,19 @@ static void the_joint_of_two_walls_mirrors_once(void **state)
     add_object(scene, "a", 8, 21);
     add_object(scene, "b", 12, 21);
     scene->sensor.mount_yaw_rad = PI / 2;
-    static const double before_m[] = {10, 10 - 0x1p-49, 10 + 0x1p-49};
-    static const char *const whose[] = {"b", "a", "b"};
+    static const double sensor_x_m[] = {10, 10 - 0x1p-49, 10 + 0x1p-49};
+    static const char *const owner[] = {"b", "a", "b"};
     for (int i = 0; i < 3; i++) {
-        scene->frame.objects.items[0].x_m = before_m[i];
+        scene->frame.objects.items[0].x_m = sensor_x_m[i];
         scene->frame.echoes.count = 0;
-        look_around_at(scene, 10);
+        look_at(scene, 10);
         assert_int_equal(scene->frame.echoes.count, 1);
-        assert_string_equal(scene->frame.echoes.items[0].id.object, whose[i]);
+        assert_string_equal(scene->frame.echoes.items[0].id.object, owner[i]);
         assert_close(scene->frame.echoes.items[0].range_m, 20, 0);
     }
 }
 
-/* Level at its middle, 60 degrees wide there and 40 upright, at most 20 dB deep. */
+/* A lobe 60 degrees wide across and 40 upright, with its middle level, at most 20 dB deep. */
 static double lobe_of(double off_degrees, double below_degrees)
 {
     double across_db = 12 * (off_degrees / 60) * (off_degrees / 60);
@@ -288,27 +289,28 @@ static double lobe_of(double off_degrees, double below_degrees)
     return pow(10, -fmin(across_db + upright_db, 20) / 20);
 }
 
-static void a_lobe_is_seen_from_where_the_sensor_stands_and_how_high(void **state)
+static void a_lobe_depends_on_direction_and_height_of_the_sensor(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     struct object *object = add_object(scene, "o", 10, 0);
     struct point_reflector *point = add_point(scene, add_set(scene, "o"));
     point->z = 1;
     point->lobe = (struct lobe){60 * PI / 180, PI / 2, 40 * PI / 180, 20};
-    static const double turned[] = {180, 165, 200, 0};
+    static const double turned_degrees[] = {180, 165, 200, 0};
     for (size_t i = 0; i < 4; i++) {
         scene->frame.echoes.count = 0;
-        object->yaw_rad = turned[i] * PI / 180;
-        look_around_at(scene, 10);
+        object->yaw_rad = turned_degrees[i] * PI / 180;
+        look_at(scene, 10);
         const struct echo *echo = scene->frame.echoes.items;
-        assert_near(echo->ercs, 0.5 * lobe_of(turned[i] - 180, 0), 1e-12);
-        assert_true(((echo->effects & EFFECT_BIT(EFFECT_VISIBILITY)) != 0) == (turned[i] != 180));
+        assert_near(echo->ercs, 0.5 * lobe_of(turned_degrees[i] - 180, 0), 1e-12);
+        assert_true(((echo->effects & EFFECT_BIT(EFFECT_VISIBILITY)) != 0) ==
+                    (turned_degrees[i] != 180));
     }
     object->yaw_rad = PI;
     object->height_m = 0.5;
     scene->sensor.mount_z_m = 0.5 + 10 * tan(10 * PI / 180);
     scene->frame.echoes.count = 0;
-    look_around_at(scene, 10);
+    look_at(scene, 10);
     assert_near(scene->frame.echoes.items->ercs, 0.5 * lobe_of(0, 10), 1e-12);
 }
 
@@ -349,7 +351,7 @@ static void rows_are_expanded_in_range_and_no_post_is_missed(void **state)
 
 static void posts_become_echoes_with_their_numbers(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     struct reflector_set *set = add_set(scene, "rail");
     set->blocks = false;
     *list_add(&set->rows, &scene->arena) = (struct post_row){.name = "post",
@@ -362,7 +364,7 @@ static void posts_become_echoes_with_their_numbers(void **state)
                                                              .ercs = 0.2};
     struct object *rail = add_object(scene, "rail", 0, 5);
     rail->length_m = 400;
-    struct look look = look_around_at(scene, 10);
+    struct look look = look_at(scene, 10);
     /* Posts at x = -200 + 4 n; those ahead within 100 m: x = 4 to 96, n = 51 to 74. */
     assert_int_equal(scene->frame.echoes.count, 24);
     for (int i = 0; i < 24; i++) {
@@ -371,7 +373,7 @@ static void posts_become_echoes_with_their_numbers(void **state)
         assert_string_equal(scene->frame.echoes.items[i].id.reflector, name);
         assert_close(scene->frame.echoes.items[i].range_m, hypot(4 + 4 * i, 5), 1e-9);
     }
-    /* Behind: x = -96 to 0 are out of view; the two at 100 m aside are out of range. */
+    /* Those behind, x = -96 to 0, are out of view, those at x = -100 and 100 out of range. */
     assert_in_range(look.pairs, 49, 51);
     size_t lost = 0;
     for (size_t i = 0; i < scene->frame.lost.count; i++)
@@ -380,16 +382,16 @@ static void posts_become_echoes_with_their_numbers(void **state)
     assert_int_equal(look.echoes, 24);
 }
 
-/* The echo's or the loss's, in a scene with one reflector. */
-static struct margins only_margins(const struct playback *scene)
+/* The margins of the only entry, echo or loss. */
+static struct margins only_margins(const struct scene *scene)
 {
     return scene->frame.echoes.count == 1 ? scene->frame.echoes.items[0].margins
                                           : only_loss(scene)->echoes.items[0].margins;
 }
 
-/* A pole at (x, y) seen from (0, 0) between 1 and 100 m, 45 degrees to either side, facing the
- * sensor's -x within 1 rad; a box of 4 m by 2 m, if any, at (box_x, 0). */
-static void a_reflector_tells_how_near_it_was_to_another_answer(void **state)
+/* A pole at (x, y) that is seen within 1 rad of -x, a sensor at (0, 0) that sees from 1 to 100 m
+ * and 45 degrees to either side, and, if box_x is not 0, a box of 4 m by 2 m at (box_x, 0). */
+static void a_margin_is_the_distance_from_another_answer(void **state)
 {
     (void)state;
     static const struct {
@@ -412,7 +414,7 @@ static void a_reflector_tells_how_near_it_was_to_another_answer(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         void *place;
         make_scene(&place);
-        struct playback *scene = place;
+        struct scene *scene = place;
         scene->frame.margins = true;
         scene->sensor.field_of_view_rad = PI / 2;
         scene->sensor.range_min_m = 1;
@@ -424,7 +426,7 @@ static void a_reflector_tells_how_near_it_was_to_another_answer(void **state)
             add_set(scene, "box");
             add_object(scene, "box", cases[i].box_x_m, 0);
         }
-        look_around_at(scene, 10);
+        look_at(scene, 10);
         double azimuth = fabs(atan2(cases[i].y_m, cases[i].x_m));
         double range_m = hypot(cases[i].x_m, cases[i].y_m), margin_m = cases[i].margin_m;
         if (cases[i].reason == LOSS_FACING_AWAY)
@@ -442,22 +444,21 @@ static void a_reflector_tells_how_near_it_was_to_another_answer(void **state)
     }
 }
 
-static void what_passes_under_a_vehicle_is_near_to_both_answers(void **state)
+static void an_echo_from_under_a_truck_can_change_in_two_ways(void **state)
 {
     (void)state;
     static const struct {
         double truck_y_m, wall_y_m, margin_m;
     } cases[] = {
-        {0.5, 9, 0.5},   /* under the truck, out of it by 0.5 m */
-        {0, 1.25, 0.25}, /* the wall beside the truck is 0.25 m off */
-        {-1.5, 3, 0.5},  /* past the truck */
-        {0, 0.75,
-         0.25}, /* blocked by the wall, 0.25 m deep; by the truck 1 m, which is no matter */
+        {0.5, 9, 0.5},   /* the line runs under the truck, 0.5 m from its side */
+        {0, 1.25, 0.25}, /* the line passes the wall at 0.25 m */
+        {-1.5, 3, 0.5},  /* the line passes the truck at 0.5 m */
+        {0, 0.75, 0.25}, /* the wall blocks the line, 0.25 m deep */
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         void *place;
         make_scene(&place);
-        struct playback *scene = place;
+        struct scene *scene = place;
         scene->frame.margins = true;
         add_point(scene, add_set(scene, "pole"))->under_vehicles = 0.5;
         add_set(scene, "truck")->raised = true;
@@ -465,44 +466,44 @@ static void what_passes_under_a_vehicle_is_near_to_both_answers(void **state)
         add_object(scene, "pole", 50, 0);
         add_object(scene, "truck", 20, cases[i].truck_y_m);
         add_object(scene, "wall", 30, cases[i].wall_y_m);
-        look_around_at(scene, 10);
+        look_at(scene, 10);
         assert_close(only_margins(scene).sight_m, cases[i].margin_m, 1e-12);
         remove_scene(&place);
     }
 }
 
-static void a_plane_tells_how_near_its_foot_was_to_its_ends(void **state)
+static void the_margin_of_a_plane_is_the_distance_of_its_foot_from_an_end(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     scene->frame.margins = true;
     struct reflector_set *set = add_set(scene, "a");
     *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
         .name = "rear", .from_x = -0.5, .from_y = 0.5, .to_x = -0.5, .to_y = -0.5, .ercs = 0.7};
     struct object *car = add_object(scene, "a", 20, 0.75);
-    look_around_at(scene, 10);
+    look_at(scene, 10);
     assert_close(only_margins(scene).sight_m, 0.25, 1e-12);
     scene->frame.echoes.count = 0;
     car->y_m = 1.5;
-    look_around_at(scene, 10);
+    look_at(scene, 10);
     assert_int_equal(only_loss(scene)->reason, LOSS_NO_SPECULAR);
     assert_close(only_margins(scene).sight_m, 0.5, 1e-12);
 }
 
-static void without_margins_nothing_is_told(void **state)
+static void without_margins_no_entry_has_any(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     add_point(scene, add_set(scene, "a"));
     add_point(scene, add_set(scene, "b"))->zero_rad = 1;
     add_object(scene, "a", 20, 0);
     add_object(scene, "b", 0, 20);
-    look_around_at(scene, 10);
+    look_at(scene, 10);
     assert_int_equal(scene->frame.echoes.items[0].margins.present, 0);
     assert_int_equal(scene->frame.lost.items[0].echoes.items[0].margins.present, 0);
 }
 
-static void a_set_on_nobody_is_refused(void **state)
+static void a_set_that_lists_an_unknown_object_is_refused(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     struct look look;
     struct diag diag = {0};
     add_set(scene, "ghost");
@@ -511,8 +512,9 @@ static void a_set_on_nobody_is_refused(void **state)
                                    "or is the ego");
 }
 
-/* Around the sensor, touching each other, of all heights, at the border of its range and view. */
-static void crowd(struct playback *scene, uint64_t *random)
+/* Adds bodies of all heights around the sensor, which overlap and stand at the borders of its range
+ * and view. */
+static void add_random_bodies(struct scene *scene, uint64_t *random)
 {
     static const char *const ids[] = {"a", "b", "c", "d", "f", "g", "h", "i", "j", "k", "l",
                                       "m", "n", "o", "p", "q", "r", "s", "t", "u", "v", "w"};
@@ -551,7 +553,7 @@ static void crowd(struct playback *scene, uint64_t *random)
     }
 }
 
-/* As lines have them, since the gaps between members are nobody's. */
+/* Compares echoes as text, because the padding between members has no value. */
 static void assert_same_echoes(const struct echo *one, const struct echo *other, size_t count)
 {
     const struct record *record = field_find(&frame_record, "echoes", strlen("echoes"), 0)->record;
@@ -567,7 +569,7 @@ static void assert_same_echoes(const struct echo *one, const struct echo *other,
     text_free(&texts[1]);
 }
 
-static void who_asks_for_less_sees_the_same(void **state)
+static void auto_without_an_account_finds_the_same_echoes(void **state)
 {
     (void)state;
     uint64_t random = 5;
@@ -575,9 +577,9 @@ static void who_asks_for_less_sees_the_same(void **state)
     for (int i = 0; i < 3000; i++) {
         void *place;
         make_scene(&place);
-        struct playback *scene = place;
-        crowd(scene, &random);
-        struct look all = look_around_at(scene, 10), some;
+        struct scene *scene = place;
+        add_random_bodies(scene, &random);
+        struct look all = look_at(scene, 10), some;
         struct frame *frame = &scene->frame, accounted = *frame;
         frame->account = false;
         memset(&frame->echoes, 0, sizeof frame->echoes);
@@ -593,10 +595,10 @@ static void who_asks_for_less_sees_the_same(void **state)
     assert_true(echoes > 5000 && pairs > 100000);
 }
 
-/* A side that a body holds out of its box, in line with one behind the body. */
+/* A side that stands out of its body's box, in line with the side of a wall behind that body. */
 static void a_body_hides_nothing_of_a_wall_that_it_joins(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     struct reflector_set *wall = add_set(scene, "wall"), *front = add_set(scene, "front");
     *list_add(&wall->planes, &scene->arena) = (struct plane_reflector){
         .name = "right", .from_x = -0.5, .from_y = -0.5, .to_x = 0.5, .to_y = -0.5, .ercs = 1};
@@ -618,20 +620,20 @@ static void a_body_hides_nothing_of_a_wall_that_it_joins(void **state)
     }
 }
 
-/* Circles around bodies and within them tell most answers, the outline all of them. */
-static void a_way_is_blocked_where_an_outline_is_touched(void **state)
+/* Circles around and within bodies decide most lines; the exact test must agree on all. */
+static void a_line_is_blocked_where_it_touches_an_outline(void **state)
 {
     (void)state;
     uint64_t random = 11;
-    size_t blocked = 0, ways = 0;
+    size_t blocked = 0, lines = 0;
     for (int i = 0; i < 2000; i++) {
         void *place;
         make_scene(&place);
-        struct playback *scene = place;
-        crowd(scene, &random);
+        struct scene *scene = place;
+        add_random_bodies(scene, &random);
         scene->sensor.mount_z_m = 0;
         scene->sensor.diffraction = false;
-        struct look look = look_around_at(scene, 10);
+        struct look look = look_at(scene, 10);
         for (int k = 0; k < 50; k++) {
             struct vec2 far = {sample_between(&random, -60, 60), sample_between(&random, -60, 60)};
             const struct obstruction_line line = {.from = look.pose.position_m, .to = far};
@@ -640,15 +642,15 @@ static void a_way_is_blocked_where_an_outline_is_touched(void **state)
                 if (look.bodies[j].blocks &&
                     outline_crossing_blocks(look.bodies[j].corner, 4, line.from, line.to))
                     by = &look.bodies[j];
-            struct line_of_sight way = line_of_sight_along(&look, &line, NULL, 0);
-            assert_ptr_equal(way.by, by);
-            assert_true(way.factor == (by == NULL));
+            struct line_of_sight found = line_of_sight_along(&look, &line, NULL, 0);
+            assert_ptr_equal(found.by, by);
+            assert_true(found.factor == (by == NULL));
             blocked += by != NULL;
-            ways++;
+            lines++;
         }
         remove_scene(&place);
     }
-    assert_true(blocked > ways / 10 && blocked < ways / 2);
+    assert_true(blocked > lines / 10 && blocked < lines / 2);
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, make_scene, remove_scene)
@@ -657,24 +659,24 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(the_sensor_moves_with_the_lever_arm_of_a_turning_ego),
-        TEST(a_late_look_shows_where_everything_was),
+        TEST(a_late_measurement_shows_where_everything_was),
         TEST(the_first_blocker_by_id_is_named),
         TEST(an_object_does_not_block_itself_and_the_ego_blocks_nothing),
         TEST(wheel_houses_are_seen_under_raised_vehicles_only),
         TEST(every_loss_has_its_reason),
         TEST(planes_mirror_from_the_foot_of_the_perpendicular),
         TEST(the_joint_of_two_walls_mirrors_once),
-        TEST(a_lobe_is_seen_from_where_the_sensor_stands_and_how_high),
+        TEST(a_lobe_depends_on_direction_and_height_of_the_sensor),
         TEST(rows_are_expanded_in_range_and_no_post_is_missed),
         TEST(posts_become_echoes_with_their_numbers),
-        TEST(a_reflector_tells_how_near_it_was_to_another_answer),
-        TEST(what_passes_under_a_vehicle_is_near_to_both_answers),
-        TEST(a_plane_tells_how_near_its_foot_was_to_its_ends),
-        TEST(without_margins_nothing_is_told),
-        TEST(a_set_on_nobody_is_refused),
-        TEST(who_asks_for_less_sees_the_same),
+        TEST(a_margin_is_the_distance_from_another_answer),
+        TEST(an_echo_from_under_a_truck_can_change_in_two_ways),
+        TEST(the_margin_of_a_plane_is_the_distance_of_its_foot_from_an_end),
+        TEST(without_margins_no_entry_has_any),
+        TEST(a_set_that_lists_an_unknown_object_is_refused),
+        TEST(auto_without_an_account_finds_the_same_echoes),
         TEST(a_body_hides_nothing_of_a_wall_that_it_joins),
-        TEST(a_way_is_blocked_where_an_outline_is_touched),
+        TEST(a_line_is_blocked_where_it_touches_an_outline),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
