@@ -7,10 +7,10 @@
 #include "frame/frame_account.h"
 #include "frame/frame_check.h"
 #include "frame/frame_order.h"
-#include "frame/frame_text.h"
 #include "run/explain.h"
 #include "run/suite_choice.h"
 #include "score/reference_stream.h"
+#include "text/record_text.h"
 
 struct arena *runner_arena(struct runner *runner)
 {
@@ -40,7 +40,7 @@ int runner_write(struct runner *runner, const char *bytes, size_t length)
 int runner_write_record(struct runner *runner, const struct record *record, const void *base)
 {
     struct text text = {0};
-    frame_text_write_record(record, base, &text);
+    record_text_write(record, base, NULL, &text);
     int result = runner_write(runner, text.bytes, text.length);
     text_free(&text);
     return result;

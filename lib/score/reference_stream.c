@@ -9,6 +9,7 @@
 #include "frame/frame_text.h"
 #include "text/input.h"
 #include "text/json_scan.h"
+#include "text/record_text.h"
 
 /* Times in streams of the same scenes agree but for how they were written. */
 static const double same_time_s = 1e-6;
@@ -300,8 +301,8 @@ int reference_stream_tracks(struct reference_stream *reference, const struct fra
     if (found <= 0)
         return found;
     field_clear(&track_list_record, tracks);
-    if (frame_text_read_record(reference->line, reference->length, &track_list_record, tracks,
-                               frame->arena, diag) != 0 ||
+    if (record_text_read(reference->line, reference->length, &track_list_record, tracks,
+                         frame->arena, NULL, diag) != 0 ||
         track_order(tracks, frame->arena, diag) != 0 ||
         ((tracks->present & TRACK_TIME) != 0 && check_time(frame, tracks->time_s, diag) != 0))
         return prefix_place(reference, diag);

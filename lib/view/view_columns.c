@@ -86,7 +86,7 @@ static size_t column_count(const struct view_columns *columns, enum view_column 
                                        : columns->list[column].counts.count;
 }
 
-/* Bytes that each number of a column takes. */
+/* Bytes for each number of a column. */
 static size_t column_width(const struct view_columns *columns, enum view_column column)
 {
     if (column < COLUMN_FIRST_COUNT)
@@ -99,7 +99,8 @@ static size_t column_width(const struct view_columns *columns, enum view_column 
     return most < 1 << 8 ? 1 : most < 1 << 16 ? 2 : 4;
 }
 
-/* Bytes up to the next multiple of 12: whole groups of base64, and aligned for any number. */
+/* Bytes of a column up to the next multiple of 12: whole groups of base64, and aligned for any
+ * number. */
 static size_t column_size(const struct view_columns *columns, enum view_column column)
 {
     return (column_count(columns, column) * column_width(columns, column) + 11) / 12 * 12;
@@ -120,7 +121,7 @@ void view_columns_write_places(const struct view_columns *columns, struct text *
     text_add_word(text, "}");
 }
 
-/* Little-endian, as every machine that runs a browser has it. */
+/* Writes a number little-endian, the order of every machine that runs a browser. */
 static void put_number(unsigned char *byte, uint32_t number, size_t width)
 {
     for (size_t i = 0; i < width; i++)

@@ -1,5 +1,6 @@
-/* The columns in which the page of glint-view gets its frames (view_data.h): real numbers in single
- * precision, and whole numbers that are written as narrowly as the largest of the column allows. */
+/* Columns of numbers in which glint-view's page gets frames. Real numbers are written in single
+ * precision, whole numbers as narrowly as the largest of the column allows. view_data.h says what
+ * the columns hold. */
 #ifndef VIEW_COLUMNS_H
 #define VIEW_COLUMNS_H
 
@@ -8,7 +9,7 @@
 #include "base/arena.h"
 #include "base/text.h"
 
-/* Real columns first. */
+/* Columns of real numbers first. */
 enum view_column {
     COLUMN_FRAME_TIME,
     COLUMN_OBJECT_X,
@@ -84,16 +85,16 @@ struct view_columns {
     } list[COLUMN_COUNT];
 };
 
-/* Reals go into the columns before COLUMN_FIRST_COUNT, whole numbers into the others. */
+/* Appends a number: reals to columns before COLUMN_FIRST_COUNT, whole numbers to the others. */
 void view_columns_add_real(struct view_columns *columns, enum view_column column, double value,
                            struct arena *arena);
 void view_columns_add_count(struct view_columns *columns, enum view_column column, uint32_t value,
                             struct arena *arena);
 
-/* JSON: type, count and place of each column by its name. */
+/* Writes type, count and place of each column by its name, as JSON. */
 void view_columns_write_places(const struct view_columns *columns, struct text *text);
 
-/* All columns in base64, each beginning at a multiple of 16 characters. */
+/* Writes all columns in base64, each beginning at a multiple of 16 characters. */
 void view_columns_write(const struct view_columns *columns, struct text *text);
 
 #endif

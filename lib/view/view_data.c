@@ -4,12 +4,12 @@
 
 #include "base/sort.h"
 
-/* A lost reflector as patterns hold it. */
+/* A lost echo in a pattern. */
 struct item {
     uint32_t reflector, path, mirror, number, stage, reason, effect;
 };
 
-/* A lost echo on its way into its object's pattern. */
+/* A lost echo and its object, before it is added to the object's pattern. */
 struct loss_row {
     uint32_t object;
     struct item item;
@@ -30,7 +30,7 @@ static uint32_t name_of(struct view_data *data, const char *word)
     return intern_word(&data->names, word, data->arena);
 }
 
-/* 0 stands for no name. */
+/* The number of a name plus 1; 0 for no name. */
 static uint32_t optional_name(struct view_data *data, const char *word)
 {
     return word != NULL ? 1 + name_of(data, word) : 0;
@@ -46,11 +46,11 @@ static uint32_t scene_of(struct view_data *data, const struct frame *frame)
     uint32_t number = intern_word(&data->scene_names, frame->scene, data->arena);
     if (number == data->scenes.count) {
         const struct object *ego = frame_object(frame, frame->ego);
-        bool seen = (frame->present & SECTION_SENSORS) != 0;
+        bool has_sensors = (frame->present & SECTION_SENSORS) != 0;
         *list_add(&data->scenes, data->arena) = (struct view_scene){
             .name = name_of(data, frame->scene),
             .ego = name_of(data, frame->ego),
-            .suite = name_of(data, seen ? frame->sensors.suite : ""),
+            .suite = name_of(data, has_sensors ? frame->sensors.suite : ""),
             .first_frame = frame->frame,
             .start_s = frame->time_s,
             .anchor_x_m = frame->origin_x_m + ego->x_m,

@@ -1,12 +1,12 @@
-/* Frames packed for the page of glint-view: columns of small numbers and a table of names, instead
- * of a tree. 10,000 frames of 30 objects are some 30 MB and open at once.
+/* Frames packed into columns for the page of glint-view. Columns of small numbers and a table of
+ * names take the place of a tree: 10,000 frames of 30 objects are some 30 MB and open at once.
  *
- * Rows of a table belong to rows of another by count, in order: each frame has so many objects and
- * scans, each scan so many targets, fates and details, each target so many contributors. What a
- * scan lost is told by object: its fate is a number into the patterns, each a list of reflectors
- * and reasons, because most objects are lost in the same way for many frames; details are what
- * does change (who blocked, how much was missing). Coordinates are relative to the place of the
- * scene's ego in its first frame. */
+ * Rows of one table own rows of another, by count and in order: each frame owns objects and scans,
+ * each scan owns targets, fates and details, each target owns contributors. The losses of a scan
+ * are grouped by object. A fate is an object and the number of its pattern, the list of its lost
+ * reflectors with their reasons; most objects have the same pattern for many frames. Details are
+ * what changes from frame to frame: who blocked an echo, and how many dB it lacked. Coordinates are
+ * relative to the place of the scene's ego in its first frame. */
 #ifndef VIEW_DATA_H
 #define VIEW_DATA_H
 
@@ -16,7 +16,7 @@
 #include "view/view_frame.h"
 
 struct view_scene {
-    uint32_t name, ego, suite; /* names */
+    uint32_t name, ego, suite; /* numbers in the table of names */
     int64_t first_frame;
     double start_s;
     double anchor_x_m, anchor_y_m;
@@ -32,10 +32,11 @@ struct view_data {
     struct view_columns columns;
 };
 
-/* All memory is the arena's. */
+/* Begins without frames; all memory is the arena's. */
 void view_data_begin(struct view_data *data, struct arena *arena);
 
-/* Takes a frame in canonical order, of any scene; uses its arena for what it need not keep. */
+/* Adds a frame of any scene, in canonical order. Memory that it does not keep comes from the
+ * frame's arena. */
 void view_data_add(struct view_data *data, const struct frame *frame);
 
 #endif

@@ -4,7 +4,8 @@
 
 #include "radar/scan_timing.h"
 
-/* The label knows the instant exactly; a scan without targets goes by the cycle. */
+/* The label of a target has the exact instant; a scan without targets takes that of the sensor's
+ * cycle. */
 static double age_s(const struct frame *frame, const struct sensor_view *sensor)
 {
     for (size_t i = 0; i < frame->targets.count; i++)
@@ -43,7 +44,7 @@ struct box view_frame_box(const struct object *object, const struct vehicle *veh
     return box;
 }
 
-bool view_frame_loss_is_near(enum loss reason)
+bool view_frame_loss_is_notable(enum loss reason)
 {
     return reason != LOSS_FACING_AWAY && reason != LOSS_NO_SPECULAR &&
            reason != LOSS_OUT_OF_RANGE && reason != LOSS_OUT_OF_VIEW && reason != LOSS_SWITCHED_OFF;

@@ -1,5 +1,5 @@
-/* What every view of a frame needs besides the frame: where the sensors were when they measured,
- * and the vehicle documents of the objects' classes. */
+/* Places of sensors, targets and objects for views of a frame. Sensors are placed at the instant of
+ * their measurement; vehicle documents of the objects' classes complete their boxes. */
 #ifndef VIEW_FRAME_H
 #define VIEW_FRAME_H
 
@@ -11,25 +11,26 @@
 /* A sensor at the instant of its measurement, in the frame's coordinates. */
 struct view_scan {
     struct sensor_pose pose;
-    double age_s; /* the frame's time less the measurement's */
+    double age_s; /* the frame's time less that of the measurement */
 };
 
 struct view_scan view_frame_scan(const struct frame *frame, const struct sensor_view *sensor);
 
-/* The place in the frame's coordinates that a range and an azimuth of a scan stand for. */
+/* The place, in the frame's coordinates, at a range and an azimuth of a scan. */
 struct vec2 view_frame_place(const struct view_scan *scan, double range_m, double azimuth_rad);
 
-/* The object's box at the frame's time; a size of 0 is replaced by the class's, if it has a
- * document. */
+/* The object's box at the frame's time. A size of 0 is replaced by the class's, if vehicle is not
+ * NULL. */
 struct box view_frame_box(const struct object *object, const struct vehicle *vehicle);
 
-/* How near a lost echo came to a target: geometry is why most are lost, and no news. */
-bool view_frame_loss_is_near(enum loss reason);
+/* False for losses by geometry, which are the rule and need no mark: facing away, no specular
+ * point, out of range or view, switched off. True for the others. */
+bool view_frame_loss_is_notable(enum loss reason);
 
 /* Vehicle documents by class, each looked up once; all memory is the arena's. */
 struct view_model {
     const char *class;
-    const struct vehicle *vehicle; /* NULL: the class has no document here */
+    const struct vehicle *vehicle; /* NULL: the class has no document */
 };
 
 struct view_models {

@@ -68,7 +68,7 @@ static void write_names(const struct view_data *data, struct text *text)
         write_separator(text, loss);
         text_add_word(text, "{");
         write_named_word(text, "name", frame_loss_name(loss));
-        write_named_flag(text, "near", view_frame_loss_is_near(loss));
+        write_named_flag(text, "near", view_frame_loss_is_notable(loss));
         text_add_word(text, "}");
     }
     text_add_word(text, "],\n\"paths\":[");

@@ -1,5 +1,5 @@
-/* The page of glint-view: lib/view/page/ joined into one file and embedded by the Makefile. Two
- * lines of it are marks, in this order, to be replaced by what view_data.h writes. */
+/* The page of glint-view, embedded in the program. The Makefile joins lib/view/page/ into one file.
+ * Two lines of it are marks, in this order, that view_head_write and view_columns_write replace. */
 #ifndef VIEW_PAGE_H
 #define VIEW_PAGE_H
 
@@ -8,7 +8,7 @@
 #define VIEW_PAGE_HEAD_MARK "@head@\n"
 #define VIEW_PAGE_COLUMNS_MARK "@columns@\n"
 
-/* NUL-terminated; size is without the NUL. */
+/* NUL-terminated; the size is without the NUL. */
 extern const char view_page[];
 extern const size_t view_page_size;
 

@@ -8,19 +8,20 @@
 
 enum { WIDTH = 1200, HEIGHT = 800, MARGIN = 60 };
 
-/* Colours and symbols are those of the page, by the sensor's place in the list. */
+/* Colours and symbols are those of the page, by the sensor's index in the list. */
 static const char *const colours[] = {"#0072b2", "#c74e00", "#00805e",
                                       "#a8478a", "#8a6d00", "#3a6fd8"};
 enum { STYLES = sizeof colours / sizeof *colours };
 
-/* What is drawn: metres to pixels in the ego's axes, x right. */
-struct still {
+/* A drawing, with the transformation from metres in the ego's axes, x right, to pixels. */
+struct drawing {
     const struct frame *frame;
     struct view_models *models;
     struct text *text;
-    struct vec2 origin, heading; /* of the ego */
-    struct vec2 low, high;       /* of what must be seen, in the ego's axes */
-    double scale;                /* pixels a metre */
+    struct vec2 origin, heading; /* place and heading of the ego */
+    struct vec2 low, high;       /* corners of the area that must be in the picture, in the ego's
+                                  * axes */
+    double scale;                /* pixels per metre */
 };
 
 static void add_escaped(struct text *text, const char *word)
@@ -39,26 +40,26 @@ static void add_escaped(struct text *text, const char *word)
     }
 }
 
-static struct vec2 to_local(const struct still *still, struct vec2 place)
+static struct vec2 to_local(const struct drawing *drawing, struct vec2 place)
 {
-    return vec2_turn_back(vec2_sub(place, still->origin), still->heading);
+    return vec2_turn_back(vec2_sub(place, drawing->origin), drawing->heading);
 }
 
-static struct vec2 to_pixels(const struct still *still, struct vec2 place)
+static struct vec2 to_pixels(const struct drawing *drawing, struct vec2 place)
 {
-    struct vec2 local = to_local(still, place);
-    struct vec2 middle = vec2_scale(0.5, vec2_add(still->low, still->high));
-    return (struct vec2){WIDTH / 2.0 + still->scale * (local.x - middle.x),
-                         HEIGHT / 2.0 - still->scale * (local.y - middle.y)};
+    struct vec2 local = to_local(drawing, place);
+    struct vec2 middle = vec2_scale(0.5, vec2_add(drawing->low, drawing->high));
+    return (struct vec2){WIDTH / 2.0 + drawing->scale * (local.x - middle.x),
+                         HEIGHT / 2.0 - drawing->scale * (local.y - middle.y)};
 }
 
-static void include(struct still *still, struct vec2 place)
+static void include(struct drawing *drawing, struct vec2 place)
 {
-    struct vec2 local = to_local(still, place);
-    still->low =
-        (struct vec2){elementary_min(still->low.x, local.x), elementary_min(still->low.y, local.y)};
-    still->high = (struct vec2){elementary_max(still->high.x, local.x),
-                                elementary_max(still->high.y, local.y)};
+    struct vec2 local = to_local(drawing, place);
+    drawing->low = (struct vec2){elementary_min(drawing->low.x, local.x),
+                                 elementary_min(drawing->low.y, local.y)};
+    drawing->high = (struct vec2){elementary_max(drawing->high.x, local.x),
+                                  elementary_max(drawing->high.y, local.y)};
 }
 
 static const struct sensor_view *sensor_named(const struct frame *frame, const char *name,
@@ -72,9 +73,9 @@ static const struct sensor_view *sensor_named(const struct frame *frame, const c
     return NULL;
 }
 
-static struct box box_of(const struct still *still, const struct object *object)
+static struct box box_of(const struct drawing *drawing, const struct object *object)
 {
-    return view_frame_box(object, view_frame_vehicle(still->models, object->class));
+    return view_frame_box(object, view_frame_vehicle(drawing->models, object->class));
 }
 
 static bool made_target(const struct frame *frame, const struct object *object)
@@ -86,45 +87,45 @@ static bool made_target(const struct frame *frame, const struct object *object)
     return false;
 }
 
-/* The ego and the targets; objects that made one if they are not much larger than the picture would
- * be without them; everything where there are no targets. */
-static void frame_picture(struct still *still)
+/* Chooses the area of the picture: it includes the ego, all targets, and objects shorter than 20 m
+ * with a target; all objects if there are no targets. */
+static void frame_picture(struct drawing *drawing)
 {
-    const struct frame *frame = still->frame;
+    const struct frame *frame = drawing->frame;
     for (size_t i = 0; i < frame->targets.count; i++) {
         const struct target *target = &frame->targets.items[i];
         size_t number;
         struct view_scan scan =
             view_frame_scan(frame, sensor_named(frame, target->sensor, &number));
-        include(still, view_frame_place(&scan, target->range_m, target->azimuth_rad));
+        include(drawing, view_frame_place(&scan, target->range_m, target->azimuth_rad));
     }
     for (size_t i = 0; i < frame->objects.count; i++) {
         const struct object *object = &frame->objects.items[i];
-        struct box box = box_of(still, object);
+        struct box box = box_of(drawing, object);
         struct vec2 corner[4];
         box_outline(&box, corner);
         bool ego = strcmp(object->id, frame->ego) == 0;
         bool part = made_target(frame, object) && box.length_m < 20;
         for (int j = 0; j < 4 && (ego || part || frame->targets.count == 0); j++)
-            include(still, corner[j]);
+            include(drawing, corner[j]);
     }
-    struct vec2 size = vec2_sub(still->high, still->low);
-    still->scale = elementary_min((WIDTH - 2 * MARGIN) / elementary_max(size.x, 5),
-                                  (HEIGHT - 2 * MARGIN) / elementary_max(size.y, 5));
+    struct vec2 size = vec2_sub(drawing->high, drawing->low);
+    drawing->scale = elementary_min((WIDTH - 2 * MARGIN) / elementary_max(size.x, 5),
+                                    (HEIGHT - 2 * MARGIN) / elementary_max(size.y, 5));
 }
 
-static void add_line(struct still *still, const char *class, struct vec2 from, struct vec2 to)
+static void add_line(struct drawing *drawing, const char *class, struct vec2 from, struct vec2 to)
 {
-    struct vec2 a = to_pixels(still, from), b = to_pixels(still, to);
-    text_format(still->text, "<path class=\"%s\" d=\"M%.1f %.1fL%.1f %.1f\"/>\n", class, a.x, a.y,
+    struct vec2 a = to_pixels(drawing, from), b = to_pixels(drawing, to);
+    text_format(drawing->text, "<path class=\"%s\" d=\"M%.1f %.1fL%.1f %.1f\"/>\n", class, a.x, a.y,
                 b.x, b.y);
 }
 
-static void add_label(struct still *still, const char *class, struct vec2 at, const char *word)
+static void add_label(struct drawing *drawing, const char *class, struct vec2 at, const char *word)
 {
-    text_format(still->text, "<text class=\"%s\" x=\"%.1f\" y=\"%.1f\">", class, at.x, at.y);
-    add_escaped(still->text, word);
-    text_add_word(still->text, "</text>\n");
+    text_format(drawing->text, "<text class=\"%s\" x=\"%.1f\" y=\"%.1f\">", class, at.x, at.y);
+    add_escaped(drawing->text, word);
+    text_add_word(drawing->text, "</text>\n");
 }
 
 static bool in_picture(struct vec2 at, double margin)
@@ -132,69 +133,70 @@ static bool in_picture(struct vec2 at, double margin)
     return at.x > -margin && at.y > -margin && at.x < WIDTH + margin && at.y < HEIGHT + margin;
 }
 
-static void draw_object(struct still *still, const struct object *object)
+static void draw_object(struct drawing *drawing, const struct object *object)
 {
-    struct box box = box_of(still, object);
-    struct vec2 corner[4], middle = to_pixels(still, box.motion.position_m);
-    if (!in_picture(middle, still->scale * elementary_hypot(box.length_m, box.width_m)))
+    struct box box = box_of(drawing, object);
+    struct vec2 corner[4], middle = to_pixels(drawing, box.motion.position_m);
+    if (!in_picture(middle, drawing->scale * elementary_hypot(box.length_m, box.width_m)))
         return;
-    bool ego = strcmp(object->id, still->frame->ego) == 0;
+    bool ego = strcmp(object->id, drawing->frame->ego) == 0;
     box_outline(&box, corner);
-    text_format(still->text, "<path class=\"%s\" d=\"", ego ? "ego" : "body");
+    text_format(drawing->text, "<path class=\"%s\" d=\"", ego ? "ego" : "body");
     for (int i = 0; i < 4; i++) {
-        struct vec2 at = to_pixels(still, corner[i]);
-        text_format(still->text, "%s%.1f %.1f", i == 0 ? "M" : "L", at.x, at.y);
+        struct vec2 at = to_pixels(drawing, corner[i]);
+        text_format(drawing->text, "%s%.1f %.1f", i == 0 ? "M" : "L", at.x, at.y);
     }
-    text_add_word(still->text, "Z\"/>\n");
-    if (still->scale * box.length_m > 40 && in_picture(middle, 0))
-        add_label(still, ego ? "inside" : "name", (struct vec2){middle.x, middle.y + 4},
+    text_add_word(drawing->text, "Z\"/>\n");
+    if (drawing->scale * box.length_m > 40 && in_picture(middle, 0))
+        add_label(drawing, ego ? "inside" : "name", (struct vec2){middle.x, middle.y + 4},
                   ego ? "ego" : object->id);
 }
 
-static void add_dot(struct still *still, const char *class, struct vec2 place, double radius)
+static void add_dot(struct drawing *drawing, const char *class, struct vec2 place, double radius)
 {
-    struct vec2 at = to_pixels(still, place);
+    struct vec2 at = to_pixels(drawing, place);
     if (in_picture(at, 0))
-        text_format(still->text, "<circle class=\"%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n",
+        text_format(drawing->text, "<circle class=\"%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n",
                     class, at.x, at.y, radius);
 }
 
-static void draw_reflectors(struct still *still, const struct object *object)
+static void draw_reflectors(struct drawing *drawing, const struct object *object)
 {
-    const struct vehicle *vehicle = view_frame_vehicle(still->models, object->class);
-    if (vehicle == NULL || strcmp(object->id, still->frame->ego) == 0)
+    const struct vehicle *vehicle = view_frame_vehicle(drawing->models, object->class);
+    if (vehicle == NULL || strcmp(object->id, drawing->frame->ego) == 0)
         return;
-    struct box box = box_of(still, object);
+    struct box box = box_of(drawing, object);
     for (size_t i = 0; i < vehicle->reflectors.points.count; i++)
-        add_dot(still, "centre", reflectors_point_place(&box, &vehicle->reflectors.points.items[i]),
-                2);
+        add_dot(drawing, "centre",
+                reflectors_point_place(&box, &vehicle->reflectors.points.items[i]), 2);
     for (size_t i = 0; i < vehicle->reflectors.rows.count; i++) {
         const struct post_row *row = &vehicle->reflectors.rows.items[i];
         int64_t first, end;
-        double reach_m = WIDTH / still->scale;
-        reflectors_posts_within(&box, row, still->origin, reach_m, &first, &end);
+        double reach_m = WIDTH / drawing->scale;
+        reflectors_posts_within(&box, row, drawing->origin, reach_m, &first, &end);
         for (int64_t post = first; post < end; post++)
-            add_dot(still, "centre", reflectors_post_place(&box, row, post), 1.5);
+            add_dot(drawing, "centre", reflectors_post_place(&box, row, post), 1.5);
     }
 }
 
-/* A sector as a path; a full circle is two halves, since an arc to its own start is none. */
-static void draw_beam(struct still *still, const struct sensor_view *sensor, size_t style)
+/* The field of view as a sector. It is drawn as two arcs, since an arc that returns to its start is
+ * empty. */
+static void draw_beam(struct drawing *drawing, const struct sensor_view *sensor, size_t style)
 {
-    struct view_scan scan = view_frame_scan(still->frame, sensor);
-    struct vec2 at = to_pixels(still, scan.pose.position_m);
-    double radius = still->scale * sensor->range_max_m, half = sensor->field_of_view_rad / 2;
-    text_format(still->text, "<path class=\"beam s%zu\" d=\"M%.1f %.1f", style % STYLES, at.x,
+    struct view_scan scan = view_frame_scan(drawing->frame, sensor);
+    struct vec2 at = to_pixels(drawing, scan.pose.position_m);
+    double radius = drawing->scale * sensor->range_max_m, half = sensor->field_of_view_rad / 2;
+    text_format(drawing->text, "<path class=\"beam s%zu\" d=\"M%.1f %.1f", style % STYLES, at.x,
                 at.y);
     for (int i = 0; i <= 2; i++) {
         struct vec2 to = to_pixels(
-            still, view_frame_place(&scan, sensor->range_max_m, half * (1 - i) * 0.999999));
+            drawing, view_frame_place(&scan, sensor->range_max_m, half * (1 - i) * 0.999999));
         if (i == 0)
-            text_format(still->text, "L%.1f %.1f", to.x, to.y);
+            text_format(drawing->text, "L%.1f %.1f", to.x, to.y);
         else
-            text_format(still->text, "A%.1f %.1f 0 0 1 %.1f %.1f", radius, radius, to.x, to.y);
+            text_format(drawing->text, "A%.1f %.1f 0 0 1 %.1f %.1f", radius, radius, to.x, to.y);
     }
-    text_add_word(still->text, "Z\"/>\n");
+    text_add_word(drawing->text, "Z\"/>\n");
 }
 
 static void add_symbol(struct text *text, size_t style, struct vec2 at)
@@ -224,74 +226,75 @@ static void add_symbol(struct text *text, size_t style, struct vec2 at)
     text_add_word(text, "Z\"/>\n");
 }
 
-static void draw_target(struct still *still, const struct target *target)
+static void draw_target(struct drawing *drawing, const struct target *target)
 {
     size_t style = 0;
-    const struct sensor_view *sensor = sensor_named(still->frame, target->sensor, &style);
-    struct view_scan scan = view_frame_scan(still->frame, sensor);
+    const struct sensor_view *sensor = sensor_named(drawing->frame, target->sensor, &style);
+    struct view_scan scan = view_frame_scan(drawing->frame, sensor);
     struct vec2 at = view_frame_place(&scan, target->range_m, target->azimuth_rad);
     char class[16] = "speed s0";
     class[7] = (char)('0' + style % STYLES);
     for (size_t i = 0; i < target->contributors.count; i++) {
         const struct contributor *from = &target->contributors.items[i];
         struct vec2 place = view_frame_place(&scan, from->range_m, from->azimuth_rad);
-        text_format(still->text, "<g class=\"part s%zu\" stroke-width=\"%.2f\">", style % STYLES,
+        text_format(drawing->text, "<g class=\"part s%zu\" stroke-width=\"%.2f\">", style % STYLES,
                     1 + 3 * from->weight);
-        add_line(still, "tie", place, at);
-        text_add_word(still->text, "</g>\n");
-        add_dot(still, "lit", place, 3);
+        add_line(drawing, "tie", place, at);
+        text_add_word(drawing->text, "</g>\n");
+        add_dot(drawing, "lit", place, 3);
     }
     if (fabs(target->range_rate_mps) >= 0.02)
-        add_line(still, class, at,
+        add_line(drawing, class, at,
                  view_frame_place(&scan, target->range_m + target->range_rate_mps / 2,
                                   target->azimuth_rad));
-    add_symbol(still->text, style, to_pixels(still, at));
+    add_symbol(drawing->text, style, to_pixels(drawing, at));
 }
 
-static bool find_point(const struct still *still, const struct lost_echo *echo, struct vec2 *place)
+static bool find_point(const struct drawing *drawing, const struct lost_echo *echo,
+                       struct vec2 *place)
 {
-    const struct object *object = frame_object(still->frame, echo->id.object);
+    const struct object *object = frame_object(drawing->frame, echo->id.object);
     const struct vehicle *vehicle =
-        object != NULL ? view_frame_vehicle(still->models, object->class) : NULL;
+        object != NULL ? view_frame_vehicle(drawing->models, object->class) : NULL;
     for (size_t i = 0; vehicle != NULL && i < vehicle->reflectors.points.count; i++) {
         const struct point_reflector *point = &vehicle->reflectors.points.items[i];
         if (strcmp(point->name, echo->id.reflector) != 0)
             continue;
-        struct box box = box_of(still, object);
+        struct box box = box_of(drawing, object);
         *place = reflectors_point_place(&box, point);
         return true;
     }
     return false;
 }
 
-static void draw_lost(struct still *still, const struct lost_group *group)
+static void draw_lost(struct drawing *drawing, const struct lost_group *group)
 {
-    for (size_t i = 0; i < group->echoes.count && view_frame_loss_is_near(group->reason); i++) {
+    for (size_t i = 0; i < group->echoes.count && view_frame_loss_is_notable(group->reason); i++) {
         struct vec2 place;
         if (group->echoes.items[i].id.path != PATH_DIRECT ||
-            !find_point(still, &group->echoes.items[i], &place))
+            !find_point(drawing, &group->echoes.items[i], &place))
             continue;
-        struct vec2 at = to_pixels(still, place);
+        struct vec2 at = to_pixels(drawing, place);
         if (in_picture(at, 0))
-            text_format(still->text, "<path class=\"lost\" d=\"M%.1f %.1fl9 9m0 -9l-9 9\"/>\n",
+            text_format(drawing->text, "<path class=\"lost\" d=\"M%.1f %.1fl9 9m0 -9l-9 9\"/>\n",
                         at.x - 4.5, at.y - 4.5);
     }
 }
 
-static void draw_scale(struct still *still)
+static void draw_scale(struct drawing *drawing)
 {
-    double wanted = 80 / still->scale, step = elementary_pow(10, floor(elementary_log10(wanted)));
+    double wanted = 80 / drawing->scale, step = elementary_pow(10, floor(elementary_log10(wanted)));
     step *= wanted <= step ? 1 : wanted <= 2 * step ? 2 : wanted <= 5 * step ? 5 : 10;
-    text_format(still->text, "<path class=\"scale\" d=\"M20 %dv6h%.1fv-6\"/>\n", HEIGHT - 26,
-                step * still->scale);
-    text_format(still->text, "<text class=\"note\" x=\"24\" y=\"%d\">%g m</text>\n", HEIGHT - 30,
+    text_format(drawing->text, "<path class=\"scale\" d=\"M20 %dv6h%.1fv-6\"/>\n", HEIGHT - 26,
+                step * drawing->scale);
+    text_format(drawing->text, "<text class=\"note\" x=\"24\" y=\"%d\">%g m</text>\n", HEIGHT - 30,
                 step);
 }
 
-static void draw_legend(struct still *still)
+static void draw_legend(struct drawing *drawing)
 {
-    const struct frame *frame = still->frame;
-    struct text *text = still->text;
+    const struct frame *frame = drawing->frame;
+    struct text *text = drawing->text;
     double y = 26;
     text_format(text, "<rect width=\"380\" height=\"%zu\" fill=\"#fff\" opacity=\"0.85\"/>\n",
                 frame->sensors.list.count * 20 + 80);
@@ -337,36 +340,36 @@ static void begin_drawing(struct text *text)
                 HEIGHT);
 }
 
-static void draw_frame(struct still *still)
+static void draw_frame(struct drawing *drawing)
 {
-    const struct frame *frame = still->frame;
+    const struct frame *frame = drawing->frame;
     for (size_t i = 0; i < frame->sensors.list.count; i++)
-        draw_beam(still, &frame->sensors.list.items[i], i);
+        draw_beam(drawing, &frame->sensors.list.items[i], i);
     for (size_t i = 0; i < frame->objects.count; i++)
-        draw_object(still, &frame->objects.items[i]);
+        draw_object(drawing, &frame->objects.items[i]);
     for (size_t i = 0; i < frame->objects.count; i++)
-        draw_reflectors(still, &frame->objects.items[i]);
+        draw_reflectors(drawing, &frame->objects.items[i]);
     for (size_t i = 0; i < frame->targets.count; i++)
-        draw_target(still, &frame->targets.items[i]);
+        draw_target(drawing, &frame->targets.items[i]);
     for (size_t i = 0; i < frame->lost.count; i++)
-        draw_lost(still, &frame->lost.items[i]);
+        draw_lost(drawing, &frame->lost.items[i]);
 }
 
 void view_svg_write(const struct frame *frame, struct view_models *models, struct text *text)
 {
     const struct object *ego = frame_object(frame, frame->ego);
-    struct still still = {
+    struct drawing drawing = {
         .frame = frame,
         .models = models,
         .text = text,
         .origin = {ego->x_m, ego->y_m},
         .heading = vec2_heading(ego->yaw_rad),
     };
-    frame_picture(&still);
+    frame_picture(&drawing);
     begin_drawing(text);
-    draw_frame(&still);
-    draw_scale(&still);
-    draw_legend(&still);
+    draw_frame(&drawing);
+    draw_scale(&drawing);
+    draw_legend(&drawing);
     text_add_word(text, "</svg>\n");
 }
 

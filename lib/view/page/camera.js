@@ -1,4 +1,4 @@
-// Moving the camera.
+// Zooming, panning and fitting of the map's camera.
 
 function zoomBy(factor, x, y) {
     const before = screenToLocal(x, y);
@@ -21,7 +21,8 @@ function panBy(dx, dy) {
     redraw();
 }
 
-// What a first look must show: the sensors, the chosen object and its targets; without one, all.
+// Places that must be in view when the page fits the map: the sensors, the chosen object and its
+// targets; without a chosen object all objects and targets.
 function placesToFit() {
     const places = [];
     const scans = scansOf(state.frame);
@@ -62,7 +63,8 @@ function fitView() {
     redraw();
 }
 
-// Keeps what is in the middle of the view there while the coordinates under it change.
+// Follows the ego or not; the middle of the view stays where it is, although local coordinates
+// change.
 function setFollow(follow) {
     const middle = fromLocal(camera);
     state.follow = follow;

@@ -1,5 +1,5 @@
-// The frames: columns of typed arrays, decoded from base64 when first asked for. A row of one table
-// owns rows of the next by count: starts(name) turns counts into places.
+// The frames: columns of typed arrays, decoded from base64 when they are first used. A row of one
+// table owns rows of another by count; starts(name) adds the counts up to row numbers.
 
 const head = JSON.parse(document.getElementById('head').textContent);
 const base64 = document.getElementById('columns').firstChild.data;
@@ -39,7 +39,7 @@ function column(name) {
     return values;
 }
 
-// Where the rows that each row owns begin; one more at the end.
+// The first of the rows that each row owns, and one past the last.
 function starts(name) {
     let sums = summed.get(name);
     if (sums === undefined) {
@@ -53,8 +53,7 @@ function starts(name) {
     return sums;
 }
 
-// The rows of the stream that belong to each scene, in order of time: streams may be interleaved or
-// shuffled.
+// The frames of each scene in order of time; streams may be interleaved or shuffled.
 function framesByScene() {
     const scenes = head.scenes.map(() => []);
     const owner = column('frame_scene');
@@ -66,7 +65,8 @@ function framesByScene() {
     return scenes;
 }
 
-// Stored from the scene's first line on, so that a shuffled stream has negative ones, as 32 bits.
+// The number of a frame in its scene. The column has it relative to the scene's first line, as 32
+// bits with a sign, because in a shuffled stream it may be negative.
 function frameNumber(frame) {
     const scene = head.scenes[column('frame_scene')[frame]];
     return scene.first_frame + (column('frame_number')[frame] | 0);
@@ -74,7 +74,7 @@ function frameNumber(frame) {
 
 const sceneFrames = framesByScene();
 
-// The last row of a scene no later than a time, by halving.
+// The index of a scene's last frame that is not later than a time, by bisection.
 function rowAt(frames, time) {
     const times = column('frame_time_s');
     let low = 0;
@@ -157,7 +157,7 @@ function effectsOf(target) {
     return head.effect_sets[column('target_effects')[target]];
 }
 
-// Ghosts come by way of a mirror: where they are seen, nothing is.
+// Paths of ghosts, which come by way of a mirror: nothing is where they are seen.
 const ghostPaths = head.paths.map(path => /wall|ego/.test(path));
 
 function isGhost(target) {
@@ -169,7 +169,7 @@ function detailsOf(scan) {
     return {begin: begin[scan], end: begin[scan + 1]};
 }
 
-// Who blocked an echo, and how much it lacked.
+// The object that blocked an echo, and the dB that it lacked.
 function detailFor(scan, object, item) {
     const objects = column('detail_object');
     const keys = ['reflector', 'path', 'mirror', 'number'];
@@ -201,7 +201,7 @@ function patternItems(pattern) {
     return items;
 }
 
-// Every echo of an object that a scan lost, with why.
+// Every echo of an object that a scan lost, with the reason.
 function lossesOf(scan, object) {
     const begin = starts('scan_fates');
     const objects = column('fate_object');
@@ -214,7 +214,7 @@ function lossesOf(scan, object) {
     return [];
 }
 
-// The targets of a scan that an object has a part in: row, number in the list, its contributors.
+// The targets of a scan with contributors of an object: their rows and their numbers in the list.
 function targetsFrom(scan, object) {
     const objects = column('contributor_object');
     const found = [];
@@ -243,7 +243,7 @@ function scanOfTarget(frame, target) {
     return -1;
 }
 
-// The range rate as reported, or without the sensor's own motion.
+// The range rate as reported, or compensated: without the sensor's own motion.
 function rateOf(scan, target, compensated) {
     const rate = column('target_range_rate_mps')[target];
     if (!compensated) {
@@ -254,7 +254,7 @@ function rateOf(scan, target, compensated) {
         column('scan_vy_mps')[scan] * Math.sin(angle);
 }
 
-// The fastest target of the stream, over ground or as reported.
+// The largest range rate of all targets, over ground or as reported.
 function fastestRate(compensated) {
     let fastest = 0;
     for (let scan = 0; scan < column('scan_targets').length; scan++) {
@@ -266,7 +266,7 @@ function fastestRate(compensated) {
     return fastest;
 }
 
-// How many frames a scene lacks between its first and its last.
+// The number of frames missing between a scene's first and last.
 function framesMissing(number) {
     const present = new Set(sceneFrames[number].map(frameNumber));
     let low = Infinity;

@@ -26,7 +26,7 @@ function boxOf(row) {
     };
 }
 
-// A place given in fractions of the box.
+// A place in the scene, from fractions of the box.
 function placeIn(box, x, y) {
     const ahead = x * box.length;
     const left = y * box.width;
@@ -67,8 +67,8 @@ function postCount(box, row) {
     return 1 + Math.floor(Math.hypot(to.x - from.x, to.y - from.y) / row.spacing_m + 1e-9);
 }
 
-// Where a reflector of an object stands: a place, and for a flat side its segment. Null if the
-// class has no document or the document no such reflector.
+// The place of an object's reflector, and for a flat side its segment. Null if the class has no
+// document or the document no such reflector.
 function reflectorPlace(row, name) {
     const kind = classOf(row);
     const box = boxOf(row);

@@ -1,4 +1,4 @@
-// Labels keep out of each other's way: the first free place around what they name.
+// Labels of the map. Each takes the first free place around the thing it names.
 let taken = [];
 
 function isFree(box) {
@@ -52,7 +52,7 @@ function putLabel(text, at, colour, bold) {
     context.fillText(shown, box.x + 4, box.y + 9.5);
 }
 
-// A name that does not tell the class has it added.
+// The object's id, with its class unless the id contains it.
 function objectLabel(row) {
     const id = names[column('object_id')[row]];
     const kind = names[column('object_class')[row]];
@@ -79,7 +79,7 @@ function labelObjects() {
     }
 }
 
-// Inside the box if it fits there, else beside it.
+// Labels a box inside if the text fits, else beside it.
 function labelObject(box, text, colour) {
     const at = toScreen(box);
     const turn = screenAngle(box.yaw);

@@ -1,4 +1,4 @@
-// The legend: what symbols, lines and colours mean.
+// The legend: the meaning of symbols, lines and colours.
 
 function legendLine(mark, text) {
     const line = make('div');
@@ -22,9 +22,9 @@ function markCanvas(paint) {
     return small;
 }
 
-function strokeMark(colour, width, lines) {
+function lineMark(width, lines) {
     return markCanvas(drawing => {
-        drawing.strokeStyle = colour;
+        drawing.strokeStyle = ink.soft;
         drawing.lineWidth = width;
         drawing.beginPath();
         for (const [x, y, toX, toY] of lines) {
@@ -89,9 +89,9 @@ function showLegend() {
     const ghosts = pathsSeen.some(path => ghostPaths[path])
         ? [legendLine(symbolCanvas(0, ink.soft, 18, true), 'ghost: seen by way of a mirror')] : [];
     control('legend').replaceChildren(...lines, ...ghosts, ...colourLines(),
-        legendLine(strokeMark(ink.soft, 1.6, [[1, 8, 17, 8]]),
+        legendLine(lineMark(1.6, [[1, 8, 17, 8]]),
             state.rates === 'raw' ? 'its radial speed, 0.5 s long' : 'its radial speed over ground, 0.5 s long'),
-        legendLine(strokeMark(ink.soft, 1.2, [[1, 8, 5, 8], [7, 8, 11, 8], [13, 8, 17, 8]]), 'field of view'),
+        legendLine(lineMark(1.2, [[1, 8, 5, 8], [7, 8, 11, 8], [13, 8, 17, 8]]), 'field of view'),
         legendLine(dotMark(ink.edge), 'reflection centre'),
-        legendLine(strokeMark(ink.lost, 2, [[4, 3, 14, 13], [4, 13, 14, 3]]), 'echo that is in no target'));
+        legendLine(markCanvas(drawing => drawLostMark(drawing, {x: 9, y: 8}, 5)), 'echo that is in no target'));
 }

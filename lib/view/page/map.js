@@ -1,5 +1,5 @@
 // The bird's-eye view. "Local" coordinates are the ego's (x ahead, y left) while the view follows
-// it, else the scene's; the camera looks at a local place.
+// it, else the scene's; the camera's x and y are a local place, its scale is pixels per metre.
 
 const canvas = document.getElementById('map');
 const context = canvas.getContext('2d');
@@ -64,7 +64,7 @@ function line(from, to) {
     context.stroke();
 }
 
-// Lines a round number of metres apart, in local coordinates.
+// The distance of grid lines that are at least some pixels apart: a round number of metres.
 function gridStep(pixels) {
     const wanted = pixels / camera.scale;
     const power = Math.pow(10, Math.floor(Math.log10(wanted)));
@@ -148,7 +148,7 @@ function strokeOutline(id, isEgo) {
     context.stroke();
 }
 
-// A chevron at the front: which way it faces.
+// Draws a chevron at the front of a box.
 function drawHeading(box, colour) {
     context.strokeStyle = colour;
     context.lineWidth = 1.2;
@@ -210,7 +210,8 @@ function eachTarget(frame, visit) {
     }
 }
 
-// Along the line of sight, away from the sensor if receding: half a second long.
+// Draws a target's range rate as its way in half a second, along the line of sight, away from the
+// sensor if it recedes.
 function drawRate(scan, target, colour) {
     const rate = rateOf(scan, target, state.rates === 'compensated');
     if (Math.abs(rate) < 0.02) {
@@ -227,7 +228,7 @@ function drawTarget(scan, target) {
     const at = toScreen(targetPlace(scan, target));
     const colour = colourOf(scan, target);
     drawRate(scan, target, colour);
-    drawSymbol(context, sensorStyle(scan), at.x, at.y, target === state.target ? 9.5 : 7, colour,
+    drawTargetSymbol(context, sensorStyle(scan), at.x, at.y, target === state.target ? 9.5 : 7, colour,
         isGhost(target));
     if (target === state.target) {
         context.beginPath();
@@ -238,15 +239,8 @@ function drawTarget(scan, target) {
     }
 }
 
-function drawCross(at, radius) {
-    context.strokeStyle = ink.lost;
-    context.lineWidth = 2;
-    line({x: at.x - radius, y: at.y - radius}, {x: at.x + radius, y: at.y + radius});
-    line({x: at.x - radius, y: at.y + radius}, {x: at.x + radius, y: at.y - radius});
-}
-
-// A target's reflection centres light up, tied to it by lines as strong as their weight.
-function drawParts(scan, target, strong) {
+// Draws a target's contributors, tied to it by lines as wide as their weights.
+function drawContributors(scan, target, strong) {
     const at = toScreen(targetPlace(scan, target));
     const colour = colourOf(scan, target);
     const {begin, end} = contributorsOf(target);
@@ -266,7 +260,7 @@ function drawParts(scan, target, strong) {
     }
 }
 
-// From where a ghost is seen to what it is a ghost of.
+// Draws a line from where a ghost is seen to the reflector of which it is a ghost.
 function drawOriginal(scan, i) {
     const row = objectRow(state.frame, column('contributor_object')[i]);
     const found = row < 0 ? null : reflectorPlace(row, names[column('contributor_reflector')[i]]);
@@ -280,22 +274,22 @@ function drawOriginal(scan, i) {
     context.setLineDash([]);
 }
 
-function labelPart(scan, i) {
+function labelContributor(scan, i) {
     const from = toScreen(contributorPlace(scan, i));
     const weight = Math.round(100 * column('contributor_weight')[i]);
     const ghost = ghostPaths[column('contributor_path')[i]] ? 'ghost of ' : '';
     putLabel(`${ghost}${names[column('contributor_reflector')[i]]} ${weight} %`, from, ink.ink);
 }
 
-function labelParts(target) {
+function labelContributors(target) {
     const scan = scanOfTarget(state.frame, target);
     const {begin, end} = contributorsOf(target);
     for (let i = begin; i < Math.min(end, begin + 8); i++) {
-        labelPart(scan, i);
+        labelContributor(scan, i);
     }
 }
 
-// Direct echoes of the chosen object that got lost, by reflection centre: what each sensor says of it.
+// The lost direct echoes of the chosen object: by reflection centre, each sensor's reason.
 function lostReflectors() {
     const found = new Map();
     const {begin, end} = scansOf(state.frame);
@@ -312,8 +306,9 @@ function lostReflectors() {
     return found;
 }
 
-// What a chosen object's reflection centres came to.
-function drawExplanation() {
+// Draws what became of the chosen object's reflection centres: contributors of targets, and crosses
+// on lost ones.
+function drawFates() {
     const row = objectRow(state.frame, state.object);
     if (row < 0) {
         return;
@@ -321,13 +316,13 @@ function drawExplanation() {
     const {begin, end} = scansOf(state.frame);
     for (let scan = begin; scan < end; scan++) {
         for (const {target} of targetsFrom(scan, state.object)) {
-            drawParts(scan, target, false);
+            drawContributors(scan, target, false);
         }
     }
     for (const name of lostReflectors().keys()) {
         const found = reflectorPlace(row, name);
         if (found) {
-            drawCross(toScreen(found.place), 5);
+            drawLostMark(context, toScreen(found.place), 5);
         }
     }
 }
@@ -341,7 +336,7 @@ function labelTargets() {
     }
 }
 
-function labelExplanation() {
+function labelFates() {
     const row = objectRow(state.frame, state.object);
     if (row < 0) {
         return;
@@ -355,8 +350,8 @@ function labelExplanation() {
     }
 }
 
-// The ring of one cell's width in range around the leader of a target: what else lies in it, and
-// moves alike, has no target of its own.
+// Draws the ring one cell wide in range around the leader of a target: other echoes in it with a
+// similar range rate have no target of their own.
 function drawCellRing(scan, target) {
     const range = column('contributor_range_m')[leaderOf(target)];
     const sensor = sensorOf(scan);
@@ -448,18 +443,18 @@ function drawMap() {
 }
 
 function drawTargets() {
-    drawExplanation();
+    drawFates();
     drawChosenReflector();
     if (state.target >= 0) {
         const scan = scanOfTarget(state.frame, state.target);
         drawCellRing(scan, state.target);
-        drawParts(scan, state.target, true);
+        drawContributors(scan, state.target, true);
     }
     eachTarget(state.frame, drawTarget);
     if (state.target >= 0) {
-        labelParts(state.target);
+        labelContributors(state.target);
     } else {
-        labelExplanation();
+        labelFates();
     }
     labelObjects();
 }

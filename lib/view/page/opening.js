@@ -1,29 +1,31 @@
-// Where a scene opens: at the frame and object that show best what glint is about.
+// The frame and object with which a scene opens: those that show glint's account of targets and
+// losses best.
 
-// How well a frame shows what glint is about: one car that yields several targets for a sensor,
-// while something of it gets lost.
-function objectsSeen(frame) {
-    const seen = new Map();
+// Counts, for each object of a frame with targets, the most targets of one sensor, lost echoes, and
+// targets merged with other objects (foreign); beside is true if a sensor has at least three
+// targets of it and lost another echo.
+function countsByObject(frame) {
+    const counts = new Map();
     const {begin, end} = scansOf(frame);
     for (let scan = begin; scan < end; scan++) {
-        const here = countTargets(scan, seen);
-        countLost(scan, seen, here);
+        const targetsHere = countTargets(scan, counts);
+        countLost(scan, counts, targetsHere);
     }
-    return seen;
+    return counts;
 }
 
-function countTargets(scan, seen) {
-    const here = new Map();
+function countTargets(scan, counts) {
+    const targetsHere = new Map();
     const {begin, end} = targetsOf(scan);
     for (let target = begin; target < end; target++) {
         const object = objectOfTarget(target);
-        here.set(object, (here.get(object) || 0) + 1);
-        const known = seen.get(object) || {targets: 0, lost: 0, foreign: 0, beside: false};
-        known.targets = Math.max(known.targets, here.get(object));
+        targetsHere.set(object, (targetsHere.get(object) || 0) + 1);
+        const known = counts.get(object) || {targets: 0, lost: 0, foreign: 0, beside: false};
+        known.targets = Math.max(known.targets, targetsHere.get(object));
         known.foreign += isMerged(target) ? 1 : 0;
-        seen.set(object, known);
+        counts.set(object, known);
     }
-    return here;
+    return targetsHere;
 }
 
 function isMerged(target) {
@@ -37,19 +39,20 @@ function isMerged(target) {
     return false;
 }
 
-function countLost(scan, seen, here) {
+function countLost(scan, counts, targetsHere) {
     const objects = column('detail_object');
     const {begin, end} = detailsOf(scan);
     for (let i = begin; i < end; i++) {
-        const known = seen.get(objects[i]);
+        const known = counts.get(objects[i]);
         if (known) {
             known.lost++;
-            known.beside = known.beside || here.get(objects[i]) >= 3;
+            known.beside = known.beside || targetsHere.get(objects[i]) >= 3;
         }
     }
 }
 
-// Best if one sensor's own list has three targets and lacks a fourth.
+// The score of an object's counts: best where one sensor has three targets of it and lacks a
+// fourth.
 function scoreOf({targets, lost, foreign, beside}, row) {
     if (row < 0) {
         return 0;
@@ -61,13 +64,13 @@ function scoreOf({targets, lost, foreign, beside}, row) {
 
 function openingOf(number) {
     const frames = sceneFrames[number];
-    const asked = head.open_frame < 0 ? -1
+    const wanted = head.open_frame < 0 ? -1
         : frames.findIndex(frame => frameNumber(frame) === head.open_frame);
-    const rows = asked >= 0 ? [asked] : frames.map((_, row) => row);
+    const rows = wanted >= 0 ? [wanted] : frames.map((_, row) => row);
     const stride = Math.ceil(rows.length / 3000);
     let best = {score: 0, object: -1, row: rows[0]};
     for (let i = 0; i < rows.length; i += stride) {
-        for (const [object, counts] of objectsSeen(frames[rows[i]])) {
+        for (const [object, counts] of countsByObject(frames[rows[i]])) {
             const score = scoreOf(counts, objectRow(frames[rows[i]], object));
             if (score > best.score) {
                 best = {score, object, row: rows[i]};

@@ -1,22 +1,22 @@
-// The page: what is shown and chosen, the clock, the controls and the keys.
+// The state of the page: what is shown and chosen, the clock, the controls and the keys.
 
 const state = {
     scene: 0,
-    row: 0, // of the scene's frames
-    frame: -1, // of all frames in the stream
+    row: 0, // index among the scene's frames
+    frame: -1, // index among all frames of the stream; -1: none
     ego: null,
-    object: -1, // number of its name
+    object: -1, // chosen object, by the number of its id in names; -1: none
     reflector: null,
     target: -1,
     colour: 'sensor',
-    effect: -1, // whose targets stand out instead
+    effect: -1, // effect whose targets are coloured; -1: colour by `colour`
     rates: 'raw',
     up: 'right',
     follow: true,
     trail: true,
     playing: false,
     pace: 1,
-    fastest: 1, // range rate, as it is shown
+    fastest: 1, // largest range rate, as the plots show it
     rateScale: 1,
     amplitudes: {low: 0, high: 1},
     limits: {range: 30, azimuth: 90, rate: 10},
@@ -173,17 +173,17 @@ function showNotice() {
     const alone = head.scenes.length === 1;
     const cut = scenesCutShort();
     const holes = scenesWithHoles();
-    const told = [];
+    const notes = [];
     if (cut.length > 0) {
-        told.push(alone ? 'This scene ends before its last frame: the stream was cut.'
+        notes.push(alone ? 'This scene ends before its last frame: the stream was cut.'
             : `Cut stream, it ends before the last frame of ${someOf(cut)}.`);
     }
     if (holes.length > 0) {
-        told.push(alone ? `${plural(framesMissing(0), 'frame')} between its first and its last are not in the stream.`
+        notes.push(alone ? `${plural(framesMissing(0), 'frame')} between its first and its last are not in the stream.`
             : `Frames are missing within ${someOf(holes)}.`);
     }
-    control('notice').hidden = told.length === 0;
-    control('notice').textContent = told.join(' ');
+    control('notice').hidden = notes.length === 0;
+    control('notice').textContent = notes.join(' ');
 }
 
 function setScene(number) {
@@ -212,7 +212,7 @@ function fillScenes() {
     choice.addEventListener('change', () => setScene(Number(choice.value)));
 }
 
-// The effects that changed any target of the stream.
+// Offers the effects that changed any target of the stream.
 function fillEffects() {
     const found = [...new Set(head.effect_sets.flat())].sort((a, b) => a - b);
     for (const effect of found) {
@@ -230,7 +230,7 @@ function setTheme(dark) {
     refresh();
 }
 
-// Speeds over ground have a scale of their own.
+// Chooses range rates as reported or over ground; each has its own scale.
 function setRates(rates) {
     state.rates = rates;
     state.fastest = fastestRate(rates === 'compensated');
@@ -271,7 +271,7 @@ function connectButtons() {
     click('play', () => setPlaying(!state.playing));
     panel.addEventListener('pointerdown', event => {
         if (event.target.closest('button')) {
-            setPlaying(false); // else the row is gone before the finger is up
+            setPlaying(false); // else the panel may replace the button before the click
         }
     });
     click('back', () => stepBy(-1));
@@ -315,7 +315,7 @@ const keyActions = {
     'Escape': chooseNone,
 };
 
-// Does the control with the focus use this key itself?
+// True if the control with the focus uses this key itself.
 function isOwnKey({target, key}) {
     const presses = ['SELECT', 'INPUT', 'BUTTON'].includes(target.tagName);
     const moves = target.tagName === 'SELECT' || target.type === 'range';

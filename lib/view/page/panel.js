@@ -1,4 +1,5 @@
-// The panel: in words, what was chosen on the map. Text only ever enters the page as text.
+// The panel: a description of what is chosen on the map. Names enter the page as text only, never
+// as HTML.
 
 const panel = document.getElementById('panel');
 
@@ -20,7 +21,7 @@ function symbolCanvas(style, colour, size, ghost) {
     small.style.width = small.style.height = size + 'px';
     const drawing = small.getContext('2d');
     drawing.scale(ratio, ratio);
-    drawSymbol(drawing, style, size / 2, size / 2, size * 0.36, colour, ghost);
+    drawTargetSymbol(drawing, style, size / 2, size / 2, size * 0.36, colour, ghost);
     return small;
 }
 
@@ -43,7 +44,7 @@ const otherPaths = {
     false_alarm: 'nothing but noise',
 };
 
-// The way of an echo: "direct", or a ghost's legs from the radar to it and back.
+// The path of an echo in words: "direct", or a ghost's legs from the radar and back.
 function pathWords(path, mirror, number) {
     const name = head.paths[path];
     const stops = {wall: mirror > 0 ? names[mirror - 1] : 'a wall', object: 'it', ego: 'the ego'};
@@ -172,14 +173,14 @@ function summary(scan, targets, near, far) {
     if (!column('scan_measured')[scan]) {
         return 'did not measure in this frame';
     }
-    const told = [plural(targets.length, 'target')];
+    const parts = [plural(targets.length, 'target')];
     if (near.length > 0) {
-        told.push(near.length === 1 ? '1 echo lost' : `${near.length} echoes lost`);
+        parts.push(near.length === 1 ? '1 echo lost' : `${near.length} echoes lost`);
     }
     if (far.length > 0) {
-        told.push(`${far.length} sent no echo`);
+        parts.push(`${far.length} sent no echo`);
     }
-    return told.join(', ');
+    return parts.join(', ');
 }
 
 function sensorTitle(scan, text) {
@@ -345,7 +346,7 @@ function targetNotes(scan) {
     return notes;
 }
 
-// What became of one reflection centre, by sensor.
+// What became of the echoes of the chosen reflection centre in a scan.
 function reflectorFates(scan) {
     const fates = [];
     for (const {target, number} of targetsFrom(scan, state.object)) {
@@ -408,7 +409,7 @@ function showFrame() {
     panel.replaceChildren(...parts);
 }
 
-// Whoever walks through the panel with the keyboard stays in it when it changes.
+// Fills the panel; the keyboard's focus stays in it if it was there.
 function showPanel() {
     const walking = panel.querySelector(':focus-visible') !== null;
     fillPanel();

@@ -1,5 +1,5 @@
-// The side plots: what the sensors measured, without geometry. Targets as symbols, the exact echoes
-// behind them as dots, resolution cells as boxes.
+// The side plots: the sensors' measurements in polar values. Targets are symbols, the exact echoes
+// behind them dots, resolution cells boxes.
 
 const plots = {
     azimuth: {canvas: document.getElementById('azimuths'), unit: '°', hits: []},
@@ -15,7 +15,8 @@ function roundStep(span, parts) {
     return [1, 2, 5, 10].map(factor => factor * power).find(step => step >= wanted);
 }
 
-// The farthest, widest and fastest in the whole stream, so that the axes stand still.
+// The largest range, azimuth and range rate of the whole stream, so that the axes do not change
+// from frame to frame.
 function plotLimits() {
     const ranges = extremes('target_range_m', true);
     const widest = head.sensors.reduce((most, one) => Math.max(most, one.field_of_view_rad), 0);
@@ -86,7 +87,7 @@ function plotTarget(plot, kind, drawing, size, axes, scan, target) {
         : rateOf(scan, target, compensated);
     const at = plotPlace(size, axes, x, column('target_range_m')[target]);
     const chosen = target === state.target;
-    drawSymbol(drawing, sensorStyle(scan), at.x, at.y, chosen ? 7.5 : 5, colourOf(scan, target),
+    drawTargetSymbol(drawing, sensorStyle(scan), at.x, at.y, chosen ? 7.5 : 5, colourOf(scan, target),
         isGhost(target));
     if (chosen) {
         drawing.beginPath();
@@ -97,7 +98,7 @@ function plotTarget(plot, kind, drawing, size, axes, scan, target) {
     plot.hits.push({x: at.x, y: at.y, target});
 }
 
-// The cell that opened around the leader: what falls into the box becomes one target.
+// The resolution cell around the target's leader: echoes inside the box become one target.
 function plotCell(kind, drawing, size, axes, scan, target) {
     const sensor = sensorOf(scan);
     const leader = leaderOf(target);

@@ -1,4 +1,4 @@
-// Pointers: one pans or clicks, two zoom.
+// Mouse and touch: one pointer pans or clicks, two zoom.
 
 const pointers = new Map();
 let moved = 0;
@@ -90,11 +90,12 @@ function reflectorHits() {
             hits.push({...toScreen(reflectorPlace(row, name).place), object, name});
         }
     }
-    return hits.concat(partHits());
+    return hits.concat(contributorHits());
 }
 
-// A flat side reflects from where it mirrors, not from its middle.
-function partHits() {
+// Contributors of targets can be clicked where they were seen: a flat side reflects from its
+// specular point, not from its middle.
+function contributorHits() {
     const hits = [];
     eachTarget(state.frame, (scan, target) => {
         const {begin, end} = contributorsOf(target);

@@ -1,11 +1,13 @@
-// Colours and symbols, in light and dark.
+// Colours and marks, in light and dark: a target's symbol by its sensor, a ghost's, and the cross
+// of a lost echo.
 
 // Colours that people with any colour vision can tell apart, in a light and a dark tone each.
 const palettes = {
     light: ['#0072b2', '#c74e00', '#00805e', '#a8478a', '#8a6d00', '#3a6fd8', '#7a4a2b', '#4d4d4d'],
     dark: ['#56b4e9', '#f0a030', '#2fc79a', '#e79ac6', '#e6d94c', '#9db8ff', '#d2a07c', '#c8c8c8'],
 };
-const symbols = ['star', 'circle', 'diamond', 'triangle', 'square', 'cross'];
+// Shapes of targets, by sensor.
+const targetShapes = ['star', 'circle', 'diamond', 'triangle', 'square', 'four-point star'];
 
 let ink = {};
 
@@ -22,21 +24,21 @@ function readInk() {
     }
 }
 
-// Gives a canvas the pixels of its place on the screen and returns its size in CSS pixels.
-function fitCanvas(one, drawing) {
+// Gives a canvas the pixels of its place on the screen; returns its size in CSS pixels.
+function fitCanvas(element, drawing) {
     const ratio = window.devicePixelRatio || 1;
-    const width = one.clientWidth;
-    const height = one.clientHeight;
-    if (one.width !== Math.round(width * ratio) || one.height !== Math.round(height * ratio)) {
-        one.width = Math.round(width * ratio);
-        one.height = Math.round(height * ratio);
+    const width = element.clientWidth;
+    const height = element.clientHeight;
+    if (element.width !== Math.round(width * ratio) || element.height !== Math.round(height * ratio)) {
+        element.width = Math.round(width * ratio);
+        element.height = Math.round(height * ratio);
     }
     drawing.setTransform(ratio, 0, 0, ratio, 0, 0);
     drawing.clearRect(0, 0, width, height);
     return {width, height};
 }
 
-// Colours of numbers: blue through grey to red for rates, dark to bright for amplitudes.
+// Colours of numbers: range rates from blue through grey to red, amplitudes from dark to bright.
 function mix(from, to, part) {
     const channel = i => Math.round(from[i] + part * (to[i] - from[i]));
     return `rgb(${channel(0)},${channel(1)},${channel(2)})`;
@@ -58,7 +60,7 @@ function amplitudeColour(level) {
 
 const objectOrders = new Map();
 
-// Objects take colours in the order in which they make targets, so that as few as can be share one.
+// Objects take colours in the order of their first targets, so that few objects share a colour.
 function objectOrder(number) {
     let order = objectOrders.get(number);
     if (order === undefined) {
@@ -81,7 +83,8 @@ function objectColour(object) {
     return place === undefined ? ink.edge : ink.palette[place % ink.palette.length];
 }
 
-// Of a sensor's symbol where no target's colour counts.
+// The colour of a sensor's symbol outside the map: its own where targets are coloured by sensor,
+// else grey.
 function sensorColour(style) {
     const own = state.colour === 'sensor' && state.effect < 0;
     return own ? ink.palette[style % ink.palette.length] : ink.soft;
@@ -115,9 +118,9 @@ function tracePolygon(drawing, x, y, radius, corners, inner, turn) {
     drawing.closePath();
 }
 
-function traceSymbol(drawing, style, x, y, radius) {
+function traceTargetShape(drawing, style, x, y, radius) {
     drawing.beginPath();
-    switch (symbols[style % symbols.length]) {
+    switch (targetShapes[style % targetShapes.length]) {
     case 'star': return tracePolygon(drawing, x, y, 1.3 * radius, 5, 0.42, 0);
     case 'circle': return drawing.arc(x, y, 0.95 * radius, 0, 2 * Math.PI);
     case 'diamond': return tracePolygon(drawing, x, y, 1.2 * radius, 4, 0, 0);
@@ -127,7 +130,7 @@ function traceSymbol(drawing, style, x, y, radius) {
     }
 }
 
-// Hollow, so that another sensor's symbol at the same place is seen through it.
+// Draws the traced circle hollow, so that another sensor's symbol at the same place shows through.
 function drawRing(drawing, radius, colour) {
     drawing.lineWidth = radius * 0.36 + 2;
     drawing.strokeStyle = ink.paper;
@@ -137,7 +140,7 @@ function drawRing(drawing, radius, colour) {
     drawing.stroke();
 }
 
-// A ghost: hollow, with a broken outline.
+// Draws the traced shape as a ghost's: hollow, with a dashed outline.
 function drawGhost(drawing, colour) {
     drawing.fillStyle = ink.paper;
     drawing.fill();
@@ -148,13 +151,13 @@ function drawGhost(drawing, colour) {
     drawing.setLineDash([]);
 }
 
-function drawSymbol(drawing, style, x, y, radius, colour, ghost) {
-    traceSymbol(drawing, style, x, y, radius);
+function drawTargetSymbol(drawing, style, x, y, radius, colour, ghost) {
+    traceTargetShape(drawing, style, x, y, radius);
     if (ghost) {
         drawGhost(drawing, colour);
         return;
     }
-    if (symbols[style % symbols.length] === 'circle') {
+    if (targetShapes[style % targetShapes.length] === 'circle') {
         drawRing(drawing, radius, colour);
         return;
     }
@@ -162,5 +165,17 @@ function drawSymbol(drawing, style, x, y, radius, colour, ghost) {
     drawing.fill();
     drawing.lineWidth = 1.2;
     drawing.strokeStyle = ink.paper;
+    drawing.stroke();
+}
+
+// Marks a lost echo with a cross.
+function drawLostMark(drawing, at, radius) {
+    drawing.strokeStyle = ink.lost;
+    drawing.lineWidth = 2;
+    drawing.beginPath();
+    for (const side of [-1, 1]) {
+        drawing.moveTo(at.x - radius, at.y - side * radius);
+        drawing.lineTo(at.x + radius, at.y + side * radius);
+    }
     drawing.stroke();
 }

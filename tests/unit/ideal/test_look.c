@@ -5,11 +5,11 @@
 #include <string.h>
 
 #include "base/units.h"
-#include "frame/frame_text.h"
 #include "geometry/outline_crossing.h"
 #include "ideal/direct_echoes.h"
 #include "ideal/line_of_sight.h"
 #include "sample.h"
+#include "text/record_text.h"
 
 /* A frame in which object "e" carries a sensor that looks over the half plane ahead. */
 struct scene {
@@ -559,8 +559,8 @@ static void assert_same_echoes(const struct echo *one, const struct echo *other,
     const struct record *record = field_find(&frame_record, "echoes", strlen("echoes"), 0)->record;
     struct text texts[2] = {0};
     for (size_t i = 0; i < count; i++) {
-        frame_text_write_record(record, &one[i], &texts[0]);
-        frame_text_write_record(record, &other[i], &texts[1]);
+        record_text_write(record, &one[i], NULL, &texts[0]);
+        record_text_write(record, &other[i], NULL, &texts[1]);
     }
     assert_int_equal(texts[0].length, texts[1].length);
     if (count > 0)

@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "base/units.h"
-#include "frame/frame_text.h"
 #include "sample.h"
 #include "score/target_score.h"
+#include "text/record_text.h"
 
 enum { MOST = 8 };
 
@@ -54,8 +54,8 @@ static struct score score_scan(const struct score_scene *truth, const struct sco
 static void assert_same_text(const struct score *one, const struct score *other)
 {
     struct text text = {0}, other_text = {0};
-    frame_text_write_record(&score_record, one, &text);
-    frame_text_write_record(&score_record, other, &other_text);
+    record_text_write(&score_record, one, NULL, &text);
+    record_text_write(&score_record, other, NULL, &other_text);
     assert_int_equal(text.length, other_text.length);
     assert_memory_equal(text.bytes, other_text.bytes, text.length);
     text_free(&text);

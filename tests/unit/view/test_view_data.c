@@ -44,7 +44,7 @@
         "8", PART("a", "8.5", "0.75", "4") "," PART(                                               \
                  "b", "8.75", "0.25", "4")) "," TARGET("9", PART("e", "9.5", "1", "4")) "]," LOST
 
-/* Frames from lines, packed; and what the page would get. */
+/* Frames read from lines and packed, and the text of the page's data. */
 struct packed {
     struct arena arena, frame_arena;
     struct view_data data;
@@ -102,7 +102,7 @@ static size_t count_of(const struct packed *packed, const char *name)
     return (size_t)json_integer_value(json_object_get(place, "count"));
 }
 
-/* A number of a column, decoded without the code under test. */
+/* A number of a column, decoded independently of the code under test. */
 static double value_of(const struct packed *packed, const char *name, size_t index)
 {
     json_t *place = json_object_get(json_object_get(packed->json, "columns"), name);
@@ -133,7 +133,7 @@ static void begin(struct packed *packed)
     view_data_begin(&packed->data, &packed->arena);
 }
 
-static void what_goes_in_comes_out_of_the_columns(void **state)
+static void the_columns_hold_what_the_frames_held(void **state)
 {
     (void)state;
     struct packed packed;
@@ -186,7 +186,7 @@ static void a_sensor_stands_and_moves_with_its_mount(void **state)
     begin(&packed);
     add_line(&packed, FRAME("x", "0", "4", "false", RICH));
     finish(&packed);
-    /* Coordinates are from the ego's start; omega x r of r = (-1, 2) is (-0.2, -0.1). */
+    /* Coordinates are relative to the ego's start; omega x r of r = (-1, 2) is (-0.2, -0.1). */
     assert_close(value_of(&packed, "scan_x_m", 0), -1, 1e-6);
     assert_close(value_of(&packed, "scan_y_m", 0), 2, 1e-6);
     assert_close(value_of(&packed, "scan_yaw_rad", 0), acos(0) + 0.25, 1e-6);
@@ -204,14 +204,14 @@ static void a_sensor_stands_where_it_was_when_it_measured(void **state)
     add_line(&packed, FRAME("x", "0", "4.02", "false",
                             "\"targets\":[" TARGET("8", PART("a", "8.5", "1", "4")) "]"));
     finish(&packed);
-    /* 0.02 s at 5 m/s earlier, and 0.002 rad less turned. */
+    /* 0.02 s earlier at 5 m/s, and turned 0.002 rad less. */
     assert_close(value_of(&packed, "scan_age_s", 0), 0.02, 1e-6);
     assert_close(value_of(&packed, "scan_yaw_rad", 0), acos(0) + 0.25 - 0.002, 1e-6);
     assert_close(value_of(&packed, "scan_y_m", 0), 2 - 0.1 + 0.002 * 1, 1e-4);
     release(&packed);
 }
 
-static void no_name_can_end_the_script(void **state)
+static void no_name_can_end_the_script_element(void **state)
 {
     (void)state;
     struct packed packed;
@@ -224,7 +224,7 @@ static void no_name_can_end_the_script(void **state)
     release(&packed);
 }
 
-static void scenes_may_interleave_and_those_cut_short_are_known(void **state)
+static void scenes_may_interleave_and_those_cut_short_are_marked(void **state)
 {
     (void)state;
     struct packed packed;
@@ -247,7 +247,7 @@ static void scenes_may_interleave_and_those_cut_short_are_known(void **state)
     release(&packed);
 }
 
-/* Two ghosts of one reflector, one in a target, one lost, beside a direct echo that was lost. */
+/* Two ghosts of one reflector, one in a target, one lost, and its direct echo, lost too. */
 static void echoes_keep_their_mirror_and_number(void **state)
 {
     (void)state;
@@ -343,11 +343,11 @@ static void an_empty_stream_has_a_head(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_goes_in_comes_out_of_the_columns),
+        cmocka_unit_test(the_columns_hold_what_the_frames_held),
         cmocka_unit_test(a_sensor_stands_and_moves_with_its_mount),
         cmocka_unit_test(a_sensor_stands_where_it_was_when_it_measured),
-        cmocka_unit_test(no_name_can_end_the_script),
-        cmocka_unit_test(scenes_may_interleave_and_those_cut_short_are_known),
+        cmocka_unit_test(no_name_can_end_the_script_element),
+        cmocka_unit_test(scenes_may_interleave_and_those_cut_short_are_marked),
         cmocka_unit_test(echoes_keep_their_mirror_and_number),
         cmocka_unit_test(every_reason_and_path_has_its_name),
         cmocka_unit_test(the_same_losses_share_a_pattern),

@@ -26,7 +26,7 @@
     "\",\"mount_x_m\":2,\"mount_y_m\":0,\"mount_yaw_rad\":0,\"field_of_view_rad\":3,"              \
     "\"range_max_m\":30,\"cell_range_m\":0.3,\"cell_range_rate_mps\":0.5,\"measured\":true}]}"
 
-/* The drawing of a line, NUL-terminated; the caller frees it. */
+/* The drawing of a frame's line, NUL-terminated; the caller frees it. */
 static char *draw(const char *line)
 {
     struct arena arena = {0}, documents = {0};
@@ -53,8 +53,8 @@ static const char *skip_entity(const char *at)
     return at;
 }
 
-/* Every element closes the one that is open, attributes are quoted, ampersands stand for something.
- */
+/* True if every end tag closes the element that is open, attributes are quoted, and ampersands
+ * begin an entity. */
 static void assert_well_formed(const char *xml)
 {
     const char *open[32];
@@ -120,7 +120,7 @@ static void names_are_escaped(void **state)
     free(xml);
 }
 
-/* The first corner of a path of a class, the nth of them. */
+/* The first corner of the nth path of a class. */
 static void corner_of(const char *xml, const char *class, int nth, double *x, double *y)
 {
     char wanted[64];
@@ -135,7 +135,7 @@ static void corner_of(const char *xml, const char *class, int nth, double *x, do
     fail_msg("no %s", wanted);
 }
 
-static void it_is_drawn_to_the_scale_of_its_bar(void **state)
+static void drawings_have_the_scale_of_their_bar(void **state)
 {
     (void)state;
     char *xml = draw(FRAME("x", "," OBJECT("o", "12"),
@@ -154,7 +154,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(drawings_are_well_formed_xml),
         cmocka_unit_test(names_are_escaped),
-        cmocka_unit_test(it_is_drawn_to_the_scale_of_its_bar),
+        cmocka_unit_test(drawings_have_the_scale_of_their_bar),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,539 @@
+#include "text/record_text.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/intern.h"
+#include "base/number.h"
+#include "text/json_scan.h"
+
+/* An object takes more in a line. */
+enum { BYTES_PER_NAME = 128 };
+
+struct reader {
+    struct json_scan scan;
+    struct intern names;
+    struct list_cache *repeats; /* or NULL */
+};
+
+static int read_record(struct reader *reader, const struct record *record, void *base);
+
+/* A message begins with a member's name, or with ": " if it is about the text between members. */
+static int put_before(struct diag *diag, const char *name, size_t index)
+{
+    return diag_prefix(diag, "%s[%zu]%s", name, index, diag->text[0] == ':' ? "" : ".");
+}
+
+static int unexpected(struct json_scan *scan, const char *what)
+{
+    json_scan_unexpected(scan, what);
+    return diag_prefix(scan->diag, ": ");
+}
+
+static int read_item(struct reader *reader, const struct field *field, void *base, size_t index)
+{
+    struct json_scan *scan = &reader->scan;
+    char first = json_scan_peek(scan);
+    int result;
+    if (first == '{')
+        result = read_record(reader, field->record, field_list_extend(field, base, scan->arena));
+    else if (first != '\0' && strchr("\"[tfn-0123456789", first) != NULL)
+        result = diag_fail(scan->diag, DIAG_DATA, ": %s; expected an object", json_scan_kind(scan));
+    else
+        result = unexpected(scan, "an object");
+    return result == 0 ? 0 : put_before(scan->diag, field->name, index);
+}
+
+/* Equal names of a line are one pointer. */
+static void keep_name(struct reader *reader, const struct field *field, const char *text,
+                      size_t length, void *base)
+{
+    uint32_t number = intern_number(&reader->names, text, length, reader->scan.arena);
+    const char *kept = intern_text(&reader->names, number);
+    FIELD_STORE(const char *, field, base, kept);
+}
+
+/* A name of plain characters needs no second look. */
+static bool take_name(struct reader *reader, const struct field *field, void *base)
+{
+    struct json_scan *scan = &reader->scan;
+    const char *text = scan->at + 1;
+    if (scan->at == scan->end || *scan->at != '"')
+        return false;
+    size_t length = text_plain(text, (size_t)(scan->end - text));
+    if (length == 0 || length > FIELD_NAME_SIZE || text + length == scan->end ||
+        text[length] != '"')
+        return false;
+    scan->at += length + 2;
+    keep_name(reader, field, text, length, base);
+    return true;
+}
+
+static int set_name(struct reader *reader, const struct field *field,
+                    const struct json_string *name, void *base)
+{
+    struct json_scan *scan = &reader->scan;
+    if (field_set_text(field, base, name->text, name->length, scan->arena, scan->diag) != 0)
+        return -1;
+    keep_name(reader, field, name->text, name->length, base);
+    return 0;
+}
+
+static int read_name(struct reader *reader, const struct field *field, void *base, size_t index)
+{
+    struct json_scan *scan = &reader->scan;
+    const struct field item = {.name = "", .kind = FIELD_NAME};
+    void *place = field_list_extend(field, base, scan->arena);
+    struct json_string name;
+    int result;
+    if (take_name(reader, &item, place))
+        return 0;
+    if (json_scan_peek(scan) != '"')
+        result = field_wrong_kind(&item, json_scan_kind(scan), scan->diag);
+    else if (json_scan_string(scan, &name) != 0)
+        result = diag_prefix(scan->diag, ": ");
+    else
+        result = set_name(reader, &item, &name, place);
+    return result == 0 ? 0 : diag_prefix(scan->diag, "%s[%zu]", field->name, index);
+}
+
+static int read_choice(struct json_scan *scan, const struct field *field, void *base, size_t index)
+{
+    struct json_string name;
+    if (json_scan_peek(scan) != '"')
+        return diag_fail(scan->diag, DIAG_DATA, "%s[%zu]: %s; expected a name", field->name, index,
+                         json_scan_kind(scan));
+    if (json_scan_string(scan, &name) != 0)
+        return diag_prefix(scan->diag, "%s[%zu]: ", field->name, index);
+    return field_add_to_set(field, base, name.text, name.length, scan->diag);
+}
+
+static int read_list(struct reader *reader, const struct field *field, void *base)
+{
+    struct json_scan *scan = &reader->scan;
+    if (!json_scan_take(scan, '['))
+        return field_wrong_kind(field, json_scan_kind(scan), scan->diag);
+    if (json_scan_take(scan, ']'))
+        return 0;
+    size_t i = 0;
+    do {
+        int result = field->kind == FIELD_LIST  ? read_item(reader, field, base, i)
+                     : field->kind == FIELD_SET ? read_choice(scan, field, base, i)
+                                                : read_name(reader, field, base, i);
+        if (result != 0)
+            return -1;
+        i++;
+    } while (json_scan_take(scan, ','));
+    if (json_scan_take(scan, ']'))
+        return 0;
+    json_scan_unexpected(scan, "',' or ']'");
+    return diag_prefix(scan->diag, "%s: ", field->name);
+}
+
+/* A list that may have stood in an earlier line: if so it is there already. If not it is read into
+ * the memory of those that are kept, with names of its own. */
+static int read_steady(struct reader *reader, const struct field *field, void *base)
+{
+    struct json_scan *scan = &reader->scan;
+    struct list_cache *repeats = reader->repeats;
+    const struct repeat *repeat = list_cache_find(repeats, field->record, scan->at, scan->end);
+    if (repeat != NULL) {
+        scan->at += repeat->read.length;
+        memcpy((char *)base + field->offset, &repeat->items, sizeof repeat->items);
+        return 0;
+    }
+    if (list_cache_full(repeats))
+        return read_list(reader, field, base);
+    struct reader apart = {.scan = {scan->at, scan->end, &repeats->arena, scan->diag}};
+    if (read_list(&apart, field, base) != 0)
+        return -1;
+    list_cache_keep(repeats, field, base, scan->at, (size_t)(apart.scan.at - scan->at));
+    scan->at = apart.scan.at;
+    return 0;
+}
+
+static int read_raw(struct json_scan *scan, const struct field *field, void *base)
+{
+    struct json_string bytes;
+    if (json_scan_value(scan, &bytes) != 0)
+        return diag_prefix(scan->diag, "%s: ", field->name);
+    if (bytes.length > FIELD_RAW_SIZE)
+        return diag_fail(scan->diag, DIAG_DATA, "%s: %zu bytes; at most %d may be carried",
+                         field->name, bytes.length, FIELD_RAW_SIZE);
+    const char *copy = arena_text(scan->arena, bytes.text, bytes.length);
+    FIELD_STORE(const char *, field, base, copy);
+    return 0;
+}
+
+static int read_number(struct json_scan *scan, const struct field *field, void *base)
+{
+    double number;
+    if (json_scan_number(scan, &number) != 0)
+        return diag_prefix(scan->diag, "%s: ", field->name);
+    return field_set_number(field, base, number, scan->diag);
+}
+
+/* An everyday number in bounds needs no second look. */
+static bool take_real(struct json_scan *scan, const struct field *field, void *base)
+{
+    double number;
+    const char *end = number_take(scan->at, scan->end, &number);
+    if (end == NULL || !(number >= field->low && number <= field->high))
+        return false;
+    scan->at = end;
+    FIELD_STORE(double, field, base, number);
+    return true;
+}
+
+static int read_text(struct reader *reader, const struct field *field, void *base)
+{
+    struct json_scan *scan = &reader->scan;
+    struct json_string string;
+    if (json_scan_string(scan, &string) != 0)
+        return diag_prefix(scan->diag, "%s: ", field->name);
+    return field->kind == FIELD_NAME
+               ? set_name(reader, field, &string, base)
+               : field_set_text(field, base, string.text, string.length, scan->arena, scan->diag);
+}
+
+static int read_flag(struct json_scan *scan, const struct field *field, void *base)
+{
+    bool flag;
+    if (json_scan_flag(scan, &flag) != 0)
+        return diag_prefix(scan->diag, "%s: ", field->name);
+    FIELD_STORE(bool, field, base, flag);
+    return 0;
+}
+
+static int read_member(struct reader *reader, const struct field *field, void *base)
+{
+    struct json_scan *scan = &reader->scan;
+    if (field->kind == FIELD_REAL && take_real(scan, field, base))
+        return 0;
+    if (field->kind == FIELD_NAME && take_name(reader, field, base))
+        return 0;
+    char first = json_scan_peek(scan);
+    if (first == '\0') {
+        json_scan_unexpected(scan, "a value");
+        return diag_prefix(scan->diag, "%s: ", field->name);
+    }
+    if (field->kind == FIELD_RAW)
+        return read_raw(scan, field, base);
+    if (field->steady && reader->repeats != NULL)
+        return read_steady(reader, field, base);
+    if (field->kind == FIELD_NAMES || field->kind == FIELD_SET || field->kind == FIELD_LIST)
+        return read_list(reader, field, base);
+    if (field->kind == FIELD_RECORD) {
+        if (first != '{')
+            return field_wrong_kind(field, json_scan_kind(scan), scan->diag);
+        if (read_record(reader, field->record, (char *)base + field->offset) == 0)
+            return 0;
+        return diag_prefix(scan->diag, "%s%s", field->name, scan->diag->text[0] == ':' ? "" : ".");
+    }
+    if (first == '"')
+        return read_text(reader, field, base);
+    if (first == '-' || (first >= '0' && first <= '9'))
+        return read_number(scan, field, base);
+    if (field->kind == FIELD_FLAG && (first == 't' || first == 'f'))
+        return read_flag(scan, field, base);
+    if (strchr("{[tfn", first) != NULL)
+        return field_wrong_kind(field, json_scan_kind(scan), scan->diag);
+    json_scan_unexpected(scan, "a value");
+    return diag_prefix(scan->diag, "%s: ", field->name);
+}
+
+/* Does the line go on with this member's key and its colon, as the writer has them? At least
+ * FIELD_KEY_SIZE bytes lie ahead. */
+static bool key_is_next(const char *at, const struct field *field)
+{
+    const char *key = field->key + 1;
+    size_t length = field->key_length - 1u;
+    uint64_t difference = text_word(at) ^ text_word(key);
+    if (length < 8)
+        return difference << (64 - 8 * length) == 0;
+    for (size_t i = 8; difference == 0 && i + 8 < length; i += 8)
+        difference = text_word(at + i) ^ text_word(key + i);
+    return difference == 0 && text_word(at + length - 8) == text_word(key + length - 8);
+}
+
+/* The first of these members whose key comes next; NULL if it is another, or written otherwise. */
+static const struct field *take_key(struct json_scan *scan, const struct field *field)
+{
+    if (scan->end - scan->at < FIELD_KEY_SIZE)
+        return NULL;
+    while (field->name != NULL && !key_is_next(scan->at, field))
+        field++;
+    if (field->name == NULL)
+        return NULL;
+    scan->at += field->key_length - 1;
+    return field;
+}
+
+/* Past the key and the colon of any member, in any spelling; NULL after a message. */
+static const struct field *read_key(struct json_scan *scan, const struct record *record,
+                                    uint64_t seen)
+{
+    struct json_string key;
+    const struct field *field = NULL;
+    if (json_scan_string(scan, &key) != 0) {
+        diag_prefix(scan->diag, ": ");
+        return NULL;
+    }
+    field = field_find(record, key.text, key.length, 0);
+    if (field == NULL || field->kind == FIELD_NOTES)
+        field_unknown(record, key.text, key.length, scan->diag);
+    else if ((seen >> (field - record->fields) & 1) != 0)
+        field_twice(field, scan->diag);
+    else if (!json_scan_take(scan, ':'))
+        unexpected(scan, "':'");
+    else
+        return field;
+    return NULL;
+}
+
+static int read_members(struct reader *reader, const struct record *record, void *base,
+                        uint64_t *seen)
+{
+    struct json_scan *scan = &reader->scan;
+    const struct field *next = record->fields;
+    do {
+        const struct field *field = take_key(scan, next);
+        if (field == NULL)
+            field = read_key(scan, record, *seen);
+        if (field == NULL)
+            return -1;
+        uint64_t bit = UINT64_C(1) << (field - record->fields);
+        if ((*seen & bit) != 0)
+            return field_twice(field, scan->diag);
+        *seen |= bit;
+        next = field + 1;
+        if (read_member(reader, field, base) != 0)
+            return -1;
+        if (field->section != 0)
+            field_mark_present(record, field, base);
+    } while (json_scan_take(scan, ','));
+    return json_scan_take(scan, '}') ? 0 : unexpected(scan, "',' or '}'");
+}
+
+/* Into a zeroed struct. */
+static int read_record(struct reader *reader, const struct record *record, void *base)
+{
+    struct json_scan *scan = &reader->scan;
+    uint64_t seen = 0;
+    json_scan_take(scan, '{');
+    if (!json_scan_take(scan, '}') && read_members(reader, record, base, &seen) != 0)
+        return -1;
+    for (uint64_t unseen = ~seen;; unseen &= unseen - 1) {
+        const struct field *field = &record->fields[__builtin_ctzll(unseen)];
+        if (field->name == NULL)
+            return 0;
+        if (!field->optional)
+            return field_require(record, seen, scan->diag);
+        field_set_absent(field, base);
+    }
+}
+
+static int no_record(struct json_scan *scan, const struct record *record)
+{
+    char expected[64];
+    snprintf(expected, sizeof expected, "a %s", record->name);
+    return scan->at == scan->end
+               ? diag_fail(scan->diag, DIAG_DATA, "an empty line; expected %s", expected)
+               : json_scan_unexpected(scan, expected);
+}
+
+int record_text_read(const char *line, size_t length, const struct record *record, void *base,
+                     struct arena *arena, struct list_cache *repeats, struct diag *diag)
+{
+    struct reader reader = {
+        {line, line + length, arena, diag}, intern_begin(length / BYTES_PER_NAME, arena), repeats};
+    struct json_scan *scan = &reader.scan;
+    if (json_scan_peek(scan) != '{')
+        return no_record(scan, record);
+    if (read_record(&reader, record, base) != 0) {
+        if (diag->text[0] == ':')
+            memmove(diag->text, diag->text + 2, sizeof diag->text - 2);
+        return -1;
+    }
+    json_scan_peek(scan);
+    return scan->at == scan->end ? 0 : json_scan_unexpected(scan, "the end of the line");
+}
+
+/* The writer's place in a text, whose length is set in the end. */
+struct writer {
+    struct text *text;
+    char *at, *end;
+    struct list_cache *repeats; /* or NULL */
+};
+
+/* A key, a number and the brackets around them. */
+enum { MEMBER_ROOM = FIELD_KEY_SIZE + NUMBER_SIZE + 8 };
+
+static void make_room(struct writer *writer, size_t size)
+{
+    if ((size_t)(writer->end - writer->at) >= size)
+        return;
+    struct text *text = writer->text;
+    text->length = (size_t)(writer->at - text->bytes);
+    writer->at = text_room(text, size);
+    writer->end = text->bytes + text->room;
+}
+
+static void write_record(const struct record *record, const void *base, struct writer *writer);
+
+static void write_word(const char *word, struct writer *writer)
+{
+    size_t length = strlen(word);
+    make_room(writer, length + MEMBER_ROOM);
+    memcpy(writer->at, word, length);
+    writer->at += length;
+}
+
+static void write_name(const char *name, struct writer *writer)
+{
+    size_t length = strlen(name);
+    make_room(writer, text_json_size(length) + MEMBER_ROOM);
+    writer->at = text_put_json(writer->at, name, length);
+}
+
+static void write_choice(const char *choice, struct writer *writer)
+{
+    *writer->at++ = '"';
+    write_word(choice, writer);
+    *writer->at++ = '"';
+}
+
+static void write_list(const struct field *field, const void *base, struct writer *writer)
+{
+    struct field_list list = field_list(field, base);
+    *writer->at++ = '[';
+    for (size_t i = 0; i < list.count; i++) {
+        if (i > 0)
+            *writer->at++ = ',';
+        if (field->kind == FIELD_LIST)
+            write_record(field->record, (const char *)list.items + i * field->record->size, writer);
+        else
+            write_name(((const char *const *)list.items)[i], writer);
+    }
+    *writer->at++ = ']';
+}
+
+/* A list that may stand in later lines: if it stood in an earlier one, its text is there. */
+static void write_steady(const struct record *record, const struct field *field, const void *base,
+                         struct writer *writer)
+{
+    struct repeat *repeat = list_cache_of(writer->repeats, record, field, base);
+    if (repeat == NULL) {
+        write_list(field, base, writer);
+    } else if (repeat->written.bytes == NULL) {
+        size_t begin = (size_t)(writer->at - writer->text->bytes);
+        write_list(field, base, writer);
+        const char *text = writer->text->bytes + begin;
+        list_cache_keep_written(writer->repeats, repeat, text, (size_t)(writer->at - text));
+    } else {
+        make_room(writer, repeat->written.length + MEMBER_ROOM);
+        memcpy(writer->at, repeat->written.bytes, repeat->written.length);
+        writer->at += repeat->written.length;
+    }
+}
+
+static void write_set(const struct field *field, uint64_t set, struct writer *writer)
+{
+    *writer->at++ = '[';
+    for (int i = 0; set >> i != 0; i++) {
+        if ((set >> i & 1) == 0)
+            continue;
+        write_choice(field->choices[i], writer);
+        *writer->at++ = ',';
+    }
+    writer->at -= set != 0; /* the last comma */
+    *writer->at++ = ']';
+}
+
+static void write_whole(int64_t value, struct writer *writer)
+{
+    *writer->at = '-';
+    writer->at += value < 0;
+    writer->at += number_write_whole(value < 0 ? 0 - (uint64_t)value : (uint64_t)value, writer->at);
+}
+
+static void write_seed(uint64_t seed, struct writer *writer)
+{
+    *writer->at++ = '"';
+    writer->at += number_write_whole(seed, writer->at);
+    *writer->at++ = '"';
+}
+
+static void write_member(const struct record *record, const struct field *field, const void *base,
+                         struct writer *writer)
+{
+    if (field->kind == FIELD_REAL) { /* as most are */
+        writer->at += number_write(FIELD_LOAD(double, field, base), writer->at);
+        return;
+    }
+    switch (field->kind) {
+    case FIELD_INTEGER:
+        write_whole(FIELD_LOAD(int64_t, field, base), writer);
+        break;
+    case FIELD_SEED:
+        write_seed(FIELD_LOAD(uint64_t, field, base), writer);
+        break;
+    case FIELD_SET:
+        write_set(field, FIELD_LOAD(uint64_t, field, base), writer);
+        break;
+    case FIELD_FLAG:
+        write_word(FIELD_LOAD(bool, field, base) ? "true" : "false", writer);
+        break;
+    case FIELD_NAME:
+        write_name(FIELD_LOAD(const char *, field, base), writer);
+        break;
+    case FIELD_RAW:
+        write_word(FIELD_LOAD(const char *, field, base), writer);
+        break;
+    case FIELD_CHOICE:
+        write_choice(field->choices[FIELD_LOAD(int, field, base)], writer);
+        break;
+    case FIELD_RECORD:
+        write_record(field->record, (const char *)base + field->offset, writer);
+        break;
+    case FIELD_LIST:
+    case FIELD_NAMES:
+        if (field->steady && writer->repeats != NULL)
+            write_steady(record, field, base, writer);
+        else
+            write_list(field, base, writer);
+        break;
+    case FIELD_REAL:
+    case FIELD_NOTES:
+        break;
+    }
+}
+
+static void write_record(const struct record *record, const void *base, struct writer *writer)
+{
+    char separator = '{';
+    for (const struct field *field = record->fields; field->name != NULL; field++) {
+        if (field->optional && !field_present(record, field, base))
+            continue;
+        make_room(writer, MEMBER_ROOM);
+        memcpy(writer->at, field->key, FIELD_KEY_SIZE);
+        *writer->at = separator;
+        writer->at += field->key_length;
+        write_member(record, field, base, writer);
+        separator = ',';
+    }
+    make_room(writer, MEMBER_ROOM);
+    if (separator == '{')
+        *writer->at++ = '{';
+    *writer->at++ = '}';
+}
+
+void record_text_write(const struct record *record, const void *base, struct list_cache *repeats,
+                       struct text *text)
+{
+    char *at = text_room(text, MEMBER_ROOM);
+    struct writer writer = {text, at, text->bytes + text->room, repeats};
+    write_record(record, base, &writer);
+    *writer.at++ = '\n';
+    text->length = (size_t)(writer.at - text->bytes);
+}
