@@ -2,7 +2,7 @@
 
 Usage: python3 tests/oracle/effects_oracle.py BIN_DIR [FRAMES]
 
-FRAMES (6) of every density with every suite below; half of them with a road, rain, fog and other radars. Exit status 1 if
+FRAMES (6) of every density with every suite below; half of them with the conditions that a random scene draws, half with a road, rain, fog and other radars. Exit status 1 if
 any check fails.
 """
 
@@ -10,6 +10,7 @@ import csv
 import json
 import math
 import random
+import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -21,10 +22,8 @@ import oracle_effects  # noqa: E402
 import random_scenes  # noqa: E402
 
 QUIET = ["angle_noise", "range_noise", "false_alarms", "fluctuation", "wheels", "limbs", "clutter", "coherence"]
-OURS = ["latency", "curvature", "elevation", "occlusion", "height", "diffraction", "ghosts", "two_ray", "rain", "fog", "ambiguity",
-        "interference", "misalignment", "list_limit", "quantisation"]
 EFFECTS_OFF = [[], ["diffraction"], ["elevation"], ["height", "curvature"], ["ghosts", "latency"],
-               ["ambiguity", "interference", "quantisation", "two_ray"], ["diffraction", "misalignment", "rain"]]
+               ["ambiguity", "interference", "quantisation", "two_ray"], ["diffraction", "misalignment", *oracle_effects.ATTENUATIONS]]
 RELATIVE, ABSOLUTE, FAINT = 1e-9, 1e-9, 1e-11
 # In a deep shadow, or nearly out of sight, a cross section depends on the last digits of its place.
 STEEP = 1e-7
@@ -101,11 +100,12 @@ def walled(draw, number):
 def scenes(bench, density, suite, frames, first):
     if density == "walled":
         return [walled(random.Random(f"{first} {n}"), n) for n in range(frames)]
-    text = bench.stage(random_scenes.source(density, suite, frames, first=first), "")
+    text = bench.stage(random_scenes.source(density, suite, frames, first=first) + ["--conditions"], "")
     return [json.loads(line) for line in text.splitlines()]
 
 
 def with_conditions(item, number):
+    """Every other scene keeps the conditions that it was drawn with."""
     if number % 3:
         item = shaken(item, random.Random(number))
     if number % 2 == 0:
@@ -254,11 +254,18 @@ def answers(bench, items, suite, effects):
     return [json.loads(line) for line in text.splitlines()]
 
 
+def effects_but(bench, off):
+    """What the program simulates, as --effects has it, and the set for the oracle."""
+    listed = subprocess.run([str(bench.bin / "glint"), "--list", "effects"], env=bench.env, capture_output=True, text=True, check=True)
+    names = {line.split()[0] for line in listed.stdout.splitlines() if not line.startswith(" ")}
+    return ",".join(["all", *("-" + name for name in [*QUIET, *off])]), names - set(QUIET) - set(off)
+
+
 def check_suite(bench, title, document, density, frames, turn, tally):
     suite, off = bench.write_suite(document), EFFECTS_OFF[turn]
     items = scenes(bench, density, suite, frames, first=1000 * (1 + turn))
     items = [with_conditions(item, n) for n, item in enumerate(items)]
-    effects = ",".join(["all", *("-" + name for name in [*QUIET, *off])])
+    effects, simulated = effects_but(bench, off)
     done = answers(bench, items, suite, effects)
     bench.check(len(done) == len(items), f"{len(items)} frames in, {len(done)} out")
     for item, answer in zip(items, done):
@@ -267,7 +274,7 @@ def check_suite(bench, title, document, density, frames, turn, tally):
             bench.check(view["measured"] == measured, f"{title} {item['scene']} {sensor['name']}: measured")
             if not measured:
                 continue
-            made = oracle_effects.scan(item, bench.vehicles, sensor, set(OURS) - set(off), rows_of(sensor))
+            made = oracle_effects.scan(item, bench.vehicles, sensor, simulated, rows_of(sensor))
             compare(bench, f"{title} {item['scene']} {sensor['name']} without {off}", answer, sensor["name"], made, tally)
             tally.add("scans")
 
@@ -288,10 +295,11 @@ def check_joints(bench):
     tally, document = Tally(), suites()[1][1]
     document["sensors"] = document["sensors"][:1]
     items = [jointed(yaw, aside) for yaw in (0, 0.3, 0.7, 2.0) for aside in (-0.05, -0.02, 0.02, 0.05)]
-    done = answers(bench, items, bench.write_suite(document), ",".join(["all", *("-" + name for name in QUIET)]))
+    effects, simulated = effects_but(bench, [])
+    done = answers(bench, items, bench.write_suite(document), effects)
     for item, answer in zip(items, done):
         [sensor] = document["sensors"]
-        made = oracle_effects.scan(item, bench.vehicles, sensor, set(OURS), rows_of(sensor))
+        made = oracle_effects.scan(item, bench.vehicles, sensor, simulated, rows_of(sensor))
         compare(bench, item["scene"], answer, sensor["name"], made, tally)
     bench.check(tally["ghosts"] >= len(items), f"ghosts beside joints: {tally}")
     bench.end_group("ghosts beside the joint of two walls", f", {tally}")

@@ -79,7 +79,7 @@ def amplitudes_db(frames, name):
     return [one["amplitude_db"] for one in targets_of(frames, name)]
 
 
-# ---- rain and fog -----------------------------------------------------------------------------
+# ---- weather ----------------------------------------------------------------------------------
 
 RADARS = [radar("v77", carrier_hz=76.5e9), radar("v24", carrier_hz=24.125e9),
           radar("h77", carrier_hz=76.5e9, polarization="horizontal")]
@@ -92,7 +92,6 @@ WEATHER = [("v77", {"rain_mmph": 25}, 100, 2.190804), ("v24", {"rain_mmph": 25},
 
 def weather(bench):
     """Weather may come from the frame's conditions, from a scenario's and from options."""
-    options = {"rain_mmph": "--rain-mmph", "fog_gpm3": "--fog-gpm3"}
     sensors = [dict(one, calibration_range_m=800) for one in RADARS]
     path = bench.scratch / "weather.json"
     for name, conditions, range_m, expected in WEATHER:
@@ -101,7 +100,7 @@ def weather(bench):
         scene = {"origin": "A test.", "ego": "ego", "rate_hz": 10, "duration_s": 0,
                  "objects": [{"id": "ego", "class": "car"}, {"id": "a", "class": "spot", "x_m": range_m}]}
         path.write_text(json.dumps(scene))
-        words = " ".join(f"{options[key]} {value}" for key, value in conditions.items())
+        words = " ".join(f"--{key.replace('_', '-')} {value}" for key, value in conditions.items())
         wet = {"options": receive(bench, [], sensors, source=f"glint-traffic {path} {words} | ")}
         path.write_text(json.dumps({**scene, "conditions": conditions}))
         wet["scenario"] = receive(bench, [], sensors, source=f"glint-traffic {path} | ")
@@ -110,7 +109,7 @@ def weather(bench):
             lost = dry[0] - amplitudes_db(out, name)[0]
             bench.check(abs(lost - expected) < 5e-6, f"{conditions} of the {where}, {name} at {range_m} m: {lost} dB")
             label = targets_of(out, name)[0]
-            bench.check({"rain_mmph": "rain", "fog_gpm3": "fog"}[list(conditions)[-1]] in label["effects"], f"{label}")
+            bench.check({key.split("_")[0] for key in conditions} <= set(label.get("effects", [])), f"{label}")
             bench.check(label["contributors"][0]["range_m"] == range_m, "the label is not exact")
 
 
@@ -393,7 +392,7 @@ def logged(bench):
 
 
 CHECKS = [
-    ("rain and fog attenuate as ITU-R says", weather),
+    ("weather attenuates as published", weather),
     ("what rain takes below the threshold is lost by as much", weather_loses),
     ("echoes fluctuate by their law, each on its own", fluctuation),
     ("fluctuating echoes are detected as often as published", detection),

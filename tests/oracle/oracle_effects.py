@@ -574,12 +574,26 @@ def bells(table, carrier_hz):
     return math.fsum(a * math.exp(-((f - b) / c) ** 2) for a, b, c in lines) + slope * f + rest
 
 
+# Decibels per km, one way, of every weather that attenuates: effect -> (condition, law(sensor, value)).
+ATTENUATIONS = {}
+
+
+def attenuation(effect, condition):
+    def enter(law):
+        ATTENUATIONS[effect] = condition, law
+        return law
+    return enter
+
+
+@attenuation("rain", "rain_mmph")
 def rain_dbpkm(sensor, rate):
+    """ITU-R P.838-3."""
     kind = sensor.get("polarization", "vertical")
     k, alpha = 10 ** bells(RAIN_K[kind], sensor["carrier_hz"]), bells(RAIN_ALPHA[kind], sensor["carrier_hz"])
     return k * rate ** alpha if rate > 0 else 0.0
 
 
+@attenuation("fog", "fog_gpm3")
 def fog_dbpkm(sensor, water):
     """Attenuation by fog, ITU-R P.840, double-Debye permittivity of water."""
     f, theta = sensor["carrier_hz"] / 1e9, 300 / (273.15 + FOG_CELSIUS)
@@ -591,6 +605,11 @@ def fog_dbpkm(sensor, water):
     real = (e0 - e1) / (1 + (f / fp) ** 2) + (e1 - e2) / (1 + (f / fs) ** 2) + e2
     eta = (2 + real) / imaginary
     return 0.819 * f / (imaginary * (1 + eta * eta)) * water
+
+
+def weather_dbpkm(sensor, conditions, effects):
+    return sum(law(sensor, conditions.get(condition, 0)) for effect, (condition, law) in ATTENUATIONS.items()
+               if effect in effects)
 
 
 def folded(value, low, width):
@@ -767,9 +786,7 @@ def scan(frame, vehicles, sensor, effects, rows=None):
             see_point(scene, made, body, point, local, doubtful, post)
         for plane in body.model.get("planes", []):
             see_plane(scene, made, body, plane)
-    conditions = frame.get("conditions", {})
-    weather = rain_dbpkm(sensor, conditions.get("rain_mmph", 0)) if "rain" in effects else 0.0
-    weather += fog_dbpkm(sensor, conditions.get("fog_gpm3", 0)) if "fog" in effects else 0.0
+    weather = weather_dbpkm(sensor, frame.get("conditions", {}), effects)
     road = road_of(scene, frame)
     for echo in made.echoes.values():
         echo.road = 1.0
