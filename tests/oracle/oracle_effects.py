@@ -607,6 +607,13 @@ def fog_dbpkm(sensor, water):
     return 0.819 * f / (imaginary * (1 + eta * eta)) * water
 
 
+@attenuation("snow", "snow_mmph")
+def snow_dbpkm(sensor, rate):
+    """Gunn and East, by wavelength in cm."""
+    centimetres = LIGHT_MPS / sensor["carrier_hz"] * 100
+    return 3.49e-3 * rate ** 1.6 * centimetres ** -4 + 2.24e-3 * rate / centimetres
+
+
 def weather_dbpkm(sensor, conditions, effects):
     return sum(law(sensor, conditions.get(condition, 0)) for effect, (condition, law) in ATTENUATIONS.items()
                if effect in effects)

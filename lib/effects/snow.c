@@ -1,0 +1,38 @@
+#include "effects/effect.h"
+
+#include "base/elementary.h"
+#include "base/units.h"
+#include "radar/attenuation.h"
+
+static bool described(const struct effect_scan *scan)
+{
+    return scan->frame->conditions.snow_mmph > 0;
+}
+
+/* Gunn and East (1954): scattering by flakes smaller than the wave, and absorption (MODEL 14.19).
+ */
+static void begin(const struct effect_scan *scan, double *dbpkm)
+{
+    double rate_mmph = scan->frame->conditions.snow_mmph;
+    double wave_cm = 100 * units_wavelength_m(scan->sensor->carrier_hz);
+    double square = wave_cm * wave_cm;
+    *dbpkm = 0.00349 * elementary_pow(rate_mmph, 1.6) / (square * square) +
+             0.00224 * rate_mmph / wave_cm;
+}
+
+static bool receive(const struct effect_scan *scan, struct effect_reception *reception)
+{
+    double dbpkm = scan->constants[EFFECT_SNOW][0];
+    return effect_scale(reception, attenuation_amplitude_factor(dbpkm, reception->echo->range_m));
+}
+
+const struct effect effect_snow = {
+    .summary = "snow attenuates",
+    .home = EFFECT_HOME_SENSOR,
+    .cause = "snow_mmph of the conditions",
+    .bound = "there is none",
+    .cost = "an exponential per echo",
+    .described = described,
+    .begin = begin,
+    .receive = receive,
+};
