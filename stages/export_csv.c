@@ -1,4 +1,4 @@
-/* Export as CSV: one row per target with its strongest contributor. */
+/* Targets as CSV: one row for each, with the strongest of its contributors. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "text/csv_table.h"
 
 struct export_csv {
-    bool begun; /* is the header out? */
+    bool has_header; /* it has been written */
 };
 
 enum { CELL_ROOM = 2 * FIELD_NAME_SIZE + 2 };
@@ -16,11 +16,14 @@ enum { CELL_ROOM = 2 * FIELD_NAME_SIZE + 2 };
 static const char header[] = "scene,frame,time_s,sensor,range_m,azimuth_rad,range_rate_mps,"
                              "amplitude_db,contributors,object,reflector,path,weight\n";
 
-/* A row as it grows: the target's part is 9 cells, all empty in a scan without targets. */
+/* The cells of a row that are about a target. A scan without targets leaves them empty. */
+enum { TARGET_CELLS = 9 };
+
+/* A row that is being written. */
 struct row {
     struct runner *runner;
-    int cells;
-    int result;
+    int cells;  /* written so far */
+    int result; /* -1 after a write that failed; nothing is written then */
 };
 
 static void add(struct row *row, const char *bytes, size_t length)
@@ -82,31 +85,35 @@ static int write_row(struct runner *runner, const struct frame *frame, const cha
     add_word(&row, sensor);
     if (target != NULL)
         add_target(&row, target);
-    for (int i = 0; target == NULL && i < 9; i++)
+    for (int i = 0; target == NULL && i < TARGET_CELLS; i++)
         add(&row, "", 0);
     return row.result == 0 ? runner_write(runner, "\n", 1) : -1;
+}
+
+static int write_scan(struct runner *runner, const struct frame *frame,
+                      const struct sensor_view *sensor)
+{
+    bool empty = true;
+    for (size_t i = 0; i < frame->targets.count; i++) {
+        const struct target *target = &frame->targets.items[i];
+        if (strcmp(target->sensor, sensor->name) != 0)
+            continue;
+        empty = false;
+        if (write_row(runner, frame, sensor->name, target) != 0)
+            return -1;
+    }
+    return empty && sensor->measured ? write_row(runner, frame, sensor->name, NULL) : 0;
 }
 
 static int export_csv_step(void *state, struct frame *frame, struct runner *runner)
 {
     struct export_csv *export = state;
-    if (!export->begun && runner_write(runner, header, sizeof header - 1) != 0)
+    if (!export->has_header && runner_write(runner, header, sizeof header - 1) != 0)
         return -1;
-    export->begun = true;
-    for (size_t i = 0; i < frame->sensors.list.count; i++) {
-        const struct sensor_view *sensor = &frame->sensors.list.items[i];
-        bool empty = true;
-        for (size_t j = 0; j < frame->targets.count; j++) {
-            const struct target *target = &frame->targets.items[j];
-            if (strcmp(target->sensor, sensor->name) != 0)
-                continue;
-            empty = false;
-            if (write_row(runner, frame, sensor->name, target) != 0)
-                return -1;
-        }
-        if (empty && sensor->measured && write_row(runner, frame, sensor->name, NULL) != 0)
+    export->has_header = true;
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        if (write_scan(runner, frame, &frame->sensors.list.items[i]) != 0)
             return -1;
-    }
     return 0;
 }
 
@@ -117,8 +124,8 @@ const struct stage stage_export_csv = {
     .name = "export-csv",
     .summary = "Write targets as CSV, one row each, with the strongest contributor.",
     .details =
-        "A scan without targets is one row with empty cells after the sensor's name, so that\n"
-        "missed detections can be counted.",
+        "A scan without targets is one row whose cells after the sensor's name are empty, so\n"
+        "that scans in which nothing was detected can be counted.",
     .options = &export_csv_record,
     .sink = true,
     .reads = SECTION_SENSORS | SECTION_TARGETS,

@@ -1,4 +1,5 @@
-/* Vehicle model extraction: objects become reflection centres (MODEL 2). */
+/* Extraction of the vehicle model: objects get the reflection centres of their classes (MODEL 2).
+ */
 #include "run/extraction.h"
 
 static int extract_step(void *state, struct frame *frame, struct runner *runner)

@@ -1,5 +1,5 @@
-/* Vehicle model extraction by 3GPP: cars become five scattering points with lobes, people one point
- * (MODEL 2.8). */
+/* Extraction of 3GPP's model: cars get five scattering points with lobes, people one point (MODEL
+ * 2.8). */
 #include "run/extraction.h"
 
 static void describe(const void *state, const struct vehicle *vehicle, struct reflector_set *set,
@@ -22,10 +22,11 @@ const struct stage stage_extract_3gpp = {
         "Stands in for glint-extract: a class whose document says sensing_target vehicle\n"
         "becomes five points in the middles of front, left, back, right and roof, each with\n"
         "the report's lobe in azimuth and elevation over a floor that is seen from all\n"
-        "around; human becomes one point that is the same from everywhere. All others keep\n"
-        "the reflectors of their document, and so do mirrors and what an outline hides.\n"
-        "Elevation counts for sensors with mount_z_m; for others all is level. The report's\n"
-        "fluctuation is the sensor's: fluctuation log_normal, 3.41 dB for vehicles.",
+        "around; human becomes one point that is the same from everywhere. All other classes\n"
+        "keep the reflectors of their document. Mirrors, and whether the outline hides what\n"
+        "is behind it, are the document's for every class. Elevation counts for sensors with\n"
+        "mount_z_m; for all others everything is level. The report's fluctuation is a\n"
+        "property of the sensor: fluctuation log_normal, 3.41 dB for vehicles.",
     .options = &no_options_record,
     .reads = SECTION_OBJECTS,
     .writes = SECTION_REFLECTORS,

@@ -1,5 +1,5 @@
-/* Vehicle model extraction by contour: the outline of an object as closely spaced scatterers that
- * share the cross section of its class (MODEL 2.7). */
+/* Extraction of a contour model: objects get closely spaced scatterers along their outline, which
+ * share the cross section of their class (MODEL 2.7). */
 #include "run/extraction.h"
 
 struct extract_contour {
@@ -22,7 +22,7 @@ static int extract_contour_step(void *state, struct frame *frame, struct runner 
 
 static const struct field extract_contour_options[] = {
     {FIELD_REAL_IN(struct extract_contour, spacing_m, 0.02, 100,
-                   "the most from one scatterer to the next; absent: 0.1 m"),
+                   "distance from one scatterer to the next, at most; absent: 0.1 m"),
      FIELD_OPTIONAL, .absent = 0.1},
     {0},
 };
@@ -39,12 +39,13 @@ const struct stage stage_extract_contour = {
         "section from ahead, from behind, from the side and at 45 degrees, becomes four rows\n"
         "of equal scatterers, one on each side. Each has its piece's share of the side's\n"
         "power and is seen from outside; the powers of all add up to the class's cross\n"
-        "section, whatever the spacing. All others keep the reflectors of their document.\n"
+        "section, whatever the spacing. All other classes keep the reflectors of their document.\n"
         "\n"
-        "Powers add up where phases are random: use a sensor whose cell_phase is by_path (each\n"
-        "scatterer then has a constant of its own besides its path, as a rough surface has) or\n"
-        "random. With in_phase amplitudes add up instead, and a contour gets stronger without\n"
-        "end the closer its scatterers are. With the effect rows switched off none is seen.",
+        "Powers add up where phases are random: use a sensor whose cell_phase is random, or\n"
+        "by_path (each scatterer then has a constant phase of its own besides that of its path,\n"
+        "as a rough surface has). With in_phase, amplitudes add up instead, and the closer the\n"
+        "scatterers are, the stronger the contour gets, without end. With the effect rows\n"
+        "switched off no scatterer is seen.",
     .options = &extract_contour_record,
     .reads = SECTION_OBJECTS,
     .writes = SECTION_REFLECTORS,

@@ -10,7 +10,7 @@ struct ideal {
     struct suite_choice choice; /* first: its options are ideal's */
     bool account, margins;
     const struct suite *suite;
-    struct sensors request;
+    struct sensors request; /* what every frame says of suite and effects */
 };
 
 static int ideal_start(void *state, struct runner *runner)
@@ -38,6 +38,7 @@ static struct sensor_view view_of(const struct sensor *sensor, bool measured)
     };
 }
 
+/* How long before the instant of measurement the scene is looked at (MODEL 14.6). */
 static double latency_s(const struct sensor *sensor, const struct selection *selection)
 {
     bool late = sensor->latency_s > 0 && effects_enabled(selection, EFFECT_LATENCY);
@@ -82,10 +83,11 @@ static int ideal_step(void *state, struct frame *frame, struct runner *runner)
 
 static const struct field ideal_options[] = {
     SUITE_CHOICE_OF_IDEAL,
-    {FIELD_FLAG_OF(struct ideal, account, "account for every reflector from here on, in lost"),
+    {FIELD_FLAG_OF(struct ideal, account,
+                   "list in lost, from here on, every reflector that gets into no target"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct ideal, margins,
-                   "tell from here on how close decisions were to changing the list"),
+                   "write, from here on, how close every decision was to another outcome"),
      FIELD_OPTIONAL},
     {0},
 };

@@ -7,9 +7,9 @@
 #include "noise/noise_targets.h"
 #include "run/suite_choice.h"
 
-/* The measurements of all cells that are still a target after noise. */
-static size_t read_cells(struct frame *frame, const struct effect_scan *context,
-                         struct cell_span cells, struct measurement *measurements)
+/* Measures all cells and keeps those that are still a target after noise. Returns their number. */
+static size_t measure_cells(struct frame *frame, const struct effect_scan *context,
+                            struct cell_span cells, struct measurement *measurements)
 {
     bool tested = effect_simulates(context, EFFECT_FINAL_THRESHOLD);
     size_t count = 0;
@@ -38,7 +38,7 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
     struct cell_span cells = frame_cells_of(frame, sensor->name);
     struct measurement *measurements =
         arena_get(frame->arena, (cells.count + alarms.count + 1) * sizeof *measurements);
-    size_t count = read_cells(frame, &context, cells, measurements);
+    size_t count = measure_cells(frame, &context, cells, measurements);
     for (size_t i = 0; i < alarms.count; i++)
         measurements[count++] = target_list_measure(&alarms.items[i]);
     size_t first = frame->targets.count;
@@ -57,10 +57,11 @@ const struct stage stage_noise = {
     .name = "noise",
     .summary = "Add noise to every cell and write the target list.",
     .details =
-        "Adds complex noise to the sum and delta pointers and reads the angle off them, adds\n"
-        "noise to range and range rate, turns the angle by misalignment and radome, applies\n"
-        "the final threshold, adds false alarms, and lists what there is in the sensor's\n"
-        "order up to its limit, rounded to its steps, each with its exact label.",
+        "Adds complex noise to the sum and delta pointers and estimates the angle from them,\n"
+        "adds noise to range and range rate, turns the angle by misalignment and radome,\n"
+        "applies the final threshold, adds false alarms, and lists the targets in the sensor's\n"
+        "order up to its limit, rounded to its steps. Each target has a label that says\n"
+        "exactly which reflectors it comes from.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_CELLS,
     .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS,

@@ -11,15 +11,15 @@ static struct measurement measure(const struct frame *frame, const struct sensor
                                   const struct cell *cell)
 {
     struct random_address address = draw_address_of(frame, sensor->name, cell->members.items[0].id);
-    double straight[2], across[2];
-    random_gaussian_pair(&address, RANDOM_RANGE_RATE, 0, straight);
-    random_gaussian_pair(&address, RANDOM_AZIMUTH, 0, across);
+    double range_and_rate[2], azimuth[2];
+    random_gaussian_pair(&address, RANDOM_RANGE_RATE, 0, range_and_rate);
+    random_gaussian_pair(&address, RANDOM_AZIMUTH, 0, azimuth);
     struct measurement measurement = target_list_measure(cell);
     measurement.range_m =
-        elementary_max(measurement.range_m + sensor->range_sigma_m * straight[0], 0);
-    measurement.range_rate_mps += sensor->range_rate_sigma_mps * straight[1];
+        elementary_max(measurement.range_m + sensor->range_sigma_m * range_and_rate[0], 0);
+    measurement.range_rate_mps += sensor->range_rate_sigma_mps * range_and_rate[1];
     measurement.azimuth_rad =
-        units_wrap_rad(measurement.azimuth_rad + sensor->azimuth_sigma_rad * across[0]);
+        units_wrap_rad(measurement.azimuth_rad + sensor->azimuth_sigma_rad * azimuth[0]);
     return measurement;
 }
 
@@ -43,11 +43,11 @@ const struct stage stage_noise_gauss = {
     .name = "noise-gauss",
     .summary = "Add independent Gaussian noise to range, azimuth and range rate.",
     .details =
-        "Stands in for glint-noise: every cell becomes a target, its values blurred by the\n"
-        "sensor's range_sigma_m, azimuth_sigma_rad and range_rate_sigma_mps, whatever its\n"
-        "sigma_law. No threshold and no list limit is applied, nothing is rounded, misaligned\n"
-        "or a false alarm; a cell of zero amplitude is lost. A range below zero is reported\n"
-        "as zero.",
+        "Stands in for glint-noise: every cell becomes a target; its range, azimuth and range\n"
+        "rate get noise of the sensor's range_sigma_m, azimuth_sigma_rad and\n"
+        "range_rate_sigma_mps, whatever its sigma_law. No threshold and no list limit is\n"
+        "applied, nothing is rounded or misaligned, and there are no false alarms. A cell of\n"
+        "zero amplitude is lost. A range below zero is reported as zero.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_CELLS,
     .writes = SECTION_TARGETS | SECTION_LOST,

@@ -1,4 +1,4 @@
-/* No noise: the target list of the cells as they are. */
+/* No noise: the cells become targets as they are. */
 #include "noise/target_list.h"
 #include "run/suite_choice.h"
 
@@ -23,7 +23,8 @@ const struct stage stage_noise_none = {
     .summary = "Write the cells as targets, without noise.",
     .details = "Stands in for glint-noise: every cell becomes a target with the cell's own range,\n"
                "azimuth and range rate. No threshold and no list limit is applied, nothing is\n"
-               "rounded, misaligned or a false alarm; a cell of zero amplitude is lost.",
+               "rounded or misaligned, and there are no false alarms. A cell of zero amplitude\n"
+               "is lost.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_CELLS,
     .writes = SECTION_TARGETS | SECTION_LOST,

@@ -1,5 +1,6 @@
-/* A plan: the pipeline that the frames call for. Tries the chain on every frame, the simpler stages
- * beside those they may stand in for, and prints what was needed. */
+/* A plan: the pipeline that frames need. Tries every stage of the chain on every frame, and beside
+ * it the simpler stage that may stand in for it, and prints which stages and effects were needed.
+ */
 #include "run/plan.h"
 #include "run/suite_choice.h"
 #include "run/tool.h"
@@ -115,13 +116,13 @@ static const struct record plan_record = {
 
 const struct tool tool_plan = {
     .name = "plan",
-    .summary = "Print the pipeline that the scenes call for, ready to paste.",
+    .summary = "Print the pipeline that the scenes need, ready to paste.",
     .details =
-        "Runs the chain on every frame, as auto would among the effects that are asked for,\n"
-        "and prints which of them were needed and why, which stages a simpler one can stand\n"
-        "in for, and the pipeline without the rest. On these scenes it gives the targets that\n"
-        "the whole chain gives, byte for byte. Only the objects of the frames matter, and their\n"
-        "reflectors if they are there.",
+        "Runs the chain on every frame, choosing effects as auto does among those that are\n"
+        "asked for. Prints which effects were needed and why, for which stages a simpler one\n"
+        "can stand in, and the pipeline without the others. On these scenes it gives the\n"
+        "targets of the whole chain, byte for byte. Of the frames, only the objects are used,\n"
+        "and their reflectors if they are there.",
     .options = &plan_record,
     .reads = SECTION_OBJECTS,
     .run = plan_run,

@@ -1,4 +1,4 @@
-/* Scores: how far the targets of this stream are from those of another one, frame by frame. */
+/* Scores: how far the targets of this stream are from those of another, the truth. */
 #include "base/units.h"
 #include "run/stage.h"
 #include "score/ensemble.h"
@@ -104,7 +104,7 @@ static int score_stop(void *state, struct runner *runner)
 }
 
 static const struct field score_options[] = {
-    {FIELD_NAME_OF(struct score_state, truth, "frames with targets to compare with"),
+    {FIELD_NAME_OF(struct score_state, truth, "frames with the targets that are the truth"),
      .word = "FILE"},
     {FIELD_REAL_IN(struct score_state, cutoff, 1e-6, 1e6,
                    "targets this many cells apart are no pair (absent: 2)"),
@@ -120,7 +120,8 @@ static const struct field score_options[] = {
     {FIELD_FLAG_OF(struct score_state, ensemble,
                    "compare the lists of many seeds as random lists, by their energy distance"),
      FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct score_state, table, "write that as a table for people"), FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct score_state, table, "write the summary as a table for people"),
+     FIELD_OPTIONAL},
     {0},
 };
 
@@ -141,12 +142,11 @@ const struct stage stage_score = {
         "side lacks are errors unless --partial is given. For the summary every value is kept,\n"
         "half a kilobyte for each target. glint-score-tracks scores trackers.\n"
         "\n"
-        "With --ensemble each stream holds its scenes with at least 3 seeds each, and the lists "
-        "of\n"
-        "a scene, frame and sensor are samples of two random lists: one line has the energy\n"
+        "With --ensemble each stream holds its scenes with at least 3 seeds each, and the lists\n"
+        "of a scene, frame and sensor are samples of two random lists: one line has the energy\n"
         "distance of each scene with its standard error, and the mean over scenes with a 95 %\n"
-        "interval. It is 0 in the mean if both streams draw from one law. Cells as above, level\n"
-        "in steps of 3 dB.",
+        "interval. It is 0 in the mean if both streams draw from one law. Cells are those above,\n"
+        "levels count in steps of 3 dB.",
     .options = &score_state_record,
     .sink = true,
     .reads = SECTION_SENSORS | SECTION_TARGETS,

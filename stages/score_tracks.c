@@ -1,4 +1,4 @@
-/* Scores of a tracker: how far its tracks are from the objects that are there, frame by frame. */
+/* Scores of a tracker: how far its tracks are from the objects of the frames. */
 #include "run/stage.h"
 #include "score/reference_stream.h"
 #include "score/score_table.h"
@@ -91,7 +91,8 @@ static const struct field score_tracks_options[] = {
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct score_tracks, summary, "write one line for the whole stream"),
      FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct score_tracks, table, "write that as a table for people"), FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct score_tracks, table, "write the summary as a table for people"),
+     FIELD_OPTIONAL},
     {0},
 };
 

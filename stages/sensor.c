@@ -1,12 +1,12 @@
-/* The sensor before noise: amplitude of every echo (MODEL 4), what moves on reflectors and what
- * lies on the ground (14), resolution cells (6), threshold on the summed amplitude, superposed sum
- * and delta pointers of each cell (7, 8). */
+/* The sensor before noise: the amplitude of every echo (MODEL 4), echoes of moving parts and of the
+ * ground (14), resolution cells (6), the threshold on a cell's summed amplitude, and its superposed
+ * sum and delta pointers (7, 8). */
 #include "base/units.h"
 #include "run/suite_choice.h"
 #include "sensor/cell_margins.h"
 #include "sensor/scan.h"
 
-/* The cell of these received echoes. False if it has no angle. */
+/* Makes the cell of these received echoes. False if it has no angle. */
 static bool superpose(const struct scan *scan, const struct selection *selection,
                       const struct received_echo *members, size_t count, struct cell *cell)
 {
@@ -24,6 +24,7 @@ static bool superpose(const struct scan *scan, const struct selection *selection
     return has_angle;
 }
 
+/* Lists the cell in the frame, or loses it. */
 static void report(struct frame *frame, const struct scan *scan, const struct selection *selection,
                    size_t number)
 {
@@ -67,10 +68,11 @@ static int sensor_step(void *state, struct frame *frame, struct runner *runner)
 const struct stage stage_sensor = {
     .name = "sensor",
     .summary = "Merge echoes into resolution cells and superpose their antenna pointers.",
-    .details = "Gives every echo its amplitude, adds those of wheels, limbs and clutter, lets "
-               "echoes that the radar cannot resolve share a\n"
-               "cell, drops cells whose summed amplitude is below the detection threshold, and\n"
-               "writes what the sum and delta channels would show of the rest without noise.",
+    .details =
+        "Gives every echo its amplitude, adds echoes of wheels, limbs and clutter, puts echoes\n"
+        "that the radar cannot resolve into one cell, loses cells whose summed amplitude is\n"
+        "below the detection threshold, and writes what the sum and delta channels would show\n"
+        "of the other cells without noise.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_CELLS | SECTION_LOST | SECTION_COUNTS,

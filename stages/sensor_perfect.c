@@ -1,8 +1,8 @@
-/* A perfect sensor: one exact cell per visible echo. Nothing merges and nothing is too weak. */
+/* A perfect sensor: every echo becomes an exact cell. None merge, and none is too weak. */
 #include "run/suite_choice.h"
 #include "sensor/resolution_cell.h"
 
-static void keep(struct frame *frame, const struct sensor *sensor, const struct echo *echo)
+static void make_cell(struct frame *frame, const struct sensor *sensor, const struct echo *echo)
 {
     struct received_echo received = received_echo_in_free_space(sensor, echo, 0);
     struct cell cell;
@@ -24,7 +24,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
     (void)selection;
     struct echo_span echoes = frame_echoes_of(frame, sensor->name);
     for (size_t i = 0; i < echoes.count; i++)
-        keep(frame, sensor, &echoes.items[i]);
+        make_cell(frame, sensor, &echoes.items[i]);
 }
 
 static int sensor_perfect_step(void *state, struct frame *frame, struct runner *runner)
@@ -37,8 +37,8 @@ const struct stage stage_sensor_perfect = {
     .summary = "Make one exact cell of every echo.",
     .details =
         "Stands in for glint-sensor: nothing merges, no threshold is applied, range, azimuth\n"
-        "and range rate are exact. An echo of zero amplitude is lost. There is nothing but\n"
-        "echoes and what they are: no wheels, limbs, clutter, road, weather, fluctuation.",
+        "and range rate are exact. An echo of zero amplitude is lost. The sensor's other\n"
+        "effects are left out too: wheels, limbs, clutter, road, weather, fluctuation.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_CELLS | SECTION_LOST,

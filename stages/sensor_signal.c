@@ -1,5 +1,5 @@
 /* The signal itself instead of a model of its cells: samples of every receiver, transformed and
- * searched for peaks as a radar does it (MODEL 11.3; EFFECTS 11). */
+ * searched for peaks as a radar does it (MODEL 11.3). */
 /* needs: fftw3 */
 #include <fftw3.h>
 
@@ -7,7 +7,7 @@
 #include "sensor/scan.h"
 #include "signal/detections.h"
 
-/* A transform of one sensor's channels, in place, with a positive exponent. */
+/* One sensor's channels and the transform that turns them into spectra, in place. */
 struct transform {
     struct signal_cube signal;
     fftw_plan plan;
@@ -18,8 +18,9 @@ struct sensor_signal {
     LIST_OF(struct transform) transforms;
 };
 
-/* Over both axes of chirps, over repetitions alone of pulses. Such a plan depends on its sizes
- * alone: not on time, on addresses, or on which vectors the CPU has. */
+/* The transform of chirps runs over samples and repetitions, that of pulses over repetitions alone;
+ * its exponent is positive. With these flags FFTW chooses it by the sizes alone: not by time that
+ * it measures, nor by addresses, nor by the vector unit of the CPU. */
 static fftw_plan plan_of(const struct signal_cube *signal)
 {
     bool pulses = signal->sensor->waveform.kind == WAVEFORM_PULSE;
@@ -67,9 +68,9 @@ static void sense(struct frame *frame, const struct transform *transform,
     signal_cube_receive(signal, &scan, effect_simulates(&noise, EFFECT_ANGLE_NOISE));
     to_spectrum(transform);
     struct range_doppler spectrum = signal_cube_spectrum(signal, frame->arena);
-    struct detections sightings = detections_of(signal, &spectrum, &context);
-    detections_label(&sightings, frame, "sensor-signal", &scan.resolved);
-    detections_list(&sightings, frame, "sensor-signal", &noise);
+    struct detections detections = detections_of(signal, &spectrum, &context);
+    detections_label(&detections, frame, "sensor-signal", &scan.resolved);
+    detections_list(&detections, frame, "sensor-signal", &noise);
     effects_count_scan(selection);
 }
 
@@ -84,7 +85,8 @@ static int sensor_signal_step(void *state, struct frame *frame, struct runner *r
         const struct sensor *sensor = &suite->sensors.items[i];
         if (sensor->waveform.samples == 0)
             return diag_fail(runner_diag(runner), DIAG_CONFIG,
-                             "sensor \"%s\" of \"%s\" has no waveform, which its signal needs",
+                             "sensor \"%s\" of \"%s\" has no waveform; the signal cannot be "
+                             "simulated without one",
                              sensor->name, suite->name);
         if (frame_view(frame, sensor->name)->measured)
             sense(frame, transform_of(own, sensor, runner), &selection);
@@ -114,10 +116,12 @@ const struct stage stage_sensor_signal = {
     .name = "sensor-signal",
     .summary = "Simulate the signal, transform it, and list its peaks as targets.",
     .details =
-        "Stands in for glint-sensor and glint-noise, accurate and slow: chirps or pulses as the\n"
-        "sensor's waveform says, every echo with its phase, sum and delta channel or a row of\n"
-        "elements, thermal noise, windows, range-Doppler transform, CFAR, peaks between the bins,\n"
-        "angle. Noise, threshold and amplitudes are those that the two stages would have.\n"
+        "Stands in for glint-sensor and glint-noise, accurate and slow. It makes the samples of\n"
+        "chirps or pulses, by the sensor's waveform: every echo with its phase, in a sum and a\n"
+        "delta channel or in a row of elements, and thermal noise. It applies windows and the\n"
+        "range-Doppler transform, finds peaks by CFAR, and places them between the bins; their\n"
+        "angle comes from the channels. Noise, threshold and amplitudes are those of the two\n"
+        "stages.\n"
         "\n"
         "The transforms are the FFTW library's. One build of it gives the same bytes on every\n"
         "machine, fused or piped; another version or another kind of CPU may differ in the last\n"

@@ -1,12 +1,12 @@
-/* The sensor as a windowed range-Doppler transform shows it: every echo smeared over the bins
- * around it by the window's kernel, cells where the sum of all has its peaks (EFFECTS 4). */
+/* The sensor as a windowed range-Doppler transform shows it: every echo is smeared over the bins
+ * around it, and cells are the peaks of the sum of all (MODEL 6.1). */
 #include "base/units.h"
 #include "run/suite_choice.h"
 #include "sensor/cell_margins.h"
 #include "sensor/scan.h"
 #include "sensor/smear.h"
 
-/* Sight of the members, and how far the threshold and the sign were from the other side. */
+/* The margins of a cell: those of its members, of the threshold and of the angle's sign. */
 static struct margins margins_of(const struct smear *smear, size_t number, struct cell *cell)
 {
     for (size_t i = 0; i < smear->count; i++)
@@ -16,6 +16,7 @@ static struct margins margins_of(const struct smear *smear, size_t number, struc
     return cell->margins;
 }
 
+/* Lists the cell in the frame, or loses it. */
 static void report(struct frame *frame, const struct selection *selection,
                    const struct smear *smear, size_t number, double interference)
 {
@@ -36,7 +37,7 @@ static void report(struct frame *frame, const struct selection *selection,
         *list_add(&frame->cells, frame->arena) = cell;
 }
 
-/* Without merging every received echo has a transform of its own. */
+/* With merging left out, every received echo has a transform of its own. */
 static void sense(struct frame *frame, const struct sensor *sensor,
                   const struct selection *selection)
 {
@@ -70,13 +71,13 @@ const struct stage stage_sensor_smear = {
     .details =
         "Stands in for glint-sensor: instead of sorting echoes into cells, it shows what a\n"
         "transform with a Hann window would, bins as wide as the sensor's cells. Every echo\n"
-        "is spread over the bins around it with its phase, amplitude and antenna pointers;\n"
-        "where the sum has a peak that echoes lead up to there is a cell, its range, rate and\n"
-        "amplitude interpolated between bins, its angle from sum and delta channel. A peak\n"
-        "below the detection threshold is lost. So echoes merge by degrees, bend each other\n"
-        "and, out of phase, repel each other; cell_phase says how their phases differ. Peaks\n"
-        "of side lobes alone are not listed. Merging and superposition are one effect here:\n"
-        "with --effects=-merging every echo is a cell of its own.",
+        "is spread over the bins around it with its phase, amplitude and antenna pointers.\n"
+        "Where the sum has a peak that echoes lead up to, there is a cell; its range, rate and\n"
+        "amplitude are interpolated between bins, its angle is that of the sum and the delta\n"
+        "channel. A peak below the detection threshold is lost; peaks of side lobes alone are\n"
+        "not listed. So echoes merge gradually, and shift each other's peaks, apart if they are\n"
+        "out of phase; cell_phase says how their phases differ. Merging and superposition are\n"
+        "one effect here: with --effects=-merging every echo is a cell of its own.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_CELLS | SECTION_LOST | SECTION_COUNTS,

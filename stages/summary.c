@@ -1,4 +1,4 @@
-/* A summary that a person can read: what the sensors reported, and what became of the rest. */
+/* A summary for people: what the sensors reported, and what became of the other reflectors. */
 #include <inttypes.h>
 #include <string.h>
 
@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "run/stage.h"
 
-/* How often something was counted, by name. */
+/* A name, and how often it was counted. */
 struct tally {
     const char *name;
     int64_t count;
@@ -19,7 +19,7 @@ struct tallies {
 struct summary {
     int64_t frames, scenes, targets, merged;
     double seconds, farthest_m;
-    struct tallies scans, detections, classes, fates;
+    struct tallies scans, detections, classes, outcomes;
 };
 
 static void count(struct tallies *tallies, const char *name, int64_t times, struct arena *arena)
@@ -52,7 +52,7 @@ static void count_target(struct summary *summary, const struct frame *frame,
         summary->farthest_m = target->range_m;
     count(&summary->detections, target->sensor, 1, arena);
     if (frame->account)
-        count(&summary->fates, "in a target", (int64_t)target->contributors.count, arena);
+        count(&summary->outcomes, "in a target", (int64_t)target->contributors.count, arena);
 }
 
 static int summary_step(void *state, struct frame *frame, struct runner *runner)
@@ -68,7 +68,7 @@ static int summary_step(void *state, struct frame *frame, struct runner *runner)
     for (size_t i = 0; i < frame->targets.count; i++)
         count_target(summary, frame, &frame->targets.items[i], arena);
     for (size_t i = 0; i < frame->lost.count; i++)
-        count(&summary->fates, frame_loss_name(frame->lost.items[i].reason),
+        count(&summary->outcomes, frame_loss_name(frame->lost.items[i].reason),
               (int64_t)frame->lost.items[i].echoes.count, arena);
     return 0;
 }
@@ -106,7 +106,7 @@ static int summary_stop(void *state, struct runner *runner)
     print_tallies("targets by sensor", &summary->detections, &text, arena);
     print_tallies("targets by class of their strongest contributor", &summary->classes, &text,
                   arena);
-    print_tallies("reflectors that a sensor looked for, by what became of them", &summary->fates,
+    print_tallies("reflectors that a sensor looked for, by what became of them", &summary->outcomes,
                   &text, arena);
     int result = runner_write(runner, text.bytes, text.length);
     text_free(&text);
@@ -118,10 +118,10 @@ static const struct record summary_record = {
 
 const struct stage stage_summary = {
     .name = "summary",
-    .summary = "Print what the sensors reported and what became of the rest.",
+    .summary = "Print how many targets the sensors reported, of which classes, and how far.",
     .details =
-        "With --account given to glint-ideal, also how every reflector that a sensor looked\n"
-        "for ended: in a target, or lost and why.",
+        "With --account given to glint-ideal it also prints what became of every reflector that\n"
+        "a sensor looked for: how many are in a target, and how many are lost for which reason.",
     .options = &summary_record,
     .sink = true,
     .reads = SECTION_OBJECTS | SECTION_SENSORS | SECTION_TARGETS,

@@ -11,7 +11,7 @@ struct traffic {
     const char *scene;
     double radius_m;
     struct conditions conditions;
-    struct playback played;
+    struct playback playback;
     int64_t frame;
 };
 
@@ -19,16 +19,16 @@ static int traffic_start(void *state, struct runner *runner)
 {
     struct traffic *traffic = state;
     struct arena *arena = runner_arena(runner);
-    if (playback_open(&traffic->played, traffic->source, traffic->ego, arena,
+    if (playback_open(&traffic->playback, traffic->source, traffic->ego, arena,
                       runner_diag(runner)) != 0)
         return -1;
     if (traffic->scene == NULL)
-        traffic->scene = playback_name(traffic->source, traffic->played.ego, arena);
-    runner_expect(runner, traffic->played.frames);
+        traffic->scene = playback_name(traffic->source, traffic->playback.ego, arena);
+    runner_expect(runner, traffic->playback.frames);
     return 0;
 }
 
-/* Only what lies within radius_m of the ego. */
+/* Removes objects farther than radius_m from the ego. */
 static void limit_radius(struct frame *frame, double radius_m)
 {
     const struct object ego = *frame_object(frame, frame->ego);
@@ -45,14 +45,14 @@ static int traffic_next(void *state, struct frame *frame, struct runner *runner)
 {
     (void)runner;
     struct traffic *traffic = state;
-    if (traffic->frame == traffic->played.frames)
+    if (traffic->frame == traffic->playback.frames)
         return 0;
-    playback_frame(&traffic->played, traffic->frame, frame);
+    playback_frame(&traffic->playback, traffic->frame, frame);
     conditions_change(&frame->conditions, &traffic->conditions);
     frame->scene = traffic->scene;
-    frame->ego = traffic->played.ego;
+    frame->ego = traffic->playback.ego;
     frame->frame = traffic->frame++;
-    frame->last = traffic->frame == traffic->played.frames;
+    frame->last = traffic->frame == traffic->playback.frames;
     if (traffic->radius_m > 0)
         limit_radius(frame, traffic->radius_m);
     return 1;
@@ -61,7 +61,7 @@ static int traffic_next(void *state, struct frame *frame, struct runner *runner)
 static int traffic_locate_fault(void *state, const struct frame *frame, struct runner *runner)
 {
     const struct traffic *traffic = state;
-    if (playback_check(&traffic->played, frame->frame, frame, runner_diag(runner)) != 0)
+    if (playback_check(&traffic->playback, frame->frame, frame, runner_diag(runner)) != 0)
         return diag_prefix(runner_diag(runner), "%s: ", traffic->source);
     return 0;
 }
@@ -72,9 +72,9 @@ static const struct field traffic_options[] = {
     {FIELD_NAME_OF(struct traffic, ego,
                    "the object that carries the sensors; a scenario names one, a table does not"),
      FIELD_OPTIONAL},
-    {FIELD_NAME_OF(struct traffic, scene, "name of the scene instead of SOURCE/EGO"),
-     FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct traffic, radius_m, 0, 1e6, "leave out what is farther from the ego"),
+    {FIELD_NAME_OF(struct traffic, scene, "name of the scene; absent: SOURCE/EGO"), FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct traffic, radius_m, 0, 1e6,
+                   "leave out objects farther than this from the ego"),
      FIELD_OPTIONAL},
     {FIELD_RECORD_OF(struct traffic, conditions, &conditions_changes_record,
                      "over what the scenario says"),

@@ -1,5 +1,4 @@
-/* Random traffic: independent snapshots, each a scene of one frame that is drawn by its number
- * alone. */
+/* Random traffic: independent snapshots, each a scene of one frame that its number determines. */
 #include <inttypes.h>
 #include <stdio.h>
 
@@ -71,19 +70,19 @@ static int traffic_random_next(void *state, struct frame *frame, struct runner *
 
 static const struct field traffic_random_options[] = {
     {FIELD_CHOICE_OF(struct traffic_random, density, random_traffic_densities,
-                     "how many objects, how near"),
+                     "how many objects, and how near"),
      FIELD_OPTIONAL, .absent = TRAFFIC_MEDIUM},
-    {FIELD_INTEGER_IN(struct traffic_random, frames, 0, 1e9, "how many; absent: 100"),
+    {FIELD_INTEGER_IN(struct traffic_random, frames, 0, 1e9, "how many frames; absent: 100"),
      FIELD_OPTIONAL, .absent = 100},
-    {FIELD_INTEGER_IN(struct traffic_random, first, 0, 1e9, "number of the first one"),
+    {FIELD_INTEGER_IN(struct traffic_random, first, 0, 1e9, "number of the first frame"),
      FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct traffic_random, rate_hz, 1, 1e4,
-                   "frame number n is at n/rate; absent: 20"),
+                   "frame number n is at time n / rate; absent: 20"),
      FIELD_OPTIONAL, .absent = 20},
     {FIELD_FLAG_OF(struct traffic_random, conditions, "draw road, weather and other radars too"),
      FIELD_OPTIONAL},
     {FIELD_NAME_OF(struct traffic_random, sensors,
-                   "the suite whose decisions adversarial scenes are built around"),
+                   "the suite for which adversarial scenes are made"),
      FIELD_OPTIONAL},
     {0},
 };
@@ -99,10 +98,11 @@ const struct stage stage_traffic_random = {
     .summary = "Make random traffic: independent snapshots, each a scene of its own.",
     .details =
         "Objects of all classes around an ego: 0 to 3 within 120 m (sparse), 0 to 8 within\n"
-        "60 m (medium, the default), 4 to 15 within 25 m (dense). Adversarial scenes hold what\n"
-        "decisions of the sensors turn on: amplitudes at the threshold, ties, distances of half\n"
-        "a cell, sight lines that touch corners, borders of view. A frame depends on seed,\n"
-        "density (and suite) and its number alone, so --first and --frames cut a set anywhere.",
+        "60 m (medium, the default), 4 to 15 within 25 m (dense). Adversarial scenes are made so\n"
+        "that decisions of the sensors are close: amplitudes at the threshold, ties, distances\n"
+        "of half a cell, sight lines that touch corners, borders of the view. A frame depends on\n"
+        "seed, density (and suite) and its number alone, so --first and --frames may cut a set\n"
+        "anywhere.",
     .options = &traffic_random_record,
     .writes = SECTION_OBJECTS,
     .start = traffic_random_start,

@@ -12,10 +12,10 @@ struct view {
     bool svg;
     int64_t frame;
     const char *scene;
-    bool any; /* has a frame of the stream been taken? */
+    bool found; /* a frame that was asked for */
     struct view_data data;
-    const char *still; /* the best so far, of this many targets */
-    size_t targets;
+    const char *still; /* of the frame with most targets so far; NULL: none yet */
+    size_t targets;    /* how many that frame has */
 };
 
 static int view_start(void *state, struct runner *runner)
@@ -41,7 +41,7 @@ static int view_step(void *state, struct frame *frame, struct runner *runner)
     struct view *view = state;
     if (view->scene != NULL && strcmp(view->scene, frame->scene) != 0)
         return 0;
-    view->any = view->any || view->frame < 0 || view->frame == frame->frame;
+    view->found = view->found || view->frame < 0 || view->frame == frame->frame;
     if (!view->svg)
         view_data_add(&view->data, frame);
     else if (view->frame < 0 || view->frame == frame->frame)
@@ -49,10 +49,10 @@ static int view_step(void *state, struct frame *frame, struct runner *runner)
     return 0;
 }
 
-/* An empty stream has its own page; asking for something that is not there is an error. */
+/* A stream without frames has a page too; but a scene or frame that was asked for must be there. */
 static int check_found(const struct view *view, struct runner *runner)
 {
-    if (view->any || (view->frame < 0 && view->scene == NULL))
+    if (view->found || (view->frame < 0 && view->scene == NULL))
         return 0;
     if (view->frame < 0)
         return diag_fail(runner_diag(runner), DIAG_DATA, "no scene \"%s\" in the stream",
@@ -62,7 +62,7 @@ static int check_found(const struct view *view, struct runner *runner)
                      view->scene != NULL ? view->scene : "");
 }
 
-/* The page up to a mark; *from moves behind the mark. */
+/* Adds the page from *from up to the mark; moves *from behind the mark. */
 static void add_page(struct text *text, const char **from, const char *mark)
 {
     const char *at = strstr(*from, mark);

@@ -12,15 +12,13 @@ static const struct field common_fields[] = {
                    "write to this file instead of standard output; .gz compresses"),
      FIELD_OPTIONAL, .word = "FILE"},
     {FIELD_FLAG_OF(struct common_options, keep,
-                   "keep the sections that this stage consumes, which are dropped otherwise"),
+                   "keep the sections that this stage would drop after use"),
      FIELD_OPTIONAL},
     {FIELD_SEED_OF(struct common_options, seed,
-                   "seed of all random numbers from this stage on; absent: a source takes 1, "
-                   "others leave the frame's"),
+                   "seed of the random numbers from here on; absent: 1, or the frames' own"),
      FIELD_OPTIONAL, .absent = 1},
     {FIELD_NAME_OF(struct common_options, explain,
-                   "append for every effect in how many scans it was simulated or left out, "
-                   "why, and the time it took"),
+                   "append which effects were simulated or left out, why, and the time they took"),
      FIELD_OPTIONAL, .word = "FILE"},
     {FIELD_FLAG_OF(struct common_options, complete,
                    "fail unless every scene has all frames from 0 to its last"),
