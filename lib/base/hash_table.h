@@ -1,7 +1,7 @@
-/* A hash table of numbers: 0, 1, 2, ..., each found again by what it stands for.
+/* Hash table that finds numbers 0, 1, 2, ... by their meaning.
  *
- * Open addressing, at most half full. Who uses the table keeps what the numbers stand for, and says
- * whether that is what is looked for. */
+ * It uses open addressing and is at most half full. The caller keeps the items that the numbers
+ * stand for, and compares them with the wanted one. */
 #ifndef HASH_TABLE_H
 #define HASH_TABLE_H
 
@@ -16,10 +16,11 @@ struct hash_table {
     size_t room;     /* a power of two */
 };
 
-/* An empty one, for as many numbers. */
+/* An empty table for count numbers. */
 struct hash_table hash_table_begin(size_t count, struct arena *arena);
 
-/* A product spreads bits upwards only: its upper half is folded down for the next one. */
+/* Mixes a word into a hash. A product spreads bits upwards only, so its upper half is folded down
+ * for the next one. */
 static inline uint64_t hash_table_mix(uint64_t hash, uint64_t word)
 {
     const uint64_t spread = UINT64_C(0x9e3779b97f4a7c15); /* 2^64 over the golden ratio */
@@ -27,8 +28,8 @@ static inline uint64_t hash_table_mix(uint64_t hash, uint64_t word)
     return hash ^ hash >> 32;
 }
 
-/* A quick hash of bytes, for tables in memory: nothing that is written may depend on it. A call may
- * go on from the hash of an earlier one. */
+/* A quick hash of bytes, for tables in memory: no output may depend on it. A call may continue the
+ * hash of an earlier one. */
 static inline uint64_t hash_table_hash(uint64_t hash, const char *bytes, size_t length)
 {
     if (length < 8)
@@ -38,8 +39,8 @@ static inline uint64_t hash_table_hash(uint64_t hash, const char *bytes, size_t 
     return hash_table_mix(hash + length, text_word(bytes + length - 8));
 }
 
-/* The slot that holds the number of what is wanted, or the free one where it belongs. is() compares
- * that with what a number stands for. */
+/* The slot that holds the number of the wanted item, or the free one where it belongs. is() returns
+ * true if the item of a number is the wanted one. */
 static inline uint32_t *hash_table_slot(const struct hash_table *table, uint64_t hash,
                                         bool (*is)(const void *items, uint32_t number,
                                                    const void *wanted),

@@ -1,8 +1,8 @@
-/* Names, each kept once and known by its number: 0, 1, 2, ... in the order in which they first
- * came.
+/* Names, each kept once and known by its number. Numbers are 0, 1, 2, ... in the order in which the
+ * names first came.
  *
- * A name is any bytes, so a record of numbers gets its own number the same way. A zeroed struct is
- * empty. All memory is the arena's, which must be the same one at every call. */
+ * A name is any bytes, so a record of numbers gets a number the same way. A zeroed struct is empty.
+ * All memory is the arena's, which must be the same one at every call. */
 #ifndef INTERN_H
 #define INTERN_H
 
@@ -11,7 +11,8 @@
 struct intern_name {
     const char *text; /* NUL-terminated */
     size_t length;
-    uint64_t first, last; /* its first and last eight bytes, which may overlap */
+    uint64_t first, last; /* the first and the last eight bytes, which may overlap; of a short name
+                           * all bytes, and 0 */
 };
 
 struct intern {
@@ -19,7 +20,7 @@ struct intern {
     struct hash_table numbers;
 };
 
-/* An empty one with room for about as many different names. */
+/* An empty table with room for about as many different names. */
 struct intern intern_begin(size_t expected, struct arena *arena);
 
 /* The number of a name of length bytes, or of one that ends with NUL. */

@@ -2,7 +2,7 @@
 
 void box_outline(const struct box *box, struct vec2 corner[4])
 {
-    /* What box_place says of each, from the same four products. */
+    /* The places that box_place gives, from the same four products. */
     struct vec2 centre = box->motion.position_m;
     struct vec2 ahead = vec2_scale(0.5 * box->length_m, box->heading);
     struct vec2 left = vec2_left(vec2_scale(0.5 * box->width_m, box->heading));

@@ -1,7 +1,7 @@
 /* Places, corners and directions of a box in the world.
  *
- * Fractions (x, y) are of the box's length and width from its centre: x forward, y left, 0.5 is the
- * front and the left side. They may lie beyond the box. */
+ * Fractions (x, y) are of the box's length and width from its centre: x forward, y left, so 0.5 is
+ * the front or the left side. They may lie beyond the box. */
 #ifndef BOX_H
 #define BOX_H
 
@@ -23,9 +23,9 @@ static inline struct vec2 box_place(const struct box *box, double x, double y)
 /* The four corners, counter-clockwise from the front left. */
 void box_outline(const struct box *box, struct vec2 corner[4]);
 
-/* The unit vector from one place to another, both in fractions and apart. Along a side of the box
- * it is the heading itself or square to it, so that walls in line that are turned alike share it to
- * the last bit. */
+/* The unit vector from one place to another, both in fractions and not equal. Along a side of the
+ * box it is the heading itself or perpendicular to it, so that walls in line with one yaw share it
+ * to the last bit. */
 struct vec2 box_along(const struct box *box, double from_x, double from_y, double to_x,
                       double to_y);
 

@@ -1,7 +1,7 @@
-/* Where a sensor on the ego stands, moves and looks.
+/* Place, velocity and boresight of a sensor on the ego.
  *
- * The mount is given from the centre of the ego's box, in the ego's own frame. Coordinates of the
- * pose are those of the ego's motion (MODEL 2.4). */
+ * The mount is given from the centre of the ego's box, in the ego's own frame. The pose has the
+ * coordinates of the ego's motion (MODEL 2.4). */
 #ifndef SENSOR_POSE_H
 #define SENSOR_POSE_H
 
@@ -9,7 +9,7 @@
 
 struct sensor_pose {
     struct vec2 position_m;
-    struct vec2 velocity_mps; /* with what the ego's turn rate adds at the mount */
+    struct vec2 velocity_mps; /* includes what the ego's turn rate adds at the mount */
     struct vec2 boresight;    /* unit vector */
     double yaw_rad;           /* of the boresight, not wrapped */
 };

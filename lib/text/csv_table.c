@@ -16,8 +16,8 @@ struct reader {
     LIST_OF(const char *) cells;
     LIST_OF(size_t) numbers;
     size_t row_begin; /* the current row's first cell */
-    size_t row;       /* its number */
-    int last_end;     /* the character that ended the row before */
+    size_t row;       /* number of the current row */
+    int last_end;     /* character that ended the row before */
 };
 
 static void refuse_semicolons(const struct csv_table *table, struct diag *diag)
@@ -26,7 +26,7 @@ static void refuse_semicolons(const struct csv_table *table, struct diag *diag)
         diag_fail(diag, DIAG_DATA, "the columns are separated by semicolons; expected commas");
 }
 
-static void refuse_twins(const struct csv_table *table, struct diag *diag)
+static void refuse_repeated_names(const struct csv_table *table, struct diag *diag)
 {
     for (size_t i = 1; i < table->columns; i++)
         for (size_t j = 0; j < i; j++)
@@ -45,7 +45,7 @@ static void take_header(struct reader *reader)
     table->columns = columns;
     reader->cells.count = 0;
     refuse_semicolons(table, reader->diag);
-    refuse_twins(table, reader->diag);
+    refuse_repeated_names(table, reader->diag);
 }
 
 static void take_row(struct reader *reader)

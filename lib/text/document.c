@@ -23,7 +23,8 @@ static const char *join(struct arena *arena, const char *a, const char *b, const
     return whole;
 }
 
-/* The folder of the running executable, with a slash at its end; "" if the system will not say. */
+/* The folder of the running executable, with a slash at its end; "" if the system does not tell
+ * it. */
 static const char *own_folder(struct arena *arena)
 {
     enum { ROOM = 4096 };
@@ -37,7 +38,7 @@ static const char *own_folder(struct arena *arena)
     return path;
 }
 
-const char *document_find(const char *kind, const char *name, const char *outcome,
+const char *document_find(const char *kind, const char *name, const char *ending,
                           struct arena *arena, struct diag *diag)
 {
     if (strpbrk(name, "/.") != NULL || strcmp(name, "-") == 0)
@@ -53,11 +54,11 @@ const char *document_find(const char *kind, const char *name, const char *outcom
     for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
         if (folders[i] == NULL)
             continue;
-        const char *path = join(arena, join(arena, folders[i], kind, "/", ""), name, outcome, "");
+        const char *path = join(arena, join(arena, folders[i], kind, "/", ""), name, ending, "");
         if (access(path, F_OK) == 0)
             return path;
     }
-    diag_fail(diag, DIAG_CONFIG, "there is no %s/%s%s; looked in", kind, name, outcome);
+    diag_fail(diag, DIAG_CONFIG, "there is no %s/%s%s; looked in", kind, name, ending);
     for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
         size_t used = strlen(diag->text);
         if (folders[i] != NULL)

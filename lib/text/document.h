@@ -1,9 +1,9 @@
-/* Documents: JSON files for people, read by jansson and checked against the same kind of field
- * tables as frames.
+/* JSON documents for people: found, read and checked. jansson reads them; the same kind of field
+ * tables as for frames checks them.
  *
  * A bare name (no slash, no dot) is <kind>/<name>.json in $GLINT_DATA, then in ../share/glint and
- * in ../../data beside the executable, then in ./data; anything else is a path. All that is wrong
- * with a document is DIAG_CONFIG. */
+ * in ../../data beside the executable, then in ./data; anything else is a path. Every fault of a
+ * document is DIAG_CONFIG. */
 #ifndef DOCUMENT_H
 #define DOCUMENT_H
 
@@ -12,16 +12,17 @@
 
 enum { DOCUMENT_SIZE = 64 * 1024 * 1024 };
 
-/* Gives jansson an allocator that ends the program rather than returning NULL. Once, in main. */
+/* Gives jansson an allocator that ends the program rather than returning NULL. Called once, in
+ * main. */
 void document_guard_memory(void);
 
-/* The path that a name stands for, in the arena; NULL after a message that lists the places that
- * were searched. A table is found the same way with ending ".csv" instead of ".json". */
-const char *document_find(const char *kind, const char *name, const char *outcome,
+/* The path of a document by its name, in the arena; NULL after a message that lists the places
+ * searched. ending is ".json", or ".csv" for a table. */
+const char *document_find(const char *kind, const char *name, const char *ending,
                           struct arena *arena, struct diag *diag);
 
-/* Reads a document (standard input for "-") into the struct that the record describes; all it
- * holds lies in the arena. Messages are "PATH: objects[2].x_m: ...". */
+/* Reads a document (standard input for "-") into the struct that the record describes; all of it
+ * lies in the arena. Messages are "PATH: objects[2].x_m: ...". */
 int document_read(const char *path, const struct record *record, void *base, struct arena *arena,
                   struct diag *diag);
 

@@ -11,7 +11,7 @@ const struct field field_none[] = {{0}};
 
 const char *field_unit(const char *name)
 {
-    /* Longer endings first: "_mps2" also ends in "s2" of nothing, "_mps" in "_s" of nothing. */
+    /* Longer endings come first, because "_mps" also ends in "_s". */
     static const char *const units[][2] = {
         {"_mps2", "m/s²"}, {"_radps", "rad/s"}, {"_mmph", "mm/h"}, {"_gpm3", "g/m³"},
         {"_hzps", "Hz/s"}, {"_dbm", "dBm"},     {"_mps", "m/s"},   {"_rad", "rad"},
@@ -19,8 +19,8 @@ const char *field_unit(const char *name)
     };
     size_t length = strlen(name);
     for (size_t i = 0; i < sizeof units / sizeof units[0]; i++) {
-        size_t outcome = strlen(units[i][0]);
-        if (length > outcome && strcmp(name + length - outcome, units[i][0]) == 0)
+        size_t ending = strlen(units[i][0]);
+        if (length > ending && strcmp(name + length - ending, units[i][0]) == 0)
             return units[i][1];
     }
     return "";
@@ -73,7 +73,7 @@ void field_clear(const struct record *record, void *base)
     set_all_absent(record, base);
 }
 
-/* "1e6" for 1e+06; whole numbers in full. */
+/* Writes 1e+06 as "1e6", and whole numbers in full. */
 static const char *show(double bound, char *text, size_t size)
 {
     bool whole = fabs(bound) >= 1e6 && fabs(bound) <= 0x1p53 && fmod(bound, 1e6) != 0;
@@ -116,7 +116,7 @@ int field_set_number(const struct field *field, void *base, double value, struct
     return 0;
 }
 
-/* The number of the choice of that name, or -1 after a message. */
+/* The index of the choice of that name, or -1 after a message. */
 static int choice_of(const struct field *field, const char *text, size_t length, struct diag *diag)
 {
     for (int i = 0; field->choices[i] != NULL; i++)
@@ -219,12 +219,13 @@ int field_set_text(const struct field *field, void *base, const char *text, size
 
 int field_read_number(const char *text, size_t length, double *value)
 {
-    /* number_read takes whatever from_chars takes, so words like "inf" must not get that far. */
+    /* number_read takes all that from_chars takes, so words like "inf" are refused here. */
     bool plausible = length > 0 && strspn(text, "+-.0123456789eE") >= length;
     return plausible && number_read(text, text + length, value) ? 0 : -1;
 }
 
-/* Minus zero is not zero: readers tell them apart. */
+/* True if a value differs from the absent one; minus zero differs from zero, because readers
+ * distinguish them. */
 static inline bool differs(double value, double absent)
 {
     return value != absent || signbit(value) != signbit(absent);
@@ -264,7 +265,8 @@ bool field_present(const struct record *record, const struct field *field, const
     return true;
 }
 
-/* Of sections only, which are told by one look at their bits, or of plain members only. */
+/* True if any member is present. Members are all sections, whose bits tell it at once, or none
+ * is. */
 static bool any_present(const struct record *record, const void *base)
 {
     if (record->fields[0].section != 0)
@@ -353,7 +355,7 @@ int field_twice(const struct field *field, struct diag *diag)
     return diag_fail(diag, DIAG_DATA, "%s: the key stands twice", field->name);
 }
 
-/* The layout of every LIST_OF, whatever its items. */
+/* The layout of every LIST_OF, whatever the type of its items. */
 struct untyped_list {
     void *items;
     size_t count, room;

@@ -1,10 +1,11 @@
-/* Field tables: one description of a struct that drives everything that is said about it.
+/* Field tables: one description of a struct for all its forms.
  *
  * A struct record lists the members of a C struct: the name (one spelling for C member, JSON key,
- * option and schema property, with the unit as its ending), kind, bounds and help. From it come the
- * frame's text in both directions, documents, command-line options, --help, the schemas, and the
- * check that nothing out of bounds leaves a stage (field_check.h). Functions that fail leave a
- * message that starts with the member's name, so that callers can put the path in front of it. */
+ * option and schema property, with the unit at its end), kind, bounds and help. The text of frames
+ * in both directions, documents, command-line options, --help, the schemas and the check that
+ * nothing out of bounds leaves a stage (field_check.h) all follow from it. Functions that fail
+ * leave a message that starts with the member's name, so that callers can put the path in front of
+ * it. */
 #ifndef FIELD_H
 #define FIELD_H
 
@@ -25,8 +26,8 @@ enum field_kind {
     FIELD_SEED, /* uint64_t, in text a string of decimal digits: JSON readers lose 64-bit numbers */
     FIELD_SET,  /* uint64_t: bit i stands for choices[i]; in text an array of their names */
     FIELD_NAMES,  /* LIST_OF(const char *) */
-    FIELD_RECORD, /* an embedded struct; where optional, all or none of its members are sections,
-                     and it is absent while they all are */
+    FIELD_RECORD, /* an embedded struct. An optional one is absent while all its members are; all or
+                   * none of its members are then sections */
     FIELD_LIST,   /* LIST_OF(a struct) */
     FIELD_RAW,    /* const char *: any JSON value, byte for byte, at most FIELD_RAW_SIZE */
     FIELD_NOTES,  /* no member: an object of strings, for people; documents only */
@@ -43,25 +44,25 @@ struct record;
 
 struct field {
     const char *name;
-    char key[FIELD_KEY_SIZE]; /* as lines have it behind another member: ,"range_m": */
+    char key[FIELD_KEY_SIZE]; /* ,"range_m": as in a line, behind another member */
     unsigned char key_length;
-    bool optional; /* may be absent; then, and only then, it is not written either */
+    bool optional; /* may be absent; it is not written if it has the value of an absent one */
     bool steady;   /* a list that frames repeat (list_cache.h) */
     enum field_kind kind;
     size_t offset;
     double low, high;
-    double absent; /* the number, or the choice, that absence stands for */
+    double absent; /* number or choice that an absent member has */
     const struct record *record;
     const char *const *choices; /* NULL-terminated */
-    unsigned section;           /* the bit of `present` that this member has, or 0 */
+    unsigned section;           /* bit of the member in `present`, or 0 */
     const char *help;
-    const char *word; /* what --help calls the value, if not NUMBER, NAME, ... */
+    const char *word; /* name of the value in --help, if not NUMBER, NAME, ... */
 };
 
-/* Tables end with a field without a name. A record with sections keeps their bits in an unsigned
- * member at present_offset; a section counts as absent unless its bit is set. (So do members of
- * which 0 is a value like any other.) One with steady lists has at document_offset a pointer to the
- * struct of a document that it was copied from, or NULL. */
+/* Tables end with a field without a name. A record with sections has their bits in an unsigned
+ * member at present_offset: a section is absent unless its bit is set. Members for which 0 is a
+ * value like any other are sections too. A record with steady lists has, at document_offset, a
+ * pointer to the struct of a document from which it was copied, or NULL. */
 struct record {
     const char *name;
     const char *help;
@@ -74,7 +75,7 @@ struct record {
 /* The table of a record without members. */
 extern const struct field field_none[];
 
-/* The offset of a member, refused by the compiler if the member is not of that type. */
+/* The offset of a member; a member of another type does not compile. */
 #define FIELD_AT(type, owner, member)                                                              \
     (offsetof(owner, member) + 0 * sizeof((type *[]){&((owner *)0)->member}))
 
@@ -117,13 +118,13 @@ extern const struct field field_none[];
 #define FIELD_STEADY .steady = true
 
 /* The member of the struct at base, and a new value for it. By memcpy, because a table does not
- * know the C type that the compiler gave the member. */
+ * know the member's C type. */
 #define FIELD_LOAD(type, field, base)                                                              \
     (*(type *)memcpy(&(type){0}, (const char *)(base) + (field)->offset, sizeof(type)))
 #define FIELD_STORE(type, field, base, value)                                                      \
     memcpy((char *)(base) + (field)->offset, &(type){(value)}, sizeof(type))
 
-/* The sections that the struct at base has. */
+/* The sections that are present in the struct at base. */
 static inline unsigned field_sections(const struct record *record, const void *base)
 {
     unsigned present;
@@ -131,57 +132,59 @@ static inline unsigned field_sections(const struct record *record, const void *b
     return present;
 }
 
-/* What the name's ending says about the unit, for messages and help: "m" for range_m, "" if the
- * number has none. */
+/* The unit by the name's ending, for messages and help: "m" for range_m, "" if the number has
+ * none. */
 const char *field_unit(const char *name);
 
-/* The record's member of that name, or NULL. Looks at members[hint] first: keys usually come in
+/* The record's member of that name, or NULL. Tries fields[hint] first, since keys usually come in
  * table order. */
 const struct field *field_find(const struct record *record, const char *name, size_t length,
                                size_t hint);
 
-/* Sets every member to what its absence stands for. */
+/* Sets every member to its value when absent. */
 void field_clear(const struct record *record, void *base);
 
-/* The same for one member of a zeroed struct. */
+/* Sets one member of a zeroed struct to its value when absent. */
 void field_set_absent(const struct field *field, void *base);
 
-/* Each sets the member of the struct at base, or refuses with "name: value is outside [..] unit",
- * "name: unknown choice ..." and the like. Text is copied into the arena. */
+/* Sets the member of the struct at base, or refuses the value with "name: value is outside [..]
+ * unit", "name: unknown choice ..." and the like. Text is copied into the arena. */
 int field_set_number(const struct field *field, void *base, double value, struct diag *diag);
 int field_set_text(const struct field *field, void *base, const char *text, size_t length,
                    struct arena *arena, struct diag *diag);
 
-/* Adds one name to a set. Refuses "name: ... is unknown" and "name: ... stands twice". */
+/* Adds one name to a set. Refuses an unknown name and one that is in the set already. */
 int field_add_to_set(const struct field *field, void *base, const char *text, size_t length,
                      struct diag *diag);
 
-/* The whole of text as a finite decimal number ("1e3", ".5"), no words; -1 if it is none. */
+/* Reads the whole of text as a finite decimal number ("1e3", ".5"), no words; -1 if it is not
+ * one. */
 int field_read_number(const char *text, size_t length, double *value);
 
-/* Is this member there: required, or different from what its absence stands for? */
+/* True if the member is required, or differs from its value when absent. */
 bool field_present(const struct record *record, const struct field *field, const void *base);
 void field_mark_present(const struct record *record, const struct field *field, void *base);
 
-/* Refuses "name: missing; expected ..." if a required field is not among those seen (bit i stands
- * for fields[i]). */
+/* Refuses a struct with "name: missing; expected ..." if a required field is not among those seen
+ * (bit i stands for fields[i]). */
 int field_require(const struct record *record, uint64_t seen, struct diag *diag);
 
-/* "a number in [0, 1e+06] m", "one of a, b, c", ...: what the field takes, for messages. */
+/* The values that the field takes, for messages: "a number in [0, 1e+06] m", "one of a, b, c",
+ * ... */
 void field_expectation(const struct field *field, char *text, size_t size);
 
-/* Refuses "name: a number in ..., not KIND" for a value of the wrong JSON kind. */
+/* Refuses a value of the wrong JSON kind with "name: KIND; expected a number in ...". */
 int field_wrong_kind(const struct field *field, const char *kind, struct diag *diag);
 int field_unknown(const struct record *record, const char *name, size_t length, struct diag *diag);
 int field_twice(const struct field *field, struct diag *diag);
 int field_out_of_bounds(const struct field *field, double value, struct diag *diag);
 
-/* Refuses what is no name: "name: a name of 0 bytes; expected ...", "name: control character ...".
- */
+/* Refuses text that is not a name with "name: a name of 0 bytes; expected ...", "name: control
+ * character ...". */
 int field_require_name(const struct field *field, const char *text, size_t length,
                        struct diag *diag);
 
-/* A LIST_OF anything, seen without its type. */
+/* A LIST_OF any type. */
 struct field_list {
     void *items;
     size_t count;
@@ -189,14 +192,14 @@ struct field_list {
 
 struct field_list field_list(const struct field *field, const void *base);
 
-/* Is this steady list still that of the document, which does not change any more? */
+/* True if this steady list is still that of the document, which does not change any more. */
 bool field_unchanged(const struct record *record, const struct field *field, const void *base);
 
-/* Appends one cleared item to the list member and returns its address. For FIELD_NAMES the item is
- * a const char *. */
+/* Appends one item, with all members absent, to the list member and returns its address. For
+ * FIELD_NAMES the item is a const char *. */
 void *field_list_add(const struct field *field, void *base, struct arena *arena);
 
-/* The same, but zeroed. */
+/* Like field_list_add, with a zeroed item. */
 void *field_list_extend(const struct field *field, void *base, struct arena *arena);
 
 #endif

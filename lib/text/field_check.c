@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-/* Structs that lie side by side, size bytes from one to the next: list items, or what is embedded
- * in them. at is the number of the first one that is found to be bad. */
+/* Structs at equal distances, size bytes from one to the next: list items, or structs embedded in
+ * them. at is set to the index of the first faulty one. */
 struct items {
     const char *first;
     size_t size, count;
@@ -13,7 +13,7 @@ struct items {
 static int check_records(const struct record *record, struct items *items, unsigned sections,
                          struct diag *diag);
 
-/* Nearly all numbers are in bounds: most columns of them need no second look. */
+/* True if all values of a member are in bounds, as nearly always. */
 static bool reals_inside(const struct field *field, const struct items *items)
 {
     const double low = field->low, high = field->high;
@@ -41,7 +41,7 @@ static int check_numbers(const struct record *record, const struct field *field,
     return 0;
 }
 
-/* Nearly all names are printable ASCII. */
+/* True for a name of printable ASCII, as nearly all are. */
 static bool is_plain_name(const char *text)
 {
     const char *end = text;
@@ -50,7 +50,7 @@ static bool is_plain_name(const char *text)
     return *end == '\0' && end > text && end - text <= FIELD_NAME_SIZE;
 }
 
-/* Neighbours often share a name: the same one is not looked at twice in a row. */
+/* Skips a name that is the same pointer as the one before, as neighbours often have. */
 static int check_names(const struct record *record, const struct field *field, struct items *items,
                        struct diag *diag)
 {
@@ -70,7 +70,7 @@ static int check_names(const struct record *record, const struct field *field, s
     return 0;
 }
 
-/* A list that is still a document's was checked when that was read. */
+/* Skips a list that is still a document's: it was checked when the document was read. */
 static int check_lists(const struct record *record, const struct field *field, struct items *items,
                        struct diag *diag)
 {
@@ -96,7 +96,8 @@ static int check_lists(const struct record *record, const struct field *field, s
     return 0;
 }
 
-/* All side by side; of a section one by one, because not every item need have it. */
+/* Checks an embedded struct of all items at once; one that is a section item by item, because not
+ * every item need have it. */
 static int check_embedded(const struct record *record, const struct field *field,
                           struct items *items, struct diag *diag)
 {
@@ -128,12 +129,12 @@ static int check_member(const struct record *record, const struct field *field, 
         return check_lists(record, field, items, diag);
     case FIELD_RECORD:
         return check_embedded(record, field, items, diag);
-    default: /* every value of the others can be written and read back */
+    default: /* all values of other kinds can be written and read back */
         return 0;
     }
 }
 
-/* The sections that any of the items has. */
+/* The sections that at least one of the items has. */
 static unsigned sections_among(const struct record *record, const struct items *items)
 {
     unsigned sections = 0;

@@ -18,7 +18,7 @@ struct input {
     size_t raw_at, raw_end;
     bool sniffed, gzip, inside_member, damaged;
     z_stream stream;
-    struct text line; /* unpacked bytes that no line has used yet lie behind line_at */
+    struct text line; /* bytes that were read; those that no line has used yet lie behind line_at */
     size_t line_at;
     unsigned char raw[RAW_SIZE];
 };
@@ -73,7 +73,7 @@ static long read_file(struct input *input, void *bytes, size_t size, struct diag
     return got;
 }
 
-/* Makes sure that there are raw bytes: 1, 0 at the end of the file, -1 after a message. */
+/* Reads raw bytes if there are none: 1, 0 at the end of the file, -1 after a message. */
 static int fill(struct input *input, struct diag *diag)
 {
     if (input->raw_at < input->raw_end)
@@ -152,7 +152,8 @@ static long read_gzip(struct input *input, char *bytes, size_t size, struct diag
         if (done == Z_STREAM_END)
             input->inside_member = false;
         else if (done != Z_OK)
-            input->damaged = true; /* told by the next round, or call: first what came out whole */
+            input->damaged = true; /* refused in the next round or call: first come the bytes that
+                                    * were unpacked */
     }
     return (long)(room - stream->avail_out);
 }
@@ -205,7 +206,7 @@ int input_all(struct input *input, size_t limit, struct text *text, struct diag 
 {
     for (;;) {
         if (text->length > limit)
-            return diag_fail(diag, DIAG_DATA, "more than %zu bytes", limit);
+            return diag_fail(diag, DIAG_DATA, "more than %zu bytes; expected no more", limit);
         long got = input_read(input, text_room(text, LINE_STEP), LINE_STEP, diag);
         if (got <= 0)
             return (int)got;

@@ -39,7 +39,7 @@ static int hex_digit(char character)
                                                   : -1;
 }
 
-/* Four hexadecimal digits; -1 if they are not there. */
+/* The number of four hexadecimal digits; -1 if they are not there. */
 static int32_t hex4(const char *at, const char *end)
 {
     if (end - at < 4)
@@ -54,7 +54,8 @@ static int32_t hex4(const char *at, const char *end)
     return code;
 }
 
-/* Decodes the escape after the backslash at *at and moves *at past it; 0 bytes if it is none. */
+/* Decodes the escape after the backslash at *at and moves *at past it; returns the number of bytes,
+ * 0 if it is not an escape. */
 static size_t unescape(const char **at, const char *end, char *out)
 {
     static const char names[] = "\"\\/bfnrt", meanings[] = "\"\\/\b\f\n\r\t";
@@ -79,7 +80,7 @@ static size_t unescape(const char **at, const char *end, char *out)
     return utf8_write(0x10000 + ((uint32_t)(code - 0xd800) << 10) + (uint32_t)(low - 0xdc00), out);
 }
 
-/* Past the closing quote; counts escapes so that the caller knows whether to decode. */
+/* Moves past the closing quote and counts escapes, so that the caller knows whether to decode. */
 static int skip_string(struct json_scan *scan, size_t *escapes)
 {
     *escapes = 0;
@@ -109,7 +110,7 @@ static int skip_string(struct json_scan *scan, size_t *escapes)
     return 0;
 }
 
-/* No escape is shorter than what it stands for. */
+/* Decodes in a copy of the same size: no escape is shorter than its meaning. */
 static void decode(struct json_scan *scan, struct json_string *string)
 {
     char *decoded = arena_get(scan->arena, string->length);

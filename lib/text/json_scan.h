@@ -1,8 +1,8 @@
-/* JSON tokens, strictly as RFC 8259 has them, in one line of memory.
+/* JSON tokens of one line, strictly by RFC 8259.
  *
- * Strict also where libraries are lenient: UTF-8 must be valid, surrogates paired, and \u0000 is
- * refused, since names are C strings. Every function moves the cursor past what it read, or leaves
- * a message without a path. */
+ * It is strict also where libraries are lenient: UTF-8 must be valid, surrogates paired, and \u0000
+ * is refused, since names are C strings. Every function moves the cursor past the token that it
+ * read, or leaves a message without a path. */
 #ifndef JSON_SCAN_H
 #define JSON_SCAN_H
 
@@ -38,7 +38,7 @@ static inline char json_scan_peek(struct json_scan *scan)
     return at < end ? *at : '\0';
 }
 
-/* True, and past it, if the next character is this one, which is not '\0'. */
+/* Moves past the next character and returns true if it is this one, which is not '\0'. */
 static inline bool json_scan_take(struct json_scan *scan, char character)
 {
     bool is_here = scan->at < scan->end && *scan->at == character;
@@ -48,17 +48,17 @@ static inline bool json_scan_take(struct json_scan *scan, char character)
     return true;
 }
 
-/* Refuses "expected WHAT, not ..." at the cursor. */
+/* Refuses the character at the cursor with "... where WHAT is expected". */
 int json_scan_unexpected(struct json_scan *scan, const char *what);
 
 int json_scan_string(struct json_scan *scan, struct json_string *string);
 int json_scan_number(struct json_scan *scan, double *value);
 int json_scan_flag(struct json_scan *scan, bool *value);
 
-/* Any value, checked but not decoded: the bytes from its first to its last character. */
+/* Reads any value, checked but not decoded: bytes from its first to its last character. */
 int json_scan_value(struct json_scan *scan, struct json_string *bytes);
 
-/* What kind of value comes next, for messages: "a string", "null", ... */
+/* The kind of the next value, for messages: "a string", "null", ... */
 const char *json_scan_kind(struct json_scan *scan);
 
 #endif

@@ -2,16 +2,17 @@
 
 #include <string.h>
 
-/* Frames ask in the same order for the same lists, by text and by address alike. */
-static struct repeat *likeliest(const struct list_cache *repeats, size_t tries)
+/* The cached list to try next: frames repeat their lists in the same order, so the search begins
+ * behind the list found last. */
+static struct list_cache_entry *candidate(const struct list_cache *cache, size_t tries)
 {
-    return &repeats->kept.items[(repeats->next + tries) % repeats->kept.count];
+    return &cache->kept.items[(cache->next + tries) % cache->kept.count];
 }
 
-static struct repeat *found(struct list_cache *repeats, struct repeat *repeat)
+static struct list_cache_entry *note_found(struct list_cache *cache, struct list_cache_entry *list)
 {
-    repeats->next = (size_t)(repeat - repeats->kept.items) + 1;
-    return repeat;
+    cache->next = (size_t)(list - cache->kept.items) + 1;
+    return list;
 }
 
 static bool begins_with(const char *text, const char *end, struct list_cache_text beginning)
@@ -20,66 +21,67 @@ static bool begins_with(const char *text, const char *end, struct list_cache_tex
            memcmp(beginning.bytes, text, beginning.length) == 0;
 }
 
-const struct repeat *list_cache_find(struct list_cache *repeats, const struct record *record,
-                                     const char *text, const char *end)
+const struct list_cache_entry *list_cache_find(struct list_cache *cache,
+                                               const struct record *record, const char *text,
+                                               const char *end)
 {
-    for (size_t i = 0; i < repeats->kept.count; i++) {
-        struct repeat *repeat = likeliest(repeats, i);
-        if (repeat->record == record && begins_with(text, end, repeat->read))
-            return found(repeats, repeat);
+    for (size_t i = 0; i < cache->kept.count; i++) {
+        struct list_cache_entry *list = candidate(cache, i);
+        if (list->record == record && begins_with(text, end, list->read))
+            return note_found(cache, list);
     }
     return NULL;
 }
 
-bool list_cache_full(const struct list_cache *repeats)
+bool list_cache_full(const struct list_cache *cache)
 {
-    return repeats->kept.count >= LIST_CACHE_MOST || repeats->size >= LIST_CACHE_SIZE;
+    return cache->kept.count >= LIST_CACHE_MOST || cache->size >= LIST_CACHE_SIZE;
 }
 
-static struct list_cache_text copy(struct list_cache *repeats, const char *text, size_t length)
+static struct list_cache_text copy(struct list_cache *cache, const char *text, size_t length)
 {
-    repeats->size += length;
-    return (struct list_cache_text){arena_text(&repeats->arena, text, length), length};
+    cache->size += length;
+    return (struct list_cache_text){arena_text(&cache->arena, text, length), length};
 }
 
-static struct repeat *add(struct list_cache *repeats, const struct field *field,
-                          struct field_list list)
+static struct list_cache_entry *add(struct list_cache *cache, const struct field *field,
+                                    struct field_list member)
 {
-    struct repeat *repeat = list_add(&repeats->kept, &repeats->arena);
-    repeat->record = field->record;
-    repeat->items.items = list.items;
-    repeat->items.count = repeat->items.room = list.count;
-    return repeat;
+    struct list_cache_entry *list = list_add(&cache->kept, &cache->arena);
+    list->record = field->record;
+    list->items.items = member.items;
+    list->items.count = list->items.room = member.count;
+    return list;
 }
 
-void list_cache_keep(struct list_cache *repeats, const struct field *field, const void *base,
+void list_cache_keep(struct list_cache *cache, const struct field *field, const void *base,
                      const char *text, size_t length)
 {
-    add(repeats, field, field_list(field, base))->read = copy(repeats, text, length);
+    add(cache, field, field_list(field, base))->read = copy(cache, text, length);
 }
 
-struct repeat *list_cache_of(struct list_cache *repeats, const struct record *record,
-                             const struct field *field, const void *base)
+struct list_cache_entry *list_cache_of(struct list_cache *cache, const struct record *record,
+                                       const struct field *field, const void *base)
 {
-    struct field_list list = field_list(field, base);
-    for (size_t i = 0; i < repeats->kept.count; i++) {
-        struct repeat *repeat = likeliest(repeats, i);
-        if (repeat->items.items == list.items && repeat->items.count == list.count)
-            return found(repeats, repeat);
+    struct field_list member = field_list(field, base);
+    for (size_t i = 0; i < cache->kept.count; i++) {
+        struct list_cache_entry *list = candidate(cache, i);
+        if (list->items.items == member.items && list->items.count == member.count)
+            return note_found(cache, list);
     }
-    if (!field_unchanged(record, field, base) || list_cache_full(repeats))
+    if (!field_unchanged(record, field, base) || list_cache_full(cache))
         return NULL;
-    return add(repeats, field, list);
+    return add(cache, field, member);
 }
 
-void list_cache_keep_written(struct list_cache *repeats, struct repeat *repeat, const char *text,
-                             size_t length)
+void list_cache_keep_written(struct list_cache *cache, struct list_cache_entry *list,
+                             const char *text, size_t length)
 {
-    if (repeats->size < LIST_CACHE_SIZE)
-        repeat->written = copy(repeats, text, length);
+    if (cache->size < LIST_CACHE_SIZE)
+        list->written = copy(cache, text, length);
 }
 
-void list_cache_free(struct list_cache *repeats)
+void list_cache_free(struct list_cache *cache)
 {
-    arena_free(&repeats->arena);
+    arena_free(&cache->arena);
 }

@@ -13,7 +13,7 @@
 
 #include "base/arena.h"
 
-/* What a pipe takes at once. */
+/* Bytes that a pipe takes at once. */
 enum { PIECE_SIZE = 64 * 1024 };
 
 struct output {
@@ -22,7 +22,7 @@ struct output {
     char *name;             /* as it was given, for messages */
     char *path, *temporary; /* temporary is NULL if the path is written directly */
     bool unnamed;           /* the file has no name at all yet, not even the temporary one */
-    struct text held;       /* not written yet */
+    struct text held;       /* text that is not written yet */
     bool failed; /* something that was written is lost: the file must not take its name */
 };
 
@@ -40,7 +40,7 @@ static char *copy(const char *text)
     return memcpy(memory_get(size), text, size);
 }
 
-/* What a symbolic link stands for is written, not the link replaced. */
+/* The path to write: for a symbolic link that of its target, so that the link is not replaced. */
 static char *target(const char *path)
 {
     char *resolved = strcmp(path, "-") != 0 ? realpath(path, NULL) : NULL;
@@ -67,8 +67,8 @@ static int cannot_create(const char *name, struct diag *diag)
     return diag_fail(diag, DIAG_CANNOT_CREATE, "%s: %s", name, strerror(errno));
 }
 
-/* A new file without a name in the folder of the path; -1 where there are no such files. It is
- * named through /proc later. */
+/* Opens a new file without a name in the path's folder; -1 where the file system has none. It gets
+ * its name through /proc later. */
 static int open_unnamed(const char *path)
 {
     int fd = -1;
@@ -148,7 +148,7 @@ static int cannot_write(struct output *output, struct diag *diag)
     return diag_fail(diag, DIAG_IO, "%s: %s", shown_name(output), strerror(errno));
 }
 
-/* The first bytes of those that are held; the rest moves up. */
+/* Writes the first bytes that are held; the others move up. */
 static int send_first(struct output *output, size_t length, struct diag *diag)
 {
     struct text *held = &output->held;
@@ -197,7 +197,8 @@ int output_finish(struct output *output, struct diag *diag)
     return output->failed ? -1 : 0;
 }
 
-/* Gives an unnamed file the temporary name; one that a killed run of the same number left goes. */
+/* Gives an unnamed file the temporary name, after removing a file of that name that a killed run
+ * with the same PID left. */
 static int name_file(const struct output *output)
 {
     char file[64];

@@ -1,11 +1,11 @@
-/* Bytes to a file or standard output.
+/* Output to a file or standard output, complete or not at all.
  *
  * A named file is written without a name, in the folder where it will be, and takes its name only
- * when it is whole and on the disk: a run that fails or is killed leaves the folder as it was.
+ * when it is complete and on the disk: a run that fails or is killed leaves the folder as it was.
  * Where the file system has no files without names, the file is called NAME.tmp.PID meanwhile, and
- * only a killed run leaves it behind. A name ending in .gz compresses, reproducibly. What is not a
- * regular file (a pipe, a device) is written directly. Every write and the final close are checked.
- */
+ * only a killed run leaves it behind. A name ending in .gz compresses, with bytes that depend on
+ * the content alone. What is not a regular file (a pipe, a device) is written directly. Every write
+ * and the final close are checked. */
 #ifndef OUTPUT_H
 #define OUTPUT_H
 
@@ -17,21 +17,21 @@
 
 struct output;
 
-/* "-" is standard output. NULL after a message (DIAG_CANNOT_CREATE). */
+/* Opens a path for writing; "-" is standard output. NULL after a message (DIAG_CANNOT_CREATE). */
 struct output *output_open(const char *path, struct diag *diag);
 
-/* The text that is written next: append to it, and send what is whole of it. */
+/* The text to append to, and a call that writes its whole pieces of 64 KiB. */
 struct text *output_text(struct output *output);
 int output_send(struct output *output, struct diag *diag);
 
-/* The same of bytes that lie elsewhere. */
+/* Writes bytes that lie elsewhere. */
 int output_write(struct output *output, const char *bytes, size_t length, struct diag *diag);
 
-/* Writes what is held, to the disk if it is a file: closing it then only gives it its name. For
- * programs whose outputs belong together, before they close any of them. */
+/* Writes all that is held, to the disk if it is a file, so that closing it only gives it its name.
+ * Programs whose outputs belong together call it before they close any of them. */
 int output_finish(struct output *output, struct diag *diag);
 
-/* Finishes, closes and names the file; the output is gone afterwards. Without whole, a file is
+/* Finishes, closes and names the file; the output is gone afterwards. If whole is false, a file is
  * removed instead; what was written to standard output or to a device stays written. */
 int output_close(struct output *output, bool whole, struct diag *diag);
 

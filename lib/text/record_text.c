@@ -7,13 +7,13 @@
 #include "base/number.h"
 #include "text/json_scan.h"
 
-/* An object takes more in a line. */
+/* Fewer bytes than an object takes in a line, so that names have room. */
 enum { BYTES_PER_NAME = 128 };
 
 struct reader {
     struct json_scan scan;
     struct intern names;
-    struct list_cache *repeats; /* or NULL */
+    struct list_cache *cache; /* or NULL */
 };
 
 static int read_record(struct reader *reader, const struct record *record, void *base);
@@ -44,7 +44,7 @@ static int read_item(struct reader *reader, const struct field *field, void *bas
     return result == 0 ? 0 : put_before(scan->diag, field->name, index);
 }
 
-/* Equal names of a line are one pointer. */
+/* Stores a name; equal names of a line are one pointer. */
 static void keep_name(struct reader *reader, const struct field *field, const char *text,
                       size_t length, void *base)
 {
@@ -53,7 +53,7 @@ static void keep_name(struct reader *reader, const struct field *field, const ch
     FIELD_STORE(const char *, field, base, kept);
 }
 
-/* A name of plain characters needs no second look. */
+/* Reads a name of plain characters, which needs no check; false if it is another. */
 static bool take_name(struct reader *reader, const struct field *field, void *base)
 {
     struct json_scan *scan = &reader->scan;
@@ -130,24 +130,25 @@ static int read_list(struct reader *reader, const struct field *field, void *bas
     return diag_prefix(scan->diag, "%s: ", field->name);
 }
 
-/* A list that may have stood in an earlier line: if so it is there already. If not it is read into
- * the memory of those that are kept, with names of its own. */
+/* Reads a list that an earlier line may have had: then it is in the cache. If not, it is read into
+ * the cache's memory, with names of its own. */
 static int read_steady(struct reader *reader, const struct field *field, void *base)
 {
     struct json_scan *scan = &reader->scan;
-    struct list_cache *repeats = reader->repeats;
-    const struct repeat *repeat = list_cache_find(repeats, field->record, scan->at, scan->end);
-    if (repeat != NULL) {
-        scan->at += repeat->read.length;
-        memcpy((char *)base + field->offset, &repeat->items, sizeof repeat->items);
+    struct list_cache *cache = reader->cache;
+    const struct list_cache_entry *list =
+        list_cache_find(cache, field->record, scan->at, scan->end);
+    if (list != NULL) {
+        scan->at += list->read.length;
+        memcpy((char *)base + field->offset, &list->items, sizeof list->items);
         return 0;
     }
-    if (list_cache_full(repeats))
+    if (list_cache_full(cache))
         return read_list(reader, field, base);
-    struct reader apart = {.scan = {scan->at, scan->end, &repeats->arena, scan->diag}};
+    struct reader apart = {.scan = {scan->at, scan->end, &cache->arena, scan->diag}};
     if (read_list(&apart, field, base) != 0)
         return -1;
-    list_cache_keep(repeats, field, base, scan->at, (size_t)(apart.scan.at - scan->at));
+    list_cache_keep(cache, field, base, scan->at, (size_t)(apart.scan.at - scan->at));
     scan->at = apart.scan.at;
     return 0;
 }
@@ -158,8 +159,8 @@ static int read_raw(struct json_scan *scan, const struct field *field, void *bas
     if (json_scan_value(scan, &bytes) != 0)
         return diag_prefix(scan->diag, "%s: ", field->name);
     if (bytes.length > FIELD_RAW_SIZE)
-        return diag_fail(scan->diag, DIAG_DATA, "%s: %zu bytes; at most %d may be carried",
-                         field->name, bytes.length, FIELD_RAW_SIZE);
+        return diag_fail(scan->diag, DIAG_DATA, "%s: %zu bytes; expected at most %d", field->name,
+                         bytes.length, FIELD_RAW_SIZE);
     const char *copy = arena_text(scan->arena, bytes.text, bytes.length);
     FIELD_STORE(const char *, field, base, copy);
     return 0;
@@ -173,7 +174,7 @@ static int read_number(struct json_scan *scan, const struct field *field, void *
     return field_set_number(field, base, number, scan->diag);
 }
 
-/* An everyday number in bounds needs no second look. */
+/* Reads a number of the form of number_take if it is in bounds; false if it is another. */
 static bool take_real(struct json_scan *scan, const struct field *field, void *base)
 {
     double number;
@@ -219,7 +220,7 @@ static int read_member(struct reader *reader, const struct field *field, void *b
     }
     if (field->kind == FIELD_RAW)
         return read_raw(scan, field, base);
-    if (field->steady && reader->repeats != NULL)
+    if (field->steady && reader->cache != NULL)
         return read_steady(reader, field, base);
     if (field->kind == FIELD_NAMES || field->kind == FIELD_SET || field->kind == FIELD_LIST)
         return read_list(reader, field, base);
@@ -242,8 +243,8 @@ static int read_member(struct reader *reader, const struct field *field, void *b
     return diag_prefix(scan->diag, "%s: ", field->name);
 }
 
-/* Does the line go on with this member's key and its colon, as the writer has them? At least
- * FIELD_KEY_SIZE bytes lie ahead. */
+/* True if the line goes on with this member's key and its colon, as the writer has them. At least
+ * FIELD_KEY_SIZE bytes must lie ahead. */
 static bool key_is_next(const char *at, const struct field *field)
 {
     const char *key = field->key + 1;
@@ -256,7 +257,8 @@ static bool key_is_next(const char *at, const struct field *field)
     return difference == 0 && text_word(at + length - 8) == text_word(key + length - 8);
 }
 
-/* The first of these members whose key comes next; NULL if it is another, or written otherwise. */
+/* Reads the key of the first of these members that comes next; NULL if it is another key, or
+ * written otherwise. */
 static const struct field *take_key(struct json_scan *scan, const struct field *field)
 {
     if (scan->end - scan->at < FIELD_KEY_SIZE)
@@ -269,7 +271,7 @@ static const struct field *take_key(struct json_scan *scan, const struct field *
     return field;
 }
 
-/* Past the key and the colon of any member, in any spelling; NULL after a message. */
+/* Reads the key and the colon of any member, in any spelling; NULL after a message. */
 static const struct field *read_key(struct json_scan *scan, const struct record *record,
                                     uint64_t seen)
 {
@@ -315,7 +317,7 @@ static int read_members(struct reader *reader, const struct record *record, void
     return json_scan_take(scan, '}') ? 0 : unexpected(scan, "',' or '}'");
 }
 
-/* Into a zeroed struct. */
+/* Reads an object into a zeroed struct. */
 static int read_record(struct reader *reader, const struct record *record, void *base)
 {
     struct json_scan *scan = &reader->scan;
@@ -343,10 +345,10 @@ static int no_record(struct json_scan *scan, const struct record *record)
 }
 
 int record_text_read(const char *line, size_t length, const struct record *record, void *base,
-                     struct arena *arena, struct list_cache *repeats, struct diag *diag)
+                     struct arena *arena, struct list_cache *cache, struct diag *diag)
 {
     struct reader reader = {
-        {line, line + length, arena, diag}, intern_begin(length / BYTES_PER_NAME, arena), repeats};
+        {line, line + length, arena, diag}, intern_begin(length / BYTES_PER_NAME, arena), cache};
     struct json_scan *scan = &reader.scan;
     if (json_scan_peek(scan) != '{')
         return no_record(scan, record);
@@ -359,14 +361,14 @@ int record_text_read(const char *line, size_t length, const struct record *recor
     return scan->at == scan->end ? 0 : json_scan_unexpected(scan, "the end of the line");
 }
 
-/* The writer's place in a text, whose length is set in the end. */
+/* The writer's place in a text; the text's length is set at the end. */
 struct writer {
     struct text *text;
     char *at, *end;
-    struct list_cache *repeats; /* or NULL */
+    struct list_cache *cache; /* or NULL */
 };
 
-/* A key, a number and the brackets around them. */
+/* Room for a key, a number and the brackets around them. */
 enum { MEMBER_ROOM = FIELD_KEY_SIZE + NUMBER_SIZE + 8 };
 
 static void make_room(struct writer *writer, size_t size)
@@ -418,22 +420,22 @@ static void write_list(const struct field *field, const void *base, struct write
     *writer->at++ = ']';
 }
 
-/* A list that may stand in later lines: if it stood in an earlier one, its text is there. */
+/* Writes a list that an earlier line may have had: then its text is in the cache. */
 static void write_steady(const struct record *record, const struct field *field, const void *base,
                          struct writer *writer)
 {
-    struct repeat *repeat = list_cache_of(writer->repeats, record, field, base);
-    if (repeat == NULL) {
+    struct list_cache_entry *list = list_cache_of(writer->cache, record, field, base);
+    if (list == NULL) {
         write_list(field, base, writer);
-    } else if (repeat->written.bytes == NULL) {
+    } else if (list->written.bytes == NULL) {
         size_t begin = (size_t)(writer->at - writer->text->bytes);
         write_list(field, base, writer);
         const char *text = writer->text->bytes + begin;
-        list_cache_keep_written(writer->repeats, repeat, text, (size_t)(writer->at - text));
+        list_cache_keep_written(writer->cache, list, text, (size_t)(writer->at - text));
     } else {
-        make_room(writer, repeat->written.length + MEMBER_ROOM);
-        memcpy(writer->at, repeat->written.bytes, repeat->written.length);
-        writer->at += repeat->written.length;
+        make_room(writer, list->written.length + MEMBER_ROOM);
+        memcpy(writer->at, list->written.bytes, list->written.length);
+        writer->at += list->written.length;
     }
 }
 
@@ -498,7 +500,7 @@ static void write_member(const struct record *record, const struct field *field,
         break;
     case FIELD_LIST:
     case FIELD_NAMES:
-        if (field->steady && writer->repeats != NULL)
+        if (field->steady && writer->cache != NULL)
             write_steady(record, field, base, writer);
         else
             write_list(field, base, writer);
@@ -528,11 +530,11 @@ static void write_record(const struct record *record, const void *base, struct w
     *writer->at++ = '}';
 }
 
-void record_text_write(const struct record *record, const void *base, struct list_cache *repeats,
+void record_text_write(const struct record *record, const void *base, struct list_cache *cache,
                        struct text *text)
 {
     char *at = text_room(text, MEMBER_ROOM);
-    struct writer writer = {text, at, text->bytes + text->room, repeats};
+    struct writer writer = {text, at, text->bytes + text->room, cache};
     write_record(record, base, &writer);
     *writer.at++ = '\n';
     text->length = (size_t)(writer.at - text->bytes);

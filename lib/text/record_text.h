@@ -1,8 +1,8 @@
-/* A struct as a line of JSON, and back, both directed by its field table.
+/* A struct as a line of JSON, and back, by its field table.
  *
  * The writer makes no tree and no white space; keys come in table order. The reader takes any key
- * order and any spelling of a number, refuses unknown, missing and repeated keys and anything out
- * of bounds, and names the path: "echoes[3].range_m: -1 is outside [0, 1e+06] m". */
+ * order and any spelling of a number. It refuses unknown, missing and repeated keys and anything
+ * out of bounds, and names the path: "echoes[3].range_m: -1 is outside [0, 1e+06] m". */
 #ifndef RECORD_TEXT_H
 #define RECORD_TEXT_H
 
@@ -13,11 +13,11 @@
  * of the line: all that the struct holds lies in the arena, or in the cache of steady lists, which
  * may be NULL. */
 int record_text_read(const char *line, size_t length, const struct record *record, void *base,
-                     struct arena *arena, struct list_cache *repeats, struct diag *diag);
+                     struct arena *arena, struct list_cache *cache, struct diag *diag);
 
 /* Appends the line with its newline to text. The struct must have passed field_check. The cache of
  * steady lists may be NULL. */
-void record_text_write(const struct record *record, const void *base, struct list_cache *repeats,
+void record_text_write(const struct record *record, const void *base, struct list_cache *cache,
                        struct text *text);
 
 #endif

@@ -186,7 +186,7 @@ static void a_nul_byte_is_refused_wherever_it_is(void **state)
     }
 }
 
-static void a_file_that_is_not_there_is_no_input(void **state)
+static void a_missing_file_is_no_input(void **state)
 {
     (void)state;
     struct arena arena = {0};
@@ -226,7 +226,7 @@ static void numbers_are_read_to_the_last_digit(void **state)
     }
 }
 
-static void what_is_no_number_is_refused(void **state)
+static void cells_that_are_not_numbers_are_refused(void **state)
 {
     static const char *const cells[] = {"abc",    "12abc",  "\"\"",     "nan",    "NaN",   "-nan",
                                         "inf",    "-inf",   "Infinity", "0x10",   "0x1p3", "1e",
@@ -270,10 +270,10 @@ int main(void)
         cmocka_unit_test(rows_have_the_numbers_that_a_spreadsheet_shows),
         cmocka_unit_test(damaged_tables_are_refused),
         cmocka_unit_test(a_nul_byte_is_refused_wherever_it_is),
-        cmocka_unit_test(a_file_that_is_not_there_is_no_input),
+        cmocka_unit_test(a_missing_file_is_no_input),
         cmocka_unit_test(columns_are_found_by_their_whole_name),
         cmocka_unit_test(numbers_are_read_to_the_last_digit),
-        cmocka_unit_test(what_is_no_number_is_refused),
+        cmocka_unit_test(cells_that_are_not_numbers_are_refused),
         cmocka_unit_test(numbers_outside_their_bounds_are_refused),
     };
     return cmocka_run_group_tests(tests, make_scratch, remove_scratch);

@@ -66,9 +66,9 @@ static void names_are_looked_up_in_the_data_folder_first(void **state)
     assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
     assert_string_equal(document_find("vehicles", "mine", ".json", &scratch->arena, &diag),
                         scratch->path);
-    /* What is not there comes from the places after it. */
+    /* A name that is not there is found in the places after it. */
     assert_non_null(document_find("vehicles", "car", ".json", &scratch->arena, &diag));
-    /* And what is in both comes from there. */
+    /* A name that is in both is found in the first. */
     char car[128];
     snprintf(car, sizeof car, "%s/vehicles/car.json", scratch->directory);
     assert_int_equal(link(scratch->path, car), 0);
@@ -78,7 +78,7 @@ static void names_are_looked_up_in_the_data_folder_first(void **state)
     assert_int_equal(unlink(car), 0);
 }
 
-static void what_has_a_slash_or_a_dot_is_a_path(void **state)
+static void a_name_with_a_slash_or_a_dot_is_a_path(void **state)
 {
     struct scratch *scratch = *state;
     static const char *const paths[] = {"./mine", "mine.json", "/a/b", "..", "a/b", "-", "x.y"};
@@ -88,7 +88,7 @@ static void what_has_a_slash_or_a_dot_is_a_path(void **state)
                             paths[i]);
 }
 
-static void a_name_that_is_nowhere_lists_the_places(void **state)
+static void for_an_unknown_name_the_message_lists_the_places(void **state)
 {
     struct scratch *scratch = *state;
     struct diag diag = {0};
@@ -167,7 +167,7 @@ static void faults_are_named_with_path_member_and_expectation(void **state)
     }
 }
 
-static void text_that_is_no_document_is_refused_with_its_line(void **state)
+static void text_that_is_not_a_document_is_refused_with_its_line(void **state)
 {
     struct scratch *scratch = *state;
     static const struct {
@@ -210,7 +210,7 @@ static void notes_are_strings(void **state)
     assert_non_null(strstr(diag.text, "mine.json: sources.c: a number; expected a string"));
 }
 
-static void a_document_that_is_not_there_is_named(void **state)
+static void a_missing_document_is_named(void **state)
 {
     struct scratch *scratch = *state;
     struct vehicle vehicle;
@@ -230,13 +230,13 @@ int main(void)
     document_guard_memory();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_are_looked_up_in_the_data_folder_first),
-        cmocka_unit_test(what_has_a_slash_or_a_dot_is_a_path),
-        cmocka_unit_test(a_name_that_is_nowhere_lists_the_places),
+        cmocka_unit_test(a_name_with_a_slash_or_a_dot_is_a_path),
+        cmocka_unit_test(for_an_unknown_name_the_message_lists_the_places),
         cmocka_unit_test(a_document_fills_its_struct),
         cmocka_unit_test(faults_are_named_with_path_member_and_expectation),
-        cmocka_unit_test(text_that_is_no_document_is_refused_with_its_line),
+        cmocka_unit_test(text_that_is_not_a_document_is_refused_with_its_line),
         cmocka_unit_test(notes_are_strings),
-        cmocka_unit_test(a_document_that_is_not_there_is_named),
+        cmocka_unit_test(a_missing_document_is_named),
     };
     return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }

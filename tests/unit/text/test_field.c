@@ -114,7 +114,7 @@ static void members_are_found_by_their_whole_name(void **state)
     }
 }
 
-static void absence_has_its_value_and_is_noticed(void **state)
+static void absent_members_have_their_value_and_are_recognized(void **state)
 {
     (void)state;
     struct arena arena = {0};
@@ -145,7 +145,7 @@ static void absence_has_its_value_and_is_noticed(void **state)
     arena_free(&arena);
 }
 
-static void an_optional_record_is_there_with_any_of_its_members(void **state)
+static void an_optional_record_with_sections_is_present_with_any_of_them(void **state)
 {
     (void)state;
     static const struct field inner_fields[] = {
@@ -170,7 +170,7 @@ static void an_optional_record_is_there_with_any_of_its_members(void **state)
 }
 
 /* The lower half of 0.5 is all zeros. */
-static void an_optional_record_without_sections_is_there_with_any_member(void **state)
+static void an_optional_record_without_sections_is_present_with_any_member(void **state)
 {
     (void)state;
     static const struct field inner_fields[] = {
@@ -317,7 +317,7 @@ static void names_and_choices_are_checked(void **state)
     arena_free(&arena);
 }
 
-static void words_are_numbers_only_as_a_whole(void **state)
+static void a_text_is_a_number_only_as_a_whole(void **state)
 {
     (void)state;
     static const char *const bad[] = {"",      " ",        "1 ",    " 1", "nan", "inf",
@@ -368,13 +368,13 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_ending_of_a_name_is_its_unit),
         cmocka_unit_test(members_are_found_by_their_whole_name),
-        cmocka_unit_test(absence_has_its_value_and_is_noticed),
-        cmocka_unit_test(an_optional_record_is_there_with_any_of_its_members),
-        cmocka_unit_test(an_optional_record_without_sections_is_there_with_any_member),
+        cmocka_unit_test(absent_members_have_their_value_and_are_recognized),
+        cmocka_unit_test(an_optional_record_with_sections_is_present_with_any_of_them),
+        cmocka_unit_test(an_optional_record_without_sections_is_present_with_any_member),
         cmocka_unit_test(numbers_are_taken_between_their_bounds),
         cmocka_unit_test(seeds_have_64_bits),
         cmocka_unit_test(names_and_choices_are_checked),
-        cmocka_unit_test(words_are_numbers_only_as_a_whole),
+        cmocka_unit_test(a_text_is_a_number_only_as_a_whole),
         cmocka_unit_test(the_first_missing_member_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

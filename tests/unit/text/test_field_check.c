@@ -61,7 +61,7 @@ static struct thing good_thing(void)
     return (struct thing){.name = "a"};
 }
 
-/* "" if it passes, else the message. */
+/* The message of the check, "" if it passes. */
 static const char *fault(const struct thing *thing)
 {
     static struct diag diag;
@@ -71,7 +71,7 @@ static const char *fault(const struct thing *thing)
     return diag.text;
 }
 
-static void a_missing_name_is_told_unless_it_is_optional(void **state)
+static void a_missing_name_is_refused_unless_it_is_optional(void **state)
 {
     (void)state;
     struct thing thing = good_thing();
@@ -83,7 +83,7 @@ static void a_missing_name_is_told_unless_it_is_optional(void **state)
     assert_string_equal(fault(&thing), "alias: a name of 0 bytes; expected 1 to 1024");
 }
 
-static void a_number_out_of_bounds_is_told_with_its_path(void **state)
+static void a_number_out_of_bounds_is_refused_with_its_path(void **state)
 {
     (void)state;
     struct arena arena = {0};
@@ -106,8 +106,8 @@ static void a_number_out_of_bounds_is_told_with_its_path(void **state)
     arena_free(&arena);
 }
 
-/* 0 is outside [1, 10], but is what the absence of an optional member stands for. */
-static void what_absence_stands_for_passes_although_it_is_out_of_bounds(void **state)
+/* 0 is outside [1, 10], but is the value of the optional member when it is absent. */
+static void the_value_of_an_absent_member_passes_although_it_is_out_of_bounds(void **state)
 {
     (void)state;
     struct thing thing = good_thing();
@@ -117,7 +117,7 @@ static void what_absence_stands_for_passes_although_it_is_out_of_bounds(void **s
     assert_string_equal(fault(&thing), "part.width_m: -0.0 is outside [1, 10] m");
 }
 
-static void a_section_is_checked_only_if_it_is_there_and_asked_for(void **state)
+static void a_section_is_checked_only_if_it_is_present_and_wanted(void **state)
 {
     (void)state;
     struct arena arena = {0};
@@ -136,7 +136,7 @@ static void a_section_is_checked_only_if_it_is_there_and_asked_for(void **state)
     arena_free(&arena);
 }
 
-/* The bad one has one before it of the same name, which is good, and one after. */
+/* The bad name follows the same name that is good, and precedes another one. */
 static void among_items_the_bad_name_is_found(void **state)
 {
     (void)state;
@@ -178,7 +178,7 @@ static bool names_pass(const char *name, struct arena *arena)
     return told[0] == '\0';
 }
 
-static void every_byte_of_a_name_is_looked_at(void **state)
+static void every_byte_of_a_name_is_checked(void **state)
 {
     (void)state;
     struct arena arena = {0};
@@ -209,13 +209,13 @@ static void every_byte_of_a_name_is_looked_at(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_missing_name_is_told_unless_it_is_optional),
-        cmocka_unit_test(a_number_out_of_bounds_is_told_with_its_path),
-        cmocka_unit_test(what_absence_stands_for_passes_although_it_is_out_of_bounds),
-        cmocka_unit_test(a_section_is_checked_only_if_it_is_there_and_asked_for),
+        cmocka_unit_test(a_missing_name_is_refused_unless_it_is_optional),
+        cmocka_unit_test(a_number_out_of_bounds_is_refused_with_its_path),
+        cmocka_unit_test(the_value_of_an_absent_member_passes_although_it_is_out_of_bounds),
+        cmocka_unit_test(a_section_is_checked_only_if_it_is_present_and_wanted),
         cmocka_unit_test(among_items_the_bad_name_is_found),
         cmocka_unit_test(lists_of_a_document_are_not_checked_again),
-        cmocka_unit_test(every_byte_of_a_name_is_looked_at),
+        cmocka_unit_test(every_byte_of_a_name_is_checked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,7 +50,7 @@ static struct input *open_bytes(const struct scratch *scratch, const char *bytes
     return input;
 }
 
-/* Everything in a file of these bytes: 0 with the text, or -1. */
+/* Reads a file of these bytes: 0 and its text, or -1. */
 static int read_bytes(const struct scratch *scratch, const char *bytes, size_t length,
                       struct text *text, struct diag *diag)
 {
@@ -61,7 +61,7 @@ static int read_bytes(const struct scratch *scratch, const char *bytes, size_t l
     return result;
 }
 
-/* One gzip member, appended. Its header is the 10 bytes without a name. */
+/* Appends one gzip member. Its header is the 10 bytes without a name. */
 static void add_member(const char *bytes, size_t length, struct text *text)
 {
     z_stream stream = {0};
@@ -138,7 +138,7 @@ static void gzip_cut_anywhere_is_refused(void **state)
         struct text text = {0};
         struct diag diag;
         int result = read_bytes(*state, packed.bytes, length, &text, &diag);
-        /* Between the members it is a whole file. */
+        /* Cut between the members it is a complete file. */
         assert_int_equal(result, length == first ? 0 : -1);
         if (length != first) {
             assert_string_equal(diag.text, "the gzip data ends early");
@@ -164,7 +164,7 @@ static void a_flipped_bit_in_gzip_is_refused_or_changes_nothing(void **state)
         int result = read_bytes(*state, packed.bytes, packed.length, &text, &diag);
         packed.bytes[i / 8] = (char)(packed.bytes[i / 8] ^ 1 << i % 8);
         if (i / 8 < 2) {
-            /* No longer gzip by its first bytes: plain, and no JSON. */
+            /* Not gzip any more by its first bytes, so plain text, and not JSON. */
             assert_int_equal(result, 0);
             assert_int_equal(text.length, packed.length);
         } else {
@@ -283,7 +283,7 @@ static void a_line_may_be_as_long_as_the_limit(void **state)
             }
 }
 
-static void what_cannot_be_read_says_why(void **state)
+static void the_message_says_why_a_file_cannot_be_read(void **state)
 {
     struct scratch *scratch = *state;
     struct diag diag = {0};
@@ -302,8 +302,8 @@ static void what_cannot_be_read_says_why(void **state)
     input_close(input);
 }
 
-/* A pipe hands over what it has: one byte at a time is the worst it can do. */
-static void a_pipe_that_drips_is_read_whole(void **state)
+/* A pipe gives what it has; the least is one byte at a time. */
+static void a_pipe_that_gives_one_byte_at_a_time_is_read_whole(void **state)
 {
     (void)state;
     struct text packed = {0}, text = {0};
@@ -348,8 +348,8 @@ int main(void)
         cmocka_unit_test(lines_end_at_newlines_and_at_the_end),
         cmocka_unit_test(lines_across_buffer_borders_are_whole),
         cmocka_unit_test(a_line_may_be_as_long_as_the_limit),
-        cmocka_unit_test(what_cannot_be_read_says_why),
-        cmocka_unit_test(a_pipe_that_drips_is_read_whole),
+        cmocka_unit_test(the_message_says_why_a_file_cannot_be_read),
+        cmocka_unit_test(a_pipe_that_gives_one_byte_at_a_time_is_read_whole),
     };
     return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }

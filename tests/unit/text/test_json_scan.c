@@ -11,7 +11,7 @@
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-/* One value and nothing but white space around it? */
+/* True if the text is one value with nothing but white space around it. */
 static bool is_json(const char *text, size_t length, struct json_string *bytes)
 {
     struct arena arena = {0};
@@ -49,7 +49,7 @@ static void every_form_of_value_is_taken_with_its_exact_bytes(void **state)
     }
 }
 
-static void what_is_not_json_is_refused(void **state)
+static void text_that_is_not_json_is_refused(void **state)
 {
     (void)state;
     static const char texts[] =
@@ -89,7 +89,7 @@ static void a_nul_byte_is_no_json_wherever_it_stands(void **state)
     }
 }
 
-static void no_beginning_of_a_value_is_a_value(void **state)
+static void a_value_that_is_cut_short_is_refused(void **state)
 {
     (void)state;
     static const char text[] = "{\"a\":[1,{\"b\\u00e9\":null},\"\xe2\x82\xac\"],\"c\":false}";
@@ -286,9 +286,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_form_of_value_is_taken_with_its_exact_bytes),
-        cmocka_unit_test(what_is_not_json_is_refused),
+        cmocka_unit_test(text_that_is_not_json_is_refused),
         cmocka_unit_test(a_nul_byte_is_no_json_wherever_it_stands),
-        cmocka_unit_test(no_beginning_of_a_value_is_a_value),
+        cmocka_unit_test(a_value_that_is_cut_short_is_refused),
         cmocka_unit_test(values_nest_to_the_limit_and_no_deeper),
         cmocka_unit_test(strings_are_decoded),
         cmocka_unit_test(every_code_point_survives_its_escapes),

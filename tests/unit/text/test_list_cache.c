@@ -39,8 +39,8 @@ static void the_same_text_is_the_same_list(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct list_cache repeats = {0};
-    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct list_cache cache = {0};
+    struct frame frame = {.arena = &arena, .repeats = &cache};
     struct diag diag = {0};
     char one[512], other[512];
     snprintf(one, sizeof one, "[%s]", point_of("a", 0.25));
@@ -56,17 +56,17 @@ static void the_same_text_is_the_same_list(void **state)
             first[i] = point;
         assert_ptr_equal(point, first[i % 2]);
     }
-    assert_int_equal(repeats.kept.count, 2);
-    list_cache_free(&repeats);
+    assert_int_equal(cache.kept.count, 2);
+    list_cache_free(&cache);
     arena_free(&arena);
 }
 
-static void what_is_wrong_in_a_list_is_wrong_every_time(void **state)
+static void a_faulty_list_is_refused_every_time(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct list_cache repeats = {0};
-    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct list_cache cache = {0};
+    struct frame frame = {.arena = &arena, .repeats = &cache};
     char wrong[512];
     snprintf(wrong, sizeof wrong, "[%s,%s]", point_of("a", 0.25), "{\"name\":\"\"}");
     for (int i = 0; i < 3; i++) {
@@ -75,17 +75,17 @@ static void what_is_wrong_in_a_list_is_wrong_every_time(void **state)
         assert_string_equal(diag.text, "reflectors[0].points[1].name: a name of 0 bytes; expected "
                                        "1 to 1024");
     }
-    assert_int_equal(repeats.kept.count, 0);
-    list_cache_free(&repeats);
+    assert_int_equal(cache.kept.count, 0);
+    list_cache_free(&cache);
     arena_free(&arena);
 }
 
-static void lists_that_never_come_again_are_kept_up_to_a_limit(void **state)
+static void lists_that_do_not_repeat_are_kept_up_to_a_limit(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct list_cache repeats = {0};
-    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct list_cache cache = {0};
+    struct frame frame = {.arena = &arena, .repeats = &cache};
     struct diag diag = {0};
     for (int i = 0; i < 3 * LIST_CACHE_MOST; i++) {
         char points[512];
@@ -93,18 +93,18 @@ static void lists_that_never_come_again_are_kept_up_to_a_limit(void **state)
         assert_int_equal(read_points(&frame, points, &diag), 0);
         assert_close(frame.reflectors.items[0].points.items[0].x, i * 0.001, 1e-9);
     }
-    assert_int_equal(repeats.kept.count, LIST_CACHE_MOST);
-    list_cache_free(&repeats);
+    assert_int_equal(cache.kept.count, LIST_CACHE_MOST);
+    list_cache_free(&cache);
     arena_free(&arena);
 }
 
-/* So that a stream's memory stays constant whatever its lines hold. */
+/* A stream's memory stays bounded whatever its lines hold. */
 static void long_lists_are_kept_up_to_a_limit_too(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct list_cache repeats = {0};
-    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct list_cache cache = {0};
+    struct frame frame = {.arena = &arena, .repeats = &cache};
     struct diag diag = {0};
     struct text points = {0};
     for (int i = 0; i < 40; i++) {
@@ -119,10 +119,10 @@ static void long_lists_are_kept_up_to_a_limit_too(void **state)
         assert_int_equal(read_points(&frame, points.bytes, &diag), 0);
         assert_int_equal(frame.reflectors.items[0].points.count, 1001);
     }
-    assert_true(repeats.size >= LIST_CACHE_SIZE && repeats.size < 2 * LIST_CACHE_SIZE);
-    assert_true(repeats.kept.count < 40);
+    assert_true(cache.size >= LIST_CACHE_SIZE && cache.size < 2 * LIST_CACHE_SIZE);
+    assert_true(cache.kept.count < 40);
     text_free(&points);
-    list_cache_free(&repeats);
+    list_cache_free(&cache);
     arena_free(&arena);
 }
 
@@ -130,8 +130,8 @@ static void a_list_that_grows_leaves_the_kept_one_alone(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct list_cache repeats = {0};
-    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct list_cache cache = {0};
+    struct frame frame = {.arena = &arena, .repeats = &cache};
     struct diag diag = {0};
     char points[512];
     snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
@@ -142,12 +142,12 @@ static void a_list_that_grows_leaves_the_kept_one_alone(void **state)
         if (i > 0)
             *list_add(&set->points, &arena) = (struct point_reflector){.name = "b"};
     }
-    list_cache_free(&repeats);
+    list_cache_free(&cache);
     arena_free(&arena);
 }
 
-/* What a frame with this set's reflectors says, with and without anything kept. */
-static void write_set(struct list_cache *repeats, struct reflector_set *set, struct text *line)
+/* The line of a frame with this set's reflectors, with and without a cache. */
+static void write_set(struct list_cache *cache, struct reflector_set *set, struct text *line)
 {
     struct frame frame = {.scene = "s", .ego = "e", .present = SECTION_REFLECTORS};
     struct diag diag = {0};
@@ -155,7 +155,7 @@ static void write_set(struct list_cache *repeats, struct reflector_set *set, str
     frame.reflectors.items = set;
     frame.reflectors.count = 1;
     assert_int_equal(frame_text_write(&frame, &plain, &diag), 0);
-    frame.repeats = repeats;
+    frame.repeats = cache;
     line->length = 0;
     assert_int_equal(frame_text_write(&frame, line, &diag), 0);
     assert_int_equal(line->length, plain.length);
@@ -174,28 +174,28 @@ static struct reflector_set document_of(struct point_reflector *points, size_t c
 static void the_text_of_a_documents_list_is_kept(void **state)
 {
     (void)state;
-    struct list_cache repeats = {0};
+    struct list_cache cache = {0};
     struct text line = {0};
     struct point_reflector points[] = {{.name = "a", .x = 0.25}, {.name = "b", .x = 0.5}};
     struct reflector_set document = document_of(points, 2), set = document;
     set.document = &document;
     const char *kept = NULL;
     for (int i = 0; i < 3; i++) {
-        write_set(&repeats, &set, &line);
-        assert_int_equal(repeats.kept.count, 1);
+        write_set(&cache, &set, &line);
+        assert_int_equal(cache.kept.count, 1);
         if (i > 0)
-            assert_ptr_equal(repeats.kept.items[0].written.bytes, kept);
-        kept = repeats.kept.items[0].written.bytes;
+            assert_ptr_equal(cache.kept.items[0].written.bytes, kept);
+        kept = cache.kept.items[0].written.bytes;
     }
     text_free(&line);
-    list_cache_free(&repeats);
+    list_cache_free(&cache);
 }
 
-/* A frame's memory holds another list at the same place in the next frame. */
+/* In the next frame the same address may hold another list. */
 static void a_frames_own_list_is_written_every_time(void **state)
 {
     (void)state;
-    struct list_cache repeats = {0};
+    struct list_cache cache = {0};
     struct text line = {0};
     struct point_reflector own[] = {{.name = "a"}, {.name = "b"}}, read[] = {{.name = "a"}};
     struct reflector_set document = document_of(read, 1), set = document_of(own, 2);
@@ -203,37 +203,37 @@ static void a_frames_own_list_is_written_every_time(void **state)
         own[1].x = 0.125 * i;
         set.points.count = 1 + (size_t)i % 2;
         set.document = i < 4 ? &document : NULL;
-        write_set(&repeats, &set, &line);
+        write_set(&cache, &set, &line);
     }
-    assert_int_equal(repeats.kept.count, 0);
+    assert_int_equal(cache.kept.count, 0);
     text_free(&line);
-    list_cache_free(&repeats);
+    list_cache_free(&cache);
 }
 
 static void a_list_of_a_document_that_changed_is_written_anew(void **state)
 {
     (void)state;
-    struct list_cache repeats = {0};
+    struct list_cache cache = {0};
     struct text line = {0};
     struct point_reflector points[] = {{.name = "a"}, {.name = "b"}}, other[] = {{.name = "c"}};
     struct reflector_set document = document_of(points, 2), set = document;
     set.document = &document;
-    write_set(&repeats, &set, &line);
+    write_set(&cache, &set, &line);
     set.points.count = 1;
-    write_set(&repeats, &set, &line);
+    write_set(&cache, &set, &line);
     set.points.items = other;
-    write_set(&repeats, &set, &line);
-    assert_int_equal(repeats.kept.count, 1);
+    write_set(&cache, &set, &line);
+    assert_int_equal(cache.kept.count, 1);
     text_free(&line);
-    list_cache_free(&repeats);
+    list_cache_free(&cache);
 }
 
-static void what_was_read_is_written_as_lines_have_it(void **state)
+static void a_list_that_was_read_is_written_in_canonical_form(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct list_cache repeats = {0};
-    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct list_cache cache = {0};
+    struct frame frame = {.arena = &arena, .repeats = &cache};
     struct diag diag = {0};
     struct text line = {0};
     char points[512], loose[512];
@@ -241,23 +241,23 @@ static void what_was_read_is_written_as_lines_have_it(void **state)
     snprintf(loose, sizeof loose, "[ %s ]", point_of("a", 25e-2));
     for (int i = 0; i < 4; i++) {
         assert_int_equal(read_points(&frame, i % 2 ? points : loose, &diag), 0);
-        write_set(&repeats, &frame.reflectors.items[0], &line);
+        write_set(&cache, &frame.reflectors.items[0], &line);
         line.bytes[line.length - 1] = '\0';
         assert_non_null(strstr(line.bytes, points));
     }
-    assert_int_equal(repeats.kept.count, 2);
+    assert_int_equal(cache.kept.count, 2);
     text_free(&line);
-    list_cache_free(&repeats);
+    list_cache_free(&cache);
     arena_free(&arena);
 }
 
-/* A document's list was written, and is known by its address alone. */
+/* A document's list that was written is known by its address alone. */
 static void a_list_that_was_only_written_is_found_in_no_line(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct list_cache repeats = {0};
-    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct list_cache cache = {0};
+    struct frame frame = {.arena = &arena, .repeats = &cache};
     struct diag diag = {0};
     struct text line = {0};
     struct point_reflector points[] = {{.name = "a", .x = 0.25}};
@@ -265,12 +265,12 @@ static void a_list_that_was_only_written_is_found_in_no_line(void **state)
     char other[512];
     snprintf(other, sizeof other, "[%s]", point_of("b", 0.5));
     set.document = &document;
-    write_set(&repeats, &set, &line);
+    write_set(&cache, &set, &line);
     assert_int_equal(read_points(&frame, other, &diag), 0);
     assert_int_equal(frame.reflectors.items[0].points.count, 1);
     assert_string_equal(frame.reflectors.items[0].points.items[0].name, "b");
     text_free(&line);
-    list_cache_free(&repeats);
+    list_cache_free(&cache);
     arena_free(&arena);
 }
 
@@ -278,17 +278,17 @@ static void a_line_that_ends_within_a_kept_list_does_not_have_it(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct list_cache repeats = {0};
-    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct list_cache cache = {0};
+    struct frame frame = {.arena = &arena, .repeats = &cache};
     struct diag diag = {0};
     char points[512];
     snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
     assert_int_equal(read_points(&frame, points, &diag), 0);
-    const struct record *record = repeats.kept.items[0].record;
+    const struct record *record = cache.kept.items[0].record;
     const char *end = points + strlen(points);
-    assert_non_null(list_cache_find(&repeats, record, points, end));
-    assert_null(list_cache_find(&repeats, record, points, end - 1));
-    list_cache_free(&repeats);
+    assert_non_null(list_cache_find(&cache, record, points, end));
+    assert_null(list_cache_find(&cache, record, points, end - 1));
+    list_cache_free(&cache);
     arena_free(&arena);
 }
 
@@ -296,8 +296,8 @@ static void the_text_of_points_is_no_list_of_planes(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct list_cache repeats = {0};
-    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct list_cache cache = {0};
+    struct frame frame = {.arena = &arena, .repeats = &cache};
     struct diag diag = {0};
     char points[512], both[1100];
     snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
@@ -306,17 +306,17 @@ static void the_text_of_points_is_no_list_of_planes(void **state)
     assert_int_equal(read_points(&frame, both, &diag), -1);
     static const char message[] = "reflectors[0].planes[0].x: unknown key";
     assert_memory_equal(diag.text, message, sizeof message - 1);
-    list_cache_free(&repeats);
+    list_cache_free(&cache);
     arena_free(&arena);
 }
 
-/* Its text in its line has filled the memory already. */
+/* The list's text in the line that was read has filled the memory already. */
 static void a_list_that_fills_the_memory_is_written_every_time(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct list_cache repeats = {0};
-    struct frame frame = {.arena = &arena, .repeats = &repeats};
+    struct list_cache cache = {0};
+    struct frame frame = {.arena = &arena, .repeats = &cache};
     struct diag diag = {0};
     struct text points = {0}, line = {0};
     text_add(&points, "[", 1);
@@ -327,14 +327,14 @@ static void a_list_that_fills_the_memory_is_written_every_time(void **state)
     }
     text_add(&points, "]", 2);
     assert_int_equal(read_points(&frame, points.bytes, &diag), 0);
-    size_t size = repeats.size;
+    size_t size = cache.size;
     for (int i = 0; i < 2; i++)
-        write_set(&repeats, &frame.reflectors.items[0], &line);
-    assert_true(size >= LIST_CACHE_SIZE && repeats.size == size);
-    assert_null(repeats.kept.items[0].written.bytes);
+        write_set(&cache, &frame.reflectors.items[0], &line);
+    assert_true(size >= LIST_CACHE_SIZE && cache.size == size);
+    assert_null(cache.kept.items[0].written.bytes);
     text_free(&points);
     text_free(&line);
-    list_cache_free(&repeats);
+    list_cache_free(&cache);
     arena_free(&arena);
 }
 
@@ -343,33 +343,33 @@ static void text_that_was_written_is_kept_up_to_a_limit(void **state)
     (void)state;
     enum { MANY = 1000, DOCUMENTS = 40 };
     static struct point_reflector points[DOCUMENTS][MANY];
-    struct list_cache repeats = {0};
+    struct list_cache cache = {0};
     struct text line = {0};
     for (int i = 0; i < 2 * DOCUMENTS; i++) {
         for (int j = 0; j < MANY; j++)
             points[i % DOCUMENTS][j] = (struct point_reflector){.name = "a", .x = j * 0.001};
         struct reflector_set document = document_of(points[i % DOCUMENTS], MANY), set = document;
         set.document = &document;
-        write_set(&repeats, &set, &line);
+        write_set(&cache, &set, &line);
     }
-    assert_true(repeats.size >= LIST_CACHE_SIZE && repeats.size < 2 * LIST_CACHE_SIZE);
-    assert_true(repeats.kept.count < DOCUMENTS);
+    assert_true(cache.size >= LIST_CACHE_SIZE && cache.size < 2 * LIST_CACHE_SIZE);
+    assert_true(cache.kept.count < DOCUMENTS);
     text_free(&line);
-    list_cache_free(&repeats);
+    list_cache_free(&cache);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_same_text_is_the_same_list),
-        cmocka_unit_test(what_is_wrong_in_a_list_is_wrong_every_time),
-        cmocka_unit_test(lists_that_never_come_again_are_kept_up_to_a_limit),
+        cmocka_unit_test(a_faulty_list_is_refused_every_time),
+        cmocka_unit_test(lists_that_do_not_repeat_are_kept_up_to_a_limit),
         cmocka_unit_test(long_lists_are_kept_up_to_a_limit_too),
         cmocka_unit_test(a_list_that_grows_leaves_the_kept_one_alone),
         cmocka_unit_test(the_text_of_a_documents_list_is_kept),
         cmocka_unit_test(a_frames_own_list_is_written_every_time),
         cmocka_unit_test(a_list_of_a_document_that_changed_is_written_anew),
-        cmocka_unit_test(what_was_read_is_written_as_lines_have_it),
+        cmocka_unit_test(a_list_that_was_read_is_written_in_canonical_form),
         cmocka_unit_test(a_list_that_was_only_written_is_found_in_no_line),
         cmocka_unit_test(a_line_that_ends_within_a_kept_list_does_not_have_it),
         cmocka_unit_test(the_text_of_points_is_no_list_of_planes),

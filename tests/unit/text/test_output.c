@@ -16,11 +16,11 @@
 #include "text/input.h"
 #include "text/output.h"
 
-/* Stands in for the system's open (Makefile): a test may see a file system that has no files
+/* Replaces the system's open (Makefile), so that a test can have a file system without files
  * without names. */
 static bool names_only;
 
-/* Whether the file system of the scratch folder really has them. */
+/* True if the file system of the scratch folder has files without names. */
 static bool has_unnamed(const char *folder)
 {
     int file = open(folder, O_TMPFILE | O_WRONLY, 0666);
@@ -97,7 +97,7 @@ static struct text sample_text(size_t length)
     return text;
 }
 
-/* In pieces of the given size. */
+/* Writes in pieces of the given size. */
 static void write_file(const char *path, const struct text *text, size_t piece)
 {
     struct diag diag = {0};
@@ -110,7 +110,7 @@ static void write_file(const char *path, const struct text *text, size_t piece)
     assert_int_equal(output_close(output, 1, &diag), 0);
 }
 
-static void what_is_written_can_be_read(void **state)
+static void written_bytes_can_be_read(void **state)
 {
     struct scratch *scratch = *state;
     static const size_t lengths[] = {0, 1, 65535, 65536, 65537, 500000},
@@ -131,7 +131,7 @@ static void what_is_written_can_be_read(void **state)
     assert_int_equal(files_in(scratch->directory), 2);
 }
 
-static void what_is_appended_is_sent_in_whole_pieces(void **state)
+static void appended_text_is_written_in_whole_pieces(void **state)
 {
     struct scratch *scratch = *state;
     static const size_t lengths[] = {1, 1000, 65535, 65536, 200000};
@@ -203,7 +203,7 @@ static void rewrite(const struct scratch *scratch, const char *path, bool whole)
     text_free(&new);
 }
 
-static void the_name_is_taken_only_when_the_file_is_whole(void **state)
+static void the_name_is_taken_only_when_the_file_is_complete(void **state)
 {
     struct scratch *scratch = *state;
     for (int i = 0; i < 8; i++) {
@@ -239,8 +239,8 @@ static void a_killed_run_leaves_the_folder_as_it_was(void **state)
     text_free(&new);
 }
 
-/* Of a run that was killed where the file system has no files without names. */
-static void a_temporary_file_that_is_left_is_in_nobodys_way(void **state)
+/* A temporary file of a run that was killed where the file system has no files without names. */
+static void a_leftover_temporary_file_does_no_harm(void **state)
 {
     struct scratch *scratch = *state;
     char left[128];
@@ -259,7 +259,7 @@ static void a_temporary_file_that_is_left_is_in_nobodys_way(void **state)
     text_free(&text);
 }
 
-static void what_cannot_be_made_says_why_and_leaves_nothing(void **state)
+static void the_message_says_why_a_file_cannot_be_created_and_nothing_is_left(void **state)
 {
     struct scratch *scratch = *state;
     int before = files_in(scratch->directory);
@@ -322,13 +322,13 @@ static void pipes_and_devices_are_written_directly(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_written_can_be_read),
-        cmocka_unit_test(what_is_appended_is_sent_in_whole_pieces),
+        cmocka_unit_test(written_bytes_can_be_read),
+        cmocka_unit_test(appended_text_is_written_in_whole_pieces),
         cmocka_unit_test(gz_is_gzip_and_depends_on_nothing_but_its_content),
-        cmocka_unit_test(the_name_is_taken_only_when_the_file_is_whole),
+        cmocka_unit_test(the_name_is_taken_only_when_the_file_is_complete),
         cmocka_unit_test(a_killed_run_leaves_the_folder_as_it_was),
-        cmocka_unit_test(a_temporary_file_that_is_left_is_in_nobodys_way),
-        cmocka_unit_test(what_cannot_be_made_says_why_and_leaves_nothing),
+        cmocka_unit_test(a_leftover_temporary_file_does_no_harm),
+        cmocka_unit_test(the_message_says_why_a_file_cannot_be_created_and_nothing_is_left),
         cmocka_unit_test(a_full_device_is_noticed_at_the_latest_when_it_is_closed),
         cmocka_unit_test(pipes_and_devices_are_written_directly),
     };
