@@ -6,27 +6,27 @@
 #include "base/elementary.h"
 #include "base/units.h"
 
-/* Side lobes have 0.22 of their peak; noise and other echoes may lift them to twice of that. */
+/* Side lobes have 0.22 of their peak; noise and other echoes may double that. */
 #define LEAST_OF_STRONGEST 0.5
-/* To an element's distance in the array: beams are searched four to a beam's width. */
+/* Beams are searched in steps of a quarter of a beam's width. */
 #define SEARCH 4
 
-/* B^2 over the phase from element to element is a cosine series: r_k is the sum of x_{a+k} times
+/* B^2 as a cosine series over the phase from element to element: r_k is the sum of x_{a+k} times
  * the conjugate of x_a. */
 struct series {
     size_t elements;
     struct phasor r[BEAMFORMING_MOST_ELEMENTS];
 };
 
-struct phasor beamforming_response(const struct beamforming_array *array, double sine,
-                                   size_t element)
+struct phasor beamforming_element_response(const struct beamforming_array *array, double sine,
+                                           size_t element)
 {
     double place = (double)element - (double)(array->elements - 1) / 2;
     struct elementary_sincos phase = elementary_sincos_turns(array->spacing * place * sine);
     return (struct phasor){phase.cos, phase.sin};
 }
 
-double beamforming_kernel(const struct beamforming_array *array, double distance)
+double beamforming_array_factor(const struct beamforming_array *array, double distance)
 {
     double x = PI * array->spacing * distance, n = (double)array->elements;
     double below = n * elementary_sin(x);
@@ -65,8 +65,8 @@ static double slope_at(const struct series *series, double turns)
     return sum;
 }
 
-/* Where a slope that is positive at low and not at high crosses zero. */
-static double summit(const struct series *series, double low, double high)
+/* The zero of a slope that is positive at low and not at high. */
+static double peak_between(const struct series *series, double low, double high)
 {
     for (double middle = low + (high - low) / 2; middle > low && middle < high;
          middle = low + (high - low) / 2)
@@ -96,7 +96,8 @@ size_t beamforming_peaks(const struct beamforming_array *array, const struct pha
         rises = slope_at(&series, turns) > 0;
         if (!rose || rises)
             continue;
-        double top = summit(&series, elementary_max((double)(i - 1) * step - reach, -reach), turns);
+        double top =
+            peak_between(&series, elementary_max((double)(i - 1) * step - reach, -reach), turns);
         insert(peaks, &count,
                (struct beamforming_peak){top / array->spacing, sqrt(power_at(&series, top))});
     }

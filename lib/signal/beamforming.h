@@ -1,6 +1,7 @@
-/* Directions from a uniform line of receiving elements (EFFECTS 11): the beam that is formed for
- * the sine s of an azimuth is B(s) = |sum over elements of x_a exp(-j 2 pi spacing (a - middle) s)|
- * divided by their number, so that one echo of amplitude A has a peak of A where it stands. */
+/* Directions of echoes from a uniform line of receiving elements (MODEL 11.3). The beam that is
+ * formed for the sine s of an azimuth is B(s) = |sum over elements of x_a exp(-j 2 pi spacing (a -
+ * middle) s)| divided by their number, so that one echo of amplitude A has a peak of A at its
+ * azimuth. */
 #ifndef BEAMFORMING_H
 #define BEAMFORMING_H
 
@@ -17,18 +18,19 @@ struct beamforming_peak {
     double sine, amplitude;
 };
 
-/* What the element receives of an echo of amplitude 1 and phase 0 in the array's middle. */
-struct phasor beamforming_response(const struct beamforming_array *array, double sine,
-                                   size_t element);
+/* The signal that an element receives of an echo of amplitude 1, whose phase is 0 in the array's
+ * middle. */
+struct phasor beamforming_element_response(const struct beamforming_array *array, double sine,
+                                           size_t element);
 
-/* |sin(N x)/(N sin x)|, x = pi spacing times the distance of two sines: how much of an echo a beam
- * beside it shows. */
-double beamforming_kernel(const struct beamforming_array *array, double distance);
+/* The array factor |sin(N x)/(N sin x)|, x = pi spacing times the distance of two sines: the part
+ * of an echo's amplitude that a beam in another direction receives. */
+double beamforming_array_factor(const struct beamforming_array *array, double distance);
 
-/* The peaks of B between sines of -limit and limit, strongest first, that are at least `least` in
- * amplitude and at least half of the strongest: weaker ones may be its side lobes. The elements'
- * samples are stride apart. Returns how many there are, at most BEAMFORMING_MOST_PEAKS; where B
- * only falls or rises there is none. */
+/* Finds the peaks of B between sines of -limit and limit, strongest first, that are at least
+ * `least` in amplitude and at least half of the strongest: weaker ones may be its side lobes. The
+ * elements' samples are stride apart. Returns their number, at most BEAMFORMING_MOST_PEAKS; where B
+ * only falls or rises there is no peak. */
 size_t beamforming_peaks(const struct beamforming_array *array, const struct phasor *samples,
                          size_t stride, double limit, double least, struct beamforming_peak *peaks);
 

@@ -5,15 +5,15 @@
 
 #include "base/sort.h"
 
-/* How far noise and other echoes may lift a side lobe. */
+/* Noise and other echoes may raise a side lobe by this factor. */
 #define SIDE_LOBE_MARGIN 2
 
 struct peak_list {
     LIST_OF(struct range_doppler_peak) list;
 };
 
-/* Of neighbours with the very same power the first one is the peak. */
-static bool is_summit(const struct range_doppler *spectrum, size_t rate_bin, size_t range_bin)
+/* True if a cell is a peak; of neighbours with equal power the first one is. */
+static bool is_peak(const struct range_doppler *spectrum, size_t rate_bin, size_t range_bin)
 {
     size_t width = spectrum->range_bins, height = spectrum->rate_bins;
     double power = spectrum->power[rate_bin * width + range_bin];
@@ -41,14 +41,14 @@ static struct range_doppler_peak peak_at(const struct range_doppler *spectrum, s
     const struct phasor *row = spectrum->samples + rate_bin * width;
     const struct phasor *at = row + range_bin;
     double range =
-        point_response_offset(spectrum->range_kernel, row + (range_bin + width - 1) % width, at,
+        point_response_offset(spectrum->range_response, row + (range_bin + width - 1) % width, at,
                               row + (range_bin + 1) % width, spectrum->channels, stride);
     const struct phasor *column = spectrum->samples + range_bin;
     double rate = point_response_offset(
-        spectrum->rate_kernel, column + (rate_bin + height - 1) % height * width, at,
+        spectrum->rate_response, column + (rate_bin + height - 1) % height * width, at,
         column + (rate_bin + 1) % height * width, spectrum->channels, stride);
-    double gain = point_response_value(spectrum->range_kernel, range) *
-                  point_response_value(spectrum->rate_kernel, rate);
+    double gain = point_response_value(spectrum->range_response, range) *
+                  point_response_value(spectrum->rate_response, rate);
     return (struct range_doppler_peak){
         .range_bin = range_bin,
         .rate_bin = rate_bin,
@@ -80,8 +80,8 @@ static bool is_side_lobe(const struct range_doppler *spectrum,
 {
     double range = range_doppler_distance(peak->range, stronger->range, spectrum->range_bins);
     double rate = range_doppler_distance(peak->rate, stronger->rate, spectrum->rate_bins);
-    double most = stronger->amplitude * point_response_envelope(spectrum->range_kernel, range) *
-                  point_response_envelope(spectrum->rate_kernel, rate);
+    double most = stronger->amplitude * point_response_envelope(spectrum->range_response, range) *
+                  point_response_envelope(spectrum->rate_response, rate);
     return peak->amplitude < SIDE_LOBE_MARGIN * most;
 }
 
@@ -90,10 +90,10 @@ static size_t drop_side_lobes(const struct range_doppler *spectrum,
 {
     size_t kept = 0;
     for (size_t i = 0; i < count; i++) {
-        bool hidden = false;
-        for (size_t j = 0; j < kept && !hidden; j++)
-            hidden = is_side_lobe(spectrum, &peaks[i], &peaks[j]);
-        if (!hidden)
+        bool covered = false;
+        for (size_t j = 0; j < kept && !covered; j++)
+            covered = is_side_lobe(spectrum, &peaks[i], &peaks[j]);
+        if (!covered)
             peaks[kept++] = peaks[i];
     }
     return kept;
@@ -104,14 +104,14 @@ size_t range_doppler_peaks(const struct range_doppler *spectrum, const struct cf
 {
     size_t width = spectrum->range_bins;
     struct peak_list found = {{NULL, 0, 0}};
-    /* No bin is farther from its peak than half a bin on both axes, but for noise. */
-    double loss = point_response_value(spectrum->range_kernel, 0.5) *
-                  point_response_value(spectrum->rate_kernel, 0.5) / SIDE_LOBE_MARGIN;
+    /* But for noise, no bin is farther from its peak than half a bin on both axes. */
+    double loss = point_response_value(spectrum->range_response, 0.5) *
+                  point_response_value(spectrum->rate_response, 0.5) / SIDE_LOBE_MARGIN;
     double least = threshold * threshold * loss * loss;
     for (size_t row = 0; row < spectrum->rate_bins; row++) {
         const double *power = spectrum->power + row * width;
         for (size_t column = 0; column < width; column++) {
-            if (!(power[column] >= least) || !is_summit(spectrum, row, column) ||
+            if (!(power[column] >= least) || !is_peak(spectrum, row, column) ||
                 power[column] <
                     cfar_threshold(cfar, spectrum->power + column, spectrum->rate_bins, width, row))
                 continue;

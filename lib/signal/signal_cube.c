@@ -11,14 +11,15 @@
 #include "radar/interferer.h"
 #include "sensor/scan.h"
 
-/* Beyond so many bins a pulse is below 2^-36 of itself. */
+/* Beyond this many bins a pulse is below 2^-36 of its peak. */
 #define PULSE_REACH 12
-/* Of the receiver's filter for pulses, whose own correlation is their kernel: 2^-(k^2/2). */
+/* Reach, in bins, of the receiver's filter for pulses, 2^-(k^2/2), whose autocorrelation is their
+ * point response. */
 #define FILTER_REACH 7
 
-static bool pulsed(const struct signal_cube *signal)
+static bool is_pulsed(const struct signal_cube *signal)
 {
-    return signal->range_kernel == POINT_RESPONSE_PULSE;
+    return signal->range_response == POINT_RESPONSE_PULSE;
 }
 
 struct signal_cube signal_cube_of(const struct sensor *sensor)
@@ -29,7 +30,8 @@ struct signal_cube signal_cube_of(const struct sensor *sensor)
         .samples = (size_t)waveform->samples,
         .repetitions = (size_t)waveform->repetitions,
         .channels = waveform->elements > 0 ? (size_t)waveform->elements : 2,
-        .range_kernel = waveform->kind == WAVEFORM_PULSE ? POINT_RESPONSE_PULSE : waveform->window,
+        .range_response =
+            waveform->kind == WAVEFORM_PULSE ? POINT_RESPONSE_PULSE : waveform->window,
         .range_step_m = waveform_range_step_m(waveform, sensor->cell_range_m),
         .rate_step_mps = sensor->cell_range_rate_mps,
         .array = {(size_t)waveform->elements, waveform->spacing},
@@ -46,7 +48,7 @@ void signal_cube_clear(const struct signal_cube *signal)
     memset(signal->cube, 0, signal_cube_size(signal) * sizeof *signal->cube);
 }
 
-static struct phasor turn(double amplitude, double turns)
+static struct phasor phasor_of(double amplitude, double turns)
 {
     struct elementary_sincos phase = elementary_sincos_turns(turns);
     return (struct phasor){amplitude * phase.cos, amplitude * phase.sin};
@@ -57,10 +59,10 @@ static struct phasor times(struct phasor a, struct phasor b)
     return (struct phasor){a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
 }
 
-/* An echo as the channels have it, and where it stands in bins. */
+/* An echo as the channels receive it, and its place in bins. */
 struct source {
     struct phasor weight[BEAMFORMING_MOST_ELEMENTS];
-    double turns, range, rate, walk;
+    double turns, range, rate, range_walk;
 };
 
 static void weigh_channels(const struct signal_cube *signal, const struct received_echo *received,
@@ -74,7 +76,7 @@ static void weigh_channels(const struct signal_cube *signal, const struct receiv
     weight[1] = (struct phasor){received->strength * creal(pointers.delta),
                                 received->strength * cimag(pointers.delta)};
     for (size_t element = 0; element < signal->array.elements; element++) {
-        struct phasor response = beamforming_response(&signal->array, sine, element);
+        struct phasor response = beamforming_element_response(&signal->array, sine, element);
         weight[element] =
             (struct phasor){received->amplitude * response.re, received->amplitude * response.im};
     }
@@ -88,21 +90,21 @@ static struct source source_of(const struct signal_cube *signal,
         .turns = received->phase_rad / (2 * PI),
         .range = received->range_m / signal->range_step_m,
         .rate = received->range_rate_mps / signal->rate_step_mps,
-        .walk = received->range_rate_mps * scan_s / signal->range_step_m,
+        .range_walk = received->range_rate_mps * scan_s / signal->range_step_m,
     };
     weigh_channels(signal, received, source.weight);
     return source;
 }
 
-/* The samples of one repetition: a tone by rotation, CHAINS at a time, as each waits for the one it
- * comes from. n turns leave an error of at most n/CHAINS ulp. */
+/* The samples of one repetition of chirps: a tone by rotation, in CHAINS independent chains, since
+ * each sample waits for the one it comes from. n turns leave an error of at most n/CHAINS ulp. */
 static void chirp(struct phasor *tone, size_t count, double cells, struct phasor first)
 {
     enum { CHAINS = 4 };
     double turns = -cells / (double)count;
-    struct phasor step = turn(1, CHAINS * turns);
+    struct phasor step = phasor_of(1, CHAINS * turns);
     for (size_t n = 0; n < count; n++)
-        tone[n] = n < CHAINS ? times(first, turn(1, cells / 2 + (double)n * turns))
+        tone[n] = n < CHAINS ? times(first, phasor_of(1, cells / 2 + (double)n * turns))
                              : times(tone[n - CHAINS], step);
 }
 
@@ -116,8 +118,8 @@ static void pulse(struct phasor *tone, size_t count, double bins, struct phasor 
     }
 }
 
-/* Both parts of a number at once: most of the time goes here. Each lane rounds as it would alone.
- */
+/* Both parts of a complex number at once, as most of the time is spent here. Each lane rounds as it
+ * would alone. */
 typedef double lanes __attribute__((vector_size(2 * sizeof(double))));
 
 static void add(struct phasor *row, const struct phasor *tone, size_t count, struct phasor weight)
@@ -135,15 +137,15 @@ static void add_source(const struct signal_cube *signal, const struct source *so
 {
     size_t size = signal->repetitions * signal->samples;
     double part = (double)m / (double)signal->repetitions - 0.5;
-    (pulsed(signal) ? pulse : chirp)(signal->row, signal->samples,
-                                     source->range + source->walk * part,
-                                     turn(1, source->turns - source->rate * part));
+    (is_pulsed(signal) ? pulse : chirp)(signal->row, signal->samples,
+                                        source->range + source->range_walk * part,
+                                        phasor_of(1, source->turns - source->rate * part));
     for (size_t channel = 0; channel < signal->channels; channel++)
         add(signal->cube + channel * size + m * signal->samples, signal->row, signal->samples,
             source->weight[channel]);
 }
 
-/* One repetition after the other: its samples stay in the cache. */
+/* Goes repetition by repetition, so that its samples stay in the cache. */
 void signal_cube_add(const struct signal_cube *signal, const struct received_echo *received_echoes,
                      size_t count, struct arena *arena)
 {
@@ -155,7 +157,7 @@ void signal_cube_add(const struct signal_cube *signal, const struct received_ech
             add_source(signal, &sources[i], m);
 }
 
-/* Through the receiver's filter, round the row, with the RMS that it had. */
+/* Adds noise through the receiver's filter, closed to a ring, with its RMS unchanged. */
 static void filter(struct phasor *row, const struct phasor *noise, size_t count)
 {
     double tap[FILTER_REACH + 1], power = 0;
@@ -176,10 +178,10 @@ void signal_cube_add_noise(const struct signal_cube *signal, const struct random
                            double sigma)
 {
     size_t count = signal->samples, rows = signal->channels * signal->repetitions;
-    double through = point_response_noise(signal->sensor->waveform.window, signal->repetitions) *
-                     (pulsed(signal) ? 1 : point_response_noise(signal->range_kernel, count));
+    double gain = point_response_noise(signal->sensor->waveform.window, signal->repetitions) *
+                  (is_pulsed(signal) ? 1 : point_response_noise(signal->range_response, count));
     double elements = signal->array.elements > 0 ? (double)signal->array.elements : 1;
-    double scale = sigma * sqrt(elements / 2) / through, draw[4];
+    double scale = sigma * sqrt(elements / 2) / gain, draw[4];
     uint32_t block = 0;
     struct phasor *noise = signal->row;
     for (size_t row = 0; row < rows; row++) {
@@ -189,19 +191,19 @@ void signal_cube_add_noise(const struct signal_cube *signal, const struct random
                 random_gaussian(address, RANDOM_SIGNAL, block++, draw);
             noise[n] = (struct phasor){scale * draw[n % 2 * 2], scale * draw[n % 2 * 2 + 1]};
         }
-        if (pulsed(signal))
+        if (is_pulsed(signal))
             filter(samples, noise, count);
         else
             add(samples, noise, count, (struct phasor){1, 0});
     }
 }
 
-void signal_cube_weigh(const struct signal_cube *signal)
+void signal_cube_apply_windows(const struct signal_cube *signal)
 {
     size_t count = signal->samples, rows = signal->channels * signal->repetitions;
     for (size_t n = 0; n < count; n++)
         signal->row[n].re =
-            pulsed(signal) ? 1 : point_response_weight(signal->range_kernel, n, count);
+            is_pulsed(signal) ? 1 : point_response_weight(signal->range_response, n, count);
     for (size_t row = 0; row < rows; row++) {
         struct phasor *samples = signal->cube + row * count;
         double slow = point_response_weight(signal->sensor->waveform.window,
@@ -225,17 +227,18 @@ void signal_cube_receive(const struct signal_cube *signal, const struct scan *sc
         signal_cube_add_noise(signal, &address,
                               signal->sensor->pointer_sigma *
                                   interferer_noise_factor(context->interference));
-    signal_cube_weigh(signal);
+    signal_cube_apply_windows(signal);
 }
 
-/* One row of a beam's power, where it is above that of other beams. */
-static void look(const struct signal_cube *signal, double sine, size_t rate_bin, double *power)
+/* Raises the power of one row to that of a beam, where the beam's is higher. */
+static void raise_to_beam(const struct signal_cube *signal, double sine, size_t rate_bin,
+                          double *power)
 {
     size_t count = signal->samples, size = signal->repetitions * count;
     double part = 1 / (double)signal->channels;
     memset(signal->row, 0, count * sizeof *signal->row);
     for (size_t element = 0; element < signal->channels; element++) {
-        struct phasor response = beamforming_response(&signal->array, sine, element);
+        struct phasor response = beamforming_element_response(&signal->array, sine, element);
         add(signal->row, signal->cube + element * size + rate_bin * count, count,
             (struct phasor){part * response.re, -part * response.im});
     }
@@ -244,15 +247,15 @@ static void look(const struct signal_cube *signal, double sine, size_t rate_bin,
                                                 signal->row[n].im * signal->row[n].im);
 }
 
-static void look_around(const struct signal_cube *signal, double *power)
+static void raise_to_all_beams(const struct signal_cube *signal, double *power)
 {
     double limit = elementary_sin(signal->sensor->field_of_view_rad / 2);
     double width = 1 / (signal->array.spacing * (double)signal->array.elements);
     size_t steps = 1 + (size_t)(2 * limit / (width / 2));
     for (size_t rate_bin = 0; rate_bin < signal->repetitions; rate_bin++)
         for (size_t i = 0; i <= steps; i++)
-            look(signal, limit * (2 * (double)i / (double)steps - 1), rate_bin,
-                 power + rate_bin * signal->samples);
+            raise_to_beam(signal, limit * (2 * (double)i / (double)steps - 1), rate_bin,
+                          power + rate_bin * signal->samples);
 }
 
 struct range_doppler signal_cube_spectrum(const struct signal_cube *signal, struct arena *arena)
@@ -264,13 +267,13 @@ struct range_doppler signal_cube_spectrum(const struct signal_cube *signal, stru
         power[i] =
             signal->cube[i].re * signal->cube[i].re + signal->cube[i].im * signal->cube[i].im;
     if (array)
-        look_around(signal, power);
+        raise_to_all_beams(signal, power);
     return (struct range_doppler){
         .range_bins = signal->samples,
         .rate_bins = signal->repetitions,
         .channels = array ? signal->channels : 1,
-        .range_kernel = signal->range_kernel,
-        .rate_kernel = signal->sensor->waveform.window,
+        .range_response = signal->range_response,
+        .rate_response = signal->sensor->waveform.window,
         .samples = signal->cube,
         .power = power,
     };

@@ -9,13 +9,13 @@ static void receive(const struct beamforming_array *array, double azimuth_rad, d
                     double phase, struct phasor *elements)
 {
     for (size_t a = 0; a < array->elements; a++) {
-        struct phasor one = beamforming_response(array, sin(azimuth_rad), a);
+        struct phasor one = beamforming_element_response(array, sin(azimuth_rad), a);
         elements[a].re += amplitude * (one.re * cos(phase) - one.im * sin(phase));
         elements[a].im += amplitude * (one.re * sin(phase) + one.im * cos(phase));
     }
 }
 
-static void one_echo_has_one_peak_of_its_amplitude_where_it_stands(void **state)
+static void one_echo_has_one_peak_of_its_amplitude_at_its_azimuth(void **state)
 {
     (void)state;
     static const struct beamforming_array arrays[] = {{4, 1.1}, {8, 0.55}, {2, 0.5}, {16, 0.5}};
@@ -31,9 +31,9 @@ static void one_echo_has_one_peak_of_its_amplitude_where_it_stands(void **state)
         }
 }
 
-/* EFFECTS 11: a pair at 5 degrees to both sides, in phase at the first element, and so not in the
- * middle; in phase there, it would be one peak, at 0. */
-static void a_pair_in_phase_has_the_peaks_of_effects_11(void **state)
+/* A pair at 5 degrees to both sides, in phase at the first element and so not in the middle; in
+ * phase there, it would be one peak, at 0. */
+static void a_pair_in_phase_at_the_first_element_has_two_peaks(void **state)
 {
     (void)state;
     const struct beamforming_array array = {8, 0.5};
@@ -54,13 +54,14 @@ static void a_pair_in_phase_has_the_peaks_of_effects_11(void **state)
 }
 
 /* Full widths at -3 dB on boresight of 4, 8, 16 elements half a wavelength apart. */
-static void beams_are_as_wide_as_effects_11_says(void **state)
+static void beams_have_the_published_widths(void **state)
 {
     (void)state;
     static const double degrees[] = {26.322952, 12.802526, 6.358726};
     for (size_t i = 0; i < 3; i++) {
         const struct beamforming_array array = {(size_t)4 << i, 0.5};
-        assert_close(beamforming_kernel(&array, sin(degrees[i] / 2 * DEGREE)), sqrt(0.5), 1e-7);
+        assert_close(beamforming_array_factor(&array, sin(degrees[i] / 2 * DEGREE)), sqrt(0.5),
+                     1e-7);
     }
 }
 
@@ -68,19 +69,19 @@ static void a_beam_repeats_at_its_grating_lobes(void **state)
 {
     (void)state;
     const struct beamforming_array array = {4, 1.1};
-    assert_close(beamforming_kernel(&array, 0), 1, 0);
-    assert_close(beamforming_kernel(&array, 1 / 1.1), 1, 1e-9);
-    assert_close(beamforming_kernel(&array, 1 / 4.4), 0, 1e-15);
+    assert_close(beamforming_array_factor(&array, 0), 1, 0);
+    assert_close(beamforming_array_factor(&array, 1 / 1.1), 1, 1e-9);
+    assert_close(beamforming_array_factor(&array, 1 / 4.4), 0, 1e-15);
 }
 
-static void side_lobes_and_what_is_too_weak_are_no_peaks(void **state)
+static void side_lobes_and_weak_echoes_are_no_peaks(void **state)
 {
     (void)state;
     const struct beamforming_array array = {8, 0.5};
     struct phasor elements[2 * 8] = {{0, 0}};
     struct beamforming_peak peaks[BEAMFORMING_MOST_PEAKS];
     for (size_t a = 0; a < 8; a++)
-        elements[2 * a] = beamforming_response(&array, 0.1, a);
+        elements[2 * a] = beamforming_element_response(&array, 0.1, a);
     assert_int_equal(beamforming_peaks(&array, elements, 2, 1, 0, peaks), 1);
     assert_int_equal(beamforming_peaks(&array, elements, 2, 1, 0.999, peaks), 1);
     assert_int_equal(beamforming_peaks(&array, elements, 2, 1, 1.001, peaks), 0);
@@ -90,11 +91,11 @@ static void side_lobes_and_what_is_too_weak_are_no_peaks(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_echo_has_one_peak_of_its_amplitude_where_it_stands),
-        cmocka_unit_test(a_pair_in_phase_has_the_peaks_of_effects_11),
-        cmocka_unit_test(beams_are_as_wide_as_effects_11_says),
+        cmocka_unit_test(one_echo_has_one_peak_of_its_amplitude_at_its_azimuth),
+        cmocka_unit_test(a_pair_in_phase_at_the_first_element_has_two_peaks),
+        cmocka_unit_test(beams_have_the_published_widths),
         cmocka_unit_test(a_beam_repeats_at_its_grating_lobes),
-        cmocka_unit_test(side_lobes_and_what_is_too_weak_are_no_peaks),
+        cmocka_unit_test(side_lobes_and_weak_echoes_are_no_peaks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

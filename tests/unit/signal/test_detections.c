@@ -10,7 +10,8 @@
 
 enum { SAMPLES = 32, REPETITIONS = 32 };
 
-/* A spectrum made of kernels, cells of 1 m and 0.25 m/s, a threshold of 2, echoes on boresight. */
+/* A spectrum made of point responses, cells of 1 m and 0.25 m/s, a threshold of 2, echoes on
+ * boresight. */
 struct bench {
     struct sensor sensor;
     struct signal_cube signal;
@@ -42,7 +43,7 @@ static void begin(struct bench *bench)
     bench->frame.account = true;
 }
 
-/* Echoes come strongest first. */
+/* The strongest echo comes first. */
 static void receive(struct bench *bench, const char *name, double range_m, double rate_mps,
                     double amplitude)
 {
@@ -76,17 +77,17 @@ static struct detections sight(struct bench *bench)
     const struct clustered_echoes received = {.received_echoes = bench->received_echoes,
                                               .count = bench->count};
     bench->spectrum = signal_cube_spectrum(&bench->signal, &bench->arena);
-    struct detections sightings = detections_of(&bench->signal, &bench->spectrum, &context);
-    detections_label(&sightings, &bench->frame, "test", &received);
-    return sightings;
+    struct detections detections = detections_of(&bench->signal, &bench->spectrum, &context);
+    detections_label(&detections, &bench->frame, "test", &received);
+    return detections;
 }
 
-static const char *leader_of(const struct sighting *sighting)
+static const char *leader_of(const struct detection *detection)
 {
-    return sighting->cell.members.items[0].id.object;
+    return detection->cell.members.items[0].id.object;
 }
 
-static void an_echo_belongs_to_the_peak_that_shows_most_of_it(void **state)
+static void an_echo_belongs_to_the_detection_that_shows_most_of_it(void **state)
 {
     (void)state;
     static struct bench bench;
@@ -109,7 +110,7 @@ static void an_echo_belongs_to_the_peak_that_shows_most_of_it(void **state)
     arena_free(&bench.arena);
 }
 
-static void a_rate_is_the_one_of_its_aliases_next_to_its_echo(void **state)
+static void a_range_rate_is_the_alias_nearest_to_its_echo(void **state)
 {
     (void)state;
     static struct bench bench;
@@ -122,7 +123,7 @@ static void a_rate_is_the_one_of_its_aliases_next_to_its_echo(void **state)
     arena_free(&bench.arena);
 }
 
-static void a_peak_of_nothing_is_a_false_alarm_and_counted(void **state)
+static void a_detection_without_an_echo_is_a_false_alarm_and_counted(void **state)
 {
     (void)state;
     static struct bench bench;
@@ -138,8 +139,8 @@ static void a_peak_of_nothing_is_a_false_alarm_and_counted(void **state)
     arena_free(&bench.arena);
 }
 
-/* Peaks to both sides of an echo, too far off to be its own. */
-static void a_peak_that_one_echo_makes_half_of_has_its_label_too(void **state)
+/* Peaks to both sides of an echo, each too far off to be its own. */
+static void a_detection_that_an_echo_makes_half_of_has_its_label_too(void **state)
 {
     (void)state;
     static struct bench bench;
@@ -155,7 +156,7 @@ static void a_peak_that_one_echo_makes_half_of_has_its_label_too(void **state)
     arena_free(&bench.arena);
 }
 
-static void what_is_seen_nowhere_is_lost_for_its_reason(void **state)
+static void echoes_without_a_detection_are_lost_for_their_reason(void **state)
 {
     (void)state;
     static struct bench bench;
@@ -181,11 +182,11 @@ static void what_is_seen_nowhere_is_lost_for_its_reason(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_echo_belongs_to_the_peak_that_shows_most_of_it),
-        cmocka_unit_test(a_rate_is_the_one_of_its_aliases_next_to_its_echo),
-        cmocka_unit_test(a_peak_of_nothing_is_a_false_alarm_and_counted),
-        cmocka_unit_test(a_peak_that_one_echo_makes_half_of_has_its_label_too),
-        cmocka_unit_test(what_is_seen_nowhere_is_lost_for_its_reason),
+        cmocka_unit_test(an_echo_belongs_to_the_detection_that_shows_most_of_it),
+        cmocka_unit_test(a_range_rate_is_the_alias_nearest_to_its_echo),
+        cmocka_unit_test(a_detection_without_an_echo_is_a_false_alarm_and_counted),
+        cmocka_unit_test(a_detection_that_an_echo_makes_half_of_has_its_label_too),
+        cmocka_unit_test(echoes_without_a_detection_are_lost_for_their_reason),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,20 +13,20 @@ struct sky {
     struct arena arena;
 };
 
-static double window_value(enum point_response kernel, double bins, int bin)
+static double window_value(enum point_response response, double bins, int bin)
 {
-    return (kernel != POINT_RESPONSE_PULSE && bin % 2 != 0 ? -1 : 1) *
-           point_response_value(kernel, bins);
+    return (response != POINT_RESPONSE_PULSE && bin % 2 != 0 ? -1 : 1) *
+           point_response_value(response, bins);
 }
 
-static void begin(struct sky *sky, enum point_response range_kernel,
-                  enum point_response rate_kernel)
+static void begin(struct sky *sky, enum point_response range_response,
+                  enum point_response rate_response)
 {
     *sky = (struct sky){.spectrum = {.range_bins = WIDTH,
                                      .rate_bins = HEIGHT,
                                      .channels = 1,
-                                     .range_kernel = range_kernel,
-                                     .rate_kernel = rate_kernel}};
+                                     .range_response = range_response,
+                                     .rate_response = rate_response}};
     sky->spectrum.samples = sky->samples;
     sky->spectrum.power = sky->power;
 }
@@ -36,8 +36,8 @@ static void add(struct sky *sky, double range, double rate, double amplitude, do
     for (int row = 0; row < HEIGHT; row++)
         for (int column = 0; column < WIDTH; column++) {
             double away = range_doppler_distance(column, range, WIDTH);
-            double size = window_value(sky->spectrum.range_kernel, away, column) *
-                          window_value(sky->spectrum.rate_kernel,
+            double size = window_value(sky->spectrum.range_response, away, column) *
+                          window_value(sky->spectrum.rate_response,
                                        range_doppler_distance(row, rate, HEIGHT), row);
             sky->samples[row * WIDTH + column].re += amplitude * size * cos(phase);
             sky->samples[row * WIDTH + column].im += amplitude * size * sin(phase);
@@ -53,11 +53,11 @@ static size_t search(struct sky *sky, const struct cfar *cfar, double threshold,
     return range_doppler_peaks(&sky->spectrum, cfar, threshold, &sky->arena, peaks);
 }
 
-/* A cell of an echo and its side lobes alone shows one peak: where it is, as strong as it is. */
-static void one_echo_is_one_peak_where_it_stands(void **state)
+/* An echo alone, with its side lobes, has one peak, of its place and amplitude. */
+static void one_echo_is_one_peak_at_its_place(void **state)
 {
     (void)state;
-    static const enum point_response kernels[][2] = {
+    static const enum point_response responses[][2] = {
         {POINT_RESPONSE_HANN, POINT_RESPONSE_HANN},
         {POINT_RESPONSE_RECTANGULAR, POINT_RESPONSE_RECTANGULAR},
         {POINT_RESPONSE_PULSE, POINT_RESPONSE_HANN}};
@@ -65,7 +65,7 @@ static void one_echo_is_one_peak_where_it_stands(void **state)
         for (double part = 0; part < 1; part += 0.24) {
             struct sky sky;
             struct range_doppler_peak *peaks;
-            begin(&sky, kernels[i][0], kernels[i][1]);
+            begin(&sky, responses[i][0], responses[i][1]);
             add(&sky, 10 + part, -7 - part / 2, 1000, 1);
             assert_int_equal(search(&sky, &quiet, 2, &peaks), 1);
             assert_close(peaks[0].range, 10 + part, 0.02);
@@ -75,10 +75,10 @@ static void one_echo_is_one_peak_where_it_stands(void **state)
         }
 }
 
-/* EFFECTS 4b, Hann: 1 bin apart a pair in phase is one peak at its middle, 4.60 dB up, 1.59 dB in
- * quadrature, and in antiphase two with their peaks outside. 2 bins apart it is always two, between
- * which no bin may be weaker: 3 bins apart two are seen. */
-static void two_equal_echoes_are_one_peak_or_two_as_effects_4b_says(void **state)
+/* Under Hann's window a pair in phase 1 bin apart is one peak at its middle, 4.60 dB up; in
+ * quadrature 1.59 dB up; in antiphase it is two with their peaks outside. 2 bins apart it is always
+ * two, but no bin between them is weaker; 3 bins apart two are found. */
+static void two_equal_echoes_are_one_peak_or_two_by_distance_and_phase(void **state)
 {
     (void)state;
     struct sky sky;
@@ -103,9 +103,9 @@ static void two_equal_echoes_are_one_peak_or_two_as_effects_4b_says(void **state
     }
 }
 
-/* EFFECTS 5: near each other, two echoes of ratio rho and phase psi stand at g half separations
- * from their middle, toward the stronger one. */
-static void a_close_pair_stands_where_effects_5_says(void **state)
+/* Near each other, two echoes of amplitude ratio rho and phase psi have their peak g half
+ * separations from their middle, toward the stronger one. */
+static void a_close_pair_has_its_peak_at_the_published_place(void **state)
 {
     (void)state;
     static const struct {
@@ -142,8 +142,8 @@ static void a_weak_echo_is_found_outside_the_side_lobes_of_a_strong_one_only(voi
     arena_free(&sky.arena);
 }
 
-/* Every rate of a range as strong as 2: a peak must stand out from that by the factor. */
-static void a_peak_must_stand_out_among_the_rates_of_its_range(void **state)
+/* Every range rate of a range has an amplitude of 2: a peak must exceed that by the CFAR factor. */
+static void a_peak_must_exceed_the_rates_of_its_range(void **state)
 {
     (void)state;
     for (double factor = 1; factor <= 100; factor *= 100) {
@@ -178,11 +178,11 @@ static void rings_close_at_both_ends(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_echo_is_one_peak_where_it_stands),
-        cmocka_unit_test(two_equal_echoes_are_one_peak_or_two_as_effects_4b_says),
-        cmocka_unit_test(a_close_pair_stands_where_effects_5_says),
+        cmocka_unit_test(one_echo_is_one_peak_at_its_place),
+        cmocka_unit_test(two_equal_echoes_are_one_peak_or_two_by_distance_and_phase),
+        cmocka_unit_test(a_close_pair_has_its_peak_at_the_published_place),
         cmocka_unit_test(a_weak_echo_is_found_outside_the_side_lobes_of_a_strong_one_only),
-        cmocka_unit_test(a_peak_must_stand_out_among_the_rates_of_its_range),
+        cmocka_unit_test(a_peak_must_exceed_the_rates_of_its_range),
         cmocka_unit_test(rings_close_at_both_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

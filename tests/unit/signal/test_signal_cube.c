@@ -10,7 +10,8 @@
 
 enum { SAMPLES = 32, REPETITIONS = 16 };
 
-/* 76.5 GHz, cells of 1 m and 0.5 m/s; A_ref is 1 at every range, so that amplitude is ERCS. */
+/* A sensor at 76.5 GHz with cells of 1 m and 0.5 m/s; A_ref is 1 at every range, so that amplitude
+ * is ERCS. */
 static struct sensor radar(enum waveform_kind kind, enum point_response window, int64_t elements)
 {
     return (struct sensor){
@@ -62,7 +63,7 @@ static void add(struct bench *bench, struct received_echo received)
     signal_cube_add(&bench->signal, &received, 1, &bench->arena);
 }
 
-/* One bin of one channel, by the sum that a transform is. Bins need not be whole. */
+/* One bin of one channel, by the sum that defines the transform. Bins need not be whole. */
 static struct phasor bin(const struct bench *bench, size_t channel, double range, double rate)
 {
     bool pulses = bench->sensor.waveform.kind == WAVEFORM_PULSE;
@@ -86,16 +87,16 @@ static double size_of(struct phasor value)
     return hypot(value.re, value.im);
 }
 
-/* Around a standing echo, every bin of the sum channel is amplitude times kernels; but for the
- * finite number of samples. */
-static void a_standing_echo_has_the_kernels_of_its_window(void **state)
+/* Around a standing echo, every bin of the sum channel is amplitude times point responses, but for
+ * the finite number of samples. */
+static void a_standing_echo_has_the_point_response_of_its_window(void **state)
 {
     (void)state;
     for (int window = POINT_RESPONSE_HANN; window <= POINT_RESPONSE_RECTANGULAR; window++) {
         struct bench bench;
         begin(&bench, radar(WAVEFORM_CHIRP, (enum point_response)window, 0));
         add(&bench, ray_at(&bench.sensor, 10.3, 0, 0.1, 1));
-        signal_cube_weigh(&bench.signal);
+        signal_cube_apply_windows(&bench.signal);
         double amplitude = 3 * antenna_gain(&bench.sensor.antenna, 0.1);
         for (int range = 8; range <= 12; range++)
             for (int rate = -1; rate <= 1; rate++)
@@ -110,7 +111,7 @@ static void a_standing_echo_has_the_kernels_of_its_window(void **state)
     }
 }
 
-/* Its own bin has the pointers of glint-sensor, turned by its phase. */
+/* The echo's own bin has the pointers of glint-sensor, turned by its phase. */
 static void at_its_place_an_echo_has_its_pointers_and_its_phase(void **state)
 {
     (void)state;
@@ -118,7 +119,7 @@ static void at_its_place_an_echo_has_its_pointers_and_its_phase(void **state)
         struct bench bench;
         begin(&bench, radar((enum waveform_kind)kind, POINT_RESPONSE_HANN, 0));
         add(&bench, ray_at(&bench.sensor, kind == WAVEFORM_CHIRP ? 10 : 2.5, 0, -0.2, 1));
-        signal_cube_weigh(&bench.signal);
+        signal_cube_apply_windows(&bench.signal);
         struct antenna_pointers expected = antenna_pointers(&bench.sensor.antenna, -0.2);
         struct phasor sum = bin(&bench, 0, 10, 0), delta = bin(&bench, 1, 10, 0);
         assert_close(size_of(sum), 3 * creal(expected.sum), 1e-12);
@@ -129,22 +130,22 @@ static void at_its_place_an_echo_has_its_pointers_and_its_phase(void **state)
     }
 }
 
-/* 2 m/s are 4 bins; over the scan the echo walks symmetrically about its range. */
-static void a_moving_echo_stands_at_its_rate_and_its_range_of_the_middle(void **state)
+/* 2 m/s are 4 bins; over the scan the echo moves symmetrically about its range. */
+static void a_moving_echo_is_at_its_rate_and_its_range_at_mid_scan(void **state)
 {
     (void)state;
     struct bench bench;
     begin(&bench, radar(WAVEFORM_CHIRP, POINT_RESPONSE_HANN, 0));
     add(&bench, ray_at(&bench.sensor, 10, 2, 0, 0));
-    signal_cube_weigh(&bench.signal);
+    signal_cube_apply_windows(&bench.signal);
     assert_near(size_of(bin(&bench, 0, 10, 4)), 3., 1e-3);
     assert_near(size_of(bin(&bench, 0, 10.5, 4)), size_of(bin(&bench, 0, 9.5, 4)), 2e-3);
     assert_near(size_of(bin(&bench, 0, 10, 4.5)), size_of(bin(&bench, 0, 10, 3.5)), 2e-3);
     arena_free(&bench.arena);
 }
 
-/* With 400 m/s, 1.57 m in a scan of 3.9 ms: seen sharply where each chirp is by itself. */
-static void a_fast_echo_walks_through_the_range_bins(void **state)
+/* At 400 m/s it moves 1.57 m in a scan of 3.9 ms: each chirp by itself shows it sharply. */
+static void a_fast_echo_moves_through_the_range_bins(void **state)
 {
     (void)state;
     struct bench bench;
@@ -163,13 +164,13 @@ static void a_fast_echo_walks_through_the_range_bins(void **state)
     arena_free(&bench.arena);
 }
 
-static void elements_of_a_row_see_the_sum_pattern_and_their_phase(void **state)
+static void elements_of_a_row_have_the_sum_pattern_and_their_phase(void **state)
 {
     (void)state;
     struct bench bench;
     begin(&bench, radar(WAVEFORM_CHIRP, POINT_RESPONSE_HANN, 4));
     add(&bench, ray_at(&bench.sensor, 10, 0, 0.3, 0));
-    signal_cube_weigh(&bench.signal);
+    signal_cube_apply_windows(&bench.signal);
     double amplitude = 3 * antenna_gain(&bench.sensor.antenna, 0.3);
     for (size_t element = 0; element < 4; element++) {
         struct phasor shown = bin(&bench, element, 10, 0);
@@ -180,8 +181,8 @@ static void elements_of_a_row_see_the_sum_pattern_and_their_phase(void **state)
     arena_free(&bench.arena);
 }
 
-/* Mean power of many bins far apart: sigma^2 in each channel, times the elements of a row. 5 %
- * are five standard errors of 10,000 independent values. */
+/* The mean power of many bins far apart is sigma^2 in each channel, times the elements of a row. 5
+ * % are five standard errors of 10,000 independent values. */
 static void noise_has_the_sensors_rms_after_windows_and_transforms(void **state)
 {
     (void)state;
@@ -202,7 +203,7 @@ static void noise_has_the_sensors_rms_after_windows_and_transforms(void **state)
             const struct random_address address = {1, 2, frame, 3, 4};
             signal_cube_clear(&bench.signal);
             signal_cube_add_noise(&bench.signal, &address, 0.25);
-            signal_cube_weigh(&bench.signal);
+            signal_cube_apply_windows(&bench.signal);
             for (size_t channel = 0; channel < bench.signal.channels; channel++)
                 for (int range = 0; range < SAMPLES; range += 8)
                     for (int rate = 0; rate < REPETITIONS; rate += 4, count++)
@@ -214,8 +215,8 @@ static void noise_has_the_sensors_rms_after_windows_and_transforms(void **state)
     }
 }
 
-/* What a receiver that fits the pulse lets through: the correlation of range bins is the kernel. */
-static void the_noise_of_pulses_is_correlated_as_their_kernel(void **state)
+/* The noise of a matched receiver: the correlation of range bins is the pulse's point response. */
+static void the_noise_of_pulses_is_correlated_as_their_point_response(void **state)
 {
     (void)state;
     struct bench bench;
@@ -242,13 +243,13 @@ static void the_noise_of_pulses_is_correlated_as_their_kernel(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_standing_echo_has_the_kernels_of_its_window),
+        cmocka_unit_test(a_standing_echo_has_the_point_response_of_its_window),
         cmocka_unit_test(at_its_place_an_echo_has_its_pointers_and_its_phase),
-        cmocka_unit_test(a_moving_echo_stands_at_its_rate_and_its_range_of_the_middle),
-        cmocka_unit_test(a_fast_echo_walks_through_the_range_bins),
-        cmocka_unit_test(elements_of_a_row_see_the_sum_pattern_and_their_phase),
+        cmocka_unit_test(a_moving_echo_is_at_its_rate_and_its_range_at_mid_scan),
+        cmocka_unit_test(a_fast_echo_moves_through_the_range_bins),
+        cmocka_unit_test(elements_of_a_row_have_the_sum_pattern_and_their_phase),
         cmocka_unit_test(noise_has_the_sensors_rms_after_windows_and_transforms),
-        cmocka_unit_test(the_noise_of_pulses_is_correlated_as_their_kernel),
+        cmocka_unit_test(the_noise_of_pulses_is_correlated_as_their_point_response),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
