@@ -284,13 +284,13 @@ static void no_ray_leaks_through_a_joint(void **state)
 }
 
 /* A frame in which the object "e" carries a sensor, and the other objects of the frame. */
-struct playback {
+struct scene {
     struct arena arena;
     struct frame frame;
     struct sensor sensor;
 };
 
-static void begin_scene(struct playback *scene, struct vec2 sensor, double yaw_rad)
+static void begin_scene(struct scene *scene, struct vec2 sensor, double yaw_rad)
 {
     scene->frame.arena = &scene->arena;
     frame_clear(&scene->frame);
@@ -304,7 +304,7 @@ static void begin_scene(struct playback *scene, struct vec2 sensor, double yaw_r
 }
 
 /* Adds an object with a reflector set of its own. */
-static struct reflector_set *add_object(struct playback *scene, struct object object)
+static struct reflector_set *add_object(struct scene *scene, struct object object)
 {
     *list_add(&scene->frame.objects, &scene->arena) = object;
     struct reflector_set *set = list_add(&scene->frame.reflectors, &scene->arena);
@@ -313,7 +313,7 @@ static struct reflector_set *add_object(struct playback *scene, struct object ob
     return set;
 }
 
-static void add_point(struct playback *scene, struct reflector_set *set, double x, double y)
+static void add_point(struct scene *scene, struct reflector_set *set, double x, double y)
 {
     *list_add(&set->points, &scene->arena) = (struct point_reflector){.name = "p",
                                                                       .x = x,
@@ -324,13 +324,13 @@ static void add_point(struct playback *scene, struct reflector_set *set, double 
                                                                       .ercs = 1};
 }
 
-static void add_plane(struct playback *scene, struct reflector_set *set, double from, double to)
+static void add_plane(struct scene *scene, struct reflector_set *set, double from, double to)
 {
     *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
         .name = "w", .from_x = from, .from_y = -0.5, .to_x = to, .to_y = -0.5, .ercs = 1};
 }
 
-static void look(struct playback *scene)
+static void look(struct scene *scene)
 {
     struct look seen;
     struct diag diag = {0};
@@ -339,7 +339,7 @@ static void look(struct playback *scene)
     direct_echoes_add(&seen);
 }
 
-static size_t lost_for(const struct playback *scene, enum loss reason)
+static size_t lost_for(const struct scene *scene, enum loss reason)
 {
     size_t count = 0;
     for (size_t i = 0; i < scene->frame.lost.count; i++)
@@ -352,7 +352,7 @@ static void no_object_hides_its_own_outline(void **state)
 {
     (void)state;
     uint64_t random = 32;
-    struct playback scene = {0};
+    struct scene scene = {0};
     double naive = 0, ours = 0;
     for (int i = 0; i < hard_points(200000) / 20; i++) {
         begin_scene(&scene, (struct vec2){0, 0}, 0);
@@ -394,8 +394,7 @@ static int plain_feet(struct vec2 a, struct vec2 joint, struct vec2 b, struct ve
 
 /* A wall in two pieces: two sides of one object, or of two objects whose ends coincide as
  * doubles. */
-static struct vec2 build_wall(struct playback *scene, uint64_t *random, bool straight,
-                              double yaw_rad)
+static struct vec2 build_wall(struct scene *scene, uint64_t *random, bool straight, double yaw_rad)
 {
     struct object one = {.id = "a",
                          .class = "wall",
@@ -438,7 +437,7 @@ static void every_joint_has_one_foot(void **state)
 {
     (void)state;
     uint64_t random = 33;
-    struct playback scene = {0};
+    struct scene scene = {0};
     double naive = 0, ours = 0, objects = 0;
     for (int i = 0; i < hard_points(1000000); i++) {
         bool straight = i % 8 == 0;
@@ -613,7 +612,7 @@ static void a_look_at_its_own_place_is_out_of_range(void **state)
 {
     (void)state;
     uint64_t random = 37;
-    struct playback scene = {0};
+    struct scene scene = {0};
     double ours = 0;
     int looks = hard_points(100000);
     for (int i = 0; i < looks; i++) {
@@ -634,7 +633,7 @@ static void a_sensor_inside_an_object_sees_the_inside_alone(void **state)
 {
     (void)state;
     uint64_t random = 38;
-    struct playback scene = {0};
+    struct scene scene = {0};
     double naive = 0, ours = 0;
     for (int i = 0; i < hard_points(100000); i++) {
         struct object around = {

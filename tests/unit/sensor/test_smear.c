@@ -26,7 +26,7 @@ static struct sensor test_sensor(void)
 }
 
 /* Rays by places in bins, with amplitudes on boresight. */
-struct playback {
+struct scene {
     struct arena arena;
     struct sensor sensor;
     struct received_echo received_echoes[MOST];
@@ -39,7 +39,7 @@ static const char *const names[MOST] = {"a", "b", "c", "d", "e", "f", "g", "h"};
 
 static int make_scene(void **state)
 {
-    struct playback *scene = calloc(1, sizeof *scene);
+    struct scene *scene = calloc(1, sizeof *scene);
     assert_non_null(scene);
     scene->sensor = test_sensor();
     *state = scene;
@@ -48,19 +48,19 @@ static int make_scene(void **state)
 
 static int remove_scene(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     arena_free(&scene->arena);
     free(scene);
     return 0;
 }
 
-static void start(struct playback *scene)
+static void start(struct scene *scene)
 {
     arena_clear(&scene->arena);
     scene->count = 0;
 }
 
-static struct received_echo *add(struct playback *scene, double range_bins, double rate_bins,
+static struct received_echo *add(struct scene *scene, double range_bins, double rate_bins,
                                  double amplitude, double phase_rad)
 {
     struct received_echo *received = &scene->received_echoes[scene->count];
@@ -77,7 +77,7 @@ static struct received_echo *add(struct playback *scene, double range_bins, doub
     return received;
 }
 
-static size_t cells_of(struct playback *scene)
+static size_t cells_of(struct scene *scene)
 {
     sort_items(scene->received_echoes, scene->count, sizeof *scene->received_echoes,
                resolution_cell_compare, &scene->arena);
@@ -105,7 +105,7 @@ static void assert_same_cell(const struct cell *cell, const struct cell *expecte
 
 static void one_echo_alone_is_the_cell_that_it_always_is(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     uint64_t sample = 1;
     for (int i = 0; i < 2000; i++) {
         start(scene);
@@ -131,7 +131,7 @@ static void one_echo_alone_is_the_cell_that_it_always_is(void **state)
 
 static void echoes_that_are_far_apart_do_not_touch(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     start(scene);
     add(scene, 100.3, 2, 7, 1);
     add(scene, 106.8, 2, 3, 2);
@@ -146,7 +146,7 @@ static void echoes_that_are_far_apart_do_not_touch(void **state)
 }
 
 /* Two echoes of amplitude 1 whose middle is at a place on the bins, along range or along rate. */
-static size_t pair(struct playback *scene, double middle, double spacing, double phase_rad,
+static size_t pair(struct scene *scene, double middle, double spacing, double phase_rad,
                    bool along_range)
 {
     start(scene);
@@ -164,7 +164,7 @@ static double place_of(const struct cell *cell, bool along_range)
 
 static void two_echoes_a_bin_apart_merge_unless_they_are_opposite(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     for (int axis = 0; axis < 2; axis++) {
         const struct cell *cell = scene->cells;
         assert_int_equal(pair(scene, 20, 1, 0, axis), 1);
@@ -182,7 +182,7 @@ static void two_echoes_a_bin_apart_merge_unless_they_are_opposite(void **state)
 
 static void two_echoes_part_by_their_distance_and_phase(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     for (double middle = 20; middle < 21; middle += 0.03) {
         for (int axis = 0; axis < 2; axis++) {
             assert_int_equal(pair(scene, middle, 1.5, 0, axis), 1);
@@ -196,7 +196,7 @@ static void two_echoes_part_by_their_distance_and_phase(void **state)
 
 static void merged_echoes_read_at_the_angle_between_them(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     start(scene);
     add(scene, 19.9, 0.1, 1, 0)->echo.azimuth_rad = 0.1;
     add(scene, 20.1, -0.1, 1, 0)->echo.azimuth_rad = -0.1;
@@ -208,7 +208,7 @@ static void merged_echoes_read_at_the_angle_between_them(void **state)
 
 static void an_echo_beside_a_strong_one_is_in_its_cell(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     start(scene);
     add(scene, 20, 0, 1000, 0);
     add(scene, 21.3, 0.4, 1, 2);
@@ -224,7 +224,7 @@ static void an_echo_beside_a_strong_one_is_in_its_cell(void **state)
 
 static void side_lobes_alone_are_no_cells(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     start(scene);
     add(scene, 20.4, 0.3, 1e6, 0);
     assert_int_equal(cells_of(scene), 1);
@@ -232,7 +232,7 @@ static void side_lobes_alone_are_no_cells(void **state)
 
 static void echoes_that_cancel_have_no_amplitude(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     start(scene);
     add(scene, 20, 0, 1, 0);
     add(scene, 20, 0, 1, 0)->strength = -1;
@@ -245,7 +245,7 @@ static void echoes_that_cancel_have_no_amplitude(void **state)
 
 static void every_echo_is_in_one_cell_and_weights_add_up(void **state)
 {
-    struct playback *scene = *state;
+    struct scene *scene = *state;
     uint64_t sample = 5;
     for (int i = 0; i < 2000; i++) {
         start(scene);

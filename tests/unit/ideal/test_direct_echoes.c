@@ -1,0 +1,371 @@
+#include "ideal/direct_echoes.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "look_scene.h"
+#include "text/record_text.h"
+
+/* The one loss of a frame with no echo. */
+static const struct lost_group *only_loss(const struct scene *scene)
+{
+    assert_int_equal(scene->frame.echoes.count, 0);
+    assert_int_equal(scene->frame.lost.count, 1);
+    assert_int_equal(scene->frame.lost.items[0].echoes.count, 1);
+    return &scene->frame.lost.items[0];
+}
+
+static void the_first_blocker_by_id_is_named(void **state)
+{
+    struct scene *scene = *state;
+    add_point(scene, add_set(scene, "far"))->ercs = 1;
+    add_set(scene, "y");
+    add_set(scene, "x");
+    add_set(scene, "w")->blocks = false;
+    add_object(scene, "far", 40, 0);
+    add_object(scene, "y", 10, 0);
+    add_object(scene, "x", 20, 0);
+    add_object(scene, "w", 30, 0);
+    struct look look = look_at(scene, 10);
+    const struct lost_group *lost = only_loss(scene);
+    assert_int_equal(lost->reason, LOSS_BLOCKED);
+    assert_string_equal(lost->stage, "ideal");
+    assert_string_equal(lost->sensor, "front");
+    assert_string_equal(lost->echoes.items[0].id.object, "far");
+    assert_string_equal(lost->echoes.items[0].by, "x");
+    assert_int_equal(look.pairs, 1);
+    assert_int_equal(scene->frame.counts.items[0].pairs, 1);
+    assert_int_equal(scene->frame.counts.items[0].paths.items[0].echoes, 0);
+}
+
+static void an_object_does_not_block_itself_and_the_ego_blocks_nothing(void **state)
+{
+    struct scene *scene = *state;
+    struct reflector_set *set = add_set(scene, "a");
+    add_point(scene, set)->x = 0.5; /* the far end */
+    add_object(scene, "a", 20, 0);
+    scene->sensor.mount_x_m = -2; /* looks through its own car */
+    look_at(scene, 10);
+    assert_int_equal(scene->frame.echoes.count, 1);
+    assert_close(scene->frame.echoes.items[0].range_m, 24, 1e-12);
+}
+
+static void wheel_houses_are_seen_under_raised_vehicles_only(void **state)
+{
+    struct scene *scene = *state;
+    struct reflector_set *set = add_set(scene, "far");
+    add_point(scene, set)->name = "corner";
+    struct point_reflector *wheel = add_point(scene, set);
+    wheel->name = "wheel";
+    wheel->under_vehicles = 0.5;
+    add_set(scene, "truck")->raised = true;
+    add_object(scene, "far", 40, 0);
+    struct object *truck = add_object(scene, "truck", 20, 0);
+    look_at(scene, 10);
+    assert_int_equal(scene->frame.echoes.count, 1);
+    assert_string_equal(scene->frame.echoes.items[0].id.reflector, "wheel");
+    assert_close(scene->frame.echoes.items[0].ercs, 0.25, 0);
+    assert_string_equal(scene->frame.lost.items[0].echoes.items[0].id.reflector, "corner");
+    assert_string_equal(scene->frame.lost.items[0].echoes.items[0].by, "truck");
+    /* Behind a wall both are lost; without wall and truck both have their full ERCS. */
+    add_set(scene, "wall");
+    struct object *wall = add_object(scene, "wall", 30, 0);
+    scene->frame.echoes.count = 0;
+    look_at(scene, 10);
+    assert_int_equal(scene->frame.echoes.count, 0);
+    wall->y_m = 20;
+    truck = &scene->frame.objects.items[2];
+    truck->y_m = 20;
+    look_at(scene, 10);
+    assert_int_equal(scene->frame.echoes.count, 2);
+    assert_close(scene->frame.echoes.items[1].ercs, 0.5, 0);
+}
+
+static void every_loss_has_its_reason(void **state)
+{
+    (void)state;
+    static const struct {
+        double x_m, y_m, facing_rad;
+        enum loss reason;
+    } cases[] = {{50, 0, 0, LOSS_FACING_AWAY},     {100.1, 0, PI, LOSS_OUT_OF_RANGE},
+                 {0.05, 0, PI, LOSS_OUT_OF_RANGE}, {10, 10.001, -3 * PI / 4, LOSS_OUT_OF_VIEW},
+                 {-10, 0, 0, LOSS_OUT_OF_VIEW},    {0, 0, 0, LOSS_OUT_OF_RANGE},
+                 {500, 0, 0, LOSS_FACING_AWAY}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        void *place;
+        make_scene(&place);
+        struct scene *scene = place;
+        scene->sensor.field_of_view_rad = PI / 2;
+        struct point_reflector *point = add_point(scene, add_set(scene, "a"));
+        point->facing_rad = cases[i].facing_rad;
+        point->zero_rad = 1;
+        add_object(scene, "a", cases[i].x_m, cases[i].y_m);
+        look_at(scene, 10);
+        assert_int_equal(only_loss(scene)->reason, cases[i].reason);
+        remove_scene(&place);
+    }
+}
+
+static void planes_mirror_from_the_foot_of_the_perpendicular(void **state)
+{
+    struct scene *scene = *state;
+    struct reflector_set *set = add_set(scene, "a");
+    *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
+        .name = "rear", .from_x = -0.5, .from_y = 0.5, .to_x = -0.5, .to_y = -0.5, .ercs = 0.7};
+    struct object *car = add_object(scene, "a", 20, 0.9);
+    look_at(scene, 10);
+    assert_int_equal(scene->frame.echoes.count, 1);
+    assert_close(scene->frame.echoes.items[0].range_m, 18, 1e-12);
+    assert_close(scene->frame.echoes.items[0].azimuth_rad, 0, 1e-12);
+    scene->frame.echoes.count = 0;
+    car = &scene->frame.objects.items[1];
+    car->y_m = 1.1;
+    look_at(scene, 10);
+    assert_int_equal(only_loss(scene)->reason, LOSS_NO_SPECULAR);
+}
+
+/* A lobe 60 degrees wide across and 40 upright, with its middle level, at most 20 dB deep. */
+static double lobe_of(double off_degrees, double below_degrees)
+{
+    double across_db = 12 * (off_degrees / 60) * (off_degrees / 60);
+    double upright_db = 12 * (below_degrees / 40) * (below_degrees / 40);
+    return pow(10, -fmin(across_db + upright_db, 20) / 20);
+}
+
+static void a_lobe_depends_on_direction_and_height_of_the_sensor(void **state)
+{
+    struct scene *scene = *state;
+    struct object *object = add_object(scene, "o", 10, 0);
+    struct point_reflector *point = add_point(scene, add_set(scene, "o"));
+    point->z = 1;
+    point->lobe = (struct lobe){60 * PI / 180, PI / 2, 40 * PI / 180, 20};
+    static const double turned_degrees[] = {180, 165, 200, 0};
+    for (size_t i = 0; i < 4; i++) {
+        scene->frame.echoes.count = 0;
+        object->yaw_rad = turned_degrees[i] * PI / 180;
+        look_at(scene, 10);
+        const struct echo *echo = scene->frame.echoes.items;
+        assert_near(echo->ercs, 0.5 * lobe_of(turned_degrees[i] - 180, 0), 1e-12);
+        assert_true(((echo->effects & EFFECT_BIT(EFFECT_VISIBILITY)) != 0) ==
+                    (turned_degrees[i] != 180));
+    }
+    object->yaw_rad = PI;
+    object->height_m = 0.5;
+    scene->sensor.mount_z_m = 0.5 + 10 * tan(10 * PI / 180);
+    scene->frame.echoes.count = 0;
+    look_at(scene, 10);
+    assert_near(scene->frame.echoes.items->ercs, 0.5 * lobe_of(0, 10), 1e-12);
+}
+
+static void posts_become_echoes_with_their_numbers(void **state)
+{
+    struct scene *scene = *state;
+    struct reflector_set *set = add_set(scene, "rail");
+    set->blocks = false;
+    *list_add(&set->rows, &scene->arena) = (struct post_row){.name = "post",
+                                                             .from_x = -0.5,
+                                                             .to_x = 0.5,
+                                                             .spacing_m = 4,
+                                                             .full_rad = PI,
+                                                             .zero_rad = PI,
+                                                             .shape = VISIBILITY_HARD,
+                                                             .ercs = 0.2};
+    struct object *rail = add_object(scene, "rail", 0, 5);
+    rail->length_m = 400;
+    struct look look = look_at(scene, 10);
+    /* Posts at x = -200 + 4 n; those ahead within 100 m: x = 4 to 96, n = 51 to 74. */
+    assert_int_equal(scene->frame.echoes.count, 24);
+    for (int i = 0; i < 24; i++) {
+        char name[24];
+        snprintf(name, sizeof name, "post_%d", 51 + i);
+        assert_string_equal(scene->frame.echoes.items[i].id.reflector, name);
+        assert_close(scene->frame.echoes.items[i].range_m, hypot(4 + 4 * i, 5), 1e-9);
+    }
+    /* Those behind, x = -96 to 0, are out of view, those at x = -100 and 100 out of range. */
+    assert_in_range(look.pairs, 49, 51);
+    size_t lost = 0;
+    for (size_t i = 0; i < scene->frame.lost.count; i++)
+        lost += scene->frame.lost.items[i].echoes.count;
+    assert_int_equal(lost + 24, look.pairs);
+    assert_int_equal(look.echoes, 24);
+}
+
+/* The margins of the only entry, echo or loss. */
+static struct margins only_margins(const struct scene *scene)
+{
+    return scene->frame.echoes.count == 1 ? scene->frame.echoes.items[0].margins
+                                          : only_loss(scene)->echoes.items[0].margins;
+}
+
+/* A pole at (x, y) that is seen within 1 rad of -x, a sensor at (0, 0) that sees from 1 to 100 m
+ * and 45 degrees to either side, and, if box_x is not 0, a box of 4 m by 2 m at (box_x, 0). */
+static void a_margin_is_the_distance_from_another_answer(void **state)
+{
+    (void)state;
+    static const struct {
+        double x_m, y_m, box_x_m;
+        int reason; /* -1: seen */
+        double margin_m;
+    } cases[] = {
+        {3, 0, 0, -1, 2},      /* nearest limit */
+        {99.5, 0, 0, -1, 0.5}, /* farthest limit */
+        {0.75, 0, 0, LOSS_OUT_OF_RANGE, 0.25},
+        {102, 0, 0, LOSS_OUT_OF_RANGE, 2},
+        {40, 39, 0, -1, 1},                 /* worked out below */
+        {39, 40, 0, LOSS_OUT_OF_VIEW, 1},   /* below, too */
+        {-10, 0, 0, LOSS_FACING_AWAY, 0},   /* below */
+        {60, 3, 30, -1, 2},                 /* below */
+        {60, 0, 30, LOSS_BLOCKED, 1},       /* the box reaches 1 m to either side */
+        {28.25, 0, 30, LOSS_BLOCKED, 0.25}, /* 0.25 m behind its rear at 28 m */
+        {27.5, 0, 30, -1, 0.5},             /* 0.5 m before it */
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        void *place;
+        make_scene(&place);
+        struct scene *scene = place;
+        scene->frame.margins = true;
+        scene->sensor.field_of_view_rad = PI / 2;
+        scene->sensor.range_min_m = 1;
+        struct point_reflector *pole = add_point(scene, add_set(scene, "pole"));
+        pole->facing_rad = PI;
+        pole->zero_rad = 1;
+        add_object(scene, "pole", cases[i].x_m, cases[i].y_m);
+        if (cases[i].box_x_m > 0) {
+            add_set(scene, "box");
+            add_object(scene, "box", cases[i].box_x_m, 0);
+        }
+        look_at(scene, 10);
+        double azimuth = fabs(atan2(cases[i].y_m, cases[i].x_m));
+        double range_m = hypot(cases[i].x_m, cases[i].y_m), margin_m = cases[i].margin_m;
+        if (cases[i].reason == LOSS_FACING_AWAY)
+            margin_m = range_m * (azimuth - 1);
+        else if (azimuth > PI / 5)
+            margin_m = range_m * fabs(azimuth - (PI / 4 - 1e-9));
+        else if (cases[i].y_m == 3) /* the sight line passes the near left corner (28, 1) */
+            margin_m = (28 * 3 - 60) / range_m;
+        if (cases[i].reason >= 0)
+            assert_int_equal(only_loss(scene)->reason, cases[i].reason);
+        struct margins margins = only_margins(scene);
+        assert_int_equal(margins.present, MARGIN_SIGHT);
+        assert_close(margins.sight_m, margin_m, 1e-12);
+        remove_scene(&place);
+    }
+}
+
+static void an_echo_from_under_a_truck_can_change_in_two_ways(void **state)
+{
+    (void)state;
+    static const struct {
+        double truck_y_m, wall_y_m, margin_m;
+    } cases[] = {
+        {0.5, 9, 0.5},   /* the line runs under the truck, 0.5 m from its side */
+        {0, 1.25, 0.25}, /* the line passes the wall at 0.25 m */
+        {-1.5, 3, 0.5},  /* the line passes the truck at 0.5 m */
+        {0, 0.75, 0.25}, /* the wall blocks the line, 0.25 m deep */
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        void *place;
+        make_scene(&place);
+        struct scene *scene = place;
+        scene->frame.margins = true;
+        add_point(scene, add_set(scene, "pole"))->under_vehicles = 0.5;
+        add_set(scene, "truck")->raised = true;
+        add_set(scene, "wall");
+        add_object(scene, "pole", 50, 0);
+        add_object(scene, "truck", 20, cases[i].truck_y_m);
+        add_object(scene, "wall", 30, cases[i].wall_y_m);
+        look_at(scene, 10);
+        assert_close(only_margins(scene).sight_m, cases[i].margin_m, 1e-12);
+        remove_scene(&place);
+    }
+}
+
+static void the_margin_of_a_plane_is_the_distance_of_its_foot_from_an_end(void **state)
+{
+    struct scene *scene = *state;
+    scene->frame.margins = true;
+    struct reflector_set *set = add_set(scene, "a");
+    *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
+        .name = "rear", .from_x = -0.5, .from_y = 0.5, .to_x = -0.5, .to_y = -0.5, .ercs = 0.7};
+    struct object *car = add_object(scene, "a", 20, 0.75);
+    look_at(scene, 10);
+    assert_close(only_margins(scene).sight_m, 0.25, 1e-12);
+    scene->frame.echoes.count = 0;
+    car->y_m = 1.5;
+    look_at(scene, 10);
+    assert_int_equal(only_loss(scene)->reason, LOSS_NO_SPECULAR);
+    assert_close(only_margins(scene).sight_m, 0.5, 1e-12);
+}
+
+static void without_margins_no_entry_has_any(void **state)
+{
+    struct scene *scene = *state;
+    add_point(scene, add_set(scene, "a"));
+    add_point(scene, add_set(scene, "b"))->zero_rad = 1;
+    add_object(scene, "a", 20, 0);
+    add_object(scene, "b", 0, 20);
+    look_at(scene, 10);
+    assert_int_equal(scene->frame.echoes.items[0].margins.present, 0);
+    assert_int_equal(scene->frame.lost.items[0].echoes.items[0].margins.present, 0);
+}
+
+/* Compares echoes as text, because the padding between members has no value. */
+static void assert_same_echoes(const struct echo *one, const struct echo *other, size_t count)
+{
+    const struct record *record = field_find(&frame_record, "echoes", strlen("echoes"), 0)->record;
+    struct text texts[2] = {0};
+    for (size_t i = 0; i < count; i++) {
+        record_text_write(record, &one[i], NULL, &texts[0]);
+        record_text_write(record, &other[i], NULL, &texts[1]);
+    }
+    assert_int_equal(texts[0].length, texts[1].length);
+    if (count > 0)
+        assert_memory_equal(texts[0].bytes, texts[1].bytes, texts[0].length);
+    text_free(&texts[0]);
+    text_free(&texts[1]);
+}
+
+static void auto_without_an_account_finds_the_same_echoes(void **state)
+{
+    (void)state;
+    uint64_t random = 5;
+    size_t echoes = 0, pairs = 0;
+    for (int i = 0; i < 3000; i++) {
+        void *place;
+        make_scene(&place);
+        struct scene *scene = place;
+        add_random_bodies(scene, &random);
+        struct look all = look_at(scene, 10), some;
+        struct frame *frame = &scene->frame, accounted = *frame;
+        frame->account = false;
+        memset(&frame->echoes, 0, sizeof frame->echoes);
+        assert_int_equal(look_begin(&some, frame, &scene->sensor, &automatic, 10, NULL), 0);
+        direct_echoes_add(&some);
+        assert_int_equal(some.pairs, all.pairs);
+        assert_int_equal(some.echoes, all.echoes);
+        assert_same_echoes(frame->echoes.items, accounted.echoes.items, (size_t)some.echoes);
+        echoes += (size_t)all.echoes;
+        pairs += (size_t)all.pairs;
+        remove_scene(&place);
+    }
+    assert_true(echoes > 5000 && pairs > 100000);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        SCENE_TEST(the_first_blocker_by_id_is_named),
+        SCENE_TEST(an_object_does_not_block_itself_and_the_ego_blocks_nothing),
+        SCENE_TEST(wheel_houses_are_seen_under_raised_vehicles_only),
+        SCENE_TEST(every_loss_has_its_reason),
+        SCENE_TEST(planes_mirror_from_the_foot_of_the_perpendicular),
+        SCENE_TEST(a_lobe_depends_on_direction_and_height_of_the_sensor),
+        SCENE_TEST(posts_become_echoes_with_their_numbers),
+        SCENE_TEST(a_margin_is_the_distance_from_another_answer),
+        SCENE_TEST(an_echo_from_under_a_truck_can_change_in_two_ways),
+        SCENE_TEST(the_margin_of_a_plane_is_the_distance_of_its_foot_from_an_end),
+        SCENE_TEST(without_margins_no_entry_has_any),
+        SCENE_TEST(auto_without_an_account_finds_the_same_echoes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
