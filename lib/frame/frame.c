@@ -179,7 +179,7 @@ static const struct field sensor_view_fields[] = {
     {0},
 };
 
-static const struct record sensor_view_record = {
+const struct record sensor_view_record = {
     .name = "sensor",
     .help = "A sensor of the suite.",
     .size = sizeof(struct sensor_view),

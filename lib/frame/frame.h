@@ -223,6 +223,7 @@ struct frame {
 
 extern const struct record frame_record;
 extern const struct record object_record;
+extern const struct record sensor_view_record;
 extern const struct record lost_group_record;
 
 /* Is this the same name? Names are mostly one pointer each, documents' and objects', or differ at

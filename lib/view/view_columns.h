@@ -6,93 +6,101 @@
 
 #include <stdint.h>
 
-#include "base/arena.h"
 #include "base/text.h"
+#include "text/field.h"
 
-/* Columns of real numbers first. */
-enum view_column {
-    COLUMN_FRAME_TIME,
-    COLUMN_OBJECT_X,
-    COLUMN_OBJECT_Y,
-    COLUMN_OBJECT_YAW,
-    COLUMN_OBJECT_VX,
-    COLUMN_OBJECT_VY,
-    COLUMN_OBJECT_LENGTH,
-    COLUMN_OBJECT_WIDTH,
-    COLUMN_SCAN_X,
-    COLUMN_SCAN_Y,
-    COLUMN_SCAN_YAW,
-    COLUMN_SCAN_VX,
-    COLUMN_SCAN_VY,
-    COLUMN_SCAN_AGE,
-    COLUMN_TARGET_RANGE,
-    COLUMN_TARGET_AZIMUTH,
-    COLUMN_TARGET_RATE,
-    COLUMN_TARGET_AMPLITUDE,
-    COLUMN_TARGET_CELL_RANGE,
-    COLUMN_TARGET_CELL_AZIMUTH,
-    COLUMN_TARGET_CELL_RATE,
-    COLUMN_TARGET_CELL_AMPLITUDE,
-    COLUMN_CONTRIBUTOR_RANGE,
-    COLUMN_CONTRIBUTOR_AZIMUTH,
-    COLUMN_CONTRIBUTOR_RATE,
-    COLUMN_CONTRIBUTOR_ERCS,
-    COLUMN_CONTRIBUTOR_WEIGHT,
-    COLUMN_DETAIL_SHORTFALL,
-    COLUMN_FIRST_COUNT,
-    COLUMN_FRAME_SCENE = COLUMN_FIRST_COUNT,
-    COLUMN_FRAME_NUMBER,
-    COLUMN_FRAME_OBJECTS,
-    COLUMN_FRAME_SCANS,
-    COLUMN_OBJECT_ID,
-    COLUMN_OBJECT_CLASS,
-    COLUMN_SCAN_SENSOR,
-    COLUMN_SCAN_MEASURED,
-    COLUMN_SCAN_TARGETS,
-    COLUMN_SCAN_FATES,
-    COLUMN_SCAN_DETAILS,
-    COLUMN_TARGET_UNDECIDED,
-    COLUMN_TARGET_EFFECTS,
-    COLUMN_TARGET_CONTRIBUTORS,
-    COLUMN_CONTRIBUTOR_OBJECT,
-    COLUMN_CONTRIBUTOR_REFLECTOR,
-    COLUMN_CONTRIBUTOR_PATH,
-    COLUMN_CONTRIBUTOR_MIRROR,
-    COLUMN_CONTRIBUTOR_NUMBER,
-    COLUMN_FATE_OBJECT,
-    COLUMN_FATE_PATTERN,
-    COLUMN_DETAIL_OBJECT,
-    COLUMN_DETAIL_REFLECTOR,
-    COLUMN_DETAIL_PATH,
-    COLUMN_DETAIL_MIRROR,
-    COLUMN_DETAIL_NUMBER,
-    COLUMN_DETAIL_BY,
-    COLUMN_PATTERN_ITEMS,
-    COLUMN_ITEM_REFLECTOR,
-    COLUMN_ITEM_PATH,
-    COLUMN_ITEM_MIRROR,
-    COLUMN_ITEM_NUMBER,
-    COLUMN_ITEM_STAGE,
-    COLUMN_ITEM_REASON,
-    COLUMN_ITEM_EFFECT,
-    COLUMN_COUNT
-};
+/* The name of each column in C and in the page; 'f' stands for real, 'u' for whole numbers. */
+#define VIEW_COLUMNS(COLUMN)                                                                       \
+    COLUMN(FRAME_TIME, "frame_time_s", 'f')                                                        \
+    COLUMN(OBJECT_X, "object_x_m", 'f')                                                            \
+    COLUMN(OBJECT_Y, "object_y_m", 'f')                                                            \
+    COLUMN(OBJECT_YAW, "object_yaw_rad", 'f')                                                      \
+    COLUMN(OBJECT_VX, "object_vx_mps", 'f')                                                        \
+    COLUMN(OBJECT_VY, "object_vy_mps", 'f')                                                        \
+    COLUMN(OBJECT_LENGTH, "object_length_m", 'f')                                                  \
+    COLUMN(OBJECT_WIDTH, "object_width_m", 'f')                                                    \
+    COLUMN(SCAN_X, "scan_x_m", 'f')                                                                \
+    COLUMN(SCAN_Y, "scan_y_m", 'f')                                                                \
+    COLUMN(SCAN_YAW, "scan_yaw_rad", 'f')                                                          \
+    COLUMN(SCAN_VX, "scan_vx_mps", 'f')                                                            \
+    COLUMN(SCAN_VY, "scan_vy_mps", 'f')                                                            \
+    COLUMN(SCAN_AGE, "scan_age_s", 'f')                                                            \
+    COLUMN(TARGET_RANGE, "target_range_m", 'f')                                                    \
+    COLUMN(TARGET_AZIMUTH, "target_azimuth_rad", 'f')                                              \
+    COLUMN(TARGET_RATE, "target_range_rate_mps", 'f')                                              \
+    COLUMN(TARGET_AMPLITUDE, "target_amplitude_db", 'f')                                           \
+    COLUMN(TARGET_CELL_RANGE, "target_cell_range_m", 'f')                                          \
+    COLUMN(TARGET_CELL_AZIMUTH, "target_cell_azimuth_rad", 'f')                                    \
+    COLUMN(TARGET_CELL_RATE, "target_cell_range_rate_mps", 'f')                                    \
+    COLUMN(TARGET_CELL_AMPLITUDE, "target_cell_amplitude", 'f')                                    \
+    COLUMN(CONTRIBUTOR_RANGE, "contributor_range_m", 'f')                                          \
+    COLUMN(CONTRIBUTOR_AZIMUTH, "contributor_azimuth_rad", 'f')                                    \
+    COLUMN(CONTRIBUTOR_RATE, "contributor_range_rate_mps", 'f')                                    \
+    COLUMN(CONTRIBUTOR_ERCS, "contributor_ercs", 'f')                                              \
+    COLUMN(CONTRIBUTOR_WEIGHT, "contributor_weight", 'f')                                          \
+    COLUMN(DETAIL_SHORTFALL, "detail_shortfall_db", 'f')                                           \
+    COLUMN(FRAME_SCENE, "frame_scene", 'u')                                                        \
+    COLUMN(FRAME_NUMBER, "frame_number", 'u')                                                      \
+    COLUMN(FRAME_OBJECTS, "frame_objects", 'u')                                                    \
+    COLUMN(FRAME_SCANS, "frame_scans", 'u')                                                        \
+    COLUMN(OBJECT_ID, "object_id", 'u')                                                            \
+    COLUMN(OBJECT_CLASS, "object_class", 'u')                                                      \
+    COLUMN(SCAN_SENSOR, "scan_sensor", 'u')                                                        \
+    COLUMN(SCAN_MEASURED, "scan_measured", 'u')                                                    \
+    COLUMN(SCAN_TARGETS, "scan_targets", 'u')                                                      \
+    COLUMN(SCAN_FATES, "scan_fates", 'u')                                                          \
+    COLUMN(SCAN_DETAILS, "scan_details", 'u')                                                      \
+    COLUMN(TARGET_UNDECIDED, "target_sign_undecided", 'u')                                         \
+    COLUMN(TARGET_EFFECTS, "target_effects", 'u')                                                  \
+    COLUMN(TARGET_CONTRIBUTORS, "target_contributors", 'u')                                        \
+    COLUMN(CONTRIBUTOR_OBJECT, "contributor_object", 'u')                                          \
+    COLUMN(CONTRIBUTOR_REFLECTOR, "contributor_reflector", 'u')                                    \
+    COLUMN(CONTRIBUTOR_PATH, "contributor_path", 'u')                                              \
+    COLUMN(CONTRIBUTOR_MIRROR, "contributor_mirror", 'u')                                          \
+    COLUMN(CONTRIBUTOR_NUMBER, "contributor_number", 'u')                                          \
+    COLUMN(FATE_OBJECT, "fate_object", 'u')                                                        \
+    COLUMN(FATE_PATTERN, "fate_pattern", 'u')                                                      \
+    COLUMN(DETAIL_OBJECT, "detail_object", 'u')                                                    \
+    COLUMN(DETAIL_REFLECTOR, "detail_reflector", 'u')                                              \
+    COLUMN(DETAIL_PATH, "detail_path", 'u')                                                        \
+    COLUMN(DETAIL_MIRROR, "detail_mirror", 'u')                                                    \
+    COLUMN(DETAIL_NUMBER, "detail_number", 'u')                                                    \
+    COLUMN(DETAIL_BY, "detail_by", 'u')                                                            \
+    COLUMN(PATTERN_ITEMS, "pattern_items", 'u')                                                    \
+    COLUMN(ITEM_REFLECTOR, "item_reflector", 'u')                                                  \
+    COLUMN(ITEM_PATH, "item_path", 'u')                                                            \
+    COLUMN(ITEM_MIRROR, "item_mirror", 'u')                                                        \
+    COLUMN(ITEM_NUMBER, "item_number", 'u')                                                        \
+    COLUMN(ITEM_STAGE, "item_stage", 'u')                                                          \
+    COLUMN(ITEM_REASON, "item_reason", 'u')                                                        \
+    COLUMN(ITEM_EFFECT, "item_effect", 'u')
+
+#define VIEW_COLUMNS_ENUMERATOR(name, key, kind) COLUMN_##name,
+
+enum view_column { VIEW_COLUMNS(VIEW_COLUMNS_ENUMERATOR) COLUMN_COUNT };
 
 struct view_columns {
-    struct {
-        LIST_OF(float) reals;
-        LIST_OF(uint32_t) counts;
-    } list[COLUMN_COUNT];
+    LIST_OF(uint32_t) list[COLUMN_COUNT]; /* real numbers as their bits in single precision */
 };
 
-/* Appends a number: reals to columns before COLUMN_FIRST_COUNT, whole numbers to the others. */
+/* Appends a number to a column of its kind. */
 void view_columns_add_real(struct view_columns *columns, enum view_column column, double value,
                            struct arena *arena);
 void view_columns_add_count(struct view_columns *columns, enum view_column column, uint32_t value,
                             struct arena *arena);
 
-/* Writes type, count and place of each column by its name, as JSON. */
-void view_columns_write_places(const struct view_columns *columns, struct text *text);
+/* The place of a column in what view_columns_write writes. */
+struct view_column_place {
+    const char *name;
+    const char *type; /* "f4", "u1", "u2" or "u4": kind and bytes of its numbers */
+    int64_t count;    /* of numbers */
+    int64_t begin;    /* number of its first character */
+};
+
+extern const struct record view_column_place_record;
+
+/* Fills in the places of all COLUMN_COUNT columns. */
+void view_columns_places(const struct view_columns *columns, struct view_column_place *places);
 
 /* Writes all columns in base64, each beginning at a multiple of 16 characters. */
 void view_columns_write(const struct view_columns *columns, struct text *text);

@@ -16,7 +16,7 @@
 #include "view/view_frame.h"
 
 struct view_scene {
-    uint32_t name, ego, suite; /* numbers in the table of names */
+    int64_t name, ego, suite; /* numbers in the table of names */
     int64_t first_frame;
     double start_s;
     double anchor_x_m, anchor_y_m;

@@ -5,6 +5,8 @@ const head = JSON.parse(document.getElementById('head').textContent);
 const base64 = document.getElementById('columns').firstChild.data;
 const base64Begin = base64.search(/[^\s]/);
 const names = head.names;
+const places = new Map(head.columns.map(place => [place.name, place]));
+const effectSets = head.effect_sets.map(set => set.effects.map(name => head.effects.indexOf(name)));
 const decoded = new Map();
 const summed = new Map();
 
@@ -33,7 +35,7 @@ function decode(place) {
 function column(name) {
     let values = decoded.get(name);
     if (values === undefined) {
-        values = decode(head.columns[name]);
+        values = decode(places.get(name));
         decoded.set(name, values);
     }
     return values;
@@ -154,7 +156,7 @@ function objectOfTarget(target) {
 
 // The effects in a target's label, by number.
 function effectsOf(target) {
-    return head.effect_sets[column('target_effects')[target]];
+    return effectSets[column('target_effects')[target]];
 }
 
 // Paths of ghosts, which come by way of a mirror: nothing is where they are seen.

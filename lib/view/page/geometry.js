@@ -3,10 +3,11 @@
 const classIndex = new Map(head.classes.map(kind => [kind.name, indexOfClass(kind)]));
 
 function indexOfClass(kind) {
+    const {points = [], planes = [], rows = []} = kind.reflectors;
     const reflectors = new Map();
-    kind.points.forEach(point => reflectors.set(point.name, {...point, kind: 'point'}));
-    kind.planes.forEach(plane => reflectors.set(plane.name, {...plane, kind: 'plane'}));
-    return {known: kind.known, points: kind.points, planes: kind.planes, rows: kind.rows, reflectors};
+    points.forEach(point => reflectors.set(point.name, {...point, kind: 'point'}));
+    planes.forEach(plane => reflectors.set(plane.name, {...plane, kind: 'plane'}));
+    return {known: kind.known, points, planes, rows, reflectors};
 }
 
 function classOf(row) {
@@ -43,8 +44,9 @@ function outlineOf(box) {
 function pointPlace(box, point) {
     const place = placeIn(box, point.x, point.y);
     const angle = box.yaw + point.facing_rad;
-    place.x -= point.inset_m * Math.cos(angle);
-    place.y -= point.inset_m * Math.sin(angle);
+    const inset = point.inset_m || 0;
+    place.x -= inset * Math.cos(angle);
+    place.y -= inset * Math.sin(angle);
     return place;
 }
 

@@ -214,7 +214,7 @@ function fillScenes() {
 
 // Offers the effects that changed any target of the stream.
 function fillEffects() {
-    const found = [...new Set(head.effect_sets.flat())].sort((a, b) => a - b);
+    const found = [...new Set(effectSets.flat())].sort((a, b) => a - b);
     for (const effect of found) {
         const option = make('option', words(head.effects[effect]));
         option.value = String(effect);
