@@ -46,6 +46,31 @@ static double latency_s(const struct sensor *sensor, const struct selection *sel
     return late ? sensor->latency_s : 0;
 }
 
+/* Adds the sensor to the frame, and its echoes if it measures in the frame. */
+static int add_sensor(struct frame *frame, const struct sensor *sensor,
+                      const struct selection *selection, struct diag *diag)
+{
+    double instant_s = 0;
+    enum scan_timing_answer answer =
+        scan_timing_instant_s(sensor->cycle_s, frame->time_s, frame->interval_s, &instant_s);
+    if (answer == SCAN_TIMING_SEVERAL)
+        return diag_fail(diag, DIAG_DATA,
+                         "sensor \"%s\" measures every %g s, more than once in a frame of %g s; "
+                         "raise the frame rate",
+                         sensor->name, sensor->cycle_s, frame->interval_s);
+    *list_add(&frame->sensors.list, frame->arena) = view_of(sensor, answer == SCAN_TIMING_ONE);
+    if (answer == SCAN_TIMING_NONE)
+        return 0;
+    struct look look;
+    if (look_begin(&look, frame, sensor, selection, instant_s - latency_s(sensor, selection),
+                   diag) != 0)
+        return -1;
+    direct_echoes_add(&look);
+    ghost_echoes_add(&look);
+    effects_count_scan(selection);
+    return 0;
+}
+
 static int ideal_step(void *state, struct frame *frame, struct runner *runner)
 {
     struct ideal *ideal = state;
@@ -56,28 +81,9 @@ static int ideal_step(void *state, struct frame *frame, struct runner *runner)
     frame->sensors = ideal->request;
     if (suite_choice_effects(&ideal->choice, frame, runner, &selection) != 0)
         return -1;
-    for (size_t i = 0; i < suite->sensors.count; i++) {
-        const struct sensor *sensor = &suite->sensors.items[i];
-        double instant_s = 0;
-        enum scan_timing_answer answer =
-            scan_timing_instant_s(sensor->cycle_s, frame->time_s, frame->interval_s, &instant_s);
-        if (answer == SCAN_TIMING_SEVERAL)
-            return diag_fail(
-                runner_diag(runner), DIAG_DATA,
-                "sensor \"%s\" measures every %g s, more than once in a frame of %g s; "
-                "raise the frame rate",
-                sensor->name, sensor->cycle_s, frame->interval_s);
-        *list_add(&frame->sensors.list, frame->arena) = view_of(sensor, answer == SCAN_TIMING_ONE);
-        if (answer == SCAN_TIMING_NONE)
-            continue;
-        struct look look;
-        if (look_begin(&look, frame, sensor, &selection, instant_s - latency_s(sensor, &selection),
-                       runner_diag(runner)) != 0)
+    for (size_t i = 0; i < suite->sensors.count; i++)
+        if (add_sensor(frame, &suite->sensors.items[i], &selection, runner_diag(runner)) != 0)
             return -1;
-        direct_echoes_add(&look);
-        ghost_echoes_add(&look);
-        effects_count_scan(&selection);
-    }
     return 0;
 }
 

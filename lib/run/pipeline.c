@@ -153,41 +153,54 @@ static bool is_pipefail(const struct command *command)
     return true;
 }
 
+/* A NUL would end the text for every function that reads strings. */
+static int refuse_nul(struct parser *parser)
+{
+    const char *nul = memchr(parser->at, '\0', (size_t)(parser->end - parser->at));
+    if (nul == NULL)
+        return 0;
+    while (parser->at < nul)
+        take(parser);
+    return refuse(parser, "a NUL byte");
+}
+
+/* Adds the command, which a bar or a newline follows, unless it is the line that sets pipefail. */
+static int add_command(struct pipeline *pipeline, const struct command *command, bool piped,
+                       const struct parser *parser)
+{
+    if (command->words.count == 0)
+        return refuse(parser, "a command is missing before |");
+    if (pipeline->commands.count == 0 && !piped && is_pipefail(command))
+        return 0;
+    if (strcmp(command->words.items[0], "set") == 0)
+        return diag_fail(parser->diag, DIAG_USAGE,
+                         "%zu: of set, only `set -o pipefail` is understood here; run it with bash",
+                         command->line);
+    *list_add(&pipeline->commands, parser->arena) = *command;
+    return 0;
+}
+
 int pipeline_parse(const char *text, size_t length, struct pipeline *pipeline, struct arena *arena,
                    struct diag *diag)
 {
     struct parser parser = {text, text + length, 1, arena, diag};
-    bool open = true; /* may another command follow? */
     *pipeline = (struct pipeline){0};
-    const char *nul = memchr(text, '\0', length);
-    if (nul != NULL) {
-        for (const char *at = text; at < nul; at++)
-            parser.line += *at == '\n';
-        return refuse(&parser, "a NUL byte");
-    }
+    if (refuse_nul(&parser) != 0)
+        return -1;
+    bool piped = false; /* a bar stands before the next command */
     for (;;) {
         skip(&parser, true);
-        if (parser.at == parser.end && open)
-            return refuse(&parser, "a command is missing");
+        bool more = piped || pipeline->commands.count == 0; /* commands may follow */
         if (parser.at == parser.end)
-            return 0;
-        if (!open)
+            return more ? refuse(&parser, "a command is missing") : 0;
+        if (!more)
             return refuse(&parser, "a second pipeline");
         struct command command = {0};
         if (read_command(&parser, &command) != 0)
             return -1;
-        bool piped = peek(&parser) == '|';
-        if (pipeline->commands.count == 0 && !piped && is_pipefail(&command))
-            continue;
-        if (command.words.count > 0 && strcmp(command.words.items[0], "set") == 0)
-            return diag_fail(
-                diag, DIAG_USAGE,
-                "%zu: of set, only `set -o pipefail` is understood here; run it with bash",
-                command.line);
-        if (command.words.count == 0)
-            return refuse(&parser, "a command is missing before |");
-        *list_add(&pipeline->commands, arena) = command;
-        open = piped;
+        piped = peek(&parser) == '|';
+        if (add_command(pipeline, &command, piped, &parser) != 0)
+            return -1;
         if (piped)
             take(&parser);
         if (peek(&parser) == '|')
