@@ -35,7 +35,7 @@ static void report(struct frame *frame, const struct scan *scan, const struct se
     bool has_angle = superpose(scan, selection, members, count, &cell);
     double threshold = suite_threshold(sensor, cell.interference);
     if (frame->margins) {
-        cell.margins = cell_margins_of(sensor, &scan->resolved, number);
+        cell.margins = cell_margins_of(sensor, &scan->received, number);
         cell_margins_add(sensor, &cell);
     }
     if (effects_enabled(selection, EFFECT_THRESHOLD) && cell.amplitude < threshold)

@@ -69,7 +69,7 @@ static void sense(struct frame *frame, const struct transform *transform,
     to_spectrum(transform);
     struct range_doppler spectrum = signal_cube_spectrum(signal, frame->arena);
     struct detections detections = detections_of(signal, &spectrum, &context);
-    detections_label(&detections, frame, "sensor-signal", &scan.resolved);
+    detections_label(&detections, frame, "sensor-signal", &scan.received);
     detections_list(&detections, frame, "sensor-signal", &noise);
     effects_count_scan(selection);
 }

@@ -11,7 +11,7 @@ static struct margins margins_of(const struct smear *smear, size_t number, struc
 {
     for (size_t i = 0; i < smear->count; i++)
         if (smear->cell[i] == number)
-            margins_merge(&cell->margins, smear->received_echoes[i].margins);
+            margins_merge(&cell->margins, smear->echoes[i].margins);
     cell_margins_add(smear->sensor, cell);
     return cell->margins;
 }
@@ -44,7 +44,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
     struct effect_scan context = effect_begin(frame, sensor, selection, EFFECT_HOME_SENSOR);
     struct scan scan = scan_receive(&context);
     bool merge = effects_enabled(selection, EFFECT_MERGING);
-    size_t count = scan.resolved.count, together = merge ? count : 1;
+    size_t count = scan.received.count, together = merge ? count : 1;
     effects_note(selection, EFFECT_MERGING, merge);
     effects_note(selection, EFFECT_SUPERPOSITION, merge);
     effects_note(selection, EFFECT_THRESHOLD, true);
@@ -53,7 +53,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
     for (size_t first = 0; first < count; first += together) {
         int64_t begin = effects_begin(selection);
         struct smear smear =
-            smear_make(sensor, &scan.resolved.received_echoes[first], together, frame->arena);
+            smear_make(sensor, &scan.received.echoes[first], together, frame->arena);
         effects_end(selection, EFFECT_MERGING, begin);
         for (size_t number = 0; number < smear.cells; number++)
             report(frame, selection, &smear, number, context.interference);

@@ -5,7 +5,8 @@
 
 #include "base/elementary.h"
 
-/* By how many half cells other lies beyond the edge of a cell around leader; negative inside. */
+/* By how many half cells the other echo is beyond the edge of the leader's cell; negative inside.
+ */
 static double beyond_edge(const struct sensor *sensor, const struct received_echo *leader,
                           const struct received_echo *other)
 {
@@ -33,12 +34,12 @@ struct margins cell_margins_of(const struct sensor *sensor, const struct cluster
     for (size_t i = 0; i < all->count; i++) {
         size_t own = all->cell[i];
         if (own == number)
-            margins_merge(&margins, all->received_echoes[i].margins);
+            margins_merge(&margins, all->echoes[i].margins);
         bool leads = own == opened;
         opened += leads;
         for (size_t j = i + 1; j < all->count && leads && own <= number; j++)
             if (all->cell[j] == number || (own == number && all->cell[j] > number))
-                note_pair(sensor, &all->received_echoes[i], &all->received_echoes[j], &margins);
+                note_pair(sensor, &all->echoes[i], &all->echoes[j], &margins);
     }
     return margins;
 }

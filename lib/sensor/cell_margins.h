@@ -4,22 +4,24 @@
 
 #include "sensor/resolution_cell.h"
 
-/* Rays as the sensor clustered them, strongest first, each with the number of its cell. */
+/* Received echoes of positive amplitude, strongest first, and the number of each one's cell. */
 struct clustered_echoes {
-    const struct received_echo *received_echoes;
+    const struct received_echo *echoes;
     const size_t *cell;
     size_t count;
 };
 
-/* Sight of the members, and what made them this cell: for every cell's leader L and every echo m
- * that was left when L opened its cell, where one of them is in cell `number`, whether m shared L's
- * cell (cell_edge: the nearer edge, or the edge that it is farthest beyond), and if they are within
- * two half cells of each other, that L came first (leader_db). */
+/* The margins of cell `number` from its members and from clustering: the least sight_m of its
+ * members, and what follows from pairs of a leader and an echo that was left when that leader
+ * opened its cell, one of them being in cell `number`. cell_edge is how far, in half cells, the
+ * echo was from the edge of the leader's cell: from the nearer edge if it is a member, else from
+ * the edge that it is farthest beyond. leader_db is by how much the leader was the stronger, if the
+ * two are within two half cells of each other. */
 struct margins cell_margins_of(const struct sensor *sensor, const struct clustered_echoes *all,
                                size_t number);
 
-/* Adds what was decided about the cell as a whole: the threshold on its summed amplitude, and the
- * sign of its azimuth, which only the magnitude rule decides. */
+/* Adds to a cell's margins those of decisions about the whole cell: the threshold on its summed
+ * amplitude, and the sign of its azimuth, which only the magnitude rule decides. */
 void cell_margins_add(const struct sensor *sensor, struct cell *cell);
 
 #endif

@@ -5,8 +5,8 @@
 #include "base/elementary.h"
 #include "effects/effect.h"
 
-/* A ghost leaves in one direction and comes back from another: each way has the root of the
- * antenna pattern, and the pointers are those of its arrival. */
+/* The factor on strength of a ghost whose wave leaves in another direction than it comes back from:
+ * each way has the root of the antenna pattern, and the pointers are those of the arrival. */
 static double departure_factor(const struct antenna *antenna, const struct echo *echo,
                                double arrival_gain)
 {

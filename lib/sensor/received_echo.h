@@ -1,5 +1,7 @@
-/* One echo as the receiver gets it. The radar equation and the antenna give it its amplitude (MODEL
- * 4), then every effect at home in the sensor changes it. */
+/* One echo as the sensor's receiver gets it.
+ *
+ * The radar equation and the antenna give the echo its amplitude (MODEL 4); then the effects at
+ * home in the sensor change it. */
 #ifndef RECEIVED_ECHO_H
 #define RECEIVED_ECHO_H
 
@@ -8,14 +10,13 @@
 
 struct effect_scan;
 
-/* An echo with what the antenna and the radar equation make of it. */
 struct received_echo {
-    struct contributor echo;
-    double strength;  /* G = A_ref(R) ERCS: the amplitude before the antenna of its arrival */
-    double amplitude; /* A = G A_phi, equation (2) */
+    struct contributor echo;        /* the ideal values, with weight 0 */
+    double strength;                /* G = A_ref(R) ERCS, before the antenna pattern of arrival */
+    double amplitude;               /* A = G A_phi, equation (2) */
     double range_m, range_rate_mps; /* as the radar reads them: the echo's, or folded */
-    double phase_rad; /* counts relative to the leader of the cell; 0 in the paper's model */
-    uint64_t effects; /* the echo's, and those of its amplitude and phase */
+    double phase_rad;               /* cells use its difference from the leader's; 0 in the paper */
+    uint64_t effects; /* the effects that changed the echo, its amplitude, range or range rate */
     const struct margins *margins; /* the echo's */
 };
 

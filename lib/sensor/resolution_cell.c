@@ -15,7 +15,7 @@ int resolution_cell_compare(const void *left, const void *right)
     return frame_order_tied(&a->echo, &b->echo);
 }
 
-/* A sum with what its roundings left out (Neumaier; NUMERICS 13, 14): a weak echo outlives strong
+/* A sum, and what its roundings left out (Neumaier 1974; MODEL 17.3): a weak echo outlives strong
  * ones that cancel. */
 struct compensated {
     double sum, left_out;
@@ -29,8 +29,8 @@ static void add(struct compensated *total, double term)
     total->sum = sum;
 }
 
-/* A sum beyond the doubles stays infinite, for the bounds check to refuse. */
-static double total(const struct compensated *terms)
+/* A sum that overflows stays infinite, so that the check of bounds refuses it. */
+static double value_of(const struct compensated *terms)
 {
     return isfinite(terms->sum) ? terms->sum + terms->left_out : terms->sum;
 }
@@ -45,81 +45,79 @@ static void add_pointer(struct channel *channel, double _Complex pointer)
     add(&channel->imag, cimag(pointer));
 }
 
-static double _Complex total_pointer(const struct channel *channel)
+static double _Complex pointer_of(const struct channel *channel)
 {
-    return total(&channel->real) + total(&channel->imag) * (double _Complex)I;
+    return value_of(&channel->real) + value_of(&channel->imag) * (double _Complex)I;
 }
 
-static struct antenna_pointers
-add_pointers(const struct sensor *sensor, const struct received_echo *received_echoes, size_t count)
+static struct antenna_pointers add_pointers(const struct sensor *sensor,
+                                            const struct received_echo *echoes, size_t count)
 {
     struct channel sum = {{0, 0}, {0, 0}}, delta = sum;
     for (size_t i = 0; i < count; i++) {
-        struct antenna_pointers one =
-            antenna_pointers(&sensor->antenna, received_echoes[i].echo.azimuth_rad);
+        struct antenna_pointers unit =
+            antenna_pointers(&sensor->antenna, echoes[i].echo.azimuth_rad);
         struct elementary_sincos phase =
-            elementary_sincos(received_echoes[i].phase_rad - received_echoes[0].phase_rad);
-        double _Complex turn = phase.cos + phase.sin * (double _Complex)I;
-        bool turned = received_echoes[i].phase_rad != received_echoes[0].phase_rad;
-        add_pointer(&sum, received_echoes[i].strength * (turned ? turn * one.sum : one.sum));
-        add_pointer(&delta, received_echoes[i].strength * (turned ? turn * one.delta : one.delta));
+            elementary_sincos(echoes[i].phase_rad - echoes[0].phase_rad);
+        double _Complex phasor = phase.cos + phase.sin * (double _Complex)I;
+        bool out_of_phase = echoes[i].phase_rad != echoes[0].phase_rad;
+        add_pointer(&sum, echoes[i].strength * (out_of_phase ? phasor * unit.sum : unit.sum));
+        add_pointer(&delta, echoes[i].strength * (out_of_phase ? phasor * unit.delta : unit.delta));
     }
-    return (struct antenna_pointers){total_pointer(&sum), total_pointer(&delta)};
+    return (struct antenna_pointers){pointer_of(&sum), pointer_of(&delta)};
 }
 
-/* All received echoes as one echo at their mean azimuth. */
-static struct received_echo merge(const struct received_echo *received_echoes, size_t count,
+/* One echo of the summed strength at the mean azimuth. */
+static struct received_echo merge(const struct received_echo *echoes, size_t count,
                                   const double *weight, double *azimuth)
 {
-    struct received_echo merged = received_echoes[0];
+    struct received_echo merged = echoes[0];
     for (size_t i = 0; i < count; i++)
-        azimuth[i] = received_echoes[i].echo.azimuth_rad;
+        azimuth[i] = echoes[i].echo.azimuth_rad;
     for (size_t i = 1; i < count; i++)
-        merged.strength += received_echoes[i].strength;
+        merged.strength += echoes[i].strength;
     merged.echo.azimuth_rad = resolution_mean(azimuth, weight, count);
     return merged;
 }
 
-static uint64_t effects_of(const struct received_echo *received_echoes, size_t count,
-                           bool superpose)
+static uint64_t effects_of(const struct received_echo *echoes, size_t count, bool superpose)
 {
     uint64_t effects = count > 1 ? EFFECT_BIT(EFFECT_MERGING) : 0;
     if (count > 1 && superpose)
         effects |= EFFECT_BIT(EFFECT_SUPERPOSITION);
     for (size_t i = 0; i < count; i++) {
-        effects |= received_echoes[i].effects;
-        if (superpose && received_echoes[i].phase_rad != received_echoes[0].phase_rad)
+        effects |= echoes[i].effects;
+        if (superpose && echoes[i].phase_rad != echoes[0].phase_rad)
             effects |= EFFECT_BIT(EFFECT_COHERENCE);
     }
     return effects;
 }
 
-bool resolution_cell_of(const struct sensor *sensor, const struct received_echo *received_echoes,
+bool resolution_cell_of(const struct sensor *sensor, const struct received_echo *echoes,
                         size_t count, bool superpose, struct arena *arena, struct cell *cell)
 {
     double *range = arena_get(arena, 4 * count * sizeof *range);
     double *rate = range + count, *weight = rate + count, *azimuth = weight + count;
     *cell = (struct cell){
         .sensor = sensor->name,
-        .effects = effects_of(received_echoes, count, superpose),
+        .effects = effects_of(echoes, count, superpose),
     };
     for (size_t i = 0; i < count; i++) {
-        range[i] = received_echoes[i].range_m;
-        rate[i] = received_echoes[i].range_rate_mps;
-        weight[i] = received_echoes[i].amplitude;
-        cell->amplitude += received_echoes[i].amplitude;
+        range[i] = echoes[i].range_m;
+        rate[i] = echoes[i].range_rate_mps;
+        weight[i] = echoes[i].amplitude;
+        cell->amplitude += echoes[i].amplitude;
     }
     for (size_t i = 0; i < count; i++) {
         struct contributor *member = list_add(&cell->members, arena);
-        *member = received_echoes[i].echo;
-        member->weight = received_echoes[i].amplitude / cell->amplitude;
+        *member = echoes[i].echo;
+        member->weight = echoes[i].amplitude / cell->amplitude;
     }
     cell->range_m = resolution_mean(range, weight, count);
     cell->range_rate_mps = resolution_mean(rate, weight, count);
-    struct received_echo merged =
-        superpose ? received_echoes[0] : merge(received_echoes, count, weight, azimuth);
+    struct received_echo merged = superpose ? echoes[0] : merge(echoes, count, weight, azimuth);
     struct antenna_pointers pointers =
-        superpose ? add_pointers(sensor, received_echoes, count) : add_pointers(sensor, &merged, 1);
+        superpose ? add_pointers(sensor, echoes, count) : add_pointers(sensor, &merged, 1);
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
     cell->sum_re = creal(pointers.sum);

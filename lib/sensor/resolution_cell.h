@@ -1,23 +1,30 @@
-/* What becomes of the echoes that share a resolution cell (MODEL 6, 8): weighted means of range and
- * rate, and the noise-free sum and delta pointers. */
+/* What a sensor measures of echoes that share a cell.
+ *
+ * A cell without noise has the weighted means of its echoes' ranges and range rates (MODEL 6), and
+ * the sum and delta pointers of their superposition (MODEL 8). */
 #ifndef RESOLUTION_CELL_H
 #define RESOLUTION_CELL_H
 
 #include "sensor/received_echo.h"
 
-/* Strongest first; ties by the frame's total order. For sort_items. */
+/* Orders received echoes by amplitude, strongest first; ties by the frame's total order
+ * (frame_order_tied). For sort_items. */
 int resolution_cell_compare(const void *left, const void *right);
 
-/* Adds up count received echoes, strongest first, which are the cell's members in this order;
- * memory for them comes from the arena. The amplitude is the sum of theirs (equation 5's
- * denominator, the upper bound of what the cell can return), range and rate are the means of
- * equation (4), the pointers are equation (8) without noise, within 2 ulp of the sum of their terms
- * while these cancel to no less than 1e-15 of their sizes (NUMERICS 13), the azimuth is read off
- * them by the sensor's estimator. False if both pointers are zero, so that there is no azimuth.
+/* Makes the cell of count echoes, strongest first, which become its members in this order; the
+ * members' memory comes from the arena.
  *
- * Without superpose, the pointers are those of one echo of the received echoes' whole strength at
- * their mean azimuth: for a cell of one received echo that is the same to the bit. */
-bool resolution_cell_of(const struct sensor *sensor, const struct received_echo *received_echoes,
+ *     amplitude          the sum of the echoes' amplitudes, which is the denominator of equation
+ *                        (5) and the upper bound of what the cell can return
+ *     range, range rate  the means of equation (4)
+ *     pointers           equation (8) without noise, within 2 ulp of the sum of their terms while
+ *                        these cancel to no less than 1e-15 of their sizes (hard case 13)
+ *     azimuth            read off the pointers by the sensor's estimator
+ *
+ * Without superpose the pointers are those of one echo of the summed strength at the echoes' mean
+ * azimuth; for a single echo they are the same bit for bit. False if both pointers are zero, so
+ * that there is no azimuth. */
+bool resolution_cell_of(const struct sensor *sensor, const struct received_echo *echoes,
                         size_t count, bool superpose, struct arena *arena, struct cell *cell);
 
 #endif

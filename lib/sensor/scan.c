@@ -10,26 +10,27 @@ struct scan scan_receive(const struct effect_scan *context)
     struct scan scan = {.context = *context, .added = added};
     struct arena *arena = context->frame->arena;
     size_t all = context->echoes.count + added.count, count = all;
-    struct received_echo *received_echoes = arena_get(arena, (all + 1) * sizeof *received_echoes);
+    struct received_echo *echoes = arena_get(arena, (all + 1) * sizeof *echoes);
     for (size_t i = 0; i < context->echoes.count; i++)
-        received_echoes[i] = received_echo_of(context, &context->echoes.items[i]);
+        echoes[i] = received_echo_of(context, &context->echoes.items[i]);
     for (size_t i = 0; i < added.count; i++)
-        received_echoes[context->echoes.count + i] = received_echo_of(context, &added.items[i]);
-    sort_items(received_echoes, count, sizeof *received_echoes, resolution_cell_compare, arena);
-    while (count > 0 && !(received_echoes[count - 1].amplitude > 0))
+        echoes[context->echoes.count + i] = received_echo_of(context, &added.items[i]);
+    sort_items(echoes, count, sizeof *echoes, resolution_cell_compare, arena);
+    while (count > 0 && !(echoes[count - 1].amplitude > 0))
         count--;
-    scan.resolved.received_echoes = received_echoes;
-    scan.resolved.count = count;
-    scan.silent = received_echoes + count;
+    scan.received.echoes = echoes;
+    scan.received.count = count;
+    scan.silent = echoes + count;
     scan.silent_count = all - count;
     return scan;
 }
 
-/* Counts the received echoes of every cell, and puts each behind those that came before it. */
-static void group(struct scan *scan)
+/* Sorts the received echoes into by_cell, cell by cell and in their order, by counting; first holds
+ * counts, then the bounds of the cells. */
+static void group_by_cell(struct scan *scan)
 {
     struct arena *arena = scan->context.frame->arena;
-    const struct clustered_echoes *all = &scan->resolved;
+    const struct clustered_echoes *all = &scan->received;
     struct received_echo *by_cell = arena_get(arena, all->count * sizeof *by_cell);
     size_t *first = arena_get(arena, (scan->cells + 2) * sizeof *first);
     for (size_t i = 0; i < all->count; i++)
@@ -37,7 +38,7 @@ static void group(struct scan *scan)
     for (size_t number = 0; number < scan->cells; number++)
         first[number + 2] += first[number + 1];
     for (size_t i = 0; i < all->count; i++)
-        by_cell[first[all->cell[i] + 1]++] = all->received_echoes[i];
+        by_cell[first[all->cell[i] + 1]++] = all->echoes[i];
     scan->by_cell = by_cell;
     scan->first = first;
 }
@@ -47,26 +48,25 @@ static void resolve(struct scan *scan, const struct selection *selection)
     const struct sensor *sensor = scan->context.sensor;
     struct arena *arena = scan->context.frame->arena;
     double half_range_m = sensor->half_range_m, half_rate_mps = sensor->half_range_rate_mps;
-    const struct received_echo *received_echoes = scan->resolved.received_echoes;
-    size_t count = scan->resolved.count;
+    const struct received_echo *echoes = scan->received.echoes;
+    size_t count = scan->received.count;
     int64_t begin = effects_begin(selection);
-    struct resolution_echo *echoes = arena_get(arena, 2 * (count + 1) * sizeof *echoes);
+    struct resolution_echo *places = arena_get(arena, 2 * (count + 1) * sizeof *places);
     size_t *cell = arena_get(arena, (count + 1) * sizeof *cell);
     for (size_t i = 0; i < count; i++)
-        echoes[i] =
-            (struct resolution_echo){received_echoes[i].range_m, received_echoes[i].range_rate_mps,
-                                     received_echoes[i].amplitude};
+        places[i] = (struct resolution_echo){echoes[i].range_m, echoes[i].range_rate_mps,
+                                             echoes[i].amplitude};
     bool merge =
         effects_forced(selection, EFFECT_MERGING) ||
         (effects_enabled(selection, EFFECT_MERGING) &&
-         resolution_close(echoes, count, half_range_m, half_rate_mps, echoes + count, arena));
+         resolution_close(places, count, half_range_m, half_rate_mps, places + count, arena));
     scan->cells = count;
     if (merge)
-        scan->cells = resolution_cluster(echoes, count, half_range_m, half_rate_mps, cell, arena);
+        scan->cells = resolution_cluster(places, count, half_range_m, half_rate_mps, cell, arena);
     for (size_t i = 0; i < count && !merge; i++)
         cell[i] = i;
-    scan->resolved.cell = cell;
-    group(scan);
+    scan->received.cell = cell;
+    group_by_cell(scan);
     effects_note(selection, EFFECT_MERGING, merge);
     effects_end(selection, EFFECT_MERGING, begin);
 }

@@ -1,6 +1,6 @@
-/* One scan of one sensor before noise: the received echoes that it received, and which of them
- * share a cell.
- */
+/* One scan before noise: received echoes and their cells.
+ *
+ * All memory of a scan comes from the frame's arena. */
 #ifndef SCAN_H
 #define SCAN_H
 
@@ -8,30 +8,30 @@
 #include "sensor/cell_margins.h"
 
 struct scan {
-    struct effect_scan context; /* the effects that it is received with */
-    struct echo_span added;     /* to the frame's echoes: of wheels, limbs, clutter */
-    struct clustered_echoes resolved;
+    struct effect_scan context;          /* the effects that the scan is received with */
+    struct echo_span added;              /* echoes that effects add: of wheels, limbs, clutter */
+    struct clustered_echoes received;    /* the echoes of positive amplitude */
     size_t cells;                        /* numbered in the order of their leaders */
-    const struct received_echo *by_cell; /* the same received echoes, those of a cell together */
-    const size_t *first;                 /* of each cell among them, and behind the last */
-    const struct received_echo *silent;  /* without amplitude: they are in no cell */
+    const struct received_echo *by_cell; /* the received echoes again, cell by cell */
+    const size_t *first;                /* each cell's first in by_cell, then the end of the last */
+    const struct received_echo *silent; /* echoes without amplitude, which are in no cell */
     size_t silent_count;
 };
 
-/* Receives the echoes, and resolves none of them. Memory comes from the frame's arena. */
+/* Receives the echoes of the context and those that effects add. Makes no cells. */
 struct scan scan_receive(const struct effect_scan *context);
 
-/* Receives the echoes and resolves them; merging may be left out where no two received echoes are
- * close. Memory comes from the frame's arena. */
+/* Receives the echoes and sorts them into cells. auto leaves out merging where no two echoes are
+ * close. */
 struct scan scan_make(const struct effect_scan *context, const struct selection *selection);
 
-/* The received echoes of one cell, the leader first, count of them. */
+/* The members of cell `number`, the leader first; sets count. */
 const struct received_echo *scan_members(const struct scan *scan, size_t number, size_t *count);
 
-/* Counts the added echoes in the frame. */
+/* Counts the added echoes in the frame, by their paths. */
 void scan_count_added(const struct scan *scan, struct frame *frame);
 
-/* Writes into the frame that the stage lost the silent echoes, each with its margins. */
+/* Writes the loss of every silent echo, with its margins, into the frame. */
 void scan_lose_silent(const struct scan *scan, struct frame *frame, const char *stage);
 
 #endif

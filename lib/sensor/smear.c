@@ -6,10 +6,10 @@
 #include "base/elementary.h"
 #include "radar/point_response.h"
 
-/* Samples in a bin, samples to either side of a received echo's own, and in a row. */
-enum { BIN = 2, REACH = 3 * BIN, TAPS = 2 * REACH + 1 };
+/* Samples in a bin; samples that an echo reaches to either side of its own, and in all. */
+enum { SAMPLES_PER_BIN = 2, REACH = 3 * SAMPLES_PER_BIN, TAPS = 2 * REACH + 1 };
 
-/* The sample next to a value, and how many bins behind it the value lies, in [-1/4, 1/4]. */
+/* The sample nearest to a value, and by how many bins the value is beyond it, in [-1/4, 1/4]. */
 struct place {
     int64_t sample;
     double offset;
@@ -17,11 +17,11 @@ struct place {
 
 static struct place place_of(double value, double bin_width)
 {
-    double samples = BIN * (value / bin_width), whole = round(samples);
-    return (struct place){(int64_t)whole, (samples - whole) / BIN};
+    double samples = SAMPLES_PER_BIN * (value / bin_width), whole = round(samples);
+    return (struct place){(int64_t)whole, (samples - whole) / SAMPLES_PER_BIN};
 }
 
-/* The slot of that sample, or the empty one where it belongs. */
+/* The slot of a sample, or the empty slot where it belongs. */
 static uint32_t *slot_of(const struct smear *smear, int64_t range, int64_t rate)
 {
     uint64_t mixed = (uint64_t)range * UINT64_C(0x9e3779b97f4a7c15) + (uint64_t)rate;
@@ -42,7 +42,7 @@ static const struct smear_sample *find(const struct smear *smear, int64_t range,
     return number != 0 ? &smear->samples[number - 1] : NULL;
 }
 
-static struct smear_sample *touch(struct smear *smear, int64_t range, int64_t rate)
+static struct smear_sample *find_or_add(struct smear *smear, int64_t range, int64_t rate)
 {
     uint32_t *slot = slot_of(smear, range, rate);
     if (*slot == 0) {
@@ -63,42 +63,43 @@ static struct place rate_place(const struct smear *smear, const struct received_
     return place_of(received->range_rate_mps, smear->sensor->cell_range_rate_mps);
 }
 
-static double _Complex turn_of(double phase_rad)
+static double _Complex phasor_of(double phase_rad)
 {
     struct elementary_sincos phase = elementary_sincos(phase_rad);
     return phase.cos + phase.sin * (double _Complex)I;
 }
 
-static void spread(struct smear *smear, const struct received_echo *received)
+static void add_echo(struct smear *smear, const struct received_echo *received)
 {
     struct place range = range_place(smear, received), rate = rate_place(smear, received);
-    struct antenna_pointers one =
+    struct antenna_pointers pointers =
         antenna_pointers(&smear->sensor->antenna, received->echo.azimuth_rad);
-    double _Complex strength = received->strength * turn_of(received->phase_rad);
-    bool turned = received->phase_rad != smear->received_echoes[0].phase_rad;
-    uint64_t effects = received->effects | (turned ? EFFECT_BIT(EFFECT_COHERENCE) : 0);
-    double across[TAPS];
+    double _Complex strength = received->strength * phasor_of(received->phase_rad);
+    bool out_of_phase = received->phase_rad != smear->echoes[0].phase_rad;
+    uint64_t effects = received->effects | (out_of_phase ? EFFECT_BIT(EFFECT_COHERENCE) : 0);
+    double rate_weight[TAPS];
     for (int j = 0; j < TAPS; j++)
-        across[j] = point_response_hann((double)(j - REACH) / BIN - rate.offset);
-    one.sum *= strength;
-    one.delta *= strength;
+        rate_weight[j] = point_response_hann((double)(j - REACH) / SAMPLES_PER_BIN - rate.offset);
+    pointers.sum *= strength;
+    pointers.delta *= strength;
     for (int i = 0; i < TAPS; i++) {
-        double along = point_response_hann((double)(i - REACH) / BIN - range.offset);
+        double range_weight =
+            point_response_hann((double)(i - REACH) / SAMPLES_PER_BIN - range.offset);
         for (int j = 0; j < TAPS; j++) {
-            double weight = along * across[j];
+            double weight = range_weight * rate_weight[j];
             if (weight == 0)
                 continue;
             struct smear_sample *sample =
-                touch(smear, range.sample + i - REACH, rate.sample + j - REACH);
-            sample->pointers.sum += weight * one.sum;
-            sample->pointers.delta += weight * one.delta;
-            sample->received_echoes++;
+                find_or_add(smear, range.sample + i - REACH, rate.sample + j - REACH);
+            sample->pointers.sum += weight * pointers.sum;
+            sample->pointers.delta += weight * pointers.delta;
+            sample->echoes++;
             sample->effects |= effects;
         }
     }
 }
 
-/* Of the sum channel; 0 where no received echo reaches. */
+/* Amplitude of the sum channel; 0 where no echo reaches. */
 static double magnitude(const struct smear_sample *sample)
 {
     return sample != NULL
@@ -107,17 +108,18 @@ static double magnitude(const struct smear_sample *sample)
 }
 
 /* The strongest of a sample and its neighbours; of equal ones the first by range, then by rate. */
-static const struct smear_sample *step(const struct smear *smear, const struct smear_sample *from)
+static const struct smear_sample *strongest_around(const struct smear *smear,
+                                                   const struct smear_sample *from)
 {
     const struct smear_sample *best = from;
-    double most = -1;
+    double strongest = -1;
     for (int64_t range = from->range - 1; range <= from->range + 1; range++)
         for (int64_t rate = from->rate - 1; rate <= from->rate + 1; rate++) {
             const struct smear_sample *sample = find(smear, range, rate);
             double here = magnitude(sample);
-            if (sample != NULL && here > most) {
+            if (sample != NULL && here > strongest) {
                 best = sample;
-                most = here;
+                strongest = here;
             }
         }
     return best;
@@ -127,16 +129,16 @@ static size_t peak_of(const struct smear *smear, const struct received_echo *rec
 {
     const struct smear_sample *at =
         find(smear, range_place(smear, received).sample, rate_place(smear, received).sample);
-    for (const struct smear_sample *next = step(smear, at); next != at; next = step(smear, at))
+    for (const struct smear_sample *next = strongest_around(smear, at); next != at;
+         next = strongest_around(smear, at))
         at = next;
     return (size_t)(at - smear->samples);
 }
 
-struct smear smear_make(const struct sensor *sensor, const struct received_echo *received_echoes,
+struct smear smear_make(const struct sensor *sensor, const struct received_echo *echoes,
                         size_t count, struct arena *arena)
 {
-    struct smear smear = {
-        .sensor = sensor, .received_echoes = received_echoes, .count = count, .slots = 2};
+    struct smear smear = {.sensor = sensor, .echoes = echoes, .count = count, .slots = 2};
     size_t most = count * TAPS * TAPS;
     while (smear.slots < 2 * most)
         smear.slots *= 2;
@@ -145,9 +147,9 @@ struct smear smear_make(const struct sensor *sensor, const struct received_echo 
     smear.cell = arena_get(arena, 2 * (count + 1) * sizeof *smear.cell);
     smear.peak = smear.cell + count + 1;
     for (size_t i = 0; i < count; i++)
-        spread(&smear, &received_echoes[i]);
+        add_echo(&smear, &echoes[i]);
     for (size_t i = 0; i < count; i++) {
-        size_t peak = peak_of(&smear, &received_echoes[i]), number = 0;
+        size_t peak = peak_of(&smear, &echoes[i]), number = 0;
         while (number < smear.cells && smear.peak[number] != peak)
             number++;
         smear.cell[i] = number;
@@ -157,13 +159,13 @@ struct smear smear_make(const struct sensor *sensor, const struct received_echo 
     return smear;
 }
 
-/* How many bins behind the peak its echo lies, along range or along rate; no farther than half way
- * to the next sample. */
+/* By how many bins the interpolated peak is beyond its sample, along range or along rate; at most
+ * half way to the next sample. */
 static double offset_of(const struct smear *smear, const struct smear_sample *peak,
                         bool along_range)
 {
-    int64_t range = along_range ? BIN : 0, rate = along_range ? 0 : BIN;
-    double least = -0.5 / BIN, most = 0.5 / BIN, here = magnitude(peak);
+    int64_t range = along_range ? SAMPLES_PER_BIN : 0, rate = along_range ? 0 : SAMPLES_PER_BIN;
+    double least = -0.5 / SAMPLES_PER_BIN, most = 0.5 / SAMPLES_PER_BIN, here = magnitude(peak);
     if (!(here > 0))
         return 0;
     double before = magnitude(find(smear, peak->range - range, peak->rate - rate));
@@ -172,12 +174,12 @@ static double offset_of(const struct smear *smear, const struct smear_sample *pe
                           least);
 }
 
-/* Where there is one received echo alone, nothing merges. */
+/* The effects at a peak. A single echo merges with nothing and has no phase relative to others. */
 static uint64_t effects_of(const struct smear_sample *peak)
 {
-    uint64_t together = EFFECT_BIT(EFFECT_MERGING) | EFFECT_BIT(EFFECT_SUPERPOSITION);
-    return peak->received_echoes > 1 ? peak->effects | together
-                                     : peak->effects & ~EFFECT_BIT(EFFECT_COHERENCE);
+    uint64_t merged = EFFECT_BIT(EFFECT_MERGING) | EFFECT_BIT(EFFECT_SUPERPOSITION);
+    return peak->echoes > 1 ? peak->effects | merged
+                            : peak->effects & ~EFFECT_BIT(EFFECT_COHERENCE);
 }
 
 static void add_members(const struct smear *smear, size_t number, struct arena *arena,
@@ -186,12 +188,12 @@ static void add_members(const struct smear *smear, size_t number, struct arena *
     double total = 0;
     for (size_t i = 0; i < smear->count; i++)
         if (smear->cell[i] == number)
-            total += smear->received_echoes[i].amplitude;
+            total += smear->echoes[i].amplitude;
     for (size_t i = 0; i < smear->count; i++)
         if (smear->cell[i] == number) {
             struct contributor *member = list_add(&cell->members, arena);
-            *member = smear->received_echoes[i].echo;
-            member->weight = smear->received_echoes[i].amplitude / total;
+            *member = smear->echoes[i].echo;
+            member->weight = smear->echoes[i].amplitude / total;
         }
 }
 
@@ -200,19 +202,21 @@ bool smear_cell(const struct smear *smear, size_t number, struct arena *arena, s
     const struct sensor *sensor = smear->sensor;
     const struct smear_sample *peak = &smear->samples[smear->peak[number]];
     double range = offset_of(smear, peak, true), rate = offset_of(smear, peak, false);
-    const struct received_echo *leader = smear->received_echoes;
-    while (smear->cell[leader - smear->received_echoes] != number)
+    const struct received_echo *leader = smear->echoes;
+    while (smear->cell[leader - smear->echoes] != number)
         leader++;
-    double _Complex gain =
-        conj(turn_of(leader->phase_rad)) / (point_response_hann(range) * point_response_hann(rate));
+    double _Complex gain = conj(phasor_of(leader->phase_rad)) /
+                           (point_response_hann(range) * point_response_hann(rate));
     struct antenna_pointers pointers = {gain * peak->pointers.sum, gain * peak->pointers.delta};
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
     *cell = (struct cell){
         .sensor = sensor->name,
-        .range_m = elementary_max(((double)peak->range / BIN + range) * sensor->cell_range_m, 0),
+        .range_m = elementary_max(
+            ((double)peak->range / SAMPLES_PER_BIN + range) * sensor->cell_range_m, 0),
         .azimuth_rad = angle.azimuth_rad,
-        .range_rate_mps = ((double)peak->rate / BIN + rate) * sensor->cell_range_rate_mps,
+        .range_rate_mps =
+            ((double)peak->rate / SAMPLES_PER_BIN + rate) * sensor->cell_range_rate_mps,
         .amplitude = elementary_hypot(creal(pointers.sum), cimag(pointers.sum)),
         .sum_re = creal(pointers.sum),
         .sum_im = cimag(pointers.sum),

@@ -183,7 +183,7 @@ static void lose_echo(const struct detections *detections, struct frame *frame, 
 void detections_label(struct detections *detections, struct frame *frame, const char *stage,
                       const struct clustered_echoes *resolved)
 {
-    const struct received_echo *received_echoes = resolved->received_echoes;
+    const struct received_echo *received_echoes = resolved->echoes;
     size_t count = resolved->count;
     const struct sensor *sensor = detections->signal->sensor;
     struct arena *arena = frame->arena;

@@ -221,8 +221,7 @@ void signal_cube_receive(const struct signal_cube *signal, const struct scan *sc
     struct random_address address =
         draw_address_in(context->address, noise_targets_contributor(0).id);
     signal_cube_clear(signal);
-    signal_cube_add(signal, scan->resolved.received_echoes, scan->resolved.count,
-                    context->frame->arena);
+    signal_cube_add(signal, scan->received.echoes, scan->received.count, context->frame->arena);
     if (noisy)
         signal_cube_add_noise(signal, &address,
                               signal->sensor->pointer_sigma *

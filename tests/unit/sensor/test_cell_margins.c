@@ -7,37 +7,37 @@
 
 enum { ALL = 4 };
 
-/* A threshold of 2 and cells of 1 m by 2 m/s to either side. */
+/* A sensor with a threshold of 2 and cells that reach 1 m and 2 m/s to either side. */
 static const struct sensor sensor = {
     .name = "s", .threshold = 2, .half_range_m = 1, .half_range_rate_mps = 2};
 
-struct spot {
+struct given_echo {
     double range_m, range_rate_mps, amplitude, sight_m;
 };
 
-/* The margins of each cell that the spots, strongest first, form. */
-static size_t margins_of(const struct spot *spots, size_t count, struct margins *answers)
+/* Clusters echoes, strongest first, and works out the margins of every cell; returns how many. */
+static size_t margins_of(const struct given_echo *given, size_t count, struct margins *margins)
 {
-    struct received_echo received_echoes[ALL];
-    struct margins sights[ALL] = {{0}};
-    struct resolution_echo echoes[ALL];
+    struct received_echo echoes[ALL];
+    struct margins sight_margins[ALL] = {{0}};
+    struct resolution_echo to_cluster[ALL];
     size_t cell[ALL];
     for (size_t i = 0; i < count; i++) {
-        margins_note(&sights[i], MARGIN_SIGHT, spots[i].sight_m);
-        received_echoes[i] = (struct received_echo){.range_m = spots[i].range_m,
-                                                    .range_rate_mps = spots[i].range_rate_mps,
-                                                    .amplitude = spots[i].amplitude,
-                                                    .margins = &sights[i]};
-        echoes[i] =
-            (struct resolution_echo){spots[i].range_m, spots[i].range_rate_mps, spots[i].amplitude};
+        margins_note(&sight_margins[i], MARGIN_SIGHT, given[i].sight_m);
+        echoes[i] = (struct received_echo){.range_m = given[i].range_m,
+                                           .range_rate_mps = given[i].range_rate_mps,
+                                           .amplitude = given[i].amplitude,
+                                           .margins = &sight_margins[i]};
+        to_cluster[i] =
+            (struct resolution_echo){given[i].range_m, given[i].range_rate_mps, given[i].amplitude};
     }
     struct arena arena = {0};
-    size_t cells = resolution_cluster(echoes, count, sensor.half_range_m,
+    size_t cells = resolution_cluster(to_cluster, count, sensor.half_range_m,
                                       sensor.half_range_rate_mps, cell, &arena);
     arena_free(&arena);
-    const struct clustered_echoes all = {received_echoes, cell, count};
+    const struct clustered_echoes all = {echoes, cell, count};
     for (size_t number = 0; number < cells; number++)
-        answers[number] = cell_margins_of(&sensor, &all, number);
+        margins[number] = cell_margins_of(&sensor, &all, number);
     return cells;
 }
 
@@ -51,17 +51,17 @@ static void assert_margin(const struct margins *margins, enum margin which, doub
 
 static const double none = (double)INFINITY;
 
-static void cells_tell_how_near_their_decisions_were(void **state)
+static void a_cell_has_the_least_margins_of_its_pairs(void **state)
 {
     (void)state;
     const double ten_to_8 = 20 * log10(10 / 8.0), ten_to_5 = 20 * log10(2.0);
     const struct {
         const char *what;
-        struct spot spots[ALL];
+        struct given_echo given[ALL];
         size_t count, cells;
         struct {
             double sight_m, leader_db, cell_edge;
-        } answers[ALL];
+        } margins[ALL];
     } cases[] = {
         {"one alone", {{10, 0, 10, 3}}, 1, 1, {{3, none, none}}},
         {"two share, nearer the edge in range",
@@ -84,43 +84,46 @@ static void cells_tell_how_near_their_decisions_were(void **state)
          2,
          2,
          {{3, none, 1.5}, {2, none, 1.5}}},
-        {"between the first two: the third is the first one's",
+        {"the third one, between the first two, is in the first one's cell",
          {{10, 0, 10, 3}, {11.5, 0, 8, 2}, {10.75, 0, 5, 1}},
          3,
          2,
          {{1, ten_to_8, 0.25}, {2, ten_to_8, 0.5}}},
-        {"a member of the second, seen from the first as well",
+        {"a member of the second cell that is near the first one's edge",
          {{10, 0, 10, 3}, {11.5, 0, 8, 2}, {11.125, 0, 5, 1}},
          3,
          2,
          {{3, ten_to_8, 0.125}, {1, ten_to_8, 0.125}}},
         {"a tie on an edge", {{10, 0, 10, 3}, {11, 0, 10, 0}}, 2, 1, {{0, 0, 0}}},
-        {"the stronger of two others is the nearer to lead",
+        {"the second and the third compete for the lead, too",
          {{10, 0, 10, 3}, {12.5, 0, 8, 2}, {11.25, 0, 5, 1}},
          3,
          3,
          {{3, ten_to_5, 0.25}, {2, 20 * log10(1.6), 0.25}, {1, 20 * log10(1.6), 0.25}}},
-        {"no business of the third, which is far off",
+        {"the third one is far away and alone",
          {{10, 0, 10, 3}, {10.5, 0, 8, 2}, {50, 0, 5, 1}},
          3,
          2,
          {{2, ten_to_8, 0.5}, {1, none, 39}}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct margins answers[ALL];
+        struct margins margins[ALL];
         print_message("%s\n", cases[i].what);
-        assert_int_equal(margins_of(cases[i].spots, cases[i].count, answers), cases[i].cells);
+        assert_int_equal(margins_of(cases[i].given, cases[i].count, margins), cases[i].cells);
         for (size_t j = 0; j < cases[i].cells; j++) {
-            const struct margins *one = &answers[j];
-            assert_margin(one, MARGIN_SIGHT, one->sight_m, cases[i].answers[j].sight_m);
-            assert_margin(one, MARGIN_LEADER, one->leader_db, cases[i].answers[j].leader_db);
-            assert_margin(one, MARGIN_CELL_EDGE, one->cell_edge, cases[i].answers[j].cell_edge);
+            const struct margins *cell_margins = &margins[j];
+            assert_margin(cell_margins, MARGIN_SIGHT, cell_margins->sight_m,
+                          cases[i].margins[j].sight_m);
+            assert_margin(cell_margins, MARGIN_LEADER, cell_margins->leader_db,
+                          cases[i].margins[j].leader_db);
+            assert_margin(cell_margins, MARGIN_CELL_EDGE, cell_margins->cell_edge,
+                          cases[i].margins[j].cell_edge);
         }
     }
 }
 
-/* Delta 3 - 4j under a sum of 2: Im(delta conj sum) is -8 of 10. */
-static void a_cell_tells_threshold_and_sign(void **state)
+/* With delta 3 - 4j and sum 2, Im(delta conj sum) is -8 and |delta| |sum| is 10. */
+static void a_cell_has_margins_of_threshold_and_sign(void **state)
 {
     (void)state;
     struct cell cell = {.amplitude = 20, .sum_re = 2, .delta_re = 3, .delta_im = -4};
@@ -128,7 +131,7 @@ static void a_cell_tells_threshold_and_sign(void **state)
     assert_int_equal(cell.margins.present, MARGIN_THRESHOLD | MARGIN_SIGN);
     assert_close(cell.margins.threshold_db, 20, 1e-13);
     assert_close(cell.margins.sign, 0.8, 1e-15);
-    /* The ratio decides no sign, and there is none without a delta. */
+    /* The ratio rule decides no sign, and without a delta there is none to decide. */
     struct sensor ratio = sensor;
     ratio.angle_estimator = MONOPULSE_RATIO;
     cell.margins.present = 0;
@@ -140,7 +143,7 @@ static void a_cell_tells_threshold_and_sign(void **state)
     assert_close(cell.margins.threshold_db, 20, 1e-13);
 }
 
-static void noise_tells_its_own_if_it_is_less(void **state)
+static void the_noisy_cell_has_the_lesser_margins(void **state)
 {
     (void)state;
     struct margins margins = {
@@ -161,9 +164,9 @@ static void noise_tells_its_own_if_it_is_less(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cells_tell_how_near_their_decisions_were),
-        cmocka_unit_test(a_cell_tells_threshold_and_sign),
-        cmocka_unit_test(noise_tells_its_own_if_it_is_less),
+        cmocka_unit_test(a_cell_has_the_least_margins_of_its_pairs),
+        cmocka_unit_test(a_cell_has_margins_of_threshold_and_sign),
+        cmocka_unit_test(the_noisy_cell_has_the_lesser_margins),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

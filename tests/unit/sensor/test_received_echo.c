@@ -2,7 +2,8 @@
 
 #include "sensor/received_echo.h"
 
-/* 25 mm/h of rain takes 2.190804 dB over 100 m; the cross section makes up for the range. */
+/* Rain of 25 mm/h takes 2.190804 dB there and back over 100 m. An ERCS of 100 makes the strength 1
+ * at 100 m. */
 static void an_echo_is_received_with_the_effects_of_its_scan(void **state)
 {
     struct effect_bench *bench = *state;

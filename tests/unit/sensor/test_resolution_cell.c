@@ -7,7 +7,7 @@
 #include "sample.h"
 #include "sensor/resolution_cell.h"
 
-/* The paper's sensor: 0.8 meets a threshold of 2 at 30 m, so A_ref = 2.5 (30 / R)^2. */
+/* The paper's sensor: an ERCS of 0.8 meets a threshold of 2 at 30 m, so A_ref = 2.5 (30 / R)^2. */
 static struct sensor paper_sensor(enum antenna_phase phase)
 {
     struct sensor sensor = {.name = "s",
@@ -41,7 +41,7 @@ static double pattern(double azimuth_rad)
     return (u == 0 ? 1 : sin(u) / u) * cos(azimuth_rad) * cos(u);
 }
 
-static void a_ray_is_reference_amplitude_times_cross_section_times_pattern(void **state)
+static void strength_is_reference_amplitude_times_ercs_and_amplitude_has_the_pattern(void **state)
 {
     (void)state;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
@@ -52,7 +52,7 @@ static void a_ray_is_reference_amplitude_times_cross_section_times_pattern(void 
     assert_close(received.phase_rad, 0.25, 0);
     assert_close(received.echo.range_rate_mps, -2, 0);
     assert_close(received.echo.weight, 0, 0);
-    /* Nearer than the floor counts as the floor. */
+    /* A range below the floor counts as the floor. */
     echo = echo_at(0.1, 0, 0, 1);
     assert_near(received_echo_in_free_space(&sensor, &echo, 0).strength, 2.5 * 3600, 1e-12);
 }
@@ -67,18 +67,18 @@ static void a_ghost_has_the_root_of_the_pattern_each_way(void **state)
         struct echo back = echo_at(15, 0.4, 0, 0.5);
         out.departure_rad = 0.4 - azimuth_rad;
         back.departure_rad = azimuth_rad - 0.4;
-        struct received_echo received_echoes[] = {received_echo_in_free_space(&sensor, &out, 0),
-                                                  received_echo_in_free_space(&sensor, &back, 0)};
+        struct received_echo echoes[] = {received_echo_in_free_space(&sensor, &out, 0),
+                                         received_echo_in_free_space(&sensor, &back, 0)};
         for (size_t i = 0; i < 2; i++) {
             struct cell cell;
-            assert_near(received_echoes[i].amplitude, 5 * sqrt(pattern(azimuth_rad) * pattern(0.4)),
-                        1e-13);
-            assert_true(resolution_cell_of(&sensor, &received_echoes[i], 1, true, &arena, &cell));
+            assert_near(echoes[i].amplitude, 5 * sqrt(pattern(azimuth_rad) * pattern(0.4)), 1e-13);
+            assert_true(resolution_cell_of(&sensor, &echoes[i], 1, true, &arena, &cell));
             assert_close(cell.azimuth_rad, i == 0 ? azimuth_rad : 0.4, 1e-14);
-            assert_near(hypot(cell.sum_re, cell.sum_im), received_echoes[i].amplitude, 1e-14);
+            assert_near(hypot(cell.sum_re, cell.sum_im), echoes[i].amplitude, 1e-14);
         }
     }
-    /* Nothing leaves or comes back beyond the side of the array, be it by an ulp. */
+    /* A wave that leaves or comes back beyond the side of the array, be it by an ulp, has no
+     * amplitude. */
     struct echo echo = echo_at(15, 0.4, 0, 0.5);
     echo.departure_rad = 0x1.921fb54442d19p0 - 0.4;
     assert_true(received_echo_in_free_space(&sensor, &echo, 0).amplitude >= 0);
@@ -92,7 +92,7 @@ static void a_ghost_has_the_root_of_the_pattern_each_way(void **state)
     arena_free(&arena);
 }
 
-static void one_echo_is_its_cell(void **state)
+static void a_single_echo_is_its_cell(void **state)
 {
     (void)state;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
@@ -116,7 +116,7 @@ static void two_echoes_are_weighted_by_amplitude(void **state)
 {
     (void)state;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
-    struct received_echo received_echoes[] = {
+    struct received_echo echoes[] = {
         {.echo = {.id.object = "a", .id.reflector = "r", .range_m = 10, .range_rate_mps = -1},
          .range_m = 10,
          .range_rate_mps = -1,
@@ -129,7 +129,7 @@ static void two_echoes_are_weighted_by_amplitude(void **state)
          .amplitude = 2}};
     struct arena arena = {0};
     struct cell cell;
-    assert_true(resolution_cell_of(&sensor, received_echoes, 2, true, &arena, &cell));
+    assert_true(resolution_cell_of(&sensor, echoes, 2, true, &arena, &cell));
     assert_string_equal(cell.sensor, "s");
     assert_close(cell.amplitude, 8, 0);
     assert_near(cell.range_m, 10.05, 1e-15);
@@ -138,7 +138,7 @@ static void two_echoes_are_weighted_by_amplitude(void **state)
     assert_close(cell.members.items[0].weight, 0.75, 0);
     assert_close(cell.members.items[1].weight, 0.25, 0);
     assert_string_equal(cell.members.items[1].id.object, "b");
-    /* Both on boresight: the sum channel takes all, delta nothing. */
+    /* Both echoes are on boresight: the sum channel has all, delta nothing. */
     assert_close(cell.sum_re, 8, 1e-15);
     assert_close(cell.sum_im, 0, 0);
     assert_close(cell.delta_re, 0, 0);
@@ -147,9 +147,9 @@ static void two_echoes_are_weighted_by_amplitude(void **state)
     arena_free(&arena);
 }
 
-/* Equation (8) for two on either side at 30 degrees, u = pi/4: with
- * f = si(pi/4) cos(pi/6) and cos u = sin u = sqrt(1/2), H_sum = f sqrt(1/2),
- * H_delta = -+ j f sqrt(1/2), counted from the centre. */
+/* Equation (8) for echoes at 30 degrees to the left and to the right, u = pi/4: with
+ * f = si(pi/4) cos(pi/6) and cos u = sin u = sqrt(1/2), H_sum = f sqrt(1/2) and
+ * H_delta = -+ j f sqrt(1/2) with phases from the centre. */
 static void pointers_add_up_as_in_equation_8(void **state)
 {
     (void)state;
@@ -157,7 +157,7 @@ static void pointers_add_up_as_in_equation_8(void **state)
     struct arena arena = {0};
     for (int element = 0; element < 2; element++) {
         struct sensor sensor = paper_sensor(element ? PHASE_ELEMENT : PHASE_CENTRE);
-        struct received_echo received_echoes[] = {
+        struct received_echo echoes[] = {
             {.echo = {.id.object = "a", .id.reflector = "r", .azimuth_rad = PI / 6},
              .strength = 3,
              .amplitude = 3 * part},
@@ -165,13 +165,13 @@ static void pointers_add_up_as_in_equation_8(void **state)
              .strength = 1,
              .amplitude = part}};
         struct cell cell;
-        assert_true(resolution_cell_of(&sensor, received_echoes, 2, true, &arena, &cell));
-        /* From the element each turns by e^{ju}: (1 +- j) sqrt(1/2). */
-        double turn = sqrt(0.5);
-        assert_close(cell.sum_re, element ? 4 * part * turn : 4 * part, 1e-14);
-        assert_close(cell.sum_im, element ? 2 * part * turn : 0, 1e-14);
-        assert_close(cell.delta_re, element ? 4 * part * turn : 0, 1e-14);
-        assert_close(cell.delta_im, element ? -2 * part * turn : -2 * part, 1e-14);
+        assert_true(resolution_cell_of(&sensor, echoes, 2, true, &arena, &cell));
+        /* With phases from the first element each pointer turns by e^{ju} = (1 +- j) sqrt(1/2). */
+        double root_half = sqrt(0.5);
+        assert_close(cell.sum_re, element ? 4 * part * root_half : 4 * part, 1e-14);
+        assert_close(cell.sum_im, element ? 2 * part * root_half : 0, 1e-14);
+        assert_close(cell.delta_re, element ? 4 * part * root_half : 0, 1e-14);
+        assert_close(cell.delta_im, element ? -2 * part * root_half : -2 * part, 1e-14);
         assert_near(cell.amplitude, 4 * part, 1e-14);
         if (!element) /* |delta| : |sum| = 1 : 2 = tan u, to the left */
             assert_close(cell.azimuth_rad, asin(2 / PI * atan(0.5)), 1e-14);
@@ -184,31 +184,32 @@ static void phases_turn_the_pointers(void **state)
     (void)state;
     struct sensor sensor = paper_sensor(PHASE_CENTRE);
     struct arena arena = {0};
-    struct received_echo received_echoes[] = {
+    struct received_echo echoes[] = {
         {.echo = {.id.object = "a", .id.reflector = "r"}, .strength = 4, .amplitude = 4},
         {.echo = {.id.object = "b", .id.reflector = "r"},
          .strength = 3,
          .amplitude = 3,
          .phase_rad = PI / 2}};
     struct cell cell;
-    assert_true(resolution_cell_of(&sensor, received_echoes, 2, true, &arena, &cell));
+    assert_true(resolution_cell_of(&sensor, echoes, 2, true, &arena, &cell));
     assert_close(cell.sum_re, 4, 1e-15);
     assert_close(cell.sum_im, 3, 1e-15);
     assert_close(cell.amplitude, 7, 0);
-    /* Opposite and equal: nothing is left but rounding, and with no phase at all it is exact. */
-    received_echoes[1].strength = 4;
-    received_echoes[1].phase_rad = PI;
-    resolution_cell_of(&sensor, received_echoes, 2, true, &arena, &cell);
+    /* Equal echoes in antiphase leave nothing but rounding. */
+    echoes[1].strength = 4;
+    echoes[1].phase_rad = PI;
+    resolution_cell_of(&sensor, echoes, 2, true, &arena, &cell);
     assert_close(hypot(cell.sum_re, cell.sum_im), 0, 1e-14);
     arena_free(&arena);
 }
 
-/* EFFECTS 5: two echoes half a separation to either side, the weaker rho times as strong and psi
- * behind. In half separations towards the stronger one the ratio rule reads the coherent position
- * g = (1 - rho^2) / (1 + rho^2 + 2 rho cos psi); the magnitude rule reads the size of the complex
- * position, sqrt((1 + rho^2 - 2 rho cos psi) / (1 + rho^2 + 2 rho cos psi)), which is g in phase
- * and in antiphase only. Range stays at the centroid of amplitudes, g in phase, as in (4). */
-static void a_coherent_pair_is_read_where_effects_5_has_it(void **state)
+/* MODEL 14.18: two echoes half a separation to either side of boresight, the weaker one rho times
+ * as strong and psi behind. In half separations towards the stronger one, the ratio rule reads the
+ * coherent position g = (1 - rho^2) / (1 + rho^2 + 2 rho cos psi). The magnitude rule reads the
+ * size of the complex position, sqrt((1 + rho^2 - 2 rho cos psi) / (1 + rho^2 + 2 rho cos psi)),
+ * which is g in phase and in antiphase alone. Range stays at the mean weighted by amplitude,
+ * equation (4). */
+static void a_coherent_pair_is_read_at_its_coherent_position(void **state)
 {
     (void)state;
     static const struct {
@@ -226,7 +227,7 @@ static void a_coherent_pair_is_read_where_effects_5_has_it(void **state)
             struct sensor sensor = paper_sensor(rule < 2 ? PHASE_CENTRE : PHASE_ELEMENT);
             sensor.angle_estimator = rule % 2 ? MONOPULSE_MAGNITUDE : MONOPULSE_RATIO;
             double rho = cases[i].rho;
-            struct received_echo received_echoes[] = {
+            struct received_echo echoes[] = {
                 {.echo = {.azimuth_rad = half_rad}, .range_m = 11, .strength = 1, .amplitude = 1},
                 {.echo = {.azimuth_rad = -half_rad},
                  .range_m = 9,
@@ -234,7 +235,7 @@ static void a_coherent_pair_is_read_where_effects_5_has_it(void **state)
                  .amplitude = rho,
                  .phase_rad = -cases[i].psi_deg * PI / 180}};
             struct cell cell;
-            assert_true(resolution_cell_of(&sensor, received_echoes, 2, true, &arena, &cell));
+            assert_true(resolution_cell_of(&sensor, echoes, 2, true, &arena, &cell));
             double expected = rule % 2 ? cases[i].magnitude : cases[i].ratio;
             assert_close(fabs(cell.azimuth_rad) / half_rad, expected, 1e-6 + 1e-6 * expected);
             assert_true(rule % 2 || cell.azimuth_rad > 0);
@@ -243,7 +244,7 @@ static void a_coherent_pair_is_read_where_effects_5_has_it(void **state)
     arena_free(&arena);
 }
 
-/* The mean of g over all phases is the stronger echo's place, exactly (EFFECTS 5). */
+/* The mean of g over all phases is exactly the stronger echo's place (MODEL 14.18). */
 static void a_coherent_pair_is_at_its_stronger_echo_on_average(void **state)
 {
     (void)state;
@@ -254,14 +255,14 @@ static void a_coherent_pair_is_at_its_stronger_echo_on_average(void **state)
     struct arena arena = {0};
     double sum = 0;
     for (int i = 0; i < PHASES; i++) {
-        struct received_echo received_echoes[] = {
+        struct received_echo echoes[] = {
             {.echo = {.azimuth_rad = half_rad}, .strength = 1, .amplitude = 1},
             {.echo = {.azimuth_rad = -half_rad},
              .strength = 0.9,
              .amplitude = 0.9,
              .phase_rad = 2 * PI * (i + 0.5) / PHASES}};
         struct cell cell;
-        assert_true(resolution_cell_of(&sensor, received_echoes, 2, true, &arena, &cell));
+        assert_true(resolution_cell_of(&sensor, echoes, 2, true, &arena, &cell));
         sum += cell.azimuth_rad / half_rad;
         arena_clear(&arena);
     }
@@ -276,30 +277,30 @@ static void weights_sum_to_one_and_means_stay_inside(void **state)
     uint64_t random = 4;
     struct arena arena = {0};
     for (int round = 0; round < 3000; round++) {
-        struct received_echo received_echoes[40];
+        struct received_echo echoes[40];
         size_t count = 1 + sample_bits(&random) % 40;
         double least = 1e9, most = -1e9;
         for (size_t i = 0; i < count; i++) {
             struct echo echo =
                 echo_at(sample_between(&random, 20, 20.3), sample_between(&random, -1.5, 1.5),
                         sample_between(&random, -1, 1), exp(sample_between(&random, -20, 2)));
-            received_echoes[i] = received_echo_in_free_space(&sensor, &echo, 0);
+            echoes[i] = received_echo_in_free_space(&sensor, &echo, 0);
             least = fmin(least, echo.range_m);
             most = fmax(most, echo.range_m);
         }
-        qsort(received_echoes, count, sizeof *received_echoes, resolution_cell_compare);
+        qsort(echoes, count, sizeof *echoes, resolution_cell_compare);
         struct cell cell;
-        assert_true(resolution_cell_of(&sensor, received_echoes, count, true, &arena, &cell));
+        assert_true(resolution_cell_of(&sensor, echoes, count, true, &arena, &cell));
         double total = 0, amplitude = 0;
         for (size_t i = 0; i < count; i++) {
             total += cell.members.items[i].weight;
-            amplitude += received_echoes[i].amplitude;
-            assert_true(i == 0 || received_echoes[i - 1].amplitude >= received_echoes[i].amplitude);
+            amplitude += echoes[i].amplitude;
+            assert_true(i == 0 || echoes[i - 1].amplitude >= echoes[i].amplitude);
         }
         assert_close(total, 1, 1e-14);
         assert_close(cell.amplitude, amplitude, 0);
         assert_true(cell.range_m >= least && cell.range_m <= most);
-        /* The bound that equation (5)'s denominator is. */
+        /* The denominator of equation (5) is an upper bound. */
         assert_true(hypot(cell.sum_re, cell.sum_im) <= cell.amplitude * (1 + 1e-14));
         arena_clear(&arena);
     }
@@ -322,13 +323,13 @@ static void ties_of_amplitude_go_by_the_frames_order(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_ray_is_reference_amplitude_times_cross_section_times_pattern),
+        cmocka_unit_test(strength_is_reference_amplitude_times_ercs_and_amplitude_has_the_pattern),
         cmocka_unit_test(a_ghost_has_the_root_of_the_pattern_each_way),
-        cmocka_unit_test(one_echo_is_its_cell),
+        cmocka_unit_test(a_single_echo_is_its_cell),
         cmocka_unit_test(two_echoes_are_weighted_by_amplitude),
         cmocka_unit_test(pointers_add_up_as_in_equation_8),
         cmocka_unit_test(phases_turn_the_pointers),
-        cmocka_unit_test(a_coherent_pair_is_read_where_effects_5_has_it),
+        cmocka_unit_test(a_coherent_pair_is_read_at_its_coherent_position),
         cmocka_unit_test(a_coherent_pair_is_at_its_stronger_echo_on_average),
         cmocka_unit_test(weights_sum_to_one_and_means_stay_inside),
         cmocka_unit_test(ties_of_amplitude_go_by_the_frames_order),

@@ -8,8 +8,8 @@
 
 #define EVERYTHING (EFFECT_BIT(EFFECT_COUNT) - 1)
 
-/* A radar whose cells are 1 m by 1 m/s, and echoes on boresight as strong as their cross section
- * at 10 m. */
+/* A radar with cells of 1 m by 1 m/s, which receives an echo on boresight at 10 m with its ERCS as
+ * amplitude. */
 struct bench {
     struct arena arena;
     struct frame frame;
@@ -18,7 +18,7 @@ struct bench {
     struct effect_log log;
 };
 
-static int64_t no_clock_ns(void)
+static int64_t stopped_clock_ns(void)
 {
     return 0;
 }
@@ -39,7 +39,7 @@ static int make_bench(void **state)
                                     .cell_range_rate_mps = 1,
                                     .cell_extent = CELL_WIDTH};
     suite_derive(&bench->sensor);
-    bench->log.clock_ns = no_clock_ns;
+    bench->log.clock_ns = stopped_clock_ns;
     bench->selection = (struct selection){.allowed = EVERYTHING, .log = &bench->log};
     *state = bench;
     return 0;
@@ -53,7 +53,7 @@ static int remove_bench(void **state)
     return 0;
 }
 
-/* Its amplitude is that of the echo at 10 m, whatever the range. */
+/* Adds an echo of this amplitude at any range. */
 static void add_echo(struct bench *bench, const char *sensor, const char *object, double range_m,
                      double range_rate_mps, double amplitude)
 {
@@ -102,8 +102,8 @@ static void cells_are_numbered_by_their_leaders_strongest_first(void **state)
     assert_true(bench->log.simulated == EFFECT_BIT(EFFECT_MERGING));
 }
 
-/* On the end of the array, and without cross section. */
-static void rays_without_amplitude_are_silent_and_in_no_cell(void **state)
+/* Echoes b and d have no cross section. */
+static void echoes_without_amplitude_are_silent_and_in_no_cell(void **state)
 {
     struct bench *bench = *state;
     add_echo(bench, "radar", "a", 20, 0, 1);
@@ -147,7 +147,7 @@ static void a_scan_of_nothing_has_no_cells(void **state)
     assert_int_equal(scan.silent_count, 0);
 }
 
-static void merging_is_left_out_where_nothing_is_close(void **state)
+static void auto_leaves_out_merging_where_no_echoes_are_close(void **state)
 {
     struct bench *bench = *state;
     bench->selection.automatic = true;
@@ -189,13 +189,13 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(cells_are_numbered_by_their_leaders_strongest_first,
                                         make_bench, remove_bench),
-        cmocka_unit_test_setup_teardown(rays_without_amplitude_are_silent_and_in_no_cell,
+        cmocka_unit_test_setup_teardown(echoes_without_amplitude_are_silent_and_in_no_cell,
                                         make_bench, remove_bench),
         cmocka_unit_test_setup_teardown(silent_echoes_are_lost_with_their_margins, make_bench,
                                         remove_bench),
         cmocka_unit_test_setup_teardown(a_scan_of_nothing_has_no_cells, make_bench, remove_bench),
-        cmocka_unit_test_setup_teardown(merging_is_left_out_where_nothing_is_close, make_bench,
-                                        remove_bench),
+        cmocka_unit_test_setup_teardown(auto_leaves_out_merging_where_no_echoes_are_close,
+                                        make_bench, remove_bench),
         cmocka_unit_test_setup_teardown(a_scan_has_only_the_effects_of_its_selection, make_bench,
                                         remove_bench),
     };

@@ -25,11 +25,11 @@ static struct sensor test_sensor(void)
     return sensor;
 }
 
-/* Rays by places in bins, with amplitudes on boresight. */
+/* Echoes on boresight, placed in bins. */
 struct scene {
     struct arena arena;
     struct sensor sensor;
-    struct received_echo received_echoes[MOST];
+    struct received_echo echoes[MOST];
     size_t count;
     struct smear smear;
     struct cell cells[MOST];
@@ -63,7 +63,7 @@ static void start(struct scene *scene)
 static struct received_echo *add(struct scene *scene, double range_bins, double rate_bins,
                                  double amplitude, double phase_rad)
 {
-    struct received_echo *received = &scene->received_echoes[scene->count];
+    struct received_echo *received = &scene->echoes[scene->count];
     *received =
         (struct received_echo){.echo = {.id.object = "o", .id.reflector = names[scene->count]},
                                .strength = amplitude,
@@ -79,9 +79,9 @@ static struct received_echo *add(struct scene *scene, double range_bins, double 
 
 static size_t cells_of(struct scene *scene)
 {
-    sort_items(scene->received_echoes, scene->count, sizeof *scene->received_echoes,
-               resolution_cell_compare, &scene->arena);
-    scene->smear = smear_make(&scene->sensor, scene->received_echoes, scene->count, &scene->arena);
+    sort_items(scene->echoes, scene->count, sizeof *scene->echoes, resolution_cell_compare,
+               &scene->arena);
+    scene->smear = smear_make(&scene->sensor, scene->echoes, scene->count, &scene->arena);
     for (size_t i = 0; i < scene->smear.cells; i++)
         assert_true(smear_cell(&scene->smear, i, &scene->arena, &scene->cells[i]));
     return scene->smear.cells;
@@ -103,7 +103,7 @@ static void assert_same_cell(const struct cell *cell, const struct cell *expecte
     assert_true(cell->effects == expected->effects);
 }
 
-static void one_echo_alone_is_the_cell_that_it_always_is(void **state)
+static void a_single_echo_has_the_cell_of_glint_sensor(void **state)
 {
     struct scene *scene = *state;
     uint64_t sample = 1;
@@ -139,13 +139,12 @@ static void echoes_that_are_far_apart_do_not_touch(void **state)
     assert_int_equal(cells_of(scene), 3);
     for (size_t i = 0; i < 3; i++) {
         struct cell expected;
-        resolution_cell_of(&scene->sensor, &scene->received_echoes[i], 1, true, &scene->arena,
-                           &expected);
+        resolution_cell_of(&scene->sensor, &scene->echoes[i], 1, true, &scene->arena, &expected);
         assert_same_cell(&scene->cells[i], &expected);
     }
 }
 
-/* Two echoes of amplitude 1 whose middle is at a place on the bins, along range or along rate. */
+/* Two echoes of amplitude 1, so many bins apart around the middle, along range or along rate. */
 static size_t pair(struct scene *scene, double middle, double spacing, double phase_rad,
                    bool along_range)
 {
@@ -236,7 +235,7 @@ static void echoes_that_cancel_have_no_amplitude(void **state)
     start(scene);
     add(scene, 20, 0, 1, 0);
     add(scene, 20, 0, 1, 0)->strength = -1;
-    scene->smear = smear_make(&scene->sensor, scene->received_echoes, 2, &scene->arena);
+    scene->smear = smear_make(&scene->sensor, scene->echoes, 2, &scene->arena);
     assert_int_equal(scene->smear.cells, 1);
     assert_false(smear_cell(&scene->smear, 0, &scene->arena, scene->cells));
     assert_true(scene->cells[0].amplitude == 0);
@@ -269,7 +268,7 @@ static void every_echo_is_in_one_cell_and_weights_add_up(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(one_echo_alone_is_the_cell_that_it_always_is, make_scene,
+        cmocka_unit_test_setup_teardown(a_single_echo_has_the_cell_of_glint_sensor, make_scene,
                                         remove_scene),
         cmocka_unit_test_setup_teardown(echoes_that_are_far_apart_do_not_touch, make_scene,
                                         remove_scene),

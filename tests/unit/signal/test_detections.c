@@ -74,7 +74,7 @@ static void show(struct bench *bench, double range_m, double rate_mps, double am
 static struct detections sight(struct bench *bench)
 {
     const struct effect_scan context = {.frame = &bench->frame, .sensor = &bench->sensor};
-    const struct clustered_echoes received = {.received_echoes = bench->received_echoes,
+    const struct clustered_echoes received = {.echoes = bench->received_echoes,
                                               .count = bench->count};
     bench->spectrum = signal_cube_spectrum(&bench->signal, &bench->arena);
     struct detections detections = detections_of(&bench->signal, &bench->spectrum, &context);
