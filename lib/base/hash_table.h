@@ -1,7 +1,7 @@
-/* Hash table that finds numbers 0, 1, 2, ... by their meaning.
+/* Hash table of numbers, found again by what they stand for.
  *
- * It uses open addressing and is at most half full. The caller keeps the items that the numbers
- * stand for, and compares them with the wanted one. */
+ * The numbers are 0, 1, 2, ... The table uses open addressing and is at most half full. The caller
+ * keeps the items that the numbers stand for, and compares them with the wanted one. */
 #ifndef HASH_TABLE_H
 #define HASH_TABLE_H
 

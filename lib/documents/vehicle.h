@@ -1,5 +1,5 @@
-/* Documents of classes of road users and things (data/vehicles/): size, reflection centres and
- * other models of a class. */
+/* Documents of classes of road users and things. They hold size, reflection centres and other
+ * models of a class (data/vehicles/). */
 #ifndef VEHICLE_H
 #define VEHICLE_H
 

@@ -1,6 +1,6 @@
 #include "score/energy_distance.h"
 
-/* Lists from first to before end. */
+/* The lists from first up to, not including, end. */
 struct range {
     size_t first, end;
 };
@@ -35,7 +35,7 @@ double energy_distance_of(const struct energy_sample *sample)
     return distance_without(sample, NONE);
 }
 
-/* Over the lists of one law: (n - 1)/n times the sum of squares about their mean. */
+/* The variance over the lists of one law: (n - 1)/n times the sum of squares about their mean. */
 static double jackknife(const struct energy_sample *sample, struct range lists)
 {
     double count = (double)(lists.end - lists.first), middle = 0, squares = 0;

@@ -10,9 +10,9 @@
 
 #include <stddef.h>
 
-/* Distances of all lists from each other: ones of the first law, then others of the second;
- * distance[i * (ones + others) + j], symmetric, 0 on the diagonal. D is linear in them: a mean of
- * matrices over frames with the same seeds gives the mean of D. */
+/* The distances of all lists from each other: ones lists of the first law, then others lists of the
+ * second. distance[i * (ones + others) + j] is symmetric, 0 on the diagonal. D is linear in the
+ * distances: a mean of matrices over frames with the same seeds gives the mean of D. */
 struct energy_sample {
     const double *distance;
     size_t ones, others; /* each at least 2 */
@@ -20,9 +20,8 @@ struct energy_sample {
 
 double energy_distance_of(const struct energy_sample *sample);
 
-/* The variance of that estimate by the jackknife over the lists of both laws; each needs at
- * least 3.
- */
+/* The variance of that estimate by the jackknife over the lists of both laws; each law needs at
+ * least 3 lists. */
 double energy_distance_variance(const struct energy_sample *sample);
 
 #endif

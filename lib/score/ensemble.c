@@ -137,7 +137,7 @@ int ensemble_add(struct ensemble *ensemble, const struct frame *frame, struct di
     return 0;
 }
 
-/* The seed's list of that number, if it is of the same frame and sensor as the first seed's. */
+/* True if both seeds have lists of the same frames and sensors, in the same order. */
 static bool same_lists(const struct ensemble_seed *first, const struct ensemble_seed *seed)
 {
     if (seed->lists.count != first->lists.count)

@@ -15,7 +15,7 @@ struct ensemble_scene;
 
 /* The seeds of each scene in one stream, with their target lists. */
 struct ensemble {
-    struct arena *arena; /* of all that it keeps */
+    struct arena *arena; /* memory of all that the ensemble keeps */
     LIST_OF(struct ensemble_scene) scenes;
 };
 
@@ -24,14 +24,15 @@ struct ensemble_scene_score {
     int64_t lists; /* frames times the sensors that measured in them */
     int64_t true_seeds, listed_seeds;
     double true_targets, listed_targets; /* mean number in a list */
-    double energy;                       /* D, dimensionless: of embedded lists */
+    double energy;                       /* D, dimensionless, of embedded lists */
     double energy_error;                 /* its standard error, by the jackknife over seeds */
 };
 
 struct ensemble_score {
     LIST_OF(struct ensemble_scene_score) scenes;
-    double energy;    /* mean of the scenes' */
-    double low, high; /* 95 % interval: bootstrap over scenes; of one scene 1.96 standard errors */
+    double energy;    /* mean of the scenes' energies */
+    double low, high; /* 95 % interval of energy: bootstrap over scenes; for one scene 1.96 standard
+                       * errors */
 };
 
 extern const struct record ensemble_score_record;

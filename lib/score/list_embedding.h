@@ -25,7 +25,7 @@ struct embedded_list {
     double square; /* <m(X), m(X)>, by list_embedding_close */
 };
 
-/* Sorts the targets, so that their order in the list changes no bit, and works out the square. */
+/* Sorts the targets, so that their order in the list changes no bit, and computes the square. */
 void list_embedding_close(struct embedded_list *list, struct arena *arena);
 
 /* |m(X) - m(Y)| >= 0 of two closed lists; sqrt(3) between a list and the same with one target more.

@@ -1,5 +1,5 @@
-/* Scores as a table for people: a column for each score, a row for every figure that any of them
- * has. */
+/* Scores as a table for people. It has a column for each score and a row for every figure that any
+ * of them has. */
 #ifndef SCORE_TABLE_H
 #define SCORE_TABLE_H
 

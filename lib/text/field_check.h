@@ -1,4 +1,4 @@
-/* Check of a struct against the bounds of its field table.
+/* Check of a struct against the bounds of its fields.
  *
  * It covers embedded structs and lists, and accepts whatever the reader of a line would. A list is
  * checked member by member: one member of all items, then the next member. Of several faults, the

@@ -1,4 +1,4 @@
-/* A struct as a line of JSON, and back, by its field table.
+/* Structs as JSON lines, and back, by their field tables.
  *
  * The writer makes no tree and no white space; keys come in table order. The reader takes any key
  * order and any spelling of a number. It refuses unknown, missing and repeated keys and anything

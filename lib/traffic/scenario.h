@@ -1,4 +1,5 @@
-/* Hand-written scenarios: the objects and how each one moves (documents in data/scenarios/).
+/* Hand-written scenarios: the objects and how each one moves. They are documents in
+ * data/scenarios/.
  *
  * An object with segments drives them one after another from its start pose, each with constant
  * acceleration and turn rate; after the last it keeps its speed and heading. An object without

@@ -1,5 +1,5 @@
-/* Recorded trajectories from tables in the INTERACTION data set's layout: one row per road user and
- * instant.
+/* Recorded trajectories from tables in the INTERACTION data set's layout. A row is one road user at
+ * one instant.
  *
  * Needed columns are track_id, timestamp_ms, agent_type, x, y, vx, vy. The columns psi_rad, length
  * and width come all or not at all: files of pedestrians lack them, and a row may leave its three

@@ -1,4 +1,4 @@
-/* Places of sensors, targets and objects for views of a frame. Sensors are placed at the instant of
+/* Places of sensors, targets and objects in a frame's view. Sensors are placed at the instant of
  * their measurement; vehicle documents of the objects' classes complete their boxes. */
 #ifndef VIEW_FRAME_H
 #define VIEW_FRAME_H

@@ -170,14 +170,14 @@ static void a_joint_of_two_pieces_along_an_axis_never_loses_the_bounce(void **st
         double wall = (double)sample_integer(&sample, 1 << 20) * 0x1p-14;
         double height = (double)(1 + sample_bits(&sample) % (1 << 20)) * 0x1p-14;
         double offset = (double)sample_integer(&sample, 1 << 20) * 0x1p-14;
-        double hair = (double)sample_integer(&sample, 1) * 0x1p-30;
-        struct vec2 sensor = {joint - offset + 2 * hair, wall - height};
+        double side_m = (double)sample_integer(&sample, 1) * 0x1p-30;
+        struct vec2 sensor = {joint - offset + 2 * side_m, wall - height};
         struct vec2 point = {joint + offset, wall - height};
         struct mirror before = {.a = {joint - 1.7, wall}, .b = {joint, wall}};
         struct mirror after = {.a = {joint, wall}, .b = {joint + 0.3, wall}};
         struct vec2 bounce;
-        assert_int_equal(mirror_bounce(&before, sensor, point, &bounce), hair <= 0);
-        assert_int_equal(mirror_bounce(&after, sensor, point, &bounce), hair >= 0);
+        assert_int_equal(mirror_bounce(&before, sensor, point, &bounce), side_m <= 0);
+        assert_int_equal(mirror_bounce(&after, sensor, point, &bounce), side_m >= 0);
     }
 }
 

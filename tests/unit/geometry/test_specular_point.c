@@ -126,9 +126,9 @@ static void a_joint_of_collinear_walls_never_loses_the_foot(void **state)
     for (int i = 0; i < 200000; i++) {
         double m = (double)sample_integer(&sample, INT64_C(1) << 40);
         double c = (double)sample_integer(&sample, 3);
-        double hair = (double)sample_integer(&sample, 1);
+        double side = (double)sample_integer(&sample, 1);
         struct vec2 step = vec2_scale(0x1p-40, (struct vec2){m, c * m + 1});
-        struct vec2 beside = vec2_scale(hair * 0x1p-40, (struct vec2){c, -1});
+        struct vec2 beside = vec2_scale(side * 0x1p-40, (struct vec2){c, -1});
         struct vec2 joint = {(double)sample_integer(&sample, 1 << 26) * 0x1p-20,
                              (double)sample_integer(&sample, 1 << 26) * 0x1p-20};
         struct vec2 before = vec2_sub(joint, vec2_scale(3, step));
@@ -136,8 +136,8 @@ static void a_joint_of_collinear_walls_never_loses_the_foot(void **state)
         struct vec2 outward = vec2_scale(-7, vec2_left(step));
         struct vec2 sensor = vec2_add(joint, vec2_add(outward, beside));
         struct vec2 foot;
-        assert_int_equal(specular_point_foot(before, joint, step, 0, sensor, &foot), hair >= 0);
-        assert_int_equal(specular_point_foot(joint, after, step, 0, sensor, &foot), hair <= 0);
+        assert_int_equal(specular_point_foot(before, joint, step, 0, sensor, &foot), side >= 0);
+        assert_int_equal(specular_point_foot(joint, after, step, 0, sensor, &foot), side <= 0);
     }
 }
 

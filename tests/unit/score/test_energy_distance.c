@@ -7,7 +7,7 @@
 
 enum { MOST = 64 };
 
-/* Lists as numbers: the distance is that of their places. */
+/* Lists that are numbers, whose distance is their difference. */
 static struct energy_sample sample_of(const double *place, size_t ones, size_t others,
                                       double *distance)
 {
@@ -27,9 +27,9 @@ static void two_lists_of_each_follow_the_definition(void **state)
     assert_near(energy_distance_of(&sample), 8.0, 1e-15);
 }
 
-/* Of one target that is there with probability p against q, D = 2 (p - q)^2 |m|: here all lists
- * that can be come as often as they should, so the mean of the estimate over them is D exactly. */
-static void a_target_seen_more_often_is_at_twice_the_squared_difference(void **state)
+/* For one target that is there with probability p against q, D = 2 (p - q)^2 |m|. Here all possible
+ * lists come as often as they should, so the mean of the estimate over them is D exactly. */
+static void a_target_listed_more_often_costs_twice_the_squared_difference(void **state)
 {
     (void)state;
     double length = sqrt(3), distance[16];
@@ -51,7 +51,7 @@ static void a_target_seen_more_often_is_at_twice_the_squared_difference(void **s
         }
 }
 
-/* By its definition, from samples that are made again without each list. */
+/* Compared with the definition, from samples that are made again without each list. */
 static void the_variance_is_that_of_the_jackknife(void **state)
 {
     (void)state;
@@ -113,7 +113,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_lists_of_each_follow_the_definition),
-        cmocka_unit_test(a_target_seen_more_often_is_at_twice_the_squared_difference),
+        cmocka_unit_test(a_target_listed_more_often_costs_twice_the_squared_difference),
         cmocka_unit_test(the_variance_is_that_of_the_jackknife),
         cmocka_unit_test(estimates_are_unbiased),
     };

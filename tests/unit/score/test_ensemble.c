@@ -84,7 +84,7 @@ static void shifted_lists_are_at_twice_their_distance(void **state)
 }
 
 /* A target seen in one of four lists against three of four: the U-statistic by hand. */
-static void thinned_lists_are_as_far_as_they_are_thinned(void **state)
+static void a_target_listed_less_often_gives_the_distance_by_hand(void **state)
 {
     (void)state;
     struct stream truth, listed;
@@ -143,7 +143,7 @@ static void gospa_favours_lists_without_scatter_and_energy_does_not(void **state
         end(&streams[i]);
 }
 
-/* Scenes of their own: the mean is over scenes, and resampling spreads from one to the other. */
+/* With several scenes the mean is over scenes, and resampling spreads from one to the other. */
 static void the_interval_spans_the_scenes(void **state)
 {
     (void)state;
@@ -201,7 +201,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shifted_lists_are_at_twice_their_distance),
-        cmocka_unit_test(thinned_lists_are_as_far_as_they_are_thinned),
+        cmocka_unit_test(a_target_listed_less_often_gives_the_distance_by_hand),
         cmocka_unit_test(gospa_favours_lists_without_scatter_and_energy_does_not),
         cmocka_unit_test(the_interval_spans_the_scenes),
         cmocka_unit_test(streams_that_do_not_match_are_refused),

@@ -76,7 +76,7 @@ static void the_order_of_targets_changes_no_bit(void **state)
     }
 }
 
-static void it_is_a_metric(void **state)
+static void the_distance_of_lists_is_a_metric(void **state)
 {
     (void)state;
     uint64_t sample = 6;
@@ -97,7 +97,7 @@ int main(void)
         cmocka_unit_test(a_shifted_target_is_as_far_as_its_kernels_say),
         cmocka_unit_test(twice_the_same_target_is_twice_as_far_from_none),
         cmocka_unit_test(the_order_of_targets_changes_no_bit),
-        cmocka_unit_test(it_is_a_metric),
+        cmocka_unit_test(the_distance_of_lists_is_a_metric),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

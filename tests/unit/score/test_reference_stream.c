@@ -80,13 +80,13 @@ static void frames_of_one_stream_alone_are_counted(void **state)
     uint64_t sample = 2;
     for (int round = 0; round < 50; round++) {
         int order[SCENES * FRAMES], next[SCENES] = {0};
-        bool there[SCENES][FRAMES], asked[SCENES][FRAMES];
+        bool there[SCENES][FRAMES], wanted[SCENES][FRAMES];
         int64_t left = 0, absent = 0;
         for (int i = 0; i < SCENES * FRAMES; i++) {
             there[i % SCENES][i / SCENES] = sample_bits(&sample) % 4 != 0;
-            asked[i % SCENES][i / SCENES] = sample_bits(&sample) % 4 != 0;
-            left += there[i % SCENES][i / SCENES] && !asked[i % SCENES][i / SCENES];
-            absent += !there[i % SCENES][i / SCENES] && asked[i % SCENES][i / SCENES];
+            wanted[i % SCENES][i / SCENES] = sample_bits(&sample) % 4 != 0;
+            left += there[i % SCENES][i / SCENES] && !wanted[i % SCENES][i / SCENES];
+            absent += !there[i % SCENES][i / SCENES] && wanted[i % SCENES][i / SCENES];
         }
         FILE *file = fopen(scratch->path, "w");
         interleave(&sample, order);
@@ -99,7 +99,7 @@ static void frames_of_one_stream_alone_are_counted(void **state)
         interleave(&sample, order);
         memset(next, 0, sizeof next);
         for (int i = 0; i < SCENES * FRAMES; i++, next[order[i - 1]]++)
-            if (asked[order[i]][next[order[i]]])
+            if (wanted[order[i]][next[order[i]]])
                 assert_int_equal(ask(reference, order[i], next[order[i]], &diag),
                                  there[order[i]][next[order[i]]]);
         assert_int_equal(reference_stream_finish(reference, &diag), 0);

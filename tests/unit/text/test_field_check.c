@@ -173,9 +173,9 @@ static bool names_pass(const char *name, struct arena *arena)
     struct thing thing = good_thing();
     for (int i = 0; i < 5; i++)
         *(const char **)field_list_add(&fields[NAMES], &thing, arena) = i == 3 ? name : "good";
-    const char *told = fault(&thing);
-    assert_true(told[0] == '\0' || strncmp(told, "names[3]: ", 10) == 0);
-    return told[0] == '\0';
+    const char *message = fault(&thing);
+    assert_true(message[0] == '\0' || strncmp(message, "names[3]: ", 10) == 0);
+    return message[0] == '\0';
 }
 
 static void every_byte_of_a_name_is_checked(void **state)
