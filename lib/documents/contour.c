@@ -21,12 +21,9 @@ static const struct field contour_fields[] = {
 };
 
 const struct record contour_record = {
-    .name = "contour",
-    .help = "Cross section by aspect, in decibels over 1 m^2.",
-    .size = sizeof(struct contour),
-    .fields = contour_fields,
-    .present_offset = offsetof(struct contour, given),
-};
+    FIELD_TABLE(struct contour, contour_fields, "contour",
+                "Cross section by aspect, in decibels over 1 m^2."),
+    .present_offset = offsetof(struct contour, given)};
 
 int contour_check(const struct contour *contour, struct diag *diag)
 {

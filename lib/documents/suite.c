@@ -155,11 +155,8 @@ static const struct field sensor_fields[] = {
 };
 
 const struct record sensor_record = {
-    .name = "sensor",
-    .help = "A radar: mount, beam, amplitude, resolution, angle, noise and list.",
-    .size = sizeof(struct sensor),
-    .fields = sensor_fields,
-};
+    FIELD_TABLE(struct sensor, sensor_fields, "sensor",
+                "A radar: mount, beam, amplitude, resolution, angle, noise and list.")};
 
 static const struct field suite_fields[] = {
     {FIELD_NAME_OF(struct suite, origin, "who made this, and from what")},
@@ -170,11 +167,7 @@ static const struct field suite_fields[] = {
 };
 
 const struct record suite_record = {
-    .name = "sensor suite",
-    .help = "The radars that one ego carries.",
-    .size = sizeof(struct suite),
-    .fields = suite_fields,
-};
+    FIELD_TABLE(struct suite, suite_fields, "sensor suite", "The radars that one ego carries.")};
 
 const struct sensor *suite_sensor(const struct suite *suite, const char *name)
 {

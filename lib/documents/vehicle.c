@@ -21,11 +21,8 @@ static const struct field vehicle_fields[] = {
 };
 
 const struct record vehicle_record = {
-    .name = "vehicle",
-    .help = "A class of road users or things: default size and reflection centres.",
-    .size = sizeof(struct vehicle),
-    .fields = vehicle_fields,
-};
+    FIELD_TABLE(struct vehicle, vehicle_fields, "vehicle",
+                "A class of road users or things: default size and reflection centres.")};
 
 static int check_visibility(const char *list, size_t index, double full_rad, double zero_rad,
                             struct diag *diag)

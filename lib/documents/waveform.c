@@ -34,12 +34,8 @@ static const struct field waveform_fields[] = {
     {0},
 };
 
-const struct record waveform_record = {
-    .name = "waveform",
-    .help = "How the signal is made and searched.",
-    .size = sizeof(struct waveform),
-    .fields = waveform_fields,
-};
+const struct record waveform_record = {FIELD_TABLE(struct waveform, waveform_fields, "waveform",
+                                                   "How the signal is made and searched.")};
 
 double waveform_range_step_m(const struct waveform *waveform, double cell_range_m)
 {

@@ -13,12 +13,8 @@ static const struct field interferer_fields[] = {
     {0},
 };
 
-static const struct record interferer_record = {
-    .name = "interferer",
-    .help = "An object with a radar of its own.",
-    .size = sizeof(struct interferer),
-    .fields = interferer_fields,
-};
+static const struct record interferer_record = {FIELD_TABLE(
+    struct interferer, interferer_fields, "interferer", "An object with a radar of its own.")};
 
 #define NUMBER(member, most, help, ...)                                                            \
     {FIELD_REAL_IN(struct conditions, member, 0, most, help), FIELD_OPTIONAL},
@@ -53,18 +49,12 @@ const struct condition_draw conditions_draws[] = {
 const size_t conditions_draw_count = sizeof conditions_draws / sizeof conditions_draws[0];
 
 const struct record conditions_record = {
-    .name = "conditions",
-    .help = "Road and weather; what is not said is not there.",
-    .size = sizeof(struct conditions),
-    .fields = condition_fields,
-};
+    FIELD_TABLE(struct conditions, condition_fields, "conditions",
+                "Road and weather; what is not said is not there.")};
 
 const struct record conditions_changes_record = {
-    .name = "changes of conditions",
-    .help = "Road and weather; what is not said stays.",
-    .size = sizeof(struct conditions),
-    .fields = change_fields,
-};
+    FIELD_TABLE(struct conditions, change_fields, "changes of conditions",
+                "Road and weather; what is not said stays.")};
 
 void conditions_change(struct conditions *conditions, const struct conditions *changes)
 {

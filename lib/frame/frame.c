@@ -158,11 +158,7 @@ static const struct field object_fields[] = {
 };
 
 const struct record object_record = {
-    .name = "object",
-    .help = "A road user or thing: truth.",
-    .size = sizeof(struct object),
-    .fields = object_fields,
-};
+    FIELD_TABLE(struct object, object_fields, "object", "A road user or thing: truth.")};
 
 static const struct field sensor_view_fields[] = {
     NAME(struct sensor_view, name, "unique in the suite"),
@@ -180,11 +176,7 @@ static const struct field sensor_view_fields[] = {
 };
 
 const struct record sensor_view_record = {
-    .name = "sensor",
-    .help = "A sensor of the suite.",
-    .size = sizeof(struct sensor_view),
-    .fields = sensor_view_fields,
-};
+    FIELD_TABLE(struct sensor_view, sensor_view_fields, "sensor", "A sensor of the suite.")};
 
 static const struct field sensors_fields[] = {
     NAME(struct sensors, suite, "name of the suite document"),
@@ -195,11 +187,7 @@ static const struct field sensors_fields[] = {
 };
 
 static const struct record sensors_record = {
-    .name = "suite",
-    .help = "The sensors that look at this frame.",
-    .size = sizeof(struct sensors),
-    .fields = sensors_fields,
-};
+    FIELD_TABLE(struct sensors, sensors_fields, "suite", "The sensors that look at this frame.")};
 
 static const struct field echo_fields[] = {
     NAME(struct echo, sensor, "name in the suite"),
@@ -226,12 +214,8 @@ static const struct field echo_fields[] = {
     {0},
 };
 
-static const struct record echo_record = {
-    .name = "echo",
-    .help = "One sensor's view of one reflector along one path.",
-    .size = sizeof(struct echo),
-    .fields = echo_fields,
-};
+static const struct record echo_record = {FIELD_TABLE(
+    struct echo, echo_fields, "echo", "One sensor's view of one reflector along one path.")};
 
 static const struct field contributor_fields[] = {
     ECHO_NAMES(struct contributor),
@@ -241,11 +225,7 @@ static const struct field contributor_fields[] = {
 };
 
 static const struct record contributor_record = {
-    .name = "contributor",
-    .help = "An echo and its weight.",
-    .size = sizeof(struct contributor),
-    .fields = contributor_fields,
-};
+    FIELD_TABLE(struct contributor, contributor_fields, "contributor", "An echo and its weight.")};
 
 static const struct field cell_fields[] = {
     NAME(struct cell, sensor, "name in the suite"),
@@ -268,11 +248,7 @@ static const struct field cell_fields[] = {
 };
 
 static const struct record cell_record = {
-    .name = "cell",
-    .help = "A resolution cell before noise.",
-    .size = sizeof(struct cell),
-    .fields = cell_fields,
-};
+    FIELD_TABLE(struct cell, cell_fields, "cell", "A resolution cell before noise.")};
 
 static const struct field target_fields[] = {
     NAME(struct target, sensor, "name in the suite"),
@@ -293,11 +269,7 @@ static const struct field target_fields[] = {
 };
 
 static const struct record target_record = {
-    .name = "target",
-    .help = "A detection with its exact label.",
-    .size = sizeof(struct target),
-    .fields = target_fields,
-};
+    FIELD_TABLE(struct target, target_fields, "target", "A detection with its exact label.")};
 
 static const struct field lost_echo_fields[] = {
     ECHO_NAMES(struct lost_echo),
@@ -308,12 +280,8 @@ static const struct field lost_echo_fields[] = {
     {0},
 };
 
-static const struct record lost_echo_record = {
-    .name = "lost echo",
-    .help = "An echo that ended in no target.",
-    .size = sizeof(struct lost_echo),
-    .fields = lost_echo_fields,
-};
+static const struct record lost_echo_record = {FIELD_TABLE(
+    struct lost_echo, lost_echo_fields, "lost echo", "An echo that ended in no target.")};
 
 static const struct field lost_group_fields[] = {
     NAME(struct lost_group, sensor, "name in the suite"),
@@ -325,12 +293,9 @@ static const struct field lost_group_fields[] = {
     {0},
 };
 
-const struct record lost_group_record = {
-    .name = "group of lost echoes",
-    .help = "Echoes that one stage lost for one reason.",
-    .size = sizeof(struct lost_group),
-    .fields = lost_group_fields,
-};
+const struct record lost_group_record = {FIELD_TABLE(struct lost_group, lost_group_fields,
+                                                     "group of lost echoes",
+                                                     "Echoes that one stage lost for one reason.")};
 
 static const struct field path_count_fields[] = {
     {FIELD_CHOICE_OF(struct path_count, path, paths, "the way the echoes took")},
@@ -338,12 +303,8 @@ static const struct field path_count_fields[] = {
     {0},
 };
 
-static const struct record path_count_record = {
-    .name = "count by path",
-    .help = "How many echoes took a path.",
-    .size = sizeof(struct path_count),
-    .fields = path_count_fields,
-};
+static const struct record path_count_record = {FIELD_TABLE(
+    struct path_count, path_count_fields, "count by path", "How many echoes took a path.")};
 
 static const struct field count_fields[] = {
     NAME(struct count, sensor, "name in the suite"),
@@ -353,11 +314,7 @@ static const struct field count_fields[] = {
 };
 
 static const struct record count_record = {
-    .name = "count",
-    .help = "What one sensor has to account for.",
-    .size = sizeof(struct count),
-    .fields = count_fields,
-};
+    FIELD_TABLE(struct count, count_fields, "count", "What one sensor has to account for.")};
 
 #define SECTION(bit) FIELD_OPTIONAL, .section = (bit)
 
@@ -402,12 +359,9 @@ static const struct field frame_fields[] = {
 };
 
 const struct record frame_record = {
-    .name = "frame",
-    .help = "All that is known about one scene in one interval of time.",
-    .size = sizeof(struct frame),
-    .fields = frame_fields,
-    .present_offset = offsetof(struct frame, present),
-};
+    FIELD_TABLE(struct frame, frame_fields, "frame",
+                "All that is known about one scene in one interval of time."),
+    .present_offset = offsetof(struct frame, present)};
 
 void frame_clear(struct frame *frame)
 {

@@ -22,12 +22,9 @@ static const struct field margin_fields[] = {
 };
 
 const struct record margins_record = {
-    .name = "margins",
-    .help = "How close decisions came to going the other way; absent: there was none.",
-    .size = sizeof(struct margins),
-    .fields = margin_fields,
-    .present_offset = offsetof(struct margins, present),
-};
+    FIELD_TABLE(struct margins, margin_fields, "margins",
+                "How close decisions came to going the other way; absent: there was none."),
+    .present_offset = offsetof(struct margins, present)};
 
 static double *member(struct margins *margins, enum margin which)
 {

@@ -58,11 +58,8 @@ static const struct field lobe_fields[] = {
 };
 
 static const struct record lobe_record = {
-    .name = "lobe",
-    .help = "Where a point returns most: a parabola in decibels, with a floor.",
-    .size = sizeof(struct lobe),
-    .fields = lobe_fields,
-};
+    FIELD_TABLE(struct lobe, lobe_fields, "lobe",
+                "Where a point returns most: a parabola in decibels, with a floor.")};
 
 static const struct field point_fields[] = {
     {FIELD_NAME_OF(struct point_reflector, name, "unique in its set")},
@@ -114,11 +111,8 @@ static const struct field mirror_fields[] = {
 };
 
 static const struct record mirror_record = {
-    .name = "mirror",
-    .help = "A flat side in which a radar sees other objects a second time.",
-    .size = sizeof(struct mirror_plane),
-    .fields = mirror_fields,
-};
+    FIELD_TABLE(struct mirror_plane, mirror_fields, "mirror",
+                "A flat side in which a radar sees other objects a second time.")};
 
 static const struct field row_fields[] = {
     {FIELD_NAME_OF(struct post_row, name, "post n of the row is called name_n")},
@@ -151,41 +145,25 @@ static const struct field reflector_set_fields[] = {
 };
 
 const struct record point_record = {
-    .name = "point reflector",
-    .help = "A reflection centre, seen from a range of angles.",
-    .size = sizeof(struct point_reflector),
-    .fields = point_fields,
-};
+    FIELD_TABLE(struct point_reflector, point_fields, "point reflector",
+                "A reflection centre, seen from a range of angles.")};
 
 const struct record plane_record = {
-    .name = "plane reflector",
-    .help = "A flat side that mirrors the radar from the foot of the perpendicular.",
-    .size = sizeof(struct plane_reflector),
-    .fields = plane_fields,
-};
+    FIELD_TABLE(struct plane_reflector, plane_fields, "plane reflector",
+                "A flat side that mirrors the radar from the foot of the perpendicular.")};
 
 const struct record row_record = {
-    .name = "row of posts",
-    .help = "Equal points along a line.",
-    .size = sizeof(struct post_row),
-    .fields = row_fields,
-};
+    FIELD_TABLE(struct post_row, row_fields, "row of posts", "Equal points along a line.")};
 
 const struct record reflector_set_record = {
-    .name = "reflector set",
-    .help = "The reflection centres of one class and the objects that have them.",
-    .size = sizeof(struct reflector_set),
-    .fields = reflector_set_fields,
-    .document_offset = offsetof(struct reflector_set, document),
-};
+    FIELD_TABLE(struct reflector_set, reflector_set_fields, "reflector set",
+                "The reflection centres of one class and the objects that have them."),
+    .document_offset = offsetof(struct reflector_set, document)};
 
 /* The same struct and table without its first two members, which a document does not have. */
 const struct record reflector_model_record = {
-    .name = "reflector model",
-    .help = "The reflection centres of a class.",
-    .size = sizeof(struct reflector_set),
-    .fields = reflector_set_fields + 2,
-};
+    FIELD_TABLE(struct reflector_set, reflector_set_fields + 2, "reflector model",
+                "The reflection centres of a class.")};
 
 bool reflectors_unchanged(const struct reflector_set *set)
 {

@@ -48,11 +48,8 @@ static const struct field scene_fields[] = {
 };
 
 static const struct record scene_record = {
-    .name = "scene_score",
-    .help = "A scene of the truth against the same of the stream.",
-    .size = sizeof(struct ensemble_scene_score),
-    .fields = scene_fields,
-};
+    FIELD_TABLE(struct ensemble_scene_score, scene_fields, "scene_score",
+                "A scene of the truth against the same of the stream.")};
 
 static const struct field score_fields[] = {
     {FIELD_LIST_OF(struct ensemble_score, scenes, &scene_record, "as the truth has them")},
@@ -63,11 +60,8 @@ static const struct field score_fields[] = {
 };
 
 const struct record ensemble_score_record = {
-    .name = "score_ensemble",
-    .help = "What glint-score --ensemble writes: energy distances of random target lists.",
-    .size = sizeof(struct ensemble_score),
-    .fields = score_fields,
-};
+    FIELD_TABLE(struct ensemble_score, score_fields, "score_ensemble",
+                "What glint-score --ensemble writes: energy distances of random target lists.")};
 
 static const char *copy(const char *text, struct arena *arena)
 {

@@ -31,12 +31,9 @@ static const struct field differences_fields[] = {
 };
 
 static const struct record differences_record = {
-    .name = "differences",
-    .help = "In the component's unit; absent where there are no pairs, or a list is empty.",
-    .size = sizeof(struct score_differences),
-    .fields = differences_fields,
-    .present_offset = offsetof(struct score_differences, present),
-};
+    FIELD_TABLE(struct score_differences, differences_fields, "differences",
+                "In the component's unit; absent where there are no pairs, or a list is empty."),
+    .present_offset = offsetof(struct score_differences, present)};
 
 #define COMPONENT(name_, which, help_)                                                             \
     {                                                                                              \
@@ -75,14 +72,10 @@ static const struct field score_fields[] = {
     {0},
 };
 
-const struct record score_record = {
-    .name = "score",
-    .help =
-        "How lists differ from the truth; GOSPA and OSPA are in cells for targets, in metres for "
-        "tracks.",
-    .size = sizeof(struct score),
-    .fields = score_fields,
-};
+const struct record score_record = {FIELD_TABLE(
+    struct score, score_fields, "score",
+    "How lists differ from the truth; GOSPA and OSPA are in cells for targets, in metres for "
+    "tracks.")};
 
 #define LINE_HEAD(owner)                                                                           \
     {FIELD_NAME_OF(owner, scene, "scene of the frame")},                                           \
@@ -102,12 +95,8 @@ static const struct field line_fields[] = {
     {0},
 };
 
-const struct record score_line_record = {
-    .name = "score_line",
-    .help = "Scores of one frame, by glint-score.",
-    .size = sizeof(struct score_line),
-    .fields = line_fields,
-};
+const struct record score_line_record = {FIELD_TABLE(struct score_line, line_fields, "score_line",
+                                                     "Scores of one frame, by glint-score.")};
 
 static const struct field summary_fields[] = {
     SUMMARY_HEAD(struct score_summary),
@@ -122,11 +111,8 @@ static const struct field summary_fields[] = {
 };
 
 const struct record score_summary_record = {
-    .name = "score_summary",
-    .help = "Scores of a stream, by glint-score --summary.",
-    .size = sizeof(struct score_summary),
-    .fields = summary_fields,
-};
+    FIELD_TABLE(struct score_summary, summary_fields, "score_summary",
+                "Scores of a stream, by glint-score --summary.")};
 
 static const struct field track_line_fields[] = {
     LINE_HEAD(struct score_track_line),
@@ -137,11 +123,8 @@ static const struct field track_line_fields[] = {
 };
 
 const struct record score_track_line_record = {
-    .name = "score_track_line",
-    .help = "Score of one frame, by glint-score-tracks.",
-    .size = sizeof(struct score_track_line),
-    .fields = track_line_fields,
-};
+    FIELD_TABLE(struct score_track_line, track_line_fields, "score_track_line",
+                "Score of one frame, by glint-score-tracks.")};
 
 static const struct field track_summary_fields[] = {
     SUMMARY_HEAD(struct score_track_summary),
@@ -154,11 +137,8 @@ static const struct field track_summary_fields[] = {
 };
 
 const struct record score_track_summary_record = {
-    .name = "score_track_summary",
-    .help = "Score of a stream, by glint-score-tracks --summary.",
-    .size = sizeof(struct score_track_summary),
-    .fields = track_summary_fields,
-};
+    FIELD_TABLE(struct score_track_summary, track_summary_fields, "score_track_summary",
+                "Score of a stream, by glint-score-tracks --summary.")};
 
 void score_add_scan(struct score_tally *tally, double squares, size_t pairs, size_t truths,
                     size_t listed, double cutoff)

@@ -17,11 +17,7 @@ static const struct field track_fields[] = {
 };
 
 static const struct record track_record = {
-    .name = "track",
-    .help = "A track of an object.",
-    .size = sizeof(struct track),
-    .fields = track_fields,
-};
+    FIELD_TABLE(struct track, track_fields, "track", "A track of an object.")};
 
 static const struct field list_fields[] = {
     {FIELD_NAME_OF(struct track_list, scene, "scene of the frame")},
@@ -35,12 +31,9 @@ static const struct field list_fields[] = {
 };
 
 const struct record track_list_record = {
-    .name = "tracks",
-    .help = "A tracker's tracks in one frame: a line for glint-score-tracks.",
-    .size = sizeof(struct track_list),
-    .fields = list_fields,
-    .present_offset = offsetof(struct track_list, present),
-};
+    FIELD_TABLE(struct track_list, list_fields, "tracks",
+                "A tracker's tracks in one frame: a line for glint-score-tracks."),
+    .present_offset = offsetof(struct track_list, present)};
 
 static int compare(const void *left, const void *right)
 {

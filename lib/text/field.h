@@ -72,6 +72,9 @@ struct record {
     size_t document_offset;
 };
 
+#define FIELD_TABLE(owner, fields_, name_, help_)                                                  \
+    .name = (name_), .help = (help_), .size = sizeof(owner), .fields = (fields_)
+
 /* The table of a record without members. */
 extern const struct field field_none[];
 

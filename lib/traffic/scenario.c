@@ -30,12 +30,8 @@ static const struct field segment_fields[] = {
     {0},
 };
 
-static const struct record segment_record = {
-    .name = "segment",
-    .help = "A time of constant acceleration and turn rate.",
-    .size = sizeof(struct segment),
-    .fields = segment_fields,
-};
+static const struct record segment_record = {FIELD_TABLE(
+    struct segment, segment_fields, "segment", "A time of constant acceleration and turn rate.")};
 
 static const struct field waypoint_fields[] = {
     REAL(struct waypoint, time_s, 0, 1e6,
@@ -46,11 +42,7 @@ static const struct field waypoint_fields[] = {
 };
 
 static const struct record waypoint_record = {
-    .name = "waypoint",
-    .help = "A place and when to be there.",
-    .size = sizeof(struct waypoint),
-    .fields = waypoint_fields,
-};
+    FIELD_TABLE(struct waypoint, waypoint_fields, "waypoint", "A place and when to be there.")};
 
 static const struct field actor_fields[] = {
     NAME(struct actor, id, "unique in the scenario"),
@@ -68,11 +60,7 @@ static const struct field actor_fields[] = {
 };
 
 static const struct record actor_record = {
-    .name = "object",
-    .help = "A road user or thing, and how it moves.",
-    .size = sizeof(struct actor),
-    .fields = actor_fields,
-};
+    FIELD_TABLE(struct actor, actor_fields, "object", "A road user or thing, and how it moves.")};
 
 static const struct field scenario_fields[] = {
     NAME(struct scenario, origin, "who made this, and from what"),
@@ -86,11 +74,7 @@ static const struct field scenario_fields[] = {
 };
 
 const struct record scenario_record = {
-    .name = "scenario",
-    .help = "Objects and how each one moves.",
-    .size = sizeof(struct scenario),
-    .fields = scenario_fields,
-};
+    FIELD_TABLE(struct scenario, scenario_fields, "scenario", "Objects and how each one moves.")};
 
 static int check_waypoints(const struct actor *actor, struct diag *diag)
 {
