@@ -7,16 +7,14 @@
 #include "radar/radar_equation.h"
 
 #define DBSM(bit, member, help)                                                                    \
-    {                                                                                              \
-        FIELD_REAL_IN(struct contour, member, -60, 80, help), .section = (bit)                     \
-    }
+    FIELD_REAL_IN(struct contour, member, -60, 80, help), .section = (bit)
 
 static const struct field contour_fields[] = {
-    DBSM(1 << 0, front_dbsm, "cross section seen from ahead"),
-    DBSM(1 << 1, rear_dbsm, "cross section seen from behind"),
-    DBSM(1 << 2, side_dbsm, "cross section seen from the left or the right"),
-    DBSM(1 << 3, oblique_dbsm,
-         "cross section seen at 45 degrees to these, at most 3 dB above any of them"),
+    {DBSM(1 << 0, front_dbsm, "cross section seen from ahead")},
+    {DBSM(1 << 1, rear_dbsm, "cross section seen from behind")},
+    {DBSM(1 << 2, side_dbsm, "cross section seen from the left or the right")},
+    {DBSM(1 << 3, oblique_dbsm,
+          "cross section seen at 45 degrees to these, at most 3 dB above any of them")},
     {0},
 };
 

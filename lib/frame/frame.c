@@ -51,76 +51,25 @@ static const enum effect_id losing_effects[] = {
 
 /* 1e7 m is farther than any local frame reaches; 1e6 m is farther than any radar, and what noise
  * and steps make of that stays within ten times as much. */
-#define PLACE(owner, member, help)                                                                 \
-    {                                                                                              \
-        FIELD_REAL_IN(owner, member, -1e7, 1e7, help)                                              \
-    }
-#define ANGLE(owner, member, help)                                                                 \
-    {                                                                                              \
-        FIELD_REAL_IN(owner, member, -1e6, 1e6, help)                                              \
-    }
-#define SPEED(owner, member, help)                                                                 \
-    {                                                                                              \
-        FIELD_REAL_IN(owner, member, -1e4, 1e4, help)                                              \
-    }
-#define SIZE(owner, member, help)                                                                  \
-    {                                                                                              \
-        FIELD_REAL_IN(owner, member, 0, 1e6, help)                                                 \
-    }
-#define AMPLITUDE(owner, member, help)                                                             \
-    {                                                                                              \
-        FIELD_REAL_IN(owner, member, 0, 1e308, help)                                               \
-    }
-#define POINTER(owner, member, help)                                                               \
-    {                                                                                              \
-        FIELD_REAL_IN(owner, member, -1e308, 1e308, help)                                          \
-    }
-#define INSTANT(owner, member, help)                                                               \
-    {                                                                                              \
-        FIELD_REAL_IN(owner, member, -1e10, 1e10, help)                                            \
-    }
-#define RANGE(owner, member, help)                                                                 \
-    {                                                                                              \
-        FIELD_REAL_IN(owner, member, 0, 1e6, help)                                                 \
-    }
-#define AZIMUTH(owner, member, help)                                                               \
-    {                                                                                              \
-        FIELD_REAL_IN(owner, member, -PI, PI, help)                                                \
-    }
-#define RATE(owner, member, help)                                                                  \
-    {                                                                                              \
-        FIELD_REAL_IN(owner, member, -1e5, 1e5, help)                                              \
-    }
-#define REPORTED_RANGE(owner, member)                                                              \
-    {                                                                                              \
-        FIELD_REAL_IN(owner, member, 0, 1e7, "as reported")                                        \
-    }
-#define REPORTED_RATE(owner, member)                                                               \
-    {                                                                                              \
-        FIELD_REAL_IN(owner, member, -1e6, 1e6, "as reported")                                     \
-    }
-#define NAME(owner, member, help)                                                                  \
-    {                                                                                              \
-        FIELD_NAME_OF(owner, member, help)                                                         \
-    }
+#define PLACE(owner, member, help) FIELD_REAL_IN(owner, member, -1e7, 1e7, help)
+#define ANGLE(owner, member, help) FIELD_REAL_IN(owner, member, -1e6, 1e6, help)
+#define SPEED(owner, member, help) FIELD_REAL_IN(owner, member, -1e4, 1e4, help)
+#define SIZE(owner, member, help) FIELD_REAL_IN(owner, member, 0, 1e6, help)
+#define AMPLITUDE(owner, member, help) FIELD_REAL_IN(owner, member, 0, 1e308, help)
+#define POINTER(owner, member, help) FIELD_REAL_IN(owner, member, -1e308, 1e308, help)
+#define INSTANT(owner, member, help) FIELD_REAL_IN(owner, member, -1e10, 1e10, help)
+#define RANGE(owner, member, help) FIELD_REAL_IN(owner, member, 0, 1e6, help)
+#define AZIMUTH(owner, member, help) FIELD_REAL_IN(owner, member, -PI, PI, help)
+#define RATE(owner, member, help) FIELD_REAL_IN(owner, member, -1e5, 1e5, help)
+#define REPORTED_RANGE(owner, member) FIELD_REAL_IN(owner, member, 0, 1e7, "as reported")
+#define REPORTED_RATE(owner, member) FIELD_REAL_IN(owner, member, -1e6, 1e6, "as reported")
+#define NAME(owner, member, help) FIELD_NAME_OF(owner, member, help)
 #define UNDECIDED(owner)                                                                           \
-    {                                                                                              \
-        FIELD_FLAG_OF(owner, sign_undecided, "the phase did not tell left from right"),            \
-            FIELD_OPTIONAL                                                                         \
-    }
-#define EFFECTS(owner, help)                                                                       \
-    {                                                                                              \
-        FIELD_SET_OF(owner, effects, effects_names, help), FIELD_OPTIONAL                          \
-    }
+    FIELD_FLAG_OF(owner, sign_undecided, "the phase did not tell left from right"), FIELD_OPTIONAL
+#define EFFECTS(owner, help) FIELD_SET_OF(owner, effects, effects_names, help), FIELD_OPTIONAL
 #define MARGINS(owner)                                                                             \
-    {                                                                                              \
-        FIELD_RECORD_OF(owner, margins, &margins_record, "how close decisions were"),              \
-            FIELD_OPTIONAL                                                                         \
-    }
-#define EXTRA(owner)                                                                               \
-    {                                                                                              \
-        FIELD_RAW_OF(owner, extra, "yours: passed on byte for byte")                               \
-    }
+    FIELD_RECORD_OF(owner, margins, &margins_record, "how close decisions were"), FIELD_OPTIONAL
+#define EXTRA(owner) FIELD_RAW_OF(owner, extra, "yours: passed on byte for byte")
 #define ECHO_ID(owner, member, kind_, help_)                                                       \
     FIELD_NAMED(member), .kind = (kind_), .offset = offsetof(owner, id.member), .help = (help_)
 #define ECHO_NAMES(owner)                                                                          \
@@ -134,26 +83,28 @@ static const enum effect_id losing_effects[] = {
             .low = 0, .high = 1e9, FIELD_OPTIONAL                                                  \
     }
 #define IDEAL_VALUES(owner)                                                                        \
-    RANGE(owner, range_m, "sensor to reflector, exact"),                                           \
-        AZIMUTH(owner, azimuth_rad, "from boresight, left positive, exact"),                       \
-        RATE(owner, range_rate_mps, "receding positive, exact"),                                   \
-        AMPLITUDE(owner, ercs, "equivalent radar cross section at the impinging angle"),           \
-        INSTANT(owner, time_s, "of the measurement")
+    {RANGE(owner, range_m, "sensor to reflector, exact")},                                         \
+        {AZIMUTH(owner, azimuth_rad, "from boresight, left positive, exact")},                     \
+        {RATE(owner, range_rate_mps, "receding positive, exact")},                                 \
+        {AMPLITUDE(owner, ercs, "equivalent radar cross section at the impinging angle")},         \
+    {                                                                                              \
+        INSTANT(owner, time_s, "of the measurement")                                               \
+    }
 
 static const struct field object_fields[] = {
-    NAME(struct object, id, "unique in the frame"),
-    NAME(struct object, class, "names the vehicle document"),
-    PLACE(struct object, x_m, "centre of the box"),
-    PLACE(struct object, y_m, "centre of the box"),
-    ANGLE(struct object, yaw_rad, "heading of the box"),
-    SPEED(struct object, vx_mps, "velocity of the centre"),
-    SPEED(struct object, vy_mps, "velocity of the centre"),
+    {NAME(struct object, id, "unique in the frame")},
+    {NAME(struct object, class, "names the vehicle document")},
+    {PLACE(struct object, x_m, "centre of the box")},
+    {PLACE(struct object, y_m, "centre of the box")},
+    {ANGLE(struct object, yaw_rad, "heading of the box")},
+    {SPEED(struct object, vx_mps, "velocity of the centre")},
+    {SPEED(struct object, vy_mps, "velocity of the centre")},
     {FIELD_REAL_IN(struct object, yaw_rate_radps, -1e3, 1e3, "turn rate")},
-    SIZE(struct object, length_m, "0: the default of the class"),
-    SIZE(struct object, width_m, "0: the default of the class"),
-    SIZE(struct object, height_m, "0: the default of the class"),
+    {SIZE(struct object, length_m, "0: the default of the class")},
+    {SIZE(struct object, width_m, "0: the default of the class")},
+    {SIZE(struct object, height_m, "0: the default of the class")},
     {FIELD_REAL_IN(struct object, travelled_m, 0, 1e9, "way since the scene began")},
-    EXTRA(struct object),
+    {EXTRA(struct object)},
     {0},
 };
 
@@ -161,12 +112,12 @@ const struct record object_record = {
     FIELD_TABLE(struct object, object_fields, "object", "A road user or thing: truth.")};
 
 static const struct field sensor_view_fields[] = {
-    NAME(struct sensor_view, name, "unique in the suite"),
-    PLACE(struct sensor_view, mount_x_m, "from the centre of the ego's box"),
-    PLACE(struct sensor_view, mount_y_m, "from the centre of the ego's box"),
-    ANGLE(struct sensor_view, mount_yaw_rad, "boresight, from the ego's heading"),
+    {NAME(struct sensor_view, name, "unique in the suite")},
+    {PLACE(struct sensor_view, mount_x_m, "from the centre of the ego's box")},
+    {PLACE(struct sensor_view, mount_y_m, "from the centre of the ego's box")},
+    {ANGLE(struct sensor_view, mount_yaw_rad, "boresight, from the ego's heading")},
     {FIELD_REAL_IN(struct sensor_view, field_of_view_rad, 0, 2 * PI, "full width")},
-    RANGE(struct sensor_view, range_max_m, "greatest range"),
+    {RANGE(struct sensor_view, range_max_m, "greatest range")},
     {FIELD_REAL_IN(struct sensor_view, cell_range_m, 0, 2e6, "resolution cell, full width")},
     {FIELD_REAL_IN(struct sensor_view, cell_range_rate_mps, 0, 2e5, "resolution cell, full width")},
     {FIELD_REAL_IN(struct sensor_view, cycle_s, 0, 1e6, "from scan to scan; absent: every frame"),
@@ -179,8 +130,8 @@ const struct record sensor_view_record = {
     FIELD_TABLE(struct sensor_view, sensor_view_fields, "sensor", "A sensor of the suite.")};
 
 static const struct field sensors_fields[] = {
-    NAME(struct sensors, suite, "name of the suite document"),
-    NAME(struct sensors, digest, "of the suite and every table it names"),
+    {NAME(struct sensors, suite, "name of the suite document")},
+    {NAME(struct sensors, digest, "of the suite and every table it names")},
     {FIELD_NAME_OF(struct sensors, effects, "as requested; absent: auto"), FIELD_OPTIONAL},
     {FIELD_LIST_OF(struct sensors, list, &sensor_view_record, "by name")},
     {0},
@@ -190,7 +141,7 @@ static const struct record sensors_record = {
     FIELD_TABLE(struct sensors, sensors_fields, "suite", "The sensors that look at this frame.")};
 
 static const struct field echo_fields[] = {
-    NAME(struct echo, sensor, "name in the suite"),
+    {NAME(struct echo, sensor, "name in the suite")},
     ECHO_NAMES(struct echo),
     IDEAL_VALUES(struct echo),
     {FIELD_REAL_IN(struct echo, departure_rad, -PI, PI,
@@ -208,9 +159,9 @@ static const struct field echo_fields[] = {
      FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct echo, heading_rad, -PI, PI, "of its object, from boresight"),
      FIELD_OPTIONAL},
-    EFFECTS(struct echo, "that changed one of these values"),
-    MARGINS(struct echo),
-    EXTRA(struct echo),
+    {EFFECTS(struct echo, "that changed one of these values")},
+    {MARGINS(struct echo)},
+    {EXTRA(struct echo)},
     {0},
 };
 
@@ -228,22 +179,22 @@ static const struct record contributor_record = {
     FIELD_TABLE(struct contributor, contributor_fields, "contributor", "An echo and its weight.")};
 
 static const struct field cell_fields[] = {
-    NAME(struct cell, sensor, "name in the suite"),
-    RANGE(struct cell, range_m, "weighted mean of the members"),
-    AZIMUTH(struct cell, azimuth_rad, "of the superposed pointers, without noise"),
-    RATE(struct cell, range_rate_mps, "weighted mean of the members"),
-    AMPLITUDE(struct cell, amplitude, "sum of the members' amplitudes"),
-    POINTER(struct cell, sum_re, "sum channel without noise"),
-    POINTER(struct cell, sum_im, "sum channel without noise"),
-    POINTER(struct cell, delta_re, "delta channel without noise"),
-    POINTER(struct cell, delta_im, "delta channel without noise"),
-    UNDECIDED(struct cell),
+    {NAME(struct cell, sensor, "name in the suite")},
+    {RANGE(struct cell, range_m, "weighted mean of the members")},
+    {AZIMUTH(struct cell, azimuth_rad, "of the superposed pointers, without noise")},
+    {RATE(struct cell, range_rate_mps, "weighted mean of the members")},
+    {AMPLITUDE(struct cell, amplitude, "sum of the members' amplitudes")},
+    {POINTER(struct cell, sum_re, "sum channel without noise")},
+    {POINTER(struct cell, sum_im, "sum channel without noise")},
+    {POINTER(struct cell, delta_re, "delta channel without noise")},
+    {POINTER(struct cell, delta_im, "delta channel without noise")},
+    {UNDECIDED(struct cell)},
     {FIELD_REAL_IN(struct cell, interference, 0, 1e300, "over the sensor's own noise, in power"),
      FIELD_OPTIONAL},
-    EFFECTS(struct cell, "that changed a value of the cell or of a member"),
+    {EFFECTS(struct cell, "that changed a value of the cell or of a member")},
     {FIELD_LIST_OF(struct cell, members, &contributor_record, "the leader first")},
-    MARGINS(struct cell),
-    EXTRA(struct cell),
+    {MARGINS(struct cell)},
+    {EXTRA(struct cell)},
     {0},
 };
 
@@ -251,20 +202,20 @@ static const struct record cell_record = {
     FIELD_TABLE(struct cell, cell_fields, "cell", "A resolution cell before noise.")};
 
 static const struct field target_fields[] = {
-    NAME(struct target, sensor, "name in the suite"),
-    REPORTED_RANGE(struct target, range_m),
-    AZIMUTH(struct target, azimuth_rad, "as reported"),
-    REPORTED_RATE(struct target, range_rate_mps),
+    {NAME(struct target, sensor, "name in the suite")},
+    {REPORTED_RANGE(struct target, range_m)},
+    {AZIMUTH(struct target, azimuth_rad, "as reported")},
+    {REPORTED_RATE(struct target, range_rate_mps)},
     {FIELD_REAL_IN(struct target, amplitude_db, -1e4, 1e4, "as reported, 20 log10")},
-    UNDECIDED(struct target),
-    RANGE(struct target, cell_range_m, "without noise"),
-    AZIMUTH(struct target, cell_azimuth_rad, "without noise"),
-    RATE(struct target, cell_range_rate_mps, "without noise"),
-    AMPLITUDE(struct target, cell_amplitude, "sum of the contributors' amplitudes, linear"),
-    EFFECTS(struct target, "that changed a value of the target or of a contributor"),
+    {UNDECIDED(struct target)},
+    {RANGE(struct target, cell_range_m, "without noise")},
+    {AZIMUTH(struct target, cell_azimuth_rad, "without noise")},
+    {RATE(struct target, cell_range_rate_mps, "without noise")},
+    {AMPLITUDE(struct target, cell_amplitude, "sum of the contributors' amplitudes, linear")},
+    {EFFECTS(struct target, "that changed a value of the target or of a contributor")},
     {FIELD_LIST_OF(struct target, contributors, &contributor_record, "the leader first")},
-    MARGINS(struct target),
-    EXTRA(struct target),
+    {MARGINS(struct target)},
+    {EXTRA(struct target)},
     {0},
 };
 
@@ -276,7 +227,7 @@ static const struct field lost_echo_fields[] = {
     {FIELD_NAME_OF(struct lost_echo, by, "the object in the way"), FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct lost_echo, shortfall_db, 0, 1e5, "below the threshold by this much"),
      FIELD_OPTIONAL},
-    MARGINS(struct lost_echo),
+    {MARGINS(struct lost_echo)},
     {0},
 };
 
@@ -284,8 +235,8 @@ static const struct record lost_echo_record = {FIELD_TABLE(
     struct lost_echo, lost_echo_fields, "lost echo", "An echo that ended in no target.")};
 
 static const struct field lost_group_fields[] = {
-    NAME(struct lost_group, sensor, "name in the suite"),
-    NAME(struct lost_group, stage, "that lost them"),
+    {NAME(struct lost_group, sensor, "name in the suite")},
+    {NAME(struct lost_group, stage, "that lost them")},
     {FIELD_CHOICE_OF(struct lost_group, reason, losses, "why")},
     {FIELD_CHOICE_OF(struct lost_group, effect, effects_names, "that lost them"), FIELD_OPTIONAL,
      .absent = EFFECT_NONE},
@@ -307,7 +258,7 @@ static const struct record path_count_record = {FIELD_TABLE(
     struct path_count, path_count_fields, "count by path", "How many echoes took a path.")};
 
 static const struct field count_fields[] = {
-    NAME(struct count, sensor, "name in the suite"),
+    {NAME(struct count, sensor, "name in the suite")},
     {FIELD_INTEGER_IN(struct count, pairs, 0, 1e12, "of this sensor and a reflector")},
     {FIELD_LIST_OF(struct count, paths, &path_count_record, "echoes made, by path")},
     {0},
@@ -320,14 +271,14 @@ static const struct record count_record = {
 
 static const struct field frame_fields[] = {
     {FIELD_INTEGER_IN(struct frame, version, FRAME_VERSION, FRAME_VERSION, "of this schema")},
-    NAME(struct frame, scene, "unique in a set: source, ego, variant"),
+    {NAME(struct frame, scene, "unique in a set: source, ego, variant")},
     {FIELD_INTEGER_IN(struct frame, frame, 0, 9007199254740991, "number in the scene, from 0")},
-    INSTANT(struct frame, time_s, "end of the interval that the frame stands for"),
+    {INSTANT(struct frame, time_s, "end of the interval that the frame stands for")},
     {FIELD_REAL_IN(struct frame, interval_s, 1e-9, 1e6,
                    "the frame is (time_s - interval_s, time_s]")},
     {FIELD_FLAG_OF(struct frame, last, "the scene's last frame"), FIELD_OPTIONAL},
     {FIELD_SEED_OF(struct frame, seed, "of every draw, 64 bits, decimal")},
-    NAME(struct frame, ego, "id of the object that carries the sensors"),
+    {NAME(struct frame, ego, "id of the object that carries the sensors")},
     {FIELD_REAL_IN(struct frame, origin_x_m, -1e9, 1e9,
                    "of the frame's coordinates in the source's"),
      FIELD_OPTIONAL},
@@ -354,7 +305,7 @@ static const struct field frame_fields[] = {
     {FIELD_LIST_OF(struct frame, lost, &lost_group_record, "by sensor, stage, reason"),
      SECTION(SECTION_LOST)},
     {FIELD_LIST_OF(struct frame, counts, &count_record, "by sensor"), SECTION(SECTION_COUNTS)},
-    EXTRA(struct frame),
+    {EXTRA(struct frame)},
     {0},
 };
 

@@ -6,18 +6,16 @@
 #include "base/units.h"
 
 #define MARGIN(member, bit, high, help)                                                            \
-    {                                                                                              \
-        FIELD_REAL_IN(struct margins, member, 0, high, help), FIELD_OPTIONAL, .section = (bit)     \
-    }
+    FIELD_REAL_IN(struct margins, member, 0, high, help), FIELD_OPTIONAL, .section = (bit)
 
 static const struct field margin_fields[] = {
-    MARGIN(sight_m, MARGIN_SIGHT, 1e8, "range, view, facing, foot and blockers; angles by range"),
-    MARGIN(threshold_db, MARGIN_THRESHOLD, 1e4, "amplitude to threshold"),
-    MARGIN(leader_db, MARGIN_LEADER, 1e4, "between echoes of which the stronger opened a cell"),
-    MARGIN(cell_edge, MARGIN_CELL_EDGE, 1e13, "to a cell's edge, in half cells"),
-    MARGIN(sign, MARGIN_SIGN, 1, "sine of the phase between sum and delta"),
-    MARGIN(limit_db, MARGIN_LIMIT_DB, 1e4, "to the list limit, strongest first"),
-    MARGIN(limit_m, MARGIN_LIMIT_M, 1e6, "to the list limit, nearest first"),
+    {MARGIN(sight_m, MARGIN_SIGHT, 1e8, "range, view, facing, foot and blockers; angles by range")},
+    {MARGIN(threshold_db, MARGIN_THRESHOLD, 1e4, "amplitude to threshold")},
+    {MARGIN(leader_db, MARGIN_LEADER, 1e4, "between echoes of which the stronger opened a cell")},
+    {MARGIN(cell_edge, MARGIN_CELL_EDGE, 1e13, "to a cell's edge, in half cells")},
+    {MARGIN(sign, MARGIN_SIGN, 1, "sine of the phase between sum and delta")},
+    {MARGIN(limit_db, MARGIN_LIMIT_DB, 1e4, "to the list limit, strongest first")},
+    {MARGIN(limit_m, MARGIN_LIMIT_M, 1e6, "to the list limit, nearest first")},
     {0},
 };
 

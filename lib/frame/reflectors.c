@@ -18,10 +18,7 @@ const char *const reflectors_moving_parts[] = {
     [MOVING_NONE] = "none", [MOVING_WHEEL] = "wheel", [MOVING_LIMBS] = "limbs", NULL};
 
 /* Fractions reach a little beyond the box: mirrors, bumpers, loads. */
-#define FRACTION(owner, member, help)                                                              \
-    {                                                                                              \
-        FIELD_REAL_IN(owner, member, -1, 1, help)                                                  \
-    }
+#define FRACTION(owner, member, help) FIELD_REAL_IN(owner, member, -1, 1, help)
 
 #define HEIGHT(owner)                                                                              \
     {FIELD_REAL_IN(owner, z, 1e-3, 2,                                                              \
@@ -63,8 +60,8 @@ static const struct record lobe_record = {
 
 static const struct field point_fields[] = {
     {FIELD_NAME_OF(struct point_reflector, name, "unique in its set")},
-    FRACTION(struct point_reflector, x, "place, as a fraction of the length from the centre"),
-    FRACTION(struct point_reflector, y, "place, as a fraction of the width from the centre"),
+    {FRACTION(struct point_reflector, x, "place, as a fraction of the length from the centre")},
+    {FRACTION(struct point_reflector, y, "place, as a fraction of the width from the centre")},
     HEIGHT(struct point_reflector),
     {FIELD_REAL_IN(struct point_reflector, inset_m, 0, 10, "depth behind the place"),
      FIELD_OPTIONAL},
@@ -83,10 +80,11 @@ static const struct field point_fields[] = {
 
 static const struct field plane_fields[] = {
     {FIELD_NAME_OF(struct plane_reflector, name, "unique in its set")},
-    FRACTION(struct plane_reflector, from_x, "start; the outer face is to the right of from -> to"),
-    FRACTION(struct plane_reflector, from_y, "start"),
-    FRACTION(struct plane_reflector, to_x, "end"),
-    FRACTION(struct plane_reflector, to_y, "end"),
+    {FRACTION(struct plane_reflector, from_x,
+              "start; the outer face is to the right of from -> to")},
+    {FRACTION(struct plane_reflector, from_y, "start")},
+    {FRACTION(struct plane_reflector, to_x, "end")},
+    {FRACTION(struct plane_reflector, to_y, "end")},
     HEIGHT(struct plane_reflector),
     {FIELD_REAL_IN(struct plane_reflector, margin_m, 0, 10, "not flat this far from both ends"),
      FIELD_OPTIONAL},
@@ -101,10 +99,10 @@ static const struct field plane_fields[] = {
 };
 
 static const struct field mirror_fields[] = {
-    FRACTION(struct mirror_plane, from_x, "start; the outer face is to the right of from -> to"),
-    FRACTION(struct mirror_plane, from_y, "start"),
-    FRACTION(struct mirror_plane, to_x, "end"),
-    FRACTION(struct mirror_plane, to_y, "end"),
+    {FRACTION(struct mirror_plane, from_x, "start; the outer face is to the right of from -> to")},
+    {FRACTION(struct mirror_plane, from_y, "start")},
+    {FRACTION(struct mirror_plane, to_x, "end")},
+    {FRACTION(struct mirror_plane, to_y, "end")},
     {FIELD_REAL_IN(struct mirror_plane, reflection, 0, 1,
                    "part of an amplitude that is reflected")},
     {0},
@@ -116,10 +114,10 @@ static const struct record mirror_record = {
 
 static const struct field row_fields[] = {
     {FIELD_NAME_OF(struct post_row, name, "post n of the row is called name_n")},
-    FRACTION(struct post_row, from_x, "the first post"),
-    FRACTION(struct post_row, from_y, "the first post"),
-    FRACTION(struct post_row, to_x, "where the row ends"),
-    FRACTION(struct post_row, to_y, "where the row ends"),
+    {FRACTION(struct post_row, from_x, "the first post")},
+    {FRACTION(struct post_row, from_y, "the first post")},
+    {FRACTION(struct post_row, to_x, "where the row ends")},
+    {FRACTION(struct post_row, to_y, "where the row ends")},
     HEIGHT(struct post_row),
     {FIELD_REAL_IN(struct post_row, spacing_m, 0.01, 1e4, "from post to post")},
     SEEN_FROM(struct post_row),

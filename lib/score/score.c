@@ -7,26 +7,18 @@
 #include "base/sort.h"
 #include "score/error_statistics.h"
 
-#define COUNT(owner, member, help)                                                                 \
-    {                                                                                              \
-        FIELD_INTEGER_IN(owner, member, 0, 0x1p53, help)                                           \
-    }
-#define MEASURE(member, help)                                                                      \
-    {                                                                                              \
-        FIELD_REAL_IN(struct score, member, 0, 1e300, help)                                        \
-    }
+#define COUNT(owner, member, help) FIELD_INTEGER_IN(owner, member, 0, 0x1p53, help)
+#define MEASURE(member, help) FIELD_REAL_IN(struct score, member, 0, 1e300, help)
 #define DIFFERENCE(member, low, bit, help)                                                         \
-    {                                                                                              \
-        FIELD_REAL_IN(struct score_differences, member, low, 1e300, help), FIELD_OPTIONAL,         \
-            .section = (bit)                                                                       \
-    }
+    FIELD_REAL_IN(struct score_differences, member, low, 1e300, help), FIELD_OPTIONAL,             \
+        .section = (bit)
 
 static const struct field differences_fields[] = {
-    DIFFERENCE(mean, -1e300, SCORE_PAIRS, "mean of the pairs' differences, listed less true"),
-    DIFFERENCE(rms, 0, SCORE_PAIRS, "root mean square of the pairs' differences"),
-    DIFFERENCE(p95, 0, SCORE_PAIRS, "size that 95 % of the pairs' differences do not exceed"),
-    DIFFERENCE(max, 0, SCORE_PAIRS, "size of the largest of the pairs' differences"),
-    DIFFERENCE(wasserstein, 0, SCORE_LISTS, "Wasserstein-1 distance of the two lists, unpaired"),
+    {DIFFERENCE(mean, -1e300, SCORE_PAIRS, "mean of the pairs' differences, listed less true")},
+    {DIFFERENCE(rms, 0, SCORE_PAIRS, "root mean square of the pairs' differences")},
+    {DIFFERENCE(p95, 0, SCORE_PAIRS, "size that 95 % of the pairs' differences do not exceed")},
+    {DIFFERENCE(max, 0, SCORE_PAIRS, "size of the largest of the pairs' differences")},
+    {DIFFERENCE(wasserstein, 0, SCORE_LISTS, "Wasserstein-1 distance of the two lists, unpaired")},
     {0},
 };
 
@@ -36,39 +28,38 @@ static const struct record differences_record = {
     .present_offset = offsetof(struct score_differences, present)};
 
 #define COMPONENT(name_, which, help_)                                                             \
-    {                                                                                              \
-        FIELD_NAMED(name_), .kind = FIELD_RECORD, .optional = true, .record = &differences_record, \
-                            .offset = offsetof(struct score, differences) +                        \
-                                      (which) * sizeof(struct score_differences),                  \
-                            .help = (help_)                                                        \
-    }
+    FIELD_NAMED(name_), .kind = FIELD_RECORD, .optional = true, .record = &differences_record,     \
+                        .offset = offsetof(struct score, differences) +                            \
+                                  (which) * sizeof(struct score_differences),                      \
+                        .help = (help_)
 
 static const struct field score_fields[] = {
     {FIELD_NAME_OF(struct score, sensor, "name of the sensor; absent: all sensors"),
      FIELD_OPTIONAL},
-    COUNT(struct score, scans,
-          "pairs of lists: of one sensor in one frame, or the tracks of one frame"),
-    COUNT(struct score, true_count, "items of the true lists"),
-    COUNT(struct score, listed_count, "items of the scored lists"),
-    COUNT(struct score, pair_count, "pairs closer than the cut-off"),
-    COUNT(struct score, missed_count, "true items without a pair"),
-    COUNT(struct score, false_count, "scored items without a pair"),
-    MEASURE(gospa, "mean GOSPA over the scans"),
-    MEASURE(gospa_rms,
-            "root mean square of GOSPA over the scans; its square is the sum of the parts"),
-    MEASURE(gospa_max, "largest GOSPA of a scan"),
-    MEASURE(gospa_localisation, "part of the pairs' squared distances, mean over the scans"),
-    MEASURE(gospa_missed,
-            "part of missed items, half the squared cut-off each, mean over the scans"),
-    MEASURE(gospa_false, "part of false items, half the squared cut-off each, mean over the scans"),
-    MEASURE(ospa, "mean OSPA over the scans"),
-    COMPONENT(range_m, SCORE_RANGE, "differences in range"),
-    COMPONENT(azimuth_rad, SCORE_AZIMUTH, "differences in azimuth"),
-    COMPONENT(range_rate_mps, SCORE_RANGE_RATE, "differences in range rate"),
-    COMPONENT(amplitude_db, SCORE_AMPLITUDE, "differences in amplitude"),
-    COMPONENT(position_m, SCORE_POSITION, "distances of tracks and objects"),
-    COMPONENT(velocity_mps, SCORE_VELOCITY,
-              "sizes of the differences in velocity of tracks and objects"),
+    {COUNT(struct score, scans,
+           "pairs of lists: of one sensor in one frame, or the tracks of one frame")},
+    {COUNT(struct score, true_count, "items of the true lists")},
+    {COUNT(struct score, listed_count, "items of the scored lists")},
+    {COUNT(struct score, pair_count, "pairs closer than the cut-off")},
+    {COUNT(struct score, missed_count, "true items without a pair")},
+    {COUNT(struct score, false_count, "scored items without a pair")},
+    {MEASURE(gospa, "mean GOSPA over the scans")},
+    {MEASURE(gospa_rms,
+             "root mean square of GOSPA over the scans; its square is the sum of the parts")},
+    {MEASURE(gospa_max, "largest GOSPA of a scan")},
+    {MEASURE(gospa_localisation, "part of the pairs' squared distances, mean over the scans")},
+    {MEASURE(gospa_missed,
+             "part of missed items, half the squared cut-off each, mean over the scans")},
+    {MEASURE(gospa_false,
+             "part of false items, half the squared cut-off each, mean over the scans")},
+    {MEASURE(ospa, "mean OSPA over the scans")},
+    {COMPONENT(range_m, SCORE_RANGE, "differences in range")},
+    {COMPONENT(azimuth_rad, SCORE_AZIMUTH, "differences in azimuth")},
+    {COMPONENT(range_rate_mps, SCORE_RANGE_RATE, "differences in range rate")},
+    {COMPONENT(amplitude_db, SCORE_AMPLITUDE, "differences in amplitude")},
+    {COMPONENT(position_m, SCORE_POSITION, "distances of tracks and objects")},
+    {COMPONENT(velocity_mps, SCORE_VELOCITY,
+               "sizes of the differences in velocity of tracks and objects")},
     {0},
 };
 
@@ -79,14 +70,16 @@ const struct record score_record = {FIELD_TABLE(
 
 #define LINE_HEAD(owner)                                                                           \
     {FIELD_NAME_OF(owner, scene, "scene of the frame")},                                           \
-        COUNT(owner, frame, "number of the frame in its scene"),                                   \
+        {COUNT(owner, frame, "number of the frame in its scene")},                                 \
     {                                                                                              \
         FIELD_REAL_IN(owner, time_s, -1e10, 1e10, "time of the frame")                             \
     }
 #define SUMMARY_HEAD(owner)                                                                        \
-    COUNT(owner, frames, "frames in both streams, which are scored"),                              \
-        COUNT(owner, true_frames, "frames in the truth alone"),                                    \
-        COUNT(owner, listed_frames, "frames in the scored stream alone")
+    {COUNT(owner, frames, "frames in both streams, which are scored")},                            \
+        {COUNT(owner, true_frames, "frames in the truth alone")},                                  \
+    {                                                                                              \
+        COUNT(owner, listed_frames, "frames in the scored stream alone")                           \
+    }
 
 static const struct field line_fields[] = {
     LINE_HEAD(struct score_line),
@@ -116,8 +109,8 @@ const struct record score_summary_record = {
 
 static const struct field track_line_fields[] = {
     LINE_HEAD(struct score_track_line),
-    COUNT(struct score_track_line, id_switches,
-          "objects paired with another track than the last time"),
+    {COUNT(struct score_track_line, id_switches,
+           "objects paired with another track than the last time")},
     {FIELD_RECORD_OF(struct score_track_line, all, &score_record, "score over all tracks")},
     {0},
 };
@@ -130,8 +123,8 @@ static const struct field track_summary_fields[] = {
     SUMMARY_HEAD(struct score_track_summary),
     {FIELD_REAL_IN(struct score_track_summary, cutoff_m, 0, 1e6,
                    "tracks this far off or farther are no pair")},
-    COUNT(struct score_track_summary, id_switches,
-          "objects paired with another track than the last time"),
+    {COUNT(struct score_track_summary, id_switches,
+           "objects paired with another track than the last time")},
     {FIELD_RECORD_OF(struct score_track_summary, all, &score_record, "score over all frames")},
     {0},
 };

@@ -6,27 +6,17 @@
 #include "base/units.h"
 #include "text/document.h"
 
-#define REAL(owner, member, low, high, help)                                                       \
-    {                                                                                              \
-        FIELD_REAL_IN(owner, member, low, high, help)                                              \
-    }
+#define REAL(owner, member, low, high, help) FIELD_REAL_IN(owner, member, low, high, help)
 #define OPTIONAL_REAL(owner, member, low, high, help)                                              \
-    {                                                                                              \
-        FIELD_REAL_IN(owner, member, low, high, help), FIELD_OPTIONAL                              \
-    }
-#define NAME(owner, member, help)                                                                  \
-    {                                                                                              \
-        FIELD_NAME_OF(owner, member, help)                                                         \
-    }
+    FIELD_REAL_IN(owner, member, low, high, help), FIELD_OPTIONAL
+#define NAME(owner, member, help) FIELD_NAME_OF(owner, member, help)
 #define OPTIONAL_LIST(owner, member, record, help)                                                 \
-    {                                                                                              \
-        FIELD_LIST_OF(owner, member, record, help), FIELD_OPTIONAL                                 \
-    }
+    FIELD_LIST_OF(owner, member, record, help), FIELD_OPTIONAL
 
 static const struct field segment_fields[] = {
-    REAL(struct segment, duration_s, 0, 1e6, "the next segment begins after this time"),
-    OPTIONAL_REAL(struct segment, acceleration_mps2, -1e3, 1e3, "along the heading"),
-    OPTIONAL_REAL(struct segment, yaw_rate_radps, -1e3, 1e3, "turn rate, left positive"),
+    {REAL(struct segment, duration_s, 0, 1e6, "the next segment begins after this time")},
+    {OPTIONAL_REAL(struct segment, acceleration_mps2, -1e3, 1e3, "along the heading")},
+    {OPTIONAL_REAL(struct segment, yaw_rate_radps, -1e3, 1e3, "turn rate, left positive")},
     {0},
 };
 
@@ -34,10 +24,10 @@ static const struct record segment_record = {FIELD_TABLE(
     struct segment, segment_fields, "segment", "A time of constant acceleration and turn rate.")};
 
 static const struct field waypoint_fields[] = {
-    REAL(struct waypoint, time_s, 0, 1e6,
-         "when the object is there; later than at the waypoint before"),
-    REAL(struct waypoint, x_m, -1e9, 1e9, "centre of the box"),
-    REAL(struct waypoint, y_m, -1e9, 1e9, "centre of the box"),
+    {REAL(struct waypoint, time_s, 0, 1e6,
+          "when the object is there; later than at the waypoint before")},
+    {REAL(struct waypoint, x_m, -1e9, 1e9, "centre of the box")},
+    {REAL(struct waypoint, y_m, -1e9, 1e9, "centre of the box")},
     {0},
 };
 
@@ -45,17 +35,17 @@ static const struct record waypoint_record = {
     FIELD_TABLE(struct waypoint, waypoint_fields, "waypoint", "A place and when to be there.")};
 
 static const struct field actor_fields[] = {
-    NAME(struct actor, id, "unique in the scenario"),
-    NAME(struct actor, class, "names the vehicle document"),
-    OPTIONAL_REAL(struct actor, length_m, 0, 1e6, "0: the default of the class"),
-    OPTIONAL_REAL(struct actor, width_m, 0, 1e6, "0: the default of the class"),
-    OPTIONAL_REAL(struct actor, height_m, 0, 1e6, "0: the default of the class"),
-    OPTIONAL_REAL(struct actor, x_m, -1e9, 1e9, "centre of the box at time 0"),
-    OPTIONAL_REAL(struct actor, y_m, -1e9, 1e9, "centre of the box at time 0"),
-    OPTIONAL_REAL(struct actor, yaw_rad, -2 * PI, 2 * PI, "heading at time 0"),
-    OPTIONAL_REAL(struct actor, speed_mps, -1e3, 1e3, "at time 0; below 0: backwards"),
-    OPTIONAL_LIST(struct actor, segments, &segment_record, "driven one after another"),
-    OPTIONAL_LIST(struct actor, waypoints, &waypoint_record, "followed instead of segments"),
+    {NAME(struct actor, id, "unique in the scenario")},
+    {NAME(struct actor, class, "names the vehicle document")},
+    {OPTIONAL_REAL(struct actor, length_m, 0, 1e6, "0: the default of the class")},
+    {OPTIONAL_REAL(struct actor, width_m, 0, 1e6, "0: the default of the class")},
+    {OPTIONAL_REAL(struct actor, height_m, 0, 1e6, "0: the default of the class")},
+    {OPTIONAL_REAL(struct actor, x_m, -1e9, 1e9, "centre of the box at time 0")},
+    {OPTIONAL_REAL(struct actor, y_m, -1e9, 1e9, "centre of the box at time 0")},
+    {OPTIONAL_REAL(struct actor, yaw_rad, -2 * PI, 2 * PI, "heading at time 0")},
+    {OPTIONAL_REAL(struct actor, speed_mps, -1e3, 1e3, "at time 0; below 0: backwards")},
+    {OPTIONAL_LIST(struct actor, segments, &segment_record, "driven one after another")},
+    {OPTIONAL_LIST(struct actor, waypoints, &waypoint_record, "followed instead of segments")},
     {0},
 };
 
@@ -63,10 +53,10 @@ static const struct record actor_record = {
     FIELD_TABLE(struct actor, actor_fields, "object", "A road user or thing, and how it moves.")};
 
 static const struct field scenario_fields[] = {
-    NAME(struct scenario, origin, "who made this, and from what"),
-    NAME(struct scenario, ego, "id of the object that carries the sensors"),
-    REAL(struct scenario, rate_hz, 0.1, 1e4, "frames in a second"),
-    REAL(struct scenario, duration_s, 0, 1e6, "the last frame is not later"),
+    {NAME(struct scenario, origin, "who made this, and from what")},
+    {NAME(struct scenario, ego, "id of the object that carries the sensors")},
+    {REAL(struct scenario, rate_hz, 0.1, 1e4, "frames in a second")},
+    {REAL(struct scenario, duration_s, 0, 1e6, "the last frame is not later")},
     {FIELD_RECORD_OF(struct scenario, conditions, &conditions_record, "road and weather"),
      FIELD_OPTIONAL},
     {FIELD_LIST_OF(struct scenario, objects, &actor_record, "all objects, the ego too")},
