@@ -411,7 +411,7 @@ def laws_hold_after_swaps(folder):
 
 def mirror_symmetry(folder):
     renamed = {path[:-5]: mirror_names(vehicle(path[:-5]))
-               for path in os.listdir(ROOT + "/data/vehicles")}
+               for path in os.listdir(ROOT + "/data/vehicles") if path.endswith(".json")}
     for source in SCENARIOS + [TABLE]:
         traffic = piped(f"glint-traffic {source}")
         mirrored = mirror_traffic(traffic)
