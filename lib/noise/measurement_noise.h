@@ -4,13 +4,13 @@
 
 #include "noise/target_list.h"
 
-/* Noise on the pointers, the angle and amplitude that are read off them, noise on range and range
- * rate, and the azimuth as it is reported. False if both pointers are zero, so that there is no
- * azimuth. */
+/* Measures a cell as its sensor does: noise is added to the pointers, angle and amplitude are read
+ * off them, noise is added to range and range rate, and misalignment and radome turn the azimuth.
+ * False if both noisy pointers are zero, so that there is no azimuth. */
 bool measurement_noise_read(const struct effect_scan *context, const struct cell *cell,
                             struct measurement *measurement);
 
-/* Only between the azimuth that was read and the one that is reported: misalignment and radome. */
+/* Turns the azimuth of a measurement by misalignment and radome, and changes nothing else. */
 void measurement_noise_turn(const struct effect_scan *context, struct measurement *measurement);
 
 #endif

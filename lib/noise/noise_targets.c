@@ -1,9 +1,9 @@
 #include "noise/noise_targets.h"
 
+#include "base/elementary.h"
 #include "base/poisson.h"
 #include "effects/effect.h"
 #include "frame/draw_address.h"
-#include "radar/ground_return.h"
 
 struct contributor noise_targets_contributor(int64_t number)
 {
@@ -16,30 +16,30 @@ struct contributor noise_targets_contributor(int64_t number)
     };
 }
 
-static struct contributor draw_place(const struct sensor *sensor, int64_t number,
-                                     const double uniform[3])
+static struct contributor draw_contributor(const struct sensor *sensor, int64_t number,
+                                           const double uniform[3])
 {
-    struct contributor drawn = noise_targets_contributor(number);
+    struct contributor contributor = noise_targets_contributor(number);
     double depth_m = sensor->range_max_m - sensor->range_min_m;
-    drawn.range_m = sensor->range_min_m + depth_m * uniform[0];
-    drawn.azimuth_rad = sensor->field_of_view_rad * (uniform[1] - 0.5);
-    drawn.range_rate_mps = sensor->false_alarm_range_rate_mps * (2 * uniform[2] - 1);
-    return drawn;
+    contributor.range_m = sensor->range_min_m + depth_m * uniform[0];
+    contributor.azimuth_rad = sensor->field_of_view_rad * (uniform[1] - 0.5);
+    contributor.range_rate_mps = sensor->false_alarm_range_rate_mps * (2 * uniform[2] - 1);
+    return contributor;
 }
 
-static struct cell make_cell(struct frame *frame, const struct sensor *sensor,
-                             const struct contributor *drawn, double amplitude)
+static struct cell cell_of(struct frame *frame, const struct sensor *sensor,
+                           const struct contributor *contributor, double amplitude)
 {
     struct cell cell = {
         .sensor = sensor->name,
-        .range_m = drawn->range_m,
-        .azimuth_rad = drawn->azimuth_rad,
-        .range_rate_mps = drawn->range_rate_mps,
+        .range_m = contributor->range_m,
+        .azimuth_rad = contributor->azimuth_rad,
+        .range_rate_mps = contributor->range_rate_mps,
         .amplitude = amplitude,
         .sum_re = amplitude,
         .effects = EFFECT_BIT(EFFECT_FALSE_ALARMS),
     };
-    *list_add(&cell.members, frame->arena) = *drawn;
+    *list_add(&cell.members, frame->arena) = *contributor;
     return cell;
 }
 
@@ -62,11 +62,11 @@ struct cell_span noise_targets_of(struct frame *frame, const struct effect_scan 
     struct cell *cells = arena_get(frame->arena, (count + 1) * sizeof *cells);
     for (size_t i = 0; i < count; i++) {
         random_uniform(&address, RANDOM_FALSE_ALARMS, (uint32_t)i + 1, uniform);
-        struct contributor drawn = draw_place(sensor, (int64_t)i + 1, uniform);
-        drawn.time_s = context->time_s;
-        cells[i] = make_cell(
-            frame, sensor, &drawn,
-            noise_targets_amplitude(sensor->threshold, sensor->pointer_sigma, uniform[3]));
+        struct contributor contributor = draw_contributor(sensor, (int64_t)i + 1, uniform);
+        contributor.time_s = context->time_s;
+        cells[i] =
+            cell_of(frame, sensor, &contributor,
+                    noise_targets_amplitude(sensor->threshold, sensor->pointer_sigma, uniform[3]));
     }
     if (count > 0)
         frame_count_echoes(frame, sensor->name, PATH_FALSE_ALARM, (int64_t)count);

@@ -53,8 +53,9 @@ static int compare_range(const void *left, const void *right)
     return compare_strength(left, right);
 }
 
-static void note_limit(struct measurement *measurements, size_t count, enum list_order order,
-                       int64_t limit)
+/* Notes the distance of every measurement to the nearest one on the other side of the limit. */
+static void note_limit_margins(struct measurement *measurements, size_t count,
+                               enum list_order order, int64_t limit)
 {
     const struct measurement *last = NULL, *next = NULL;
     int64_t listed = 0;
@@ -63,15 +64,15 @@ static void note_limit(struct measurement *measurements, size_t count, enum list
             *(listed++ < limit ? &last : &next) = &measurements[i];
     for (size_t i = 0; i < count && next != NULL; i++) {
         struct measurement *measurement = &measurements[i];
-        const struct measurement *across = measurement <= last ? next : last;
+        const struct measurement *other_side = measurement <= last ? next : last;
         if (!(measurement->amplitude > 0))
             continue;
         if (order == LIST_STRONGEST)
             margins_note(&measurement->margins, MARGIN_LIMIT_DB,
-                         margins_between_db(across->amplitude, measurement->amplitude));
+                         margins_between_db(other_side->amplitude, measurement->amplitude));
         else
             margins_note(&measurement->margins, MARGIN_LIMIT_M,
-                         fabs(across->range_m - measurement->range_m));
+                         fabs(other_side->range_m - measurement->range_m));
     }
 }
 
@@ -82,7 +83,7 @@ void target_list_make(struct frame *frame, const char *stage, const struct senso
                sensor->list_order == LIST_STRONGEST ? compare_strength : compare_range,
                frame->arena);
     if (frame->margins && limit > 0)
-        note_limit(measurements, count, sensor->list_order, limit);
+        note_limit_margins(measurements, count, sensor->list_order, limit);
     int64_t listed = 0;
     for (size_t i = 0; i < count; i++) {
         const struct measurement *measurement = &measurements[i];

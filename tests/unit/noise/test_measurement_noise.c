@@ -7,25 +7,25 @@
 
 static struct contributor leader = {.id = {.object = "o", .reflector = "r"}};
 
-/* Sum and delta of an echo of amplitude 4 at 0.1 rad, which the cell's own values say too. */
+/* The cell of an echo of amplitude 4 at 0.1 rad. */
 static struct cell cell_of(struct effect_bench *bench)
 {
-    struct antenna_pointers one = antenna_pointers(&bench->sensor.antenna, 0.1);
+    struct antenna_pointers unit = antenna_pointers(&bench->sensor.antenna, 0.1);
     double gain = antenna_gain(&bench->sensor.antenna, 0.1);
     return (struct cell){.sensor = "radar",
                          .range_m = 30,
                          .azimuth_rad = 0.1,
                          .range_rate_mps = -3,
                          .amplitude = 4,
-                         .sum_re = 4 / gain * creal(one.sum),
-                         .sum_im = 4 / gain * cimag(one.sum),
-                         .delta_re = 4 / gain * creal(one.delta),
-                         .delta_im = 4 / gain * cimag(one.delta),
+                         .sum_re = 4 / gain * creal(unit.sum),
+                         .sum_im = 4 / gain * cimag(unit.sum),
+                         .delta_re = 4 / gain * creal(unit.delta),
+                         .delta_im = 4 / gain * cimag(unit.delta),
                          .effects = EFFECT_BIT(EFFECT_MERGING),
                          .members = {&leader, 1, 1}};
 }
 
-static void without_noise_the_cell_s_values_are_read(void **state)
+static void without_noise_a_measurement_has_the_values_of_its_cell(void **state)
 {
     struct effect_bench *bench = *state;
     struct effect_scan context = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
@@ -38,7 +38,6 @@ static void without_noise_the_cell_s_values_are_read(void **state)
     assert_true(read.effects == EFFECT_BIT(EFFECT_MERGING));
 }
 
-/* The angle is read off the noisy pointers, and turned after that. */
 static void angle_and_amplitude_are_those_of_the_noisy_pointers(void **state)
 {
     struct effect_bench *bench = *state;
@@ -69,8 +68,7 @@ static void pointers_of_zero_have_no_angle(void **state)
     assert_false(measurement_noise_read(&context, &cell, &read));
 }
 
-/* Of a measurement that the signal made. */
-static void turning_changes_the_azimuth_alone(void **state)
+static void misalignment_turns_the_azimuth_alone(void **state)
 {
     struct effect_bench *bench = *state;
     bench->sensor.misalignment_rad = 0.02;
@@ -86,10 +84,10 @@ static void turning_changes_the_azimuth_alone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        EFFECT_TEST(without_noise_the_cell_s_values_are_read),
+        EFFECT_TEST(without_noise_a_measurement_has_the_values_of_its_cell),
         EFFECT_TEST(angle_and_amplitude_are_those_of_the_noisy_pointers),
         EFFECT_TEST(pointers_of_zero_have_no_angle),
-        EFFECT_TEST(turning_changes_the_azimuth_alone),
+        EFFECT_TEST(misalignment_turns_the_azimuth_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

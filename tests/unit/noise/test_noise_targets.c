@@ -18,36 +18,37 @@ static const struct sensor radar = {
 
 static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
 
-struct scan {
+struct bench {
     struct arena arena;
     struct frame frame;
 };
 
-static struct cell_span scan_of(struct scan *scan, double mean, uint64_t number, bool measured)
+static struct cell_span false_alarms_of(struct bench *bench, double mean, uint64_t number,
+                                        bool measured)
 {
-    *scan = (struct scan){.frame = {.scene = "s",
-                                    .seed = 1,
-                                    .frame = (int64_t)number,
-                                    .time_s = 3,
-                                    .interval_s = 0.1,
-                                    .account = true}};
-    scan->frame.arena = &scan->arena;
-    *list_add(&scan->frame.sensors.list, &scan->arena) =
+    *bench = (struct bench){.frame = {.scene = "s",
+                                      .seed = 1,
+                                      .frame = (int64_t)number,
+                                      .time_s = 3,
+                                      .interval_s = 0.1,
+                                      .account = true}};
+    bench->frame.arena = &bench->arena;
+    *list_add(&bench->frame.sensors.list, &bench->arena) =
         (struct sensor_view){.name = "s", .measured = measured};
     struct sensor sensor = radar;
     sensor.false_alarms = mean;
     struct effect_scan context =
-        effect_begin(&scan->frame, &sensor, &everything, EFFECT_HOME_NOISE);
-    return noise_targets_of(&scan->frame, &context);
+        effect_begin(&bench->frame, &sensor, &everything, EFFECT_HOME_NOISE);
+    return noise_targets_of(&bench->frame, &context);
 }
 
-static void every_false_alarm_lies_in_the_sensor_s_cells(void **state)
+static void every_false_alarm_is_within_the_limits_of_its_sensor(void **state)
 {
     (void)state;
     size_t seen = 0;
     for (uint64_t i = 0; i < 500; i++) {
-        struct scan scan;
-        struct cell_span alarms = scan_of(&scan, 3, i, true);
+        struct bench bench;
+        struct cell_span alarms = false_alarms_of(&bench, 3, i, true);
         for (size_t j = 0; j < alarms.count; j++) {
             const struct cell *cell = &alarms.items[j];
             assert_true(cell->range_m > 5 && cell->range_m < 25);
@@ -65,12 +66,12 @@ static void every_false_alarm_lies_in_the_sensor_s_cells(void **state)
             assert_close(label->weight, 1, 0);
             assert_close(label->time_s, 2.95, 1e-15);
         }
-        const struct frame *frame = &scan.frame;
+        const struct frame *frame = &bench.frame;
         assert_int_equal(frame->counts.count, alarms.count > 0);
         if (alarms.count > 0)
             assert_int_equal(frame->counts.items[0].paths.items[0].echoes, alarms.count);
         seen += alarms.count;
-        arena_free(&scan.arena);
+        arena_free(&bench.arena);
     }
     assert_true(seen > 1400 && seen < 1600);
 }
@@ -79,17 +80,18 @@ static void a_larger_mean_adds_to_the_same_false_alarms(void **state)
 {
     (void)state;
     for (uint64_t i = 0; i < 100; i++) {
-        struct scan scan, more;
-        struct cell_span few = scan_of(&scan, 2, i, true), many = scan_of(&more, 4, i, true);
+        struct bench bench, more;
+        struct cell_span few = false_alarms_of(&bench, 2, i, true);
+        struct cell_span many = false_alarms_of(&more, 4, i, true);
         assert_true(few.count <= many.count);
         for (size_t j = 0; j < few.count; j++)
             assert_close(few.items[j].range_m, many.items[j].range_m, 0);
-        arena_free(&scan.arena);
+        arena_free(&bench.arena);
         arena_free(&more.arena);
     }
 }
 
-static void a_sensor_that_does_not_measure_has_no_false_alarms(void **state)
+static void without_a_mean_or_a_measurement_there_are_no_false_alarms(void **state)
 {
     (void)state;
     static const struct {
@@ -97,15 +99,15 @@ static void a_sensor_that_does_not_measure_has_no_false_alarms(void **state)
         bool measured;
     } cases[] = {{50, false}, {0, true}};
     for (size_t i = 0; i < COUNT(cases); i++) {
-        struct scan scan;
-        assert_int_equal(scan_of(&scan, cases[i].mean, 1, cases[i].measured).count, 0);
-        assert_int_equal(scan.frame.counts.count, 0);
-        arena_free(&scan.arena);
+        struct bench bench;
+        assert_int_equal(false_alarms_of(&bench, cases[i].mean, 1, cases[i].measured).count, 0);
+        assert_int_equal(bench.frame.counts.count, 0);
+        arena_free(&bench.arena);
     }
 }
 
-/* The part of all false alarms above an amplitude is P(amplitude) / P(threshold), and noise alone
- * passes T with P = exp(-(T / sigma)^2). */
+/* Noise alone passes an amplitude A with P(A) = exp(-(A / sigma)^2), so the share of false alarms
+ * above A is P(A) / P(threshold). */
 static void amplitudes_of_false_alarms_are_those_of_noise_above_the_threshold(void **state)
 {
     (void)state;
@@ -122,9 +124,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(amplitudes_of_false_alarms_are_those_of_noise_above_the_threshold),
-        cmocka_unit_test(every_false_alarm_lies_in_the_sensor_s_cells),
+        cmocka_unit_test(every_false_alarm_is_within_the_limits_of_its_sensor),
         cmocka_unit_test(a_larger_mean_adds_to_the_same_false_alarms),
-        cmocka_unit_test(a_sensor_that_does_not_measure_has_no_false_alarms),
+        cmocka_unit_test(without_a_mean_or_a_measurement_there_are_no_false_alarms),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,7 +25,7 @@ static void begin_list(struct list *list, enum list_order order)
     list->frame.account = true;
 }
 
-static void add_reading(struct list *list, const char *object, double range_m, double amplitude)
+static void add_measurement(struct list *list, const char *object, double range_m, double amplitude)
 {
     struct cell *cell = &list->cells[list->count];
     *cell = (struct cell){.sensor = "s", .range_m = range_m, .sum_re = amplitude};
@@ -34,7 +34,7 @@ static void add_reading(struct list *list, const char *object, double range_m, d
     list->measurements[list->count++] = target_list_measure(cell);
 }
 
-/* The objects behind the targets, in their order. */
+/* Makes the list and compares its targets with objects, one letter each. */
 static void assert_listed(struct list *list, int64_t limit, const char *objects)
 {
     target_list_make(&list->frame, "noise", &list->sensor, list->measurements, list->count, limit);
@@ -46,12 +46,12 @@ static void assert_listed(struct list *list, int64_t limit, const char *objects)
 
 static void add_all(struct list *list)
 {
-    add_reading(list, "a", 30, 5);
-    add_reading(list, "b", 10, 2);
-    add_reading(list, "c", 20, 5);
-    add_reading(list, "d", 10, 3);
-    add_reading(list, "e", 40, 0);
-    add_reading(list, "f", 10, 3);
+    add_measurement(list, "a", 30, 5);
+    add_measurement(list, "b", 10, 2);
+    add_measurement(list, "c", 20, 5);
+    add_measurement(list, "d", 10, 3);
+    add_measurement(list, "e", 40, 0);
+    add_measurement(list, "f", 10, 3);
 }
 
 static void targets_come_strongest_or_nearest_first(void **state)
@@ -69,21 +69,21 @@ static void targets_come_strongest_or_nearest_first(void **state)
         begin_list(&list, cases[i].order);
         add_all(&list);
         assert_listed(&list, cases[i].limit, cases[i].objects);
-        /* What is not listed is lost: without amplitude, or beyond the limit. */
+        /* A measurement that is not listed is lost: it has no amplitude, or is beyond the limit. */
         size_t beyond = 5 - strlen(cases[i].objects);
         assert_int_equal(list.frame.lost.count, beyond > 0 ? 2 : 1);
         for (size_t j = 0; j < list.frame.lost.count; j++) {
             const struct lost_group *group = &list.frame.lost.items[j];
             assert_string_equal(group->stage, "noise");
-            bool mute = group->reason == LOSS_NO_AMPLITUDE;
-            assert_true(mute || group->reason == LOSS_LIST_LIMIT);
-            assert_int_equal(group->echoes.count, mute ? 1 : beyond);
+            bool silent = group->reason == LOSS_NO_AMPLITUDE;
+            assert_true(silent || group->reason == LOSS_LIST_LIMIT);
+            assert_int_equal(group->echoes.count, silent ? 1 : beyond);
         }
         arena_free(&list.arena);
     }
 }
 
-static void the_order_of_the_readings_does_not_matter(void **state)
+static void the_order_of_the_measurements_does_not_matter(void **state)
 {
     (void)state;
     uint64_t random = 2;
@@ -102,12 +102,12 @@ static void the_order_of_the_readings_does_not_matter(void **state)
     }
 }
 
-static void a_target_has_the_reading_and_the_label_of_its_cell(void **state)
+static void a_target_has_its_measurement_and_the_label_of_its_cell(void **state)
 {
     (void)state;
     struct list list;
     begin_list(&list, LIST_STRONGEST);
-    add_reading(&list, "a", 10, 3);
+    add_measurement(&list, "a", 10, 3);
     list.cells[0].sum_im = -4;
     list.cells[0].azimuth_rad = 0.1;
     list.cells[0].range_rate_mps = -3;
@@ -136,19 +136,20 @@ static void a_target_has_the_reading_and_the_label_of_its_cell(void **state)
     arena_free(&list.arena);
 }
 
-/* Amplitudes 5, 5, 3, 3, 2 and ranges 10, 10, 10, 20, 30 in order. */
-static void the_limit_tells_how_near_it_cut(void **state)
+/* The list has amplitudes 5, 5, 3, 3, 2 or ranges 10, 10, 10, 20, 30 m in its order. */
+static void a_limit_gives_margins_to_both_sides_of_the_cut(void **state)
 {
     (void)state;
-    const double db = 20 * log10(5.0 / 3), two = 20 * log10(3.0 / 2), all = 20 * log10(2.5);
+    const double db_5_3 = 20 * log10(5.0 / 3), db_3_2 = 20 * log10(3.0 / 2),
+                 db_5_2 = 20 * log10(2.5);
     const struct {
         enum list_order order;
         int64_t limit;
         unsigned present;
         double listed[4], lost[3];
     } cases[] = {
-        {LIST_STRONGEST, 2, MARGIN_LIMIT_DB, {db, db}, {db, db, all}},
-        {LIST_STRONGEST, 4, MARGIN_LIMIT_DB, {all, all, two, two}, {two}},
+        {LIST_STRONGEST, 2, MARGIN_LIMIT_DB, {db_5_3, db_5_3}, {db_5_3, db_5_3, db_5_2}},
+        {LIST_STRONGEST, 4, MARGIN_LIMIT_DB, {db_5_2, db_5_2, db_3_2, db_3_2}, {db_3_2}},
         {LIST_STRONGEST, 1, MARGIN_LIMIT_DB, {0}, {0}},
         {LIST_NEAREST, 3, MARGIN_LIMIT_M, {10, 10, 10}, {10, 20}},
         {LIST_NEAREST, 4, MARGIN_LIMIT_M, {20, 20, 20, 10}, {10}},
@@ -162,22 +163,22 @@ static void the_limit_tells_how_near_it_cut(void **state)
         add_all(&list);
         target_list_make(&list.frame, "noise", &list.sensor, list.measurements, list.count,
                          cases[i].limit);
-        bool db_told = cases[i].present == MARGIN_LIMIT_DB;
+        bool in_db = cases[i].present == MARGIN_LIMIT_DB;
         for (size_t j = 0; j < list.frame.targets.count; j++) {
             const struct margins *margins = &list.frame.targets.items[j].margins;
             assert_int_equal(margins->present, cases[i].present);
             if (margins->present != 0 && cases[i].limit > 1)
-                assert_close(db_told ? margins->limit_db : margins->limit_m, cases[i].listed[j],
+                assert_close(in_db ? margins->limit_db : margins->limit_m, cases[i].listed[j],
                              1e-13);
         }
         for (size_t j = 0; j < list.frame.lost.count; j++) {
             const struct lost_group *group = &list.frame.lost.items[j];
             for (size_t k = 0; k < group->echoes.count && k < COUNT(cases[i].lost); k++) {
                 const struct margins *margins = &group->echoes.items[k].margins;
-                bool mute = group->reason == LOSS_NO_AMPLITUDE;
-                assert_int_equal(margins->present, mute ? 0 : cases[i].present);
-                if (!mute && cases[i].limit > 1)
-                    assert_close(db_told ? margins->limit_db : margins->limit_m, cases[i].lost[k],
+                bool silent = group->reason == LOSS_NO_AMPLITUDE;
+                assert_int_equal(margins->present, silent ? 0 : cases[i].present);
+                if (!silent && cases[i].limit > 1)
+                    assert_close(in_db ? margins->limit_db : margins->limit_m, cases[i].lost[k],
                                  1e-13);
             }
         }
@@ -185,12 +186,12 @@ static void the_limit_tells_how_near_it_cut(void **state)
     }
 }
 
-static void no_number_among_the_amplitudes_makes_no_target(void **state)
+static void an_amplitude_that_is_no_number_makes_no_target(void **state)
 {
     (void)state;
     struct list list;
     begin_list(&list, LIST_STRONGEST);
-    add_reading(&list, "a", 10, (double)NAN);
+    add_measurement(&list, "a", 10, (double)NAN);
     assert_listed(&list, 0, "");
     arena_free(&list.arena);
 }
@@ -229,10 +230,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(targets_come_strongest_or_nearest_first),
-        cmocka_unit_test(the_order_of_the_readings_does_not_matter),
-        cmocka_unit_test(a_target_has_the_reading_and_the_label_of_its_cell),
-        cmocka_unit_test(the_limit_tells_how_near_it_cut),
-        cmocka_unit_test(no_number_among_the_amplitudes_makes_no_target),
+        cmocka_unit_test(the_order_of_the_measurements_does_not_matter),
+        cmocka_unit_test(a_target_has_its_measurement_and_the_label_of_its_cell),
+        cmocka_unit_test(a_limit_gives_margins_to_both_sides_of_the_cut),
+        cmocka_unit_test(an_amplitude_that_is_no_number_makes_no_target),
         cmocka_unit_test(a_listed_target_is_rounded_and_its_label_is_not),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
