@@ -1,5 +1,5 @@
 /* Specular point of a flat side for a sensor. It is the place that mirrors the radar's wave back
- * (MODEL 2.3). (MODEL 2.3).
+ * (MODEL 2.3).
  *
  * A side is the segment a to b of a counter-clockwise outline, so its outer face is to the right of
  * a -> b. The specular point is the foot of the perpendicular from the sensor. It exists where the

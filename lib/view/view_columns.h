@@ -89,12 +89,12 @@ void view_columns_add_real(struct view_columns *columns, enum view_column column
 void view_columns_add_count(struct view_columns *columns, enum view_column column, uint32_t value,
                             struct arena *arena);
 
-/* The place of a column in what view_columns_write writes. */
+/* The place of a column in the text of view_columns_write. */
 struct view_column_place {
     const char *name;
     const char *type; /* "f4", "u1", "u2" or "u4": kind and bytes of its numbers */
-    int64_t count;    /* of numbers */
-    int64_t begin;    /* number of its first character */
+    int64_t count;    /* how many numbers it has */
+    int64_t begin;    /* index of its first character */
 };
 
 extern const struct record view_column_place_record;

@@ -6,7 +6,7 @@
 
 struct reason {
     const char *name;
-    bool near;
+    bool notable;
 };
 
 struct effect_set {
@@ -32,15 +32,15 @@ struct head {
 };
 
 static const struct field reason_fields[] = {
-    {FIELD_NAME_OF(struct reason, name, "as frames have it")},
-    {FIELD_FLAG_OF(struct reason, near, "is a loss for it worth showing?")},
+    {FIELD_NAME_OF(struct reason, name, "its name in frames")},
+    {FIELD_FLAG_OF(struct reason, notable, "is such a loss shown on the map?")},
     {0},
 };
 static const struct record reason_record = {
     .name = "reason", .size = sizeof(struct reason), .fields = reason_fields};
 
 static const struct field effect_set_fields[] = {
-    {FIELD_SET_OF(struct effect_set, effects, effects_names, "of a target")},
+    {FIELD_SET_OF(struct effect_set, effects, effects_names, "effects that changed a target")},
     {0},
 };
 static const struct record effect_set_record = {
@@ -52,37 +52,39 @@ static const struct field scene_fields[] = {
     {NAME_NUMBER(name)},
     {NAME_NUMBER(ego)},
     {NAME_NUMBER(suite)},
-    {FIELD_INTEGER_IN(struct view_scene, first_frame, 0, 0x1p53, "that is in the stream")},
-    {FIELD_REAL_IN(struct view_scene, start_s, -1e10, 1e10, "of that frame")},
-    {FIELD_REAL_IN(struct view_scene, anchor_x_m, -1e10, 1e10, "the ego in that frame")},
-    {FIELD_REAL_IN(struct view_scene, anchor_y_m, -1e10, 1e10, "the ego in that frame")},
-    {FIELD_FLAG_OF(struct view_scene, account, "are lost echoes in it?")},
-    {FIELD_FLAG_OF(struct view_scene, ended, "is its last frame there?")},
+    {FIELD_INTEGER_IN(struct view_scene, first_frame, 0, 0x1p53,
+                      "number of the first frame in the stream")},
+    {FIELD_REAL_IN(struct view_scene, start_s, -1e10, 1e10, "time of that frame")},
+    {FIELD_REAL_IN(struct view_scene, anchor_x_m, -1e10, 1e10, "place of the ego in that frame")},
+    {FIELD_REAL_IN(struct view_scene, anchor_y_m, -1e10, 1e10, "place of the ego in that frame")},
+    {FIELD_FLAG_OF(struct view_scene, account, "does the stream have its lost echoes?")},
+    {FIELD_FLAG_OF(struct view_scene, ended, "does the stream have its last frame?")},
     {0},
 };
 static const struct record scene_record = {
     .name = "scene", .size = sizeof(struct view_scene), .fields = scene_fields};
 
 static const struct field class_fields[] = {
-    {FIELD_NAME_OF(struct class, name, "as objects have it")},
-    {FIELD_FLAG_OF(struct class, known, "is there a vehicle document of it?")},
-    {FIELD_RECORD_OF(struct class, reflectors, &reflector_model_record, "of the document")},
+    {FIELD_NAME_OF(struct class, name, "its name in objects")},
+    {FIELD_FLAG_OF(struct class, known, "has the class a vehicle document?")},
+    {FIELD_RECORD_OF(struct class, reflectors, &reflector_model_record, "those of the document")},
     {0},
 };
 static const struct record class_record = {
     .name = "class", .size = sizeof(struct class), .fields = class_fields};
 
 static const struct field head_fields[] = {
-    {FIELD_INTEGER_IN(struct head, open_frame, -1, 0x1p53, "to begin with; -1: the page's choice")},
-    {FIELD_NAMES_OF(struct head, names, "by number")},
-    {FIELD_NAMES_OF(struct head, paths, "by number")},
-    {FIELD_NAMES_OF(struct head, effects, "by number")},
-    {FIELD_LIST_OF(struct head, reasons, &reason_record, "by number")},
-    {FIELD_LIST_OF(struct head, effect_sets, &effect_set_record, "by number")},
-    {FIELD_LIST_OF(struct head, scenes, &scene_record, "by number")},
-    {FIELD_LIST_OF(struct head, sensors, &sensor_view_record, "by number")},
-    {FIELD_LIST_OF(struct head, classes, &class_record, "of the objects")},
-    {FIELD_LIST_OF(struct head, columns, &view_column_place_record, "of numbers")},
+    {FIELD_INTEGER_IN(struct head, open_frame, -1, 0x1p53,
+                      "number of the frame to open; -1: the page's choice")},
+    {FIELD_NAMES_OF(struct head, names, "names, by number")},
+    {FIELD_NAMES_OF(struct head, paths, "paths of echoes, by number")},
+    {FIELD_NAMES_OF(struct head, effects, "effects, by number")},
+    {FIELD_LIST_OF(struct head, reasons, &reason_record, "reasons of losses, by number")},
+    {FIELD_LIST_OF(struct head, effect_sets, &effect_set_record, "sets of effects, by number")},
+    {FIELD_LIST_OF(struct head, scenes, &scene_record, "scenes, by number")},
+    {FIELD_LIST_OF(struct head, sensors, &sensor_view_record, "sensors, by number")},
+    {FIELD_LIST_OF(struct head, classes, &class_record, "classes of the objects")},
+    {FIELD_LIST_OF(struct head, columns, &view_column_place_record, "places of the columns")},
     {0},
 };
 static const struct record head_record = {
@@ -100,7 +102,7 @@ static void add_classes(const struct view_data *data, struct head *head)
     }
 }
 
-/* What the page calls by numbers. */
+/* Adds the lists whose items the columns refer to by number. */
 static void add_numbered(const struct view_data *data, struct head *head)
 {
     struct arena *arena = data->arena;

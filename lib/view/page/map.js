@@ -295,7 +295,7 @@ function lostReflectors() {
     const {begin, end} = scansOf(state.frame);
     for (let scan = begin; scan < end; scan++) {
         for (const loss of lossesOf(scan, state.object)) {
-            if (!loss.reason.near || head.paths[loss.path] !== 'direct') {
+            if (!loss.reason.notable || head.paths[loss.path] !== 'direct') {
                 continue;
             }
             const name = names[loss.reflector];

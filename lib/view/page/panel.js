@@ -147,10 +147,10 @@ function lossRow(loss) {
     return row;
 }
 
-function farSection(losses) {
+function silentSection(losses) {
     const groups = new Map();
     for (const loss of losses) {
-        const what = farWords(loss.reason.name) + effectNote(loss.effect);
+        const what = silentWords(loss.reason.name) + effectNote(loss.effect);
         groups.set(what, (groups.get(what) || []).concat(names[loss.reflector]));
     }
     const lines = [];
@@ -165,20 +165,20 @@ function farSection(losses) {
     return lines;
 }
 
-function farWords(reason) {
+function silentWords(reason) {
     return reason === 'no_specular_point' ? 'mirroring past the sensor' : words(reason);
 }
 
-function summary(scan, targets, near, far) {
+function summary(scan, targets, notable, silent) {
     if (!column('scan_measured')[scan]) {
         return 'did not measure in this frame';
     }
     const parts = [plural(targets.length, 'target')];
-    if (near.length > 0) {
-        parts.push(near.length === 1 ? '1 echo lost' : `${near.length} echoes lost`);
+    if (notable.length > 0) {
+        parts.push(notable.length === 1 ? '1 echo lost' : `${notable.length} echoes lost`);
     }
-    if (far.length > 0) {
-        parts.push(`${far.length} sent no echo`);
+    if (silent.length > 0) {
+        parts.push(`${silent.length} sent no echo`);
     }
     return parts.join(', ');
 }
@@ -251,14 +251,14 @@ function showObject() {
 function objectSections(scan) {
     const targets = targetsFrom(scan, state.object);
     const losses = lossesOf(scan, state.object);
-    const near = losses.filter(loss => loss.reason.near);
-    const far = losses.filter(loss => !loss.reason.near);
+    const notable = losses.filter(loss => loss.reason.notable);
+    const silent = losses.filter(loss => !loss.reason.notable);
     return [
-        sensorTitle(scan, summary(scan, targets, near, far)),
+        sensorTitle(scan, summary(scan, targets, notable, silent)),
         ...targets.map(one => targetRow(scan, one.target, one.number, state.object)),
-        ...near.slice(0, 40).map(lossRow),
-        ...moreLine(near.length - 40),
-        ...farSection(far),
+        ...notable.slice(0, 40).map(lossRow),
+        ...moreLine(notable.length - 40),
+        ...silentSection(silent),
     ];
 }
 
