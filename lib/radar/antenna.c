@@ -5,49 +5,50 @@
 #include "base/elementary.h"
 #include "base/units.h"
 
-/* The two pointers before they turn by e: sum and -j delta. */
+/* The real factors of both pointers: H_sum = sum · e, H_delta = -j delta · e. */
 struct antenna_pair {
     double sum, delta;
 };
 
-/* u = (pi/2) sin|azimuth|, the azimuth's cosine, u's, and u's sine with the azimuth's sign. */
-struct antenna_turn {
-    double u, cos_azimuth, cos_u, sin_u;
+/* The phase u = (pi/2) sin|azimuth| of a dipole against the array's centre. */
+struct dipole_phase {
+    double u, cos_azimuth, cos_u;
+    double sin_u; /* with the sign of the azimuth */
 };
 
-/* Near the side cos u comes from its cofunction (NUMERICS 4). The sign is put on last: mirrored
- * azimuths share every rounding. */
-static struct antenna_turn turn_at(double azimuth_rad)
+/* Near pi/2 cos u comes from its cofunction (hard case 4). The sign of sin u is set last, so that
+ * mirrored azimuths are rounded alike. */
+static struct dipole_phase dipole_phase_at(double azimuth_rad)
 {
     struct elementary_sincos azimuth = elementary_sincos(fabs(azimuth_rad));
     double u = PI / 2 * azimuth.sin;
-    struct elementary_sincos turn = elementary_sincos(u);
+    struct elementary_sincos phase = elementary_sincos(u);
     if (azimuth.sin >= 0.5)
-        turn.cos = elementary_sin(PI / 2 * (azimuth.cos * azimuth.cos / (1 + azimuth.sin)));
-    return (struct antenna_turn){u, azimuth.cos, turn.cos, copysign(turn.sin, azimuth_rad)};
+        phase.cos = elementary_sin(PI / 2 * (azimuth.cos * azimuth.cos / (1 + azimuth.sin)));
+    return (struct dipole_phase){u, azimuth.cos, phase.cos, copysign(phase.sin, azimuth_rad)};
 }
 
-/* MODEL 7.1. */
 static struct antenna_pair dipole_pair(double azimuth_rad)
 {
-    struct antenna_turn turn = turn_at(azimuth_rad);
-    double element = units_si(turn.u) * turn.cos_azimuth;
-    return (struct antenna_pair){element * turn.cos_u, element * turn.sin_u};
+    struct dipole_phase phase = dipole_phase_at(azimuth_rad);
+    double element = units_si(phase.u) * phase.cos_azimuth;
+    return (struct antenna_pair){element * phase.cos_u, element * phase.sin_u};
 }
 
-/* Both weights are formed, so that a mirrored table answers with mirrored doubles. */
-static double mix(double from, double from_weight, double to, double to_weight)
+/* The mean of two values under weights that sum to 1. Neither weight is formed from the other, so
+ * that a mirrored table gives exactly mirrored results. */
+static double interpolated(double from, double from_weight, double to, double to_weight)
 {
     return from * from_weight + to * to_weight;
 }
 
-/* The row at or before an azimuth in the table, and not the last. */
+/* The last row at or before an azimuth within the table, but never the table's last row. */
 static const struct antenna_row *row_before(const struct antenna *antenna, double azimuth_rad)
 {
     const struct antenna_row *rows = antenna->rows;
     size_t low = 0;
     size_t high = antenna->row_count - 1;
-    /* Rows mostly stand at even steps. */
+    /* The guess is right for rows at even steps, as most tables have them. */
     double step_rad = (rows[high].azimuth_rad - rows[low].azimuth_rad) / (double)high;
     size_t guess = (size_t)((azimuth_rad - rows[low].azimuth_rad) / step_rad);
     if (guess < high && azimuth_rad >= rows[guess].azimuth_rad &&
@@ -72,8 +73,8 @@ static struct antenna_pair table_pair(const struct antenna *antenna, double azim
     double width = high->azimuth_rad - low->azimuth_rad;
     double to = (azimuth_rad - low->azimuth_rad) / width;
     double from = (high->azimuth_rad - azimuth_rad) / width;
-    return (struct antenna_pair){mix(low->sum, from, high->sum, to),
-                                 mix(low->delta, from, high->delta, to)};
+    return (struct antenna_pair){interpolated(low->sum, from, high->sum, to),
+                                 interpolated(low->delta, from, high->delta, to)};
 }
 
 static struct antenna_pair pair_at(const struct antenna *antenna, double azimuth_rad)
@@ -82,15 +83,15 @@ static struct antenna_pair pair_at(const struct antenna *antenna, double azimuth
                                              : dipole_pair(azimuth_rad);
 }
 
-/* Positive where the pair's ratio lies above the row's. */
+/* Positive if delta/sum of the pair is above that of the row. */
 static double row_cross(struct antenna_pair pair, const struct antenna_row *row)
 {
     return pair.delta * row->sum - pair.sum * row->delta;
 }
 
-/* Whether the pair's ratio lies above the row's. A tie goes to the pair's own side: where both sums
- * are zero, the cross product alone cannot tell minus from plus infinity. */
-static bool pair_passes(struct antenna_pair pair, const struct antenna_row *row)
+/* True if delta/sum of the pair is above that of the row. If both sums are zero, the cross product
+ * cannot tell minus from plus infinity, and the sign of the pair's delta decides. */
+static bool is_above(struct antenna_pair pair, const struct antenna_row *row)
 {
     double cross = row_cross(pair, row);
     return cross > 0 || (cross == 0 && pair.delta > 0);
@@ -101,26 +102,26 @@ static double table_azimuth(const struct antenna *antenna, struct antenna_pair p
     const struct antenna_row *rows = antenna->rows;
     size_t low = 0;
     size_t high = antenna->row_count - 1;
-    if (!pair_passes(pair, &rows[low]))
+    if (!is_above(pair, &rows[low]))
         return rows[low].azimuth_rad;
-    if (pair_passes(pair, &rows[high]))
+    if (is_above(pair, &rows[high]))
         return rows[high].azimuth_rad;
     while (high - low > 1) {
         size_t middle = low + (high - low) / 2;
-        if (pair_passes(pair, &rows[middle]))
+        if (is_above(pair, &rows[middle]))
             low = middle;
         else
             high = middle;
     }
     double above = row_cross(pair, &rows[low]);
     double below = -row_cross(pair, &rows[high]);
-    double azimuth_rad = mix(rows[low].azimuth_rad, below / (above + below), rows[high].azimuth_rad,
-                             above / (above + below));
+    double azimuth_rad = interpolated(rows[low].azimuth_rad, below / (above + below),
+                                      rows[high].azimuth_rad, above / (above + below));
     return elementary_min(elementary_max(azimuth_rad, rows[low].azimuth_rad),
                           rows[high].azimuth_rad);
 }
 
-/* NUMERICS 7: arcsin only where it is well conditioned. */
+/* Uses arcsin only where it is well conditioned, up to half of its range (hard case 7). */
 static double dipole_azimuth(struct antenna_pair pair)
 {
     double size = fabs(pair.delta);
@@ -144,9 +145,9 @@ struct antenna_pointers antenna_pointers(const struct antenna *antenna, double a
     struct antenna_pair pair = pair_at(antenna, azimuth_rad);
     if (antenna->phase == PHASE_CENTRE)
         return (struct antenna_pointers){pointer(pair.sum, 0), pointer(0, -pair.delta)};
-    struct antenna_turn turn = turn_at(azimuth_rad);
-    return (struct antenna_pointers){pointer(pair.sum * turn.cos_u, pair.sum * turn.sin_u),
-                                     pointer(pair.delta * turn.sin_u, -pair.delta * turn.cos_u)};
+    struct dipole_phase phase = dipole_phase_at(azimuth_rad);
+    return (struct antenna_pointers){pointer(pair.sum * phase.cos_u, pair.sum * phase.sin_u),
+                                     pointer(pair.delta * phase.sin_u, -pair.delta * phase.cos_u)};
 }
 
 double antenna_gain(const struct antenna *antenna, double azimuth_rad)
@@ -156,7 +157,7 @@ double antenna_gain(const struct antenna *antenna, double azimuth_rad)
 
 double antenna_azimuth_rad(const struct antenna *antenna, double delta, double sum)
 {
-    /* By a power of two, which changes neither ratio nor rounding. */
+    /* Scaling by a power of two changes neither the ratio nor any rounding. */
     int exponent;
     frexp(elementary_max(fabs(delta), sum), &exponent);
     struct antenna_pair pair = {elementary_scaled(sum, -exponent),

@@ -1,16 +1,17 @@
-/* Sum and delta pointers of a monopulse antenna, and the angle they stand for (MODEL 7).
+/* Sum and delta pointers of a monopulse antenna over azimuth.
  *
- * The dipole pair is the paper's equation (6): two half-wavelength dipoles half a wavelength
- * apart. With u = (pi/2) sin(azimuth) and f = si(u) cos(azimuth),
- *     H_sum = f cos u · e,   H_delta = -j f sin u · e,
- * where e = e^{ju} if the phase is counted from the first dipole (PHASE_ELEMENT, the equation as
- * printed) and e = 1 if from the array's centre (PHASE_CENTRE, which the paper's Fig. 10 needs).
- * One target cannot tell the two apart; several in one cell can.
+ * The dipole pair is equation (6) of the paper (MODEL 7.1): two half-wavelength dipoles half a
+ * wavelength apart. With u = (pi/2) sin(azimuth) and f = si(u) cos(azimuth),
+ *     H_sum = f cos u · e,   H_delta = -j f sin u · e.
+ * The factor e is e^{ju} if phases are counted from the first dipole (PHASE_ELEMENT, the equation
+ * as printed), and 1 if they are counted from the array's centre (PHASE_CENTRE, which the paper's
+ * figure 10 needs). A cell with one echo has the same angle either way, a cell with several has not
+ * (MODEL 8.1).
  *
- * A measured pattern is a table of sum and delta amplitude over azimuth, linear between its rows
- * and zero outside; delta is signed (positive to the left where the antenna is unambiguous).
- * Inside an interval the ratio of two straight lines is monotone and has a closed inverse, so a
- * single noise-free target comes back at its own azimuth. */
+ * A measured pattern is a table of sum and delta amplitudes over azimuth. Both are linear between
+ * rows and zero outside the table; delta is signed, positive to the left. Between two rows
+ * delta/sum, a ratio of two straight lines, is monotone and has a closed inverse, so that a single
+ * noise-free echo is read at its own azimuth. */
 #ifndef ANTENNA_H
 #define ANTENNA_H
 
@@ -21,7 +22,7 @@
 enum antenna_pattern { ANTENNA_DIPOLE_PAIR, ANTENNA_TABLE };
 enum antenna_phase { PHASE_CENTRE, PHASE_ELEMENT };
 
-/* Rows ascend in azimuth; the ratio delta/sum must ascend strictly (antenna_table_fault). */
+/* A row of a pattern table. Azimuth and delta/sum ascend strictly from row to row. */
 struct antenna_row {
     double azimuth_rad; /* [-pi/2, pi/2] */
     double sum;         /* amplitude, >= 0 */
@@ -30,8 +31,8 @@ struct antenna_row {
 
 struct antenna {
     enum antenna_pattern pattern;
-    enum antenna_phase phase; /* a table has no phase of its own: u is the dipole pair's */
-    const struct antenna_row *rows;
+    enum antenna_phase phase; /* a table has no phase of its own and takes the dipole pair's e */
+    const struct antenna_row *rows; /* of ANTENNA_TABLE */
     size_t row_count;
 };
 
@@ -39,23 +40,23 @@ struct antenna_pointers {
     double _Complex sum, delta;
 };
 
-/* Both pointers for one echo of unit amplitude at azimuth in [-pi/2, pi/2]. Exactly symmetric:
- * the mirrored azimuth gives the same sum and the negated delta under PHASE_CENTRE. Magnitudes
- * within 8 ulp of the formula, components within 12, up to 1e-12 rad from the side (NUMERICS 1 to
- * 5). Zero outside a table. */
+/* The pointers of one echo of amplitude 1 at an azimuth in [-pi/2, pi/2]; both are zero outside a
+ * table. Under PHASE_CENTRE the mirrored azimuth has exactly the same sum and the negated delta.
+ * The dipole pair's magnitudes are within 8 ulp of the formula and its components within 12, up to
+ * 1e-12 rad from +-pi/2 (hard cases 1 to 5). */
 struct antenna_pointers antenna_pointers(const struct antenna *antenna, double azimuth_rad);
 
 /* |H_sum|: the antenna pattern A_phi of equation (2). */
 double antenna_gain(const struct antenna *antenna, double azimuth_rad);
 
-/* The azimuth whose signed ratio delta : sum is the given pair (equation 7 inverted; sum >= 0,
- * delta signed, not both zero). In [-pi/2, pi/2]; a table clamps to its ends. Within 4 ulp for the
- * dipole pair up to the side (NUMERICS 7). */
+/* The azimuth at which the antenna has this ratio of delta to sum: equation (7) inverted (MODEL
+ * 7.2). sum >= 0, delta is signed, not both are zero. The result is in [-pi/2, pi/2], or within the
+ * ends of a table; for the dipole pair it is within 4 ulp (hard case 7). */
 double antenna_azimuth_rad(const struct antenna *antenna, double delta, double sum);
 
-/* Why the rows cannot be inverted, as a sentence, or NULL: there must be two rows or more, azimuth
- * ascend, sum be >= 0, not both zero, delta/sum ascend strictly. *row becomes the row at fault,
- * counted from 0 (count where rows are missing). */
+/* The reason why a table cannot be inverted, as a sentence, or NULL if it can. A table needs at
+ * least two rows, sums >= 0, in no row both amplitudes zero, and azimuth and delta/sum that ascend
+ * strictly. *row becomes the first row at fault, counted from 0, or count if rows are missing. */
 const char *antenna_table_fault(const struct antenna_row *rows, size_t count, size_t *row);
 
 #endif

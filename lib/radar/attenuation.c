@@ -5,16 +5,17 @@
 
 #define LN_2 0.693147180559945309417
 
-/* A sum of bells and a straight line over the logarithm of the frequency in GHz. */
-struct fit {
+/* A curve over the logarithm of the frequency in GHz: a sum of Gaussian bells and a straight line.
+ */
+struct curve {
     struct {
         double height, centre, width;
     } bells[5];
     double slope, offset;
 };
 
-/* ITU-R P.838-3, tables 1 to 4: lg k and alpha by polarization. */
-static const struct fit LG_K[] = {
+/* ITU-R P.838-3, tables 1 and 2: lg k. */
+static const struct curve lg_k_curves[] = {
     [POLARIZATION_HORIZONTAL] = {{{-5.33980, -0.10008, 1.13098},
                                   {-0.35351, 1.26970, 0.45400},
                                   {-0.23789, 0.86036, 0.15354},
@@ -30,7 +31,9 @@ static const struct fit LG_K[] = {
                                -0.16398,
                                0.63297},
 };
-static const struct fit ALPHA[] = {
+
+/* ITU-R P.838-3, tables 3 and 4: alpha. */
+static const struct curve alpha_curves[] = {
     [POLARIZATION_HORIZONTAL] = {{{-0.14318, 1.82442, -0.55187},
                                   {0.29591, 0.77564, 0.19822},
                                   {0.32177, 0.63773, 0.13164},
@@ -47,12 +50,12 @@ static const struct fit ALPHA[] = {
                                0.83433},
 };
 
-static double fit_at(const struct fit *fit, double lg_ghz)
+static double curve_at(const struct curve *curve, double lg_ghz)
 {
-    double sum = fit->slope * lg_ghz + fit->offset;
+    double sum = curve->slope * lg_ghz + curve->offset;
     for (int i = 0; i < 5; i++) {
-        double widths = (lg_ghz - fit->bells[i].centre) / fit->bells[i].width;
-        sum += fit->bells[i].height * elementary_exp(-widths * widths);
+        double widths = (lg_ghz - curve->bells[i].centre) / curve->bells[i].width;
+        sum += curve->bells[i].height * elementary_exp(-widths * widths);
     }
     return sum;
 }
@@ -60,8 +63,9 @@ static double fit_at(const struct fit *fit, double lg_ghz)
 struct attenuation_law attenuation_rain_law(double carrier_hz, enum polarization polarization)
 {
     double lg_ghz = elementary_log10(carrier_hz / 1e9);
-    return (struct attenuation_law){elementary_pow(10, fit_at(&LG_K[polarization], lg_ghz)),
-                                    fit_at(&ALPHA[polarization], lg_ghz)};
+    return (struct attenuation_law){
+        elementary_pow(10, curve_at(&lg_k_curves[polarization], lg_ghz)),
+        curve_at(&alpha_curves[polarization], lg_ghz)};
 }
 
 double attenuation_rain_dbpkm(struct attenuation_law law, double rate_mmph)
@@ -69,18 +73,20 @@ double attenuation_rain_dbpkm(struct attenuation_law law, double rate_mmph)
     return law.k * elementary_pow(rate_mmph, law.alpha);
 }
 
+/* The names are those of ITU-R P.840. */
 double attenuation_fog_dbpkm(double carrier_hz, double temperature_c, double water_gpm3)
 {
     double ghz = carrier_hz / 1e9;
-    double excess = 300 / (273.15 + temperature_c) - 1;
-    double still = 77.66 + 103.3 * excess, between = 0.0671 * still, fast = 3.52;
-    double primary_ghz = 20.20 - 146 * excess + 316 * excess * excess;
+    double theta_less_1 = 300 / (273.15 + temperature_c) - 1;
+    double epsilon_0 = 77.66 + 103.3 * theta_less_1, epsilon_1 = 0.0671 * epsilon_0;
+    double epsilon_2 = 3.52;
+    double primary_ghz = 20.20 - 146 * theta_less_1 + 316 * theta_less_1 * theta_less_1;
     double primary = ghz / primary_ghz, secondary = primary / 39.8;
-    double primary_part = (still - between) / (1 + primary * primary);
-    double secondary_part = (between - fast) / (1 + secondary * secondary);
-    double re = primary_part + secondary_part + fast;
+    double primary_part = (epsilon_0 - epsilon_1) / (1 + primary * primary);
+    double secondary_part = (epsilon_1 - epsilon_2) / (1 + secondary * secondary);
+    double permittivity = primary_part + secondary_part + epsilon_2;
     double loss = primary * primary_part + secondary * secondary_part;
-    double eta = (2 + re) / loss;
+    double eta = (2 + permittivity) / loss;
     return 0.819 * ghz / (loss * (1 + eta * eta)) * water_gpm3;
 }
 

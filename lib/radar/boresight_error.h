@@ -1,18 +1,21 @@
-/* A sensor that does not look where it believes, and a bumper that bends its beam (EFFECTS 14):
- *     reported azimuth = true azimuth + yaw error + bias sin(2 pi azimuth / period + phase).
- * The bias is fixed for a sensor; its period is 20 to 40 degrees in practice. Radians throughout.
- */
+/* Azimuth that a misaligned sensor behind a bumper reports.
+ *
+ *     reported azimuth = true azimuth + yaw error + bias sin(2 pi azimuth / period + phase)
+ *
+ * The sensor looks to the right of where it believes by the yaw error; the bumper, as a radome,
+ * bends the beam by the bias, with periods of 20 to 40 degrees in practice (MODEL 14.8). */
 #ifndef BORESIGHT_ERROR_H
 #define BORESIGHT_ERROR_H
 
 struct boresight_error {
     double yaw_error_rad;
     double bias_rad;
-    double bias_period_rad; /* > 0, unless the bias is 0 */
+    double bias_period_rad; /* > 0 unless bias_rad is 0 */
     double bias_phase_rad;
 };
 
-/* In (-pi, pi]. Without error and bias the azimuth itself, if it is in there. */
-double boresight_error_reported_rad(const struct boresight_error *misalignment, double azimuth_rad);
+/* The reported azimuth, in (-pi, pi]. Without yaw error and bias it is azimuth_rad itself, if that
+ * is in this interval. */
+double boresight_error_reported_rad(const struct boresight_error *error, double azimuth_rad);
 
 #endif

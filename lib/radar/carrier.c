@@ -4,19 +4,19 @@
 
 #define LIGHT_MPS 299792458.0
 
-/* A product as rounded, and what that left out: their sum is exact. */
+/* A rounded product and its rounding error; their sum is the exact product. */
 struct product {
     double rounded, error;
 };
 
-/* The leading 26 bits (Veltkamp). */
+/* The leading 26 bits of x (Veltkamp). */
 static double leading(double x)
 {
     double shifted = 0x8000001p0 * x;
     return shifted - (shifted - x);
 }
 
-/* Dekker's. */
+/* The exact product by Dekker's algorithm. */
 static struct product multiply(double a, double b)
 {
     double a_high = leading(a), b_high = leading(b);

@@ -4,6 +4,7 @@
 
 #include "base/elementary.h"
 
+/* The probability with which noise passes under CFAR_ORDERED. */
 static double ordered_false_alarm(size_t cells, size_t rank, double factor)
 {
     double probability = 1;
@@ -14,6 +15,7 @@ static double ordered_false_alarm(size_t cells, size_t rank, double factor)
     return probability;
 }
 
+/* The factor, by bisection down to the last bit. */
 static double ordered_factor(size_t cells, size_t rank, double false_alarm)
 {
     double low = 0, high = 1;
@@ -31,8 +33,8 @@ double cfar_factor(enum cfar_kind kind, size_t cells, size_t rank, double false_
     return (double)cells * (elementary_pow(false_alarm, -1 / (double)cells) - 1);
 }
 
-/* Cells in ascending order, by insertion: they are few. */
-static double smallest(double *values, size_t count, size_t rank)
+/* The rank-th smallest value, by insertion sort, as there are few. */
+static double of_rank(double *values, size_t count, size_t rank)
 {
     for (size_t i = 1; i < count; i++) {
         double value = values[i];
@@ -61,7 +63,7 @@ double cfar_threshold(const struct cfar *cfar, const double *power, size_t count
         window[2 * i] = power[(at + count - away) % count * stride];
         window[2 * i + 1] = power[(at + away) % count * stride];
     }
-    double noise = cfar->kind == CFAR_ORDERED ? smallest(window, cfar->cells, cfar->rank)
+    double noise = cfar->kind == CFAR_ORDERED ? of_rank(window, cfar->cells, cfar->rank)
                                               : mean(window, cfar->cells);
     return cfar->factor * noise;
 }

@@ -1,9 +1,9 @@
-/* How far a cell must stand out from its neighbours to be no false alarm (EFFECTS 9).
+/* Detection thresholds with a constant false alarm rate.
  *
- * Two windows of cells, one to each side behind guard cells, tell the noise: by their mean
- * (CFAR_MEAN), or by the rank-th smallest of them (CFAR_ORDERED), which stronger echoes in the
- * window do not raise. Noise whose power is exponential and independent from cell to cell passes
- * with the probability false_alarm. */
+ * The noise in a cell is estimated from two windows of cells, one to each side behind guard cells:
+ * by their mean power (CFAR_MEAN, cell averaging) or by the rank-th smallest power (CFAR_ORDERED,
+ * ordered statistic), which a few strong echoes in the window do not raise. The threshold is a
+ * factor times that estimate (MODEL 11.4; Rohling 1983). */
 #ifndef CFAR_H
 #define CFAR_H
 
@@ -15,18 +15,19 @@ enum { CFAR_MOST_CELLS = 64 };
 
 struct cfar {
     enum cfar_kind kind;
-    size_t cells; /* of both windows together, even, at most CFAR_MOST_CELLS */
-    size_t guard; /* cells left out on each side */
-    size_t rank;  /* from 1 for the smallest */
-    double factor;
+    size_t cells;  /* in both windows together; even, at most CFAR_MOST_CELLS */
+    size_t guard;  /* cells left out to each side of the cell under test */
+    size_t rank;   /* for CFAR_ORDERED: 1 is the smallest, at most cells */
+    double factor; /* cfar_factor */
 };
 
-/* alpha = N (P^(-1/N) - 1) for the mean; for the rank k the T that solves
- * P = prod over i < k of (N - i)/(N - i + T). */
+/* The factor with which noise passes with the probability P = false_alarm, if its power is
+ * exponential and independent from cell to cell. For the mean of N cells it is N (P^(-1/N) - 1);
+ * for the rank k it is the alpha that solves P = product over i < k of (N - i)/(N - i + alpha). */
 double cfar_factor(enum cfar_kind kind, size_t cells, size_t rank, double false_alarm);
 
-/* The power that the cell `at` must reach, in a ring of count cells that lie stride apart: count at
- * least cells + 2 guard + 1. */
+/* The power that cell number at must reach, of count cells that form a ring: cell i is power[i *
+ * stride]. count is at least cells + 2 guard + 1. */
 double cfar_threshold(const struct cfar *cfar, const double *power, size_t count, size_t stride,
                       size_t at);
 

@@ -1,16 +1,18 @@
-/* What a radar reads of a range rate or a range beyond what it can tell apart (EFFECTS 10).
+/* Ambiguous readings of range and range rate.
  *
- * A waveform repeated every T resolves range rates from -lambda/(4 T) up to lambda/(4 T); a train
- * of pulses at frequency PRF resolves ranges up to c/(2 PRF). What lies outside shows where it
- * folds to, exactly: no rounding, and what lies inside comes back bit by bit. Its amplitude stays
- * that of the true range. */
+ * A waveform that is repeated every T has unambiguous range rates in [-lambda/(4 T), lambda/(4 T));
+ * a train of pulses with the frequency PRF has unambiguous ranges in [0, c/(2 PRF)). Values outside
+ * fold into these intervals (MODEL 14.16). Folding is exact: nothing is rounded, and a value inside
+ * comes back unchanged. */
 #ifndef FOLDING_H
 #define FOLDING_H
 
-/* In [-unambiguous, unambiguous); unambiguous > 0, and infinity folds nothing. */
+/* The range rate as read, in [-unambiguous_mps, unambiguous_mps). unambiguous_mps > 0; infinity
+ * folds nothing. */
 double folding_range_rate_mps(double range_rate_mps, double unambiguous_mps);
 
-/* In [0, unambiguous), for range >= 0; unambiguous > 0, and infinity folds nothing. */
+/* The range as read, in [0, unambiguous_m), of range_m >= 0. unambiguous_m > 0; infinity folds
+ * nothing. */
 double folding_range_m(double range_m, double unambiguous_m);
 
 #endif

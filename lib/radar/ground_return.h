@@ -1,18 +1,22 @@
-/* Places spread evenly over the ground that a sensor sees, and the range rate of what stands there.
- * How many places there are is poisson.h's. Uniforms are in (0, 1). */
+/* Random points on the ground in view of a sensor.
+ *
+ * Points are even over the area between two ranges within the field of view (MODEL 14.9, 14.13).
+ * poisson.h draws how many there are. */
 #ifndef GROUND_RETURN_H
 #define GROUND_RETURN_H
 
 #include "base/vec2.h"
 
-/* The area that a sensor sees between two ranges; times a density per m^2 it is a mean count. */
+/* The area in view between two ranges: (R_max^2 - R_min^2) times half the field of view. A density
+ * per m^2 times this area is a mean count. */
 double ground_return_area_m2(double range_min_m, double range_max_m, double field_of_view_rad);
 
-/* The range of a place drawn evenly over that area; its azimuth is even over the field of view. */
+/* The range of a point drawn evenly over that area, from a uniform number in (0, 1). Its azimuth is
+ * even over the field of view. */
 double ground_return_range_m(double range_min_m, double range_max_m, double uniform);
 
-/* The range rate of what stands on the ground in that azimuth, from the velocity of the sensor
- * itself (mount and turn rate included, motion_velocity_at): -v_s · u. */
+/* The range rate of a standing point at an azimuth from boresight: -v · u, with the velocity v of
+ * the sensor itself (sensor_pose.h) and the unit vector u to the point. */
 double ground_return_range_rate_mps(struct vec2 sensor_mps, struct vec2 boresight,
                                     double azimuth_rad);
 

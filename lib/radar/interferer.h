@@ -1,27 +1,29 @@
-/* Other radars that raise the noise floor (EFFECTS 12).
+/* Rise of a receiver's noise by another radar's chirps.
  *
- * A radar in view is heard one way, EIRP G lambda^2/((4 pi)^2 R^2), far above echoes, but chirps of
- * other slopes cross the receiver's band only for a moment: on average over the hits, its power
- * over the noise counts by the share of the time that it is in band. What it adds counts as noise:
- * the floor rises by 1 + INR in power. Several interferers add their ratios. */
+ * A radar in view is received one way, with the power EIRP G lambda^2/((4 pi)^2 R^2), far above
+ * echoes. Its chirps cross the receiver's band only for a part of the time if their slope is
+ * another; that part of the power counts as noise. Ratios of interference to noise (INR) of several
+ * radars add, and the noise power rises by 1 + INR (MODEL 14.17). */
 #ifndef INTERFERER_H
 #define INTERFERER_H
 
-/* 10 lg(k T0 B/1 mW) + noise figure, T0 = 290 K; bandwidth > 0. */
+/* The receiver's own noise, 10 lg(k T0 B/1 mW) + noise figure, with T0 = 290 K; bandwidth > 0. */
 double interferer_noise_dbm(double bandwidth_hz, double noise_figure_db);
 
-/* gain_db is the receiver's towards the interferer; wavelength and range > 0. */
+/* The power received from an interferer. gain_db is the receiver's antenna gain towards it;
+ * wavelength and range > 0. */
 double interferer_power_dbm(double eirp_dbm, double gain_db, double wavelength_m, double range_m);
 
-/* The part of a chirp during which another radar is in band, 2 B/(|slope difference| T), at most 1:
- * equal slopes stay in band. bandwidth is the receiver's (IF), > 0; chirp > 0. */
+/* The part of the receiver's chirp, of length T, during which an interferer is in its band:
+ * 2 B/(|slope difference| T), at most 1, and 1 for equal slopes. B is the bandwidth of the
+ * intermediate frequency, > 0; chirp_s > 0. */
 double interferer_overlap(double bandwidth_hz, double slope_difference_hzps, double chirp_s);
 
-/* The effective ratio of interference to noise, in power. hit_share in [0, 1]: the part of the
- * chirps that are crossed at all. */
+/* The mean INR, a ratio of powers. hit_share in [0, 1] is the part of the receiver's chirps that an
+ * interfering chirp crosses at all. */
 double interferer_ratio(double power_dbm, double noise_dbm, double overlap, double hit_share);
 
-/* What the noise's amplitude is multiplied by, sqrt(1 + INR). */
+/* The factor on the noise's amplitude, sqrt(1 + INR). */
 double interferer_noise_factor(double ratio);
 
 #endif

@@ -6,6 +6,7 @@
 #include "base/poisson.h"
 #include "base/units.h"
 
+/* Ends of the triangular law of x. */
 #define SLOWEST (-1.0)
 #define FASTEST 1.5
 
@@ -29,7 +30,7 @@ int64_t micro_doppler_limb_count(double uniform)
     return poisson_count(MICRO_DOPPLER_LIMB_COUNT, uniform);
 }
 
-/* The triangular law by inversion, from the end that the draw is near. */
+/* x, by inversion of its triangular law, from the end that is nearer, so that nothing cancels. */
 static double swing(double uniform)
 {
     double width = FASTEST - SLOWEST;

@@ -1,20 +1,20 @@
-/* Micro-Doppler: parts of an object that move at other rates than its body.
+/* Range rates of points on rolling wheels and swinging limbs.
  *
- * Rolling wheels. A point of a wheel at the fraction rho of its radius and the angle psi from the
- * top moves forward at v (1 + rho cos psi) when the vehicle does at v: the contact point stands,
- * the top is twice as fast. Seen from the height of the road, the range rate of the point is that
- * of the hub plus rho cos psi times what the vehicle's speed over ground adds to it.
+ * Wheels (MODEL 14.11): while a vehicle drives at v, a point of its wheel at the fraction rho of
+ * the radius and the angle psi from the top moves forward at v (1 + rho cos psi). The point on the
+ * road stands, the top is twice as fast. Seen from near the road, the point's range rate is the
+ * hub's plus rho cos psi times the part of it that the vehicle's motion over ground makes.
  *
- * Limbs of people who walk, a cheap model [A]: now and then an arm or a leg shows beside the torso,
- * faster or slower than it. A limb moves at (1 + x) times the torso's speed over ground: x = -1 for
- * the foot that stands, 1.5 at the height of a swing, triangular in between with its peak at 0. */
+ * Limbs (MODEL 14.12, assumed): an arm or a leg of a walking person moves at (1 + x) times the
+ * torso's speed over ground. x has a triangular law from -1, the foot on the ground, to 1.5, the
+ * fastest part of a swing, with its peak at 0. */
 #ifndef MICRO_DOPPLER_H
 #define MICRO_DOPPLER_H
 
 #include <stdint.h>
 
-/* Of detections on one wheel that is in sight, per scan; and their amplitude over that of a corner
- * of the body, -10 dB [A]. */
+/* Mean number of points that one visible wheel shows per scan, and their amplitude over that of the
+ * wheel's own echo, -10 dB; both assumed. */
 #define MICRO_DOPPLER_WHEEL_COUNT 1.5
 #define MICRO_DOPPLER_WHEEL_FACTOR 0.316227766016837933200
 
@@ -23,21 +23,23 @@ struct wheel_point {
     double angle_rad; /* psi, 0 at the top */
 };
 
-/* Poisson. */
+/* The number of points of one wheel, a Poisson count from one uniform number in (0, 1). */
 int64_t micro_doppler_wheel_count(double uniform);
 
-/* rho evenly from 0.3 to 1 by the first draw, psi evenly around the wheel by the second [A]. */
+/* A point with rho even over 0.3 to 1 and psi even around the wheel, each from one uniform number.
+ */
 struct wheel_point micro_doppler_wheel_point(const double uniform[2]);
 
-/* hub_mps is the hub's range rate, rolling_mps the part of it that its motion over ground makes:
- * ground velocity of the hub along the sight line from the sensor, v cos alpha. */
+/* The range rate of a point. hub_mps is the hub's range rate, rolling_mps the part of it that the
+ * hub's motion over ground makes: its velocity over ground along the sight line. */
 double micro_doppler_wheel_rate_mps(double hub_mps, double rolling_mps, struct wheel_point point);
 
-/* Of detections on one person, per scan; and their amplitude over the torso's, -6 dB. */
+/* Mean number of limbs that one person shows per scan, and their amplitude over the torso's, -6 dB;
+ * both assumed. */
 #define MICRO_DOPPLER_LIMB_COUNT 0.5
 #define MICRO_DOPPLER_LIMB_FACTOR 0.501187233627272285002
 
-/* A limb is at most this far ahead of the torso or behind it. */
+/* The farthest that a limb is ahead of the torso or behind it. */
 #define MICRO_DOPPLER_LIMB_REACH_M 0.35
 
 struct limb {
@@ -45,14 +47,14 @@ struct limb {
     double offset_m; /* along the person's heading */
 };
 
-/* Poisson. */
+/* The number of limbs of one person, a Poisson count from one uniform number in (0, 1). */
 int64_t micro_doppler_limb_count(double uniform);
 
-/* x by the first draw, the offset evenly by the second. */
+/* A limb with x and an even offset, each from one uniform number. */
 struct limb micro_doppler_limb(const double uniform[2]);
 
-/* walking_mps is the part of the torso's range rate that its motion over ground makes: velocity
- * over ground along the sight line from the sensor. */
+/* The range rate of a limb. torso_mps is the torso's range rate, walking_mps the part of it that
+ * the torso's motion over ground makes. */
 double micro_doppler_limb_rate_mps(double torso_mps, double walking_mps, struct limb limb);
 
 #endif

@@ -4,11 +4,12 @@
 
 #include "base/elementary.h"
 
-/* Im(delta conj(sum)) to this part of |delta| |sum| is rounding, not phase. */
+/* Below this part of |delta| |sum|, Im(delta conj(sum)) is rounding and has no sign. */
 #define UNDECIDED 0x1p-47
 
-/* A pointer as value · 2^exponent, its larger component in [1/2, 1) unless it is zero: exact, and
- * products of two values neither overflow nor underflow (amplitudes span 1e-300 to 1e300). */
+/* A pointer as (real + j imag) 2^exponent, exactly. The larger component is in [1/2, 1), or zero,
+ * so that products of two pointers neither overflow nor underflow: amplitudes span 1e-300 to 1e300.
+ */
 struct scaled_pointer {
     double real, imag, size;
     int exponent;
@@ -24,7 +25,7 @@ static struct scaled_pointer scale_pointer(double _Complex pointer)
     return scaled;
 }
 
-/* The angle of delta · 2^delta_exponent : |sum|. */
+/* The azimuth of the ratio of delta · 2^delta_exponent to |sum|. */
 static double azimuth_of(const struct antenna *antenna, double delta, int delta_exponent,
                          const struct scaled_pointer *sum)
 {
@@ -33,7 +34,7 @@ static double azimuth_of(const struct antenna *antenna, double delta, int delta_
                                elementary_scaled(sum->size, sum->exponent - exponent));
 }
 
-/* Im(delta conj(sum)), in the scale of the two. */
+/* Im(delta conj(sum)) of the scaled values. */
 static double cross_of(const struct scaled_pointer *sum, const struct scaled_pointer *delta)
 {
     return delta->imag * sum->real - delta->real * sum->imag;

@@ -1,4 +1,6 @@
-/* The angle that a monopulse radar reads off its two channels (MODEL 7.2, 7.4, 8). */
+/* Azimuth read from the sum and delta channels.
+ *
+ * |delta|/|sum| has the size of the azimuth, the phase between both its sign (MODEL 7.2, 7.4). */
 #ifndef MONOPULSE_H
 #define MONOPULSE_H
 
@@ -7,34 +9,36 @@
 #include "radar/antenna.h"
 
 enum monopulse_estimator {
-    /* The paper's: magnitude from |delta| and |sum| (the additive sensing ratio, equation 7), sign
-     * from the phase between them. Discontinuous where the sign is undecided. Under PHASE_ELEMENT
-     * one ulp also decides for a side, unflagged, where nearly equal echoes lie within about 1
-     * degree to both sides of boresight: the angle is then below 7e-4 rad (NUMERICS 11). */
+    /* The paper's rule, equation (7): the size from |delta| and |sum|, the sign from the phase
+     * between them. The azimuth jumps to the other side where the phase does not decide, which
+     * sign_undecided tells. Under PHASE_ELEMENT the last bit of a pointer may decide without that
+     * flag, if nearly equal echoes lie within about 1 degree to both sides of boresight: the
+     * azimuth is then below 7e-4 rad (hard case 11). */
     MONOPULSE_MAGNITUDE,
-    /* The real ratio -Im(delta conj(sum)) / |sum|^2: the same for one target, continuous for
-     * several. */
+    /* The signed ratio -Im(delta conj(sum)) / |sum|^2: for one echo the same azimuth, for several
+     * continuous. */
     MONOPULSE_RATIO,
 };
 
 struct monopulse_angle {
-    bool valid; /* false if both pointers are zero: there is no angle to report */
-    /* The phase does not tell left from right. The ratio needs no sign, unless the sum is exactly
-     * 0. A delta of exactly 0 has none to decide. */
+    bool valid; /* false if both pointers are zero: there is no azimuth */
+    /* True if the phase does not tell left from right. Under MONOPULSE_RATIO that happens only if
+     * the sum is exactly 0. */
     bool sign_undecided;
-    double azimuth_rad; /* [-pi/2, pi/2]; positive where the sign is undecided; 0 if invalid */
+    double azimuth_rad; /* in [-pi/2, pi/2]; not negative if the sign is undecided; 0 if invalid */
 };
 
 struct monopulse_angle monopulse_angle(const struct antenna *antenna,
                                        enum monopulse_estimator estimator,
                                        struct antenna_pointers pointers);
 
-/* How far the magnitude rule was from the other sign: |Im(delta conj(sum))| / (|delta| |sum|), from
- * 0, undecided, to 1. NaN where a pointer is zero and there is no sign. */
+/* The margin of the sign under MONOPULSE_MAGNITUDE: |Im(delta conj(sum))| / (|delta| |sum|), from
+ * 0, undecided, to 1. NaN if a pointer is zero. */
 double monopulse_sign_margin(struct antenna_pointers pointers);
 
-/* The additive sensing ratio (|delta| - |sum|) / (|delta| + |sum|) in [-1, 1], equation (7).
- * For figures and tests: the pair itself carries more digits. Not both may be zero. */
+/* The additive sensing ratio (|delta| - |sum|) / (|delta| + |sum|) of equation (7), in [-1, 1], for
+ * figures and tests; monopulse_angle keeps more digits without it. Not both pointers may be zero.
+ */
 double monopulse_asr(struct antenna_pointers pointers);
 
 #endif

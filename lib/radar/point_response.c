@@ -5,19 +5,20 @@
 #include "base/elementary.h"
 #include "base/units.h"
 
-#define FARTHEST 0.75
+/* Of point_response_offset, in bins. */
+#define MOST_OFFSET 0.75
 
-double point_response_weight(enum point_response kernel, size_t n, size_t count)
+double point_response_weight(enum point_response response, size_t n, size_t count)
 {
-    if (kernel == POINT_RESPONSE_RECTANGULAR)
+    if (response == POINT_RESPONSE_RECTANGULAR)
         return 1 / (double)count;
     double turns = (double)n / (double)count;
     return (1 - elementary_sincos_turns(turns).cos) / (double)count;
 }
 
-double point_response_noise(enum point_response kernel, size_t count)
+double point_response_noise(enum point_response response, size_t count)
 {
-    return sqrt((kernel == POINT_RESPONSE_HANN ? 1.5 : 1) / (double)count);
+    return sqrt((response == POINT_RESPONSE_HANN ? 1.5 : 1) / (double)count);
 }
 
 double point_response_hann(double bins)
@@ -35,20 +36,20 @@ static double gaussian(double d)
     return elementary_exp(-0.25 * d * d * elementary_log(2));
 }
 
-double point_response_value(enum point_response kernel, double bins)
+double point_response_value(enum point_response response, double bins)
 {
     double d = fabs(bins);
-    if (kernel == POINT_RESPONSE_PULSE)
+    if (response == POINT_RESPONSE_PULSE)
         return gaussian(d);
-    return kernel == POINT_RESPONSE_HANN ? point_response_hann(d) : units_si(PI * d);
+    return response == POINT_RESPONSE_HANN ? point_response_hann(d) : units_si(PI * d);
 }
 
-double point_response_envelope(enum point_response kernel, double bins)
+double point_response_envelope(enum point_response response, double bins)
 {
     double d = fabs(bins);
-    if (kernel == POINT_RESPONSE_PULSE)
+    if (response == POINT_RESPONSE_PULSE)
         return gaussian(d);
-    if (kernel == POINT_RESPONSE_HANN)
+    if (response == POINT_RESPONSE_HANN)
         return d > 1 ? elementary_min(1 / (PI * d * (d * d - 1)), 1) : 1;
     return elementary_min(1 / (PI * d), 1);
 }
@@ -76,27 +77,27 @@ static double in_phase(const struct phasor *samples, const struct phasor *middle
     return sum;
 }
 
-static double windowed(enum point_response kernel, double before, double at, double after)
+static double windowed(enum point_response response, double before, double at, double after)
 {
     double ratio = (before - after) / (2 * at + before + after);
-    if (kernel == POINT_RESPONSE_HANN)
+    if (response == POINT_RESPONSE_HANN)
         return 2 * ratio / (sqrt(4 * ratio * ratio + 2.25) + 1.5);
     return 2 * ratio / (sqrt(8 * ratio * ratio + 1) + 1);
 }
 
-double point_response_offset(enum point_response kernel, const struct phasor *before,
+double point_response_offset(enum point_response response, const struct phasor *before,
                              const struct phasor *at, const struct phasor *after, size_t channels,
                              size_t stride)
 {
     double offset;
-    if (kernel == POINT_RESPONSE_PULSE)
+    if (response == POINT_RESPONSE_PULSE)
         offset = vertex(log_power(before, channels, stride), log_power(at, channels, stride),
                         log_power(after, channels, stride));
     else
         offset =
-            windowed(kernel, in_phase(before, at, channels, stride),
+            windowed(response, in_phase(before, at, channels, stride),
                      in_phase(at, at, channels, stride), in_phase(after, at, channels, stride));
-    return isfinite(offset) ? elementary_min(elementary_max(offset, -FARTHEST), FARTHEST) : 0;
+    return isfinite(offset) ? elementary_min(elementary_max(offset, -MOST_OFFSET), MOST_OFFSET) : 0;
 }
 
 double point_response_hann_offset(double before, double peak, double after)

@@ -1,10 +1,11 @@
-/* What one echo looks like along one axis of a signal's spectrum: its amplitude over the distance
- * from it, in bins, 1 at the echo itself (EFFECTS 4b, 11).
+/* Response of range or Doppler processing to a single echo.
  *
- * POINT_RESPONSE_HANN and POINT_RESPONSE_RECTANGULAR come out of a Fourier transform of as many
- * samples as there are bins, weighted by that window; with their phases counted from the middle
- * sample, kernels are real and change sign from bin to bin. POINT_RESPONSE_PULSE is sampled as it
- * is received: a Gaussian whose amplitude has its half at two bins to both sides. */
+ * The response is the echo's amplitude along one axis of the spectrum, over the distance from the
+ * echo in bins; it is 1 at the echo (MODEL 6.1, 11.3). POINT_RESPONSE_HANN and
+ * POINT_RESPONSE_RECTANGULAR are those of a Fourier transform of as many samples as there are bins,
+ * weighted by that window; if phases are counted from the middle sample, responses are real and
+ * change sign from bin to bin. POINT_RESPONSE_PULSE is that of a Gaussian pulse, sampled as it is
+ * received: its amplitude is 1/2 two bins to either side. */
 #ifndef POINT_RESPONSE_H
 #define POINT_RESPONSE_H
 
@@ -12,49 +13,50 @@
 
 enum point_response { POINT_RESPONSE_HANN, POINT_RESPONSE_RECTANGULAR, POINT_RESPONSE_PULSE };
 
-/* A complex number as libraries for transforms have them. */
+/* A complex number in the layout of transform libraries. */
 struct phasor {
     double re, im;
 };
 
-/* The window's weight of sample n of count, periodic; all together they sum to 1. Not for
- * POINT_RESPONSE_PULSE. */
-double point_response_weight(enum point_response kernel, size_t n, size_t count);
+/* The window's weight of sample n of count, periodic; the weights sum to 1. Not for
+ * POINT_RESPONSE_PULSE, which has no window. */
+double point_response_weight(enum point_response response, size_t n, size_t count);
 
-/* RMS of a bin for independent samples of RMS 1: sqrt(ENBW / count), ENBW 1.5 for Hann, 1 else. */
-double point_response_noise(enum point_response kernel, size_t count);
+/* The RMS of a bin if all samples have independent noise of RMS 1: sqrt(ENBW / count), where the
+ * equivalent noise bandwidth ENBW is 1.5 for Hann's window and 1 without. */
+double point_response_noise(enum point_response response, size_t count);
 
-/* sinc d, sinc d / (1 - d^2) or 2^-(d/2)^2, for every d. */
-double point_response_value(enum point_response kernel, double bins);
+/* The response at any distance d = bins: sinc d for RECTANGULAR, sinc d / (1 - d^2) for HANN,
+ * 2^-(d/2)^2 for PULSE. */
+double point_response_value(enum point_response response, double bins);
 
-/* A bound on the size of point_response_value that falls with |bins| and is 1 within the main lobe.
- */
-double point_response_envelope(enum point_response kernel, double bins);
+/* An upper bound on the size of point_response_value that does not rise with |bins|; 1 within the
+ * main lobe. */
+double point_response_envelope(enum point_response response, double bins);
 
-/* How far from bin `at` an echo stands, from that bin and the two beside it, of channels that see
- * the same echo, `stride` samples apart; exact for one echo alone. Pulses: the vertex of a parabola
- * through the logarithms of their power. Windows: with a, x, b the parts of the three bins in phase
- * with the middle one and g = (a - b)/(2 x + a + b),
- *     d = 2 g/(sqrt(8 g^2 + 1) + 1)  or  d = 2 g/(sqrt(4 g^2 + 9/4) + 3/2)
- * (Macleod's for no window, the same ratio for Hann's). Within [-3/4, 3/4]: an echo beyond has a
- * greater bin next to it. 0 where nothing is received. */
-double point_response_offset(enum point_response kernel, const struct phasor *before,
+/* The place of an echo relative to bin at, in bins, from that bin and the bins before and after it.
+ * Channels receive the same echo and stand stride samples apart. For one echo the place is exact.
+ * For pulses it is the vertex of a parabola through the logarithms of the three powers. For
+ * windows, with a, x, b the parts of the three bins that are in phase with the middle one and g =
+ * (a - b)/(2 x + a + b), it is d = 2 g/(sqrt(8 g^2 + 1) + 1)       without a window (Macleod 1998),
+ *     d = 2 g/(sqrt(4 g^2 + 9/4) + 3/2)   with Hann's, from the same ratio.
+ * The result is in [-3/4, 3/4], as an echo farther off has a stronger bin next to at; it is 0 if
+ * all three bins are 0. */
+double point_response_offset(enum point_response response, const struct phasor *before,
                              const struct phasor *at, const struct phasor *after, size_t channels,
                              size_t stride);
 
-/* Of a long Hann window, a hundred samples or more, with bins of one over its length (no zero
- * padding) and phases counted from its middle, where the response is real: its main lobe is four
- * bins wide, two at half amplitude, and no side lobe exceeds -31.47 dB. */
-
-/* W(d) = sin(pi d)/(pi d (1 - d^2)), the amplitude d bins from an echo of amplitude 1: 1 at 0, 1/2
- * at -1 and 1, exactly 0 at all other whole d, even exactly. |d| <= 2^48, within 4 ulp. */
+/* The response with a Hann window of a hundred samples or more, W(d) = sin(pi d)/(pi d (1 - d^2)):
+ * 1 at 0, 1/2 at -1 and 1, exactly 0 at all other whole numbers, and exactly even. Its main lobe is
+ * four bins wide, two at half amplitude, and no side lobe exceeds -31.47 dB. |bins| <= 2^48; within
+ * 4 ulp. */
 double point_response_hann(double bins);
 
-/* How many bins behind a peak's bin its echo lies, in [-1/2, 1/2], from the magnitudes of the peak
- * and of the bins next to it, before <= peak >= after, peak > 0 (Grandke): with a the larger
- * neighbour over the peak, (2 a - 1)/(a + 1) towards it. Exact but for rounding for one echo. 0
- * where the neighbours are equal, or both below half of the peak, as only several echoes make them.
- */
+/* The place of an echo relative to the bin of its peak, in bins, in [-1/2, 1/2] (Grandke 1983).
+ * With Hann's window, from the magnitudes of the peak and its neighbours, before <= peak >= after,
+ * peak > 0: with a the larger neighbour over the peak it is (2 a - 1)/(a + 1) towards that
+ * neighbour. For one echo it is exact but for rounding. It is 0 if both neighbours are equal, or if
+ * both are below half of the peak, which takes several echoes. */
 double point_response_hann_offset(double before, double peak, double after);
 
 #endif

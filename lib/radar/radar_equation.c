@@ -7,13 +7,13 @@
 /* The cross section of a reflector with an ERCS of 1 (MODEL 3). */
 #define ERCS_UNIT_M2 10.0
 
-static double table_amplitude(const struct radar_equation *law, double range_m)
+static double table_amplitude(const struct radar_equation *equation, double range_m)
 {
-    const struct radar_row *rows = law->rows;
-    if (law->row_count < 2 || range_m <= rows[0].range_m)
+    const struct radar_row *rows = equation->rows;
+    if (equation->row_count < 2 || range_m <= rows[0].range_m)
         return rows[0].amplitude;
     size_t low = 0;
-    size_t high = law->row_count - 1;
+    size_t high = equation->row_count - 1;
     while (high - low > 1) {
         size_t middle = low + (high - low) / 2;
         if (range_m >= rows[middle].range_m)
@@ -26,19 +26,19 @@ static double table_amplitude(const struct radar_equation *law, double range_m)
     return rows[low].amplitude * elementary_pow(rows[high].amplitude / rows[low].amplitude, part);
 }
 
-double radar_reference_amplitude(const struct radar_equation *law, double range_m)
+double radar_reference_amplitude(const struct radar_equation *equation, double range_m)
 {
-    double counted_m = elementary_max(range_m, law->range_floor_m);
-    if (law->law == RADAR_TABLE)
-        return table_amplitude(law, counted_m);
-    return law->threshold / law->calibration_ercs *
-           elementary_pow(law->calibration_range_m / counted_m, law->exponent);
+    double counted_m = elementary_max(range_m, equation->range_floor_m);
+    if (equation->law == RADAR_TABLE)
+        return table_amplitude(equation, counted_m);
+    return equation->threshold / equation->calibration_ercs *
+           elementary_pow(equation->calibration_range_m / counted_m, equation->exponent);
 }
 
-double radar_detection_range_m(const struct radar_equation *law, double gain, double ercs)
+double radar_detection_range_m(const struct radar_equation *equation, double gain, double ercs)
 {
-    return law->calibration_range_m *
-           elementary_pow(ercs * gain / law->calibration_ercs, 1 / law->exponent);
+    return equation->calibration_range_m *
+           elementary_pow(ercs * gain / equation->calibration_ercs, 1 / equation->exponent);
 }
 
 double radar_ercs(double cross_section_m2)

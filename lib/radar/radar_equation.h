@@ -1,9 +1,10 @@
-/* How strong an echo is (MODEL 3 and 4): A = A_ref(R) · A_phi(azimuth) · ERCS, all linear.
+/* Amplitude of echoes over range; cross sections as ERCS.
  *
- * A_ref follows a power law through the calibration point (a reflector of calibration_ercs is just
- * at the threshold on boresight at calibration_range_m; equation 3 with exponent 2 is the radar
- * equation's 40 dB per decade), or a table over range, straight between its rows in the logarithm
- * of both. Below range_floor_m the range counts as range_floor_m. */
+ * An echo's amplitude is A = A_ref(R) · A_phi(azimuth) · ERCS, all linear (MODEL 3, 4). A_ref is a
+ * power law or a table. The power law, equation (3), is calibrated by one point: a reflector of
+ * calibration_ercs on boresight at calibration_range_m just meets the threshold. The exponent 2 is
+ * the 40 dB per decade of the radar equation. A table is straight between its rows in the
+ * logarithms of range and amplitude. */
 #ifndef RADAR_EQUATION_H
 #define RADAR_EQUATION_H
 
@@ -21,26 +22,26 @@ struct radar_equation {
     double exponent;
     double calibration_ercs;
     double calibration_range_m;
-    double range_floor_m; /* > 0 */
-    double threshold;     /* linear amplitude */
-    const struct radar_row *rows;
+    double range_floor_m;         /* > 0; shorter ranges count as this one */
+    double threshold;             /* linear amplitude */
+    const struct radar_row *rows; /* of RADAR_TABLE */
     size_t row_count;
 };
 
-/* A_ref(range), range >= 0. A table is held constant at its first row below it and follows its
- * last two rows beyond it. */
-double radar_reference_amplitude(const struct radar_equation *law, double range_m);
+/* A_ref at range_m >= 0. Before the first row of a table it is constant, beyond the last row it
+ * goes on as between the last two. */
+double radar_reference_amplitude(const struct radar_equation *equation, double range_m);
 
-/* Where A_ref(R) · gain · ercs meets the threshold (MODEL 4.1), power law only, for figures and
- * tests: calibration_range_m (ercs · gain / calibration_ercs)^(1/exponent). */
-double radar_detection_range_m(const struct radar_equation *law, double gain, double ercs);
+/* The range at which A_ref · gain · ercs meets the threshold (MODEL 4.1), for figures and tests:
+ * calibration_range_m (ercs · gain / calibration_ercs)^(1/exponent). Only for RADAR_POWER_LAW. */
+double radar_detection_range_m(const struct radar_equation *equation, double gain, double ercs);
 
-/* The paper's equivalent radar cross section, an amplitude factor: sqrt(sigma / 10 m^2). For those
- * who write vehicle documents. */
+/* The equivalent radar cross section of the paper, a factor on amplitude: sqrt(sigma / 10 m^2)
+ * (MODEL 3), and its inverse. */
 double radar_ercs(double cross_section_m2);
 double radar_cross_section_m2(double ercs);
 
-/* Of decibels over 1 m^2, a power. */
+/* The cross section in m^2 of a value in dBsm. */
 double radar_cross_section_from_dbsm_m2(double dbsm);
 
 #endif

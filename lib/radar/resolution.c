@@ -28,7 +28,8 @@ bool resolution_close(const struct resolution_echo *echoes, size_t count, double
 {
     if (count == 0)
         return false;
-    /* Echoes of one thing are often next to each other as they come, and sorting is dear. */
+    /* Echoes of one object are often neighbours in the list: most answers are found without the
+     * sort, which takes most of the time. */
     for (size_t i = 1; i < count; i++)
         if (shares_cell(&echoes[i - 1], &echoes[i], half_range_m, half_range_rate_mps))
             return true;
@@ -53,7 +54,7 @@ static int compare_ranged(const void *left, const void *right)
     return (a->range_m > b->range_m) - (a->range_m < b->range_m);
 }
 
-/* The echoes by range, and where each of them stands there. */
+/* The echoes in order of range; place[i] is the position of echo i in that order. */
 struct ranks {
     struct ranged *items;
     size_t *place;
@@ -111,6 +112,6 @@ double resolution_mean(const double *values, const double *weights, size_t count
         least = elementary_min(least, values[i]);
         most = elementary_max(most, values[i]);
     }
-    /* Rounding may carry the anchored mean one step past the farthest value. */
+    /* Rounding may carry the mean by an ulp beyond the least or the largest value. */
     return elementary_min(elementary_max(values[0] + shift / total, least), most);
 }

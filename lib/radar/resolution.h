@@ -1,8 +1,10 @@
-/* Which echoes the radar cannot tell apart (MODEL 6, equations 4 and 5).
+/* Groups of echoes that share a resolution cell.
  *
- * The strongest echo left opens a cell centred on it and takes every echo left within half a cell
- * in range and in range rate, borders included as the doubles decide; then the next strongest.
- * A cell's range and rate are amplitude-weighted means. */
+ * The strongest echo left opens a cell centred on it, as its leader, and takes every echo left that
+ * is within half a cell of it in range and in range rate, borders included; then the next strongest
+ * does (MODEL 6). A cell's range and range rate are amplitude-weighted means, equations (4) and
+ * (5).
+ */
 #ifndef RESOLUTION_H
 #define RESOLUTION_H
 
@@ -17,23 +19,23 @@ struct resolution_echo {
     double amplitude; /* > 0 */
 };
 
-/* Echoes must come strongest first (ties in the frame's total order: the answer then does not
- * depend on how the echoes were listed). Writes to cell[i] the number of echo i's cell, counted
- * from 0 in the order they were opened, and returns how many cells there are. The first echo of a
- * cell is its leader. A leader looks only at echoes of its own ranges, which are sorted once. */
+/* Writes to cell[i] the number of echo i's cell and returns how many cells there are. Cells are
+ * numbered from 0 in the order in which they are opened. Echoes must come strongest first, and
+ * equal ones in the frame's total order, so that the result does not depend on how they were
+ * listed; the first echo of a cell is its leader. */
 size_t resolution_cluster(const struct resolution_echo *echoes, size_t count, double half_range_m,
                           double half_range_rate_mps, size_t *cell, struct arena *arena);
 
-/* Do any two echoes lie within half a cell of each other in both, so that there is something to
- * merge? by_range has room for the echoes; they may come in any order. */
+/* True if any two echoes are within half a cell of each other in range and in range rate, so that
+ * two may share a cell. Echoes may come in any order; by_range is memory for count echoes. */
 bool resolution_close(const struct resolution_echo *echoes, size_t count, double half_range_m,
                       double half_range_rate_mps, struct resolution_echo *by_range,
                       struct arena *arena);
 
-/* The mean of count values under positive weights, anchored at the first value: values + sum of
- * w (v - v0) / sum of w. Equal values come back exactly, and the mean never leaves their span
- * (NUMERICS 15, 16). Weights are divided by the first one before they are summed, so amplitudes
- * from 1e-300 to 1e300 are fine if the first is the largest (17). */
+/* The mean of count values under positive weights, as v0 + sum of w (v - v0) / sum of w with the
+ * first value v0. The mean of equal values is exactly that value, and no mean leaves the interval
+ * of its values (hard cases 15, 16). Weights may be from 1e-300 to 1e300 if the first is the
+ * largest (hard case 17). */
 double resolution_mean(const double *values, const double *weights, size_t count);
 
 #endif

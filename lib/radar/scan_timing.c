@@ -6,14 +6,15 @@
 
 #include "base/elementary.h"
 
-/* The number of the latest instant at or before time_s; -1 before the first. */
+/* The number of the latest instant at or before time_s, counted from 0; -1 before the first. */
 static double latest_instant(double cycle_s, double time_s)
 {
     double cycles = time_s / cycle_s;
     return elementary_max(floor(cycles + 1e-9 + 4 * DBL_EPSILON * fabs(cycles)), -1);
 }
 
-/* Cycles are decimals, so their multiples are too: 4.392, not 4.3919999999999995. */
+/* The nearest decimal, as cycles and so their multiples are decimals: 4.392, not
+ * 4.3919999999999995. */
 static double decimal(double time_s)
 {
     return fabs(time_s) < 1e6 ? round(time_s * 1e9) / 1e9 : time_s;
@@ -27,10 +28,10 @@ enum scan_timing_answer scan_timing_instant_s(double cycle_s, double time_s, dou
         return SCAN_TIMING_ONE;
     }
     double latest = latest_instant(cycle_s, time_s);
-    double fresh = latest - latest_instant(cycle_s, time_s - interval_s);
-    if (fresh > 1)
+    double scans = latest - latest_instant(cycle_s, time_s - interval_s);
+    if (scans > 1)
         return SCAN_TIMING_SEVERAL;
-    if (fresh < 1)
+    if (scans < 1)
         return SCAN_TIMING_NONE;
     double slack_s = 1e-9 * cycle_s + 4 * DBL_EPSILON * fabs(time_s);
     bool at_the_frame = fabs(latest * cycle_s - time_s) <= slack_s;

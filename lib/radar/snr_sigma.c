@@ -4,11 +4,11 @@
 
 #include "base/elementary.h"
 
-double snr_sigma_of(const struct snr_sigma *accuracy, double snr)
+double snr_sigma_of(const struct snr_sigma *quantity, double snr)
 {
-    double noise = accuracy->factor * accuracy->cell / sqrt(snr);
-    /* The lesser passes over the NaN of 0/0. */
-    double variance = elementary_min(noise * noise + accuracy->floor * accuracy->floor,
-                                     accuracy->cell * accuracy->cell / 12);
-    return sqrt(variance + accuracy->step * accuracy->step / 12);
+    double noise = quantity->factor * quantity->cell / sqrt(snr);
+    /* elementary_min ignores the NaN of 0/0. */
+    double variance = elementary_min(noise * noise + quantity->floor * quantity->floor,
+                                     quantity->cell * quantity->cell / 12);
+    return sqrt(variance + quantity->step * quantity->step / 12);
 }

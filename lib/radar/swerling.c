@@ -8,7 +8,7 @@
 
 #define LN_10 2.30258509299404568402
 
-/* Box and Muller's first; cut at three sigma above. */
+/* A standard Gaussian number by Box and Muller, cut at 3 from above. */
 static double cut_gaussian(const double uniform[4])
 {
     double radius = sqrt(-2 * elementary_log(uniform[0]));
