@@ -1,5 +1,4 @@
-/* The option --explain: JSON lines that say which effects a stage simulated, which it left out, and
- * how much time they took. */
+/* The lines of --explain: effects simulated, left out, and their time. JSON, one line per stage. */
 #ifndef EXPLAIN_H
 #define EXPLAIN_H
 

@@ -1,5 +1,5 @@
-/* Extraction: the objects of a frame get the sizes and the reflectors of their classes (MODEL 2).
- */
+/* Sizes and reflectors for the objects of a frame (MODEL 2). Both come from the document of the
+ * object's class.*/
 #ifndef EXTRACTION_H
 #define EXTRACTION_H
 

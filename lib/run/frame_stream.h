@@ -1,5 +1,5 @@
-/* The frames that a program reads: JSON lines from files, one file after the other, or from
- * standard input. */
+/* The frames that a program reads. They are JSON lines from files, one file after the other, or
+ * from standard input. */
 #ifndef FRAME_STREAM_H
 #define FRAME_STREAM_H
 

@@ -1,5 +1,5 @@
-/* The command line of a program, from its table of options and the table of those that all share.
- */
+/* Command line and --help of a program, from tables. One table has its own options, the other those
+ * that all programs share.*/
 #ifndef OPTIONS_H
 #define OPTIONS_H
 

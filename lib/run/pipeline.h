@@ -1,7 +1,7 @@
-/* A pipeline read from the text of a bash script: words, quotes, comments, continued lines, `|`,
- * and the line `set -o pipefail`. Anything else (variables, redirections, file name patterns, a
- * second pipeline) is refused with its line and the advice to use bash: a script must not do here
- * what it would not do there. */
+/* A pipeline read from the text of a bash script. It may have words, quotes, comments, continued
+ * lines, `|`, and the line `set -o pipefail`. Anything else (variables, redirections, file name
+ * patterns, a second pipeline) is refused with its line and the advice to use bash: a script must
+ * not do here what it would not do there. */
 #ifndef PIPELINE_H
 #define PIPELINE_H
 

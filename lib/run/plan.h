@@ -1,5 +1,5 @@
-/* A plan: the stages and the effects that a stream of frames needs, and the pipeline without the
- * others, as glint-plan prints it.
+/* Stages and effects that a stream of frames needs. glint-plan prints them with their reasons, and
+ * the pipeline without the others.
  *
  * The chain has positions: a stage that models each, and for some a simpler stage that may stand in
  * for it. An effect is needed if it was simulated in any scan. A stage is needed unless its

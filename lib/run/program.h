@@ -1,4 +1,4 @@
-/* A program as its command line, its --help and its messages show it: a stage or a tool. */
+/* A stage or a tool, as its command line shows it. */
 #ifndef PROGRAM_H
 #define PROGRAM_H
 

@@ -1,4 +1,5 @@
-/* JSON Schemas (2020-12) of the frame and of every document, printed from the field tables. */
+/* JSON Schemas (2020-12), printed from the tables of fields. There is one of the frame and one of
+ * every document. */
 #ifndef SCHEMA_H
 #define SCHEMA_H
 

@@ -1,5 +1,5 @@
-/* Which suite of sensors, and which of its effects: asked for at glint-ideal, written into every
- * frame, and obeyed by the stages after it.
+/* Which suite of sensors, and which of its effects. They are asked for at glint-ideal, written into
+ * every frame, and obeyed by the stages after it.
  *
  * A stage after ideal may be given a suite or effects as well, but only those that the frame was
  * seen with: others are refused with DIAG_CONFIG. All functions that return an int give 0, or -1

@@ -1,4 +1,4 @@
-/* A tool: a program that is no stage, because one frame in and one output are not enough for it.
+/* A tool: a program that is no stage. One frame in and one output are not enough for it.
  *
  * A stage takes its frames one by one and writes one stream. A tool has one function, run, which
  * does the whole work: it takes frames when it wants them or none at all, tries stages, opens other
