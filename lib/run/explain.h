@@ -1,4 +1,4 @@
-/* The lines of --explain: effects simulated, left out, and their time. JSON, one line per stage. */
+/* Lines of --explain: effects simulated, left out, and their time. JSON, one line per stage. */
 #ifndef EXPLAIN_H
 #define EXPLAIN_H
 

@@ -1,5 +1,5 @@
 /* Sizes and reflectors for the objects of a frame (MODEL 2). Both come from the document of the
- * object's class.*/
+ * object's class. */
 #ifndef EXTRACTION_H
 #define EXTRACTION_H
 

@@ -1,5 +1,5 @@
 /* Command line and --help of a program, from tables. One table has its own options, the other those
- * that all programs share.*/
+ * that all programs share. */
 #ifndef OPTIONS_H
 #define OPTIONS_H
 

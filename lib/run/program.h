@@ -1,4 +1,4 @@
-/* A stage or a tool, as its command line shows it. */
+/* A stage or tool as its command line shows it. */
 #ifndef PROGRAM_H
 #define PROGRAM_H
 
