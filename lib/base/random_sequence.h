@@ -17,7 +17,7 @@ struct random_sequence {
 struct random_sequence random_sequence_at(struct random_address address,
                                           enum random_purpose purpose);
 
-/* In (0, 1). */
+/* The next draw, uniform in (0, 1). */
 double random_sequence_next(struct random_sequence *sequence);
 
 double random_sequence_between(struct random_sequence *sequence, double low, double high);

@@ -11,7 +11,7 @@
 void sort_items(void *items, size_t count, size_t size, int (*compare)(const void *, const void *),
                 struct arena *arena);
 
-/* The same for a LIST_OF. */
+/* Sorts a LIST_OF. */
 #define sort_list(list, compare, arena)                                                            \
     sort_items((list)->items, (list)->count, sizeof *(list)->items, (compare), (arena))
 

@@ -320,7 +320,7 @@ void frame_clear(struct frame *frame)
     arena_clear(before.arena);
     field_clear(&frame_record, frame);
     frame->arena = before.arena;
-    frame->repeats = before.repeats;
+    frame->list_cache = before.list_cache;
 }
 
 const char *frame_section_name(enum section section)

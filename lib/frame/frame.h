@@ -217,7 +217,7 @@ struct frame {
     const char *extra;
     unsigned present; /* enum section */
     struct arena *arena;
-    struct list_cache *repeats; /* what frames repeat; NULL: nothing is kept from one to the next */
+    struct list_cache *list_cache;  /* lists that frames repeat; NULL: no list is kept */
     LIST_OF(struct object *) by_id; /* sorted by frame_order_objects; empty: not yet */
 };
 

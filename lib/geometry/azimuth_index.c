@@ -59,7 +59,7 @@ struct azimuth_index azimuth_index_begin(size_t count, struct arena *arena)
     };
 }
 
-/* The same span, counted in sets instead of sectors. */
+/* A span of sectors, counted in sets instead. */
 static struct azimuth_index_span sets_of(const struct azimuth_index *index,
                                          struct azimuth_index_span span)
 {

@@ -5,7 +5,7 @@
 #include "base/elementary.h"
 #include "base/units.h"
 
-/* On cosines: a million times their rounding. */
+/* Slack on cosines: a million times their rounding. */
 #define SLACK 1e-9
 
 /* Vectors shorter than this have squares that underflow. */

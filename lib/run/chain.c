@@ -15,7 +15,7 @@ struct chain {
     size_t count, stages; /* the last runner may be a tool; all others are stages */
     struct frame frame;
     struct arena arena; /* the frame's */
-    struct list_cache repeats;
+    struct list_cache list_cache;
     struct frame_stream input; /* of the first runner, unless it is a source */
     struct chain_times *times;
     bool tool_has_frame;   /* its messages are about this frame */
@@ -208,7 +208,7 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
     chain.input.paths = runners[0].common.files.items;
     chain.input.count = runners[0].common.files.count;
     chain.frame.arena = &chain.arena;
-    chain.frame.repeats = &chain.repeats;
+    chain.frame.list_cache = &chain.list_cache;
     if (times != NULL)
         time_clock(&chain);
     start(&chain);
@@ -224,7 +224,7 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
         }
     frame_stream_close(&chain.input);
     arena_free(&chain.arena);
-    list_cache_free(&chain.repeats);
+    list_cache_free(&chain.list_cache);
     return code;
 }
 

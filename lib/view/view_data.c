@@ -152,7 +152,7 @@ static void add_detail(struct view_data *data, const struct loss_row *row,
     add_count(data, COLUMN_DETAIL_BY, optional_name(data, echo->by));
 }
 
-/* By object; within one, in any order that is the same for the same losses. */
+/* Orders by object; within one, in any order that is the same for the same losses. */
 static int compare_rows(const void *left, const void *right)
 {
     const struct loss_row *a = left, *b = right;

@@ -38,7 +38,7 @@ static void what_went_in_is_found_again(void **state)
     arena_free(&arena);
 }
 
-/* How many of these hashes belong into one slot of twice as many, at most. */
+/* The most of these hashes that belong into one slot of twice as many. */
 static int most_in_a_slot(const uint64_t *hashes)
 {
     static int taken[2 * COUNT];

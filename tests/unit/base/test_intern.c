@@ -25,7 +25,7 @@ static void names_are_numbered_as_they_come(void **state)
     arena_free(&arena);
 }
 
-/* Of all lengths, some equal at both ends: each still gets its own bytes, and equal ones one
+/* Names of all lengths, some equal at both ends: each gets its own bytes, and equal names one
  * pointer. */
 static void equal_names_are_one_pointer_and_others_are_not(void **state)
 {

@@ -59,8 +59,8 @@ static void end(struct stream *stream)
     arena_free(&stream->arena);
 }
 
-/* Of fixed lists D is twice their distance. One target stands s cells aside in range; the other is
- * in both lists and cancels. */
+/* For fixed lists D is twice their distance. One target is shifted by s cells in range; the other
+ * is in both lists and cancels. */
 static void shifted_lists_are_at_twice_their_distance(void **state)
 {
     (void)state;

@@ -40,7 +40,7 @@ static void the_same_text_is_the_same_list(void **state)
     (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .repeats = &cache};
+    struct frame frame = {.arena = &arena, .list_cache = &cache};
     struct diag diag = {0};
     char one[512], other[512];
     snprintf(one, sizeof one, "[%s]", point_of("a", 0.25));
@@ -66,7 +66,7 @@ static void a_faulty_list_is_refused_every_time(void **state)
     (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .repeats = &cache};
+    struct frame frame = {.arena = &arena, .list_cache = &cache};
     char wrong[512];
     snprintf(wrong, sizeof wrong, "[%s,%s]", point_of("a", 0.25), "{\"name\":\"\"}");
     for (int i = 0; i < 3; i++) {
@@ -85,7 +85,7 @@ static void lists_that_do_not_repeat_are_kept_up_to_a_limit(void **state)
     (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .repeats = &cache};
+    struct frame frame = {.arena = &arena, .list_cache = &cache};
     struct diag diag = {0};
     for (int i = 0; i < 3 * LIST_CACHE_MOST; i++) {
         char points[512];
@@ -104,7 +104,7 @@ static void long_lists_are_kept_up_to_a_limit_too(void **state)
     (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .repeats = &cache};
+    struct frame frame = {.arena = &arena, .list_cache = &cache};
     struct diag diag = {0};
     struct text points = {0};
     for (int i = 0; i < 40; i++) {
@@ -131,7 +131,7 @@ static void a_list_that_grows_leaves_the_kept_one_alone(void **state)
     (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .repeats = &cache};
+    struct frame frame = {.arena = &arena, .list_cache = &cache};
     struct diag diag = {0};
     char points[512];
     snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
@@ -155,7 +155,7 @@ static void write_set(struct list_cache *cache, struct reflector_set *set, struc
     frame.reflectors.items = set;
     frame.reflectors.count = 1;
     assert_int_equal(frame_text_write(&frame, &plain, &diag), 0);
-    frame.repeats = cache;
+    frame.list_cache = cache;
     line->length = 0;
     assert_int_equal(frame_text_write(&frame, line, &diag), 0);
     assert_int_equal(line->length, plain.length);
@@ -233,7 +233,7 @@ static void a_list_that_was_read_is_written_in_canonical_form(void **state)
     (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .repeats = &cache};
+    struct frame frame = {.arena = &arena, .list_cache = &cache};
     struct diag diag = {0};
     struct text line = {0};
     char points[512], loose[512];
@@ -257,7 +257,7 @@ static void a_list_that_was_only_written_is_found_in_no_line(void **state)
     (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .repeats = &cache};
+    struct frame frame = {.arena = &arena, .list_cache = &cache};
     struct diag diag = {0};
     struct text line = {0};
     struct point_reflector points[] = {{.name = "a", .x = 0.25}};
@@ -279,7 +279,7 @@ static void a_line_that_ends_within_a_kept_list_does_not_have_it(void **state)
     (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .repeats = &cache};
+    struct frame frame = {.arena = &arena, .list_cache = &cache};
     struct diag diag = {0};
     char points[512];
     snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
@@ -297,7 +297,7 @@ static void the_text_of_points_is_no_list_of_planes(void **state)
     (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .repeats = &cache};
+    struct frame frame = {.arena = &arena, .list_cache = &cache};
     struct diag diag = {0};
     char points[512], both[1100];
     snprintf(points, sizeof points, "[%s]", point_of("a", 0.25));
@@ -316,7 +316,7 @@ static void a_list_that_fills_the_memory_is_written_every_time(void **state)
     (void)state;
     struct arena arena = {0};
     struct list_cache cache = {0};
-    struct frame frame = {.arena = &arena, .repeats = &cache};
+    struct frame frame = {.arena = &arena, .list_cache = &cache};
     struct diag diag = {0};
     struct text points = {0}, line = {0};
     text_add(&points, "[", 1);
