@@ -8,6 +8,7 @@
 #include <jansson.h>
 
 #include "text/input.h"
+#include "text/record_text.h"
 
 void document_guard_memory(void)
 {
@@ -68,111 +69,8 @@ const char *document_find(const char *kind, const char *name, const char *ending
     return NULL;
 }
 
-static int read_object(const json_t *tree, const struct record *record, void *base,
-                       struct arena *arena, struct diag *diag);
-
-static const char *kind_of(const json_t *value)
-{
-    static const char *const kinds[] = {
-        [JSON_OBJECT] = "an object",    [JSON_ARRAY] = "an array", [JSON_STRING] = "a string",
-        [JSON_INTEGER] = "a number",    [JSON_REAL] = "a number",  [JSON_TRUE] = "true or false",
-        [JSON_FALSE] = "true or false", [JSON_NULL] = "null",
-    };
-    return kinds[json_typeof(value)];
-}
-
-static int read_list(const json_t *tree, const struct field *field, void *base, struct arena *arena,
-                     struct diag *diag)
-{
-    size_t index;
-    json_t *item;
-    json_array_foreach(tree, index, item)
-    {
-        void *place = field_list_add(field, base, arena);
-        if (!json_is_object(item))
-            return diag_fail(diag, DIAG_DATA, "%s[%zu]: %s; expected an object", field->name, index,
-                             kind_of(item));
-        if (read_object(item, field->record, place, arena, diag) != 0)
-            return diag_prefix(diag, "%s[%zu].", field->name, index);
-    }
-    return 0;
-}
-
-static int read_names(const json_t *tree, const struct field *field, void *base,
-                      struct arena *arena, struct diag *diag)
-{
-    const struct field name = {.name = field->name, .kind = FIELD_NAME};
-    size_t index;
-    json_t *item;
-    json_array_foreach(tree, index, item)
-    {
-        if (!json_is_string(item))
-            return field_wrong_kind(&name, kind_of(item), diag);
-        if (field_set_text(&name, field_list_add(field, base, arena), json_string_value(item),
-                           json_string_length(item), arena, diag) != 0)
-            return -1;
-    }
-    return 0;
-}
-
-static int check_notes(const json_t *tree, const struct field *field, struct diag *diag)
-{
-    const char *key;
-    json_t *value;
-    json_object_foreach((json_t *)tree, key, value)
-    {
-        if (!json_is_string(value))
-            return diag_fail(diag, DIAG_DATA, "%s.%s: %s; expected a string", field->name, key,
-                             kind_of(value));
-    }
-    return 0;
-}
-
-static int read_member(const json_t *tree, const struct field *field, void *base,
-                       struct arena *arena, struct diag *diag)
-{
-    void *member = (char *)base + field->offset;
-    if (field->kind == FIELD_RECORD && json_is_object(tree))
-        return read_object(tree, field->record, member, arena, diag) == 0
-                   ? 0
-                   : diag_prefix(diag, "%s.", field->name);
-    if (field->kind == FIELD_LIST && json_is_array(tree))
-        return read_list(tree, field, base, arena, diag);
-    if (field->kind == FIELD_NAMES && json_is_array(tree))
-        return read_names(tree, field, base, arena, diag);
-    if (field->kind == FIELD_NOTES && json_is_object(tree))
-        return check_notes(tree, field, diag);
-    if (field->kind == FIELD_FLAG && json_is_boolean(tree)) {
-        memcpy(member, &(bool){json_is_true(tree)}, sizeof(bool));
-        return 0;
-    }
-    if (json_is_number(tree))
-        return field_set_number(field, base, json_number_value(tree), diag);
-    if (json_is_string(tree))
-        return field_set_text(field, base, json_string_value(tree), json_string_length(tree), arena,
-                              diag);
-    return field_wrong_kind(field, kind_of(tree), diag);
-}
-
-static int read_object(const json_t *tree, const struct record *record, void *base,
-                       struct arena *arena, struct diag *diag)
-{
-    uint64_t seen = 0;
-    const char *key;
-    json_t *value;
-    json_object_foreach((json_t *)tree, key, value)
-    {
-        const struct field *field = field_find(record, key, strlen(key), 0);
-        if (field == NULL || field->kind == FIELD_RAW)
-            return field_unknown(record, key, strlen(key), diag);
-        seen |= UINT64_C(1) << (field - record->fields);
-        if (read_member(value, field, base, arena, diag) != 0)
-            return -1;
-        field_mark_present(record, field, base);
-    }
-    return field_require(record, seen, diag);
-}
-
+/* jansson checks the text and says in which line it is wrong. What it read is written as one line,
+ * for the reader of records. */
 int document_parse(const char *path, const struct text *text, const struct record *record,
                    void *base, struct arena *arena, struct diag *diag)
 {
@@ -180,16 +78,15 @@ int document_parse(const char *path, const struct text *text, const struct recor
     json_t *tree = json_loadb(text->bytes, text->length, JSON_REJECT_DUPLICATES, &error);
     if (tree == NULL)
         return diag_fail(diag, DIAG_CONFIG, "%s:%d: %s", path, error.line, error.text);
-    field_clear(record, base);
-    int result = json_is_object(tree)
-                     ? read_object(tree, record, base, arena, diag)
-                     : diag_fail(diag, DIAG_CONFIG, "%s; expected an object", kind_of(tree));
+    char *line = json_dumps(tree, JSON_COMPACT);
+    memset(base, 0, record->size);
+    int result = record_text_read(line, strlen(line), record, base, arena, NULL, diag);
+    free(line);
     json_decref(tree);
-    if (result != 0) {
-        diag->code = DIAG_CONFIG;
-        return diag_prefix(diag, "%s: ", path);
-    }
-    return 0;
+    if (result == 0)
+        return 0;
+    diag->code = DIAG_CONFIG;
+    return diag_prefix(diag, "%s: ", path);
 }
 
 int document_bytes(const char *path, struct text *text, struct diag *diag)

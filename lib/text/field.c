@@ -32,13 +32,9 @@ static bool is_word(const char *word, const char *text, size_t length)
            word[length] == '\0';
 }
 
-const struct field *field_find(const struct record *record, const char *name, size_t length,
-                               size_t hint)
+const struct field *field_find(const struct record *record, const char *name, size_t length)
 {
-    const struct field *fields = record->fields;
-    if (fields[hint].name != NULL && is_word(fields[hint].name, name, length))
-        return &fields[hint];
-    for (const struct field *field = fields; field->name != NULL; field++)
+    for (const struct field *field = record->fields; field->name != NULL; field++)
         if (is_word(field->name, name, length))
             return field;
     return NULL;
@@ -377,7 +373,7 @@ bool field_unchanged(const struct record *record, const struct field *field, con
     return list.items == read.items && list.count == read.count;
 }
 
-void *field_list_extend(const struct field *field, void *base, struct arena *arena)
+void *field_list_add(const struct field *field, void *base, struct arena *arena)
 {
     size_t size = field->kind == FIELD_NAMES ? sizeof(const char *) : field->record->size;
     struct untyped_list list = FIELD_LOAD(struct untyped_list, field, base);
@@ -385,13 +381,5 @@ void *field_list_extend(const struct field *field, void *base, struct arena *are
     char *item = (char *)list.items + list.count * size;
     list.count++;
     memcpy((char *)base + field->offset, &list, sizeof list);
-    return item;
-}
-
-void *field_list_add(const struct field *field, void *base, struct arena *arena)
-{
-    void *item = field_list_extend(field, base, arena);
-    if (field->kind == FIELD_LIST)
-        field_clear(field->record, item);
     return item;
 }

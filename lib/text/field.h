@@ -139,10 +139,8 @@ static inline unsigned field_sections(const struct record *record, const void *b
  * none. */
 const char *field_unit(const char *name);
 
-/* The record's member of that name, or NULL. Tries fields[hint] first, since keys usually come in
- * table order. */
-const struct field *field_find(const struct record *record, const char *name, size_t length,
-                               size_t hint);
+/* The record's member of that name, or NULL. */
+const struct field *field_find(const struct record *record, const char *name, size_t length);
 
 /* Sets every member to its value when absent. */
 void field_clear(const struct record *record, void *base);
@@ -198,11 +196,8 @@ struct field_list field_list(const struct field *field, const void *base);
 /* True if this steady list is still that of the document, which does not change any more. */
 bool field_unchanged(const struct record *record, const struct field *field, const void *base);
 
-/* Appends one item, with all members absent, to the list member and returns its address. For
- * FIELD_NAMES the item is a const char *. */
+/* Appends one zeroed item to the list member and returns its address. For FIELD_NAMES the item is a
+ * const char *. */
 void *field_list_add(const struct field *field, void *base, struct arena *arena);
-
-/* Like field_list_add, with a zeroed item. */
-void *field_list_extend(const struct field *field, void *base, struct arena *arena);
 
 #endif

@@ -16,32 +16,24 @@ struct reader {
     struct list_cache *cache; /* or NULL */
 };
 
+static inline int read_member(struct reader *reader, const struct field *field, void *base);
 static int read_record(struct reader *reader, const struct record *record, void *base);
 
 /* A message begins with a member's name, or with ": " if it is about the text between members. */
-static int put_before(struct diag *diag, const char *name, size_t index)
-{
-    return diag_prefix(diag, "%s[%zu]%s", name, index, diag->text[0] == ':' ? "" : ".");
-}
-
 static int unexpected(struct json_scan *scan, const char *what)
 {
     json_scan_unexpected(scan, what);
     return diag_prefix(scan->diag, ": ");
 }
 
-static int read_item(struct reader *reader, const struct field *field, void *base, size_t index)
+/* Refuses what is no value of this member. */
+static int refuse_value(struct json_scan *scan, const struct field *field)
 {
-    struct json_scan *scan = &reader->scan;
     char first = json_scan_peek(scan);
-    int result;
-    if (first == '{')
-        result = read_record(reader, field->record, field_list_extend(field, base, scan->arena));
-    else if (first != '\0' && strchr("\"[tfn-0123456789", first) != NULL)
-        result = diag_fail(scan->diag, DIAG_DATA, ": %s; expected an object", json_scan_kind(scan));
-    else
-        result = unexpected(scan, "an object");
-    return result == 0 ? 0 : put_before(scan->diag, field->name, index);
+    if (first != '\0' && strchr("\"{[tfn-0123456789", first) != NULL)
+        return field_wrong_kind(field, json_scan_kind(scan), scan->diag);
+    json_scan_unexpected(scan, "a value");
+    return diag_prefix(scan->diag, "%s: ", field->name);
 }
 
 /* Stores a name; equal names of a line are one pointer. */
@@ -69,34 +61,6 @@ static bool take_name(struct reader *reader, const struct field *field, void *ba
     return true;
 }
 
-static int set_name(struct reader *reader, const struct field *field,
-                    const struct json_string *name, void *base)
-{
-    struct json_scan *scan = &reader->scan;
-    if (field_set_text(field, base, name->text, name->length, scan->arena, scan->diag) != 0)
-        return -1;
-    keep_name(reader, field, name->text, name->length, base);
-    return 0;
-}
-
-static int read_name(struct reader *reader, const struct field *field, void *base, size_t index)
-{
-    struct json_scan *scan = &reader->scan;
-    const struct field item = {.name = "", .kind = FIELD_NAME};
-    void *place = field_list_extend(field, base, scan->arena);
-    struct json_string name;
-    int result;
-    if (take_name(reader, &item, place))
-        return 0;
-    if (json_scan_peek(scan) != '"')
-        result = field_wrong_kind(&item, json_scan_kind(scan), scan->diag);
-    else if (json_scan_string(scan, &name) != 0)
-        result = diag_prefix(scan->diag, ": ");
-    else
-        result = set_name(reader, &item, &name, place);
-    return result == 0 ? 0 : diag_prefix(scan->diag, "%s[%zu]", field->name, index);
-}
-
 static int read_choice(struct json_scan *scan, const struct field *field, void *base, size_t index)
 {
     struct json_string name;
@@ -108,20 +72,25 @@ static int read_choice(struct json_scan *scan, const struct field *field, void *
     return field_add_to_set(field, base, name.text, name.length, scan->diag);
 }
 
+/* An item is read like a member without a name. */
 static int read_list(struct reader *reader, const struct field *field, void *base)
 {
     struct json_scan *scan = &reader->scan;
+    const struct field item = {.name = "",
+                               .kind = field->kind == FIELD_LIST ? FIELD_RECORD : FIELD_NAME,
+                               .record = field->record};
     if (!json_scan_take(scan, '['))
-        return field_wrong_kind(field, json_scan_kind(scan), scan->diag);
+        return refuse_value(scan, field);
     if (json_scan_take(scan, ']'))
         return 0;
     size_t i = 0;
     do {
-        int result = field->kind == FIELD_LIST  ? read_item(reader, field, base, i)
-                     : field->kind == FIELD_SET ? read_choice(scan, field, base, i)
-                                                : read_name(reader, field, base, i);
-        if (result != 0)
-            return -1;
+        if (field->kind == FIELD_SET) {
+            if (read_choice(scan, field, base, i) != 0)
+                return -1;
+        } else if (read_member(reader, &item, field_list_add(field, base, scan->arena)) != 0) {
+            return diag_prefix(scan->diag, "%s[%zu]", field->name, i);
+        }
         i++;
     } while (json_scan_take(scan, ','));
     if (json_scan_take(scan, ']'))
@@ -192,9 +161,11 @@ static int read_text(struct reader *reader, const struct field *field, void *bas
     struct json_string string;
     if (json_scan_string(scan, &string) != 0)
         return diag_prefix(scan->diag, "%s: ", field->name);
-    return field->kind == FIELD_NAME
-               ? set_name(reader, field, &string, base)
-               : field_set_text(field, base, string.text, string.length, scan->arena, scan->diag);
+    if (field_set_text(field, base, string.text, string.length, scan->arena, scan->diag) != 0)
+        return -1;
+    if (field->kind == FIELD_NAME)
+        keep_name(reader, field, string.text, string.length, base);
+    return 0;
 }
 
 static int read_flag(struct json_scan *scan, const struct field *field, void *base)
@@ -206,41 +177,81 @@ static int read_flag(struct json_scan *scan, const struct field *field, void *ba
     return 0;
 }
 
-static int read_member(struct reader *reader, const struct field *field, void *base)
+/* Checks that the value is an object of strings, and keeps nothing of it. */
+static int read_notes(struct json_scan *scan, const struct field *field)
+{
+    struct json_string key, note;
+    json_scan_take(scan, '{');
+    if (json_scan_take(scan, '}'))
+        return 0;
+    do {
+        if (json_scan_string(scan, &key) != 0)
+            return diag_prefix(scan->diag, "%s: ", field->name);
+        if (!json_scan_take(scan, ':'))
+            return refuse_value(scan, field);
+        if (json_scan_peek(scan) != '"')
+            return diag_fail(scan->diag, DIAG_DATA, "%s.%.*s: %s; expected a string", field->name,
+                             (int)key.length, key.text, json_scan_kind(scan));
+        if (json_scan_string(scan, &note) != 0)
+            return diag_prefix(scan->diag, "%s: ", field->name);
+    } while (json_scan_take(scan, ','));
+    return json_scan_take(scan, '}') ? 0 : refuse_value(scan, field);
+}
+
+static int read_object(struct reader *reader, const struct field *field, void *base)
+{
+    struct diag *diag = reader->scan.diag;
+    if (read_record(reader, field->record, (char *)base + field->offset) == 0)
+        return 0;
+    return diag_prefix(diag, "%s%s", field->name, diag->text[0] == ':' ? "" : ".");
+}
+
+static int read_value(struct reader *reader, const struct field *field, void *base)
 {
     struct json_scan *scan = &reader->scan;
-    if (field->kind == FIELD_REAL && take_real(scan, field, base))
-        return 0;
-    if (field->kind == FIELD_NAME && take_name(reader, field, base))
-        return 0;
     char first = json_scan_peek(scan);
-    if (first == '\0') {
-        json_scan_unexpected(scan, "a value");
-        return diag_prefix(scan->diag, "%s: ", field->name);
-    }
-    if (field->kind == FIELD_RAW)
+    switch (field->kind) {
+    case FIELD_REAL:
+    case FIELD_INTEGER:
+        if (first == '-' || (first >= '0' && first <= '9'))
+            return read_number(scan, field, base);
+        break;
+    case FIELD_FLAG:
+        if (first == 't' || first == 'f')
+            return read_flag(scan, field, base);
+        break;
+    case FIELD_NAME:
+    case FIELD_CHOICE:
+    case FIELD_SEED:
+        if (first == '"')
+            return read_text(reader, field, base);
+        break;
+    case FIELD_SET:
+    case FIELD_NAMES:
+    case FIELD_LIST:
+        return field->steady && reader->cache != NULL ? read_steady(reader, field, base)
+                                                      : read_list(reader, field, base);
+    case FIELD_RECORD:
+        break;
+    case FIELD_RAW:
         return read_raw(scan, field, base);
-    if (field->steady && reader->cache != NULL)
-        return read_steady(reader, field, base);
-    if (field->kind == FIELD_NAMES || field->kind == FIELD_SET || field->kind == FIELD_LIST)
-        return read_list(reader, field, base);
-    if (field->kind == FIELD_RECORD) {
-        if (first != '{')
-            return field_wrong_kind(field, json_scan_kind(scan), scan->diag);
-        if (read_record(reader, field->record, (char *)base + field->offset) == 0)
-            return 0;
-        return diag_prefix(scan->diag, "%s%s", field->name, scan->diag->text[0] == ':' ? "" : ".");
+    case FIELD_NOTES:
+        if (first == '{')
+            return read_notes(scan, field);
+        break;
     }
-    if (first == '"')
-        return read_text(reader, field, base);
-    if (first == '-' || (first >= '0' && first <= '9'))
-        return read_number(scan, field, base);
-    if (field->kind == FIELD_FLAG && (first == 't' || first == 'f'))
-        return read_flag(scan, field, base);
-    if (strchr("{[tfn", first) != NULL)
-        return field_wrong_kind(field, json_scan_kind(scan), scan->diag);
-    json_scan_unexpected(scan, "a value");
-    return diag_prefix(scan->diag, "%s: ", field->name);
+    return refuse_value(scan, field);
+}
+
+/* Most members are numbers, names and records, which need no more than a first look. */
+static inline int read_member(struct reader *reader, const struct field *field, void *base)
+{
+    if ((field->kind == FIELD_REAL && take_real(&reader->scan, field, base)) ||
+        (field->kind == FIELD_NAME && take_name(reader, field, base)))
+        return 0;
+    if (field->kind == FIELD_RECORD && json_scan_peek(&reader->scan) == '{')
+        return read_object(reader, field, base);
+    return read_value(reader, field, base);
 }
 
 /* True if the line goes on with this member's key and its colon, as the writer has them. At least
@@ -281,8 +292,8 @@ static const struct field *read_key(struct json_scan *scan, const struct record 
         diag_prefix(scan->diag, ": ");
         return NULL;
     }
-    field = field_find(record, key.text, key.length, 0);
-    if (field == NULL || field->kind == FIELD_NOTES)
+    field = field_find(record, key.text, key.length);
+    if (field == NULL)
         field_unknown(record, key.text, key.length, scan->diag);
     else if ((seen >> (field - record->fields) & 1) != 0)
         field_twice(field, scan->diag);
@@ -298,16 +309,19 @@ static int read_members(struct reader *reader, const struct record *record, void
 {
     struct json_scan *scan = &reader->scan;
     const struct field *next = record->fields;
+    uint64_t bit = 1; /* of the next member */
     do {
         const struct field *field = take_key(scan, next);
         if (field == NULL)
             field = read_key(scan, record, *seen);
         if (field == NULL)
             return -1;
-        uint64_t bit = UINT64_C(1) << (field - record->fields);
+        if (field != next)
+            bit = UINT64_C(1) << (field - record->fields);
         if ((*seen & bit) != 0)
             return field_twice(field, scan->diag);
         *seen |= bit;
+        bit <<= 1;
         next = field + 1;
         if (read_member(reader, field, base) != 0)
             return -1;

@@ -198,7 +198,7 @@ static void move_suite(struct bench *bench, uint64_t *coin)
 
 static void move_traffic(struct frame *frame, uint64_t *coin)
 {
-    const struct record *object = field_find(&frame_record, "objects", 7, 0)->record;
+    const struct record *object = field_find(&frame_record, "objects", 7)->record;
     for (size_t i = 0; i < frame->objects.count; i++)
         move_all(object, &frame->objects.items[i], coin);
 }

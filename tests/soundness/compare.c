@@ -90,7 +90,7 @@ static int compare_records(const struct record *record, const void *a, const voi
 
 static const struct field *section(const char *name)
 {
-    return field_find(&frame_record, name, strlen(name), 0);
+    return field_find(&frame_record, name, strlen(name));
 }
 
 int compare_bits(const struct frame *all, const struct frame *chosen, struct diag *diag)

@@ -312,7 +312,7 @@ static void without_margins_no_entry_has_any(void **state)
 /* Compares echoes as text, because the padding between members has no value. */
 static void assert_same_echoes(const struct echo *one, const struct echo *other, size_t count)
 {
-    const struct record *record = field_find(&frame_record, "echoes", strlen("echoes"), 0)->record;
+    const struct record *record = field_find(&frame_record, "echoes", strlen("echoes"))->record;
     struct text texts[2] = {0};
     for (size_t i = 0; i < count; i++) {
         record_text_write(record, &one[i], NULL, &texts[0]);

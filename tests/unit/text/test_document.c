@@ -180,7 +180,7 @@ static void text_that_is_not_a_document_is_refused_with_its_line(void **state)
                  {"{\"origin\": \"\\u0000\"}", ":1: "},
                  {"{\"origin\": \"\xff\"}", ":1: "},
                  {"{\"length_m\": 1e999}", ":1: "},
-                 {"[]", ": an array; expected an object"}};
+                 {"[]", ": '[' where a vehicle is expected"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct vehicle vehicle;
         struct diag diag = {0};

@@ -102,16 +102,13 @@ static void the_ending_of_a_name_is_its_unit(void **state)
 static void members_are_found_by_their_whole_name(void **state)
 {
     (void)state;
-    for (size_t hint = 0; hint < COUNT(fields); hint++) {
-        for (size_t i = 0; fields[i].name != NULL; i++)
-            assert_ptr_equal(field_find(&record, fields[i].name, strlen(fields[i].name), hint),
-                             &fields[i]);
-        assert_ptr_equal(field_find(&record, "names", 4, hint), &fields[NAME]);
-        assert_null(field_find(&record, "namesx", 6, hint));
-        assert_null(field_find(&record, "nam", 3, hint));
-        assert_null(field_find(&record, "", 0, hint));
-        assert_null(field_find(&record, "Name", 4, hint));
-    }
+    for (size_t i = 0; fields[i].name != NULL; i++)
+        assert_ptr_equal(field_find(&record, fields[i].name, strlen(fields[i].name)), &fields[i]);
+    assert_ptr_equal(field_find(&record, "names", 4), &fields[NAME]);
+    assert_null(field_find(&record, "namesx", 6));
+    assert_null(field_find(&record, "nam", 3));
+    assert_null(field_find(&record, "", 0));
+    assert_null(field_find(&record, "Name", 4));
 }
 
 static void absent_members_have_their_value_and_are_recognized(void **state)
@@ -135,8 +132,7 @@ static void absent_members_have_their_value_and_are_recognized(void **state)
     thing.extra = "1";
     thing.maybe_s = 0;
     thing.tint = RED;
-    struct part *part = field_list_add(&fields[PARTS], &thing, &arena);
-    assert_close(part->width_m, 2, 0);
+    field_list_add(&fields[PARTS], &thing, &arena);
     field_mark_present(&record, &fields[IN_SECTION], &thing);
     field_mark_present(&record, &fields[RANGE], &thing);
     assert_int_equal(thing.present, 4);
