@@ -180,7 +180,7 @@ static void delta_over_sum_is_minus_j_tan_u(void **state)
         }
 }
 
-/* NUMERICS 1 to 5. */
+/* Hard cases 1 to 5. */
 static void pointers_keep_eight_ulp_up_to_the_side(void **state)
 {
     (void)state;
@@ -251,7 +251,7 @@ static void mirrored_ratios_give_mirrored_azimuths(void **state)
     }
 }
 
-/* NUMERICS 7: any pair, also far towards boresight and the side. */
+/* Hard case 7: any pair, also far towards boresight and the side. */
 static void the_inverse_keeps_four_ulp_up_to_the_side(void **state)
 {
     (void)state;

@@ -10,7 +10,7 @@ static double db(double factor)
     return -units_amplitude_db(factor);
 }
 
-/* EFFECTS 13, ITU-R P.838-3. */
+/* MODEL 14.15, ITU-R P.838-3. */
 static void the_law_is_as_published(void **state)
 {
     (void)state;
@@ -62,7 +62,7 @@ static void the_law_is_the_table_of_the_recommendation(void **state)
     }
 }
 
-/* EFFECTS 13. */
+/* MODEL 14.15. */
 static void attenuation_is_as_published(void **state)
 {
     (void)state;
@@ -81,7 +81,7 @@ static void attenuation_is_as_published(void **state)
     }
 }
 
-/* EFFECTS 13: at 10 deg C, and 0.5 g/m^3 over 100 m. */
+/* MODEL 14.15: at 10 deg C, and 0.5 g/m^3 over 100 m. */
 static void fog_is_as_published(void **state)
 {
     (void)state;

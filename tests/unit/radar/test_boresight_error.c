@@ -10,7 +10,7 @@
 
 static const struct boresight_error ONE_DEGREE = {.yaw_error_rad = DEGREE};
 
-/* EFFECTS 14: one degree of yaw error puts what is straight ahead aside by this much. */
+/* MODEL 14.8: one degree of yaw error puts what is straight ahead aside by this much. */
 static void a_yaw_error_shifts_the_far_more(void **state)
 {
     (void)state;
@@ -20,7 +20,7 @@ static void a_yaw_error_shifts_the_far_more(void **state)
                      5e-7);
 }
 
-/* EFFECTS 14: at 30 m/s what stands has another range rate than its reported azimuth says. */
+/* MODEL 14.8: at 30 m/s what stands has another range rate than its reported azimuth says. */
 static void the_standing_world_contradicts_a_yaw_error(void **state)
 {
     (void)state;

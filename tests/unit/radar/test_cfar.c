@@ -5,7 +5,7 @@
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-static void effects_9_has_these_factors(void **state)
+static void factors_are_those_of_the_published_formulas(void **state)
 {
     (void)state;
     static const struct {
@@ -75,7 +75,7 @@ static void a_strong_neighbour_raises_the_mean_and_not_the_rank(void **state)
         power[i] = 1;
     for (size_t i = 0; i < 4; i++)
         power[24 + i] = 101;
-    /* EFFECTS 9: 1 + chi_s/N for each of them */
+    /* MODEL 11.4: 1 + chi_s/N for each of them */
     assert_near(cfar_threshold(&mean, power, COUNT(power), 1, 20), 1 + 4 * 100. / 16, 1e-15);
     assert_close(cfar_threshold(&ordered, power, COUNT(power), 1, 20), 1, 0);
 }
@@ -83,7 +83,7 @@ static void a_strong_neighbour_raises_the_mean_and_not_the_rank(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(effects_9_has_these_factors),
+        cmocka_unit_test(factors_are_those_of_the_published_formulas),
         cmocka_unit_test(noise_passes_as_often_as_the_closed_form_says),
         cmocka_unit_test(guards_and_the_cell_itself_do_not_count_and_the_ring_is_closed),
         cmocka_unit_test(a_strong_neighbour_raises_the_mean_and_not_the_rank),

@@ -11,7 +11,7 @@ static double dbsm(double cross_section_m2)
     return 10 * log10(cross_section_m2);
 }
 
-static void effects_2_2_has_these_cross_sections(void **state)
+static void cross_sections_are_those_of_geometrical_optics(void **state)
 {
     (void)state;
     assert_close(curved_surface_cross_section_m2(0.5, 0.5, 5), 0.649089391, 5e-10);
@@ -35,7 +35,7 @@ static void effects_2_2_has_these_cross_sections(void **state)
                      cases[i].dbsm, cases[i].tolerance);
 }
 
-/* EFFECTS 17: a straight rail with corrugations of 4 cm, nearly pi r2 R. */
+/* MODEL 14.5: a straight rail with corrugations of 4 cm, nearly pi r2 R. */
 static void a_rail_is_lit_along_a_line(void **state)
 {
     (void)state;
@@ -76,7 +76,7 @@ static void nothing_is_zero_and_never_nan(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(effects_2_2_has_these_cross_sections),
+        cmocka_unit_test(cross_sections_are_those_of_geometrical_optics),
         cmocka_unit_test(a_rail_is_lit_along_a_line),
         cmocka_unit_test(no_radius_and_no_range_is_too_large_or_too_small),
         cmocka_unit_test(nothing_is_zero_and_never_nan),

@@ -11,7 +11,7 @@ static void assert_same_bits(double actual, double expected)
     assert_memory_equal(&actual, &expected, sizeof actual);
 }
 
-/* EFFECTS 10. */
+/* MODEL 14.16. */
 static void folding_is_as_published(void **state)
 {
     (void)state;

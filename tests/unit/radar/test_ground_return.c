@@ -31,8 +31,8 @@ static void places_are_even_over_the_area(void **state)
         assert_close(ground_return_range_m(range_m, range_m, 0.3), range_m, 0);
 }
 
-/* EFFECTS 14: 20 m/s, 0.3 rad/s, a sensor at (3.6, 0.7), the sight line at 40 degrees. */
-static void the_standing_world_moves_as_effects_14_says(void **state)
+/* MODEL 14.13: 20 m/s, 0.3 rad/s, a sensor at (3.6, 0.7), the sight line at 40 degrees. */
+static void the_standing_world_recedes_by_the_sensors_own_motion(void **state)
 {
     (void)state;
     struct motion ego = {.velocity_mps = {20, 0}, .yaw_rate_radps = 0.3};
@@ -54,7 +54,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(places_are_even_over_the_area),
-        cmocka_unit_test(the_standing_world_moves_as_effects_14_says),
+        cmocka_unit_test(the_standing_world_recedes_by_the_sensors_own_motion),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,7 +3,7 @@
 #include "base/units.h"
 #include "radar/interferer.h"
 
-/* EFFECTS 12. */
+/* MODEL 14.17. */
 static void received_power_is_as_published(void **state)
 {
     (void)state;
@@ -18,7 +18,7 @@ static void received_power_is_as_published(void **state)
                      rows[i].power_dbm, 5.1e-5);
 }
 
-/* EFFECTS 0 and 12. */
+/* MODEL 14.17. */
 static void noise_is_as_published(void **state)
 {
     (void)state;
@@ -26,7 +26,7 @@ static void noise_is_as_published(void **state)
     assert_close(interferer_noise_dbm(10e6, 12), -91.9750, 2e-4);
 }
 
-/* EFFECTS 12: slopes of 7.5 and -7.5 MHz/us, 10 MHz in band, chirps of 20 us; in every chirp, and
+/* MODEL 14.17: slopes of 7.5 and -7.5 MHz/us, 10 MHz in band, chirps of 20 us; in every chirp, and
  * in one of twenty. */
 static void the_floor_rises_as_published(void **state)
 {
@@ -46,7 +46,7 @@ static void the_floor_rises_as_published(void **state)
     }
 }
 
-/* EFFECTS 12: with amplitudes that fall as 1/R^2, 10 dB cost 44 % of the range. */
+/* MODEL 14.17: with amplitudes that fall as 1/R^2, 10 dB cost 44 % of the range. */
 static void ranges_shrink_as_published(void **state)
 {
     (void)state;

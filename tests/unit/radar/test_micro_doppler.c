@@ -15,7 +15,7 @@ static double rate_at(double rolling_mps, double fraction, int step)
     return micro_doppler_wheel_rate_mps(rolling_mps, rolling_mps, point);
 }
 
-/* EFFECTS 8: 50 km/h seen at 30 deg by a radar that stands. */
+/* MODEL 14.11: 50 km/h seen at 30 deg by a radar that stands. */
 static void rates_spread_as_published(void **state)
 {
     (void)state;
@@ -37,7 +37,7 @@ static void rates_spread_as_published(void **state)
     }
 }
 
-/* EFFECTS 8. */
+/* MODEL 14.11. */
 static void rates_gather_at_the_ends(void **state)
 {
     (void)state;

@@ -325,7 +325,7 @@ static void the_relative_phase_of_two_echoes_drives_them_apart(void **state)
     }
 }
 
-/* NUMERICS 11: neither estimator may jump for one rounding of an amplitude. The magnitude is held
+/* Hard case 11: neither estimator may jump for one rounding of an amplitude. The magnitude is held
  * to it from 1 deg up: nearer the middle delta is what the two echoes leave of each other. */
 static void one_ulp_of_an_amplitude_does_not_flip_the_sign(void **state)
 {

@@ -9,7 +9,7 @@
 static const enum point_response all[] = {POINT_RESPONSE_HANN, POINT_RESPONSE_RECTANGULAR,
                                           POINT_RESPONSE_PULSE};
 
-static void the_window_has_the_kernel_of_effects_4b(void **state)
+static void responses_have_their_closed_forms(void **state)
 {
     (void)state;
     assert_close(point_response_value(POINT_RESPONSE_HANN, 0), 1, 0);
@@ -25,7 +25,7 @@ static void the_window_has_the_kernel_of_effects_4b(void **state)
     assert_close(point_response_value(POINT_RESPONSE_RECTANGULAR, 0.885899 / 2), sqrt(0.5), 1e-4);
 }
 
-static void a_kernel_is_a_half_at_its_half_width(void **state)
+static void a_response_is_a_half_at_its_half_width(void **state)
 {
     (void)state;
     static const double half_widths[] = {[POINT_RESPONSE_HANN] = 1,
@@ -51,7 +51,7 @@ static void weights_sum_to_one_and_noise_is_their_rms(void **state)
     assert_near(point_response_noise(POINT_RESPONSE_PULSE, 64), 1. / 8, 1e-15);
 }
 
-static void the_envelope_bounds_the_kernel_and_falls(void **state)
+static void the_envelope_bounds_the_response_and_falls(void **state)
 {
     (void)state;
     for (size_t i = 0; i < COUNT(all); i++)
@@ -63,11 +63,11 @@ static void the_envelope_bounds_the_kernel_and_falls(void **state)
         }
 }
 
-/* What bin `bin` shows of an echo at `place`: windowed kernels change sign from bin to bin. */
-static struct phasor shown(enum point_response kernel, double place, int bin, double phase)
+/* What bin `bin` shows of an echo at `place`: windowed responses change sign from bin to bin. */
+static struct phasor shown(enum point_response response, double place, int bin, double phase)
 {
-    double sign = kernel != POINT_RESPONSE_PULSE && bin % 2 != 0 ? -1 : 1;
-    double size = 7 * sign * point_response_value(kernel, bin - place);
+    double sign = response != POINT_RESPONSE_PULSE && bin % 2 != 0 ? -1 : 1;
+    double size = 7 * sign * point_response_value(response, bin - place);
     return (struct phasor){size * cos(phase), size * sin(phase)};
 }
 
@@ -96,7 +96,7 @@ static void nothing_received_stands_in_the_middle_of_its_bin(void **state)
                 0.75);
 }
 
-static void the_kernel_has_its_published_values(void **state)
+static void the_hann_response_has_its_published_values(void **state)
 {
     (void)state;
     assert_true(point_response_hann(0) == 1);
@@ -106,7 +106,7 @@ static void the_kernel_has_its_published_values(void **state)
     assert_close(point_response_hann(2.5), -0.024252, 5e-7);
 }
 
-static void the_kernel_is_even_and_vanishes_at_whole_bins(void **state)
+static void the_hann_response_is_even_and_zero_at_whole_bins(void **state)
 {
     (void)state;
     uint64_t sample = 1;
@@ -118,7 +118,7 @@ static void the_kernel_is_even_and_vanishes_at_whole_bins(void **state)
         assert_true(point_response_hann(d) == 0);
 }
 
-/* The sum of three shifted kernels of no window, in extended precision. */
+/* The sum of three shifted responses without a window, in extended precision. */
 static long double three_lines(long double d)
 {
     const long double pi = 3.14159265358979323846264338327950288L;
@@ -130,7 +130,7 @@ static long double three_lines(long double d)
     return sum;
 }
 
-static void the_kernel_is_that_of_a_raised_cosine(void **state)
+static void the_hann_response_is_that_of_a_raised_cosine(void **state)
 {
     (void)state;
     uint64_t sample = 2;
@@ -141,7 +141,7 @@ static void the_kernel_is_that_of_a_raised_cosine(void **state)
 }
 
 /* Where the plain formula is 0/0. */
-static void the_kernel_is_smooth_at_its_gaps(void **state)
+static void the_hann_response_is_smooth_at_0_and_1(void **state)
 {
     (void)state;
     for (double step = 1e-3; step > 1e-16; step /= 7) {
@@ -244,16 +244,16 @@ static void two_echoes_two_bins_apart_are_always_two(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_window_has_the_kernel_of_effects_4b),
-        cmocka_unit_test(a_kernel_is_a_half_at_its_half_width),
+        cmocka_unit_test(responses_have_their_closed_forms),
+        cmocka_unit_test(a_response_is_a_half_at_its_half_width),
         cmocka_unit_test(weights_sum_to_one_and_noise_is_their_rms),
-        cmocka_unit_test(the_envelope_bounds_the_kernel_and_falls),
+        cmocka_unit_test(the_envelope_bounds_the_response_and_falls),
         cmocka_unit_test(the_place_between_bins_is_exact_for_one_echo),
         cmocka_unit_test(nothing_received_stands_in_the_middle_of_its_bin),
-        cmocka_unit_test(the_kernel_has_its_published_values),
-        cmocka_unit_test(the_kernel_is_even_and_vanishes_at_whole_bins),
-        cmocka_unit_test(the_kernel_is_that_of_a_raised_cosine),
-        cmocka_unit_test(the_kernel_is_smooth_at_its_gaps),
+        cmocka_unit_test(the_hann_response_has_its_published_values),
+        cmocka_unit_test(the_hann_response_is_even_and_zero_at_whole_bins),
+        cmocka_unit_test(the_hann_response_is_that_of_a_raised_cosine),
+        cmocka_unit_test(the_hann_response_is_smooth_at_0_and_1),
         cmocka_unit_test(its_highest_side_lobe_is_31_db_down),
         cmocka_unit_test(one_echo_is_found_exactly_where_it_is),
         cmocka_unit_test(a_peak_narrower_than_one_echo_is_left_on_its_bin),

@@ -72,7 +72,7 @@ static void no_echo_makes_no_cell(void **state)
     assert_int_equal(cluster(NULL, 0, 0.15, 0.25, NULL), 0);
 }
 
-/* NUMERICS 44: three distances of 0.15 m as written. */
+/* Hard case 44: three distances of 0.15 m as written. */
 static void the_border_is_decided_by_the_doubles(void **state)
 {
     (void)state;
@@ -151,7 +151,7 @@ static void echoes_are_close_exactly_if_a_pair_is(void **state)
     assert_in_range(close_scenes, 1000, 4000);
 }
 
-/* NUMERICS 45. */
+/* Hard case 45. */
 /* As the rule is written: every leader asks all echoes that are left. */
 static size_t cluster_all_pairs(const struct resolution_echo *echoes, size_t count,
                                 double half_range_m, double half_rate_mps, size_t *cell)
@@ -237,7 +237,7 @@ static void three_equal_echoes_make_two_cells(void **state)
     }
 }
 
-/* NUMERICS 15. */
+/* Hard case 15. */
 static void the_mean_of_equal_values_is_that_value(void **state)
 {
     (void)state;
@@ -249,7 +249,7 @@ static void the_mean_of_equal_values_is_that_value(void **state)
     }
 }
 
-/* NUMERICS 16. */
+/* Hard case 16. */
 static void the_mean_stays_in_the_span_and_near_the_exact_mean(void **state)
 {
     (void)state;
@@ -272,7 +272,7 @@ static void the_mean_stays_in_the_span_and_near_the_exact_mean(void **state)
     }
 }
 
-/* NUMERICS 17. */
+/* Hard case 17. */
 static void weights_may_be_huge_or_tiny(void **state)
 {
     (void)state;

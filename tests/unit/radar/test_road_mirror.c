@@ -27,7 +27,7 @@ static double point_db(double reflection, double carrier_hz, double distance_m)
         road_mirror_point_factor(&paths, reflection, units_wavelength_m(carrier_hz)));
 }
 
-/* EFFECTS 6. */
+/* MODEL 14.10. */
 static void fading_is_as_published(void **state)
 {
     (void)state;
@@ -68,7 +68,8 @@ static void path_difference_keeps_its_digits_far_away(void **state)
     }
 }
 
-/* EFFECTS 6: nulls at 2 h_s h_r/(n lambda), to first order; the last maximum at twice the first. */
+/* MODEL 14.10: nulls at 2 h_s h_r/(n lambda), to first order; the last maximum at twice the first.
+ */
 static void echoes_fade_where_the_paths_differ_by_whole_waves(void **state)
 {
     (void)state;
@@ -86,7 +87,7 @@ static void echoes_fade_where_the_paths_differ_by_whole_waves(void **state)
     }
 }
 
-/* EFFECTS 6. */
+/* MODEL 14.10. */
 static void reflection_is_fresnels(void **state)
 {
     (void)state;
@@ -157,7 +158,7 @@ static void grazing_waves_come_back_turned_over(void **state)
     }
 }
 
-/* EFFECTS 6: 1 mm at 5 deg. */
+/* MODEL 14.10: 1 mm at 5 deg. */
 static void roughness_scatters_as_published(void **state)
 {
     (void)state;
@@ -175,7 +176,7 @@ static void roughness_scatters_as_published(void **state)
     }
 }
 
-/* EFFECTS 6. */
+/* MODEL 14.10. */
 static void the_mean_is_as_published(void **state)
 {
     (void)state;
@@ -200,7 +201,7 @@ static void the_mean_is_that_of_power_over_all_phases(void **state)
     }
 }
 
-/* EFFECTS 6: a lobe is 0.1176 m high at 76.5 GHz, 30 m and 0.5 m. */
+/* MODEL 14.10: a lobe is 0.1176 m high at 76.5 GHz, 30 m and 0.5 m. */
 static void reflectors_higher_than_half_a_lobe_get_the_mean(void **state)
 {
     (void)state;

@@ -16,7 +16,7 @@ static double snr_of(double db)
     return pow(10, db / 10);
 }
 
-static void effects_3_has_these_sigmas(void **state)
+static void sigmas_are_those_of_the_formula(void **state)
 {
     (void)state;
     assert_close(sqrt(6) / (2 * PI), CRAMER_RAO, 5e-10);
@@ -40,8 +40,8 @@ static void effects_3_has_these_sigmas(void **state)
     }
 }
 
-/* EFFECTS 15: steps of 0.2 m, 0.25 m/s and 0.1 deg alone. */
-static void rounding_alone_has_the_sigma_of_effects_15(void **state)
+/* MODEL 9: steps of 0.2 m, 0.25 m/s and 0.1 deg alone. */
+static void rounding_alone_has_the_sigma_of_its_step(void **state)
 {
     (void)state;
     static const double cases[][2] = {{0.2, 0.057735}, {0.25, 0.072169}, {0.1, 0.028868}};
@@ -75,8 +75,8 @@ static void noise_floor_and_rounding_add_as_variances(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(effects_3_has_these_sigmas),
-        cmocka_unit_test(rounding_alone_has_the_sigma_of_effects_15),
+        cmocka_unit_test(sigmas_are_those_of_the_formula),
+        cmocka_unit_test(rounding_alone_has_the_sigma_of_its_step),
         cmocka_unit_test(noise_floor_and_rounding_add_as_variances),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -18,9 +18,9 @@ static double power_at(enum fluctuation_law law, double sigma_db, uint32_t index
     return factor * factor;
 }
 
-/* EFFECTS 1, P_fa = 1e-4 in one look: a threshold on power over complex noise of mean power 1. The
- * closed forms that are left are exp(-T/(1 + chi)) and exp(-T/a) (1 + (chi/2) T/a^2) with
- * a = 1 + chi/2. */
+/* MODEL 14.14, P_fa = 1e-4 in one look: a threshold on power over complex noise of mean power 1.
+ * The closed forms that are left are exp(-T/(1 + chi)) and exp(-T/a) (1 + (chi/2) T/a^2) with a = 1
+ * + chi/2. */
 static void detections_are_as_likely_as_published(void **state)
 {
     (void)state;
@@ -74,7 +74,7 @@ static int ascending(const void *left, const void *right)
     return a < b ? -1 : a > b;
 }
 
-/* EFFECTS 5: mean and deviation in dB of exponential power and of the gamma law of shape 2; their
+/* MODEL 14.18: mean and deviation in dB of exponential power and of the gamma law of shape 2; their
  * medians are at 1 - exp(-p) = 1/2 and 1 - (1 + 2 p) exp(-2 p) = 1/2. Each within 5 standard
  * errors.
  */
@@ -113,7 +113,7 @@ static double tail(double x)
     return 0.5 * erfc(x / sqrt(2));
 }
 
-/* EFFECTS 2.3: s = 3.41 dB has its mean at -1.338734 dB; the cut takes 0.3 % of the mean power. */
+/* MODEL 14.14: s = 3.41 dB has its mean at -1.338734 dB; the cut takes 0.3 % of the mean power. */
 static void a_log_normal_echo_is_gaussian_in_decibels_and_cut(void **state)
 {
     (void)state;
