@@ -34,6 +34,7 @@ static const char *const losses[] = {
     NULL,
 };
 
+/* The effect to which each reason belongs. */
 static const enum effect_id losing_effects[] = {
     [LOSS_FACING_AWAY] = EFFECT_VISIBILITY,
     [LOSS_NO_SPECULAR] = EFFECT_PLANE_REFLECTION,
@@ -49,8 +50,8 @@ static const enum effect_id losing_effects[] = {
     [LOSS_MASKED] = EFFECT_MERGING,
 };
 
-/* 1e7 m is farther than any local frame reaches; 1e6 m is farther than any radar, and what noise
- * and steps make of that stays within ten times as much. */
+/* Bounds of members. No scene reaches beyond 1e7 m and no radar beyond 1e6 m; reported values, with
+ * noise and rounding, may be ten times the exact ones. */
 #define PLACE(owner, member, help) FIELD_REAL_IN(owner, member, -1e7, 1e7, help)
 #define ANGLE(owner, member, help) FIELD_REAL_IN(owner, member, -1e6, 1e6, help)
 #define SPEED(owner, member, help) FIELD_REAL_IN(owner, member, -1e4, 1e4, help)
@@ -65,45 +66,49 @@ static const enum effect_id losing_effects[] = {
 #define REPORTED_RATE(owner, member) FIELD_REAL_IN(owner, member, -1e6, 1e6, "as reported")
 #define NAME(owner, member, help) FIELD_NAME_OF(owner, member, help)
 #define UNDECIDED(owner)                                                                           \
-    FIELD_FLAG_OF(owner, sign_undecided, "the phase did not tell left from right"), FIELD_OPTIONAL
+    FIELD_FLAG_OF(owner, sign_undecided,                                                           \
+                  "the phase between the channels does not tell left from right"),                 \
+        FIELD_OPTIONAL
 #define EFFECTS(owner, help) FIELD_SET_OF(owner, effects, effects_names, help), FIELD_OPTIONAL
 #define MARGINS(owner)                                                                             \
-    FIELD_RECORD_OF(owner, margins, &margins_record, "how close decisions were"), FIELD_OPTIONAL
-#define EXTRA(owner) FIELD_RAW_OF(owner, extra, "yours: passed on byte for byte")
+    FIELD_RECORD_OF(owner, margins, &margins_record, "distances from other decisions"),            \
+        FIELD_OPTIONAL
+#define EXTRA(owner) FIELD_RAW_OF(owner, extra, "the user's own, passed on byte for byte")
 #define ECHO_ID(owner, member, kind_, help_)                                                       \
     FIELD_NAMED(member), .kind = (kind_), .offset = offsetof(owner, id.member), .help = (help_)
 #define ECHO_NAMES(owner)                                                                          \
     {ECHO_ID(owner, object, FIELD_NAME, "id of the object")},                                      \
-        {ECHO_ID(owner, reflector, FIELD_NAME, "name in the object's set")},                       \
-        {ECHO_ID(owner, path, FIELD_CHOICE, "the way the echo took"), .choices = paths},           \
-        {ECHO_ID(owner, mirror, FIELD_NAME, "the wall's object, on the path of a ghost"),          \
+        {ECHO_ID(owner, reflector, FIELD_NAME, "name of the reflector in its set")},               \
+        {ECHO_ID(owner, path, FIELD_CHOICE, "path of the echo's wave"), .choices = paths},         \
+        {ECHO_ID(owner, mirror, FIELD_NAME, "id of the object that mirrors, on paths by a wall"),  \
          FIELD_OPTIONAL},                                                                          \
     {                                                                                              \
-        ECHO_ID(owner, number, FIELD_INTEGER, "of several of this kind, from 1"),                  \
+        ECHO_ID(owner, number, FIELD_INTEGER,                                                      \
+                "from 1, if there may be several that are else alike"),                            \
             .low = 0, .high = 1e9, FIELD_OPTIONAL                                                  \
     }
 #define IDEAL_VALUES(owner)                                                                        \
-    {RANGE(owner, range_m, "sensor to reflector, exact")},                                         \
-        {AZIMUTH(owner, azimuth_rad, "from boresight, left positive, exact")},                     \
-        {RATE(owner, range_rate_mps, "receding positive, exact")},                                 \
-        {AMPLITUDE(owner, ercs, "equivalent radar cross section at the impinging angle")},         \
+    {RANGE(owner, range_m, "from the sensor to the reflector, exact")},                            \
+        {AZIMUTH(owner, azimuth_rad, "from boresight, positive to the left, exact")},              \
+        {RATE(owner, range_rate_mps, "positive when receding, exact")},                            \
+        {AMPLITUDE(owner, ercs, "equivalent radar cross section in this direction")},              \
     {                                                                                              \
-        INSTANT(owner, time_s, "of the measurement")                                               \
+        INSTANT(owner, time_s, "instant of the measurement")                                       \
     }
 
 static const struct field object_fields[] = {
     {NAME(struct object, id, "unique in the frame")},
-    {NAME(struct object, class, "names the vehicle document")},
-    {PLACE(struct object, x_m, "centre of the box")},
-    {PLACE(struct object, y_m, "centre of the box")},
+    {NAME(struct object, class, "name of the vehicle document")},
+    {PLACE(struct object, x_m, "centre of the box, from the frame's origin")},
+    {PLACE(struct object, y_m, "centre of the box, from the frame's origin")},
     {ANGLE(struct object, yaw_rad, "heading of the box")},
     {SPEED(struct object, vx_mps, "velocity of the centre")},
     {SPEED(struct object, vy_mps, "velocity of the centre")},
     {FIELD_REAL_IN(struct object, yaw_rate_radps, -1e3, 1e3, "turn rate")},
-    {SIZE(struct object, length_m, "0: the default of the class")},
-    {SIZE(struct object, width_m, "0: the default of the class")},
-    {SIZE(struct object, height_m, "0: the default of the class")},
-    {FIELD_REAL_IN(struct object, travelled_m, 0, 1e9, "way since the scene began")},
+    {SIZE(struct object, length_m, "0: that of the class")},
+    {SIZE(struct object, width_m, "0: that of the class")},
+    {SIZE(struct object, height_m, "0: that of the class")},
+    {FIELD_REAL_IN(struct object, travelled_m, 0, 1e9, "distance since the scene began")},
     {EXTRA(struct object)},
     {0},
 };
@@ -120,9 +125,10 @@ static const struct field sensor_view_fields[] = {
     {RANGE(struct sensor_view, range_max_m, "greatest range")},
     {FIELD_REAL_IN(struct sensor_view, cell_range_m, 0, 2e6, "resolution cell, full width")},
     {FIELD_REAL_IN(struct sensor_view, cell_range_rate_mps, 0, 2e5, "resolution cell, full width")},
-    {FIELD_REAL_IN(struct sensor_view, cycle_s, 0, 1e6, "from scan to scan; absent: every frame"),
+    {FIELD_REAL_IN(struct sensor_view, cycle_s, 0, 1e6,
+                   "time from scan to scan; absent: a scan in every frame"),
      FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct sensor_view, measured, "is there a scan in this frame?")},
+    {FIELD_FLAG_OF(struct sensor_view, measured, "does the frame have a scan of this sensor?")},
     {0},
 };
 
@@ -131,42 +137,48 @@ const struct record sensor_view_record = {
 
 static const struct field sensors_fields[] = {
     {NAME(struct sensors, suite, "name of the suite document")},
-    {NAME(struct sensors, digest, "of the suite and every table it names")},
-    {FIELD_NAME_OF(struct sensors, effects, "as requested; absent: auto"), FIELD_OPTIONAL},
-    {FIELD_LIST_OF(struct sensors, list, &sensor_view_record, "by name")},
+    {NAME(struct sensors, digest, "digest of the suite's document and the tables it names")},
+    {FIELD_NAME_OF(struct sensors, effects, "selection given to glint-ideal; absent: auto"),
+     FIELD_OPTIONAL},
+    {FIELD_LIST_OF(struct sensors, list, &sensor_view_record, "sensors by name")},
     {0},
 };
 
 static const struct record sensors_record = {
-    FIELD_TABLE(struct sensors, sensors_fields, "suite", "The sensors that look at this frame.")};
+    FIELD_TABLE(struct sensors, sensors_fields, "suite", "The sensors of the ego.")};
 
 static const struct field echo_fields[] = {
     {NAME(struct echo, sensor, "name in the suite")},
     ECHO_NAMES(struct echo),
     IDEAL_VALUES(struct echo),
-    {FIELD_REAL_IN(struct echo, departure_rad, -PI, PI,
-                   "azimuth of departure less that of arrival, of a ghost that goes one way by a "
-                   "mirror"),
+    {FIELD_REAL_IN(
+         struct echo, departure_rad, -PI, PI,
+         "azimuth of the wave's departure less that of its arrival, on paths that go by a "
+         "wall in one direction"),
      FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct echo, height_m, 0, 1e7, "over the road; absent: not known"),
+    {FIELD_REAL_IN(struct echo, height_m, 0, 1e7,
+                   "height of the reflector over the road; absent: not known"),
      FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct echo, extent_m, 0, 1e7, "from its lowest to its highest part"),
+    {FIELD_REAL_IN(struct echo, extent_m, 0, 1e7,
+                   "from the reflector's lowest to its highest part; absent: a point"),
      FIELD_OPTIONAL},
-    {FIELD_CHOICE_OF(struct echo, moving_part, reflectors_moving_parts, "what turns or swings"),
+    {FIELD_CHOICE_OF(struct echo, moving_part, reflectors_moving_parts,
+                     "part of the object that turns or swings there"),
      FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct echo, ground_rate_mps, -1e5, 1e5,
-                   "what its object's motion over ground adds to the range rate"),
+                   "part of the range rate that the object's motion over ground makes"),
      FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct echo, heading_rad, -PI, PI, "of its object, from boresight"),
+    {FIELD_REAL_IN(struct echo, heading_rad, -PI, PI, "heading of the object, from boresight"),
      FIELD_OPTIONAL},
-    {EFFECTS(struct echo, "that changed one of these values")},
+    {EFFECTS(struct echo, "effects that changed one of these values")},
     {MARGINS(struct echo)},
     {EXTRA(struct echo)},
     {0},
 };
 
-static const struct record echo_record = {FIELD_TABLE(
-    struct echo, echo_fields, "echo", "One sensor's view of one reflector along one path.")};
+static const struct record echo_record = {
+    FIELD_TABLE(struct echo, echo_fields, "echo",
+                "What a sensor would read of a reflector along one path, exactly.")};
 
 static const struct field contributor_fields[] = {
     ECHO_NAMES(struct contributor),
@@ -181,7 +193,7 @@ static const struct record contributor_record = {
 static const struct field cell_fields[] = {
     {NAME(struct cell, sensor, "name in the suite")},
     {RANGE(struct cell, range_m, "weighted mean of the members")},
-    {AZIMUTH(struct cell, azimuth_rad, "of the superposed pointers, without noise")},
+    {AZIMUTH(struct cell, azimuth_rad, "read from the superposed pointers, without noise")},
     {RATE(struct cell, range_rate_mps, "weighted mean of the members")},
     {AMPLITUDE(struct cell, amplitude, "sum of the members' amplitudes")},
     {POINTER(struct cell, sum_re, "sum channel without noise")},
@@ -189,9 +201,10 @@ static const struct field cell_fields[] = {
     {POINTER(struct cell, delta_re, "delta channel without noise")},
     {POINTER(struct cell, delta_im, "delta channel without noise")},
     {UNDECIDED(struct cell)},
-    {FIELD_REAL_IN(struct cell, interference, 0, 1e300, "over the sensor's own noise, in power"),
+    {FIELD_REAL_IN(struct cell, interference, 0, 1e300,
+                   "power of other radars over that of the sensor's own noise"),
      FIELD_OPTIONAL},
-    {EFFECTS(struct cell, "that changed a value of the cell or of a member")},
+    {EFFECTS(struct cell, "effects that changed a value of the cell or of a member")},
     {FIELD_LIST_OF(struct cell, members, &contributor_record, "the leader first")},
     {MARGINS(struct cell)},
     {EXTRA(struct cell)},
@@ -208,11 +221,11 @@ static const struct field target_fields[] = {
     {REPORTED_RATE(struct target, range_rate_mps)},
     {FIELD_REAL_IN(struct target, amplitude_db, -1e4, 1e4, "as reported, 20 log10")},
     {UNDECIDED(struct target)},
-    {RANGE(struct target, cell_range_m, "without noise")},
-    {AZIMUTH(struct target, cell_azimuth_rad, "without noise")},
-    {RATE(struct target, cell_range_rate_mps, "without noise")},
+    {RANGE(struct target, cell_range_m, "of the cell, without noise")},
+    {AZIMUTH(struct target, cell_azimuth_rad, "of the cell, without noise")},
+    {RATE(struct target, cell_range_rate_mps, "of the cell, without noise")},
     {AMPLITUDE(struct target, cell_amplitude, "sum of the contributors' amplitudes, linear")},
-    {EFFECTS(struct target, "that changed a value of the target or of a contributor")},
+    {EFFECTS(struct target, "effects that changed a value of the target or of a contributor")},
     {FIELD_LIST_OF(struct target, contributors, &contributor_record, "the leader first")},
     {MARGINS(struct target)},
     {EXTRA(struct target)},
@@ -224,22 +237,23 @@ static const struct record target_record = {
 
 static const struct field lost_echo_fields[] = {
     ECHO_NAMES(struct lost_echo),
-    {FIELD_NAME_OF(struct lost_echo, by, "the object in the way"), FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct lost_echo, shortfall_db, 0, 1e5, "below the threshold by this much"),
+    {FIELD_NAME_OF(struct lost_echo, by, "id of the object that blocks it"), FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct lost_echo, shortfall_db, 0, 1e5, "threshold over amplitude"),
      FIELD_OPTIONAL},
     {MARGINS(struct lost_echo)},
     {0},
 };
 
 static const struct record lost_echo_record = {FIELD_TABLE(
-    struct lost_echo, lost_echo_fields, "lost echo", "An echo that ended in no target.")};
+    struct lost_echo, lost_echo_fields, "lost echo", "An echo that is part of no target.")};
 
 static const struct field lost_group_fields[] = {
     {NAME(struct lost_group, sensor, "name in the suite")},
-    {NAME(struct lost_group, stage, "that lost them")},
-    {FIELD_CHOICE_OF(struct lost_group, reason, losses, "why")},
-    {FIELD_CHOICE_OF(struct lost_group, effect, effects_names, "that lost them"), FIELD_OPTIONAL,
-     .absent = EFFECT_NONE},
+    {NAME(struct lost_group, stage, "stage that lost them")},
+    {FIELD_CHOICE_OF(struct lost_group, reason, losses, "why they are part of no target")},
+    {FIELD_CHOICE_OF(struct lost_group, effect, effects_names,
+                     "effect to which the reason belongs"),
+     FIELD_OPTIONAL, .absent = EFFECT_NONE},
     {FIELD_LIST_OF(struct lost_group, echoes, &lost_echo_record, "by object, reflector, path")},
     {0},
 };
@@ -249,17 +263,18 @@ const struct record lost_group_record = {FIELD_TABLE(struct lost_group, lost_gro
                                                      "Echoes that one stage lost for one reason.")};
 
 static const struct field path_count_fields[] = {
-    {FIELD_CHOICE_OF(struct path_count, path, paths, "the way the echoes took")},
-    {FIELD_INTEGER_IN(struct path_count, echoes, 0, 1e12, "that were made")},
+    {FIELD_CHOICE_OF(struct path_count, path, paths, "path of the echoes")},
+    {FIELD_INTEGER_IN(struct path_count, echoes, 0, 1e12, "echoes that were made")},
     {0},
 };
 
-static const struct record path_count_record = {FIELD_TABLE(
-    struct path_count, path_count_fields, "count by path", "How many echoes took a path.")};
+static const struct record path_count_record = {
+    FIELD_TABLE(struct path_count, path_count_fields, "count by path",
+                "How many echoes of one path were made.")};
 
 static const struct field count_fields[] = {
     {NAME(struct count, sensor, "name in the suite")},
-    {FIELD_INTEGER_IN(struct count, pairs, 0, 1e12, "of this sensor and a reflector")},
+    {FIELD_INTEGER_IN(struct count, pairs, 0, 1e12, "pairs of this sensor with a reflector")},
     {FIELD_LIST_OF(struct count, paths, &path_count_record, "echoes made, by path")},
     {0},
 };
@@ -270,41 +285,46 @@ static const struct record count_record = {
 #define SECTION(bit) FIELD_OPTIONAL, .section = (bit)
 
 static const struct field frame_fields[] = {
-    {FIELD_INTEGER_IN(struct frame, version, FRAME_VERSION, FRAME_VERSION, "of this schema")},
+    {FIELD_INTEGER_IN(struct frame, version, FRAME_VERSION, FRAME_VERSION,
+                      "version of this schema")},
     {NAME(struct frame, scene, "unique in a set: source, ego, variant")},
     {FIELD_INTEGER_IN(struct frame, frame, 0, 9007199254740991, "number in the scene, from 0")},
     {INSTANT(struct frame, time_s, "end of the interval that the frame stands for")},
     {FIELD_REAL_IN(struct frame, interval_s, 1e-9, 1e6,
-                   "the frame is (time_s - interval_s, time_s]")},
-    {FIELD_FLAG_OF(struct frame, last, "the scene's last frame"), FIELD_OPTIONAL},
-    {FIELD_SEED_OF(struct frame, seed, "of every draw, 64 bits, decimal")},
+                   "the frame stands for (time_s - interval_s, time_s]")},
+    {FIELD_FLAG_OF(struct frame, last, "is this the scene's last frame?"), FIELD_OPTIONAL},
+    {FIELD_SEED_OF(struct frame, seed, "seed of all random numbers, 64 bits, decimal")},
     {NAME(struct frame, ego, "id of the object that carries the sensors")},
     {FIELD_REAL_IN(struct frame, origin_x_m, -1e9, 1e9,
-                   "of the frame's coordinates in the source's"),
+                   "origin of the frame's coordinates in those of the source"),
      FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct frame, origin_y_m, -1e9, 1e9,
-                   "of the frame's coordinates in the source's"),
+                   "origin of the frame's coordinates in those of the source"),
      FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct frame, account, "every echo is accounted for"), FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct frame, margins, "entries carry how close decisions were"),
+    {FIELD_FLAG_OF(struct frame, account, "do lost and counts account for every echo?"),
      FIELD_OPTIONAL},
-    {FIELD_RECORD_OF(struct frame, conditions, &conditions_record, "road and weather"),
+    {FIELD_FLAG_OF(struct frame, margins, "do entries have margins?"), FIELD_OPTIONAL},
+    {FIELD_RECORD_OF(struct frame, conditions, &conditions_record,
+                     "road, weather and other radars"),
      FIELD_OPTIONAL},
-    {FIELD_LIST_OF(struct frame, objects, &object_record, "truth, the ego among them"),
+    {FIELD_LIST_OF(struct frame, objects, &object_record, "objects, the ego among them: truth"),
      SECTION(SECTION_OBJECTS)},
-    {FIELD_LIST_OF(struct frame, reflectors, &reflector_set_record, "by model"),
+    {FIELD_LIST_OF(struct frame, reflectors, &reflector_set_record, "reflector sets by model"),
      SECTION(SECTION_REFLECTORS)},
-    {FIELD_RECORD_OF(struct frame, sensors, &sensors_record, "the suite"),
+    {FIELD_RECORD_OF(struct frame, sensors, &sensors_record, "suite of sensors"),
      SECTION(SECTION_SENSORS)},
-    {FIELD_LIST_OF(struct frame, echoes, &echo_record, "by sensor, object, reflector, path"),
+    {FIELD_LIST_OF(struct frame, echoes, &echo_record,
+                   "ideal echoes by sensor, object, reflector, path"),
      SECTION(SECTION_ECHOES)},
-    {FIELD_LIST_OF(struct frame, cells, &cell_record, "by sensor and leader"),
+    {FIELD_LIST_OF(struct frame, cells, &cell_record, "resolution cells by sensor and leader"),
      SECTION(SECTION_CELLS)},
-    {FIELD_LIST_OF(struct frame, targets, &target_record, "by sensor, in the sensor's order"),
+    {FIELD_LIST_OF(struct frame, targets, &target_record,
+                   "target lists by sensor, each in its sensor's order"),
      SECTION(SECTION_TARGETS)},
-    {FIELD_LIST_OF(struct frame, lost, &lost_group_record, "by sensor, stage, reason"),
+    {FIELD_LIST_OF(struct frame, lost, &lost_group_record, "lost echoes by sensor, stage, reason"),
      SECTION(SECTION_LOST)},
-    {FIELD_LIST_OF(struct frame, counts, &count_record, "by sensor"), SECTION(SECTION_COUNTS)},
+    {FIELD_LIST_OF(struct frame, counts, &count_record, "what there is to account for, by sensor"),
+     SECTION(SECTION_COUNTS)},
     {EXTRA(struct frame)},
     {0},
 };

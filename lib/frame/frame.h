@@ -1,15 +1,16 @@
-/* The frame: the one record that every stage reads and writes.
+/* The one record that every stage reads and writes.
  *
- * Conventions, said once. SI units and radians, the unit is in the name, no suffix means
- * dimensionless. ISO 8855: x forward, y left, counter-clockwise positive; azimuth is left-positive
- * from boresight; range rate is positive when receding. Positions are centres of bounding boxes,
- * relative to the frame's origin; mounts are relative to the centre of the ego's box. Amplitudes
- * are linear in echoes and cells, and so are all decisions; decibels stand only in targets and
- * lost.
+ * A frame is what is known of one scene in one interval of time. On the wire it is one line, which
+ * needs no other line to be understood. Each stage fills sections: traffic objects, extract
+ * reflectors, ideal sensors and echoes, sensor cells, noise targets. The sections lost and counts
+ * say what became of all other echoes. All memory of a frame is in its arena.
  *
- * One frame is one line and stands alone. Sections fill up along the chain: objects (traffic),
- * reflectors (extract), sensors and echoes (ideal), cells (sensor), targets (noise), and lost and
- * counts, which tell what became of the rest. All memory of a frame is in its arena. */
+ * Conventions of all members here and of all modules above: SI units and radians, with the unit in
+ * the name; a name without a unit is dimensionless. Axes are those of ISO 8855: x forward, y left,
+ * angles counter-clockwise. Azimuths count from boresight, positive to the left; range rates are
+ * positive when receding. Positions of objects are the centres of their boxes, from the frame's
+ * origin; mounts count from the centre of the ego's box. Amplitudes are linear, except members that
+ * end in _db. */
 #ifndef FRAME_H
 #define FRAME_H
 
@@ -35,108 +36,111 @@ enum section {
     SECTION_COUNTS = 1 << 7,
 };
 
-/* These are used up by the stage that reads them, unless it is told to --keep them. */
+/* The sections that the stage that reads them drops, unless it is told to --keep them. */
 enum { SECTIONS_CONSUMED = SECTION_REFLECTORS | SECTION_ECHOES | SECTION_CELLS };
 
-/* What one stage wrote into a frame: these sections, and of lost only what it lost itself. */
+/* The part of a frame that one stage may have written. */
 struct frame_part {
-    unsigned sections;
-    const char *stage; /* NULL: all of lost */
+    unsigned sections; /* enum section */
+    const char *stage; /* of SECTION_LOST only the groups of this stage; NULL: all groups */
 };
 
-/* Truth. A length, width or height of 0 stands for the default of the class (glint-extract fills
- * it in). Velocity is that of the box centre and need not point along the yaw. */
+/* A road user or thing: truth. A length, width or height of 0 stands for that of the class, which
+ * glint-extract fills in. The velocity is that of the box's centre and need not point along the
+ * yaw.
+ */
 struct object {
     const char *id;
     const char *class;
     double x_m, y_m, yaw_rad;
     double vx_mps, vy_mps, yaw_rate_radps;
     double length_m, width_m, height_m;
-    double travelled_m;
-    const char *extra;
+    double travelled_m; /* since the scene began */
+    const char *extra;  /* the user's own member, passed on byte for byte; in all structs below */
 };
 
-/* One sensor of the suite, as far as a reader of targets needs it. */
+/* What a reader of targets needs to know of a sensor. */
 struct sensor_view {
     const char *name;
     double mount_x_m, mount_y_m, mount_yaw_rad;
     double field_of_view_rad;
     double range_max_m;
     double cell_range_m, cell_range_rate_mps;
-    double cycle_s;
-    bool measured; /* did it deliver a scan in this frame? */
+    double cycle_s; /* 0: a scan in every frame */
+    bool measured;  /* does the frame have a scan of this sensor? */
 };
 
 struct sensors {
-    const char *suite;   /* the document's name, as it was given to glint-ideal */
-    const char *digest;  /* of the suite and every table it names, 16 hexadecimal digits */
-    const char *effects; /* as requested (effects.h); NULL stands for auto */
+    const char *suite;   /* name of the suite's document, as it was given to glint-ideal */
+    const char *digest;  /* of that document and the tables it names, 16 hexadecimal digits */
+    const char *effects; /* the selection as it was given to glint-ideal; NULL: auto */
     LIST_OF(struct sensor_view) list;
 };
 
-/* The way an echo took, and what sent it back. A ghost's last leg is where the radar sees it. Draws
- * are addressed by these numbers: new paths go to the end. */
+/* The path of an echo's wave, or what sent it back. A ghost is seen where its last leg comes from.
+ * Random numbers are addressed by these values, so that a new path goes to the end. */
 enum path {
     PATH_DIRECT,           /* sensor, object, sensor */
     PATH_WALL_OBJECT,      /* sensor, wall, object, sensor */
     PATH_OBJECT_WALL,      /* sensor, object, wall, sensor */
     PATH_WALL_OBJECT_WALL, /* sensor, wall, object, wall, sensor */
-    PATH_WHEEL,            /* a point on a turning wheel */
-    PATH_LIMB,             /* an arm or a leg */
-    PATH_CLUTTER,          /* the ground and what stands on it */
-    PATH_FALSE_ALARM,      /* nothing: noise */
+    PATH_WHEEL,            /* direct, from a point on a rolling wheel */
+    PATH_LIMB,             /* direct, from an arm or a leg */
+    PATH_CLUTTER,          /* direct, from the ground */
+    PATH_FALSE_ALARM,      /* no echo but noise */
 };
 
-/* What an echo is of, in one sensor's view. */
+/* Which echo of a sensor's scan it is. */
 struct echo_id {
     const char *object;
     const char *reflector;
     enum path path;
-    const char *mirror; /* the wall's object on ghost paths, else NULL */
-    int64_t number;     /* of several of this kind, from 1; else 0 */
+    const char *mirror; /* id of the object that mirrors, on paths by a wall; else NULL */
+    int64_t number;     /* from 1, if there may be several that are else alike; else 0 */
 };
 
-/* One sensor's view of one reflector along one path. */
+/* What a sensor would read of a reflector along one path, exactly. */
 struct echo {
     const char *sensor;
     struct echo_id id;
     double range_m, azimuth_rad, range_rate_mps;
     double ercs;
-    double departure_rad; /* azimuth in which its wave left, less the one in which it came back */
-    double height_m, extent_m; /* over the road, and upright; 0: not known, a point */
+    double departure_rad; /* azimuth of the wave's departure less that of its arrival */
+    double height_m;      /* of the reflector's middle over the road; 0: not known */
+    double extent_m;      /* from the reflector's lowest to its highest part; 0: a point */
     enum moving_part moving_part;
-    double ground_rate_mps; /* the part of its range rate that its own motion over ground makes */
-    double heading_rad;     /* of its object, from boresight */
+    double ground_rate_mps; /* the part of range_rate_mps that the motion over ground makes */
+    double heading_rad;     /* of the object, from boresight */
     double time_s;          /* of the measurement */
-    uint64_t effects;       /* that changed one of these values */
+    uint64_t effects;       /* EFFECT_BITs of the effects that changed one of these values */
     struct margins margins;
     const char *extra;
 };
 
-/* An echo in a cell or in a target's label: the ideal values, and its weight in the cell. */
+/* An echo in a cell or in a target's label: its exact values and its weight in the cell. */
 struct contributor {
     struct echo_id id;
     double range_m, azimuth_rad, range_rate_mps;
     double ercs;
     double time_s;
-    double weight; /* share of the cell's amplitude, equation (5); they sum to 1 */
+    double weight; /* share of the cell's amplitude, equation (5); a cell's weights sum to 1 */
 };
 
-/* One resolution cell without noise. The first member is the leader, which opened the cell. */
+/* A resolution cell before noise. The first member is the leader, which opened the cell. */
 struct cell {
     const char *sensor;
     double range_m, azimuth_rad, range_rate_mps;
-    double amplitude; /* sum over the members: the upper bound A_cell^u */
+    double amplitude; /* sum of the members' amplitudes, A_cell of MODEL 6 */
     double sum_re, sum_im, delta_re, delta_im;
     bool sign_undecided;
-    double interference; /* of other radars, over the sensor's own noise, in power */
-    uint64_t effects;    /* that changed a value of the cell or of a member */
+    double interference; /* power of other radars over that of the sensor's own noise */
+    uint64_t effects;    /* EFFECT_BITs of those that changed a value of the cell or a member */
     LIST_OF(struct contributor) members;
     struct margins margins;
     const char *extra;
 };
 
-/* One line of the target list with its exact label: the cell it came from. */
+/* An entry of the target list with its exact label: values and members of its cell. */
 struct target {
     const char *sensor;
     double range_m, azimuth_rad, range_rate_mps;
@@ -144,49 +148,52 @@ struct target {
     bool sign_undecided;
     double cell_range_m, cell_azimuth_rad, cell_range_rate_mps;
     double cell_amplitude;
-    uint64_t effects; /* that changed a value of the target or of a contributor: input and output
-                         differed there */
+    uint64_t effects; /* EFFECT_BITs of those that changed a value of the target or a contributor */
     LIST_OF(struct contributor) contributors;
     struct margins margins;
     const char *extra;
 };
 
+/* Why an echo is part of no target. */
 enum loss {
-    LOSS_FACING_AWAY,     /* outside the point's visibility range */
-    LOSS_NO_SPECULAR,     /* the plane mirrors past the sensor */
-    LOSS_OUT_OF_RANGE,    /* nearer or farther than the sensor measures */
-    LOSS_OUT_OF_VIEW,     /* outside the field of view */
+    LOSS_FACING_AWAY,     /* the sensor is outside the point's visibility range */
+    LOSS_NO_SPECULAR,     /* the flat side mirrors past the sensor */
+    LOSS_OUT_OF_RANGE,    /* the reflector is nearer or farther than the sensor measures */
+    LOSS_OUT_OF_VIEW,     /* the reflector is outside the field of view */
     LOSS_BLOCKED,         /* another object stands in the way */
-    LOSS_NO_AMPLITUDE,    /* nothing comes back: the antenna has a null there */
-    LOSS_BELOW_THRESHOLD, /* even the cell's summed amplitude is too weak */
-    LOSS_BELOW_FINAL,     /* the amplitude after superposition and noise is too weak */
+    LOSS_NO_AMPLITUDE,    /* the amplitude is 0, as the antenna has a null there */
+    LOSS_BELOW_THRESHOLD, /* the summed amplitude of the cell is below the threshold */
+    LOSS_BELOW_FINAL,     /* the amplitude after superposition and noise is below the threshold */
     LOSS_NO_ANGLE,        /* both channels are exactly zero */
-    LOSS_LIST_LIMIT,      /* the sensor reports no more targets than this */
-    LOSS_SWITCHED_OFF,    /* the effect that would have made it is not selected */
-    LOSS_MASKED,          /* beside stronger ones it is no peak of the signal's spectrum */
+    LOSS_LIST_LIMIT,      /* the list is full of targets that come first */
+    LOSS_SWITCHED_OFF,    /* the effect that would have made the echo is not selected */
+    LOSS_MASKED,          /* the echo is no peak of the spectrum beside stronger ones */
 };
 
 struct lost_echo {
     struct echo_id id;
-    const char *by;      /* blocked by this object */
-    double shortfall_db; /* below the threshold by this much */
+    const char *by;      /* id of the object that blocks it, for LOSS_BLOCKED; else NULL */
+    double shortfall_db; /* threshold over amplitude, for losses by a threshold; else 0 */
     struct margins margins;
 };
 
+/* The echoes of one sensor that one stage lost for one reason. */
 struct lost_group {
     const char *sensor;
     const char *stage;
     enum loss reason;
-    enum effect_id effect; /* that lost them, or EFFECT_NONE */
+    enum effect_id effect; /* to which the reason belongs, or EFFECT_NONE */
     LIST_OF(struct lost_echo) echoes;
 };
 
+/* Echoes of one path that were made. */
 struct path_count {
     enum path path;
     int64_t echoes;
 };
 
-/* What there was to account for: every (reflector, sensor) pair, and every echo made. */
+/* What one sensor has to account for (frame_account.h): its pairs with a reflector, and the echoes
+ * that were made. */
 struct count {
     const char *sensor;
     int64_t pairs;
@@ -203,8 +210,8 @@ struct frame {
     uint64_t seed;
     const char *ego;
     double origin_x_m, origin_y_m;
-    bool account;
-    bool margins; /* do entries carry them? Without, no stage works any out. */
+    bool account; /* do lost and counts account for every echo? */
+    bool margins; /* do entries have margins? If not, no stage computes any. */
     struct conditions conditions;
     LIST_OF(struct object) objects;
     LIST_OF(struct reflector_set) reflectors;
@@ -215,10 +222,10 @@ struct frame {
     LIST_OF(struct lost_group) lost;
     LIST_OF(struct count) counts;
     const char *extra;
-    unsigned present; /* enum section */
+    unsigned present; /* enum section: the sections that the frame has, even if empty */
     struct arena *arena;
-    struct list_cache *list_cache;  /* lists that frames repeat; NULL: no list is kept */
-    LIST_OF(struct object *) by_id; /* sorted by frame_order_objects; empty: not yet */
+    struct list_cache *list_cache;  /* lists that many lines repeat; NULL: none are kept */
+    LIST_OF(struct object *) by_id; /* the cache of frame_order_objects; empty: not sorted yet */
 };
 
 extern const struct record frame_record;
@@ -226,37 +233,38 @@ extern const struct record object_record;
 extern const struct record sensor_view_record;
 extern const struct record lost_group_record;
 
-/* Is this the same name? Names are mostly one pointer each, documents' and objects', or differ at
- * once. */
+/* True if both names are equal. It is quick for names that are one pointer, as those of documents
+ * and objects are, and for names whose first letters differ. */
 static inline bool frame_same_name(const char *a, const char *b)
 {
     return a == b || (*a == *b && strcmp(a, b) == 0);
 }
 
-/* Back to an empty frame that keeps its arena's room and its cache of lists. */
+/* Empties the frame. Its arena keeps its memory, and the cache of lists stays. */
 void frame_clear(struct frame *frame);
 
-/* The name of a section, for messages. */
+/* The key of a section on the wire. */
 const char *frame_section_name(enum section section);
 
-/* NULL behind the last one. */
+/* Names on the wire; NULL for the value after the last. */
 const char *frame_path_name(enum path path);
 const char *frame_loss_name(enum loss loss);
 
-/* Empties sections: they are then absent, as if they had never been there. */
+/* Removes sections from the frame. */
 void frame_drop(struct frame *frame, unsigned sections);
 
-/* The object of that id, or NULL. */
+/* The object with this id, or NULL. */
 struct object *frame_object(const struct frame *frame, const char *id);
 
-/* Where the object was age_s before the frame's time, at constant speed and turn rate (MODEL 2.4).
+/* The object's motion age_s before the frame's time, at constant speed and turn rate (MODEL 2.4).
  */
 struct motion frame_motion(const struct object *object, double age_s);
 
-/* The sensor of that name as the frame knows it, or NULL. */
+/* The sensor with this name in the frame's suite, or NULL. */
 const struct sensor_view *frame_view(const struct frame *frame, const char *sensor);
 
-/* The echoes, or cells, of one sensor: sections are grouped by sensor. */
+/* The echoes and the cells of one sensor. They stand together, as sections are grouped by sensor.
+ */
 struct echo_span {
     const struct echo *items;
     size_t count;
@@ -271,25 +279,25 @@ struct cell_span frame_cells_of(const struct frame *frame, const char *sensor);
 /* The noise-free sum and delta pointers of a cell. */
 struct antenna_pointers frame_cell_pointers(const struct cell *cell);
 
-/* The contributor that an echo is, with weight 0. */
+/* An echo as a contributor, with the weight 0. */
 struct contributor frame_contributor(const struct echo *echo);
 
-/* Writes the loss of one echo, grouped by sensor, stage and reason, with the effect that the reason
- * belongs to. Does nothing unless the frame keeps account. Text must live as long as the frame. */
+/* Adds a lost echo to the group of its sensor, stage and reason. Does nothing unless the frame
+ * keeps account. All text must live as long as the frame. */
 void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum loss reason,
                 const struct lost_echo *echo);
 
-/* Writes the loss of every member of a cell, each with the margins that the cell had in the end.
- * shortfall_db is 0 where the reason has none. */
+/* Adds every member of a cell as a lost echo, each with these margins. shortfall_db is 0 for
+ * reasons without a threshold. */
 void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *cell,
                      enum loss reason, double shortfall_db, const struct margins *margins);
 
-/* Counts echoes that were made, by path, and pairs of the sensor and a reflector. */
+/* Adds to the sensor's counts of echoes made along a path, and of pairs with a reflector. */
 void frame_count_echoes(struct frame *frame, const char *sensor, enum path path, int64_t echoes);
 void frame_count_pairs(struct frame *frame, const char *sensor, int64_t pairs);
 
-/* Appends a target with the cell's label and the cell's noise-free values and margins as its own.
- */
+/* Appends a target with the cell as its label; the target's own values and margins are the cell's,
+ * without noise. */
 struct target *frame_add_target(struct frame *frame, const struct cell *cell, double amplitude_db);
 
 #endif

@@ -5,25 +5,27 @@
 #include "base/hash_table.h"
 #include "frame/frame_order.h"
 
+/* The place of an echo that is in no target. */
 #define LOST SIZE_MAX
 
-/* One place where an echo ended: a target, by its number, or lost. */
+/* One entry of an echo: in the target of this number, or LOST. */
 struct outcome {
     const char *sensor;
     struct echo_id id;
     size_t place;
 };
 
-/* Echoes are found again by a hash table, so that the time of the check grows as the frame does. */
+/* A hash table finds the entries of an echo, so that the time of the check is linear in the size of
+ * the frame. */
 struct account_check {
-    struct outcome *outcomes; /* the last one of each echo */
+    struct outcome *outcomes; /* of each echo the entry that was noted last */
     uint32_t count;
     struct hash_table numbers;     /* of outcomes */
-    const struct outcome *doubled; /* the first in canonical order */
+    const struct outcome *doubled; /* of the echoes with two entries the first in canonical order */
     struct {
         const char *text;
         uint64_t hash;
-    } object; /* the last one: echoes of an object stand together */
+    } object; /* cache of the last hash, as echoes of one object stand together */
 };
 
 static bool is_echo(const void *outcomes, uint32_t number, const void *wanted)
@@ -55,8 +57,9 @@ static uint64_t hash_of(struct account_check *check, const struct echo_id *id)
     return hash_table_mix(hash, (uint64_t)id->path << 48 ^ (uint64_t)id->number);
 }
 
-/* An echo that feeds several targets is one entry; twice in one target, or lost as well, it is one
- * too many. Targets come first, in their order. True if the echo has not been seen before. */
+/* Notes an entry; all of targets, in their order, come before those of lost. Entries of one echo in
+ * several targets are one; a second entry in one target, or in lost, is a fault. Returns true for
+ * an echo that had no entry before. */
 static bool note(struct account_check *check, struct outcome outcome)
 {
     uint32_t *slot = hash_table_slot(&check->numbers, hash_of(check, &outcome.id), is_echo,
@@ -93,7 +96,7 @@ static struct account_check begin(const struct frame *frame)
     };
 }
 
-/* Adds entries of a sensor to its own, or to those of sensors without a count, which come last. */
+/* Adds to the number of a sensor's entries. Sensors without a count share the last number. */
 static void add_entries(const struct frame *frame, const char *sensor, int64_t added,
                         int64_t *entries)
 {
@@ -125,7 +128,7 @@ static void collect(const struct frame *frame, struct account_check *check, int6
     }
 }
 
-/* Echoes beyond the direct ones: those are covered by the pairs. */
+/* Echoes of all other paths than the direct one, which the pairs cover. */
 static int64_t made_indirectly(const struct count *count)
 {
     int64_t made = 0;

@@ -1,16 +1,17 @@
-/* The two laws of the account: nothing is lost without a word.
+/* Check that every echo is in a target or lost.
  *
- * Every pair of a sensor that measured and a reflector has exactly one direct entry, in a target's
- * label or in lost; every other echo that was made has one too. Frames keep account if glint-ideal
- * was told --account; the stage that writes targets then has its frame audited. The audit knows how
- * many entries are due, not which: a missing one together with an invented one would pass. */
+ * Every pair of a sensor that measured and a reflector must have exactly one direct entry, in a
+ * target's label or in lost; every echo of another path that was made must have one too. Frames
+ * keep account if glint-ideal was given --account, and are checked after the stage that writes
+ * targets. The check knows how many entries are due, not which: a missing entry together with an
+ * invented one would pass. */
 #ifndef FRAME_ACCOUNT_H
 #define FRAME_ACCOUNT_H
 
 #include "frame/frame.h"
 
-/* Refuses with DIAG_INTERNAL and the first entry that is doubled or the first sensor whose entries
- * are not what is due. For frames with targets and account. */
+/* For frames with targets that keep account. Fails with DIAG_INTERNAL, and names the first echo
+ * that has two entries or the first sensor with a wrong number of entries. */
 int frame_account_check(const struct frame *frame, struct diag *diag);
 
 #endif

@@ -100,7 +100,8 @@ static int check_targets(const struct frame *frame, struct diag *diag)
     return 0;
 }
 
-/* Echoes, cells and targets name sensors: with new sensors they are looked at again. */
+/* Echoes, cells and targets name sensors, so that new sensors need a check of these sections too.
+ */
 static int check_sections(struct frame *frame, unsigned sections, struct diag *diag)
 {
     if ((sections & SECTION_SENSORS) != 0)

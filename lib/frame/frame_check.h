@@ -1,15 +1,19 @@
-/* What no table of fields can say about a frame. */
+/* Consistency of a frame beyond its field tables.
+ *
+ * Tables hold single members to their bounds; this holds sections to each other. */
 #ifndef FRAME_CHECK_H
 #define FRAME_CHECK_H
 
 #include "frame/frame.h"
 
-/* For a frame in canonical order: ids, names, sensors, echoes and leaders stand once, the ego is
- * among the objects, echoes, cells and targets are of listed sensors, and every cell and target has
- * contributors. Refuses with DIAG_DATA. */
+/* Checks a frame in canonical order (frame_order.h). Ids of objects, names of sensors, names and
+ * objects of a reflector set, echoes and leaders of cells must be unique; the ego must be among the
+ * objects; echoes, cells and targets must be of listed sensors; cells must have members and targets
+ * contributors. Fails with DIAG_DATA. */
 int frame_check(struct frame *frame, struct diag *diag);
 
-/* All that a reader would refuse of a part: its members out of bounds, and the above. */
+/* Checks a part of a frame as a reader of its line would: its members against their bounds, and
+ * then as frame_check. */
 int frame_check_part(struct frame *frame, struct frame_part part, struct diag *diag);
 
 #endif

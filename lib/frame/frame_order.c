@@ -4,7 +4,8 @@
 
 #include "base/sort.h"
 
-/* strcmp, spared for names that are one pointer or differ at once; NULL comes first. */
+/* As strcmp, which is called only if neither the pointers nor the first bytes decide; NULL is the
+ * first name. */
 static inline int compare_names(const char *a, const char *b)
 {
     if (a == b)
@@ -96,7 +97,7 @@ static int compare_paths(const void *left, const void *right)
     return (a->path > b->path) - (a->path < b->path);
 }
 
-/* A stable sort leaves targets in the order of their sensor's list. */
+/* The sort is stable, so that targets keep the order of their sensor's list. */
 static int compare_targets(const void *left, const void *right)
 {
     return compare_names(((const struct target *)left)->sensor,

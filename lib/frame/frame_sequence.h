@@ -1,6 +1,8 @@
-/* --complete: the frames of each scene ascend from 0 without a gap and end with its last one.
- * Scenes may interleave. Every scene is remembered to the end, as a closed one must not come back:
- * about a hundred bytes each, and one look at a table per frame. */
+/* Completeness of the scenes in a stream of frames.
+ *
+ * With --complete the frames of each scene must ascend from 0 without a gap and end with its last
+ * frame. Scenes may interleave. Every scene is remembered to the end of the stream, as a scene must
+ * not come back after its last frame: about a hundred bytes for each. */
 #ifndef FRAME_SEQUENCE_H
 #define FRAME_SEQUENCE_H
 
@@ -8,19 +10,22 @@
 #include "frame/frame.h"
 
 struct scene_progress {
-    int64_t frame; /* the last one seen */
-    bool closed;
+    int64_t frame; /* number of the latest frame */
+    bool closed;   /* was that the scene's last? */
 };
 
-/* Zeroed, it has seen nothing. */
+/* All zero before the first frame. */
 struct frame_sequence {
     struct intern names;
-    LIST_OF(struct scene_progress) scenes; /* by number of the name */
+    LIST_OF(struct scene_progress) scenes; /* by the number of the scene's name */
 };
 
-/* Both return 0, or -1 after a message (DIAG_DATA). The arena keeps the names. */
-int frame_sequence_follow(struct frame_sequence *completeness, const struct frame *frame,
+/* Notes a frame. Fails with DIAG_DATA if it is not the next of its scene. Names are kept in the
+ * arena. */
+int frame_sequence_follow(struct frame_sequence *sequence, const struct frame *frame,
                           struct arena *arena, struct diag *diag);
-int frame_sequence_end(const struct frame_sequence *completeness, struct diag *diag);
+
+/* Fails with DIAG_DATA if a scene lacks its last frame. */
+int frame_sequence_end(const struct frame_sequence *sequence, struct diag *diag);
 
 #endif

@@ -5,14 +5,15 @@
 #include "base/text.h"
 #include "frame/frame.h"
 
+/* The longest line of a frame, in bytes. */
 enum { FRAME_TEXT_SIZE = 16 * 1024 * 1024 };
 
-/* Reads the line (without its newline) into the frame, which is cleared first. The frame keeps
- * nothing of the line. */
+/* Clears the frame and reads a line, without its newline, into it. The frame keeps no pointer into
+ * the line. */
 int frame_text_read(const char *line, size_t length, struct frame *frame, struct diag *diag);
 
-/* Appends the line with its newline to text. The frame must have passed field_check. Refuses a
- * line longer than FRAME_TEXT_SIZE. */
+/* Appends the frame's line, with its newline, to text. The frame must have passed field_check.
+ * Fails if the line is longer than FRAME_TEXT_SIZE. */
 int frame_text_write(const struct frame *frame, struct text *text, struct diag *diag);
 
 #endif

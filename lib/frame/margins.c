@@ -9,19 +9,21 @@
     FIELD_REAL_IN(struct margins, member, 0, high, help), FIELD_OPTIONAL, .section = (bit)
 
 static const struct field margin_fields[] = {
-    {MARGIN(sight_m, MARGIN_SIGHT, 1e8, "range, view, facing, foot and blockers; angles by range")},
-    {MARGIN(threshold_db, MARGIN_THRESHOLD, 1e4, "amplitude to threshold")},
-    {MARGIN(leader_db, MARGIN_LEADER, 1e4, "between echoes of which the stronger opened a cell")},
-    {MARGIN(cell_edge, MARGIN_CELL_EDGE, 1e13, "to a cell's edge, in half cells")},
-    {MARGIN(sign, MARGIN_SIGN, 1, "sine of the phase between sum and delta")},
-    {MARGIN(limit_db, MARGIN_LIMIT_DB, 1e4, "to the list limit, strongest first")},
-    {MARGIN(limit_m, MARGIN_LIMIT_M, 1e6, "to the list limit, nearest first")},
+    {MARGIN(sight_m, MARGIN_SIGHT, 1e8,
+            "of range, view, visibility and sight lines; angles times range")},
+    {MARGIN(threshold_db, MARGIN_THRESHOLD, 1e4, "between the amplitude and the threshold")},
+    {MARGIN(leader_db, MARGIN_LEADER, 1e4,
+            "between two echoes of which the stronger opened a cell")},
+    {MARGIN(cell_edge, MARGIN_CELL_EDGE, 1e13, "from the border of a cell, in half cells")},
+    {MARGIN(sign, MARGIN_SIGN, 1, "sine of the phase between sum and delta; 0 is undecided")},
+    {MARGIN(limit_db, MARGIN_LIMIT_DB, 1e4, "from the list's limit, in a list by amplitude")},
+    {MARGIN(limit_m, MARGIN_LIMIT_M, 1e6, "from the list's limit, in a list by range")},
     {0},
 };
 
 const struct record margins_record = {
     FIELD_TABLE(struct margins, margin_fields, "margins",
-                "How close decisions came to going the other way; absent: there was none."),
+                "Distances from other decisions; absent: no decision of that kind."),
     .present_offset = offsetof(struct margins, present)};
 
 static double *member(struct margins *margins, enum margin which)

@@ -1,9 +1,9 @@
-/* How close the decisions behind one entry of a frame came to going the other way (MODEL 11.1).
+/* Distances of an entry's values from other decisions (MODEL 11.1).
  *
- * An echo, a cell, a target and a lost echo each carry one. A member is the least over all
- * decisions of its kind that the entry rests on, 0 on the border itself, and absent where there was
- * no such decision: a struct of zeros has none. For what is listed it says how far it was from
- * changing, for what is lost how far from not being lost for its reason. */
+ * Echoes, cells, targets and lost echoes each have margins. A margin is the least distance from the
+ * border of all decisions of one kind that the entry depends on, and is 0 on the border itself. It
+ * is absent if there was no decision of that kind; in a struct of zeros all are. Margins of a lost
+ * echo are the distances from not being lost for its reason. */
 #ifndef MARGINS_H
 #define MARGINS_H
 
@@ -21,29 +21,28 @@ enum margin {
 };
 
 struct margins {
-    double sight_m;           /* of what ideal decided: angles times range */
-    double threshold_db;      /* of the amplitude to the threshold */
-    double leader_db;         /* between echoes of which the stronger opened a cell */
-    double cell_edge;         /* in half cells */
-    double sign;              /* sine of the phase between sum and delta: 0 undecided, 1 clear */
-    double limit_db, limit_m; /* to the list's limit, in what orders the list */
-    unsigned present;         /* enum margin: the members that are there */
+    double sight_m;           /* of range, view, visibility and sight lines; angles times range */
+    double threshold_db;      /* between the amplitude and the threshold */
+    double leader_db;         /* between two echoes of which the stronger opened a cell */
+    double cell_edge;         /* from the border of a cell, in half cells */
+    double sign;              /* sine of the phase between sum and delta; 0 is undecided */
+    double limit_db, limit_m; /* from the list's limit, in the value that orders the list */
+    unsigned present;         /* enum margin: the members that are not absent */
 };
 
 extern const struct record margins_record;
 
-/* Keeps the least. A value that is not finite is no margin. */
+/* Lowers a margin to the value, or sets it if it is absent. A value that is not finite is ignored.
+ */
 void margins_note(struct margins *margins, enum margin which, double value);
 
-/* Keeps the least of each member. */
+/* Notes all margins of the others. */
 void margins_merge(struct margins *margins, const struct margins *others);
 
-/* |20 log10(a/b)| of two amplitudes >= 0, b positive; at most 1e4, which also stands for a = 0. */
+/* |20 log10(a/b)| of two amplitudes a >= 0 and b > 0, at most 1e4; 1e4 for a = 0. */
 double margins_between_db(double a, double b);
 
-/* How clear the sign of an azimuth was, which only the magnitude rule decides
- * (MONOPULSE_MAGNITUDE).
- */
+/* Notes the margin of an azimuth's sign. Only MONOPULSE_MAGNITUDE decides about a sign. */
 void margins_note_sign(struct margins *margins, enum monopulse_estimator estimator,
                        struct antenna_pointers pointers);
 

@@ -17,7 +17,7 @@ static const char *const shapes[] = {
 const char *const reflectors_moving_parts[] = {
     [MOVING_NONE] = "none", [MOVING_WHEEL] = "wheel", [MOVING_LIMBS] = "limbs", NULL};
 
-/* Fractions reach a little beyond the box: mirrors, bumpers, loads. */
+/* A coordinate as a fraction of the box, which mirrors, bumpers and loads may stand out of. */
 #define FRACTION(owner, member, help) FIELD_REAL_IN(owner, member, -1, 1, help)
 
 #define HEIGHT(owner)                                                                              \
@@ -172,6 +172,7 @@ bool reflectors_unchanged(const struct reflector_set *set)
     return true;
 }
 
+/* The name of a reflector by its number: points come first, then planes, then rows. */
 static const char *name_at(const struct reflector_set *set, size_t index)
 {
     size_t planes = set->points.count, rows = planes + set->planes.count;
@@ -181,7 +182,7 @@ static const char *name_at(const struct reflector_set *set, size_t index)
                         : set->rows.items[index - rows].name;
 }
 
-/* Is it what a post of the row may be called? */
+/* True if the name is one that a post of the row may have. */
 static bool names_post(const char *name, const char *row)
 {
     size_t length = strlen(row), digits = 0;
@@ -190,6 +191,7 @@ static bool names_post(const char *name, const char *row)
     return digits > 0 && name[length + 1 + digits] == '\0';
 }
 
+/* The name of a point or plane that is also that of a post, or NULL. */
 static const char *name_of_post(const struct reflector_set *set)
 {
     for (size_t i = 0; i < set->points.count + set->planes.count; i++)
@@ -219,6 +221,7 @@ const char *reflectors_name_twice(const struct reflector_set *set, struct arena 
     return name_of_post(set);
 }
 
+/* The share of the box that also holds the place (x, y). */
 static double farthest(double least, double x, double y)
 {
     double far = 2 * (fabs(x) > fabs(y) ? fabs(x) : fabs(y));
@@ -270,15 +273,15 @@ double reflectors_visibility(const struct box *box, const struct point_reflector
                                   vec2_turn(facing, box->heading), vec2_sub(sensor, place));
 }
 
-bool reflectors_plainly_aside(const struct box *box, const struct plane_reflector *plane,
-                              struct vec2 sensor)
+bool reflectors_surely_no_foot(const struct box *box, const struct plane_reflector *plane,
+                               struct vec2 sensor)
 {
     struct vec2 from = {plane->from_x * box->length_m, plane->from_y * box->width_m};
     struct vec2 to = {plane->to_x * box->length_m, plane->to_y * box->width_m};
     struct vec2 side = vec2_sub(to, from), sight = vec2_sub(sensor, from);
     double square = vec2_dot(side, side), along = vec2_dot(side, sight), length = sqrt(square);
-    double margin = (plane->margin_m - REFLECTORS_PLAIN_M) * length;
-    return vec2_cross(side, sight) > REFLECTORS_PLAIN_M * length || along < margin ||
+    double margin = (plane->margin_m - REFLECTORS_SLACK_M) * length;
+    return vec2_cross(side, sight) > REFLECTORS_SLACK_M * length || along < margin ||
            along > square - margin;
 }
 
@@ -290,6 +293,7 @@ double reflectors_lobe(const struct box *box, const struct point_reflector *poin
     return lobe_amplitude_factor(&point->lobe, off_rad, zenith_rad);
 }
 
+/* From the first post to the end of the row, in the world. */
 static struct vec2 row_vector(const struct box *box, const struct post_row *row)
 {
     return vec2_sub(box_place(box, row->to_x, row->to_y), box_place(box, row->from_x, row->from_y));

@@ -310,7 +310,7 @@ static void add_points(struct look *look, const struct look_body *body, const st
     for (size_t i = 0; i < set->reflectors->points.count; i++) {
         const struct point_reflector *point = &set->reflectors->points.items[i];
         const struct reflectors_face *face = &set->shape->faces[i];
-        if (all || !reflectors_plainly_away(&body->box, point, face, body->sensor_m))
+        if (all || !reflectors_surely_unseen(&body->box, point, face, body->sensor_m))
             add_point(look, body, point, face->heading, reflectors_point_place(&body->box, point));
         else
             look->pairs++;
@@ -324,7 +324,7 @@ static void add_planes(struct look *look, const struct look_body *body,
 {
     for (size_t i = 0; i < set->planes.count; i++) {
         const struct plane_reflector *plane = &set->planes.items[i];
-        if (all || !reflectors_plainly_aside(&body->box, plane, body->sensor_m))
+        if (all || !reflectors_surely_no_foot(&body->box, plane, body->sensor_m))
             add_plane(look, body, plane);
         else
             look->pairs++;

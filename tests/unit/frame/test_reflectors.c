@@ -161,7 +161,7 @@ static struct vec2 in_own_frame(const struct box *box, struct vec2 place)
     return vec2_turn_back(vec2_sub(place, box->motion.position_m), box->heading);
 }
 
-static void a_point_that_plainly_faces_away_is_not_seen(void **state)
+static void a_point_that_is_surely_unseen_has_no_visibility(void **state)
 {
     (void)state;
     uint64_t random = 21;
@@ -176,7 +176,7 @@ static void a_point_that_plainly_faces_away_is_not_seen(void **state)
         const struct reflectors_face face = {vec2_heading(point.facing_rad),
                                              visibility_range_dark_cosine(point.zero_rad)};
         struct vec2 sensor = random_sensor(&box, &random);
-        bool away = reflectors_plainly_away(&box, &point, &face, in_own_frame(&box, sensor));
+        bool away = reflectors_surely_unseen(&box, &point, &face, in_own_frame(&box, sensor));
         double visible = reflectors_visibility(&box, &point, face.heading,
                                                reflectors_point_place(&box, &point), sensor);
         assert_true(!away || visible == 0);
@@ -186,7 +186,7 @@ static void a_point_that_plainly_faces_away_is_not_seen(void **state)
     assert_true(plain > 0.75 * dark && dark > 30000);
 }
 
-static void a_plane_that_is_plainly_aside_has_no_specular_point(void **state)
+static void a_plane_that_surely_has_no_foot_has_none(void **state)
 {
     (void)state;
     uint64_t random = 22;
@@ -200,7 +200,7 @@ static void a_plane_that_is_plainly_aside_has_no_specular_point(void **state)
                                               .margin_m = i % 2 ? 0.1 : 0};
         struct vec2 sensor = random_sensor(&box, &random), foot;
         struct vec2 along = box_along(&box, plane.from_x, plane.from_y, plane.to_x, plane.to_y);
-        bool aside = reflectors_plainly_aside(&box, &plane, in_own_frame(&box, sensor));
+        bool aside = reflectors_surely_no_foot(&box, &plane, in_own_frame(&box, sensor));
         bool mirrors = specular_point_foot(box_place(&box, plane.from_x, plane.from_y),
                                            box_place(&box, plane.to_x, plane.to_y), along,
                                            plane.margin_m, sensor, &foot);
@@ -336,8 +336,8 @@ int main(void)
         cmocka_unit_test(rows_are_expanded_in_range_and_no_post_is_missed),
         cmocka_unit_test(visibility_follows_the_angle_from_which_a_point_is_seen),
         cmocka_unit_test(a_lobe_lies_around_the_facing_of_its_point),
-        cmocka_unit_test(a_point_that_plainly_faces_away_is_not_seen),
-        cmocka_unit_test(a_plane_that_is_plainly_aside_has_no_specular_point),
+        cmocka_unit_test(a_point_that_is_surely_unseen_has_no_visibility),
+        cmocka_unit_test(a_plane_that_surely_has_no_foot_has_none),
         cmocka_unit_test(reflectors_of_one_set_have_names_of_their_own),
         cmocka_unit_test(one_name_among_many_is_found_twice),
         cmocka_unit_test(a_shape_holds_all_reflectors_of_its_set),
