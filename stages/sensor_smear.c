@@ -51,10 +51,10 @@ static void sense(struct frame *frame, const struct sensor *sensor,
     scan_count_added(&scan, frame);
     scan_lose_silent(&scan, frame, "sensor-smear");
     for (size_t first = 0; first < count; first += together) {
-        int64_t begin = effects_begin(selection);
+        int64_t start_ns = effects_clock_ns(selection);
         struct smear smear =
             smear_make(sensor, &scan.received.echoes[first], together, frame->arena);
-        effects_end(selection, EFFECT_MERGING, begin);
+        effects_count_time(selection, EFFECT_MERGING, start_ns);
         for (size_t number = 0; number < smear.cells; number++)
             report(frame, selection, &smear, number, context.interference);
     }

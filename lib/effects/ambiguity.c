@@ -1,4 +1,4 @@
-/* Amplitudes are those of the true range. */
+/* Folds ranges and range rates (MODEL 14.16); amplitudes stay those of the true range. */
 #include "effects/effect.h"
 
 #include "radar/folding.h"
@@ -20,11 +20,11 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
 }
 
 const struct effect effect_ambiguity = {
-    .summary = "ranges and range rates beyond what the waveform tells apart fold back",
-    .home = EFFECT_HOME_SENSOR,
-    .cause = "unambiguous_range_m, unambiguous_rate_mps of a sensor",
-    .bound = "never: it costs as little",
+    .summary = "ranges and range rates that the waveform cannot tell apart fold back",
+    .cause = "unambiguous_range_m and unambiguous_rate_mps of a sensor",
+    .left_out_when = "the sensor has neither unambiguous_range_m nor unambiguous_rate_mps",
     .cost = "two remainders per echo",
+    .home = EFFECT_HOME_SENSOR,
     .described = described,
     .receive = receive,
 };

@@ -10,9 +10,9 @@ static bool described(const struct effect_scan *scan)
     return scan->sensor->pointer_sigma > 0;
 }
 
-/* Equation (8): both channels get independent complex noise of the same RMS, which other radars
- * raise. */
-static bool disturb(const struct effect_scan *scan, struct effect_measurement *measurement)
+/* Equation (8): sum and delta channel get independent complex noise of the same RMS, pointer_sigma,
+ * which other radars raise. */
+static bool add_noise(const struct effect_scan *scan, struct effect_measurement *measurement)
 {
     const double _Complex i = (double _Complex)I;
     double draw[4], sigma = scan->sensor->pointer_sigma * sqrt(0.5) *
@@ -24,11 +24,11 @@ static bool disturb(const struct effect_scan *scan, struct effect_measurement *m
 }
 
 const struct effect effect_angle_noise = {
-    .summary = "noise on both channels disturbs angle and amplitude",
-    .home = EFFECT_HOME_NOISE,
+    .summary = "noise on the sum and delta channels disturbs angle and amplitude",
     .cause = "pointer_sigma of a sensor",
-    .bound = "pointer_sigma is 0",
+    .left_out_when = "the sensor's pointer_sigma is 0",
     .cost = "four draws and an angle per cell",
+    .home = EFFECT_HOME_NOISE,
     .described = described,
-    .measure[EFFECT_STEP_POINTERS] = disturb,
+    .measure[EFFECT_STEP_POINTERS] = add_noise,
 };

@@ -1,5 +1,5 @@
-/* Points of the ground are echoes of the reflector "ground" of the object "clutter", which is no
- * object of the frame, with numbers from 1. */
+/* Ground clutter (MODEL 14.13). Points on the ground are echoes of the reflector "ground" of the
+ * object "clutter", which is no object of the frame, with numbers from 1. */
 #include "effects/effect.h"
 
 #include <math.h>
@@ -10,8 +10,8 @@
 #include "geometry/sensor_pose.h"
 #include "radar/ground_return.h"
 
-/* Points in a scan: of more, those with higher numbers are left out, so that clutter is thinner
- * everywhere alike. */
+/* A scan has no more points than this. Those with higher numbers are left out, which thins clutter
+ * alike everywhere. */
 enum { MOST_POINTS = 1000 };
 
 static bool described(const struct effect_scan *scan)
@@ -22,8 +22,8 @@ static bool described(const struct effect_scan *scan)
            view->measured;
 }
 
-/* A body that turns keeps its velocity in its own frame (motion_after), so that latency makes no
- * difference to how the ground passes by. */
+/* The sensor's pose at the frame's time. Latency changes nothing: a body that turns keeps its
+ * velocity in its own frame (motion_after), so the ground passes by as it did before. */
 static struct sensor_pose pose_of(const struct effect_scan *scan)
 {
     const struct sensor *sensor = scan->sensor;
@@ -42,7 +42,7 @@ static int64_t point_count(const struct effect_scan *scan, double uniform)
     return count < MOST_POINTS ? count : MOST_POINTS;
 }
 
-/* Places are even over the area, power has an exponential law. */
+/* Draws a place, uniform over the area, and a power of exponential distribution. */
 static void draw_point(const struct effect_scan *scan, const struct sensor_pose *pose,
                        const double uniform[3], struct echo *point)
 {
@@ -79,10 +79,10 @@ static void add_echoes(const struct effect_scan *scan, struct effect_echoes *ech
 
 const struct effect effect_clutter = {
     .summary = "the ground and what stands on it echo",
+    .cause = "clutter_per_m2 and clutter_ercs of the conditions",
+    .left_out_when = "clutter_per_m2 or clutter_ercs is 0",
+    .cost = "a draw per point on the ground",
     .home = EFFECT_HOME_SENSOR,
-    .cause = "clutter_per_m2, clutter_ercs of the conditions",
-    .bound = "one of both is 0",
-    .cost = "a draw per point of clutter",
     .described = described,
     .add_echoes = add_echoes,
 };

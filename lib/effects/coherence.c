@@ -1,5 +1,5 @@
-/* Phases of echoes; resolution cells and peaks add them up, and name the effect where they differ
- * (sensor/resolution_cell.h, sensor/smear.h). */
+/* Gives echoes their phases (MODEL 8.2, 14.18). Resolution cells and peaks add pointers with them,
+ * and label where phases differ (sensor/resolution_cell.h, sensor/smear.h). */
 #include "effects/effect.h"
 
 #include "base/units.h"
@@ -11,8 +11,8 @@ static bool described(const struct effect_scan *scan)
     return scan->sensor->cell_phase != CELL_IN_PHASE;
 }
 
-/* Drawn in each frame, or that of the path and of the reflector, which is drawn once for all
- * frames. */
+/* A random phase is drawn anew in each frame. A phase by path is that of the way there and back,
+ * plus one of the reflector that is drawn once for all frames. */
 static double phase_rad(const struct effect_scan *scan, const struct echo *echo)
 {
     const struct sensor *sensor = scan->sensor;
@@ -34,11 +34,11 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
 }
 
 const struct effect effect_coherence = {
-    .summary = "echoes of one cell add with their phases and fade",
-    .home = EFFECT_HOME_SENSOR,
+    .summary = "echoes of one cell add with their phases, so that cells fade",
     .cause = "cell_phase of a sensor",
-    .bound = "cell_phase is in_phase",
-    .cost = "a sine and cosine per echo",
+    .left_out_when = "the sensor's cell_phase is in_phase",
+    .cost = "a sine and a cosine per echo",
+    .home = EFFECT_HOME_SENSOR,
     .described = described,
     .receive = receive,
 };

@@ -1,10 +1,11 @@
-/* Simulated by ideal/line_of_sight.c. */
+/* Simulated by ideal/line_of_sight.c (MODEL 14.4). */
 #include "effects/effect.h"
 
 const struct effect effect_diffraction = {
-    .summary = "the shadows of occlusion have soft edges",
-    .home = EFFECT_HOME_IDEAL,
+    .summary = "the shadow of an object has soft edges",
     .cause = "diffraction of a sensor",
-    .bound = "for every object whose edges stay a Fresnel radius clear of the sector",
+    .left_out_when = "the sensor's diffraction is false or no object stands within a Fresnel "
+                     "radius of a sight line",
     .cost = "four edges per sight line and object near it",
+    .home = EFFECT_HOME_IDEAL,
 };

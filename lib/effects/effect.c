@@ -19,7 +19,7 @@ const char *const effect_homes[] = {
     NULL,
 };
 
-/* Takes the first effect out of a set that is not empty. */
+/* Removes the first effect from a set that is not empty, and returns it. */
 static enum effect_id take_first(uint64_t *set)
 {
     enum effect_id first = (enum effect_id)__builtin_ctzll(*set);
@@ -27,7 +27,8 @@ static enum effect_id take_first(uint64_t *set)
     return first;
 }
 
-static void simulate(struct effect_scan *scan, enum effect_id id)
+/* Adds an effect to those that the scan simulates, and begins it. */
+static void add_effect(struct effect_scan *scan, enum effect_id id)
 {
     const struct effect *effect = effect_table[id];
     scan->effects |= EFFECT_BIT(id);
@@ -64,7 +65,7 @@ struct effect_scan effect_begin(const struct frame *frame, const struct sensor *
         bool simulated = effects_enabled(selection, id) && effect->described(&scan);
         effects_note(selection, id, simulated);
         if (simulated)
-            simulate(&scan, id);
+            add_effect(&scan, id);
     }
     return scan;
 }

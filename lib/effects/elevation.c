@@ -1,11 +1,11 @@
-/* Simulated by ideal/look.c. */
+/* Simulated by ideal/look.c (MODEL 14.2). */
 #include "effects/effect.h"
 
 const struct effect effect_elevation = {
-    .summary = "what is higher or lower than the sensor is farther, slower, weaker and nearer to "
-               "boresight",
-    .home = EFFECT_HOME_IDEAL,
+    .summary = "a reflector above or below the sensor is farther away, slower, weaker and nearer "
+               "to boresight",
     .cause = "mount_z_m of a sensor, z of a reflector",
-    .bound = "for every reflector at the sensor's height",
+    .left_out_when = "the sensor has no mount_z_m or all reflectors in sight are at its height",
     .cost = "two square roots and an angle per reflector",
+    .home = EFFECT_HOME_IDEAL,
 };

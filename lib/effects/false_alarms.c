@@ -1,4 +1,4 @@
-/* Simulated by noise/noise_targets.c. */
+/* Simulated by noise/noise_targets.c (MODEL 14.9). */
 #include "effects/effect.h"
 
 static bool described(const struct effect_scan *scan)
@@ -7,10 +7,10 @@ static bool described(const struct effect_scan *scan)
 }
 
 const struct effect effect_false_alarms = {
-    .summary = "noise alone passes the threshold where there is nothing",
-    .home = EFFECT_HOME_NOISE,
+    .summary = "noise alone passes the threshold where there is no echo",
     .cause = "false_alarms of a sensor",
-    .bound = "false_alarms is 0",
+    .left_out_when = "the sensor's false_alarms are 0",
     .cost = "four draws per false alarm",
+    .home = EFFECT_HOME_NOISE,
     .described = described,
 };

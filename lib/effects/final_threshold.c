@@ -1,4 +1,4 @@
-/* Simulated by stages/noise.c. */
+/* Simulated by stages/noise.c (MODEL 8). */
 #include "effects/effect.h"
 
 static bool described(const struct effect_scan *scan)
@@ -7,10 +7,10 @@ static bool described(const struct effect_scan *scan)
 }
 
 const struct effect effect_final_threshold = {
-    .summary = "the noisy amplitude must pass the threshold once more",
-    .home = EFFECT_HOME_NOISE,
+    .summary = "a cell whose noisy amplitude is below the threshold is lost",
     .cause = "final_threshold of a sensor",
-    .bound = "there is none",
+    .left_out_when = "the sensor's final_threshold is false",
     .cost = "a comparison per cell",
+    .home = EFFECT_HOME_NOISE,
     .described = described,
 };

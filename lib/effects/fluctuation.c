@@ -1,3 +1,4 @@
+/* Fluctuation of echoes from scan to scan (MODEL 14.14). */
 #include "effects/effect.h"
 
 #include "frame/draw_address.h"
@@ -18,11 +19,11 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
 }
 
 const struct effect effect_fluctuation = {
-    .summary = "echoes vary in strength from scan to scan",
-    .home = EFFECT_HOME_SENSOR,
+    .summary = "the strength of an echo varies from scan to scan",
     .cause = "fluctuation of a sensor",
-    .bound = "never: any draw may matter",
+    .left_out_when = "the sensor's fluctuation is none",
     .cost = "a draw per echo",
+    .home = EFFECT_HOME_SENSOR,
     .described = described,
     .receive = receive,
 };

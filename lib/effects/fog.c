@@ -1,3 +1,4 @@
+/* Attenuation by fog by ITU-R P.840 (MODEL 14.15), at 10 degrees Celsius. */
 #include "effects/effect.h"
 
 #include "radar/attenuation.h"
@@ -21,11 +22,11 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
 }
 
 const struct effect effect_fog = {
-    .summary = "fog attenuates",
-    .home = EFFECT_HOME_SENSOR,
+    .summary = "fog attenuates echoes",
     .cause = "fog_gpm3 of the conditions",
-    .bound = "there is none",
+    .left_out_when = "fog_gpm3 is 0",
     .cost = "an exponential per echo",
+    .home = EFFECT_HOME_SENSOR,
     .described = described,
     .begin = begin,
     .receive = receive,

@@ -1,10 +1,11 @@
-/* Simulated by ideal/ghost_echoes.c. */
+/* Simulated by ideal/ghost_echoes.c (MODEL 14.1). */
 #include "effects/effect.h"
 
 const struct effect effect_ghosts = {
-    .summary = "walls, guardrails and flat sides mirror what stands before them",
-    .home = EFFECT_HOME_IDEAL,
+    .summary = "walls, guardrails and sides of vehicles mirror what stands before them",
     .cause = "bounces of a sensor, mirrors of a vehicle",
-    .bound = "for every object and mirror that cannot face it and the sensor",
-    .cost = "a mirror image per reflector and mirror in reach",
+    .left_out_when = "the sensor's bounces are less than 2 or no mirror faces both the sensor and "
+                     "another object",
+    .cost = "a mirror image per reflector and mirror",
+    .home = EFFECT_HOME_IDEAL,
 };

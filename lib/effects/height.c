@@ -1,10 +1,10 @@
-/* Simulated by ideal/line_of_sight.c. */
+/* Simulated by ideal/line_of_sight.c (MODEL 14.3). */
 #include "effects/effect.h"
 
 const struct effect effect_height = {
-    .summary = "of what occlusion hides, what is seen over a lower object appears",
-    .home = EFFECT_HOME_IDEAL,
+    .summary = "the sensor sees over an object that is low enough",
     .cause = "mount_z_m of a sensor",
-    .bound = "where occlusion is left out",
-    .cost = "a line's height per object in the way",
+    .left_out_when = "the sensor has no mount_z_m or occlusion is left out",
+    .cost = "a height of the sight line per object in the way",
+    .home = EFFECT_HOME_IDEAL,
 };

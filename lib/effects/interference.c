@@ -1,5 +1,6 @@
-/* An interferer is heard where its object stands in the frame, if it is in view. One that has left
- * the scene, or is the ego, is not heard. */
+/* Interference by other radars (MODEL 14.17). An interferer is heard from where its object is at
+ * the instant of the measurement, if that is in the sensor's view. An interferer whose object is
+ * not in the frame, or is the ego, is not heard. */
 #include "effects/effect.h"
 
 #include <math.h>
@@ -14,9 +15,9 @@ static bool described(const struct effect_scan *scan)
     return scan->sensor->receiver_bandwidth_hz > 0 && scan->frame->conditions.interferers.count > 0;
 }
 
-/* The antenna's one-way gain is the root of its pattern in amplitude, that is, the pattern itself
- * in power. */
-static double ratio_of(const struct effect_scan *scan, const struct interferer *other)
+/* Power of one interferer over that of the sensor's noise. The antenna's pattern in amplitude is
+ * for both ways, so its one-way gain in power is the pattern itself. */
+static double noise_ratio_of(const struct effect_scan *scan, const struct interferer *other)
 {
     const struct frame *frame = scan->frame;
     const struct sensor *sensor = scan->sensor;
@@ -25,15 +26,16 @@ static double ratio_of(const struct effect_scan *scan, const struct interferer *
     const struct object *carrier = frame_object(frame, other->object);
     if (carrier == NULL || carrier == ego)
         return 0;
-    struct motion here = frame_motion(ego, age_s), there = frame_motion(carrier, age_s);
-    struct vec2 apart_m = vec2_sub(there.position_m, here.position_m);
-    here.position_m = (struct vec2){0, 0}; /* as rounding is least from there */
+    struct motion ego_motion = frame_motion(ego, age_s),
+                  other_motion = frame_motion(carrier, age_s);
+    struct vec2 offset_m = vec2_sub(other_motion.position_m, ego_motion.position_m);
+    ego_motion.position_m = (struct vec2){0, 0}; /* where rounding is least */
     struct sensor_pose pose =
-        sensor_pose_on(&here, sensor->mount_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
-    struct vec2 sight = vec2_sub(apart_m, pose.position_m);
-    double range_m = vec2_length(sight);
+        sensor_pose_on(&ego_motion, sensor->mount_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
+    struct vec2 line_m = vec2_sub(offset_m, pose.position_m);
+    double range_m = vec2_length(line_m);
     double azimuth_rad =
-        elementary_atan2(vec2_cross(pose.boresight, sight), vec2_dot(pose.boresight, sight));
+        elementary_atan2(vec2_cross(pose.boresight, line_m), vec2_dot(pose.boresight, line_m));
     if (!(range_m > 0) || !(fabs(azimuth_rad) < sensor->field_of_view_rad / 2))
         return 0;
     double pattern = antenna_gain(&sensor->antenna, azimuth_rad);
@@ -53,16 +55,16 @@ static double interference(const struct effect_scan *scan)
 {
     double ratio = 0;
     for (size_t i = 0; i < scan->frame->conditions.interferers.count; i++)
-        ratio += ratio_of(scan, &scan->frame->conditions.interferers.items[i]);
+        ratio += noise_ratio_of(scan, &scan->frame->conditions.interferers.items[i]);
     return ratio;
 }
 
 const struct effect effect_interference = {
     .summary = "other radars raise the noise",
-    .home = EFFECT_HOME_SENSOR,
     .cause = "interferers of the conditions, receiver_bandwidth_hz of a sensor",
-    .bound = "no interferer is described",
-    .cost = "a power per interferer",
+    .left_out_when = "there are no interferers or the sensor has no receiver_bandwidth_hz",
+    .cost = "a received power per interferer",
+    .home = EFFECT_HOME_SENSOR,
     .described = described,
     .interference = interference,
 };

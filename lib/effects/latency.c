@@ -1,10 +1,12 @@
-/* Simulated by ideal: stages/ideal.c takes the scan so much earlier (ideal/look.h). */
+/* Simulated by stages/ideal.c, which looks at the scene that much earlier (ideal/look.h;
+ * MODEL 14.6).
+ */
 #include "effects/effect.h"
 
 const struct effect effect_latency = {
-    .summary = "the scan shows the world as it was a moment ago",
-    .home = EFFECT_HOME_IDEAL,
+    .summary = "a scan shows the world as it was some time before its time stamp",
     .cause = "latency_s of a sensor",
-    .bound = "there is no latency",
-    .cost = "a step back per object",
+    .left_out_when = "the sensor's latency_s is 0",
+    .cost = "a step of motion per object",
+    .home = EFFECT_HOME_IDEAL,
 };

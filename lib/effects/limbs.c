@@ -1,3 +1,4 @@
+/* Arms and legs of people who walk (MODEL 14.12). */
 #include "effects/effect.h"
 
 #include "base/elementary.h"
@@ -10,7 +11,7 @@ static bool described(const struct effect_scan *scan)
     return moving_part_any(scan, MOVING_LIMBS);
 }
 
-/* Puts a limb so far ahead of the torso, along the person's heading. */
+/* Moves a limb offset_m ahead of the torso, along the person's heading. */
 static void shift(struct echo *limb, double offset_m)
 {
     double aside_rad = limb->heading_rad - limb->azimuth_rad;
@@ -47,11 +48,12 @@ static void add_echoes(const struct effect_scan *scan, struct effect_echoes *ech
 }
 
 const struct effect effect_limbs = {
-    .summary = "arms and legs echo at other rates than the person",
-    .home = EFFECT_HOME_SENSOR,
+    .summary = "arms and legs echo at other range rates than the torso",
     .cause = "micro_motion of a sensor, moving_part of a point",
-    .bound = "nobody in sight walks along the sight line",
+    .left_out_when =
+        "the sensor's micro_motion is false or nobody in sight walks along the sight line",
     .cost = "a draw per person and limb",
+    .home = EFFECT_HOME_SENSOR,
     .described = described,
     .add_echoes = add_echoes,
 };

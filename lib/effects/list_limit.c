@@ -1,4 +1,4 @@
-/* Simulated by noise/target_list.c. */
+/* Simulated by noise/target_list.c (MODEL 10). */
 #include "effects/effect.h"
 
 static bool described(const struct effect_scan *scan)
@@ -8,9 +8,9 @@ static bool described(const struct effect_scan *scan)
 
 const struct effect effect_list_limit = {
     .summary = "the sensor reports no more targets than its list holds",
-    .home = EFFECT_HOME_NOISE,
     .cause = "list_limit of a sensor",
-    .bound = "the list is shorter",
+    .left_out_when = "the sensor's list_limit is 0",
     .cost = "nothing",
+    .home = EFFECT_HOME_NOISE,
     .described = described,
 };

@@ -1,10 +1,10 @@
-/* Simulated by sensor/scan.c. */
+/* Simulated by sensor/scan.c (MODEL 6). */
 #include "effects/effect.h"
 
 const struct effect effect_merging = {
     .summary = "echoes closer than the resolution share one cell",
-    .home = EFFECT_HOME_SENSOR,
-    .cause = "cell_range_m, cell_range_rate_mps of a sensor",
-    .bound = "no two echoes are that close",
+    .cause = "cell_range_m and cell_range_rate_mps of a sensor",
+    .left_out_when = "no two echoes are that close",
     .cost = "a test per pair of echoes",
+    .home = EFFECT_HOME_SENSOR,
 };

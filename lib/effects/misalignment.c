@@ -1,3 +1,4 @@
+/* A yaw error of the mount, and a bias by the radome (MODEL 14.8). */
 #include "effects/effect.h"
 
 #include "radar/boresight_error.h"
@@ -7,7 +8,7 @@ static bool described(const struct effect_scan *scan)
     return scan->sensor->misalignment_rad != 0 || scan->sensor->radome_bias_rad > 0;
 }
 
-static bool turn(const struct effect_scan *scan, struct effect_measurement *measurement)
+static bool turn_azimuth(const struct effect_scan *scan, struct effect_measurement *measurement)
 {
     const struct sensor *sensor = scan->sensor;
     struct boresight_error error = {
@@ -22,11 +23,12 @@ static bool turn(const struct effect_scan *scan, struct effect_measurement *meas
 }
 
 const struct effect effect_misalignment = {
-    .summary = "the sensor looks aside of where it believes, through a bumper that bends the beam",
-    .home = EFFECT_HOME_NOISE,
-    .cause = "misalignment_rad, radome_bias_rad of a sensor",
-    .bound = "both are 0",
+    .summary =
+        "the azimuth is wrong if the sensor is turned in its mount or a bumper bends its beam",
+    .cause = "misalignment_rad and radome_bias_rad of a sensor",
+    .left_out_when = "the sensor's misalignment_rad and radome_bias_rad are 0",
     .cost = "a sine per cell",
+    .home = EFFECT_HOME_NOISE,
     .described = described,
-    .measure[EFFECT_STEP_AZIMUTH] = turn,
+    .measure[EFFECT_STEP_AZIMUTH] = turn_azimuth,
 };

@@ -1,10 +1,10 @@
-/* Simulated by ideal/line_of_sight.c. */
+/* Simulated by ideal/line_of_sight.c (MODEL 2.5). */
 #include "effects/effect.h"
 
 const struct effect effect_occlusion = {
     .summary = "an object hides what lies behind it",
-    .home = EFFECT_HOME_IDEAL,
     .cause = "blocks of a vehicle",
-    .bound = "no object stands in another one's sector",
-    .cost = "a sight line per reflector and object in the way",
+    .left_out_when = "no object stands between the sensor and another object",
+    .cost = "a test per reflector and object in the way",
+    .home = EFFECT_HOME_IDEAL,
 };

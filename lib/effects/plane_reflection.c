@@ -1,10 +1,10 @@
-/* Simulated by ideal/direct_echoes.c. */
+/* Simulated by ideal/direct_echoes.c (MODEL 2.3). */
 #include "effects/effect.h"
 
 const struct effect effect_plane_reflection = {
-    .summary = "a flat side mirrors the radar from the foot of the perpendicular",
-    .home = EFFECT_HOME_IDEAL,
+    .summary = "a flat side mirrors the radar's wave back from the foot of the perpendicular",
     .cause = "planes of a vehicle",
-    .bound = "no object has planes",
-    .cost = "a foot per plane",
+    .left_out_when = "no object has planes",
+    .cost = "a perpendicular per plane",
+    .home = EFFECT_HOME_IDEAL,
 };

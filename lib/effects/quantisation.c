@@ -1,3 +1,4 @@
+/* Rounding of reported values to the sensor's steps (MODEL 9). */
 #include "effects/effect.h"
 
 #include "base/units.h"
@@ -23,10 +24,10 @@ static bool round_values(const struct effect_scan *scan, struct effect_measureme
 
 const struct effect effect_quantisation = {
     .summary = "reported values are multiples of a step",
-    .home = EFFECT_HOME_NOISE,
-    .cause = "range_step_m, range_rate_step_mps, azimuth_step_rad of a sensor",
-    .bound = "all steps are 0",
+    .cause = "range_step_m, range_rate_step_mps and azimuth_step_rad of a sensor",
+    .left_out_when = "all three steps of the sensor are 0",
     .cost = "three roundings per target",
+    .home = EFFECT_HOME_NOISE,
     .described = described,
     .measure[EFFECT_STEP_ROUNDING] = round_values,
 };

@@ -1,3 +1,4 @@
+/* Attenuation by rain by ITU-R P.838-3 (MODEL 14.15). */
 #include "effects/effect.h"
 
 #include "radar/attenuation.h"
@@ -21,11 +22,11 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
 }
 
 const struct effect effect_rain = {
-    .summary = "rain attenuates",
-    .home = EFFECT_HOME_SENSOR,
+    .summary = "rain attenuates echoes",
     .cause = "rain_mmph of the conditions",
-    .bound = "there is none",
+    .left_out_when = "rain_mmph is 0",
     .cost = "an exponential per echo",
+    .home = EFFECT_HOME_SENSOR,
     .described = described,
     .begin = begin,
     .receive = receive,

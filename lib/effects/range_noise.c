@@ -9,11 +9,11 @@ static bool described(const struct effect_scan *scan)
            sensor->sigma_law == SIGMA_BY_SNR;
 }
 
-/* No range is below 0. */
-static bool disturb(const struct effect_scan *scan, struct effect_measurement *measurement)
+/* Gaussian noise on range and range rate (MODEL 9); a range below 0 becomes 0. */
+static bool add_noise(const struct effect_scan *scan, struct effect_measurement *measurement)
 {
     double draw[2];
-    effect_measure(scan, EFFECT_STEP_DEVIATION, measurement);
+    effect_measure(scan, EFFECT_STEP_SIGMA, measurement);
     random_gaussian_pair(&measurement->address, RANDOM_RANGE_RATE, 0, draw);
     measurement->range_m =
         elementary_max(measurement->range_m + measurement->range_sigma_m * draw[0], 0);
@@ -23,11 +23,12 @@ static bool disturb(const struct effect_scan *scan, struct effect_measurement *m
 }
 
 const struct effect effect_range_noise = {
-    .summary = "noise on range and range rate",
-    .home = EFFECT_HOME_NOISE,
-    .cause = "range_sigma_m, range_rate_sigma_mps of a sensor",
-    .bound = "both are 0 and sigma_law is not by_snr",
+    .summary = "noise disturbs range and range rate",
+    .cause = "range_sigma_m and range_rate_sigma_mps of a sensor",
+    .left_out_when =
+        "the sensor's range_sigma_m and range_rate_sigma_mps are 0 and its sigma_law is not by_snr",
     .cost = "two draws per cell",
+    .home = EFFECT_HOME_NOISE,
     .described = described,
-    .measure[EFFECT_STEP_RANGE] = disturb,
+    .measure[EFFECT_STEP_RANGE] = add_noise,
 };

@@ -1,10 +1,10 @@
-/* Simulated by ideal/direct_echoes.c. */
+/* Simulated by ideal/direct_echoes.c (MODEL 2.6). */
 #include "effects/effect.h"
 
 const struct effect effect_rows = {
-    .summary = "posts along a line, made only within range",
-    .home = EFFECT_HOME_IDEAL,
+    .summary = "every post of a row within range has an echo",
     .cause = "rows of a vehicle",
-    .bound = "no object has rows",
-    .cost = "the posts in range",
+    .left_out_when = "no object has rows",
+    .cost = "what points cost, for every post in range",
+    .home = EFFECT_HOME_IDEAL,
 };

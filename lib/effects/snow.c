@@ -27,11 +27,11 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
 }
 
 const struct effect effect_snow = {
-    .summary = "snow attenuates",
-    .home = EFFECT_HOME_SENSOR,
+    .summary = "snow attenuates echoes",
     .cause = "snow_mmph of the conditions",
-    .bound = "there is none",
+    .left_out_when = "snow_mmph is 0",
     .cost = "an exponential per echo",
+    .home = EFFECT_HOME_SENSOR,
     .described = described,
     .begin = begin,
     .receive = receive,

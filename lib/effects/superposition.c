@@ -1,10 +1,10 @@
-/* Simulated by sensor/resolution_cell.c. */
+/* Simulated by sensor/resolution_cell.c (MODEL 8). */
 #include "effects/effect.h"
 
 const struct effect effect_superposition = {
-    .summary = "the angle of a cell is that of its added sum and delta pointers",
-    .home = EFFECT_HOME_SENSOR,
+    .summary = "the angle of a cell is that of the sum of its echoes' pointers",
     .cause = "antenna_pattern of a sensor",
-    .bound = "every cell has one member",
-    .cost = "two pointers per member",
+    .left_out_when = "every cell has one echo",
+    .cost = "two pointers per echo",
+    .home = EFFECT_HOME_SENSOR,
 };

@@ -1,10 +1,9 @@
-/* Simulated by stages/sensor.c and those that stand in for it. */
+/* Simulated by stages/sensor.c and the stages that stand in for it (MODEL 6). */
 #include "effects/effect.h"
 
 const struct effect effect_threshold = {
-    .summary = "cells whose summed amplitude is too weak are not detected",
-    .home = EFFECT_HOME_SENSOR,
+    .summary = "a cell whose summed amplitude is below the threshold is lost",
     .cause = "threshold_db of a sensor",
-    .bound = "never: it costs nothing",
     .cost = "a comparison per cell",
+    .home = EFFECT_HOME_SENSOR,
 };

@@ -1,5 +1,5 @@
-/* The road mirrors echoes with a known height: direct ones and what moves on their reflectors.
- * Ghosts and clutter have none. */
+/* The road mirrors echoes whose height is known (MODEL 14.10): direct ones, and those of wheels and
+ * limbs. Ghosts and clutter have no height. */
 #include "effects/effect.h"
 
 #include <math.h>
@@ -18,7 +18,8 @@ static bool described(const struct effect_scan *scan)
     return false;
 }
 
-/* Permittivity and roughness; asphalt is assumed, concrete ITU-R P.2040's. */
+/* The road's complex permittivity and its roughness in m. Concrete has that of ITU-R P.2040,
+ * asphalt is assumed. */
 static void begin(const struct effect_scan *scan, double *constants)
 {
     double carrier_ghz = scan->sensor->carrier_hz / 1e9;
@@ -29,8 +30,8 @@ static void begin(const struct effect_scan *scan, double *constants)
     constants[2] = asphalt ? 1e-3 : 3e-4;
 }
 
-/* Along the road, of a range that elevation has made slant, or not. */
-static double distance_m(const struct sensor *sensor, const struct echo *echo)
+/* Distance of an echo along the road; its range is slant if the effect elevation changed it. */
+static double road_distance_m(const struct sensor *sensor, const struct echo *echo)
 {
     double up_m = fabs(echo->height_m - sensor->mount_z_m);
     if ((echo->effects & EFFECT_BIT(EFFECT_ELEVATION)) == 0)
@@ -47,18 +48,19 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
     const double *constants = scan->constants[EFFECT_TWO_RAY];
     const struct road_mirror_road road = {constants[0], constants[1], constants[2]};
     const struct road_mirror_ends ends = {sensor->mount_z_m, echo->height_m, echo->extent_m,
-                                          distance_m(sensor, echo)};
+                                          road_distance_m(sensor, echo)};
     return effect_scale(
         reception, road_mirror_amplitude_factor(&road, sensor->polarization,
                                                 units_wavelength_m(sensor->carrier_hz), &ends));
 }
 
 const struct effect effect_two_ray = {
-    .summary = "the road mirrors, so that echoes fade and rise with range",
-    .home = EFFECT_HOME_SENSOR,
+    .summary = "the road mirrors the wave, so that echoes fade and rise with range",
     .cause = "road of the conditions, mount_z_m of a sensor, z of a reflector",
-    .bound = "one of them is missing",
+    .left_out_when =
+        "the road is unknown, the sensor has no mount_z_m or no reflector in sight has a z",
     .cost = "a Fresnel coefficient per echo",
+    .home = EFFECT_HOME_SENSOR,
     .described = described,
     .begin = begin,
     .receive = receive,

@@ -1,10 +1,10 @@
-/* Simulated by ideal/look.c. */
+/* Simulated by ideal/look.c (MODEL 2.2). */
 #include "effects/effect.h"
 
 const struct effect effect_visibility = {
-    .summary = "a reflector is seen from a range of angles around its facing",
+    .summary = "a point or post is seen from a range of angles around its facing",
+    .cause = "full_rad and zero_rad of a point or row",
+    .left_out_when = "no object has points or rows",
+    .cost = "an arctangent per point and post",
     .home = EFFECT_HOME_IDEAL,
-    .cause = "full_rad, zero_rad of a point or row",
-    .bound = "no object has points or rows",
-    .cost = "an arctangent per reflector",
 };

@@ -1,3 +1,4 @@
+/* Points on rolling wheels (MODEL 14.11). */
 #include "effects/effect.h"
 
 #include "effects/moving_part.h"
@@ -34,11 +35,12 @@ static void add_echoes(const struct effect_scan *scan, struct effect_echoes *ech
 }
 
 const struct effect effect_wheels = {
-    .summary = "wheels that roll echo at other rates than their vehicle",
-    .home = EFFECT_HOME_SENSOR,
+    .summary = "rolling wheels echo at other range rates than their vehicle",
     .cause = "micro_motion of a sensor, moving_part of a point",
-    .bound = "no wheel in sight rolls along the sight line",
-    .cost = "a draw per wheel and point",
+    .left_out_when =
+        "the sensor's micro_motion is false or no wheel in sight rolls along the sight line",
+    .cost = "a draw per wheel and point on it",
+    .home = EFFECT_HOME_SENSOR,
     .described = described,
     .add_echoes = add_echoes,
 };

@@ -10,7 +10,7 @@ const char *const effects_names[] = {
 
 #define EVERY_EFFECT (EFFECT_BIT(EFFECT_COUNT) - 1)
 
-/* The word at text, up to a comma. */
+/* Do the length bytes at text spell the word? */
 static bool is_word(const char *text, size_t length, const char *word)
 {
     return strlen(word) == length && memcmp(text, word, length) == 0;

@@ -1,8 +1,8 @@
-/* Effects: the parts of the physics that can be on or off, and who decides.
+/* Effects: their names, and which of them a run simulates.
  *
- * Every effect has a home, the stage that simulates it, and a cause, the member of a document that
- * describes it: a document that names no cause does not have the effect. Which ones may be
- * simulated is the suite's `effects`, or the option --effects of glint-ideal:
+ * An effect is a part of the physics that can be on or off. It has a home, the stage that simulates
+ * it, and a cause, the member of a document that describes it: without its cause there is no
+ * effect. The member `effects` of a suite, or the option --effects of glint-ideal, selects effects:
  *
  *     auto                 (default) leave out what provably changes no bit of targets and lost
  *     all                  simulate every effect that a document describes
@@ -10,13 +10,12 @@
  *     occlusion,merging    these and no others
  *     all,-occlusion       a word, then changes to it; -occlusion alone changes auto
  *
- * A selection is what a stage works by. Effects are asked about where they are simulated:
+ * A stage obeys the selection where it simulates an effect, and tests whether a scene calls for the
+ * effect only under auto:
  *
  *     bool merge = effects_forced(selection, EFFECT_MERGING) ||
  *                  (effects_enabled(selection, EFFECT_MERGING) && some_echoes_are_close);
- *     effects_note(selection, EFFECT_MERGING, merge);
- *
- * so that the test for being called for is only made where it can spare something. */
+ *     effects_note(selection, EFFECT_MERGING, merge); */
 #ifndef EFFECTS_H
 #define EFFECTS_H
 
@@ -30,41 +29,45 @@ enum effect_id {
     EFFECT_NONE = EFFECT_COUNT,
 };
 
-/* Sets of effects, as in a target's label. */
+/* The set of one effect. A set of effects is a uint64_t with a bit for each. */
 #define EFFECT_BIT(effect) (UINT64_C(1) << (effect))
 
 extern const char *const effects_names[]; /* NULL-terminated */
 
-/* What --explain tells: how often each effect was simulated or left out, in frames (scans of one
- * sensor) and in single decisions, and the time it took. */
+/* What --explain and glint-plan report: in how many scans of a sensor each effect was simulated or
+ * left out, and the time that it took. */
 struct effect_log {
     int64_t scans;
-    uint64_t simulated, left_out; /* sets, in this scan */
+    uint64_t simulated, left_out; /* sets of effects: in the scan at hand, so far */
     int64_t scans_simulated[EFFECT_COUNT], scans_left_out[EFFECT_COUNT];
     int64_t spent_ns[EFFECT_COUNT];
     int64_t (*clock_ns)(void);
 };
 
 struct selection {
-    uint64_t allowed;
-    bool automatic;
-    struct effect_log *log; /* NULL unless somebody asks */
+    uint64_t allowed;       /* the set of effects that may be simulated */
+    bool automatic;         /* auto: may effects be left out where they change nothing? */
+    struct effect_log *log; /* NULL: none is kept */
 };
 
-/* Reads the text of --effects; refuses unknown words with what is known. The caller adds the log.
+/* Reads the text of --effects. An unknown word is refused with what is known. The log stays NULL.
  */
 int effects_read(const char *text, struct selection *selection, struct diag *diag);
 
+/* May the effect be simulated? */
 static inline bool effects_enabled(const struct selection *selection, enum effect_id effect)
 {
     return (selection->allowed & EFFECT_BIT(effect)) != 0;
 }
 
+/* Must the effect be simulated wherever it is described? */
 static inline bool effects_forced(const struct selection *selection, enum effect_id effect)
 {
     return effects_enabled(selection, effect) && !selection->automatic;
 }
 
+/* Notes in the log that the effect was simulated or left out in a part of the scan at hand. An
+ * effect that is not enabled counts as left out. */
 static inline void effects_note(const struct selection *selection, enum effect_id effect,
                                 bool simulated)
 {
@@ -73,21 +76,22 @@ static inline void effects_note(const struct selection *selection, enum effect_i
         *(simulated ? &selection->log->simulated : &selection->log->left_out) |= EFFECT_BIT(effect);
 }
 
-/* The time an effect takes: spent = effects_begin(), then effects_end(spent). */
-static inline int64_t effects_begin(const struct selection *selection)
+/* The log's clock, 0 without a log: read before an effect is simulated. */
+static inline int64_t effects_clock_ns(const struct selection *selection)
 {
     return selection->log != NULL ? selection->log->clock_ns() : 0;
 }
 
-static inline void effects_end(const struct selection *selection, enum effect_id effect,
-                               int64_t begin)
+/* Adds the time since start_ns to the log's time of the effect. */
+static inline void effects_count_time(const struct selection *selection, enum effect_id effect,
+                                      int64_t start_ns)
 {
     if (selection->log != NULL)
-        selection->log->spent_ns[effect] += selection->log->clock_ns() - begin;
+        selection->log->spent_ns[effect] += selection->log->clock_ns() - start_ns;
 }
 
-/* Closes a scan in the log. An effect that was simulated for one object and left out for another
- * counts as simulated. */
+/* Ends a scan in the log. An effect that was simulated for one object and left out for another
+ * counts as simulated in the scan. */
 void effects_count_scan(const struct selection *selection);
 
 #endif

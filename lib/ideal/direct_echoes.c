@@ -71,7 +71,7 @@ static void find_line_of_sight(const struct look *look, struct candidate *candid
     if (candidate->line_known)
         return;
     const struct obstruction_line line = line_from_sensor(look, candidate);
-    int64_t begin = effects_begin(look->selection);
+    int64_t start_ns = effects_clock_ns(look->selection);
     candidate->line_known = true;
     candidate->line_of_sight = line_of_sight_past_blockers(look, candidate->side, &line, false);
     if (candidate->under_vehicles != 0 && candidate->line_of_sight.factor != 1) {
@@ -82,7 +82,7 @@ static void find_line_of_sight(const struct look *look, struct candidate *candid
         candidate->under = under.factor > candidate->line_of_sight.factor;
         candidate->line_of_sight = candidate->under ? under : candidate->line_of_sight;
     }
-    effects_end(look->selection, EFFECT_OCCLUSION, begin);
+    effects_count_time(look->selection, EFFECT_OCCLUSION, start_ns);
 }
 
 /* Is the candidate out of reach or blocked? A few products tell, and spare the arctangents of the

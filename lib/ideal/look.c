@@ -210,7 +210,7 @@ struct kinematics look_slant(const struct look *look, double reflector_m, struct
     effects_note(selection, EFFECT_ELEVATION, tilted);
     if (!tilted)
         return plane;
-    int64_t begin = effects_begin(selection);
+    int64_t start_ns = effects_clock_ns(selection);
     struct slant slant = slant_of(plane.range_m, height_m);
     struct kinematics read = {
         .range_m = slant.range_m,
@@ -223,7 +223,7 @@ struct kinematics look_slant(const struct look *look, double reflector_m, struct
     if (read.range_m != plane.range_m || read.azimuth_rad != plane.azimuth_rad ||
         read.range_rate_mps != plane.range_rate_mps || *gain != 1)
         *effects |= EFFECT_BIT(EFFECT_ELEVATION);
-    effects_end(selection, EFFECT_ELEVATION, begin);
+    effects_count_time(selection, EFFECT_ELEVATION, start_ns);
     return read;
 }
 

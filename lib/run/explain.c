@@ -33,7 +33,10 @@ static void explain_effect(const char *stage, int effect, const struct effect_lo
                 ",\"left_out\":%" PRId64 ",\"ns\":%" PRId64 ",\"left_out_when\":",
                 stage, effects_names[effect], log->scans, log->scans_simulated[effect],
                 log->scans_left_out[effect], log->spent_ns[effect]);
-    text_add_json(text, entry->bound, strlen(entry->bound));
+    if (entry->left_out_when != NULL)
+        text_add_json(text, entry->left_out_when, strlen(entry->left_out_when));
+    else
+        text_add_word(text, "null");
     text_add_word(text, "}\n");
 }
 

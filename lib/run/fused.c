@@ -172,11 +172,14 @@ static void list_effects(struct text *text)
 {
     for (int i = 0; i < EFFECT_COUNT; i++) {
         const struct effect *effect = effect_table[i];
-        text_format(text,
-                    "%-17s %s\n%17s in glint-%s, from %s\n%17s auto leaves it out: %s\n"
-                    "%17s costs %s\n",
+        text_format(text, "%-17s %s\n%17s simulated by glint-%s, described by %s\n",
                     effects_names[i], effect->summary, "", effect_homes[effect->home],
-                    effect->cause, "", effect->bound, "", effect->cost);
+                    effect->cause);
+        if (effect->left_out_when != NULL)
+            text_format(text, "%17s auto leaves it out when %s\n", "", effect->left_out_when);
+        else
+            text_format(text, "%17s auto never leaves it out\n", "");
+        text_format(text, "%17s costs %s\n", "", effect->cost);
     }
 }
 

@@ -78,16 +78,16 @@ static void write_effect(const struct plan *plan, int effect, struct text *text)
 {
     const struct effect *entry = effect_table[effect];
     const struct effect_log *log = log_of(plan, effect);
+    const char *left_out = log->scans_left_out[effect] > 0 ? entry->left_out_when : NULL;
     text_format(text, "# %-17s ", effects_names[effect]);
     if ((plan->allowed & EFFECT_BIT(effect)) == 0)
         text_add_word(text, "off: not asked for\n");
     else if (log->scans_simulated[effect] > 0)
         text_format(text, "on in %" PRId64 " of %" PRId64 " scans: %s%s%s\n",
                     log->scans_simulated[effect], log->scans, entry->cause,
-                    log->scans_left_out[effect] > 0 ? "; else " : "",
-                    log->scans_left_out[effect] > 0 ? entry->bound : "");
-    else if (log->scans_left_out[effect] > 0 && strncmp(entry->bound, "never", 5) != 0)
-        text_format(text, "off: %s\n", entry->bound);
+                    left_out != NULL ? "; in the others " : "", left_out != NULL ? left_out : "");
+    else if (left_out != NULL)
+        text_format(text, "off: %s\n", left_out);
     else
         text_format(text, "off: nothing describes it (%s)\n", entry->cause);
 }

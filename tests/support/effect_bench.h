@@ -1,5 +1,5 @@
-/* One scan for tests of effects: a radar on the ego's centre that looks ahead, whose cells read
- * amplitude 1 of an echo with cross section 1 at 10 m on boresight; another object 50 m ahead. */
+/* One scan for tests of effects. A radar at the ego's centre looks ahead; it receives an echo of
+ * ERCS 1 at 10 m on boresight with amplitude 1. Another object is 50 m ahead. */
 #ifndef EFFECT_BENCH_H
 #define EFFECT_BENCH_H
 
@@ -72,7 +72,7 @@ static inline int64_t effect_bench_clock_ns(void)
     return 0;
 }
 
-/* The scan with that set of effects; the bench's log has what it notes. */
+/* Begins a scan with a set of effects. The bench's log has what the scan notes. */
 static inline struct effect_scan effect_bench_begin(struct effect_bench *bench, uint64_t effects,
                                                     enum effect_home home)
 {
@@ -81,8 +81,8 @@ static inline struct effect_scan effect_bench_begin(struct effect_bench *bench, 
     return effect_begin(&bench->frame, &bench->sensor, &selection, home);
 }
 
-/* What one effect of the sensor makes of an echo with amplitude 1, before and behind the antenna,
- * and whether it is in the label. */
+/* What one effect of the sensor makes of an echo with strength and amplitude 1. Sets labelled: is
+ * the effect in the echo's label? */
 static inline struct effect_reception effect_bench_receive(struct effect_bench *bench,
                                                            enum effect_id effect,
                                                            const struct echo *echo, bool *labelled)
@@ -99,7 +99,9 @@ static inline struct effect_reception effect_bench_receive(struct effect_bench *
     return reception;
 }
 
-/* The factor of one effect on the amplitude of an echo at that range; labelled unless it is 1. */
+/* The factor of one effect on the amplitude of an echo. The effect is in the label unless that
+ * is 1.
+ */
 static inline double effect_bench_factor(struct effect_bench *bench, enum effect_id effect,
                                          const struct echo *echo)
 {

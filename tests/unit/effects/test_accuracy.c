@@ -13,8 +13,8 @@ static void prepare(struct effect_bench *bench)
     bench->sensor.window_factor = 0.68;
 }
 
-static struct effect_measurement read_cell(struct effect_bench *bench, uint64_t effects,
-                                           double amplitude, double interference)
+static struct effect_measurement measure_cell(struct effect_bench *bench, uint64_t effects,
+                                              double amplitude, double interference)
 {
     struct cell *cell = arena_get(&bench->arena, sizeof *cell);
     *cell = (struct cell){.range_m = 10,
@@ -27,8 +27,8 @@ static struct effect_measurement read_cell(struct effect_bench *bench, uint64_t 
     return read;
 }
 
-/* By signal to noise: (window_factor cell)^2 / snr + floor^2, at most cell^2 / 12. */
-static void deviations_follow_the_law_of_the_sensor(void **state)
+/* by_snr: sigma^2 = (window_factor cell)^2 / snr + floor^2, at most cell^2 / 12. */
+static void sigmas_follow_the_law_of_the_sensor(void **state)
 {
     struct effect_bench *bench = *state;
     static const struct {
@@ -49,19 +49,19 @@ static void deviations_follow_the_law_of_the_sensor(void **state)
     for (size_t i = 0; i < COUNT(cases); i++) {
         bench->sensor.sigma_law = cases[i].law;
         struct effect_measurement read =
-            read_cell(bench, EVERY_EFFECT, cases[i].amplitude, cases[i].interference);
+            measure_cell(bench, EVERY_EFFECT, cases[i].amplitude, cases[i].interference);
         assert_near(read.range_sigma_m, cases[i].range_m, 1e-12);
         assert_near(read.range_rate_sigma_mps, cases[i].range_rate_mps, 1e-12);
     }
 }
 
-static void without_noise_on_the_pointers_only_the_floor_is_left(void **state)
+static void without_noise_on_the_pointers_sigmas_are_their_floor(void **state)
 {
     struct effect_bench *bench = *state;
     prepare(bench);
     bench->sensor.sigma_law = SIGMA_BY_SNR;
     bench->sensor.pointer_sigma = 0;
-    struct effect_measurement read = read_cell(bench, EVERY_EFFECT, 4, 0);
+    struct effect_measurement read = measure_cell(bench, EVERY_EFFECT, 4, 0);
     assert_near(read.range_sigma_m, 0.02, 1e-15);
     assert_near(read.range_rate_sigma_mps, 0.05, 1e-15);
 }
@@ -72,32 +72,32 @@ static void accuracy_scales_the_same_draws(void **state)
     prepare(bench);
     bench->sensor.sigma_law = SIGMA_BY_SNR;
     uint64_t without = EVERY_EFFECT & ~EFFECT_BIT(EFFECT_ACCURACY);
-    struct effect_measurement one = read_cell(bench, without, 5, 0);
-    struct effect_measurement other = read_cell(bench, EVERY_EFFECT, 5, 0);
-    assert_true(one.range_m != 10);
-    assert_near(other.range_m - 10, (one.range_m - 10) * 0.028568514137070553 / 0.02, 1e-12);
-    assert_near(other.range_rate_mps, one.range_rate_mps * 0.0604648658313239 / 0.05, 1e-13);
-    assert_true(one.effects == EFFECT_BIT(EFFECT_RANGE_NOISE));
-    assert_true(other.effects == (EFFECT_BIT(EFFECT_RANGE_NOISE) | EFFECT_BIT(EFFECT_ACCURACY)));
+    struct effect_measurement fixed = measure_cell(bench, without, 5, 0);
+    struct effect_measurement by_snr = measure_cell(bench, EVERY_EFFECT, 5, 0);
+    assert_true(fixed.range_m != 10);
+    assert_near(by_snr.range_m - 10, (fixed.range_m - 10) * 0.028568514137070553 / 0.02, 1e-12);
+    assert_near(by_snr.range_rate_mps, fixed.range_rate_mps * 0.0604648658313239 / 0.05, 1e-13);
+    assert_true(fixed.effects == EFFECT_BIT(EFFECT_RANGE_NOISE));
+    assert_true(by_snr.effects == (EFFECT_BIT(EFFECT_RANGE_NOISE) | EFFECT_BIT(EFFECT_ACCURACY)));
 }
 
-static void without_noise_on_range_there_is_nothing_to_be_accurate_about(void **state)
+static void without_range_noise_accuracy_changes_nothing(void **state)
 {
     struct effect_bench *bench = *state;
     prepare(bench);
     bench->sensor.sigma_law = SIGMA_BY_SNR;
     uint64_t without = EVERY_EFFECT & ~EFFECT_BIT(EFFECT_RANGE_NOISE);
-    struct effect_measurement read = read_cell(bench, without, 5, 0);
+    struct effect_measurement read = measure_cell(bench, without, 5, 0);
     assert_true(read.range_m == 10 && read.range_rate_mps == 0 && read.effects == 0);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        EFFECT_TEST(deviations_follow_the_law_of_the_sensor),
-        EFFECT_TEST(without_noise_on_the_pointers_only_the_floor_is_left),
+        EFFECT_TEST(sigmas_follow_the_law_of_the_sensor),
+        EFFECT_TEST(without_noise_on_the_pointers_sigmas_are_their_floor),
         EFFECT_TEST(accuracy_scales_the_same_draws),
-        EFFECT_TEST(without_noise_on_range_there_is_nothing_to_be_accurate_about),
+        EFFECT_TEST(without_range_noise_accuracy_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 #include "support/effect_bench.h"
 
-static void ranges_and_rates_fold_into_what_the_waveform_tells_apart(void **state)
+static void ranges_and_rates_beyond_the_unambiguous_ones_fold(void **state)
 {
     struct effect_bench *bench = *state;
     static const struct {
@@ -29,7 +29,7 @@ static void ranges_and_rates_fold_into_what_the_waveform_tells_apart(void **stat
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        EFFECT_TEST(ranges_and_rates_fold_into_what_the_waveform_tells_apart),
+        EFFECT_TEST(ranges_and_rates_beyond_the_unambiguous_ones_fold),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,9 +2,10 @@
 
 #include <complex.h>
 
-/* Complex noise of RMS pointer_sigma on each channel: sigma sqrt(1/2) on each axis, from four
- * Gaussian draws; other radars of three times the noise's power double it. */
-static void both_channels_get_the_noise_of_the_cell_s_draws(void **state)
+/* Each channel gets complex noise of RMS pointer_sigma: four Gaussian draws, times
+ * pointer_sigma sqrt(1/2) on each axis. Other radars with three times the noise's power double it.
+ */
+static void both_channels_get_the_noise_of_their_cell(void **state)
 {
     struct effect_bench *bench = *state;
     struct contributor leader = {.id = {.object = "o", .reflector = "r"}};
@@ -29,7 +30,7 @@ static void both_channels_get_the_noise_of_the_cell_s_draws(void **state)
     }
 }
 
-static void without_the_effect_pointers_are_the_cell_s(void **state)
+static void without_the_effect_pointers_are_those_of_the_cell(void **state)
 {
     struct effect_bench *bench = *state;
     struct contributor leader = {.id = {.object = "o", .reflector = "r"}};
@@ -45,8 +46,8 @@ static void without_the_effect_pointers_are_the_cell_s(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        EFFECT_TEST(both_channels_get_the_noise_of_the_cell_s_draws),
-        EFFECT_TEST(without_the_effect_pointers_are_the_cell_s),
+        EFFECT_TEST(both_channels_get_the_noise_of_their_cell),
+        EFFECT_TEST(without_the_effect_pointers_are_those_of_the_cell),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

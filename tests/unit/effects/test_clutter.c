@@ -1,6 +1,7 @@
 #include "support/effect_bench.h"
 
-/* A sensor on a car at 10 m/s that turns by 0.3 rad/s: 2 m ahead and 0.5 m aside of its centre. */
+/* A car drives at 10 m/s and turns by 0.3 rad/s; its sensor is 2 m ahead of its centre and 0.5 m to
+ * the left. */
 static void prepare(struct effect_bench *bench, double per_m2)
 {
     struct sensor *sensor = &bench->sensor;
@@ -22,8 +23,8 @@ static struct echo_span clutter_of(struct effect_bench *bench)
     return effect_added_echoes(&scan);
 }
 
-/* Even over the area of (50^2 - 1)/2 m^2, standing; the velocity of the sensor is (10 - 0.3 0.5,
- * 0.3 2) m/s. */
+/* Points stand still, uniform over an area of (50^2 - 1)/2 m^2. The velocity of the sensor is
+ * (10 - 0.3 0.5, 0.3 2) m/s. */
 static void points_lie_where_their_draws_put_them(void **state)
 {
     struct effect_bench *bench = *state;
@@ -40,8 +41,9 @@ static void points_lie_where_their_draws_put_them(void **state)
         assert_near(point->range_m, sqrt(1 + (2500 - 1) * uniform[0]), 1e-14);
         assert_close(point->azimuth_rad, uniform[1] - 0.5, 0);
         assert_near(point->ercs, 0.1 * sqrt(-log(uniform[2])), 1e-14);
-        double look_rad = 0.4 + point->azimuth_rad;
-        assert_close(point->range_rate_mps, -9.85 * cos(look_rad) - 0.6 * sin(look_rad), 1e-13);
+        double direction_rad = 0.4 + point->azimuth_rad;
+        assert_close(point->range_rate_mps, -9.85 * cos(direction_rad) - 0.6 * sin(direction_rad),
+                     1e-13);
         assert_close(point->time_s, 3, 0);
         assert_string_equal(point->id.object, "clutter");
         assert_string_equal(point->id.reflector, "ground");
@@ -51,9 +53,10 @@ static void points_lie_where_their_draws_put_them(void **state)
     }
 }
 
-/* Counts are those of inversion: P(N <= count - 1) < uniform <= P(N <= count), for a mean of
- * 62.475. */
-static void the_count_is_that_of_the_scan_s_draw(void **state)
+/* For a Poisson mean of 62.475, the count is that with P(N <= count - 1) < uniform <= P(N <=
+ * count).
+ */
+static void the_number_of_points_is_that_of_the_draw(void **state)
 {
     struct effect_bench *bench = *state;
     const struct echo ground = {
@@ -71,7 +74,7 @@ static void the_count_is_that_of_the_scan_s_draw(void **state)
     }
 }
 
-static void of_more_than_1000_points_the_last_are_left_out(void **state)
+static void points_after_the_first_1000_are_left_out(void **state)
 {
     struct effect_bench *bench = *state;
     prepare(bench, 0.5);
@@ -105,8 +108,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         EFFECT_TEST(points_lie_where_their_draws_put_them),
-        EFFECT_TEST(the_count_is_that_of_the_scan_s_draw),
-        EFFECT_TEST(of_more_than_1000_points_the_last_are_left_out),
+        EFFECT_TEST(the_number_of_points_is_that_of_the_draw),
+        EFFECT_TEST(points_after_the_first_1000_are_left_out),
         EFFECT_TEST(clutter_needs_points_power_and_a_sensor_that_measures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,6 @@
 #include "support/effect_bench.h"
 
-/* A wave goes there and back: an eighth of a wavelength farther is a quarter turn. */
+/* A wave travels there and back, so an eighth of a wavelength in range turns it by a quarter. */
 static void a_phase_by_path_turns_with_range_and_stays_from_scan_to_scan(void **state)
 {
     struct effect_bench *bench = *state;

@@ -8,7 +8,7 @@ static void every_effect_says_what_it_is(void **state)
     for (int i = 0; i < EFFECT_COUNT; i++) {
         const struct effect *effect = effect_table[i];
         assert_non_null(effects_names[i]);
-        assert_true(effect->summary && effect->cause && effect->bound && effect->cost);
+        assert_true(effect->summary && effect->cause && effect->cost);
         assert_true(effect->home <= EFFECT_HOME_NOISE);
     }
     assert_null(effects_names[EFFECT_COUNT]);
@@ -17,7 +17,7 @@ static void every_effect_says_what_it_is(void **state)
     assert_string_equal(effect_homes[EFFECT_HOME_NOISE], "noise");
 }
 
-/* Which hooks may be called follows from the home. */
+/* A home calls its own hooks alone. */
 static void an_effect_acts_at_its_home_alone(void **state)
 {
     (void)state;
@@ -33,7 +33,7 @@ static void an_effect_acts_at_its_home_alone(void **state)
     }
 }
 
-static uint64_t with_described_hook(enum effect_home home)
+static uint64_t effects_with_described_hook(enum effect_home home)
 {
     uint64_t effects = 0;
     for (int i = 0; i < EFFECT_COUNT; i++)
@@ -50,11 +50,11 @@ static void what_no_document_describes_is_left_out_and_noted(void **state)
         assert_true(scan.effects == 0 && scan.receiving == 0 && scan.constants == NULL);
         assert_close(scan.interference, 0, 0);
         assert_true(bench->log.simulated == 0);
-        assert_true(bench->log.left_out == with_described_hook((enum effect_home)home));
+        assert_true(bench->log.left_out == effects_with_described_hook((enum effect_home)home));
     }
 }
 
-/* Each of these doubles of the sensor, with a value of 1. */
+/* Each case sets one member of the sensor to 1. */
 static void a_member_describes_its_effect_and_no_other(void **state)
 {
     struct effect_bench *bench = *state;
@@ -109,7 +109,8 @@ static void flags_choices_and_limits_describe_their_effects(void **state)
                 (EFFECT_BIT(EFFECT_ACCURACY) | EFFECT_BIT(EFFECT_RANGE_NOISE)));
 }
 
-/* A sensor of 70 ms that shows in the frame of 0.22 s what it measured at 0.21 s, 40 ms late. */
+/* A sensor with a cycle of 70 ms measures at 0.21 s what the frame of 0.22 s shows; with a latency
+ * of 40 ms, it sees the world of 0.17 s. */
 static void a_scan_has_the_instant_of_its_measurement(void **state)
 {
     struct effect_bench *bench = *state;
@@ -136,8 +137,8 @@ static void a_scan_has_the_instant_of_its_measurement(void **state)
     }
 }
 
-/* Factors of the amplitude multiply, bit for bit in the order of the chain; the range that they
- * count by is the true one, though it is folded. */
+/* Factors on amplitude multiply in the order of the chain, to the bit. They are those of the true
+ * range, although the range that the radar reads is folded. */
 static void effects_act_in_the_order_of_the_chain(void **state)
 {
     struct effect_bench *bench = *state;

@@ -1,7 +1,7 @@
 #include "support/effect_bench.h"
 
-/* Power is exponential (Swerling 1) or the mean of two exponentials (Swerling 3). */
-static void the_factor_is_that_of_the_echo_s_own_draw(void **state)
+/* Power is exponential in Swerling's case 1, and the mean of two exponentials in case 3. */
+static void the_factor_follows_the_draw_of_its_echo(void **state)
 {
     struct effect_bench *bench = *state;
     struct echo echo = effect_bench_echo(100);
@@ -42,7 +42,7 @@ static void a_spread_of_0_changes_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        EFFECT_TEST(the_factor_is_that_of_the_echo_s_own_draw),
+        EFFECT_TEST(the_factor_follows_the_draw_of_its_echo),
         EFFECT_TEST(another_echo_and_another_scan_have_other_factors),
         EFFECT_TEST(a_spread_of_0_changes_nothing),
     };

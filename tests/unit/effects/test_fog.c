@@ -1,7 +1,7 @@
 #include "support/effect_bench.h"
 
-/* ITU-R P.840 at 10 deg C: 3.115457 dB/km per g/m^3 one way at 76.5 GHz. */
-static void fog_takes_its_decibels_there_and_back(void **state)
+/* ITU-R P.840 has 3.115457 dB/km one way per g/m^3 at 76.5 GHz and 10 degrees Celsius. */
+static void fog_attenuates_there_and_back(void **state)
 {
     struct effect_bench *bench = *state;
     static const double water_gpm3[] = {0.5, 0.05, 0};
@@ -16,7 +16,7 @@ static void fog_takes_its_decibels_there_and_back(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        EFFECT_TEST(fog_takes_its_decibels_there_and_back),
+        EFFECT_TEST(fog_attenuates_there_and_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

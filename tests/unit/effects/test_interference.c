@@ -1,7 +1,7 @@
 #include "support/effect_bench.h"
 
-/* 40.8746 dB over the noise: a radar of 33 dBm EIRP at 50 m in band, for a receiver of 10 MHz with
- * a noise figure of 12 dB behind an antenna of 20 dBi. */
+/* A radar of 33 dBm EIRP, 50 m away and in band, is 40.8746 dB over the noise of a receiver of 10
+ * MHz with a noise figure of 12 dB behind an antenna of 20 dBi. */
 static const double in_band_db = 40.8746;
 
 static struct interferer *add_interferer(struct effect_bench *bench)
@@ -16,14 +16,14 @@ static struct interferer *add_interferer(struct effect_bench *bench)
     return other;
 }
 
-static double heard(struct effect_bench *bench)
+static double interference_of(struct effect_bench *bench)
 {
     return effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_SENSOR).interference;
 }
 
-static double heard_db(struct effect_bench *bench)
+static double interference_db(struct effect_bench *bench)
 {
-    return 10 * log10(heard(bench));
+    return 10 * log10(interference_of(bench));
 }
 
 static void an_interferer_is_heard_where_it_stands(void **state)
@@ -32,46 +32,46 @@ static void an_interferer_is_heard_where_it_stands(void **state)
     struct interferer *other = add_interferer(bench);
     struct object *object = frame_object(&bench->frame, "other");
     struct object *ego = frame_object(&bench->frame, "ego");
-    assert_close(heard_db(bench), in_band_db, 2e-4);
+    assert_close(interference_db(bench), in_band_db, 2e-4);
     object->x_m = 100;
-    assert_close(heard_db(bench), in_band_db - 20 * log10(2), 2e-4);
-    /* The same seen from a sensor ahead of an ego that is elsewhere and turned. */
+    assert_close(interference_db(bench), in_band_db - 20 * log10(2), 2e-4);
+    /* The result is the same for a sensor ahead of an ego that is elsewhere and turned. */
     bench->sensor.mount_x_m = 2;
     bench->sensor.mount_y_m = 1;
     *ego = (struct object){.id = "ego", .class = "car", .x_m = 7, .y_m = -3, .yaw_rad = PI / 2};
     object->x_m = 6;
     object->y_m = 49;
-    assert_close(heard_db(bench), in_band_db, 2e-4);
+    assert_close(interference_db(bench), in_band_db, 2e-4);
     bench->sensor.mount_yaw_rad = -PI / 2;
     object->x_m = 56;
     object->y_m = -1;
-    assert_close(heard_db(bench), in_band_db, 2e-4);
+    assert_close(interference_db(bench), in_band_db, 2e-4);
     other->slope_hzps = -7.5e12;
-    assert_close(heard_db(bench), in_band_db + 10 * log10(2.0 / 30), 2e-4);
+    assert_close(interference_db(bench), in_band_db + 10 * log10(2.0 / 30), 2e-4);
     other->hit_share = 0.05;
-    assert_close(heard_db(bench), in_band_db + 10 * log10(0.1 / 30), 2e-4);
+    assert_close(interference_db(bench), in_band_db + 10 * log10(0.1 / 30), 2e-4);
 }
 
 static void powers_of_several_interferers_add(void **state)
 {
     struct effect_bench *bench = *state;
     add_interferer(bench);
-    double one = heard(bench);
+    double single = interference_of(bench);
     add_interferer(bench)->hit_share = 0.25;
-    assert_near(heard(bench), 1.25 * one, 1e-15);
+    assert_near(interference_of(bench), 1.25 * single, 1e-15);
 }
 
-/* The other comes nearer at 20 m/s: 0.5 s ago it was 60 m away. */
+/* The interferer approaches at 20 m/s: 0.5 s ago it was 60 m away. */
 static void an_interferer_is_heard_at_the_instant_of_the_measurement(void **state)
 {
     struct effect_bench *bench = *state;
     add_interferer(bench);
     frame_object(&bench->frame, "other")->vx_mps = -20;
     bench->sensor.latency_s = 0.5;
-    assert_close(heard_db(bench), in_band_db - 20 * log10(60.0 / 50), 2e-4);
+    assert_close(interference_db(bench), in_band_db - 20 * log10(60.0 / 50), 2e-4);
 }
 
-/* The pattern is two ways in amplitude, and so one way in power: .5513 at 30 degrees. */
+/* The two-way pattern in amplitude is the one-way pattern in power: 0.5513 at 30 degrees. */
 static void the_antenna_counts_one_way(void **state)
 {
     struct effect_bench *bench = *state;
@@ -79,11 +79,11 @@ static void the_antenna_counts_one_way(void **state)
     struct object *object = frame_object(&bench->frame, "other");
     object->x_m = 50 * cos(PI / 6);
     object->y_m = 50 * sin(PI / 6);
-    assert_close(heard_db(bench), in_band_db + 10 * log10(0.5513), 6e-4);
+    assert_close(interference_db(bench), in_band_db + 10 * log10(0.5513), 6e-4);
 }
 
 /* The sensor looks ahead from 2 m behind the ego's centre. */
-static void who_is_not_in_view_is_not_heard(void **state)
+static void interferers_out_of_view_are_not_heard(void **state)
 {
     struct effect_bench *bench = *state;
     struct interferer *other = add_interferer(bench);
@@ -102,18 +102,18 @@ static void who_is_not_in_view_is_not_heard(void **state)
         other->object = cases[i].id;
         object->x_m = cases[i].x_m;
         object->y_m = cases[i].y_m;
-        assert_int_equal(heard(bench) > 0, cases[i].heard);
+        assert_int_equal(interference_of(bench) > 0, cases[i].heard);
     }
 }
 
-static void nobody_is_heard_without_a_receiver_or_without_the_effect(void **state)
+static void no_interferer_is_heard_without_a_bandwidth_or_without_the_effect(void **state)
 {
     struct effect_bench *bench = *state;
     add_interferer(bench);
     uint64_t without = EVERY_EFFECT & ~EFFECT_BIT(EFFECT_INTERFERENCE);
     assert_close(effect_bench_begin(bench, without, EFFECT_HOME_SENSOR).interference, 0, 0);
     bench->sensor.receiver_bandwidth_hz = 0;
-    assert_close(heard(bench), 0, 0);
+    assert_close(interference_of(bench), 0, 0);
 }
 
 int main(void)
@@ -123,8 +123,8 @@ int main(void)
         EFFECT_TEST(powers_of_several_interferers_add),
         EFFECT_TEST(an_interferer_is_heard_at_the_instant_of_the_measurement),
         EFFECT_TEST(the_antenna_counts_one_way),
-        EFFECT_TEST(who_is_not_in_view_is_not_heard),
-        EFFECT_TEST(nobody_is_heard_without_a_receiver_or_without_the_effect),
+        EFFECT_TEST(interferers_out_of_view_are_not_heard),
+        EFFECT_TEST(no_interferer_is_heard_without_a_bandwidth_or_without_the_effect),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

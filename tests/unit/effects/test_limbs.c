@@ -2,7 +2,7 @@
 
 enum { FRAMES = 600 };
 
-/* 20 m away at 0.2 rad to the left, walking at 1 rad. */
+/* The torso of a person 20 m away, 0.2 rad to the left, who walks in the direction of 1 rad. */
 static struct echo torso(void)
 {
     struct echo echo = effect_bench_echo(20);
@@ -21,7 +21,7 @@ static struct echo_span limbs_of(struct effect_bench *bench, uint64_t effects, s
     return effect_added_echoes(&scan);
 }
 
-/* P(X <= x) of the triangle from -1 to 1.5 with its peak at 0. */
+/* P(X <= x) of the triangular distribution from -1 to 1.5 with its peak at 0. */
 static double triangle(double x)
 {
     return x < 0 ? (x + 1) * (x + 1) / 2.5 : 1 - (1.5 - x) * (1.5 - x) / 3.75;
@@ -58,7 +58,7 @@ static void limbs_have_the_count_the_swing_and_the_place_of_their_draws(void **s
     assert_true(all > FRAMES / 3);
 }
 
-static void who_does_not_walk_along_the_sight_line_has_none(void **state)
+static void a_person_who_does_not_walk_along_the_sight_line_has_no_limbs(void **state)
 {
     struct effect_bench *bench = *state;
     struct echo still = torso(), wheel = torso();
@@ -76,7 +76,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         EFFECT_TEST(limbs_have_the_count_the_swing_and_the_place_of_their_draws),
-        EFFECT_TEST(who_does_not_walk_along_the_sight_line_has_none),
+        EFFECT_TEST(a_person_who_does_not_walk_along_the_sight_line_has_no_limbs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

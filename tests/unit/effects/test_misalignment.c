@@ -1,6 +1,6 @@
 #include "support/effect_bench.h"
 
-static struct effect_measurement turned(struct effect_bench *bench, double azimuth_rad)
+static struct effect_measurement turn(struct effect_bench *bench, double azimuth_rad)
 {
     struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
     struct effect_measurement read = {.azimuth_rad = azimuth_rad};
@@ -22,25 +22,25 @@ static void a_misaligned_sensor_turns_what_it_reports(void **state)
         bench->sensor.misalignment_rad = cases[i].error_rad;
         bench->sensor.radome_bias_rad = cases[i].bias_rad;
         bench->sensor.radome_period_rad = 0.5;
-        struct effect_measurement read = turned(bench, cases[i].azimuth_rad);
+        struct effect_measurement read = turn(bench, cases[i].azimuth_rad);
         assert_close(read.azimuth_rad, cases[i].reported_rad, 1e-15);
         assert_true(read.effects == EFFECT_BIT(EFFECT_MISALIGNMENT));
     }
 }
 
-static void a_bias_that_is_zero_at_boresight_marks_nothing_there(void **state)
+static void a_bias_that_is_zero_at_boresight_is_not_in_the_label_there(void **state)
 {
     struct effect_bench *bench = *state;
     bench->sensor.radome_bias_rad = 0.01;
     bench->sensor.radome_period_rad = 0.5;
-    assert_true(turned(bench, 0).effects == 0);
+    assert_true(turn(bench, 0).effects == 0);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         EFFECT_TEST(a_misaligned_sensor_turns_what_it_reports),
-        EFFECT_TEST(a_bias_that_is_zero_at_boresight_marks_nothing_there),
+        EFFECT_TEST(a_bias_that_is_zero_at_boresight_is_not_in_the_label_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,8 +28,8 @@ static void values_are_rounded_to_their_steps_and_azimuth_is_wrapped(void **stat
     }
 }
 
-/* One value of three is off its step, or none. */
-static void whichever_value_changes_is_in_the_label(void **state)
+/* None of the three values is off its step, or one of them. */
+static void a_change_of_any_value_is_in_the_label(void **state)
 {
     struct effect_bench *bench = *state;
     bench->sensor.range_step_m = 0.5;
@@ -66,7 +66,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         EFFECT_TEST(values_are_rounded_to_their_steps_and_azimuth_is_wrapped),
-        EFFECT_TEST(whichever_value_changes_is_in_the_label),
+        EFFECT_TEST(a_change_of_any_value_is_in_the_label),
         EFFECT_TEST(a_value_without_a_step_stays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

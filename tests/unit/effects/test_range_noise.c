@@ -2,7 +2,7 @@
 
 static struct contributor leader = {.id = {.object = "o", .reflector = "r"}};
 
-static struct effect_measurement read_cell(struct effect_bench *bench, const struct cell *cell)
+static struct effect_measurement measure_cell(struct effect_bench *bench, const struct cell *cell)
 {
     struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
     struct effect_measurement read = effect_measurement_of(&scan, cell);
@@ -10,7 +10,7 @@ static struct effect_measurement read_cell(struct effect_bench *bench, const str
     return read;
 }
 
-static void range_and_rate_get_the_noise_of_the_cell_s_draws(void **state)
+static void range_and_rate_get_the_noise_of_their_cell(void **state)
 {
     struct effect_bench *bench = *state;
     const struct cell cell = {.range_m = 10, .range_rate_mps = -3, .members = {&leader, 1, 1}};
@@ -20,7 +20,7 @@ static void range_and_rate_get_the_noise_of_the_cell_s_draws(void **state)
         struct random_address address = draw_address_of(&bench->frame, "radar", leader.id);
         double draw[2];
         random_gaussian_pair(&address, RANDOM_RANGE_RATE, 0, draw);
-        struct effect_measurement read = read_cell(bench, &cell);
+        struct effect_measurement read = measure_cell(bench, &cell);
         assert_close(read.range_m, 10 + 0.02 * draw[0], 1e-15);
         assert_close(read.range_rate_mps, -3 + 0.05 * draw[1], 1e-15);
         assert_true(read.azimuth_rad == 0);
@@ -35,7 +35,7 @@ static void no_range_is_below_0(void **state)
     size_t cut = 0;
     bench->sensor.range_sigma_m = 1;
     for (bench->frame.frame = 0; bench->frame.frame < 100; bench->frame.frame++) {
-        struct effect_measurement read = read_cell(bench, &cell);
+        struct effect_measurement read = measure_cell(bench, &cell);
         assert_true(read.range_m >= 0);
         cut += read.range_m == 0;
     }
@@ -45,7 +45,7 @@ static void no_range_is_below_0(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        EFFECT_TEST(range_and_rate_get_the_noise_of_the_cell_s_draws),
+        EFFECT_TEST(range_and_rate_get_the_noise_of_their_cell),
         EFFECT_TEST(no_range_is_below_0),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,10 +1,10 @@
 #include "support/effect_bench.h"
 
-/* One way and there and back. 0.75 mm/h take 1.0017 dB over 10 km at 77 GHz, which is the example
- * in the documentation of snowpl in MATLAB's Radar Toolbox (Gunn-East model). By hand, at a
- * wavelength of 1 cm: 0.00349 + 0.00224 = 0.00573 dB/km in 1 mm/h, and of 2 cm 0.00349 10^1.6/16 +
- * 0.0112 in 10 mm/h. */
-static void snow_takes_its_decibels_there_and_back(void **state)
+/* Losses are twice those of one way. The documentation of snowpl in MATLAB's Radar Toolbox
+ * (Gunn-East model) has 1.0017 dB over 10 km for 0.75 mm/h at 77 GHz. By hand, a wavelength of 1 cm
+ * has 0.00349 + 0.00224 = 0.00573 dB/km in 1 mm/h, one of 2 cm 0.00349 10^1.6/16 + 0.0112 dB/km in
+ * 10 mm/h. */
+static void snow_attenuates_there_and_back(void **state)
 {
     struct effect_bench *bench = *state;
     static const struct {
@@ -27,7 +27,7 @@ static void snow_takes_its_decibels_there_and_back(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        EFFECT_TEST(snow_takes_its_decibels_there_and_back),
+        EFFECT_TEST(snow_attenuates_there_and_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

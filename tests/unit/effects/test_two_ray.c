@@ -5,7 +5,8 @@
 static const double _Complex i = (double _Complex)I;
 static const double sensor_m = 0.5, reflector_m = 0.6, concrete_loss = 0.318;
 
-/* g R1/R2 for concrete by Fresnel's vertical coefficient; the direct path, there. */
+/* The field by way of the road over the direct one, g R1/R2, for concrete by Fresnel's vertical
+ * coefficient. Sets the length of the direct path and by how much the other is longer, one way. */
 static double _Complex road_echo(double wave_m, double along_m, double *direct_m, double *longer_m)
 {
     const double ghz = 76.5, roughness_m = 3e-4;
@@ -41,7 +42,7 @@ static void a_point_rises_and_fades_by_the_interference_of_both_paths(void **sta
         echo.range_m = along_m;
         echo.effects = 0;
         assert_close(effect_bench_factor(bench, EFFECT_TWO_RAY, &echo), field * field, 1e-8);
-        /* A range that elevation has made slant is that of the direct path. */
+        /* With elevation the range is slant, that of the direct path. */
         echo.range_m = direct_m;
         echo.effects = EFFECT_BIT(EFFECT_ELEVATION);
         assert_close(effect_bench_factor(bench, EFFECT_TWO_RAY, &echo), field * field, 1e-8);
@@ -60,7 +61,7 @@ static void an_extended_echo_gets_the_mean_over_all_phases(void **state)
                 sqrt(1 + 4 * g * g + g * g * g * g), 1e-12);
 }
 
-static void the_road_needs_all_its_causes(void **state)
+static void without_one_of_its_causes_the_road_does_not_mirror(void **state)
 {
     struct effect_bench *bench = *state;
     struct echo echo = effect_bench_echo(20), flat = echo;
@@ -84,7 +85,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         EFFECT_TEST(a_point_rises_and_fades_by_the_interference_of_both_paths),
         EFFECT_TEST(an_extended_echo_gets_the_mean_over_all_phases),
-        EFFECT_TEST(the_road_needs_all_its_causes),
+        EFFECT_TEST(without_one_of_its_causes_the_road_does_not_mirror),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

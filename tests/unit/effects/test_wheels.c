@@ -20,7 +20,7 @@ static struct echo_span points_of(struct effect_bench *bench, uint64_t effects, 
     return effect_added_echoes(&scan);
 }
 
-/* The least k with P(N <= k) >= uniform of a Poisson law. */
+/* The least k with P(N <= k) >= uniform, for a Poisson count. */
 static size_t poisson(double mean, double uniform)
 {
     double chance = exp(-mean), sum = chance;
@@ -30,7 +30,8 @@ static size_t poisson(double mean, double uniform)
     return count;
 }
 
-/* A Poisson count of mean 1.5; rho even from 0.3 to 1 and psi even around the wheel, at -10 dB. */
+/* Points are a Poisson count of mean 1.5, at -10 dB, with rho uniform from 0.3 to 1 and psi uniform
+ * around the wheel. */
 static void points_have_the_count_and_the_rates_of_their_draws(void **state)
 {
     struct effect_bench *bench = *state;
@@ -60,7 +61,7 @@ static void points_have_the_count_and_the_rates_of_their_draws(void **state)
     assert_true(all > FRAMES);
 }
 
-static void a_wheel_that_does_not_roll_along_the_sight_line_has_none(void **state)
+static void a_wheel_that_does_not_roll_along_the_sight_line_has_no_points(void **state)
 {
     struct effect_bench *bench = *state;
     struct echo still = hub(), limbs = hub(), plain = hub();
@@ -76,7 +77,7 @@ static void a_wheel_that_does_not_roll_along_the_sight_line_has_none(void **stat
         }
 }
 
-static void switched_off_there_are_none(void **state)
+static void without_the_effect_a_wheel_has_no_points(void **state)
 {
     struct effect_bench *bench = *state;
     uint64_t without = EVERY_EFFECT & ~EFFECT_BIT(EFFECT_WHEELS);
@@ -88,8 +89,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         EFFECT_TEST(points_have_the_count_and_the_rates_of_their_draws),
-        EFFECT_TEST(a_wheel_that_does_not_roll_along_the_sight_line_has_none),
-        EFFECT_TEST(switched_off_there_are_none),
+        EFFECT_TEST(a_wheel_that_does_not_roll_along_the_sight_line_has_no_points),
+        EFFECT_TEST(without_the_effect_a_wheel_has_no_points),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -63,7 +63,10 @@ static void an_effect_is_asked_for_if_any_scan_needed_it(void **state)
     plan.positions[PLAN_SENSOR].scene = plan.positions[PLAN_NOISE].scene = "a";
     assert_int_equal(plan_effects(&plan), EFFECT_BIT(EFFECT_OCCLUSION));
     assert_writes(&plan, " --sensors radar --effects occlusion \\\n", true);
-    assert_writes(&plan, "occlusion         on in 1 of 9 scans", true);
+    assert_writes(&plan,
+                  "occlusion         on in 1 of 9 scans: blocks of a vehicle; in the others "
+                  "no object stands between the sensor and another object\n",
+                  true);
     assert_writes(&plan, "rows              off: no object has rows\n", true);
     assert_writes(&plan, "merging           off: nothing describes it", true);
     assert_writes(&plan, "threshold         off: nothing describes it", true);
