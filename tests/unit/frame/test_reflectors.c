@@ -262,7 +262,7 @@ static void one_name_among_many_is_found_twice(void **state)
 {
     (void)state;
     enum { MANY = 1000 };
-    static char names[MANY][8];
+    static char names[MANY][16];
     struct arena arena = {0};
     struct reflector_set set = {.model = "m"};
     for (int i = 0; i < MANY; i++) {
