@@ -1,4 +1,4 @@
-/* Hash table of numbers, found again by what they stand for.
+/* Hash table: the number of an item by its content.
  *
  * The numbers are 0, 1, 2, ... The table uses open addressing and is at most half full. The caller
  * keeps the items that the numbers stand for, and compares them with the wanted one. */

@@ -1,4 +1,4 @@
-/* Lower and upper bound of a quantity over all draws. A decision that rests on these bounds holds
+/* Bounds of a quantity that hold for all random draws. A decision that rests on these bounds holds
  * for every random draw. */
 #ifndef INTERVAL_H
 #define INTERVAL_H

@@ -1,4 +1,4 @@
-/* Random numbers by address, never by order (Philox4x64, Random123).
+/* Random numbers, each a function of its own address (Philox4x64, Random123).
  *
  * A draw is a function of its address: the seed, the scene, the frame, the sensor, the reflector
  * and the purpose. So it does not depend on any other draw: not on sharding, on the order of

@@ -1,5 +1,5 @@
-/* Growing text, JSON strings, and bytes read as words. A zeroed text is empty; text_free gives its
- * memory back. */
+/* Text that grows, JSON strings, and eight bytes as a number. A zeroed text is empty; text_free
+ * gives its memory back. */
 #ifndef TEXT_H
 #define TEXT_H
 

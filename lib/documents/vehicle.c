@@ -2,7 +2,6 @@
 
 #include <string.h>
 
-#include "documents/catalogue.h"
 #include "text/document.h"
 
 static const struct field vehicle_fields[] = {
@@ -53,7 +52,7 @@ static int check_reflectors(const struct reflector_set *set, struct arena *arena
 
 const struct vehicle *vehicle_load(const char *class, struct arena *arena, struct diag *diag)
 {
-    const char *path = catalogue_path("vehicles", class, arena, diag);
+    const char *path = document_find_file("vehicles", class, ".json", arena, diag);
     struct vehicle *vehicle = arena_get(arena, sizeof *vehicle);
     if (path == NULL || document_read(path, &vehicle_record, vehicle, arena, diag) != 0)
         return NULL;

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "documents/catalogue.h"
+#include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "frame/frame_account.h"
 #include "frame/frame_check.h"
@@ -51,7 +51,7 @@ const struct suite *runner_suite(struct runner *runner, const char *name)
     for (size_t i = 0; i < runner->suites.count; i++)
         if (strcmp(runner->suites.items[i]->name, name) == 0)
             return runner->suites.items[i];
-    const struct suite *suite = catalogue_suite(name, &runner->arena, &runner->diag);
+    const struct suite *suite = suite_file_load(name, &runner->arena, &runner->diag);
     if (suite != NULL)
         *list_add(&runner->suites, &runner->arena) = suite;
     return suite;

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "documents/catalogue.h"
+#include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "frame/frame.h"
 #include "score/ensemble.h"

@@ -62,7 +62,7 @@ struct diag *runner_diag(struct runner *runner);
 /* Where the stage notes what it simulates and leaves out; NULL unless --explain was given. */
 struct effect_log *runner_log(struct runner *runner);
 
-/* The suite of that name (documents/catalogue.h), and the vehicle document of a class. Each is
+/* The suite of that name (documents/suite_file.h), and the vehicle document of a class. Each is
  * loaded once. Stages after ideal ask for the frame's suite instead (suite_choice.h). */
 const struct suite *runner_suite(struct runner *runner, const char *name);
 const struct vehicle *runner_vehicle(struct runner *runner, const char *class);

@@ -69,6 +69,16 @@ const char *document_find(const char *kind, const char *name, const char *ending
     return NULL;
 }
 
+const char *document_find_file(const char *kind, const char *name, const char *ending,
+                               struct arena *arena, struct diag *diag)
+{
+    if (strcmp(name, "-") != 0)
+        return document_find(kind, name, ending, arena, diag);
+    diag_fail(diag, DIAG_CONFIG, "\"-\" is standard input; expected a name in %s/, or a path",
+              kind);
+    return NULL;
+}
+
 /* jansson checks the text and says in which line it is wrong. What it read is written as one line,
  * for the reader of records. */
 int document_parse(const char *path, const struct text *text, const struct record *record,

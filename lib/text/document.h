@@ -21,6 +21,11 @@ void document_guard_memory(void);
 const char *document_find(const char *kind, const char *name, const char *ending,
                           struct arena *arena, struct diag *diag);
 
+/* The same, but refuses "-" (DIAG_CONFIG): for programs whose standard input is the stream of
+ * frames. */
+const char *document_find_file(const char *kind, const char *name, const char *ending,
+                               struct arena *arena, struct diag *diag);
+
 /* Reads a document (standard input for "-") into the struct that the record describes; all of it
  * lies in the arena. Messages are "PATH: objects[2].x_m: ...". */
 int document_read(const char *path, const struct record *record, void *base, struct arena *arena,

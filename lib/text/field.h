@@ -1,4 +1,4 @@
-/* Field tables: one description of a struct for all forms.
+/* Tables of a struct's members: for text, options, schemas, checks.
  *
  * A struct record lists the members of a C struct: the name (one spelling for C member, JSON key,
  * option and schema property, with the unit at its end), kind, bounds and help. The text of frames

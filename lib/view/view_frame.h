@@ -3,7 +3,7 @@
 #ifndef VIEW_FRAME_H
 #define VIEW_FRAME_H
 
-#include "documents/catalogue.h"
+#include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "frame/frame.h"
 #include "geometry/sensor_pose.h"

@@ -13,7 +13,7 @@
 #include "base/hash.h"
 #include "base/sort.h"
 #include "base/units.h"
-#include "documents/catalogue.h"
+#include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "frame/frame_order.h"
 #include "ideal/direct_echoes.h"
@@ -598,7 +598,7 @@ static void choose_suite(struct bench *bench, int which)
 {
     struct diag diag = {0};
     struct suite *suite = arena_get(&bench->documents, sizeof *suite);
-    const struct suite *shipped = catalogue_suite(suites[which].name, &bench->documents, &diag);
+    const struct suite *shipped = suite_file_load(suites[which].name, &bench->documents, &diag);
     if (shipped == NULL)
         fail_msg("%s", diag.text);
     size_t count = shipped->sensors.count;

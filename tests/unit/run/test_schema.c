@@ -5,7 +5,7 @@
 
 #include <jansson.h>
 
-#include "documents/catalogue.h"
+#include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "frame/frame.h"
 #include "run/schema.h"

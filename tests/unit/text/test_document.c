@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "documents/catalogue.h"
+#include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "text/document.h"
 #include "traffic/scenario.h"

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/units.h"
-#include "documents/catalogue.h"
+#include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "traffic/adversarial_traffic.h"
 #include "traffic/scenario.h"
@@ -34,7 +34,7 @@ static int make_bench(void **state)
         bench->scene.models[class] = (struct random_traffic_model){
             vehicle->length_m, vehicle->width_m, &vehicle->reflectors};
     }
-    bench->suite = catalogue_suite("srr24-pair-every-frame", &bench->documents, &diag);
+    bench->suite = suite_file_load("srr24-pair-every-frame", &bench->documents, &diag);
     if (bench->suite == NULL)
         fail_msg("%s", diag.text);
     *state = bench;

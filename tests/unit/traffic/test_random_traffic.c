@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "documents/catalogue.h"
+#include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "traffic/random_traffic.h"
 #include "traffic/scenario.h"

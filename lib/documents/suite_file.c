@@ -1,4 +1,4 @@
-#include "documents/catalogue.h"
+#include "documents/suite_file.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -6,16 +6,6 @@
 #include "base/hash.h"
 #include "text/csv_table.h"
 #include "text/document.h"
-
-const char *catalogue_path(const char *kind, const char *name, struct arena *arena,
-                           struct diag *diag)
-{
-    if (strcmp(name, "-") != 0)
-        return document_find(kind, name, ".json", arena, diag);
-    diag_fail(diag, DIAG_CONFIG, "\"-\" is standard input; expected a name in %s/, or a path",
-              kind);
-    return NULL;
-}
 
 /* The path of a table by its name in a document, which is relative to the document. */
 static const char *path_beside(const char *document, const char *table, struct arena *arena)
@@ -141,9 +131,9 @@ static int complete_suite(struct suite *suite, const char *path, const struct te
     return 0;
 }
 
-const struct suite *catalogue_suite(const char *name, struct arena *arena, struct diag *diag)
+const struct suite *suite_file_load(const char *name, struct arena *arena, struct diag *diag)
 {
-    const char *path = catalogue_path("sensors", name, arena, diag);
+    const char *path = document_find_file("sensors", name, ".json", arena, diag);
     if (path == NULL)
         return NULL;
     struct suite *suite = arena_get(arena, sizeof *suite);

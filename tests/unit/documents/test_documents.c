@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "base/text.h"
-#include "documents/catalogue.h"
+#include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "traffic/scenario.h"
 
@@ -23,7 +23,7 @@ static int make_scratch(void **state)
 {
     struct scratch *scratch = calloc(1, sizeof *scratch);
     assert_non_null(scratch);
-    strcpy(scratch->directory, "/tmp/glint-catalogue-XXXXXX");
+    strcpy(scratch->directory, "/tmp/glint-documents-XXXXXX");
     assert_non_null(mkdtemp(scratch->directory));
     snprintf(scratch->suite, sizeof scratch->suite, "%s/suite.json", scratch->directory);
     snprintf(scratch->table, sizeof scratch->table, "%s/amplitude.csv", scratch->directory);
@@ -102,7 +102,7 @@ static void load_scenario(const char *name, struct arena *arena)
 static void load_suite(const char *name, struct arena *arena)
 {
     struct diag diag = {0};
-    const struct suite *suite = catalogue_suite(name, arena, &diag);
+    const struct suite *suite = suite_file_load(name, arena, &diag);
     if (suite == NULL)
         fail_msg("%s", diag.text);
     assert_string_equal(suite->name, name);
@@ -148,7 +148,7 @@ static const struct suite *suite_of(struct scratch *scratch, const char *documen
     write_file(scratch->suite, document);
     write_file(scratch->table, table);
     write_file(scratch->pattern, rows);
-    return catalogue_suite(scratch->suite, &scratch->arena, diag);
+    return suite_file_load(scratch->suite, &scratch->arena, diag);
 }
 
 static void tables_are_found_beside_the_document_and_read(void **state)
