@@ -1,6 +1,4 @@
-/* Simulated by stages/ideal.c, which looks at the scene that much earlier (ideal/look.h;
- * MODEL 14.6).
- */
+/* Simulated by stages/ideal.c, which looks at the scene that much earlier (MODEL 14.6). */
 #include "effects/effect.h"
 
 const struct effect effect_latency = {

@@ -211,10 +211,10 @@ static void a_margin_is_the_distance_from_another_answer(void **state)
         {99.5, 0, 0, -1, 0.5}, /* farthest limit */
         {0.75, 0, 0, LOSS_OUT_OF_RANGE, 0.25},
         {102, 0, 0, LOSS_OUT_OF_RANGE, 2},
-        {40, 39, 0, -1, 1},                 /* worked out below */
-        {39, 40, 0, LOSS_OUT_OF_VIEW, 1},   /* below, too */
-        {-10, 0, 0, LOSS_FACING_AWAY, 0},   /* below */
-        {60, 3, 30, -1, 2},                 /* below */
+        {40, 39, 0, -1, 0},                 /* angle to the border of view: computed below */
+        {39, 40, 0, LOSS_OUT_OF_VIEW, 0},   /* the same */
+        {-10, 0, 0, LOSS_FACING_AWAY, 0},   /* angle to zero_rad: computed below */
+        {60, 3, 30, -1, 0},                 /* distance from the box: computed below */
         {60, 0, 30, LOSS_BLOCKED, 1},       /* the box reaches 1 m to either side */
         {28.25, 0, 30, LOSS_BLOCKED, 0.25}, /* 0.25 m behind its rear at 28 m */
         {27.5, 0, 30, -1, 0.5},             /* 0.5 m before it */

@@ -5,7 +5,7 @@
 #include "geometry/outline_crossing.h"
 #include "look_scene.h"
 
-/* Two objects of 4 m at (8, 21) and (12, 21), with a wall each on the sensor's side. */
+/* Two walls in line, one on the side of each of two objects, which meet before the sensor. */
 static void add_two_walls(struct scene *scene)
 {
     struct reflector_set *set = add_set(scene, "a");
@@ -22,21 +22,21 @@ static void the_joint_of_two_walls_mirrors_once(void **state)
 {
     struct scene *scene = *state;
     static const double sensor_x_m[] = {10, 10 - 0x1p-49, 10 + 0x1p-49};
-    static const char *const owner[] = {"b", "a", "b"};
+    static const char *const expected[] = {"b", "a", "b"};
     add_two_walls(scene);
     for (int i = 0; i < 3; i++) {
         scene->frame.objects.items[0].x_m = sensor_x_m[i];
         scene->frame.echoes.count = 0;
         look_at(scene, 10);
         assert_int_equal(scene->frame.echoes.count, 1);
-        assert_string_equal(scene->frame.echoes.items[0].id.object, owner[i]);
+        assert_string_equal(scene->frame.echoes.items[0].id.object, expected[i]);
         assert_close(scene->frame.echoes.items[0].range_m, 20, 0);
     }
 }
 
-/* The second wall begins a nanometre after the first ends: it is the same wall for what hides, not
- * for what mirrors. */
-static void the_end_of_a_wall_mirrors_where_the_next_begins_a_hair_farther_on(void **state)
+/* The second wall begins a nanometre beyond the end of the first: neither hides a foot on the
+ * other, but their ends are two vertices. */
+static void the_foot_on_a_wall_s_end_stays_if_the_next_wall_begins_a_hair_farther_on(void **state)
 {
     struct scene *scene = *state;
     add_two_walls(scene);
@@ -105,7 +105,7 @@ static void a_line_is_blocked_where_it_touches_an_outline(void **state)
 }
 
 /* A plane from corner to corner of a car of 4 m by 2 m at (10, 20) that heads along (0.6, 0.8). */
-static void a_side_is_the_plane_where_its_body_stands(void **state)
+static void a_side_has_the_place_and_direction_of_its_plane(void **state)
 {
     struct scene *scene = *state;
     add_set(scene, "a");
@@ -124,34 +124,34 @@ static void a_side_is_the_plane_where_its_body_stands(void **state)
 
 static const struct obstruction_line ahead = {.from = {0, 0}, .to = {60, 0}};
 
-/* A body of 4 m by 2 m owner nearest side is so far to the left of the line ahead, or beyond it. */
-static void add_beside(struct scene *scene, const char *id, double x_m, double left_m)
+/* Adds a body of 4 m by 2 m whose right side is left_m to the left of the line ahead. */
+static void add_body(struct scene *scene, const char *id, double x_m, double left_m)
 {
     add_set(scene, id);
     add_object(scene, id, x_m, left_m + 1);
 }
 
-/* ITU-R P.526: J(0) is 6.03 dB, each way. */
+/* By ITU-R P.526, J(0) is 6.03 dB each way. */
 static void a_touched_edge_takes_six_decibels_each_way(void **state)
 {
     struct scene *scene = *state;
     scene->sensor.diffraction = true;
     scene->sensor.carrier_hz = 24e9;
-    add_beside(scene, "a", 20, 0);
+    add_body(scene, "a", 20, 0);
     struct look look = look_at(scene, 10);
-    struct line_of_sight way = line_of_sight_along(&look, &ahead, NULL, 0);
-    assert_close(20 * log10(way.factor), -2 * 6.03, 0.01);
-    assert_null(way.by);
-    assert_true(way.effects == EFFECT_BIT(EFFECT_DIFFRACTION));
+    struct line_of_sight seen = line_of_sight_along(&look, &ahead, NULL, 0);
+    assert_close(20 * log10(seen.factor), -2 * 6.03, 0.01);
+    assert_null(seen.by);
+    assert_true(seen.effects == EFFECT_BIT(EFFECT_DIFFRACTION));
 }
 
-static void what_passes_two_bodies_is_the_product_of_what_passes_each(void **state)
+static void factors_of_two_bodies_multiply(void **state)
 {
     struct scene *scene = *state;
     scene->sensor.diffraction = true;
     scene->sensor.carrier_hz = 24e9;
-    add_beside(scene, "a", 20, 0.02);
-    add_beside(scene, "b", 45, -1.98);
+    add_body(scene, "a", 20, 0.02);
+    add_body(scene, "b", 45, -1.98);
     struct look look = look_at(scene, 10);
     const struct look_body *a = &look.bodies[0], *b = &look.bodies[1];
     double past_a = line_of_sight_along(&look, &ahead, &b, 1).factor;
@@ -162,12 +162,11 @@ static void what_passes_two_bodies_is_the_product_of_what_passes_each(void **sta
     assert_close(line_of_sight_along(&look, &ahead, both, 2).factor, 1, 0);
 }
 
-/* A raised body lets pass what is seen under it: only solid ones count there. */
-static void what_is_seen_under_vehicles_meets_solid_bodies_only(void **state)
+static void raised_bodies_do_not_block_a_line_under_them(void **state)
 {
     struct scene *scene = *state;
-    add_beside(scene, "a", 20, -1);
-    add_beside(scene, "b", 30, 5);
+    add_body(scene, "a", 20, -1);
+    add_body(scene, "b", 30, 5);
     scene->frame.reflectors.items[0].raised = true;
     struct look look = look_at(scene, 10);
     line_of_sight_find_blockers(&look, NULL, &look.bodies[0].shadow);
@@ -179,13 +178,13 @@ static void what_is_seen_under_vehicles_meets_solid_bodies_only(void **state)
     assert_close(line_of_sight_margin_m(&look, NULL, 0, &ahead, true, false), 5, 1e-14);
 }
 
-static void a_line_is_clear_by_its_distance_from_the_nearest_body(void **state)
+static void the_margin_of_a_clear_line_is_its_distance_from_the_nearest_body(void **state)
 {
     struct scene *scene = *state;
     struct look look = look_at(scene, 10);
     assert_true(line_of_sight_clearance_m(&look, &ahead, NULL, 0) == (double)INFINITY);
-    add_beside(scene, "a", 20, 3);
-    add_beside(scene, "b", 30, -4.5);
+    add_body(scene, "a", 20, 3);
+    add_body(scene, "b", 30, -4.5);
     add_set(scene, "c")->blocks = false;
     add_object(scene, "c", 40, 0);
     look = look_at(scene, 10);
@@ -197,30 +196,31 @@ static void a_line_is_clear_by_its_distance_from_the_nearest_body(void **state)
     assert_true(line_of_sight_clearance_m(&look, &ahead, NULL, 0) == (double)INFINITY);
 }
 
-/* How far the line would have to be moved aside to pass the body in the way of which most is. */
-static void a_line_is_blocked_by_its_depth_in_what_is_in_the_way(void **state)
+/* The line crosses two bodies, 0.75 m and 0.25 m inside their nearest sides. */
+static void the_margin_of_a_blocked_line_is_its_greatest_depth_in_a_body(void **state)
 {
     struct scene *scene = *state;
-    add_beside(scene, "a", 20, -1.25);
-    add_beside(scene, "b", 40, -0.25);
+    add_body(scene, "a", 20, -1.25);
+    add_body(scene, "b", 40, -0.25);
     struct look look = look_at(scene, 10);
     const struct look_body *a = &look.bodies[0];
     assert_close(line_of_sight_margin_m(&look, NULL, 0, &ahead, false, true), 0.75, 1e-14);
     assert_close(line_of_sight_margin_m(&look, &a, 1, &ahead, false, true), 0.25, 1e-14);
 }
 
-/* From 1 m to 3 m over the road; over a body from 18 m to 22 m it is 1.6 m high and more. */
-static void a_line_over_a_body_is_clear_by_its_height_over_it(void **state)
+/* A line that rises from 1 m to 3 m over the road: over a body from 18 m to 22 m it is at least 1.6
+ * m high. */
+static void the_margin_of_a_line_over_a_body_is_its_height_above_the_top(void **state)
 {
     struct scene *scene = *state;
     static const struct obstruction_line rising = {{0, 0}, {60, 0}, 1, 3};
     scene->sensor.mount_z_m = 1;
-    add_beside(scene, "a", 20, -1);
+    add_body(scene, "a", 20, -1);
     scene->frame.objects.items[1].height_m = 1.25;
     struct look look = look_at(scene, 10);
-    struct line_of_sight way = line_of_sight_along(&look, &rising, NULL, 0);
-    assert_close(way.factor, 1, 0);
-    assert_true(way.effects == EFFECT_BIT(EFFECT_HEIGHT));
+    struct line_of_sight seen = line_of_sight_along(&look, &rising, NULL, 0);
+    assert_close(seen.factor, 1, 0);
+    assert_true(seen.effects == EFFECT_BIT(EFFECT_HEIGHT));
     assert_close(line_of_sight_clearance_m(&look, &rising, NULL, 0), 1.6 - 1.25, 1e-14);
     scene->frame.objects.items[1].height_m = 1.7;
     look = look_at(scene, 10);
@@ -228,9 +228,8 @@ static void a_line_over_a_body_is_clear_by_its_height_over_it(void **state)
     assert_close(line_of_sight_margin_m(&look, NULL, 0, &rising, false, true), 1.7 - 1.6, 1e-14);
 }
 
-/* A crowd as auto looks at it: the ways that circles and silhouettes answer are not tested exactly.
- */
-static struct look look_at_crowd(struct scene *scene, uint64_t *random)
+/* Random bodies under auto: what circles and silhouettes answer is not tested exactly. */
+static struct look look_at_random_bodies(struct scene *scene, uint64_t *random)
 {
     struct look look;
     add_random_bodies(scene, random);
@@ -248,15 +247,15 @@ static struct obstruction_line line_to_pole(const struct look *look, const struc
                                      look_reflector_height_m(look, body, pole->z)};
 }
 
-static void blockers_of_a_body_let_pass_what_all_bodies_do(void **state)
+static void the_blockers_of_a_body_let_the_same_pass_as_all_bodies(void **state)
 {
     (void)state;
     uint64_t random = 12;
-    size_t blocked = 0, bent = 0, asked = 0;
+    size_t blocked = 0, bent = 0, lines = 0;
     for (int i = 0; i < 1000; i++) {
         void *place;
         make_scene(&place);
-        struct look look = look_at_crowd(place, &random);
+        struct look look = look_at_random_bodies(place, &random);
         for (size_t j = 0; j < look.body_count; j++) {
             const struct look_body *body = &look.bodies[j];
             struct look_extent extent = look_reflectors_extent(&look, body, body->set);
@@ -268,14 +267,14 @@ static void blockers_of_a_body_let_pass_what_all_bodies_do(void **state)
             assert_true(some.factor == all.factor && some.effects == all.effects);
             blocked += all.by != NULL;
             bent += all.factor > 0 && all.factor < 1;
-            asked++;
+            lines++;
         }
         remove_scene(&place);
     }
-    assert_true(blocked > asked / 20 && blocked < asked / 2 && bent > 100);
+    assert_true(blocked > lines / 20 && blocked < lines / 2 && bent > 100);
 }
 
-static void a_body_is_all_hidden_only_where_each_reflector_is(void **state)
+static void where_a_set_is_all_hidden_each_of_its_points_is_blocked(void **state)
 {
     (void)state;
     uint64_t random = 13;
@@ -283,7 +282,7 @@ static void a_body_is_all_hidden_only_where_each_reflector_is(void **state)
     for (int i = 0; i < 1000; i++) {
         void *place;
         make_scene(&place);
-        struct look look = look_at_crowd(place, &random);
+        struct look look = look_at_random_bodies(place, &random);
         for (size_t j = 0; j < look.body_count; j++) {
             const struct look_body *body = &look.bodies[j];
             struct look_extent extent = look_reflectors_extent(&look, body, body->set);
@@ -304,18 +303,18 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         SCENE_TEST(the_joint_of_two_walls_mirrors_once),
-        SCENE_TEST(the_end_of_a_wall_mirrors_where_the_next_begins_a_hair_farther_on),
+        SCENE_TEST(the_foot_on_a_wall_s_end_stays_if_the_next_wall_begins_a_hair_farther_on),
         SCENE_TEST(a_body_hides_nothing_of_a_wall_that_it_joins),
         SCENE_TEST(a_line_is_blocked_where_it_touches_an_outline),
-        SCENE_TEST(a_side_is_the_plane_where_its_body_stands),
+        SCENE_TEST(a_side_has_the_place_and_direction_of_its_plane),
         SCENE_TEST(a_touched_edge_takes_six_decibels_each_way),
-        SCENE_TEST(what_passes_two_bodies_is_the_product_of_what_passes_each),
-        SCENE_TEST(what_is_seen_under_vehicles_meets_solid_bodies_only),
-        SCENE_TEST(a_line_is_clear_by_its_distance_from_the_nearest_body),
-        SCENE_TEST(a_line_is_blocked_by_its_depth_in_what_is_in_the_way),
-        SCENE_TEST(a_line_over_a_body_is_clear_by_its_height_over_it),
-        SCENE_TEST(blockers_of_a_body_let_pass_what_all_bodies_do),
-        SCENE_TEST(a_body_is_all_hidden_only_where_each_reflector_is),
+        SCENE_TEST(factors_of_two_bodies_multiply),
+        SCENE_TEST(raised_bodies_do_not_block_a_line_under_them),
+        SCENE_TEST(the_margin_of_a_clear_line_is_its_distance_from_the_nearest_body),
+        SCENE_TEST(the_margin_of_a_blocked_line_is_its_greatest_depth_in_a_body),
+        SCENE_TEST(the_margin_of_a_line_over_a_body_is_its_height_above_the_top),
+        SCENE_TEST(the_blockers_of_a_body_let_the_same_pass_as_all_bodies),
+        SCENE_TEST(where_a_set_is_all_hidden_each_of_its_points_is_blocked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
