@@ -22,27 +22,6 @@ enum { MANTISSA_BITS = 52, EXPONENT_BIAS = 1075, DIGITS = 17, EIGHT_DIGITS = 100
 
 using wide = unsigned __int128;
 
-constexpr uint64_t FIVES[] = {1,
-                              5,
-                              25,
-                              125,
-                              625,
-                              3125,
-                              15625,
-                              78125,
-                              390625,
-                              1953125,
-                              9765625,
-                              48828125,
-                              244140625,
-                              1220703125,
-                              6103515625,
-                              30517578125,
-                              152587890625,
-                              762939453125,
-                              3814697265625,
-                              19073486328125};
-
 constexpr double TENS[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,
                            1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19};
 
@@ -56,27 +35,27 @@ enum { NUMBER_ROOM = 64 };
 
 constexpr uint64_t BYTES = UINT64_C(0x0101010101010101);
 
-// The powers of five shifted up to 64 bits, and 2^128 divided by each, less 2^64: a product with
-// this inverse replaces the division (N. Moeller and T. Granlund, Improved division by invariant
-// integers, 2011).
-struct shifted_fives {
-    uint64_t divisor[NUMBER_DIGITS + 1], inverse[NUMBER_DIGITS + 1];
+// The powers of five; the same shifted up to 64 bits; and 2^128 divided by each of those, less 2^64:
+// a product with this inverse replaces the division (N. Moeller and T. Granlund, Improved division
+// by invariant integers, 2011).
+struct powers_of_five {
+    uint64_t power[NUMBER_DIGITS + 1], divisor[NUMBER_DIGITS + 1], inverse[NUMBER_DIGITS + 1];
 };
 
-constexpr shifted_fives shift_fives()
+constexpr powers_of_five powers_of_five_table()
 {
-    shifted_fives shifted{};
+    powers_of_five five{};
     for (int i = 0; i <= NUMBER_DIGITS; i++) {
-        uint64_t divisor = FIVES[i];
-        while (divisor >> 63 == 0)
-            divisor *= 2;
-        shifted.divisor[i] = divisor;
-        shifted.inverse[i] = uint64_t(~wide(0) / divisor);
+        five.power[i] = i == 0 ? 1 : 5 * five.power[i - 1];
+        five.divisor[i] = five.power[i];
+        while (five.divisor[i] >> 63 == 0)
+            five.divisor[i] *= 2;
+        five.inverse[i] = uint64_t(~wide(0) / five.divisor[i]);
     }
-    return shifted;
+    return five;
 }
 
-constexpr shifted_fives SHIFTED_FIVES = shift_fives();
+constexpr powers_of_five FIVE = powers_of_five_table();
 
 constexpr char PAIRS[] = "0001020304050607080910111213141516171819"
                          "2021222324252627282930313233343536373839"
@@ -138,13 +117,13 @@ char *put_ten_thousandths(uint32_t value, char *text)
 // even decimal.
 uint64_t shortest_multiple(uint64_t mantissa, int scale, int places)
 {
-    const wide exact = wide(mantissa) * FIVES[places]; // in units of 2^-shift
+    const wide exact = wide(mantissa) * FIVE.power[places]; // in units of 2^-shift
     const int shift = scale - places;
     const uint64_t below = uint64_t(exact >> 64) << (64 - shift) | uint64_t(exact) >> shift;
     const uint64_t half = uint64_t(1) << (shift - 1), rest = uint64_t(exact) & (2 * half - 1);
     // The distance to the midpoints, in half units; the midpoints of an odd mantissa read back to
     // the neighbours.
-    const uint64_t reach = FIVES[places] - (mantissa & 1);
+    const uint64_t reach = FIVE.power[places] - (mantissa & 1);
     const uint64_t tens = (below + ((2 * rest + reach) >> (shift + 1))) / 10 * 10;
     if (tens > below || (below - tens) * 4 * half + 2 * rest <= reach)
         return tens;
@@ -200,7 +179,7 @@ uint64_t eight_digits(uint64_t word)
 // estimate is off by at most one.
 uint64_t quotient_of(uint64_t digits, int places)
 {
-    const uint64_t divisor = SHIFTED_FIVES.divisor[places], inverse = SHIFTED_FIVES.inverse[places];
+    const uint64_t divisor = FIVE.divisor[places], inverse = FIVE.inverse[places];
     const uint64_t high = digits >> 1, low = digits << 63;
     const wide estimate = wide(inverse) * high + (wide(high) << 64 | low);
     uint64_t quotient = uint64_t(estimate >> 64) + 1, rest = low - quotient * divisor;
@@ -302,7 +281,7 @@ double number_of_digits(uint64_t digits, int places)
     if (digits >> (MANTISSA_BITS + 1) == 0)
         return double(int64_t(digits)) / TENS[places];
     // The quotient has 63 bits or 64.
-    const int up = __builtin_clzll(digits), side = __builtin_clzll(FIVES[places]);
+    const int up = __builtin_clzll(digits), side = __builtin_clzll(FIVE.power[places]);
     const uint64_t quotient = quotient_of(digits << up, places);
     const uint64_t power = uint64_t(1023 + side - up - 63 - places) << MANTISSA_BITS;
     double scale;

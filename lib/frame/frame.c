@@ -381,6 +381,17 @@ struct object *frame_object(const struct frame *frame, const char *id)
     return NULL;
 }
 
+bool frame_detects(const struct frame *frame, const char *object)
+{
+    for (size_t i = 0; i < frame->targets.count; i++) {
+        const struct target *target = &frame->targets.items[i];
+        for (size_t j = 0; j < target->contributors.count; j++)
+            if (frame_same_name(target->contributors.items[j].id.object, object))
+                return true;
+    }
+    return false;
+}
+
 struct motion frame_motion(const struct object *object, double age_s)
 {
     struct motion now = {

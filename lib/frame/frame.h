@@ -256,6 +256,9 @@ void frame_drop(struct frame *frame, unsigned sections);
 /* The object with this id, or NULL. */
 struct object *frame_object(const struct frame *frame, const char *id);
 
+/* True if an echo of the object with this id is in a target. */
+bool frame_detects(const struct frame *frame, const char *object);
+
 /* The object's motion age_s before the frame's time, at constant speed and turn rate (MODEL 2.4).
  */
 struct motion frame_motion(const struct object *object, double age_s);

@@ -38,21 +38,14 @@ static int compare_contributors(const void *left, const void *right)
     return compare_echo_ids(a->id, b->id);
 }
 
+_Static_assert(offsetof(struct reflector_set, model) == 0 &&
+                   offsetof(struct sensor_view, name) == 0 &&
+                   offsetof(struct target, sensor) == 0 && offsetof(struct count, sensor) == 0,
+               "structs that are sorted by frame_order_names begin with a name");
+
 int frame_order_names(const void *left, const void *right)
 {
     return compare_names(*(const char *const *)left, *(const char *const *)right);
-}
-
-static int compare_sets(const void *left, const void *right)
-{
-    return strcmp(((const struct reflector_set *)left)->model,
-                  ((const struct reflector_set *)right)->model);
-}
-
-static int compare_views(const void *left, const void *right)
-{
-    return strcmp(((const struct sensor_view *)left)->name,
-                  ((const struct sensor_view *)right)->name);
 }
 
 int frame_order_echoes(const void *left, const void *right)
@@ -86,22 +79,10 @@ static int compare_lost_groups(const void *left, const void *right)
     return order != 0 ? order : (a->reason > b->reason) - (a->reason < b->reason);
 }
 
-static int compare_counts(const void *left, const void *right)
-{
-    return strcmp(((const struct count *)left)->sensor, ((const struct count *)right)->sensor);
-}
-
 static int compare_paths(const void *left, const void *right)
 {
     const struct path_count *a = left, *b = right;
     return (a->path > b->path) - (a->path < b->path);
-}
-
-/* The sort is stable, so that targets keep the order of their sensor's list. */
-static int compare_targets(const void *left, const void *right)
-{
-    return compare_names(((const struct target *)left)->sensor,
-                         ((const struct target *)right)->sensor);
 }
 
 static int compare_objects(const void *left, const void *right)
@@ -125,7 +106,7 @@ struct object *const *frame_order_objects(struct frame *frame)
 
 static void order_sets(struct frame *frame)
 {
-    sort_list(&frame->reflectors, compare_sets, frame->arena);
+    sort_list(&frame->reflectors, frame_order_names, frame->arena);
     for (size_t i = 0; i < frame->reflectors.count; i++)
         sort_list(&frame->reflectors.items[i].objects, frame_order_names, frame->arena);
 }
@@ -153,7 +134,7 @@ static void order_lost(struct frame *frame, const char *stage)
 
 static void order_counts(struct frame *frame)
 {
-    sort_list(&frame->counts, compare_counts, frame->arena);
+    sort_list(&frame->counts, frame_order_names, frame->arena);
     for (size_t i = 0; i < frame->counts.count; i++)
         sort_list(&frame->counts.items[i].paths, compare_paths, frame->arena);
 }
@@ -165,13 +146,13 @@ void frame_order_part(struct frame *frame, struct frame_part part)
     if ((part.sections & SECTION_REFLECTORS) != 0)
         order_sets(frame);
     if ((part.sections & SECTION_SENSORS) != 0)
-        sort_list(&frame->sensors.list, compare_views, frame->arena);
+        sort_list(&frame->sensors.list, frame_order_names, frame->arena);
     if ((part.sections & SECTION_ECHOES) != 0)
         sort_list(&frame->echoes, frame_order_echoes, frame->arena);
     if ((part.sections & SECTION_CELLS) != 0)
         order_cells(frame);
     if ((part.sections & SECTION_TARGETS) != 0)
-        sort_list(&frame->targets, compare_targets, frame->arena);
+        sort_list(&frame->targets, frame_order_names, frame->arena); /* stable: lists stay */
     if ((part.sections & SECTION_LOST) != 0)
         order_lost(frame, part.stage);
     if ((part.sections & SECTION_COUNTS) != 0)

@@ -5,6 +5,7 @@
 
 #include "base/elementary.h"
 #include "base/sort.h"
+#include "frame/frame_order.h"
 #include "score/error_statistics.h"
 
 #define COUNT(owner, member, help) FIELD_INTEGER_IN(owner, member, 0, 0x1p53, help)
@@ -258,18 +259,14 @@ void score_merge_sensor(struct score_tallies *tallies, const struct score_tally 
     score_merge(tally, scan, arena);
 }
 
-static int compare_sensors(const void *left, const void *right)
-{
-    return strcmp(((const struct score_tally *)left)->sensor,
-                  ((const struct score_tally *)right)->sensor);
-}
+_Static_assert(offsetof(struct score_tally, sensor) == 0, "frame_order_names compares it");
 
 void score_summarize(struct score_tallies *tallies, struct score_summary *summary,
                      struct arena *arena)
 {
     size_t count = tallies->list.count;
     struct arena scratch = {0};
-    sort_list(&tallies->list, compare_sensors, arena);
+    sort_list(&tallies->list, frame_order_names, arena);
     for (size_t i = 0; i < count; i++) {
         *list_add(&summary->sensors, arena) = score_of(&tallies->list.items[i], 1, &scratch);
         arena_clear(&scratch);

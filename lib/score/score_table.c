@@ -8,17 +8,12 @@ enum { NAME_WIDTH = 28, COLUMN_WIDTH = 12 };
 static void write_cell(const struct record *record, const struct field *field, const void *base,
                        struct text *text)
 {
-    const void *member = (const char *)base + field->offset;
-    int64_t integer;
-    double real;
     if (!field_present(record, field, base)) {
         text_format(text, "%*s", COLUMN_WIDTH, "-");
     } else if (field->kind == FIELD_INTEGER) {
-        memcpy(&integer, member, sizeof integer);
-        text_format(text, "%*" PRId64, COLUMN_WIDTH, integer);
+        text_format(text, "%*" PRId64, COLUMN_WIDTH, FIELD_LOAD(int64_t, field, base));
     } else {
-        memcpy(&real, member, sizeof real);
-        text_format(text, "%*.4g", COLUMN_WIDTH, real);
+        text_format(text, "%*.4g", COLUMN_WIDTH, FIELD_LOAD(double, field, base));
     }
 }
 

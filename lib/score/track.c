@@ -1,8 +1,7 @@
 #include "score/track.h"
 
-#include <string.h>
-
 #include "base/sort.h"
+#include "frame/frame_order.h"
 
 static const struct field track_fields[] = {
     {FIELD_NAME_OF(struct track, id, "unique in the line; constant for an object")},
@@ -35,16 +34,13 @@ const struct record track_list_record = {
                 "A tracker's tracks in one frame: a line for glint-score-tracks."),
     .present_offset = offsetof(struct track_list, present)};
 
-static int compare(const void *left, const void *right)
-{
-    return strcmp(((const struct track *)left)->id, ((const struct track *)right)->id);
-}
+_Static_assert(offsetof(struct track, id) == 0, "frame_order_names compares it");
 
 int track_order(struct track_list *list, struct arena *arena, struct diag *diag)
 {
-    sort_list(&list->tracks, compare, arena);
+    sort_list(&list->tracks, frame_order_names, arena);
     for (size_t i = 1; i < list->tracks.count; i++)
-        if (compare(&list->tracks.items[i - 1], &list->tracks.items[i]) == 0)
+        if (frame_order_names(&list->tracks.items[i - 1], &list->tracks.items[i]) == 0)
             return diag_fail(diag, DIAG_DATA, "tracks: the id \"%s\" stands twice",
                              list->tracks.items[i].id);
     return 0;

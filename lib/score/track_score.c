@@ -63,24 +63,13 @@ static bool in_view(const struct frame *frame, const struct object *object)
     return false;
 }
 
-static bool detected(const struct frame *frame, const struct object *object)
-{
-    for (size_t i = 0; i < frame->targets.count; i++) {
-        const struct target *target = &frame->targets.items[i];
-        for (size_t j = 0; j < target->contributors.count; j++)
-            if (strcmp(target->contributors.items[j].id.object, object->id) == 0)
-                return true;
-    }
-    return false;
-}
-
 bool track_score_counts(const struct frame *frame, const struct object *object,
                         enum track_truth truth, const char *classes)
 {
     return strcmp(object->id, frame->ego) != 0 &&
            (classes == NULL || is_named(classes, object->class)) &&
            (truth == TRACK_TRUTH_ALL || (truth == TRACK_TRUTH_IN_VIEW && in_view(frame, object)) ||
-            (truth == TRACK_TRUTH_DETECTED && detected(frame, object)));
+            (truth == TRACK_TRUTH_DETECTED && frame_detects(frame, object->id)));
 }
 
 bool track_score_switches(struct track_memory *memory, const char *scene, const char *object,

@@ -62,29 +62,9 @@ static void include(struct drawing *drawing, struct vec2 place)
                                   elementary_max(drawing->high.y, local.y)};
 }
 
-static const struct sensor_view *sensor_named(const struct frame *frame, const char *name,
-                                              size_t *number)
-{
-    for (size_t i = 0; i < frame->sensors.list.count; i++)
-        if (strcmp(frame->sensors.list.items[i].name, name) == 0) {
-            *number = i;
-            return &frame->sensors.list.items[i];
-        }
-    return NULL;
-}
-
 static struct box box_of(const struct drawing *drawing, const struct object *object)
 {
     return view_frame_box(object, view_frame_vehicle(drawing->models, object->class));
-}
-
-static bool made_target(const struct frame *frame, const struct object *object)
-{
-    for (size_t i = 0; i < frame->targets.count; i++)
-        for (size_t j = 0; j < frame->targets.items[i].contributors.count; j++)
-            if (strcmp(frame->targets.items[i].contributors.items[j].id.object, object->id) == 0)
-                return true;
-    return false;
 }
 
 /* Chooses the area of the picture: it includes the ego, all targets, and objects shorter than 20 m
@@ -94,9 +74,7 @@ static void frame_picture(struct drawing *drawing)
     const struct frame *frame = drawing->frame;
     for (size_t i = 0; i < frame->targets.count; i++) {
         const struct target *target = &frame->targets.items[i];
-        size_t number;
-        struct view_scan scan =
-            view_frame_scan(frame, sensor_named(frame, target->sensor, &number));
+        struct view_scan scan = view_frame_scan(frame, frame_view(frame, target->sensor));
         include(drawing, view_frame_place(&scan, target->range_m, target->azimuth_rad));
     }
     for (size_t i = 0; i < frame->objects.count; i++) {
@@ -105,7 +83,7 @@ static void frame_picture(struct drawing *drawing)
         struct vec2 corner[4];
         box_outline(&box, corner);
         bool ego = strcmp(object->id, frame->ego) == 0;
-        bool part = made_target(frame, object) && box.length_m < 20;
+        bool part = frame_detects(frame, object->id) && box.length_m < 20;
         for (int j = 0; j < 4 && (ego || part || frame->targets.count == 0); j++)
             include(drawing, corner[j]);
     }
@@ -228,8 +206,8 @@ static void add_symbol(struct text *text, size_t style, struct vec2 at)
 
 static void draw_target(struct drawing *drawing, const struct target *target)
 {
-    size_t style = 0;
-    const struct sensor_view *sensor = sensor_named(drawing->frame, target->sensor, &style);
+    const struct sensor_view *sensor = frame_view(drawing->frame, target->sensor);
+    size_t style = (size_t)(sensor - drawing->frame->sensors.list.items);
     struct view_scan scan = view_frame_scan(drawing->frame, sensor);
     struct vec2 at = view_frame_place(&scan, target->range_m, target->azimuth_rad);
     char class[16] = "speed s0";
