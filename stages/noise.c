@@ -3,8 +3,8 @@
  * the list (10, 11), and the rounding of what is reported. */
 #include "base/units.h"
 #include "effects/effect.h"
+#include "noise/false_alarm_cells.h"
 #include "noise/measurement_noise.h"
-#include "noise/noise_targets.h"
 #include "run/suite_choice.h"
 
 /* Measures all cells and keeps those that are still a target after noise. Returns their number. */
@@ -34,7 +34,7 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
                          const struct selection *selection)
 {
     struct effect_scan context = effect_begin(frame, sensor, selection, EFFECT_HOME_NOISE);
-    struct cell_span alarms = noise_targets_of(frame, &context);
+    struct cell_span alarms = false_alarm_cells_of(frame, &context);
     struct cell_span cells = frame_cells_of(frame, sensor->name);
     struct measurement *measurements =
         arena_get(frame->arena, (cells.count + alarms.count + 1) * sizeof *measurements);

@@ -1,4 +1,4 @@
-/* Simulated by noise/noise_targets.c (MODEL 14.9). */
+/* Simulated by noise/false_alarm_cells.c (MODEL 14.9). */
 #include "effects/effect.h"
 
 static bool described(const struct effect_scan *scan)

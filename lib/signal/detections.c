@@ -5,7 +5,7 @@
 #include "base/elementary.h"
 #include "base/units.h"
 #include "effects/effect.h"
-#include "noise/noise_targets.h"
+#include "noise/false_alarm_cells.h"
 #include "radar/interferer.h"
 #include "sensor/cell_margins.h"
 
@@ -143,7 +143,7 @@ static void label(const struct sensor *sensor, struct detection *detection,
 static void label_false_alarm(const struct sensor *sensor, struct detection *detection,
                               int64_t number, double time_s, struct arena *arena)
 {
-    struct contributor noise = noise_targets_contributor(number);
+    struct contributor noise = false_alarm_cells_contributor(number);
     noise.range_m = detection->range_m;
     noise.azimuth_rad = detection->azimuth_rad;
     noise.range_rate_mps = detection->range_rate_mps;

@@ -7,7 +7,7 @@
 #include "base/elementary.h"
 #include "base/units.h"
 #include "frame/draw_address.h"
-#include "noise/noise_targets.h"
+#include "noise/false_alarm_cells.h"
 #include "radar/interferer.h"
 #include "sensor/scan.h"
 
@@ -219,7 +219,7 @@ void signal_cube_receive(const struct signal_cube *signal, const struct scan *sc
 {
     const struct effect_scan *context = &scan->context;
     struct random_address address =
-        draw_address_in(context->address, noise_targets_contributor(0).id);
+        draw_address_in(context->address, false_alarm_cells_contributor(0).id);
     signal_cube_clear(signal);
     signal_cube_add(signal, scan->received.echoes, scan->received.count, context->frame->arena);
     if (noisy)

@@ -1,11 +1,11 @@
-#include "noise/noise_targets.h"
+#include "noise/false_alarm_cells.h"
 
 #include "base/elementary.h"
 #include "base/poisson.h"
 #include "effects/effect.h"
 #include "frame/draw_address.h"
 
-struct contributor noise_targets_contributor(int64_t number)
+struct contributor false_alarm_cells_contributor(int64_t number)
 {
     return (struct contributor){
         .id.object = "noise",
@@ -19,7 +19,7 @@ struct contributor noise_targets_contributor(int64_t number)
 static struct contributor draw_contributor(const struct sensor *sensor, int64_t number,
                                            const double uniform[3])
 {
-    struct contributor contributor = noise_targets_contributor(number);
+    struct contributor contributor = false_alarm_cells_contributor(number);
     double depth_m = sensor->range_max_m - sensor->range_min_m;
     contributor.range_m = sensor->range_min_m + depth_m * uniform[0];
     contributor.azimuth_rad = sensor->field_of_view_rad * (uniform[1] - 0.5);
@@ -43,17 +43,17 @@ static struct cell cell_of(struct frame *frame, const struct sensor *sensor,
     return cell;
 }
 
-double noise_targets_amplitude(double threshold, double noise_sigma, double uniform)
+double false_alarm_cells_amplitude(double threshold, double noise_sigma, double uniform)
 {
     return elementary_hypot(threshold, noise_sigma * sqrt(-elementary_log(uniform)));
 }
 
-struct cell_span noise_targets_of(struct frame *frame, const struct effect_scan *context)
+struct cell_span false_alarm_cells_of(struct frame *frame, const struct effect_scan *context)
 {
     const struct sensor *sensor = context->sensor;
     const struct sensor_view *view = frame_view(frame, sensor->name);
     struct random_address address =
-        draw_address_in(context->address, noise_targets_contributor(0).id);
+        draw_address_in(context->address, false_alarm_cells_contributor(0).id);
     double uniform[4];
     if (!effect_simulates(context, EFFECT_FALSE_ALARMS) || view == NULL || !view->measured)
         return (struct cell_span){0};
@@ -64,9 +64,9 @@ struct cell_span noise_targets_of(struct frame *frame, const struct effect_scan 
         random_uniform(&address, RANDOM_FALSE_ALARMS, (uint32_t)i + 1, uniform);
         struct contributor contributor = draw_contributor(sensor, (int64_t)i + 1, uniform);
         contributor.time_s = context->time_s;
-        cells[i] =
-            cell_of(frame, sensor, &contributor,
-                    noise_targets_amplitude(sensor->threshold, sensor->pointer_sigma, uniform[3]));
+        cells[i] = cell_of(
+            frame, sensor, &contributor,
+            false_alarm_cells_amplitude(sensor->threshold, sensor->pointer_sigma, uniform[3]));
     }
     if (count > 0)
         frame_count_echoes(frame, sensor->name, PATH_FALSE_ALARM, (int64_t)count);

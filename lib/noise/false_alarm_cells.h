@@ -4,8 +4,8 @@
  * resolution cell, so uniform in range, azimuth and range rate, and as strong as noise that has
  * passed the threshold. A false alarm is a cell of its own with one contributor: number n, from 1,
  * of the reflector "cell" of the object "noise", which is no object of the frame. */
-#ifndef NOISE_TARGETS_H
-#define NOISE_TARGETS_H
+#ifndef FALSE_ALARM_CELLS_H
+#define FALSE_ALARM_CELLS_H
 
 #include "frame/frame.h"
 
@@ -13,17 +13,17 @@ struct effect_scan;
 
 /* The contributor of false alarm `number` of a scan, from 1, without values. All draws of the scan
  * are addressed by that of number 0. */
-struct contributor noise_targets_contributor(int64_t number);
+struct contributor false_alarm_cells_contributor(int64_t number);
 
 /* The amplitude of noise that has passed the threshold, by a uniform draw in (0, 1). Its power is
  * threshold^2 + sigma^2 Exp(1), because an exponential distribution has no memory; without noise
  * the amplitude is the threshold itself. noise_sigma is the RMS of the complex noise on the sum
  * channel. */
-double noise_targets_amplitude(double threshold, double noise_sigma, double uniform);
+double false_alarm_cells_amplitude(double threshold, double noise_sigma, double uniform);
 
 /* Makes the false alarms of one sensor's scan and counts them in the frame, which is that of the
  * context. There are none if the effect is not simulated or the sensor did not measure in this
  * frame. */
-struct cell_span noise_targets_of(struct frame *frame, const struct effect_scan *context);
+struct cell_span false_alarm_cells_of(struct frame *frame, const struct effect_scan *context);
 
 #endif

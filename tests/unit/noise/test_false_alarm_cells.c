@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "effects/effect.h"
-#include "noise/noise_targets.h"
+#include "noise/false_alarm_cells.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
@@ -39,7 +39,7 @@ static struct cell_span false_alarms_of(struct bench *bench, double mean, uint64
     sensor.false_alarms = mean;
     struct effect_scan context =
         effect_begin(&bench->frame, &sensor, &everything, EFFECT_HOME_NOISE);
-    return noise_targets_of(&bench->frame, &context);
+    return false_alarm_cells_of(&bench->frame, &context);
 }
 
 static void every_false_alarm_is_within_the_limits_of_its_sensor(void **state)
@@ -112,12 +112,12 @@ static void amplitudes_of_false_alarms_are_those_of_noise_above_the_threshold(vo
 {
     (void)state;
     for (double uniform = 0x1p-53; uniform < 1; uniform = uniform * 1.2 + 1e-4) {
-        double amplitude = noise_targets_amplitude(2, 0.7, uniform);
+        double amplitude = false_alarm_cells_amplitude(2, 0.7, uniform);
         assert_true(amplitude >= 2);
         assert_near(exp((2 - amplitude) * (2 + amplitude) / (0.7 * 0.7)), uniform, 2e-14);
     }
-    assert_close(noise_targets_amplitude(2, 0, 0.5), 2, 0);
-    assert_near(noise_targets_amplitude(1e200, 1e200, 0.5), 1e200 * sqrt(1 + log(2)), 1e-15);
+    assert_close(false_alarm_cells_amplitude(2, 0, 0.5), 2, 0);
+    assert_near(false_alarm_cells_amplitude(1e200, 1e200, 0.5), 1e200 * sqrt(1 + log(2)), 1e-15);
 }
 
 int main(void)
