@@ -1,4 +1,4 @@
-/* Echoes of parts that move on their own: rolling wheels, limbs.
+/* Echoes of rolling wheels and of limbs.
  *
  * A direct echo, the parent, stays as it is; its parts are echoes of the same object and reflector
  * on the path wheel or limb, with numbers from 1. A part has its parent's height, time, effects and
