@@ -1,4 +1,4 @@
-/* Text that grows, JSON strings, and eight bytes as a number. A zeroed text is empty; text_free
+/* Growing text, JSON strings, and eight bytes as a number.
  * gives its memory back. */
 #ifndef TEXT_H
 #define TEXT_H

@@ -1,5 +1,7 @@
-/* Road and weather of a scene, as its document or the source's options say. What is not said is not
- * there: no road to mirror, no rain, nobody else's radar. */
+/* Road and weather of a scene, and radars of others.
+ *
+ * They are those of the scene's document or of the source's options. What is absent there does not
+ * exist: no road that mirrors, no rain, no other radar. */
 #ifndef CONDITIONS_H
 #define CONDITIONS_H
 
