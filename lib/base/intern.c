@@ -23,14 +23,14 @@ static inline bool is_name(const void *names, uint32_t number, const void *wante
 static inline uint32_t *slot_of(const struct intern *names, const struct intern_name *name)
 {
     uint64_t hash = hash_table_hash(0, name->text, name->length);
-    return hash_table_slot(&names->numbers, hash, is_name, names->names.items, name);
+    return hash_table_slot(&names->numbers, hash, is_name, names->list.items, name);
 }
 
 static void grow(struct intern *names, struct arena *arena)
 {
     names->numbers = hash_table_begin(names->numbers.room, arena);
-    for (uint32_t i = 0; i < names->names.count; i++)
-        *slot_of(names, &names->names.items[i]) = i + 1;
+    for (uint32_t i = 0; i < names->list.count; i++)
+        *slot_of(names, &names->list.items[i]) = i + 1;
 }
 
 struct intern intern_begin(size_t expected, struct arena *arena)
@@ -40,14 +40,14 @@ struct intern intern_begin(size_t expected, struct arena *arena)
 
 uint32_t intern_number(struct intern *names, const void *text, size_t length, struct arena *arena)
 {
-    if (2 * names->names.count >= names->numbers.room)
+    if (2 * names->list.count >= names->numbers.room)
         grow(names, arena);
     struct intern_name name = name_of(text, length);
     uint32_t *slot = slot_of(names, &name);
     if (*slot == 0) {
         name.text = arena_text(arena, text, length);
-        *list_add(&names->names, arena) = name;
-        *slot = (uint32_t)names->names.count;
+        *list_add(&names->list, arena) = name;
+        *slot = (uint32_t)names->list.count;
     }
     return *slot - 1;
 }

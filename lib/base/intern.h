@@ -16,7 +16,7 @@ struct intern_name {
 };
 
 struct intern {
-    LIST_OF(struct intern_name) names;
+    LIST_OF(struct intern_name) list;
     struct hash_table numbers;
 };
 
@@ -30,7 +30,7 @@ uint32_t intern_word(struct intern *names, const char *word, struct arena *arena
 /* The name of that number: equal names are one pointer. */
 static inline const char *intern_text(const struct intern *names, uint32_t number)
 {
-    return names->names.items[number].text;
+    return names->list.items[number].text;
 }
 
 #endif

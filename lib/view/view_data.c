@@ -204,7 +204,7 @@ static void add_fate(struct view_data *data, const struct loss_row *rows, size_t
     for (size_t i = 0; i < count; i++)
         items[i] = rows[i].item;
     add_count(data, COLUMN_FATE_OBJECT, rows->object);
-    size_t known = data->patterns.names.count;
+    size_t known = data->patterns.list.count;
     uint32_t pattern = intern_number(&data->patterns, items, count * sizeof *items, data->arena);
     add_count(data, COLUMN_FATE_PATTERN, pattern);
     if (pattern < known)

@@ -106,8 +106,8 @@ static void add_classes(const struct view_data *data, struct head *head)
 static void add_numbered(const struct view_data *data, struct head *head)
 {
     struct arena *arena = data->arena;
-    for (size_t i = 0; i < data->names.names.count; i++)
-        *list_add(&head->names, arena) = data->names.names.items[i].text;
+    for (size_t i = 0; i < data->names.list.count; i++)
+        *list_add(&head->names, arena) = data->names.list.items[i].text;
     for (enum path path = 0; frame_path_name(path) != NULL; path++)
         *list_add(&head->paths, arena) = frame_path_name(path);
     for (int effect = 0; effect < EFFECT_COUNT; effect++)
@@ -115,8 +115,8 @@ static void add_numbered(const struct view_data *data, struct head *head)
     for (enum loss loss = 0; frame_loss_name(loss) != NULL; loss++)
         *list_add(&head->reasons, arena) =
             (struct reason){frame_loss_name(loss), view_frame_loss_is_notable(loss)};
-    for (size_t i = 0; i < data->effect_sets.names.count; i++)
-        memcpy(list_add(&head->effect_sets, arena), data->effect_sets.names.items[i].text,
+    for (size_t i = 0; i < data->effect_sets.list.count; i++)
+        memcpy(list_add(&head->effect_sets, arena), data->effect_sets.list.items[i].text,
                sizeof(uint64_t));
 }
 
