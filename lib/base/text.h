@@ -1,5 +1,6 @@
 /* Growing text, JSON strings, and eight bytes as a number.
- * gives its memory back. */
+ *
+ * A zeroed text is empty; text_free gives its memory back. */
 #ifndef TEXT_H
 #define TEXT_H
 
