@@ -1,16 +1,16 @@
-/* What each effect is and does.
+/* What an effect is, and how stages call its hooks.
  *
- * One file of this folder defines one effect: rain.c has effect_rain. frame/effects.def has their
- * order, that of the chain.
+ * One file of this folder defines one effect: rain.c has effect_rain. frame/effects.def lists
+ * all effects in the order of the chain.
  *
- * A home is the stage that simulates an effect. It begins every scan of a sensor with effect_begin
- * and then calls the hooks of the effects that the scan simulates, in the order of the chain: those
- * that the selection allows and whose hook `described` finds their cause. An effect without that
- * hook is geometry or a decision (occlusion, merging) that modules of its home simulate and note;
- * its file has its texts, and names the module.
+ * An effect's home is the stage that simulates it. The home begins every scan of a sensor with
+ * effect_begin and then calls the hooks of the effects that the scan simulates, in the order of the
+ * chain. A scan simulates an effect if the selection allows it and its hook `described` finds its
+ * cause. An effect without that hook is geometry or a decision (occlusion, merging): modules of its
+ * home simulate and note it, and its file has its texts and names the module.
  *
- * Hooks read the frame, the documents and the values that are passed to them. They draw by address,
- * and take memory from the frame's arena. */
+ * Hooks read the frame, the documents and the values that are passed to them, draw random numbers
+ * by address (base/random.h) and take memory from the frame's arena. */
 #ifndef EFFECT_H
 #define EFFECT_H
 
@@ -23,8 +23,8 @@ enum effect_home { EFFECT_HOME_IDEAL, EFFECT_HOME_SENSOR, EFFECT_HOME_NOISE };
 /* Constants of one effect in one scan. */
 enum { EFFECT_CONSTANTS = 3 };
 
-/* The steps of measuring a cell in noise, in their order. glint-sensor-signal, whose target list
- * comes from the signal, has the last two alone. */
+/* The steps by which noise measures a cell, in their order. glint-sensor-signal reads its targets
+ * off the signal and takes only the last two steps. */
 enum effect_step {
     EFFECT_STEP_POINTERS, /* changes the sum and delta pointers, before the angle is read */
     EFFECT_STEP_SIGMA,    /* sets the standard deviations that EFFECT_STEP_RANGE then uses */
@@ -99,8 +99,8 @@ struct effect {
 extern const struct effect *const effect_table[EFFECT_COUNT];
 extern const char *const effect_homes[]; /* names of stages, by enum effect_home */
 
-/* Begins a scan at a home. Notes in the selection's log, of all effects at this home that have the
- * hook `described`, whether the scan simulates them. */
+/* Begins a scan at a home. Notes in the selection's log, for each effect of this home that has the
+ * hook `described`, whether the scan simulates it. */
 struct effect_scan effect_begin(const struct frame *frame, const struct sensor *sensor,
                                 const struct selection *selection, enum effect_home home);
 

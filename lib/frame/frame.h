@@ -36,7 +36,7 @@ enum section {
     SECTION_COUNTS = 1 << 7,
 };
 
-/* The sections that the stage that reads them drops, unless it is told to --keep them. */
+/* Sections that a stage drops after it has read them, unless it is given --keep. */
 enum { SECTIONS_CONSUMED = SECTION_REFLECTORS | SECTION_ECHOES | SECTION_CELLS };
 
 /* The part of a frame that one stage may have written. */
@@ -78,7 +78,7 @@ struct sensors {
 };
 
 /* The path of an echo's wave, or what sent it back. A ghost is seen where its last leg comes from.
- * Random numbers are addressed by these values, so that a new path goes to the end. */
+ * Random numbers are addressed by these values: a new path goes to the end. */
 enum path {
     PATH_DIRECT,           /* sensor, object, sensor */
     PATH_WALL_OBJECT,      /* sensor, wall, object, sensor */
@@ -90,13 +90,13 @@ enum path {
     PATH_FALSE_ALARM,      /* no echo but noise */
 };
 
-/* Which echo of a sensor's scan it is. */
+/* Tells one echo from all others of a sensor's scan. */
 struct echo_id {
     const char *object;
     const char *reflector;
     enum path path;
     const char *mirror; /* id of the object that mirrors, on paths by a wall; else NULL */
-    int64_t number;     /* from 1, if there may be several that are else alike; else 0 */
+    int64_t number;     /* from 1 where several may be alike in all members above; else 0 */
 };
 
 /* What a sensor would read of a reflector along one path, exactly. */
@@ -186,7 +186,7 @@ struct lost_group {
     LIST_OF(struct lost_echo) echoes;
 };
 
-/* Echoes of one path that were made. */
+/* How many echoes along one path were made. */
 struct path_count {
     enum path path;
     int64_t echoes;
@@ -206,7 +206,7 @@ struct frame {
     int64_t frame;
     double time_s;
     double interval_s;
-    bool last;
+    bool last; /* is it the last frame of its scene? */
     uint64_t seed;
     const char *ego;
     double origin_x_m, origin_y_m;

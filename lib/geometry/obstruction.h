@@ -1,4 +1,4 @@
-/* The part of an echo that a body lets through. A body blocks a line of sight or lets it pass
+/* Part of an echo that a single body lets through. The body blocks a line of sight or lets it pass
  * (MODEL 2.5); a line above the body's top passes (MODEL 14.3); with diffraction, a part of the
  * amplitude passes close to the body's edges (MODEL 14.4).
  *

@@ -9,9 +9,9 @@
  * The ends are decided exactly, by the projection onto along, the side's direction. Two sides in
  * line that share a vertex and have the same direction as doubles therefore never lose the foot at
  * their joint, however they are turned; both hold the foot only where it is the vertex itself, and
- * look.h gives it to one of them. The direction of a -> b would not do, because rounding bends the
- * joint. Where the two sides' vertices differ by rounding, the gap or overlap, 1e-13 m at a
- * kilometre, is part of the scene. */
+ * line_of_sight.h gives it to one of them. The direction of a -> b would not do, because rounding
+ * bends the joint. Where the two sides' vertices differ by rounding, the gap or overlap, 1e-13 m at
+ * a kilometre, is part of the scene. */
 #ifndef SPECULAR_POINT_H
 #define SPECULAR_POINT_H
 

@@ -1,7 +1,7 @@
-/* How much of an echo passes along a sight line.
+/* Part of an echo that all bodies together let through.
  *
- * A body in the way blocks the line or lets it pass (MODEL 2.5), over its top (14.3) or around its
- * edges (14.4).
+ * Each body in the way blocks the line or lets it pass (MODEL 2.5), over its top (14.3) or around
+ * its edges (14.4); obstruction.h answers for one body.
  *
  * Two sides in line, of which one begins where the other ends, are one wall: neither body blocks a
  * line to a foot on the other's side, though its outline may touch that line. If both sides share

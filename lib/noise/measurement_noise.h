@@ -1,4 +1,4 @@
-/* What noise makes of one cell's measurement (MODEL 7 to 9, 14). */
+/* Range, rate, angle and amplitude of a cell, with noise (MODEL 7 to 9, 14). */
 #ifndef MEASUREMENT_NOISE_H
 #define MEASUREMENT_NOISE_H
 

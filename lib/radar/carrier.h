@@ -1,4 +1,4 @@
-/* Polarization of the carrier, and the phase of an echo.
+/* Phase lag of an echo, and polarization of its carrier.
  *
  * An echo at range R lags the carrier by 4 pi R / wavelength (MODEL 8.2). */
 #ifndef CARRIER_H

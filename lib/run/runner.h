@@ -1,6 +1,6 @@
-/* A runner: one stage or one tool at work. It owns the state, the options, the documents and the
- * outputs, checks the frames that go in and come out, and does what stages and tools ask for
- * (stage.h, tool.h). */
+/* Runs one stage or one tool: options, checks and outputs. A runner owns the state, the options,
+ * the documents and the outputs, checks the frames that go in and come out, and does what stages
+ * and tools ask for (stage.h, tool.h). */
 #ifndef RUNNER_H
 #define RUNNER_H
 

@@ -1,18 +1,19 @@
-/* A stage: one model of one step of the chain. Read this first.
+/* What a stage is, and what it may ask for. Read this first.
  *
  *     traffic ─► extract ─► ideal ─► sensor ─► noise ─► target list
  *
- * A stage is data: one const struct stage in one file of stages/, and the folder is the registry.
- * The executable glint-NAME and the fused program glint run the same struct. Sources make frames
- * (next), filters change them in place (step), sinks write something else (step and stop). A
- * program that needs more than one frame at a time and one output is a tool (tool.h).
+ * A stage is one model of one step of this chain. It is data: one const struct stage in one file of
+ * stages/, and the folder is the registry. The executable glint-NAME and the fused program glint
+ * run the same struct. Sources make frames (next), filters change them in place (step), sinks write
+ * something else (step and stop). A program that needs more than one frame at a time and one output
+ * is a tool (tool.h).
  *
  * The runner owns the state and the frame; a stage keeps no pointer into a frame, prints nothing
  * and frees nothing it did not make. Formulas live in lib/ as pure functions; stages loop, pick
  * members and call.
  *
- * Every function returns 0, or -1 after a message in the runner's diag. next also returns 1 after
- * making a frame; 0 is the end of the scenes. */
+ * Every function returns 0, or -1 after a message in the runner's diag; but next returns 1 after
+ * making a frame, and 0 after the last frame of the last scene. */
 #ifndef STAGE_H
 #define STAGE_H
 
@@ -21,7 +22,6 @@
 struct reference_stream;
 struct runner;
 struct suite;
-struct vehicle;
 struct vehicle;
 
 struct stage {
@@ -33,15 +33,16 @@ struct stage {
     /* A source's argument, as --help calls it; it sets the first option. NULL for all others. */
     const char *operand;
     bool sink;
-    /* enum section. What a stage reads must be there; what it writes must not be there yet, unless
-     * it reads it too: then it changes it in place. lost and counts are added to. Only what a stage
-     * writes is ordered and checked after its step, so it changes nothing else (test_runner). */
+    /* Sets of enum section. A frame must have the sections that the stage reads. It must not yet
+     * have those that the stage writes, except lost and counts, which the stage adds to, and
+     * sections that it reads as well, which it changes in place. The runner orders and checks only
+     * the sections in writes after a step, so a stage must change no other (test_runner). */
     unsigned reads, writes;
     int (*start)(void *state, struct runner *runner);
     int (*next)(void *state, struct frame *frame, struct runner *runner);
     int (*step)(void *state, struct frame *frame, struct runner *runner);
-    /* Of a source, for a frame that is refused: -1 after a message that names the place in what it
-     * read, 0 if that is not to blame; NULL: it never is. */
+    /* Called on a source whose frame is refused. Returns -1 after a message that names the place in
+     * the source's input, or 0 if its input is not to blame. NULL: it never is. */
     int (*locate_fault)(void *state, const struct frame *frame, struct runner *runner);
     int (*stop)(void *state, struct runner *runner); /* after the last frame; NULL: nothing */
     /* Frees what a library made for the state, after a failure too; NULL: nothing. */
@@ -59,7 +60,7 @@ struct arena *runner_arena(struct runner *runner);
 
 struct diag *runner_diag(struct runner *runner);
 
-/* Where the stage notes what it simulates and leaves out; NULL unless --explain was given. */
+/* Where the stage notes which effects it simulates and leaves out; NULL without --explain. */
 struct effect_log *runner_log(struct runner *runner);
 
 /* The suite of that name (documents/suite_file.h), and the vehicle document of a class. Each is

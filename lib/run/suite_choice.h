@@ -25,7 +25,7 @@ extern const struct record suite_choice_record;
         SUITE_CHOICE_EFFECTS
 #define SUITE_CHOICE_AFTER_IDEAL                                                                   \
     {FIELD_NAME_OF(struct suite_choice, sensors,                                                   \
-                   "name or path of the suite if it is not the frame's; its content must be"),     \
+                   "name or path where the frame's suite lies now; content unchanged"),            \
      FIELD_OPTIONAL},                                                                              \
         SUITE_CHOICE_EFFECTS
 #define SUITE_CHOICE_EFFECTS                                                                       \

@@ -1,11 +1,12 @@
-/* A tool: a program that is no stage. One frame in and one output are not enough for it.
+/* What a tool is, and what it may ask for.
  *
- * A stage takes its frames one by one and writes one stream. A tool has one function, run, which
- * does the whole work: it takes frames when it wants them or none at all, tries stages, opens other
- * files, and writes as many outputs as it likes. Like a stage it is data: one const struct tool in
- * one file of stages/, and the folder is the registry. The executable is glint-NAME, and `glint`
- * runs a tool that reads frames at the end of a pipeline. Options, --help, messages and exit codes
- * are made as for stages (options.h).
+ * A tool is a program for which one frame at a time and one output are not enough. A stage takes
+ * its frames one by one and writes one stream. A tool has one function, run, which does the whole
+ * work: it takes frames when it wants them or none at all, tries stages, opens other files, and
+ * writes as many outputs as it likes. Like a stage it is data: one const struct tool in one file of
+ * stages/, and the folder is the registry. The executable is glint-NAME, and `glint` runs a tool
+ * that reads frames at the end of a pipeline. Options, --help, messages and exit codes are made as
+ * for stages (options.h).
  *
  * The runner owns the outputs. None of them takes its name before all of them are whole and on the
  * disk; after a failure, or if the program is killed, the files that had these names before are
@@ -30,15 +31,17 @@ struct tool {
     const struct record *options;
     /* The first argument, as --help calls it; it sets the first option. NULL: there is none. */
     const char *operand;
-    /* Outputs are files in the folder that the operand names. Otherwise there is one, --output. */
+    /* True: the outputs are files in the folder that the operand names. False: there is one output,
+     * which --output names. */
     bool into_folder;
-    /* enum section: what every frame of its stream must have. 0: it reads no frames. */
+    /* Set of enum section that every frame of its stream must have. 0: the tool reads no frames. */
     unsigned reads;
     int (*run)(void *state, struct runner *runner);
 };
 
-/* The next frame of the stream: 1; 0 at its end; -1. The frame lasts until the next call, and the
- * tool may change it. A tool reads to the end, as whoever writes the stream expects. */
+/* Returns 1 with the next frame of the stream, 0 at its end, -1 after a message. The frame lasts
+ * until the next call, and the tool may change it. A tool reads to the end, as whoever writes the
+ * stream expects. */
 int runner_frame(struct runner *runner, struct frame **frame);
 
 /* What --output names, or standard output. NULL after a message. Open outputs before the first
@@ -48,10 +51,11 @@ struct output *runner_output(struct runner *runner);
 /* A file of that name in the folder, which must exist. NULL after a message. */
 struct output *runner_output_in(struct runner *runner, const char *folder, const char *name);
 
-/* One step of a stage, for tools that ask what it would do: with these options (NULL: its own
- * defaults; only stages whose state begins with a suite_choice take others), its effects noted in
- * a log that has a clock (or NULL), and all the checks of a run. The stage is started when it is
- * tried first, and stopped never. Its struct is named as it is defined, `extern`. */
+/* Runs one step of a stage on a frame, with all the checks of a run, for tools that ask what the
+ * stage would do. choice are the stage's options; NULL stands for its defaults, and only stages
+ * whose state begins with a suite_choice take others. The effects are noted in log, which has a
+ * clock; NULL: nowhere. The stage is started when it is tried first, and never stopped. The tool
+ * declares the stage's struct `extern`. */
 int runner_try_stage(struct runner *runner, const struct stage *stage,
                      const struct suite_choice *choice, struct effect_log *log,
                      struct frame *frame);

@@ -1,4 +1,4 @@
-/* Distance of two target lists, whatever their lengths.
+/* Distance of two target lists as sums of Gaussian kernels. The lists may have any lengths.
  *
  * A list X becomes the function m(X), the sum of Gaussian kernels at its targets; the distance of
  * two lists is the length of m(X) - m(Y) in the Hilbert space of the kernel

@@ -1,4 +1,4 @@
-/* How close the decisions that made a resolution cell were (MODEL 6, 11.1). */
+/* How near a resolution cell was to having other members (MODEL 6, 11.1). */
 #ifndef CELL_MARGINS_H
 #define CELL_MARGINS_H
 

@@ -1,4 +1,4 @@
-/* Columns of numbers in which glint-view's page gets frames. Real numbers are written in single
+/* Columns of numbers, packed for the page of glint-view. Real numbers are written in single
  * precision, whole numbers as narrowly as the largest of the column allows. view_data.h says what
  * the columns hold. */
 #ifndef VIEW_COLUMNS_H

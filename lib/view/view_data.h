@@ -1,4 +1,4 @@
-/* Frames packed into columns for the page of glint-view. Columns of small numbers and a table of
+/* A stream's frames as tables of columns, for glint-view. Columns of small numbers and a table of
  * names take the place of a tree: 10,000 frames of 30 objects are some 30 MB and open at once.
  *
  * Rows of one table own rows of another, by count and in order: each frame owns objects and scans,

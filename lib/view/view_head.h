@@ -1,4 +1,4 @@
-/* Head of the page's data: names, scenes, sensors, classes, columns. */
+/* Names, scenes and column places that the page reads first. */
 #ifndef VIEW_HEAD_H
 #define VIEW_HEAD_H
 
