@@ -6,6 +6,8 @@
 #include "score/score_table.h"
 #include "score/target_score.h"
 
+#define CUTOFF 2 /* cells */
+
 struct score_state {
     const char *truth;
     double cutoff, azimuth_cell_rad;
@@ -21,6 +23,10 @@ static int score_start(void *state, struct runner *runner)
     struct score_state *own = state;
     own->summary = own->summary || own->table;
     own->lists.arena = runner_arena(runner);
+    if (own->ensemble && (own->partial || own->cutoff != CUTOFF))
+        return diag_fail(runner_diag(runner), DIAG_USAGE,
+                         "--ensemble: has no pairs and no frames of one side, so it takes neither "
+                         "--cutoff nor --partial");
     own->other = runner_reference_stream(runner, own->truth, own->partial);
     return own->other != NULL ? 0 : -1;
 }
@@ -63,7 +69,7 @@ static int write_ensemble(struct score_state *own, struct runner *runner)
     while ((more = reference_stream_next(own->other, SECTION_SENSORS | SECTION_TARGETS, &frame,
                                          runner_diag(runner))) > 0)
         if (ensemble_add(&truth, frame, runner_diag(runner)) != 0)
-            return diag_prefix(runner_diag(runner), "%s: ", own->truth);
+            return reference_stream_prefix(own->other, runner_diag(runner));
     struct ensemble_score score;
     if (more < 0 || ensemble_compare(&truth, &own->lists, own->azimuth_cell_rad,
                                      runner_arena(runner), &score, runner_diag(runner)) != 0)
@@ -108,7 +114,7 @@ static const struct field score_options[] = {
      .word = "FILE"},
     {FIELD_REAL_IN(struct score_state, cutoff, 1e-6, 1e6,
                    "targets this many cells apart are no pair (absent: 2)"),
-     FIELD_OPTIONAL, .absent = 2},
+     FIELD_OPTIONAL, .absent = CUTOFF},
     {FIELD_REAL_IN(struct score_state, azimuth_cell_rad, 1e-6, 2 * PI,
                    "what counts as one cell in azimuth (absent: a twentieth of the field of view)"),
      FIELD_OPTIONAL},
@@ -142,11 +148,11 @@ const struct stage stage_score = {
         "side lacks are errors unless --partial is given. For the summary every value is kept,\n"
         "half a kilobyte for each target. glint-score-tracks scores trackers.\n"
         "\n"
-        "With --ensemble each stream holds its scenes with at least 3 seeds each, and the lists\n"
-        "of a scene, frame and sensor are samples of two random lists: one line has the energy\n"
-        "distance of each scene with its standard error, and the mean over scenes with a 95 %\n"
-        "interval. It is 0 in the mean if both streams draw from one law. Cells are those above,\n"
-        "levels count in steps of 3 dB.",
+        "With --ensemble each stream holds its scenes with at least 3 seeds each, none of them\n"
+        "in both streams. The lists of a scene, frame and sensor are samples of two random\n"
+        "lists: one line has the energy distance of each scene with its standard error, and the\n"
+        "mean over scenes with a 95 % interval. The distance is 0 in the mean if both streams\n"
+        "draw from one law. Cells are those above, levels count in steps of 3 dB.",
     .options = &score_state_record,
     .sink = true,
     .reads = SECTION_SENSORS | SECTION_TARGETS,

@@ -16,6 +16,7 @@
 /* A target list as it was read; the cells are those of its own stream. */
 struct ensemble_list {
     int64_t frame;
+    double time_s;
     const char *sensor;
     double cell_range_m, cell_range_rate_mps, field_of_view_rad;
     const struct embedded_target *targets; /* in m, rad, m/s and dB */
@@ -24,6 +25,7 @@ struct ensemble_list {
 
 struct ensemble_seed {
     uint64_t seed;
+    int64_t last; /* the number of its last frame; -1 before the first */
     LIST_OF(struct ensemble_list) lists;
 };
 
@@ -86,7 +88,7 @@ static struct ensemble_seed *seed_of(struct ensemble_scene *scene, uint64_t seed
         if (scene->seeds.items[i].seed == seed)
             return &scene->seeds.items[i];
     struct ensemble_seed *added = list_add(&scene->seeds, arena);
-    *added = (struct ensemble_seed){.seed = seed};
+    *added = (struct ensemble_seed){.seed = seed, .last = -1};
     return added;
 }
 
@@ -105,6 +107,7 @@ static struct ensemble_list list_of(const struct frame *frame, const struct sens
     }
     return (struct ensemble_list){
         .frame = frame->frame,
+        .time_s = frame->time_s,
         .sensor = copy(view->name, arena),
         .cell_range_m = view->cell_range_m,
         .cell_range_rate_mps = view->cell_range_rate_mps,
@@ -118,12 +121,12 @@ int ensemble_add(struct ensemble *ensemble, const struct frame *frame, struct di
 {
     struct ensemble_seed *seed =
         seed_of(scene_of(ensemble, frame->scene), frame->seed, ensemble->arena);
-    for (size_t i = seed->lists.count; i-- > 0;)
-        if (seed->lists.items[i].frame == frame->frame)
-            return diag_fail(diag, DIAG_DATA,
-                             "frame %" PRId64 " of scene \"%s\" with seed %" PRIu64
-                             " stands twice in the stream",
-                             frame->frame, frame->scene, frame->seed);
+    if (frame->frame <= seed->last)
+        return diag_fail(diag, DIAG_DATA,
+                         "frame: %" PRId64 " of scene \"%s\" with seed %" PRIu64
+                         " comes behind frame %" PRId64 "; expected frames to ascend",
+                         frame->frame, frame->scene, frame->seed, seed->last);
+    seed->last = frame->frame;
     for (size_t i = 0; i < frame->sensors.list.count; i++)
         if (frame->sensors.list.items[i].measured)
             *list_add(&seed->lists, ensemble->arena) =
@@ -131,14 +134,29 @@ int ensemble_add(struct ensemble *ensemble, const struct frame *frame, struct di
     return 0;
 }
 
-/* True if both seeds have lists of the same frames and sensors, in the same order. */
+/* Streams of the same scenes agree in time but for how it was written. */
+static const double same_time_s = 1e-6;
+
+/* True if both lists are of the same frame, time and sensor. */
+static bool same_scan(const struct ensemble_list *a, const struct ensemble_list *b)
+{
+    return a->frame == b->frame && fabs(a->time_s - b->time_s) <= same_time_s &&
+           strcmp(a->sensor, b->sensor) == 0;
+}
+
+static bool same_cells(const struct ensemble_list *a, const struct ensemble_list *b)
+{
+    return a->cell_range_m == b->cell_range_m && a->cell_range_rate_mps == b->cell_range_rate_mps &&
+           a->field_of_view_rad == b->field_of_view_rad;
+}
+
+/* True if both seeds have lists of the same scans. */
 static bool same_lists(const struct ensemble_seed *first, const struct ensemble_seed *seed)
 {
     if (seed->lists.count != first->lists.count)
         return false;
     for (size_t i = 0; i < first->lists.count; i++)
-        if (seed->lists.items[i].frame != first->lists.items[i].frame ||
-            strcmp(seed->lists.items[i].sensor, first->lists.items[i].sensor) != 0)
+        if (!same_scan(&seed->lists.items[i], &first->lists.items[i]))
             return false;
     return true;
 }
@@ -151,10 +169,52 @@ static int check_scene(const struct ensemble_scene *scene, const struct ensemble
                          scene->name, stream, scene->seeds.count, FEWEST_SEEDS);
     for (size_t i = 0; i < scene->seeds.count; i++)
         if (!same_lists(first, &scene->seeds.items[i]))
+            return diag_fail(
+                diag, DIAG_DATA,
+                "scene \"%s\": seed %" PRIu64
+                " in %s has other frames, times or sensors than the first seed of the truth",
+                scene->name, scene->seeds.items[i].seed, stream);
+    return 0;
+}
+
+/* The lists of the truth: there are any, and they have the same cells with a width for all seeds.
+ */
+static int check_cells(const struct ensemble_scene *truth, struct diag *diag)
+{
+    const struct ensemble_seed *first = &truth->seeds.items[0];
+    if (first->lists.count == 0)
+        return diag_fail(diag, DIAG_DATA, "scene \"%s\": no sensor measured in it", truth->name);
+    for (size_t k = 0; k < first->lists.count; k++) {
+        const struct ensemble_list *list = &first->lists.items[k];
+        if (!(list->cell_range_m > 0 && list->cell_range_rate_mps > 0 &&
+              list->field_of_view_rad > 0))
             return diag_fail(diag, DIAG_DATA,
-                             "scene \"%s\": seed %" PRIu64
-                             " in %s has other frames or sensors than the first seed of the truth",
-                             scene->name, scene->seeds.items[i].seed, stream);
+                             "scene \"%s\": the truth's sensor \"%s\" has cells of %g m by %g m/s "
+                             "in a view of %g rad; distances in cells need more than 0",
+                             truth->name, list->sensor, list->cell_range_m,
+                             list->cell_range_rate_mps, list->field_of_view_rad);
+        for (size_t i = 1; i < truth->seeds.count; i++)
+            if (!same_cells(list, &truth->seeds.items[i].lists.items[k]))
+                return diag_fail(diag, DIAG_DATA,
+                                 "scene \"%s\": sensor \"%s\" of the truth has other cells with "
+                                 "seed %" PRIu64 " than with seed %" PRIu64,
+                                 truth->name, list->sensor, truth->seeds.items[i].seed,
+                                 first->seed);
+    }
+    return 0;
+}
+
+/* Samples with the same seed share their draws: they are not independent. */
+static int check_independence(const struct ensemble_scene *truth,
+                              const struct ensemble_scene *listed, struct diag *diag)
+{
+    for (size_t i = 0; i < truth->seeds.count; i++)
+        for (size_t j = 0; j < listed->seeds.count; j++)
+            if (truth->seeds.items[i].seed == listed->seeds.items[j].seed)
+                return diag_fail(diag, DIAG_DATA,
+                                 "scene \"%s\": seed %" PRIu64
+                                 " stands in both streams; expected independent seeds",
+                                 truth->name, truth->seeds.items[i].seed);
     return 0;
 }
 
@@ -278,7 +338,8 @@ int ensemble_compare(const struct ensemble *truth, const struct ensemble *listed
             return diag_fail(diag, DIAG_DATA, "scene \"%s\": in the truth, not in the stream",
                              scene->name);
         if (check_scene(scene, first, "the truth", diag) != 0 ||
-            check_scene(other, first, "the stream", diag) != 0)
+            check_scene(other, first, "the stream", diag) != 0 || check_cells(scene, diag) != 0 ||
+            check_independence(scene, other, diag) != 0)
             return -1;
         *list_add(&score->scenes, arena) = score_scene(scene, other, azimuth_cell_rad, arena);
     }

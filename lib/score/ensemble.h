@@ -37,14 +37,15 @@ struct ensemble_score {
 
 extern const struct record ensemble_score_record;
 
-/* Adds the lists of a frame, of every sensor that measured in it. Refuses a frame that its scene
- * and seed have already (DIAG_DATA). */
+/* Adds the lists of a frame, of every sensor that measured in it. Refuses a frame that does
+ * not come behind the last one of its scene and seed (DIAG_DATA). */
 int ensemble_add(struct ensemble *ensemble, const struct frame *frame, struct diag *diag);
 
 /* Scores listed against truth. Cells are those of the sensors of the truth; azimuth_cell_rad counts
  * as one cell of azimuth (0: a twentieth of the field of view), 3 dB as one of level. Refuses with
- * DIAG_DATA streams of other scenes, frames or sensors, seeds of one scene with other frames, and
- * scenes of fewer than 3 seeds on either side. */
+ * DIAG_DATA streams of other scenes, frames, times or sensors, seeds of one scene with other
+ * frames, scenes of fewer than 3 seeds on either side, a seed on both sides, scenes in which no
+ * sensor measured, and a truth whose cells have no width or differ between seeds. */
 int ensemble_compare(const struct ensemble *truth, const struct ensemble *listed,
                      double azimuth_cell_rad, struct arena *arena, struct ensemble_score *score,
                      struct diag *diag);

@@ -67,7 +67,7 @@ void reference_stream_close(struct reference_stream *reference)
     free(reference);
 }
 
-static int prefix_place(const struct reference_stream *reference, struct diag *diag)
+int reference_stream_prefix(const struct reference_stream *reference, struct diag *diag)
 {
     if (diag->code == DIAG_NO_INPUT) /* a folder has no lines */
         return diag_prefix(diag, "%s: ", input_name(reference->input));
@@ -159,7 +159,7 @@ static int skip_line(struct reference_stream *reference, size_t number, const ch
     reference->found = number;
     diag_fail(diag, DIAG_DATA, "frame %lld of scene \"%s\" is not in the other stream",
               (long long)frame, scene);
-    return prefix_place(reference, diag);
+    return reference_stream_prefix(reference, diag);
 }
 
 /* Takes a line out of the waiting ones; its memory is freed by the next call. */
@@ -211,7 +211,7 @@ static enum search read_next(struct reference_stream *reference, const char *sce
         input_line(reference->input, FRAME_TEXT_SIZE, &reference->line, &reference->length, diag);
     reference->ended = more == 0;
     if (more < 0 || (more > 0 && read_key(reference, &key, diag) != 0)) {
-        prefix_place(reference, diag);
+        reference_stream_prefix(reference, diag);
         return SEARCH_FAILED;
     }
     if (more == 0)
@@ -278,7 +278,7 @@ int reference_stream_frame(struct reference_stream *reference, const struct fram
         return found;
     if (read_frame(reference, sections, other, diag) != 0 ||
         check_time(frame, (*other)->time_s, diag) != 0)
-        return prefix_place(reference, diag);
+        return reference_stream_prefix(reference, diag);
     return 1;
 }
 
@@ -289,7 +289,7 @@ int reference_stream_next(struct reference_stream *reference, unsigned sections,
     int more =
         input_line(reference->input, FRAME_TEXT_SIZE, &reference->line, &reference->length, diag);
     if (more < 0 || (more > 0 && read_frame(reference, sections, other, diag) != 0))
-        return prefix_place(reference, diag);
+        return reference_stream_prefix(reference, diag);
     reference->ended = more == 0;
     return more;
 }
@@ -305,7 +305,7 @@ int reference_stream_tracks(struct reference_stream *reference, const struct fra
                          frame->arena, NULL, diag) != 0 ||
         track_order(tracks, frame->arena, diag) != 0 ||
         ((tracks->present & TRACK_TIME) != 0 && check_time(frame, tracks->time_s, diag) != 0))
-        return prefix_place(reference, diag);
+        return reference_stream_prefix(reference, diag);
     return 1;
 }
 

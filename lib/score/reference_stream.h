@@ -28,6 +28,9 @@ int reference_stream_frame(struct reference_stream *reference, const struct fram
 int reference_stream_next(struct reference_stream *reference, unsigned sections,
                           const struct frame **other, struct diag *diag);
 
+/* Puts the place of the line found last in front of a message: for what callers refuse in it. */
+int reference_stream_prefix(const struct reference_stream *reference, struct diag *diag);
+
 /* Like reference_stream_frame, but reads tracks, in the order of their ids; all lie in the frame's
  * arena. */
 int reference_stream_tracks(struct reference_stream *reference, const struct frame *frame,

@@ -86,7 +86,8 @@ static int open_unnamed(const char *path)
 static int open_file(struct output *output)
 {
     struct stat status;
-    if (stat(output->path, &status) == 0 && S_ISDIR(status.st_mode)) {
+    bool replaces = stat(output->path, &status) == 0;
+    if (replaces && S_ISDIR(status.st_mode)) {
         errno = EISDIR;
         return -1;
     }
@@ -95,7 +96,11 @@ static int open_file(struct output *output)
     output->temporary = temporary_name(output->path);
     int fd = open_unnamed(output->path);
     output->unnamed = fd >= 0;
-    return fd >= 0 ? fd : open(output->temporary, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    if (fd < 0)
+        fd = open(output->temporary, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    if (fd >= 0 && replaces)
+        fchmod(fd, status.st_mode & 07777);
+    return fd;
 }
 
 struct output *output_open(const char *path, struct diag *diag)
@@ -104,7 +109,7 @@ struct output *output_open(const char *path, struct diag *diag)
     *output = (struct output){.fd = STDOUT_FILENO};
     output->name = copy(path);
     output->path = target(path);
-    if (strcmp(path, "-") == 0)
+    if (strcmp(path, "-") == 0 || strcmp(path, "/dev/stdout") == 0)
         return output;
     output->fd = open_file(output);
     if (output->fd < 0) {

@@ -17,7 +17,8 @@
 
 struct output;
 
-/* Opens a path for writing; "-" is standard output. NULL after a message (DIAG_CANNOT_CREATE). */
+/* Opens a path for writing; "-" and /dev/stdout are standard output. A file that is replaced keeps
+ * its mode. NULL after a message (DIAG_CANNOT_CREATE). */
 struct output *output_open(const char *path, struct diag *diag);
 
 /* The text to append to, and a call that writes its whole pieces of 64 KiB. */

@@ -213,6 +213,24 @@ static void the_name_is_taken_only_when_the_file_is_complete(void **state)
     names_only = false;
 }
 
+static void a_file_that_is_replaced_keeps_its_mode(void **state)
+{
+    struct scratch *scratch = *state;
+    struct diag diag = {0};
+    struct stat status;
+    for (int round = 0; round < 2; round++) {
+        names_only = round == 1;
+        int file = open(scratch->path, O_WRONLY | O_CREAT | O_TRUNC);
+        assert_true(file >= 0 && fchmod(file, 0640) == 0 && close(file) == 0);
+        struct output *output = output_open(scratch->path, &diag);
+        assert_non_null(output);
+        assert_int_equal(output_close(output, true, &diag), 0);
+        assert_int_equal(stat(scratch->path, &status), 0);
+        assert_int_equal(status.st_mode & 07777, 0640);
+    }
+    names_only = false;
+}
+
 static void a_killed_run_leaves_the_folder_as_it_was(void **state)
 {
     struct scratch *scratch = *state;
@@ -326,6 +344,7 @@ int main(void)
         cmocka_unit_test(appended_text_is_written_in_whole_pieces),
         cmocka_unit_test(gz_is_gzip_and_depends_on_nothing_but_its_content),
         cmocka_unit_test(the_name_is_taken_only_when_the_file_is_complete),
+        cmocka_unit_test(a_file_that_is_replaced_keeps_its_mode),
         cmocka_unit_test(a_killed_run_leaves_the_folder_as_it_was),
         cmocka_unit_test(a_leftover_temporary_file_does_no_harm),
         cmocka_unit_test(the_message_says_why_a_file_cannot_be_created_and_nothing_is_left),
