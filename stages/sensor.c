@@ -1,7 +1,6 @@
 /* The sensor before noise: the amplitude of every echo (MODEL 4), echoes of moving parts and of the
  * ground (14), resolution cells (6), the threshold on a cell's summed amplitude, and its superposed
  * sum and delta pointers (7, 8). */
-#include "base/units.h"
 #include "run/suite_choice.h"
 #include "sensor/cell_margins.h"
 #include "sensor/scan.h"
@@ -33,18 +32,11 @@ static void report(struct frame *frame, const struct scan *scan, const struct se
     size_t count;
     const struct received_echo *members = scan_members(scan, number, &count);
     bool has_angle = superpose(scan, selection, members, count, &cell);
-    double threshold = suite_threshold(sensor, cell.interference);
     if (frame->margins) {
         cell.margins = cell_margins_of(sensor, &scan->received, number);
         cell_margins_add(sensor, &cell);
     }
-    if (effects_enabled(selection, EFFECT_THRESHOLD) && cell.amplitude < threshold)
-        frame_lose_cell(frame, "sensor", &cell, LOSS_BELOW_THRESHOLD,
-                        units_shortfall_db(threshold, cell.amplitude), &cell.margins);
-    else if (!has_angle)
-        frame_lose_cell(frame, "sensor", &cell, LOSS_NO_ANGLE, 0, &cell.margins);
-    else
-        *list_add(&frame->cells, frame->arena) = cell;
+    resolution_cell_list(frame, "sensor", sensor, selection, &cell, has_angle);
 }
 
 static void sense(struct frame *frame, const struct sensor *sensor,

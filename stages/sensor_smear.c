@@ -1,6 +1,5 @@
 /* The sensor as a windowed range-Doppler transform shows it: every echo is smeared over the bins
  * around it, and cells are the peaks of the sum of all (MODEL 6.1). */
-#include "base/units.h"
 #include "run/suite_choice.h"
 #include "sensor/cell_margins.h"
 #include "sensor/scan.h"
@@ -25,16 +24,9 @@ static void report(struct frame *frame, const struct selection *selection,
     cell.interference = interference;
     if (interference > 0)
         cell.effects |= EFFECT_BIT(EFFECT_INTERFERENCE);
-    double threshold = suite_threshold(smear->sensor, cell.interference);
     if (frame->margins)
         cell.margins = margins_of(smear, number, &cell);
-    if (effects_enabled(selection, EFFECT_THRESHOLD) && cell.amplitude < threshold)
-        frame_lose_cell(frame, "sensor-smear", &cell, LOSS_BELOW_THRESHOLD,
-                        units_shortfall_db(threshold, cell.amplitude), &cell.margins);
-    else if (!has_angle)
-        frame_lose_cell(frame, "sensor-smear", &cell, LOSS_NO_ANGLE, 0, &cell.margins);
-    else
-        *list_add(&frame->cells, frame->arena) = cell;
+    resolution_cell_list(frame, "sensor-smear", smear->sensor, selection, &cell, has_angle);
 }
 
 /* With merging left out, every received echo has a transform of its own. */

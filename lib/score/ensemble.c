@@ -8,6 +8,8 @@
 #include "base/sort.h"
 #include "score/energy_distance.h"
 #include "score/list_embedding.h"
+#include "score/reference_stream.h"
+#include "score/target_score.h"
 
 #define LEVEL_DB 3
 #define FEWEST_SEEDS 3
@@ -17,8 +19,7 @@
 struct ensemble_list {
     int64_t frame;
     double time_s;
-    const char *sensor;
-    double cell_range_m, cell_range_rate_mps, field_of_view_rad;
+    struct sensor_view view;
     const struct embedded_target *targets; /* in m, rad, m/s and dB */
     size_t count;
 };
@@ -65,20 +66,14 @@ const struct record ensemble_score_record = {
     FIELD_TABLE(struct ensemble_score, score_fields, "score_ensemble",
                 "What glint-score --ensemble writes: energy distances of random target lists.")};
 
-static const char *copy(const char *text, struct arena *arena)
-{
-    return arena_text(arena, text, strlen(text));
-}
-
-/* Streams mostly stay with one scene, so the search begins with the scene added last. */
+/* The scene of that name; a new one has no seeds. */
 static struct ensemble_scene *scene_of(struct ensemble *ensemble, const char *name)
 {
-    for (size_t i = ensemble->scenes.count; i-- > 0;)
-        if (strcmp(ensemble->scenes.items[i].name, name) == 0)
-            return &ensemble->scenes.items[i];
-    struct ensemble_scene *scene = list_add(&ensemble->scenes, ensemble->arena);
-    *scene = (struct ensemble_scene){.name = copy(name, ensemble->arena)};
-    return scene;
+    size_t number = intern_word(&ensemble->names, name, ensemble->arena);
+    if (number == ensemble->scenes.count)
+        *list_add(&ensemble->scenes, ensemble->arena) =
+            (struct ensemble_scene){.name = intern_text(&ensemble->names, (uint32_t)number)};
+    return &ensemble->scenes.items[number];
 }
 
 static struct ensemble_seed *seed_of(struct ensemble_scene *scene, uint64_t seed,
@@ -95,6 +90,8 @@ static struct ensemble_seed *seed_of(struct ensemble_scene *scene, uint64_t seed
 static struct ensemble_list list_of(const struct frame *frame, const struct sensor_view *view,
                                     struct arena *arena)
 {
+    struct sensor_view kept = *view;
+    kept.name = arena_text(arena, view->name, strlen(view->name));
     size_t count = 0;
     for (size_t i = 0; i < frame->targets.count; i++)
         count += strcmp(frame->targets.items[i].sensor, view->name) == 0;
@@ -108,10 +105,7 @@ static struct ensemble_list list_of(const struct frame *frame, const struct sens
     return (struct ensemble_list){
         .frame = frame->frame,
         .time_s = frame->time_s,
-        .sensor = copy(view->name, arena),
-        .cell_range_m = view->cell_range_m,
-        .cell_range_rate_mps = view->cell_range_rate_mps,
-        .field_of_view_rad = view->field_of_view_rad,
+        .view = kept,
         .targets = targets,
         .count = count,
     };
@@ -134,17 +128,14 @@ int ensemble_add(struct ensemble *ensemble, const struct frame *frame, struct di
     return 0;
 }
 
-/* Streams of the same scenes agree in time but for how it was written. */
-static const double same_time_s = 1e-6;
-
 /* True if both lists are of the same frame, time and sensor. */
 static bool same_scan(const struct ensemble_list *a, const struct ensemble_list *b)
 {
-    return a->frame == b->frame && fabs(a->time_s - b->time_s) <= same_time_s &&
-           strcmp(a->sensor, b->sensor) == 0;
+    return a->frame == b->frame && reference_stream_same_time(a->time_s, b->time_s) &&
+           strcmp(a->view.name, b->view.name) == 0;
 }
 
-static bool same_cells(const struct ensemble_list *a, const struct ensemble_list *b)
+static bool same_cells(const struct sensor_view *a, const struct sensor_view *b)
 {
     return a->cell_range_m == b->cell_range_m && a->cell_range_rate_mps == b->cell_range_rate_mps &&
            a->field_of_view_rad == b->field_of_view_rad;
@@ -185,21 +176,19 @@ static int check_cells(const struct ensemble_scene *truth, struct diag *diag)
     if (first->lists.count == 0)
         return diag_fail(diag, DIAG_DATA, "scene \"%s\": no sensor measured in it", truth->name);
     for (size_t k = 0; k < first->lists.count; k++) {
-        const struct ensemble_list *list = &first->lists.items[k];
-        if (!(list->cell_range_m > 0 && list->cell_range_rate_mps > 0 &&
-              list->field_of_view_rad > 0))
+        const struct sensor_view *view = &first->lists.items[k].view;
+        if (!target_score_has_cells(view))
             return diag_fail(diag, DIAG_DATA,
                              "scene \"%s\": the truth's sensor \"%s\" has cells of %g m by %g m/s "
                              "in a view of %g rad; distances in cells need more than 0",
-                             truth->name, list->sensor, list->cell_range_m,
-                             list->cell_range_rate_mps, list->field_of_view_rad);
+                             truth->name, view->name, view->cell_range_m, view->cell_range_rate_mps,
+                             view->field_of_view_rad);
         for (size_t i = 1; i < truth->seeds.count; i++)
-            if (!same_cells(list, &truth->seeds.items[i].lists.items[k]))
+            if (!same_cells(view, &truth->seeds.items[i].lists.items[k].view))
                 return diag_fail(diag, DIAG_DATA,
                                  "scene \"%s\": sensor \"%s\" of the truth has other cells with "
                                  "seed %" PRIu64 " than with seed %" PRIu64,
-                                 truth->name, list->sensor, truth->seeds.items[i].seed,
-                                 first->seed);
+                                 truth->name, view->name, truth->seeds.items[i].seed, first->seed);
     }
     return 0;
 }
@@ -218,13 +207,11 @@ static int check_independence(const struct ensemble_scene *truth,
     return 0;
 }
 
-static struct embedded_list embed(const struct ensemble_list *list,
-                                  const struct ensemble_list *unit, double azimuth_rad,
+static struct embedded_list embed(const struct ensemble_list *list, const struct target_cell *unit,
                                   struct arena *arena)
 {
-    const double cell[LIST_EMBEDDING_AXES] = {
-        unit->cell_range_m, azimuth_rad > 0 ? azimuth_rad : unit->field_of_view_rad / 20,
-        unit->cell_range_rate_mps, LEVEL_DB};
+    const double cell[LIST_EMBEDDING_AXES] = {unit->range_m, unit->azimuth_rad,
+                                              unit->range_rate_mps, LEVEL_DB};
     struct embedded_list embedded = {0};
     for (size_t i = 0; i < list->count; i++) {
         struct embedded_target *target = list_add(&embedded.targets, arena);
@@ -266,11 +253,12 @@ static struct ensemble_scene_score score_scene(const struct ensemble_scene *trut
     struct embedded_list *embedded = arena_get(arena, all * sizeof *embedded);
     struct arena scratch = {0};
     for (size_t k = 0; k < lists; k++) {
+        struct target_cell unit =
+            target_score_cell(&truth->seeds.items[0].lists.items[k].view, azimuth_rad, 0);
         for (size_t i = 0; i < all; i++) {
             const struct ensemble_seed *seed =
                 i < ones ? &truth->seeds.items[i] : &listed->seeds.items[i - ones];
-            embedded[i] = embed(&seed->lists.items[k], &truth->seeds.items[0].lists.items[k],
-                                azimuth_rad, &scratch);
+            embedded[i] = embed(&seed->lists.items[k], &unit, &scratch);
         }
         add_distances(embedded, all, 1 / (double)lists, distance);
         arena_clear(&scratch);
@@ -312,17 +300,8 @@ static void bootstrap(struct ensemble_score *score, struct arena *arena)
     score->high = means[RESAMPLES - 1 - RESAMPLES / 40];
 }
 
-static const struct ensemble_scene *find_scene(const struct ensemble *ensemble, const char *name)
-{
-    for (size_t i = 0; i < ensemble->scenes.count; i++)
-        if (strcmp(ensemble->scenes.items[i].name, name) == 0)
-            return &ensemble->scenes.items[i];
-    return NULL;
-}
-
-int ensemble_compare(const struct ensemble *truth, const struct ensemble *listed,
-                     double azimuth_cell_rad, struct arena *arena, struct ensemble_score *score,
-                     struct diag *diag)
+int ensemble_compare(const struct ensemble *truth, struct ensemble *listed, double azimuth_cell_rad,
+                     struct arena *arena, struct ensemble_score *score, struct diag *diag)
 {
     *score = (struct ensemble_score){0};
     if (truth->scenes.count != listed->scenes.count || truth->scenes.count == 0)
@@ -332,9 +311,9 @@ int ensemble_compare(const struct ensemble *truth, const struct ensemble *listed
             listed->scenes.count, truth->scenes.count);
     for (size_t i = 0; i < truth->scenes.count; i++) {
         const struct ensemble_scene *scene = &truth->scenes.items[i];
-        const struct ensemble_scene *other = find_scene(listed, scene->name);
+        const struct ensemble_scene *other = scene_of(listed, scene->name);
         const struct ensemble_seed *first = &scene->seeds.items[0];
-        if (other == NULL)
+        if (other->seeds.count == 0)
             return diag_fail(diag, DIAG_DATA, "scene \"%s\": in the truth, not in the stream",
                              scene->name);
         if (check_scene(scene, first, "the truth", diag) != 0 ||

@@ -8,6 +8,7 @@
 #ifndef ENSEMBLE_H
 #define ENSEMBLE_H
 
+#include "base/intern.h"
 #include "frame/frame.h"
 #include "text/field.h"
 
@@ -16,6 +17,7 @@ struct ensemble_scene;
 /* The seeds of each scene in one stream, with their target lists. */
 struct ensemble {
     struct arena *arena; /* memory of all that the ensemble keeps */
+    struct intern names; /* of scenes: a name's number is that of its scene */
     LIST_OF(struct ensemble_scene) scenes;
 };
 
@@ -46,8 +48,7 @@ int ensemble_add(struct ensemble *ensemble, const struct frame *frame, struct di
  * DIAG_DATA streams of other scenes, frames, times or sensors, seeds of one scene with other
  * frames, scenes of fewer than 3 seeds on either side, a seed on both sides, scenes in which no
  * sensor measured, and a truth whose cells have no width or differ between seeds. */
-int ensemble_compare(const struct ensemble *truth, const struct ensemble *listed,
-                     double azimuth_cell_rad, struct arena *arena, struct ensemble_score *score,
-                     struct diag *diag);
+int ensemble_compare(const struct ensemble *truth, struct ensemble *listed, double azimuth_cell_rad,
+                     struct arena *arena, struct ensemble_score *score, struct diag *diag);
 
 #endif

@@ -11,9 +11,6 @@
 #include "text/json_scan.h"
 #include "text/record_text.h"
 
-/* Times in streams of the same scenes agree but for how they were written. */
-static const double same_time_s = 1e-6;
-
 /* A line that waits for its frame, with its text in one piece of memory. */
 struct waiting_line {
     struct waiting_line *next;
@@ -244,10 +241,15 @@ static int find(struct reference_stream *reference, const struct frame *frame, s
                      input_name(reference->input), (long long)frame->frame, frame->scene);
 }
 
+bool reference_stream_same_time(double a_s, double b_s)
+{
+    return fabs(a_s - b_s) <= 1e-6;
+}
+
 /* Refuses a stream of other scenes with the same names. */
 static int check_time(const struct frame *frame, double time_s, struct diag *diag)
 {
-    if (fabs(time_s - frame->time_s) <= same_time_s)
+    if (reference_stream_same_time(time_s, frame->time_s))
         return 0;
     return diag_fail(diag, DIAG_DATA,
                      "time_s: %.9g; expected %.9g, the time of this frame in the other stream",

@@ -43,4 +43,7 @@ int reference_stream_finish(struct reference_stream *reference, struct diag *dia
 int64_t reference_stream_unmatched(const struct reference_stream *reference);
 int64_t reference_stream_missing(const struct reference_stream *reference);
 
+/* True if two times of one frame agree but for how they were written, to a microsecond. */
+bool reference_stream_same_time(double a_s, double b_s);
+
 #endif

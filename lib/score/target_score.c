@@ -23,6 +23,11 @@ struct target_cell target_score_cell(const struct sensor_view *view, double azim
     };
 }
 
+bool target_score_has_cells(const struct sensor_view *view)
+{
+    return view->cell_range_m > 0 && view->cell_range_rate_mps > 0 && view->field_of_view_rad > 0;
+}
+
 double target_score_distance(const struct target *a, const struct target *b,
                              const struct target_cell *cell)
 {
@@ -45,8 +50,7 @@ int target_score_check(const struct frame *truth, const struct frame *listed, st
             return diag_fail(diag, DIAG_DATA,
                              "sensors.list[%zu].name: \"%s\"; the truth has \"%s\"", i, name,
                              view->name);
-        if (!(view->cell_range_m > 0 && view->cell_range_rate_mps > 0 &&
-              view->field_of_view_rad > 0))
+        if (!target_score_has_cells(view))
             return diag_fail(
                 diag, DIAG_DATA,
                 "sensors.list[%zu]: the truth's \"%s\" has cells of %g m by %g m/s in a field of "

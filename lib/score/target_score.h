@@ -23,6 +23,9 @@ struct target_cell {
 struct target_cell target_score_cell(const struct sensor_view *view, double azimuth_rad,
                                      double cutoff);
 
+/* True if its cells and its field of view have a width, so that there are distances in cells. */
+bool target_score_has_cells(const struct sensor_view *view);
+
 double target_score_distance(const struct target *a, const struct target *b,
                              const struct target_cell *cell);
 

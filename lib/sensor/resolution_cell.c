@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/elementary.h"
+#include "base/units.h"
 #include "frame/frame_order.h"
 #include "radar/resolution.h"
 
@@ -127,4 +128,18 @@ bool resolution_cell_of(const struct sensor *sensor, const struct received_echo 
     cell->azimuth_rad = angle.azimuth_rad;
     cell->sign_undecided = angle.sign_undecided;
     return angle.valid;
+}
+
+void resolution_cell_list(struct frame *frame, const char *stage, const struct sensor *sensor,
+                          const struct selection *selection, const struct cell *cell,
+                          bool has_angle)
+{
+    double threshold = suite_threshold(sensor, cell->interference);
+    if (effects_enabled(selection, EFFECT_THRESHOLD) && cell->amplitude < threshold)
+        frame_lose_cell(frame, stage, cell, LOSS_BELOW_THRESHOLD,
+                        units_shortfall_db(threshold, cell->amplitude), &cell->margins);
+    else if (!has_angle)
+        frame_lose_cell(frame, stage, cell, LOSS_NO_ANGLE, 0, &cell->margins);
+    else
+        *list_add(&frame->cells, frame->arena) = *cell;
 }

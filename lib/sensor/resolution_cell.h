@@ -27,4 +27,10 @@ int resolution_cell_compare(const void *left, const void *right);
 bool resolution_cell_of(const struct sensor *sensor, const struct received_echo *echoes,
                         size_t count, bool superpose, struct arena *arena, struct cell *cell);
 
+/* Adds the cell to the frame, or loses its echoes for the stage: below the detection threshold, if
+ * the effect threshold is enabled, or without an angle. */
+void resolution_cell_list(struct frame *frame, const char *stage, const struct sensor *sensor,
+                          const struct selection *selection, const struct cell *cell,
+                          bool has_angle);
+
 #endif
