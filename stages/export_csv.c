@@ -14,10 +14,11 @@ struct export_csv {
 enum { CELL_ROOM = 2 * FIELD_NAME_SIZE + 2 };
 
 static const char header[] = "scene,frame,time_s,sensor,range_m,azimuth_rad,range_rate_mps,"
-                             "amplitude_db,contributors,object,reflector,path,weight\n";
+                             "amplitude_db,contributors,object,reflector,path,weight,"
+                             "radar_ghost_label\n";
 
 /* The cells of a row that are about a target. A scan without targets leaves them empty. */
-enum { TARGET_CELLS = 9 };
+enum { TARGET_CELLS = 10 };
 
 /* A row that is being written. */
 struct row {
@@ -52,6 +53,42 @@ static void add_integer(struct row *row, int64_t value)
     add(row, digits, (size_t)snprintf(digits, sizeof digits, "%" PRId64, value));
 }
 
+/* The first digit of a label of the Radar Ghost data set; classes that are not listed have none. */
+static const struct {
+    const char *class;
+    int64_t digit;
+} class_digits[] = {
+    {"pedestrian", 1}, {"bicycle", 2},           {"car", 3}, {"van", 3},
+    {"truck", 4},      {"articulated_truck", 4}, {"bus", 4}, {"motorcycle", 5},
+};
+
+/* Its last two digits, by path: 1 or 2 for a last bounce on the object or on the mirror, and a bit
+ * for the order: 1, 2 or 4 for one, two or three bounces. */
+static const int64_t bounce_digits[] = {
+    [PATH_DIRECT] = 11,           [PATH_WALL_OBJECT] = 12, [PATH_OBJECT_WALL] = 22,
+    [PATH_WALL_OBJECT_WALL] = 24, [PATH_WHEEL] = 11,       [PATH_LIMB] = 11,
+};
+
+enum { LABEL_BACKGROUND = 0, LABEL_NOISE = -2, LABEL_MAIN = 100 };
+
+static int64_t class_digit(const struct object *object)
+{
+    for (size_t i = 0; object != NULL && i < sizeof class_digits / sizeof *class_digits; i++)
+        if (strcmp(object->class, class_digits[i].class) == 0)
+            return class_digits[i].digit;
+    return 0;
+}
+
+/* The label that the Radar Ghost data set would give. All objects count as its main one, because
+ * all ghosts are told apart. */
+static int64_t radar_ghost_label(const struct frame *frame, const struct echo_id *id)
+{
+    if (id->path == PATH_FALSE_ALARM)
+        return LABEL_NOISE;
+    int64_t digit = id->path == PATH_CLUTTER ? 0 : class_digit(frame_object(frame, id->object));
+    return digit == 0 ? LABEL_BACKGROUND : 1000 * digit + LABEL_MAIN + bounce_digits[id->path];
+}
+
 static const struct contributor *strongest(const struct target *target)
 {
     const struct contributor *best = target->contributors.items;
@@ -61,7 +98,7 @@ static const struct contributor *strongest(const struct target *target)
     return best;
 }
 
-static void add_target(struct row *row, const struct target *target)
+static void add_target(struct row *row, const struct frame *frame, const struct target *target)
 {
     const struct contributor *from = strongest(target);
     add_real(row, target->range_m);
@@ -73,6 +110,7 @@ static void add_target(struct row *row, const struct target *target)
     add_word(row, from->id.reflector);
     add_word(row, frame_path_name(from->id.path));
     add_real(row, from->weight);
+    add_integer(row, radar_ghost_label(frame, &from->id));
 }
 
 static int write_row(struct runner *runner, const struct frame *frame, const char *sensor,
@@ -84,7 +122,7 @@ static int write_row(struct runner *runner, const struct frame *frame, const cha
     add_real(&row, frame->time_s);
     add_word(&row, sensor);
     if (target != NULL)
-        add_target(&row, target);
+        add_target(&row, frame, target);
     for (int i = 0; target == NULL && i < TARGET_CELLS; i++)
         add(&row, "", 0);
     return row.result == 0 ? runner_write(runner, "\n", 1) : -1;

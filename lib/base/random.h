@@ -13,7 +13,7 @@
 enum random_purpose {
     RANDOM_POINTERS = 1,            /* complex noise on sum and delta: four Gaussians */
     RANDOM_RANGE_RATE = 2,          /* noise on range and range rate */
-    RANDOM_AZIMUTH = 3,             /* noise on azimuth (glint-noise-gauss) */
+    RANDOM_AZIMUTH = 3,             /* noise on the azimuth itself, not on the pointers */
     RANDOM_PHASE = 4,               /* relative phase of an echo */
     RANDOM_TRAFFIC = 5,             /* road users of random traffic: classes, places and speeds */
     RANDOM_ADVERSARIAL_TRAFFIC = 6, /* cases of adversarial traffic */

@@ -20,6 +20,7 @@ static const char *const laws[] = {[SIGMA_FIXED] = "fixed",
                                    [SIGMA_BY_AMPLITUDE] = "by_amplitude",
                                    [SIGMA_BY_SNR] = "by_snr",
                                    NULL};
+static const char *const samplings[] = {[IF_REAL] = "real", [IF_COMPLEX] = "complex", NULL};
 static const char *const orders[] = {
     [LIST_STRONGEST] = "strongest", [LIST_NEAREST] = "nearest", NULL};
 static const char *const patterns[] = {
@@ -81,9 +82,15 @@ static const struct field sensor_fields[] = {
     {REAL(unambiguous_rate_mps, 0.1, 1e5, "faster echoes fold to within +- this; absent: none do"),
      FIELD_OPTIONAL},
     {REAL(receiver_bandwidth_hz, 1, 1e12,
-          "other radars are received within this band; absent: they are not"),
+          "highest beat that the receiver passes; absent: other radars are not heard"),
      FIELD_OPTIONAL},
-    {REAL(noise_figure_db, 0, 100, "of the receiver"), FIELD_OPTIONAL},
+    {CHOICE(if_sampling, samplings,
+            "are beats sampled as real values, so that the image band folds onto them, or as "
+            "complex?"),
+     FIELD_OPTIONAL},
+    {REAL(noise_figure_db, 0, 100,
+          "of the receiver; if_sampling real: with the image band's noise"),
+     FIELD_OPTIONAL},
     {REAL(antenna_gain_dbi, -100, 100, "one way, on boresight"), FIELD_OPTIONAL},
     {REAL(chirp_slope_hzps, -1e15, 1e15, "frequency slope of a chirp, negative if it falls"),
      FIELD_OPTIONAL},
@@ -117,6 +124,8 @@ static const struct field sensor_fields[] = {
     {REAL(range_sigma_m, 0, 1e3, "noise on range")},
     {REAL(range_rate_sigma_mps, 0, 1e3, "noise on range rate")},
     {REAL(azimuth_sigma_rad, 0, PI, "noise on azimuth, for glint-noise-gauss")},
+    {REAL(azimuth_floor_rad, 0, PI, "adds to the angle's noise in quadrature, for glint-noise"),
+     FIELD_OPTIONAL},
     {CHOICE(sigma_law, laws,
             "noise on range and range rate: constant, proportional to threshold/amplitude, or by "
             "window_factor and amplitude/pointer_sigma, with the sigmas as floors"),

@@ -18,6 +18,7 @@
 enum cell_extent { CELL_WIDTH, CELL_HALF_WIDTH };
 enum cell_phase { CELL_IN_PHASE, CELL_RANDOM_PHASE, CELL_PHASE_BY_PATH };
 enum sigma_law { SIGMA_FIXED, SIGMA_BY_AMPLITUDE, SIGMA_BY_SNR };
+enum if_sampling { IF_REAL, IF_COMPLEX };
 enum list_order { LIST_STRONGEST, LIST_NEAREST };
 
 struct sensor {
@@ -37,6 +38,7 @@ struct sensor {
     double fluctuation_sigma_db;
     double unambiguous_range_m, unambiguous_rate_mps; /* 0: unlimited */
     double receiver_bandwidth_hz, noise_figure_db, antenna_gain_dbi;
+    enum if_sampling if_sampling;
     double chirp_slope_hzps, chirp_s;
 
     double threshold_db;
@@ -55,7 +57,7 @@ struct sensor {
     enum monopulse_estimator angle_estimator;
 
     double pointer_sigma;
-    double range_sigma_m, range_rate_sigma_mps, azimuth_sigma_rad;
+    double range_sigma_m, range_rate_sigma_mps, azimuth_sigma_rad, azimuth_floor_rad;
     enum sigma_law sigma_law;
     double window_factor;
     double misalignment_rad, radome_bias_rad, radome_period_rad, radome_phase_rad;

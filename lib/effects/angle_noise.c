@@ -3,16 +3,18 @@
 #include <complex.h>
 #include <math.h>
 
+#include "base/units.h"
 #include "radar/interferer.h"
 
 static bool described(const struct effect_scan *scan)
 {
-    return scan->sensor->pointer_sigma > 0;
+    return scan->sensor->pointer_sigma > 0 || scan->sensor->azimuth_floor_rad > 0;
 }
 
 /* Equation (8): sum and delta channel get independent complex noise of the same RMS, pointer_sigma,
  * which other radars raise. */
-static bool add_noise(const struct effect_scan *scan, struct effect_measurement *measurement)
+static bool add_noise_to_pointers(const struct effect_scan *scan,
+                                  struct effect_measurement *measurement)
 {
     const double _Complex i = (double _Complex)I;
     double draw[4], sigma = scan->sensor->pointer_sigma * sqrt(0.5) *
@@ -23,12 +25,26 @@ static bool add_noise(const struct effect_scan *scan, struct effect_measurement 
     return true;
 }
 
+/* Gaussian noise that no signal-to-noise ratio lessens (MODEL 14.7), independent of the pointers'.
+ */
+static bool add_floor(const struct effect_scan *scan, struct effect_measurement *measurement)
+{
+    double floor_rad = scan->sensor->azimuth_floor_rad, draw[2];
+    if (floor_rad == 0)
+        return false;
+    random_gaussian_pair(&measurement->address, RANDOM_AZIMUTH, 0, draw);
+    measurement->azimuth_rad = units_wrap_rad(measurement->azimuth_rad + floor_rad * draw[0]);
+    return true;
+}
+
 const struct effect effect_angle_noise = {
-    .summary = "noise on the sum and delta channels disturbs angle and amplitude",
-    .cause = "pointer_sigma of a sensor",
-    .left_out_when = "the sensor's pointer_sigma is 0",
-    .cost = "four draws and an angle per cell",
+    .summary = "noise on the sum and delta channels disturbs angle and amplitude, and the angle "
+               "has a floor",
+    .cause = "pointer_sigma and azimuth_floor_rad of a sensor",
+    .left_out_when = "the sensor's pointer_sigma and azimuth_floor_rad are 0",
+    .cost = "four draws and an angle per cell, and two draws for the floor",
     .home = EFFECT_HOME_NOISE,
     .described = described,
-    .measure[EFFECT_STEP_POINTERS] = add_noise,
+    .measure[EFFECT_STEP_POINTERS] = add_noise_to_pointers,
+    .measure[EFFECT_STEP_NOISE] = add_floor,
 };

@@ -27,8 +27,8 @@ enum { EFFECT_CONSTANTS = 3 };
  * off the signal and takes only the last two steps. */
 enum effect_step {
     EFFECT_STEP_POINTERS, /* changes the sum and delta pointers, before the angle is read */
-    EFFECT_STEP_SIGMA,    /* sets the standard deviations that EFFECT_STEP_RANGE then uses */
-    EFFECT_STEP_RANGE,    /* changes range and range rate */
+    EFFECT_STEP_SIGMA,    /* sets the standard deviations that EFFECT_STEP_NOISE then uses */
+    EFFECT_STEP_NOISE,    /* adds noise to the range, azimuth and range rate that were read */
     EFFECT_STEP_AZIMUTH,  /* changes the azimuth that was read to the one that is reported */
     EFFECT_STEP_ROUNDING, /* rounds what is reported */
     EFFECT_STEPS

@@ -41,12 +41,13 @@ static double noise_ratio_of(const struct effect_scan *scan, const struct interf
     double pattern = antenna_gain(&sensor->antenna, azimuth_rad);
     if (!(pattern > 0))
         return 0;
+    double sides = sensor->if_sampling == IF_REAL ? 2 : 1;
     double gain_db = sensor->antenna_gain_dbi + units_amplitude_db(pattern) / 2;
     return interferer_ratio(
         interferer_power_dbm(other->eirp_dbm, gain_db, units_wavelength_m(sensor->carrier_hz),
                              range_m),
         interferer_noise_dbm(sensor->receiver_bandwidth_hz, sensor->noise_figure_db),
-        interferer_overlap(sensor->receiver_bandwidth_hz,
+        interferer_overlap(sides * sensor->receiver_bandwidth_hz,
                            sensor->chirp_slope_hzps - other->slope_hzps, sensor->chirp_s),
         other->hit_share);
 }

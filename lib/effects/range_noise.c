@@ -30,5 +30,5 @@ const struct effect effect_range_noise = {
     .cost = "two draws per cell",
     .home = EFFECT_HOME_NOISE,
     .described = described,
-    .measure[EFFECT_STEP_RANGE] = add_noise,
+    .measure[EFFECT_STEP_NOISE] = add_noise,
 };

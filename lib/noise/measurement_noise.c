@@ -14,7 +14,7 @@ bool measurement_noise_read(const struct effect_scan *context, const struct cell
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, read.pointers);
     read.azimuth_rad = angle.azimuth_rad;
-    effect_measure(context, EFFECT_STEP_RANGE, &read);
+    effect_measure(context, EFFECT_STEP_NOISE, &read);
     effect_measure(context, EFFECT_STEP_AZIMUTH, &read);
     *measurement = (struct measurement){
         .cell = cell,

@@ -19,9 +19,9 @@ double interferer_power_dbm(double eirp_dbm, double gain_db, double wavelength_m
     return eirp_dbm + gain_db + units_amplitude_db(wavelength_m / (4 * PI * range_m));
 }
 
-double interferer_overlap(double bandwidth_hz, double slope_difference_hzps, double chirp_s)
+double interferer_overlap(double band_hz, double slope_difference_hzps, double chirp_s)
 {
-    return elementary_min(2 * bandwidth_hz / (fabs(slope_difference_hzps) * chirp_s), 1);
+    return elementary_min(band_hz / (fabs(slope_difference_hzps) * chirp_s), 1);
 }
 
 double interferer_ratio(double power_dbm, double noise_dbm, double overlap, double hit_share)

@@ -14,10 +14,11 @@ double interferer_noise_dbm(double bandwidth_hz, double noise_figure_db);
  * wavelength and range > 0. */
 double interferer_power_dbm(double eirp_dbm, double gain_db, double wavelength_m, double range_m);
 
-/* The part of the receiver's chirp, of length T, during which an interferer is in its band:
- * 2 B/(|slope difference| T), at most 1, and 1 for equal slopes. B is the bandwidth of the
- * intermediate frequency, > 0; chirp_s > 0. */
-double interferer_overlap(double bandwidth_hz, double slope_difference_hzps, double chirp_s);
+/* The part of the receiver's chirp, of length T, during which an interferer is in the band W around
+ * the chirp from which the beats of echoes get their noise: W/(|slope difference| T), at most 1,
+ * and 1 for equal slopes. W is twice the highest beat for real samples, onto which the image band
+ * folds, and the highest beat itself for complex ones. band_hz, chirp_s > 0. */
+double interferer_overlap(double band_hz, double slope_difference_hzps, double chirp_s);
 
 /* The mean INR, a ratio of powers. hit_share in [0, 1] is the part of the receiver's chirps that an
  * interfering chirp crosses at all. */

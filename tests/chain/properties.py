@@ -810,7 +810,7 @@ def csv_export(folder):
                   f"{place(frame)}: the row is {row}")
             cells = list(row.values())[4:]
             if target is None:
-                check(cells == [""] * 9, f"{place(frame)}: an empty scan has values")
+                check(cells == [""] * 10, f"{place(frame)}: an empty scan has values")
                 continue
             best = max(target["contributors"], key=lambda one: one["weight"])
             values = [target[key] for key in ("range_m", "azimuth_rad", "range_rate_mps",
@@ -818,7 +818,7 @@ def csv_export(folder):
             check([float(cell) for cell in cells[:4]] == values and
                   int(cells[4]) == len(target["contributors"]) and
                   cells[5:8] == [best[key] for key in NAMES[1:]] and
-                  float(cells[8]) == best["weight"], f"{place(frame)}: the row is {row}")
+                  float(cells[8]) == best["weight"] and cells[9] == "3111", f"{place(frame)}: the row is {row}")
     check(empty > 0, "no empty scan to see")
 
 

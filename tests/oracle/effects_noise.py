@@ -190,6 +190,34 @@ def angle_noise(bench):
             bench.check(one["azimuth_rad"] == one["cell_azimuth_rad"], "angle noise is off, and the angle another one")
 
 
+def angle_floor(bench):
+    """MODEL 14.7: a floor of 1 degree adds in quadrature to the 0.8156 degrees of 7.3 at 30 dB, and is all of the
+    noise where the pointers have none. It is Gaussian, and no other draw moves."""
+    expected = {"noisy": math.hypot(0.8156, 1), "quiet": 1.0}
+    sigma = {"noisy": 4 * THRESHOLD / 10 ** 1.5, "quiet": 0}
+    plain = {name: snr_sensor(name, 30, sigma_law="fixed", range_sigma_m=0.05, angle_estimator="ratio",
+                              pointer_sigma=sigma[name]) for name in expected}
+    with_floor = [dict(one, azimuth_floor_rad=math.radians(1)) for one in plain.values()]
+    frames = frames_of([pole()], DRAWS)
+    out, without = listen(bench, frames, with_floor), listen(bench, frames, list(plain.values()))
+    for name in expected:
+        targets, others = targets_of(out, name), targets_of(without, name)
+        errors = [math.degrees(one["azimuth_rad"] - one["cell_azimuth_rad"]) for one in targets]
+        check_rms(bench, errors, expected[name], f"{name}: azimuth")
+        check_share(bench, sum(abs(one) > 2 * expected[name] for one in errors), DRAWS, 0.0455, f"{name}: beyond 2 sigma")
+        check_unrelated(bench, errors, [one["range_m"] for one in targets], f"{name}: azimuth and range")
+        bench.check(all({**one, "azimuth_rad": 0, "effects": 0} == {**other, "azimuth_rad": 0, "effects": 0}
+                        for one, other in zip(targets, others)), f"{name}: the floor moves more than the azimuth")
+        bench.check(all("angle_noise" in one["effects"] for one in targets), f"{name}: not in the label")
+    pairs = [(one["azimuth_rad"], other["azimuth_rad"])
+             for one, other in zip(targets_of(out, "noisy"), targets_of(without, "noisy"))]
+    check_unrelated(bench, [one - other for one, other in pairs], [other for _, other in pairs], "floor and pointers' noise")
+    few = frames[:100]
+    off = check_switch(bench, few, with_floor, "angle_noise", listen(bench, few, with_floor))
+    bench.check(all(one["azimuth_rad"] == one["cell_azimuth_rad"] for frame in off for one in frame["targets"]),
+                "angle noise is off, and the floor is not")
+
+
 def misalignment(bench):
     """MODEL 14.8: a yaw error of one degree shifts what is straight ahead aside."""
     published = {10: 0.174551, 30: 0.523652, 100: 1.745506}
@@ -406,6 +434,7 @@ CHECKS = [
     ("accuracy is the formula's for every draw", accuracy_to_the_last_digit),
     ("range noise has the sigmas of the document", range_noise),
     ("angle noise is the dipole pair's", angle_noise),
+    ("a floor of the angle adds in quadrature", angle_floor),
     ("a sensor that looks aside reports aside", misalignment),
     ("a bumper bends by a sine of the azimuth", radome),
     ("the standing world contradicts a yaw error", standing_world),

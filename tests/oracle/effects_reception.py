@@ -262,7 +262,8 @@ def floor_db(frame):
 
 
 def floor(bench):
-    """MODEL 14.17: 40.8746 dB in band, 29.1190 and 16.2086 dB with other slopes; ratios add."""
+    """MODEL 14.17: 40.8746 dB in band, 29.1190 and 16.2086 dB with other slopes, half the power without an image
+    band; ratios add."""
     objects = [spot("other", 50), spot("a", 40)]
     cases = [([interferer(slope=7.5e12)], 10 * math.log10(1 + 10 ** 4.08746)), ([interferer()], 29.1190),
              ([interferer(hits=0.05)], 16.2086), ([interferer(hits=0)], 0), ([interferer("gone")], 0),
@@ -277,6 +278,9 @@ def floor(bench):
         marked = [("interference" in one.get("effects", [])) == (expected > 0) for one in out["cells"] + out["targets"]]
         bench.check(all(marked), f"{others}: label")
         bench.check(floor_db(receive(bench, disturbed(objects, others), deaf)[0]) == 0, "a deaf radar hears")
+    for sampling, expected in (("real", 29.1190), ("complex", 26.1141)):
+        out = receive(bench, disturbed(objects, [interferer()]), [dict(sensors[0], if_sampling=sampling)])[0]
+        bench.check(abs(floor_db(out) - expected) < 2e-4, f"{sampling} samples: {floor_db(out)} dB")
     aside = math.radians(30)
     u = math.pi / 2 * math.sin(aside)
     gain_db = 10 * math.log10(math.sin(u) / u * math.cos(aside) * math.cos(u))

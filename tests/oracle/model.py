@@ -685,13 +685,31 @@ def check_two_vehicles(bench):
         done = subprocess.run(words, env=bench.env, stdout=subprocess.PIPE, text=True, check=False)
         bench.check(done.returncode == 0, f"{name}: exit status {done.returncode}")
         texts[name] = done.stdout
-        check_middle(bench, name, [json.loads(line) for line in done.stdout.splitlines()])
+        check_middle(bench, name, [json.loads(line) for line in done.stdout.splitlines()], "centre")
     bench.check(texts["piped"] == texts["fused"], "piped and fused differ")
     bench.check(texts["piped without noise"] == texts["fused without noise"], "piped and fused differ without noise")
-    bench.end_group("pipelines/two-vehicles: one target in the middle")
+    suite = json.loads((ROOT / "data/sensors/srr24-pair.json").read_text())
+    for radar in suite["sensors"]:
+        radar["phase_reference"] = "element"
+    frames = [json.loads(line) for line in bench.stage(["glint-traffic", "two-vehicles"], "").splitlines()]
+    check_middle(bench, "element", bench.chain(frames, suite), "element")
+    bench.end_group("pipelines/two-vehicles: one target in the middle, under both phase references")
 
 
-def check_middle(bench, name, frames):
+def azimuth_of_all(contributors, reference):
+    """MODEL 8.1: the pointers of all contributors, added in phase, and the angle of 7.2 and 7.4."""
+    both = [0, 0]
+    for one in contributors:
+        u = math.pi / 2 * math.sin(one["azimuth_rad"])
+        turn = complex(math.cos(u), math.sin(u)) if reference == "element" else 1
+        both[0] += one["weight"] * turn
+        both[1] += one["weight"] * turn * -1j * math.tan(u)
+    size = math.asin(2 / math.pi * math.atan(abs(both[1]) / abs(both[0])))
+    return math.copysign(size, -(both[1] * both[0].conjugate()).imag)
+
+
+def check_middle(bench, name, frames, reference):
+    aside = {"centre": 0.575, "element": 0.36}[reference]
     bench.check(len(frames) == 101, f"{name}: {len(frames)} frames")
     for item in frames:
         for radar in ("left", "right"):
@@ -702,7 +720,9 @@ def check_middle(bench, name, frames):
             owners = {c["object"] for c in targets[0]["contributors"]}
             bench.check(owners == {"left", "right"}, f"{where}: labelled with {owners}")
             lateral = targets[0]["cell_range_m"] * math.sin(targets[0]["cell_azimuth_rad"]) + (0.6 if radar == "left" else -0.6)
-            bench.check(abs(lateral) < 1.1, f"{where}: target at y = {lateral}, not between the cars")
+            bench.check(abs(abs(lateral) - aside) < 0.01, f"{where}: target at y = {lateral}, not {aside} from the middle")
+            summed = azimuth_of_all(targets[0]["contributors"], reference)
+            bench.check(near(targets[0]["cell_azimuth_rad"], summed), f"{where}: azimuth of the sum {summed}")
 
 
 def main():

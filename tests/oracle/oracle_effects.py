@@ -643,7 +643,8 @@ def interference(scene, frame, antenna):
             power = (other["eirp_dbm"] + sensor.get("antenna_gain_dbi", 0) + 10 * math.log10(gain)
                      + 20 * math.log10(LIGHT_MPS / sensor["carrier_hz"] / (4 * math.pi * math.hypot(*way))))
             slope = abs(sensor.get("chirp_slope_hzps", 0) - other["slope_hzps"])
-            overlap = min(1.0, 2 * bandwidth / (slope * sensor["chirp_s"])) if slope > 0 else 1.0
+            band = bandwidth * (1 if sensor.get("if_sampling") == "complex" else 2)
+            overlap = min(1.0, band / (slope * sensor["chirp_s"])) if slope > 0 else 1.0
             ratio += 10 ** ((power - noise) / 10) * overlap * other["hit_share"]
     return ratio
 

@@ -23,7 +23,7 @@ static struct effect_measurement measure_cell(struct effect_bench *bench, uint64
                           .members = {&leader, 1, 1}};
     struct effect_scan scan = effect_bench_begin(bench, effects, EFFECT_HOME_NOISE);
     struct effect_measurement read = effect_measurement_of(&scan, cell);
-    effect_measure(&scan, EFFECT_STEP_RANGE, &read);
+    effect_measure(&scan, EFFECT_STEP_NOISE, &read);
     return read;
 }
 

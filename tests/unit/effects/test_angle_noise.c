@@ -30,6 +30,26 @@ static void both_channels_get_the_noise_of_their_cell(void **state)
     }
 }
 
+/* pi - 0.001 and a floor of 0.5 rad go beyond half a turn in half of the draws. */
+static void the_floor_is_a_draw_of_its_own_on_the_azimuth_that_was_read(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct contributor leader = {.id = {.object = "o", .reflector = "r"}};
+    const struct cell cell = {.range_m = 10, .members = {&leader, 1, 1}};
+    bench->sensor.azimuth_floor_rad = 0.5;
+    for (bench->frame.frame = 0; bench->frame.frame < 20; bench->frame.frame++) {
+        struct random_address address = draw_address_of(&bench->frame, "radar", leader.id);
+        struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
+        struct effect_measurement read = effect_measurement_of(&scan, &cell);
+        double draw[2];
+        random_gaussian_pair(&address, RANDOM_AZIMUTH, 0, draw);
+        read.azimuth_rad = PI - 0.001;
+        effect_measure(&scan, EFFECT_STEP_NOISE, &read);
+        assert_close(read.azimuth_rad, units_wrap_rad(PI - 0.001 + 0.5 * draw[0]), 1e-15);
+        assert_true(read.range_m == 10 && read.effects == EFFECT_BIT(EFFECT_ANGLE_NOISE));
+    }
+}
+
 static void without_the_effect_pointers_are_those_of_the_cell(void **state)
 {
     struct effect_bench *bench = *state;
@@ -47,6 +67,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         EFFECT_TEST(both_channels_get_the_noise_of_their_cell),
+        EFFECT_TEST(the_floor_is_a_draw_of_its_own_on_the_azimuth_that_was_read),
         EFFECT_TEST(without_the_effect_pointers_are_those_of_the_cell),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -66,6 +66,7 @@ static void a_member_describes_its_effect_and_no_other(void **state)
         {EFFECT_AMBIGUITY, offsetof(struct sensor, unambiguous_range_m)},
         {EFFECT_AMBIGUITY, offsetof(struct sensor, unambiguous_rate_mps)},
         {EFFECT_ANGLE_NOISE, offsetof(struct sensor, pointer_sigma)},
+        {EFFECT_ANGLE_NOISE, offsetof(struct sensor, azimuth_floor_rad)},
         {EFFECT_RANGE_NOISE, offsetof(struct sensor, range_sigma_m)},
         {EFFECT_RANGE_NOISE, offsetof(struct sensor, range_rate_sigma_mps)},
         {EFFECT_MISALIGNMENT, offsetof(struct sensor, misalignment_rad)},

@@ -50,6 +50,8 @@ static void an_interferer_is_heard_where_it_stands(void **state)
     assert_close(interference_db(bench), in_band_db + 10 * log10(2.0 / 30), 2e-4);
     other->hit_share = 0.05;
     assert_close(interference_db(bench), in_band_db + 10 * log10(0.1 / 30), 2e-4);
+    bench->sensor.if_sampling = IF_COMPLEX;
+    assert_close(interference_db(bench), in_band_db + 10 * log10(0.05 / 30), 2e-4);
 }
 
 static void powers_of_several_interferers_add(void **state)

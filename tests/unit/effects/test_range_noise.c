@@ -6,7 +6,7 @@ static struct effect_measurement measure_cell(struct effect_bench *bench, const 
 {
     struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
     struct effect_measurement read = effect_measurement_of(&scan, cell);
-    effect_measure(&scan, EFFECT_STEP_RANGE, &read);
+    effect_measure(&scan, EFFECT_STEP_NOISE, &read);
     return read;
 }
 

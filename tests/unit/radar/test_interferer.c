@@ -34,7 +34,7 @@ static void the_floor_rises_as_published(void **state)
     double noise_dbm = interferer_noise_dbm(10e6, 12);
     double power_dbm = interferer_power_dbm(33, 20, units_wavelength_m(76.5e9), 50);
     assert_close(power_dbm - noise_dbm, 40.8746, 2e-4);
-    double overlap = interferer_overlap(10e6, 15e12, 20e-6);
+    double overlap = interferer_overlap(20e6, 15e12, 20e-6);
     assert_close(overlap * 20, 1.333333, 5.1e-7);
     static const struct {
         double hit_share, rise_db;
@@ -58,9 +58,9 @@ static void ranges_shrink_as_published(void **state)
 static void equal_slopes_stay_in_band(void **state)
 {
     (void)state;
-    assert_close(interferer_overlap(10e6, 0, 20e-6), 1, 0);
-    assert_close(interferer_overlap(10e6, 1e3, 20e-6), 1, 0);
-    assert_close(interferer_overlap(10e6, -15e12, 20e-6), interferer_overlap(10e6, 15e12, 20e-6),
+    assert_close(interferer_overlap(20e6, 0, 20e-6), 1, 0);
+    assert_close(interferer_overlap(20e6, 1e3, 20e-6), 1, 0);
+    assert_close(interferer_overlap(20e6, -15e12, 20e-6), interferer_overlap(20e6, 15e12, 20e-6),
                  0);
 }
 
