@@ -32,8 +32,8 @@ static int check_visibility(const char *list, size_t index, double full_rad, dou
     return 0;
 }
 
-/* Checks what field tables cannot: names are unique, and visibility does not end before it is
- * full. */
+/* Checks what field tables cannot: names are unique, visibility does not end before it is full, and
+ * mirrors have one law. */
 static int check_reflectors(const struct reflector_set *set, struct arena *arena, struct diag *diag)
 {
     const char *twice = reflectors_name_twice(set, arena);
@@ -47,6 +47,10 @@ static int check_reflectors(const struct reflector_set *set, struct arena *arena
         if (check_visibility("rows", i, set->rows.items[i].full_rad, set->rows.items[i].zero_rad,
                              diag) != 0)
             return -1;
+    size_t unclear = reflectors_unclear_mirror(set);
+    if (unclear < set->mirrors.count)
+        return diag_fail(diag, DIAG_CONFIG,
+                         "mirrors[%zu]: expected either a material or a reflection", unclear);
     return 0;
 }
 

@@ -18,15 +18,14 @@ static bool described(const struct effect_scan *scan)
     return false;
 }
 
-/* The road's complex permittivity and its roughness in m. Concrete has that of ITU-R P.2040,
- * asphalt is assumed. */
+/* The road's complex permittivity and its roughness in m, which is assumed, as is asphalt. */
 static void begin(const struct effect_scan *scan, double *constants)
 {
-    double carrier_ghz = scan->sensor->carrier_hz / 1e9;
-    double conductivity_spm = 0.0462 * elementary_pow(carrier_ghz, 0.7822);
+    struct material_permittivity permittivity =
+        material_permittivity(MATERIAL_CONCRETE, scan->sensor->carrier_hz);
     bool asphalt = scan->frame->conditions.road == ROAD_ASPHALT;
-    constants[0] = asphalt ? 5 : 5.24;
-    constants[1] = asphalt ? 0.25 : 17.98 * conductivity_spm / carrier_ghz;
+    constants[0] = asphalt ? 5 : permittivity.real;
+    constants[1] = asphalt ? 0.25 : permittivity.loss;
     constants[2] = asphalt ? 1e-3 : 3e-4;
 }
 
@@ -46,7 +45,7 @@ static bool receive(const struct effect_scan *scan, struct effect_reception *rec
     if (!(echo->height_m > 0))
         return false;
     const double *constants = scan->constants[EFFECT_TWO_RAY];
-    const struct road_mirror_road road = {constants[0], constants[1], constants[2]};
+    const struct road_mirror_road road = {{constants[0], constants[1]}, constants[2]};
     const struct road_mirror_ends ends = {sensor->mount_z_m, echo->height_m, echo->extent_m,
                                           road_distance_m(sensor, echo)};
     return effect_scale(

@@ -34,6 +34,12 @@ static int check_sets(const struct frame *frame, struct diag *diag)
             twice = object_listed_twice(set);
         if (twice != NULL)
             return diag_fail(diag, DIAG_DATA, "reflectors[%zu]: \"%s\" stands twice", i, twice);
+        size_t unclear = reflectors_unclear_mirror(set);
+        if (unclear < set->mirrors.count)
+            return diag_fail(diag, DIAG_DATA,
+                             "reflectors[%zu].mirrors[%zu]: expected either a material or a "
+                             "reflection",
+                             i, unclear);
     }
     return 0;
 }

@@ -103,14 +103,24 @@ static const struct field mirror_fields[] = {
     {FRACTION(struct mirror_plane, from_y, "start")},
     {FRACTION(struct mirror_plane, to_x, "end")},
     {FRACTION(struct mirror_plane, to_y, "end")},
-    {FIELD_REAL_IN(struct mirror_plane, reflection, 0, 1,
-                   "part of an amplitude that is reflected")},
+    {FIELD_REAL_IN(struct mirror_plane, reflection, 1e-6, 1,
+                   "part of an amplitude that is reflected, at all angles; absent: the material's"),
+     FIELD_OPTIONAL},
+    {FIELD_CHOICE_OF(struct mirror_plane, material, material_names,
+                     "whose permittivity reflects by angle and polarization; absent: reflection"),
+     FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct mirror_plane, profile_radius_m, 1e-3, 1e6,
+                   "of curvature from below to above; absent: straight"),
+     FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct mirror_plane, radius_m, 1e-3, 1e6,
+                   "of curvature along the side; absent: straight"),
+     FIELD_OPTIONAL},
     {0},
 };
 
 static const struct record mirror_record = {
     FIELD_TABLE(struct mirror_plane, mirror_fields, "mirror",
-                "A flat side in which a radar sees other objects a second time.")};
+                "A side in which a radar sees other objects a second time.")};
 
 static const struct field row_fields[] = {
     {FIELD_NAME_OF(struct post_row, name, "post n of the row is called name_n")},
@@ -226,6 +236,16 @@ static double farthest(double least, double x, double y)
 {
     double far = 2 * (fabs(x) > fabs(y) ? fabs(x) : fabs(y));
     return far > least ? far : least;
+}
+
+size_t reflectors_unclear_mirror(const struct reflector_set *set)
+{
+    for (size_t i = 0; i < set->mirrors.count; i++) {
+        const struct mirror_plane *mirror = &set->mirrors.items[i];
+        if ((mirror->material != MATERIAL_NONE) == (mirror->reflection > 0))
+            return i;
+    }
+    return set->mirrors.count;
 }
 
 const struct reflectors_shape *reflectors_shape(const struct reflector_set *set,

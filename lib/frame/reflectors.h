@@ -10,6 +10,7 @@
 #include "geometry/box.h"
 #include "geometry/lobe.h"
 #include "geometry/visibility_range.h"
+#include "radar/material.h"
 #include "text/field.h"
 
 /* The part of an object at a point that moves against the body. */
@@ -45,11 +46,13 @@ struct plane_reflector {
     double profile_radius_m, radius_m; /* of curvature, upright and in the plane; 0: straight */
 };
 
-/* A flat side that mirrors objects before its outer face, for sensors that see ghosts
- * (ghost_echoes.h). It is no reflector itself: a side that is both is listed as both. */
+/* A side that mirrors objects before its outer face, for sensors that see ghosts (ghost_echoes.h).
+ * It is no reflector itself: a side that is both is listed as both. */
 struct mirror_plane {
     double from_x, from_y, to_x, to_y; /* as a plane_reflector's */
-    double reflection;                 /* amplitude reflection coefficient |Gamma| */
+    double reflection;      /* amplitude reflection coefficient |Gamma|; 0: that of the material */
+    enum material material; /* MATERIAL_NONE: reflection is constant */
+    double profile_radius_m, radius_m; /* of curvature, upright and in the plane; 0: straight */
 };
 
 /* Equal points along a line, such as the posts of a guardrail. The first, number 0, is at from;
@@ -104,6 +107,10 @@ bool reflectors_unchanged(const struct reflector_set *set);
 /* A name that two reflectors of the set have, or NULL. With a row "a" points and planes must not be
  * called a_1 and so on, as its posts are. */
 const char *reflectors_name_twice(const struct reflector_set *set, struct arena *arena);
+
+/* The number, from 0, of the first mirror that has both a material and a reflection, or neither;
+ * the count of mirrors if there is none. */
+size_t reflectors_unclear_mirror(const struct reflector_set *set);
 
 /* The shape of a set: its document's if its lists are unchanged, else a new one in the arena. */
 const struct reflectors_shape *reflectors_shape(const struct reflector_set *set,

@@ -10,10 +10,11 @@
  * R' and v' are range and range rate of the image O' of O in the wall. Ranges are half the path's
  * length, range rates their time derivatives; the azimuth is that of the last leg.
  *
- * The amplitude is given as a factor on the ERCS of O: with it, the radar equation at the ghost's
- * own range gives the ghost's amplitude under 1/R^2. Relative to the direct echo that amplitude is
- * ercs_factor (R / range)^2, which is G R/R' for one way by the wall and G^2 (R/R')^2 for both. G =
- * |Gamma| in [0, 1] is the wall's reflection coefficient. */
+ * The wave spreads over both of its ways, R and R', and every bounce on the wall leaves G in [0, 1]
+ * of its amplitude. What the receiver makes of it, A_ref of radar_equation.h, goes by the delay and
+ * so by the ghost's own range. So ercs_factor, on the ERCS of O, is the spreading of an echo at
+ * that range over the path's own: G ((R+R')/2)^2/(R R') for one way by the wall, G^2 for both.
+ * Under 1/R^2 the amplitude relative to the direct echo's is G R/R' and G^2 (R/R')^2. */
 #ifndef GHOST_PATH_H
 #define GHOST_PATH_H
 

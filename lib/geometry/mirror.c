@@ -20,6 +20,11 @@ static double height_m(const struct mirror *mirror, struct vec2 normal, struct v
     return vec2_dot_accurate(vec2_sub(point_m, middle), normal);
 }
 
+double mirror_height_m(const struct mirror *mirror, struct vec2 point_m)
+{
+    return height_m(mirror, normal_of(mirror), point_m);
+}
+
 static struct vec2 flipped(struct vec2 vector, double height, struct vec2 normal)
 {
     return vec2_sub(vector, vec2_scale(2 * height, normal));

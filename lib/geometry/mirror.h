@@ -25,6 +25,10 @@ struct mirror_image {
     struct vec2 place_m, velocity_mps;
 };
 
+/* Height of a point over the wall's line, positive on the outer side; 0 for a wall of length zero.
+ */
+double mirror_height_m(const struct mirror *mirror, struct vec2 point_m);
+
 /* The image of any point, on either side; a point on the wall is its own image. */
 struct mirror_image mirror_image(const struct mirror *mirror, struct vec2 point_m,
                                  struct vec2 point_mps);

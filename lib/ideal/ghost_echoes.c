@@ -9,6 +9,8 @@
 #include "geometry/specular_point.h"
 #include "ideal/line_of_sight.h"
 #include "ideal/sight_margins.h"
+#include "radar/curved_surface.h"
+#include "radar/material.h"
 
 /* A path has so many bounces if it takes the mirror one way, or both ways. */
 enum { BOUNCES_ONE_WAY = 2, BOUNCES_BOTH_WAYS = 3 };
@@ -22,7 +24,8 @@ struct mirror_face {
     int64_t number;
     struct mirror mirror;
     struct vec2 along; /* unit vector from a to b */
-    double reflection;
+    const struct mirror_plane *plane;
+    struct material_permittivity permittivity; /* of its material at the sensor's carrier */
     /* Bodies with a mirror in line that ends where this one begins, or begins where it ends. */
     const struct look_body *before, *after;
     bool shares_end; /* is b, bit by bit, where another mirror in line begins? */
@@ -33,7 +36,8 @@ struct mirror_faces {
     size_t count;
 };
 
-static struct mirror_face mirror_face_of(const struct look_body *body, size_t index)
+static struct mirror_face mirror_face_of(const struct look *look, const struct look_body *body,
+                                         size_t index)
 {
     const struct mirror_plane *plane = &body->set->reflectors->mirrors.items[index];
     return (struct mirror_face){
@@ -43,7 +47,8 @@ static struct mirror_face mirror_face_of(const struct look_body *body, size_t in
                    .b = box_place(&body->box, plane->to_x, plane->to_y),
                    .body = body->box.motion},
         .along = box_along(&body->box, plane->from_x, plane->from_y, plane->to_x, plane->to_y),
-        .reflection = plane->reflection,
+        .plane = plane,
+        .permittivity = material_permittivity(plane->material, look->sensor->carrier_hz),
     };
 }
 
@@ -76,7 +81,7 @@ static struct mirror_faces mirror_faces_of(const struct look *look)
     faces.items = arena_get(look->frame->arena, (count + 1) * sizeof *faces.items);
     for (size_t i = 0; i < look->body_count; i++)
         for (size_t j = 0; j < mirrors_of(&look->bodies[i]); j++)
-            faces.items[faces.count++] = mirror_face_of(&look->bodies[i], j);
+            faces.items[faces.count++] = mirror_face_of(look, &look->bodies[i], j);
     join_faces(&faces);
     return faces;
 }
@@ -252,6 +257,33 @@ static void add_ghost(struct look *look, const struct ghost_candidate *candidate
     };
 }
 
+/* The material's part of an amplitude at an angle of incidence. An upright field is parallel to an
+ * upright mirror. */
+static double material_part(const struct look *look, const struct mirror_face *face, double cosine)
+{
+    bool upright = look->sensor->polarization == POLARIZATION_VERTICAL;
+    double _Complex reflected =
+        material_reflection(&face->permittivity, upright ? MATERIAL_TE : MATERIAL_TM, cosine);
+    return elementary_hypot(creal(reflected), cimag(reflected));
+}
+
+/* The part of an amplitude that is left after the bounce, against a perfect flat mirror. */
+static double bounce_factor(const struct look *look, const struct ghost_candidate *candidate)
+{
+    const struct mirror_face *face = candidate->face;
+    const struct mirror_plane *plane = face->plane;
+    double sensor_m = mirror_height_m(&face->mirror, look->pose.position_m);
+    double place_m = mirror_height_m(&face->mirror, candidate->place);
+    double way_m = candidate->mirrored.read.range_m;
+    double share = sensor_m / (sensor_m + place_m), cosine = (sensor_m + place_m) / way_m;
+    double radius_m = plane->radius_m > 0 ? plane->radius_m : (double)INFINITY;
+    double profile_m = plane->profile_radius_m > 0 ? plane->profile_radius_m : (double)INFINITY;
+    double part =
+        plane->material == MATERIAL_NONE ? plane->reflection : material_part(look, face, cosine);
+    return part *
+           curved_surface_divergence(radius_m, profile_m, cosine, share * (1 - share) * way_m);
+}
+
 /* Adds the ghosts of a candidate, on all three paths or, unless one_way is true, on
  * wall_object_wall alone. Bodies in the way are looked for only if a path is within the sensor's
  * limits. */
@@ -260,7 +292,7 @@ static void add_paths(struct look *look, struct ghost_candidate *candidate, bool
     const struct sensor *sensor = look->sensor;
     const struct route *direct = &candidate->direct, *mirrored = &candidate->mirrored;
     const struct kinematics *object = &direct->read, *image = &mirrored->read;
-    double reflection = candidate->face->reflection;
+    double reflection = bounce_factor(look, candidate);
     struct ghost_path both = ghost_path_both(reflection, image), out = both, back = both;
     one_way = one_way && direct->factor > 0 && object->range_m > 0;
     if (one_way) {

@@ -1,5 +1,7 @@
 #include "radar/curved_surface.h"
 
+#include <math.h>
+
 #include "base/units.h"
 #include "radar/radar_equation.h"
 
@@ -17,4 +19,12 @@ double curved_surface_cross_section_m2(double radius_1_m, double radius_2_m, dou
 double curved_surface_ercs(double radius_1_m, double radius_2_m, double range_m)
 {
     return radar_ercs(curved_surface_cross_section_m2(radius_1_m, radius_2_m, range_m));
+}
+
+double curved_surface_divergence(double radius_1_m, double radius_2_m, double cosine,
+                                 double distance_m)
+{
+    double along = 1 + 2 * distance_m / (radius_1_m * cosine);
+    double across = 1 + 2 * distance_m * cosine / radius_2_m;
+    return 1 / sqrt(along * across);
 }

@@ -6,27 +6,6 @@
 #include "base/elementary.h"
 #include "base/units.h"
 
-struct complex_parts {
-    double re, im;
-};
-
-/* The root in the fourth quadrant of re - j loss, for re >= 0. */
-static struct complex_parts root(double re, double loss)
-{
-    double root_re = sqrt((elementary_hypot(re, loss) + re) / 2);
-    return (struct complex_parts){root_re, loss == 0 ? 0 : -loss / (2 * root_re)};
-}
-
-/* (x - r)/(x + r), in real operations, as compilers divide complex numbers differently. */
-static struct complex_parts contrast(struct complex_parts x, struct complex_parts r)
-{
-    struct complex_parts minus = {x.re - r.re, x.im - r.im};
-    struct complex_parts plus = {x.re + r.re, x.im + r.im};
-    double norm = plus.re * plus.re + plus.im * plus.im;
-    return (struct complex_parts){(minus.re * plus.re + minus.im * plus.im) / norm,
-                                  (minus.im * plus.re - minus.re * plus.im) / norm};
-}
-
 struct road_mirror_paths road_mirror_paths(const struct road_mirror_ends *ends)
 {
     double sensor_m = ends->sensor_height_m, reflector_m = ends->reflector_height_m;
@@ -43,16 +22,11 @@ double _Complex road_mirror_reflection(const struct road_mirror_road *road,
                                        enum polarization polarization, double wavelength_m,
                                        double grazing_sine)
 {
-    double cosine_squared = (1 - grazing_sine) * (1 + grazing_sine);
-    struct complex_parts r = root(road->permittivity - cosine_squared, road->permittivity_loss);
-    struct complex_parts x = {grazing_sine, 0};
-    if (polarization == POLARIZATION_VERTICAL)
-        x = (struct complex_parts){road->permittivity * grazing_sine,
-                                   -road->permittivity_loss * grazing_sine};
-    struct complex_parts fresnel = contrast(x, r);
+    enum material_field field = polarization == POLARIZATION_VERTICAL ? MATERIAL_TM : MATERIAL_TE;
+    double _Complex fresnel = material_reflection(&road->permittivity, field, grazing_sine);
     double roughness_waves = PI * road->roughness_m * grazing_sine / wavelength_m;
     double coherent = elementary_exp(-8 * roughness_waves * roughness_waves);
-    return coherent * fresnel.re + coherent * fresnel.im * (double _Complex)I;
+    return coherent * creal(fresnel) + coherent * cimag(fresnel) * (double _Complex)I;
 }
 
 /* R1/R2, the loss of the bounced wave against the direct one by spreading. */

@@ -6,25 +6,22 @@
  *     F^2 = |1 + g (R1/R2) exp(-j 2 pi delta/lambda)|^2.
  *
  * R1 is the length of the direct path, R2 of the path by the road, delta their difference. The
- * road's reflection coefficient g is Fresnel's, for the permittivity eps = eps' - j eps'' and the
- * grazing angle psi, with s = sin psi and r = sqrt(eps - cos^2 psi)
- *
- *     Gamma_H = (s - r)/(s + r),   Gamma_V = (eps s - r)/(eps s + r),
- *
- * times Rayleigh's factor exp(-8 (pi h s/lambda)^2) of a road whose height has the deviation h. */
+ * road's reflection coefficient g is Fresnel's (material.h) for an angle of incidence of cosine
+ * sin psi, psi the grazing angle, times Rayleigh's factor exp(-8 (pi h sin psi/lambda)^2) of a road
+ * whose height has the deviation h. */
 #ifndef ROAD_MIRROR_H
 #define ROAD_MIRROR_H
 
 #include <complex.h>
 
 #include "radar/carrier.h"
+#include "radar/material.h"
 
 /* A road's surface. Dry asphalt has about 5 - j 0.25 and 1 mm, concrete 5.24 - j 0.42 at 24 GHz,
  * 5.24 - j 0.32 at 77 GHz, and 0.3 mm. */
 struct road_mirror_road {
-    double permittivity;      /* eps' > 1, relative */
-    double permittivity_loss; /* eps'' >= 0, relative */
-    double roughness_m;       /* h >= 0 */
+    struct material_permittivity permittivity; /* eps' > 1 */
+    double roughness_m;                        /* h >= 0 */
 };
 
 /* The sensor and a reflector over the road: heights >= 0, distance along the road >= 0. */

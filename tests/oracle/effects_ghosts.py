@@ -5,6 +5,7 @@ Usage: python3 tests/oracle/effects_ghosts.py BIN_DIR
 Exit status 1 if any check fails.
 """
 
+import itertools
 import json
 import math
 import random
@@ -14,6 +15,7 @@ import sys
 sys.dont_write_bytecode = True
 import model  # noqa: E402
 from model import ROOT, ego, everywhere, sensor, suite_of, thing  # noqa: E402
+from oracle_effects import permittivity, surface_part  # noqa: E402
 
 GHOSTS = ["wall_object", "object_wall", "wall_object_wall"]
 DOT = {"origin": "For tests.", "length_m": 0.1, "width_m": 0.1, "height_m": 1,
@@ -118,18 +120,113 @@ def bounces(bench):
                     f"bounces {count}: a ghost is lost")
 
 
+def mirrored(bench, mirror, one, turn_deg=0.0, paths=GHOSTS):
+    """The ghosts, by path, of a dot whose wave meets the mirror 10 m away at that angle of incidence, and the
+    length of its way there."""
+    side = dict(from_x=-0.5, from_y=-0.5, to_x=0.5, to_y=-0.5, **mirror)
+    bench.add_vehicle("sheet", dict(WALL, reflectors={"blocks": True, "mirrors": [side]}))
+    angle = math.radians(turn_deg)
+    ahead, aside = 5 * math.tan(angle), 5.0
+    things = [thing("o", "dot", 2.2 * ahead + 1e-9, aside - 1.2 * aside),
+              thing("m", "sheet", ahead, aside + 0.05, length=100, width=0.1)]
+    found = by_path(see(bench, [model.frame([ego(), *things])], one, APART)[0])
+    bench.check(set(paths) <= set(found), f"{mirror}, {turn_deg} degrees: {sorted(found)}")
+    return found, 2.2 * aside / math.cos(angle)
+
+
+def materials(bench):
+    """Walls mirror as ITU-R P.2040-3 and Fresnel say. Figures of smooth concrete, 5.24 without loss, stand beside."""
+    for carrier_hz, field, material, turn_deg in itertools.product(
+            (24.125e9, 77e9), ("vertical", "horizontal"), ("concrete", "brick", "glass", "metal"),
+            (20, 40, 60, 75, 82, 85)):
+        one = flat(carrier_hz=carrier_hz, polarization=field, range_max_m=300, calibration_range_m=3000)
+        found, _ = mirrored(bench, {"material": material}, one, turn_deg)
+        part = math.sqrt(found["wall_object_wall"]["contributors"][0]["ercs"])
+        cosine = math.cos(math.radians(turn_deg))
+        expected = surface_part(permittivity(material, carrier_hz), cosine, field == "vertical")
+        what = f"{material}, {carrier_hz / 1e9:g} GHz, {field}, {turn_deg} degrees"
+        bench.check(abs(part - expected) < 1e-9, f"{what}: {part}, expected {expected}")
+        printed = {("vertical", 60): 0.618, ("horizontal", 60): 0.106, ("vertical", 82): 0.874}.get((field, turn_deg))
+        if material == "concrete" and printed:
+            bench.check(abs(part - printed) < 2e-3, f"{what}: {part}, not {printed}")
+        one_way = found["object_wall"]["contributors"][0]["ercs"]
+        here, there = found["direct"]["cell_range_m"], found["wall_object_wall"]["cell_range_m"]
+        spread = ((here + there) / 2) ** 2 / (here * there)
+        bench.check(abs(one_way - part * spread) < 1e-9, f"{what}, one way: {one_way}")
+
+
+def ray_tube(radius_m, profile_m, cosine, first_m, onward_m):
+    """The spreading of a narrow bundle of rays behind a bulge z = -x^2/(2 radius) - y^2/(2 profile), against a flat
+    mirror's, on amplitude: rays are traced beside the middle one."""
+    sine, step = math.sqrt(1 - cosine ** 2), 1e-6
+    source = (-first_m * sine, 0.0, first_m * cosine)
+
+    def arrival(x, y):
+        place = (x, y, -x * x / (2 * radius_m) - y * y / (2 * profile_m))
+        normal = (x / radius_m, y / profile_m, 1.0)
+        way = [p - s for p, s in zip(place, source)]
+        depth = 2 * sum(w * n for w, n in zip(way, normal)) / sum(n * n for n in normal)
+        back = [w - depth * n for w, n in zip(way, normal)]
+        far = (onward_m - (place[0] * sine + place[2] * cosine)) / (back[0] * sine + back[2] * cosine)
+        spot = [p + far * v for p, v in zip(place, back)]
+        return spot[0] * cosine - spot[2] * sine, spot[1]
+
+    along, across = arrival(step, 0)[0], arrival(0, step)[1]
+    start = step * cosine / first_m, step / first_m  # the angles between the rays at their source
+    return (first_m + onward_m) * math.sqrt(start[0] * start[1] / (along * across))
+
+
+def curved_mirrors(bench):
+    """A convex mirror spreads the wave as rays that are traced from it do."""
+    for (radius_m, profile_m), turn_deg in itertools.product(
+            ((20, 1.5), (40, 3), (None, 0.04), (5, None)), (20, 60, 80)):
+        curves = {"radius_m": radius_m, "profile_radius_m": profile_m}
+        curves = {key: value for key, value in curves.items() if value}
+        one = flat(range_max_m=300, calibration_range_m=3000)
+        found, way_m = mirrored(bench, {"reflection": 1, **curves}, one, turn_deg)
+        ercs = found["wall_object_wall"]["contributors"][0]["ercs"]
+        first_m = way_m / 2.2
+        expected = ray_tube(radius_m or 1e12, profile_m or 1e12, math.cos(math.radians(turn_deg)), first_m,
+                            way_m - first_m) ** 2
+        bench.check(abs(ercs / expected - 1) < 1e-4, f"{curves}, {turn_deg} degrees: {ercs}, expected {expected}")
+
+
+def range_laws(bench):
+    """The wave spreads over both of its ways; what the receiver makes of it goes by the range that it reads."""
+    (bench.scratch / "gain.csv").write_text("range_m,amplitude\n1,1e4\n10,300\n100,50\n")
+    table = {"amplitude_table": "gain.csv", "calibration_ercs": None, "calibration_range_m": None, "exponent": None}
+    laws = [({"exponent": q}, lambda r, q=q: 10 ** (6 / 20) / 0.8 * (100 / r) ** q) for q in (1, 1.3, 2)]
+    laws.append((table, lambda r: 300 * (r / 10) ** math.log10(50 / 300)))
+    for changes, law in laws:
+        one = {key: value for key, value in flat(**changes).items() if value is not None}
+        found, _ = mirrored(bench, {"reflection": 0.9}, one, 75)
+        here, there = found["direct"]["cell_range_m"], found["wall_object_wall"]["cell_range_m"]
+        for path, ways, bounced in (("direct", here * here, 1), ("wall_object", here * there, 0.9),
+                                    ("object_wall", here * there, 0.9), ("wall_object_wall", there * there, 0.81)):
+            read = found[path]["cell_range_m"]
+            expected = law(read) * read ** 2 * bounced / ways
+            value = found[path]["cell_amplitude"]
+            bench.check(abs(value / expected - 1) < 1e-9, f"{changes}, {path}: {value}, expected {expected}")
+
+
 def shipped_mirrors(bench):
     """A dot at (20, 0) m is mirrored in the side, at y = 4 m, of every class that mirrors: O' is (20, 8)."""
-    for name, reflection in (("wall", 0.6), ("guardrail", 0.8), ("car", 0.8), ("van", 0.8), ("truck", 0.8),
-                             ("bus", 0.8), ("articulated_truck", 0.8)):
+    curves = {"guardrail": (1e12, 0.04), "car": (20, 1.5), "van": (40, 3)}
+    one = flat(cell_range_m=0.01, calibration_range_m=1000)
+    way_m = math.hypot(20, 8)
+    for name in ("wall", "guardrail", "car", "van", "truck", "bus", "articulated_truck"):
         width = bench.vehicles[name]["width_m"]
+        eps = permittivity("concrete" if name == "wall" else "metal", one["carrier_hz"])
+        part = surface_part(eps, 8 / way_m, True) * ray_tube(*curves.get(name, (1e12, 1e12)), 8 / way_m,
+                                                             way_m / 2, way_m / 2)
         for yaw in (0, math.pi):
             scene = model.frame([ego(), thing("o", "dot", 20, 0), thing("m", name, 10, 4 + width / 2, yaw=yaw)])
-            found = by_path(see(bench, [scene], flat(cell_range_m=0.01), "all,-merging,-plane_reflection")[0])
+            found = by_path(see(bench, [scene], one, "all,-merging,-plane_reflection")[0])
             bench.check(set(GHOSTS) <= set(found), f"{name}: {sorted(found)}")
             ghost = found["wall_object_wall"]
-            bench.check(abs(ghost["cell_range_m"] - math.hypot(20, 8)) < 1e-9, f"{name}: {ghost['cell_range_m']}")
-            bench.check(abs(ghost["contributors"][0]["ercs"] - reflection ** 2) < 1e-12, f"{name}: {ghost}")
+            bench.check(abs(ghost["cell_range_m"] - way_m) < 1e-9, f"{name}: {ghost['cell_range_m']}")
+            ercs = ghost["contributors"][0]["ercs"]
+            bench.check(abs(ercs / part ** 2 - 1) < 1e-4, f"{name}: {ercs}, expected {part ** 2}")
 
 
 # ---- the choice of effects ----------------------------------------------------------------------
@@ -189,6 +286,9 @@ CHECKS = [
     ("the antenna counts one way each", one_way_each),
     ("both one-way ghosts share a cell", resolved_ghosts),
     ("a sensor sees as many bounces as it says", bounces),
+    ("walls mirror by their material, by angle and by polarization", materials),
+    ("convex mirrors spread the wave", curved_mirrors),
+    ("ghosts follow the sensor's law of range", range_laws),
     ("walls, guardrails and vehicles mirror with both sides", shipped_mirrors),
     ("auto leaves out no ghost", auto_is_all),
     ("switched off, ghosts leave no trace", switched_off),

@@ -77,7 +77,7 @@ class Body(oracle.Body):
         self.corners = [a for a, _ in self.outline()]
         self.blocks = self.model.get("blocks", False)
         self.sides = [self.segment(side) for side in self.model.get("planes", [])]
-        self.mirrors = [(self.segment(side), side["reflection"]) for side in self.model.get("mirrors", [])]
+        self.mirrors = [(self.segment(side), side) for side in self.model.get("mirrors", [])]
 
     def segment(self, side):
         return (self.world(self.scaled(side["from_x"], side["from_y"])),
@@ -391,9 +391,25 @@ def see_plane(scene, scan, body, plane):
 # ---- ghosts (MODEL 14.1) -----------------------------------------------------------------------------
 
 
+def permittivity(material, carrier_hz):
+    """ITU-R P.2040-3: relative, complex."""
+    real, scale, exponent = {"concrete": (5.24, 0.0462, 0.7822), "brick": (3.91, 0.0238, 0.16),
+                             "glass": (6.31, 0.0036, 1.3394), "metal": (1, 1e7, 0)}[material]
+    f = carrier_hz / 1e9
+    return real - 17.98j * scale * f ** exponent / f
+
+
+def surface_part(eps, cosine, upright):
+    """The size of Fresnel's coefficient of an upright wall, by Snell's law; an upright field is TE there."""
+    index = cmath.sqrt(eps)
+    onward = cmath.sqrt(1 - (1 - cosine ** 2) / eps)
+    near_side, far_side = (cosine, index * onward) if upright else (index * cosine, onward)
+    return abs((near_side - far_side) / (near_side + far_side))
+
+
 class Mirror:
-    def __init__(self, scene, body, number, segment, reflection):
-        self.body, self.number, self.segment, self.reflection = body, number, segment, reflection
+    def __init__(self, scene, body, number, segment, side):
+        self.body, self.number, self.segment, self.side = body, number, segment, side
         a, b = segment
         self.along = unit(minus(b, a))
         self.length = math.hypot(*minus(b, a))
@@ -403,6 +419,19 @@ class Mirror:
 
     def before(self, place):
         return dot(minus(place, self.segment[0]), self.outward)
+
+    def part(self, scene, place, distance):
+        """Of an amplitude after the bounce, on a way of that length from the sensor to the place."""
+        heights = self.before(scene.place), self.before(place)
+        cosine, first = sum(heights) / distance, heights[0] / sum(heights) * distance
+        part = self.side.get("reflection") or surface_part(
+            permittivity(self.side["material"], scene.sensor["carrier_hz"]), cosine,
+            scene.sensor.get("polarization") != "horizontal")
+        for radius, tilt in ((self.side.get("radius_m"), cosine), (self.side.get("profile_radius_m"), 1 / cosine)):
+            if radius:  # the wavefront's own radius after the bounce, and its spreading from there on
+                front = 1 / (1 / first + 2 / (radius * tilt))
+                part *= math.sqrt(front / (front + distance - first) / (first / distance))
+        return part
 
     def image(self, place):
         return plus(place, self.outward, -2 * self.before(place))
@@ -492,11 +521,12 @@ def ghosts_of_point(scene, scan, mirror, direct, point, seen, doubtful):
     factor, sight = bent.passes(scene)
     doubt = doubt or sight or bent.doubtful
     here, there = direct.leg, bent.leg
-    strength = mirror.reflection * point["ercs"]
+    part = mirror.part(scene, direct.place, there.range)
+    strength = part * point["ercs"]
     reach = bent.there
     if scene.sensor["bounces"] >= 3:
         enter_ghost(scene, scan, mirror, direct.body, direct.name, "wall_object_wall", (there, there),
-                    strength * mirror.reflection * aside * there.gain * factor, reach, doubt)
+                    strength * part * aside * there.gain * factor, reach, doubt)
     if (seen <= 0 and not doubtful) or here.range == 0:
         return
     way = direct.passes(scene, {direct.body})
@@ -523,7 +553,7 @@ def ghost_of_plane(scene, scan, mirror, body, plane, side):
     factor, sight = bent.passes(scene)
     leg = bent.leg
     enter_ghost(scene, scan, mirror, body, plane["name"], "wall_object_wall", (leg, leg),
-                mirror.reflection ** 2 * side_ercs(scene, plane, height) * leg.gain * factor,
+                mirror.part(scene, foot, leg.range) ** 2 * side_ercs(scene, plane, height) * leg.gain * factor,
                 there and bent.there, doubtful or sight or bent.doubtful)
 
 
@@ -532,11 +562,10 @@ def ghost_of_plane(scene, scan, mirror, body, plane, side):
 
 def road_of(scene, frame):
     """The road of the conditions: (complex permittivity, roughness in m), or None."""
-    road, f = frame.get("conditions", {}).get("road"), scene.sensor["carrier_hz"] / 1e9
+    road, carrier_hz = frame.get("conditions", {}).get("road"), scene.sensor["carrier_hz"]
     if not scene.height or "two_ray" not in scene.effects:
         return None
-    concrete = 5.24 - 17.98j * 0.0462 * f ** 0.7822 / f
-    return {"asphalt": (5 - 0.25j, 1e-3), "concrete": (concrete, 3e-4)}.get(road)
+    return {"asphalt": (5 - 0.25j, 1e-3), "concrete": (permittivity("concrete", carrier_hz), 3e-4)}.get(road)
 
 
 def road_factor(scene, road, along, heights):

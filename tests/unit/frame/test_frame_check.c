@@ -90,6 +90,20 @@ static void name_two_reflectors_alike(struct frame *frame)
     *list_add(&set->planes, frame->arena) = (struct plane_reflector){.name = "rear"};
 }
 
+static void give_a_mirror_two_laws(struct frame *frame)
+{
+    struct reflector_set *set = add_set(frame);
+    *list_add(&set->mirrors, frame->arena) = (struct mirror_plane){.material = MATERIAL_METAL};
+    *list_add(&set->mirrors, frame->arena) =
+        (struct mirror_plane){.material = MATERIAL_METAL, .reflection = 0.5};
+}
+
+static void give_a_mirror_no_law(struct frame *frame)
+{
+    struct reflector_set *set = add_set(frame);
+    *list_add(&set->mirrors, frame->arena) = (struct mirror_plane){.radius_m = 1};
+}
+
 static void frames_that_contradict_themselves_are_refused(void **state)
 {
     (void)state;
@@ -101,6 +115,10 @@ static void frames_that_contradict_themselves_are_refused(void **state)
         {lose_the_ego, "ego: \"x\" is not among the objects"},
         {list_an_object_twice, "reflectors[0]: \"a\" stands twice"},
         {name_two_reflectors_alike, "reflectors[0]: \"rear\" stands twice"},
+        {give_a_mirror_two_laws,
+         "reflectors[0].mirrors[1]: expected either a material or a reflection"},
+        {give_a_mirror_no_law,
+         "reflectors[0].mirrors[0]: expected either a material or a reflection"},
         {name_a_sensor_twice, "sensors.list: \"left\" stands twice"},
         {see_one_twice, "echoes: sensor \"left\", object \"a\", reflector \"r\" stands twice"},
         {see_with_no_sensor, "echoes[0].sensor: \"top\" is not in sensors.list"},
@@ -142,7 +160,7 @@ static void a_part_is_refused_for_its_own_faults_alone(void **state)
         unsigned section, another;
     } cases[] = {{name_one_twice, SECTION_OBJECTS, SECTION_ECHOES},
                  {list_an_object_twice, SECTION_REFLECTORS, SECTION_OBJECTS},
-                 {name_a_sensor_twice, SECTION_SENSORS, SECTION_OBJECTS},
+                          {name_a_sensor_twice, SECTION_SENSORS, SECTION_OBJECTS},
                  {open_an_empty_cell, SECTION_CELLS, SECTION_TARGETS},
                  {report_a_target_without_label, SECTION_TARGETS, SECTION_CELLS}};
     for (size_t i = 0; i < COUNT(cases); i++) {

@@ -9,6 +9,7 @@
 #include "geometry/obstruction.h"
 #include "ideal/direct_echoes.h"
 #include "ideal/ghost_echoes.h"
+#include "radar/curved_surface.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -75,8 +76,8 @@ static struct reflector_set *add_set(struct scene *scene, const char *object, bo
 /* Adds a mirror on the right side of an object: of one that heads along +x it faces -y. */
 static void add_right_mirror(struct scene *scene, struct reflector_set *set, double reflection)
 {
-    *list_add(&set->mirrors, &scene->arena) =
-        (struct mirror_plane){-0.5, -0.5, 0.5, -0.5, reflection};
+    *list_add(&set->mirrors, &scene->arena) = (struct mirror_plane){
+        .from_x = -0.5, .from_y = -0.5, .to_x = 0.5, .to_y = -0.5, .reflection = reflection};
 }
 
 static struct object *add_wall(struct scene *scene, const char *id, double from_x_m, double to_x_m,
@@ -398,6 +399,52 @@ static void planes_have_a_ghost_at_the_foot_of_the_sensors_image(void **state)
     assert_int_equal(paths_of(scene), 0);
 }
 
+/* The wave of the standard case meets the wall at an angle of cosine 10/sqrt(1000), after 0.4 of
+ * its way. */
+static void a_material_mirrors_by_angle_and_polarization(void **state)
+{
+    struct scene *scene = *state;
+    double cosine = 10 / sqrt(1000);
+    for (int upright = 0; upright < 2; upright++)
+        for (enum material material = MATERIAL_CONCRETE; material <= MATERIAL_METAL; material++) {
+            clear_scene(scene);
+            scene->sensor.carrier_hz = 77e9;
+            scene->sensor.polarization =
+                upright == 1 ? POLARIZATION_VERTICAL : POLARIZATION_HORIZONTAL;
+            add_standard_pole(scene);
+            add_wall(scene, "w", -10, 50, 4);
+            struct mirror_plane *mirror = scene->frame.reflectors.items[1].mirrors.items;
+            mirror->reflection = 0;
+            mirror->material = material;
+            struct material_permittivity permittivity = material_permittivity(material, 77e9);
+            double _Complex part = material_reflection(
+                &permittivity, upright == 1 ? MATERIAL_TE : MATERIAL_TM, cosine);
+            assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+            assert_near(ghost_of(scene, PATH_WALL_OBJECT_WALL)->ercs,
+                        creal(part) * creal(part) + cimag(part) * cimag(part), 1e-13);
+        }
+}
+
+static void a_curved_mirror_spreads_the_wave_at_every_bounce(void **state)
+{
+    struct scene *scene = *state;
+    add_standard_pole(scene);
+    add_wall(scene, "w", -10, 50, 4);
+    paths_of(scene);
+    double flat_one_way = ghost_of(scene, PATH_OBJECT_WALL)->ercs;
+    double flat_both = ghost_of(scene, PATH_WALL_OBJECT_WALL)->ercs;
+    struct mirror_plane *mirror = scene->frame.reflectors.items[1].mirrors.items;
+    mirror->radius_m = 20;
+    mirror->profile_radius_m = 1.5;
+    paths_of(scene);
+    double divergence = curved_surface_divergence(20, 1.5, 10 / sqrt(1000), 0.4 * 0.6 * sqrt(1000));
+    assert_true(divergence < 0.5);
+    assert_near(ghost_of(scene, PATH_OBJECT_WALL)->ercs, divergence * flat_one_way, 1e-14);
+    assert_near(ghost_of(scene, PATH_WALL_OBJECT)->ercs, divergence * flat_one_way, 1e-14);
+    assert_near(ghost_of(scene, PATH_WALL_OBJECT_WALL)->ercs, divergence * divergence * flat_both,
+                1e-14);
+}
+
 static void posts_have_ghosts_by_their_names(void **state)
 {
     struct scene *scene = *state;
@@ -480,7 +527,8 @@ static void add_random_bodies(struct scene *scene, uint64_t *sample)
         point->x = 0.5;
         point->y = 0.5;
         add_right_mirror(scene, set, 0.5);
-        *list_add(&set->mirrors, &scene->arena) = (struct mirror_plane){0.5, 0.5, -0.5, 0.5, 0.5};
+        *list_add(&set->mirrors, &scene->arena) = (struct mirror_plane){
+            .from_x = 0.5, .from_y = 0.5, .to_x = -0.5, .to_y = 0.5, .reflection = 0.5};
         *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
             .name = "rear", .from_x = -0.5, .from_y = 0.5, .to_x = -0.5, .to_y = -0.5, .ercs = 1};
         *list_add(&set->rows, &scene->arena) = (struct post_row){.name = "post",
@@ -694,6 +742,8 @@ int main(void)
         TEST(both_one_way_ghosts_are_equally_strong),
         TEST(limits_hold_for_the_ghost_and_its_last_leg),
         TEST(planes_have_a_ghost_at_the_foot_of_the_sensors_image),
+        TEST(a_material_mirrors_by_angle_and_polarization),
+        TEST(a_curved_mirror_spreads_the_wave_at_every_bounce),
         TEST(posts_have_ghosts_by_their_names),
         TEST(rates_are_derivatives_of_ranges),
         TEST(auto_leaves_out_no_ghost),

@@ -73,6 +73,33 @@ static void nothing_is_zero_and_never_nan(void **state)
     }
 }
 
+/* Back to where it came from, a wave that a curved surface mirrors is its echo, against a plane's.
+ */
+static void a_wave_mirrored_straight_back_is_the_echo(void **state)
+{
+    (void)state;
+    uint64_t sample = 9;
+    for (int i = 0; i < 1000; i++) {
+        double r1 = pow(10, sample_between(&sample, -2, 4));
+        double r2 = pow(10, sample_between(&sample, -2, 4));
+        double range_m = sample_between(&sample, 0.1, 200);
+        double divergence = curved_surface_divergence(r1, r2, 1, range_m / 2);
+        assert_near(PI * range_m * range_m * divergence * divergence,
+                    curved_surface_cross_section_m2(r1, r2, range_m), 2e-15);
+    }
+}
+
+/* A radius counts times the cosine in the plane of incidence, over it across. */
+static void curvature_in_the_plane_of_incidence_spreads_grazing_waves_most(void **state)
+{
+    (void)state;
+    assert_near(curved_surface_divergence(20, HUGE_VAL, 0.25, 10), 1 / sqrt(1 + 4), 1e-15);
+    assert_near(curved_surface_divergence(HUGE_VAL, 20, 0.25, 10), 1 / sqrt(1 + 0.25), 1e-15);
+    assert_near(curved_surface_divergence(20, 20, 0.25, 10), 1 / sqrt(5 * 1.25), 1e-15);
+    assert_close(curved_surface_divergence(HUGE_VAL, HUGE_VAL, 1e-9, 1e6), 1, 0);
+    assert_close(curved_surface_divergence(1e-3, 1e-3, 1, 0), 1, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -80,6 +107,8 @@ int main(void)
         cmocka_unit_test(a_rail_is_lit_along_a_line),
         cmocka_unit_test(no_radius_and_no_range_is_too_large_or_too_small),
         cmocka_unit_test(nothing_is_zero_and_never_nan),
+        cmocka_unit_test(a_wave_mirrored_straight_back_is_the_echo),
+        cmocka_unit_test(curvature_in_the_plane_of_incidence_spreads_grazing_waves_most),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,8 +6,8 @@
 
 #define DEGREE (PI / 180)
 
-static const struct road_mirror_road ASPHALT = {5, 0.25, 1e-3};
-static const struct road_mirror_road SMOOTH = {5, 0.25, 0};
+static const struct road_mirror_road ASPHALT = {{5, 0.25}, 1e-3};
+static const struct road_mirror_road SMOOTH = {{5, 0.25}, 0};
 
 static struct road_mirror_ends ends_at(double distance_m)
 {
@@ -111,12 +111,12 @@ static void reflection_agrees_with_complex_arithmetic(void **state)
     (void)state;
     uint64_t sample = 6;
     for (int i = 0; i < 10000; i++) {
-        struct road_mirror_road road = {sample_between(&sample, 1.01, 40),
-                                        sample_between(&sample, 0, 40),
-                                        sample_between(&sample, 0, 2e-3)};
+        struct road_mirror_road road = {
+            {sample_between(&sample, 1.01, 40), sample_between(&sample, 0, 40)},
+            sample_between(&sample, 0, 2e-3)};
         double sine = sample_between(&sample, 0, 1), wavelength_m = 0.004;
         double _Complex permittivity =
-            road.permittivity - road.permittivity_loss * (double _Complex)I;
+            road.permittivity.real - road.permittivity.loss * (double _Complex)I;
         double _Complex r = csqrt(permittivity - (1 - sine * sine));
         double rough = exp(-8 * pow(PI * road.roughness_m * sine / wavelength_m, 2));
         double _Complex horizontal = rough * (sine - r) / (sine + r);

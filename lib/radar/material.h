@@ -1,0 +1,37 @@
+/* Permittivity of materials, and Fresnel's reflection at their surface.
+ *
+ * ITU-R P.2040-3, table 3, gives a material's relative permittivity eps' and conductivity s = c f^d
+ * S/m, with f in GHz; then eps'' = 17.98 s/f. Its fits hold from 1 to 100 GHz, brick's to 40 GHz,
+ * glass's from 0.1 GHz.
+ *
+ * A plane wave meets the smooth surface of a half space at an angle of incidence of cosine c, from
+ * the normal. With eps = eps' - j eps'' and r = sqrt(eps - 1 + c^2) the surface reflects
+ *
+ *     TE: (c - r)/(c + r),   TM: (eps c - r)/(eps c + r).
+ *
+ * The electric field is parallel to the surface (TE) or lies in the plane of incidence (TM). So an
+ * upright field is TE at a wall and TM at the road (MODEL 14.1, 14.10). */
+#ifndef MATERIAL_H
+#define MATERIAL_H
+
+#include <complex.h>
+
+enum material { MATERIAL_NONE, MATERIAL_CONCRETE, MATERIAL_BRICK, MATERIAL_GLASS, MATERIAL_METAL };
+extern const char *const material_names[]; /* in documents, ending with NULL */
+
+enum material_field { MATERIAL_TE, MATERIAL_TM };
+
+struct material_permittivity {
+    double real; /* eps' >= 1, relative */
+    double loss; /* eps'' >= 0, relative */
+};
+
+/* The permittivity at carrier_hz > 0. MATERIAL_NONE has that of air, 1. */
+struct material_permittivity material_permittivity(enum material material, double carrier_hz);
+
+/* The coefficient, on amplitude, for cosine in [0, 1]: at most 1 in size, -1 at grazing incidence.
+ */
+double _Complex material_reflection(const struct material_permittivity *permittivity,
+                                    enum material_field field, double cosine);
+
+#endif

@@ -1,0 +1,119 @@
+#include "check.h"
+
+#include "base/units.h"
+#include "radar/material.h"
+#include "sample.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+#define DEGREE (PI / 180)
+
+static double size(double _Complex reflection)
+{
+    return hypot(creal(reflection), cimag(reflection));
+}
+
+/* Conductivities of ITU-R P.2040-3 at 10 and 77 GHz, times 17.98 over the frequency. */
+static void permittivities_are_those_of_the_recommendation(void **state)
+{
+    (void)state;
+    static const struct {
+        enum material material;
+        double real, loss_10, loss_77;
+    } rows[] = {
+        {MATERIAL_NONE, 1, 0, 0},
+        {MATERIAL_CONCRETE, 5.24, 0.503074, 0.322518},
+        {MATERIAL_BRICK, 3.91, 0.061854, 0.011136},
+        {MATERIAL_GLASS, 6.31, 0.141414, 0.282727},
+        {MATERIAL_METAL, 1, 1.798e7, 2335064.935065},
+    };
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        struct material_permittivity low = material_permittivity(rows[i].material, 10e9);
+        struct material_permittivity high = material_permittivity(rows[i].material, 77e9);
+        assert_close(low.real, rows[i].real, 0);
+        assert_close(high.real, rows[i].real, 0);
+        assert_close(low.loss, rows[i].loss_10, 5.1e-7);
+        assert_close(high.loss, rows[i].loss_77, 5.1e-7);
+    }
+}
+
+/* Smooth concrete of 5.24 without loss. */
+static void a_wall_mirrors_most_at_grazing_incidence(void **state)
+{
+    (void)state;
+    static const struct material_permittivity concrete = {5.24, 0};
+    static const struct {
+        double incidence_deg, te, tm;
+    } rows[] = {{0, 0.391932, 0.391932},
+                {60, 0.618169, 0.105727},
+                {82, 0.873651, 0.477806},
+                {88, 0.966672, 0.836887}};
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        double cosine = cos(rows[i].incidence_deg * DEGREE);
+        assert_close(size(material_reflection(&concrete, MATERIAL_TE, cosine)), rows[i].te, 5.1e-7);
+        assert_close(size(material_reflection(&concrete, MATERIAL_TM, cosine)), rows[i].tm, 5.1e-7);
+    }
+}
+
+static void metal_mirrors_everything_but_at_its_brewster_angle(void **state)
+{
+    (void)state;
+    struct material_permittivity metal = material_permittivity(MATERIAL_METAL, 77e9);
+    for (double cosine = 0.01; cosine <= 1; cosine += 0.01) {
+        assert_true(size(material_reflection(&metal, MATERIAL_TE, cosine)) > 0.999);
+        assert_true(size(material_reflection(&metal, MATERIAL_TM, cosine)) > 0.9);
+    }
+}
+
+static void at_brewsters_angle_nothing_of_a_field_in_the_plane_of_incidence_is_left(void **state)
+{
+    (void)state;
+    for (double real = 1.5; real < 20; real += 0.5) {
+        struct material_permittivity permittivity = {real, 0};
+        double cosine = 1 / sqrt(1 + real);
+        assert_close(size(material_reflection(&permittivity, MATERIAL_TM, cosine)), 0, 1e-15);
+        assert_true(size(material_reflection(&permittivity, MATERIAL_TE, cosine)) > 0.15);
+    }
+}
+
+/* Snell's angle behind the surface, and the impedances there and here. */
+static void reflection_agrees_with_snells_law(void **state)
+{
+    (void)state;
+    uint64_t sample = 14;
+    for (int i = 0; i < 10000; i++) {
+        struct material_permittivity permittivity = {sample_between(&sample, 1.01, 40),
+                                                     sample_between(&sample, 0, 40)};
+        double cosine = sample_between(&sample, 0, 1);
+        double _Complex index = csqrt(permittivity.real - permittivity.loss * (double _Complex)I);
+        double _Complex onward = csqrt(1 - (1 - cosine * cosine) / (index * index));
+        double _Complex te = (cosine - index * onward) / (cosine + index * onward);
+        double _Complex tm = (index * cosine - onward) / (index * cosine + onward);
+        assert_close(size(material_reflection(&permittivity, MATERIAL_TE, cosine) - te), 0, 1e-13);
+        assert_close(size(material_reflection(&permittivity, MATERIAL_TM, cosine) - tm), 0, 1e-13);
+    }
+}
+
+static void grazing_waves_come_back_turned_over(void **state)
+{
+    (void)state;
+    for (enum material material = MATERIAL_CONCRETE; material <= MATERIAL_METAL; material++) {
+        struct material_permittivity permittivity = material_permittivity(material, 24.125e9);
+        for (int tm = 0; tm < 2; tm++)
+            assert_close(
+                size(material_reflection(&permittivity, tm ? MATERIAL_TM : MATERIAL_TE, 0) + 1), 0,
+                0);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(permittivities_are_those_of_the_recommendation),
+        cmocka_unit_test(a_wall_mirrors_most_at_grazing_incidence),
+        cmocka_unit_test(metal_mirrors_everything_but_at_its_brewster_angle),
+        cmocka_unit_test(at_brewsters_angle_nothing_of_a_field_in_the_plane_of_incidence_is_left),
+        cmocka_unit_test(reflection_agrees_with_snells_law),
+        cmocka_unit_test(grazing_waves_come_back_turned_over),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
