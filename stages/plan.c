@@ -1,13 +1,17 @@
 /* A plan: the pipeline that frames need. Tries every stage of the chain on every frame, and beside
  * it the simpler stage that may stand in for it, and prints which stages and effects were needed.
- */
+ * Or, with a bound or for a table, measures what accuracy costs on a sample of the frames. */
+#include <string.h>
+
+#include "run/cost_text.h"
 #include "run/plan.h"
 #include "run/suite_choice.h"
 #include "run/tool.h"
 #include "text/output.h"
+#include "text/record_text.h"
 
 extern const struct stage stage_extract, stage_ideal, stage_sensor, stage_sensor_perfect,
-    stage_noise, stage_noise_none;
+    stage_sensor_smear, stage_noise, stage_noise_none;
 
 static const struct {
     const struct stage *stage, *stand_in;
@@ -20,8 +24,20 @@ static const struct {
 
 struct plan_state {
     struct suite_choice choice; /* first: the options, and ideal's when it is tried */
+    bool all, cost, brief, json;
+    const char *error, *within;
+    int64_t frames; /* of the sample */
+    int reference;  /* enum cost_reference */
     struct plan plan;
+    struct runner *extract, *tried[PLAN_POSITIONS], *stand_in[PLAN_POSITIONS];
+    struct cost measured;
+    double bound; /* of the error, or in microseconds */
+    const struct cost_chain *chosen;
 };
+
+static const struct cost_stages stages = {
+    &stage_extract,        &stage_ideal,      &stage_sensor,      &stage_noise,
+    &stage_sensor_perfect, &stage_noise_none, &stage_sensor_smear};
 
 static int64_t no_clock(void)
 {
@@ -48,6 +64,13 @@ static int begin(struct plan_state *own, struct runner *runner)
             .section = chain[i].section,
             .log.clock_ns = no_clock,
         };
+    own->extract = runner_trial(runner, &stage_extract, NULL, NULL);
+    for (int i = 0; i < PLAN_POSITIONS; i++) {
+        own->tried[i] = runner_trial(runner, chain[i].stage, i == PLAN_IDEAL ? &own->choice : NULL,
+                                     &plan->positions[i].log);
+        if (chain[i].stand_in != NULL)
+            own->stand_in[i] = runner_trial(runner, chain[i].stand_in, NULL, NULL);
+    }
     return 0;
 }
 
@@ -56,12 +79,11 @@ static int try_stage(struct plan_state *own, int at, struct frame *frame, struct
     struct plan_position *position = &own->plan.positions[at];
     struct frame copy = *frame;
     frame_drop(&copy, SECTION_LOST | SECTION_COUNTS);
-    if (runner_try_stage(runner, chain[at].stage, at == PLAN_IDEAL ? &own->choice : NULL,
-                         &position->log, frame) != 0)
+    if (runner_try(runner, own->tried[at], frame) != 0)
         return -1;
     if (position->stand_in == NULL || position->differs)
         return 0;
-    if (runner_try_stage(runner, chain[at].stand_in, NULL, NULL, &copy) != 0)
+    if (runner_try(runner, own->stand_in[at], &copy) != 0)
         return -1;
     plan_compare(position, frame, &copy, runner_arena(runner));
     return 0;
@@ -72,8 +94,7 @@ static int try_chain(struct plan_state *own, struct frame *frame, struct runner 
     own->plan.frames++;
     frame_drop(frame, SECTION_SENSORS | SECTION_ECHOES | SECTION_CELLS | SECTION_TARGETS |
                           SECTION_LOST | SECTION_COUNTS);
-    if ((frame->present & SECTION_REFLECTORS) == 0 &&
-        runner_try_stage(runner, &stage_extract, NULL, NULL, frame) != 0)
+    if ((frame->present & SECTION_REFLECTORS) == 0 && runner_try(runner, own->extract, frame) != 0)
         return -1;
     for (int i = 0; i < PLAN_POSITIONS; i++)
         if (try_stage(own, i, frame, runner) != 0)
@@ -81,19 +102,84 @@ static int try_chain(struct plan_state *own, struct frame *frame, struct runner 
     return 0;
 }
 
-static int write_plan(const struct plan *plan, struct output *output, struct diag *diag)
+/* Reads "10%" as 0.1 and "100us" as 100, a number with this unit. */
+static int read_bound(const char *option, const char *text, const char *unit, double scale,
+                      double *bound, struct diag *diag)
 {
-    struct text text = {0};
-    plan_write(plan, &text);
-    int result = output_write(output, text.bytes, text.length, diag);
-    text_free(&text);
-    return result;
+    size_t length = strlen(text), ending = strlen(unit);
+    if (length > ending && strcmp(text + length - ending, unit) == 0 &&
+        field_read_number(text, length - ending, bound) == 0 && *bound >= 0) {
+        *bound *= scale;
+        return 0;
+    }
+    return diag_fail(diag, DIAG_USAGE, "--%s: \"%s\"; expected a number in %s, at least 0", option,
+                     text, unit);
+}
+
+static int begin_cost(struct plan_state *own, struct runner *runner)
+{
+    struct diag *diag = runner_diag(runner);
+    if (own->error != NULL && own->within != NULL)
+        return diag_fail(diag, DIAG_USAGE, "--error and --within: only one bound may be given");
+    bool bounded = own->error != NULL || own->within != NULL;
+    if (bounded && own->brief)
+        return diag_fail(diag, DIAG_USAGE,
+                         "--brief: leaves out no effect, so nothing is found within a bound");
+    if ((own->error != NULL &&
+         read_bound("error", own->error, "%", 0.01, &own->bound, diag) != 0) ||
+        (own->within != NULL && read_bound("within", own->within, "us", 1, &own->bound, diag) != 0))
+        return -1;
+    own->cost = own->cost || bounded;
+    if (!own->cost && (own->brief || own->json || own->frames > 0))
+        return diag_fail(diag, DIAG_USAGE, "--brief, --json and --frames: only with --cost");
+    own->measured = (struct cost){
+        .runner = runner,
+        .suite = own->choice.sensors,
+        .stages = stages,
+        .reference = (enum cost_reference)own->reference,
+        .brief = own->brief,
+    };
+    return own->cost ? cost_begin(&own->measured, own->frames) : 0;
+}
+
+/* After the last frame: measures the chains, and finds the one that was asked for. */
+static int measure(struct plan_state *own)
+{
+    struct cost *cost = &own->measured;
+    cost->allowed = own->plan.allowed;
+    cost->needed = plan_effects(&own->plan);
+    frame_sample_divide(&cost->sample);
+    if (cost->sample.list.count == 0)
+        return 0;
+    if (cost_measure(cost) != 0)
+        return -1;
+    if (own->error != NULL)
+        own->chosen = cost_find(cost, COST_BOUND_ERROR, own->bound);
+    if (own->within != NULL)
+        own->chosen = cost_find(cost, COST_BOUND_US, own->bound);
+    return own->chosen != NULL || (own->error == NULL && own->within == NULL) ? 0 : -1;
+}
+
+static void write(struct plan_state *own, struct arena *arena, struct text *text)
+{
+    struct cost *cost = &own->measured;
+    if (!own->cost)
+        plan_write(&own->plan, own->all, arena, text);
+    else if (cost->chains.count == 0)
+        return;
+    else if (own->json)
+        record_text_write(&cost_record, cost, NULL, text);
+    else if (own->chosen != NULL)
+        cost_text_pipeline(cost, own->chosen, text);
+    else
+        cost_text_table(cost, text);
 }
 
 static int plan_run(void *state, struct runner *runner)
 {
     struct plan_state *own = state;
-    if (begin(own, runner) != 0)
+    struct diag *diag = runner_diag(runner);
+    if (begin(own, runner) != 0 || begin_cost(own, runner) != 0)
         return -1;
     struct output *output = runner_output(runner);
     if (output == NULL)
@@ -101,13 +187,42 @@ static int plan_run(void *state, struct runner *runner)
     struct frame *frame;
     int more;
     while ((more = runner_frame(runner, &frame)) > 0)
-        if (try_chain(own, frame, runner) != 0)
+        if ((own->cost && frame_sample_add(&own->measured.sample, frame, diag) != 0) ||
+            try_chain(own, frame, runner) != 0)
             return -1;
-    return more == 0 ? write_plan(&own->plan, output, runner_diag(runner)) : -1;
+    if (more < 0 || (own->cost && measure(own) != 0))
+        return -1;
+    struct text text = {0};
+    write(own, runner_arena(runner), &text);
+    int result = output_write(output, text.bytes, text.length, diag);
+    text_free(&text);
+    return result;
 }
 
 static const struct field plan_options[] = {
     SUITE_CHOICE_OF_IDEAL,
+    {FIELD_FLAG_OF(struct plan_state, all, "say of every effect why it is off, too"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct plan_state, cost,
+                   "measure what accuracy costs: a table of chains by time and error"),
+     FIELD_OPTIONAL},
+    {FIELD_NAME_OF(struct plan_state, error,
+                   "print the cheapest pipeline whose error is at most this: 10%"),
+     FIELD_OPTIONAL, .word = "PERCENT"},
+    {FIELD_NAME_OF(struct plan_state, within,
+                   "print the most accurate pipeline that takes at most this for a frame: 100us"),
+     FIELD_OPTIONAL, .word = "TIME"},
+    {FIELD_INTEGER_IN(
+         struct plan_state, frames, 1, 1e6,
+         "how many frames are measured at most (absent: 250, or fewer where the signal "
+         "takes long)"),
+     FIELD_OPTIONAL},
+    {FIELD_CHOICE_OF(struct plan_state, reference, cost_references,
+                     "what errors are from (absent: the signal where there is one)"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct plan_state, brief, "measure no chains that leave out an effect"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct plan_state, json, "write the costs as a line of JSON"), FIELD_OPTIONAL},
     {0},
 };
 
@@ -116,13 +231,20 @@ static const struct record plan_record = {
 
 const struct tool tool_plan = {
     .name = "plan",
-    .summary = "Print the pipeline that the scenes need, ready to paste.",
+    .summary = "Print the pipeline that the scenes need, or what accuracy costs on them.",
     .details =
         "Runs the chain on every frame, choosing effects as auto does among those that are\n"
         "asked for. Prints which effects were needed and why, for which stages a simpler one\n"
         "can stand in, and the pipeline without the others. On these scenes it gives the\n"
         "targets of the whole chain, byte for byte. Of the frames, only the objects are used,\n"
-        "and their reflectors if they are there.",
+        "and their reflectors if they are there.\n"
+        "\n"
+        "With --cost, --error or --within it measures chains of stages on a sample of the\n"
+        "frames: CPU time, and error. The error is the energy distance of a chain's lists from\n"
+        "those of a reference, in per cent of that of ideal echoes: 0 % is not told from the\n"
+        "reference. The reference is the signal, if the suite has a waveform and\n"
+        "glint-sensor-signal lies beside this program, or all that the suite describes.\n"
+        "pipelines/README.md says how to read the table.",
     .options = &plan_record,
     .reads = SECTION_OBJECTS,
     .run = plan_run,

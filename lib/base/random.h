@@ -26,7 +26,9 @@ enum random_purpose {
     RANDOM_LIMBS = 12,       /* per person: number and rates of arms and legs */
     RANDOM_CLUTTER = 13,     /* per scan: number and places of the points on the ground */
     RANDOM_SIGNAL = 14,      /* per scan: noise on two samples of its signal */
-    RANDOM_BOOTSTRAP = 15,   /* which scenes a resample has (glint-score --ensemble) */
+    RANDOM_BOOTSTRAP = 15,   /* which scenes or blocks a resample has (glint-score --ensemble,
+                              * glint-plan --cost) */
+    RANDOM_SAMPLE = 16,      /* which frame of a stretch is in a sample (glint-plan --cost) */
 };
 
 struct random_address {

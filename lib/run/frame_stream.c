@@ -17,12 +17,12 @@ static int open_next(struct frame_stream *stream, struct diag *diag)
 }
 
 /* Lines of other programs may have sections in any order; stages rely on the canonical one. */
-static int read_line(const char *line, size_t length, struct frame *frame, struct diag *diag)
+int frame_stream_parse(const char *line, size_t length, struct frame *frame, struct diag *diag)
 {
     if (frame_text_read(line, length, frame, diag) != 0)
         return -1;
     frame_order(frame);
-    return frame_check(frame, diag) == 0 ? 1 : -1;
+    return frame_check(frame, diag);
 }
 
 int frame_stream_next(struct frame_stream *stream, struct frame *frame, struct diag *diag)
@@ -40,8 +40,8 @@ int frame_stream_next(struct frame_stream *stream, struct frame *frame, struct d
             stream->bytes += (int64_t)length + 1;
         if (more >= 0 || diag->code != DIAG_NO_INPUT) /* a folder has no lines */
             stream->line++;
-        if (more > 0)
-            more = read_line(line, length, frame, diag);
+        if (more > 0 && frame_stream_parse(line, length, frame, diag) != 0)
+            return -1;
         if (more != 0)
             return more;
         frame_stream_close(stream);

@@ -16,6 +16,9 @@ struct frame_stream {
 /* The next frame, in canonical order and checked: 1; 0 at the end; -1 after a message. */
 int frame_stream_next(struct frame_stream *stream, struct frame *frame, struct diag *diag);
 
+/* One line, without its newline, as such a frame: 0, or -1 after a message. */
+int frame_stream_parse(const char *line, size_t length, struct frame *frame, struct diag *diag);
+
 /* Puts file and line of the last frame in front of a message. Nothing at the end of the stream. */
 void frame_stream_name_line(const struct frame_stream *stream, struct diag *diag);
 

@@ -74,7 +74,15 @@ static const struct effect_log *log_of(const struct plan *plan, int effect)
     return best;
 }
 
-static void write_effect(const struct plan *plan, int effect, struct text *text)
+const char *plan_program(const char *stage, struct arena *arena)
+{
+    size_t room = sizeof "glint-" + strlen(stage);
+    char *program = arena_get(arena, room);
+    memcpy(program, "glint-", sizeof "glint-");
+    return strcat(program, stage);
+}
+
+static void write_effect(const struct plan *plan, int effect, bool all, struct text *text)
 {
     const struct effect *entry = effect_table[effect];
     const struct effect_log *log = log_of(plan, effect);
@@ -85,7 +93,8 @@ static void write_effect(const struct plan *plan, int effect, struct text *text)
     else if (log->scans_simulated[effect] > 0)
         text_format(text, "on in %" PRId64 " of %" PRId64 " scans: %s%s%s\n",
                     log->scans_simulated[effect], log->scans, entry->cause,
-                    left_out != NULL ? "; in the others " : "", left_out != NULL ? left_out : "");
+                    all && left_out != NULL ? "; in the others " : "",
+                    all && left_out != NULL ? left_out : "");
     else if (left_out != NULL)
         text_format(text, "off: %s\n", left_out);
     else
@@ -126,38 +135,58 @@ static void write_word(const char *word, struct text *text)
     text_add_word(text, "'");
 }
 
-static void write_effects(uint64_t effects, struct text *text)
+const char *plan_names(uint64_t effects, struct arena *arena)
 {
-    const char *separator = " --effects ";
-    if (effects == 0)
-        text_add_word(text, " --effects none");
+    struct text text = {0};
     for (int i = 0; i < EFFECT_COUNT; i++)
-        if ((effects & EFFECT_BIT(i)) != 0) {
-            text_format(text, "%s%s", separator, effects_names[i]);
-            separator = ",";
-        }
+        if ((effects & EFFECT_BIT(i)) != 0)
+            text_format(&text, "%s%s", text.length > 0 ? "," : "", effects_names[i]);
+    if (effects == 0)
+        text_add_word(&text, "none");
+    const char *names = arena_text(arena, text.bytes, text.length);
+    text_free(&text);
+    return names;
 }
 
-void plan_write(const struct plan *plan, struct text *text)
+void plan_write_pipeline(const char *sensors, const char *effects, const char *const *programs,
+                         size_t count, struct text *text)
+{
+    text_add_word(text, "set -o pipefail\nglint-extract \\\n  | glint-ideal --sensors ");
+    write_word(sensors, text);
+    text_format(text, " --effects %s", effects);
+    for (size_t i = 0; i < count; i++)
+        text_format(text, " \\\n  | %s", programs[i]);
+    text_add_word(text, "\n");
+}
+
+static void write_effects(const struct plan *plan, bool all, struct text *text)
+{
+    int off = 0;
+    for (int i = 0; i < EFFECT_COUNT; i++) {
+        bool on = log_of(plan, i)->scans_simulated[i] > 0;
+        off += !on;
+        if (on || all)
+            write_effect(plan, i, all, text);
+    }
+    if (off > 0 && !all)
+        text_format(text, "# %d others are off; --all says why\n", off);
+}
+
+void plan_write(const struct plan *plan, bool all, struct arena *arena, struct text *text)
 {
     if (plan->frames == 0)
         return;
     text_format(text, "# What these %" PRId64 " frames need, and why.\n", plan->frames);
-    for (int i = 0; i < EFFECT_COUNT; i++)
-        write_effect(plan, i, text);
+    write_effects(plan, all, text);
     text_add_word(text, "# glint-extract stays: no simpler stage stands in for it\n");
     for (int i = 0; i < PLAN_POSITIONS; i++)
         write_stage(&plan->positions[i], text);
-    text_add_word(text, "set -o pipefail\nglint-extract");
+    const char *programs[PLAN_POSITIONS];
     for (int i = 0; i < PLAN_POSITIONS; i++) {
         const struct plan_position *position = &plan->positions[i];
-        bool replaced = plan_stands_in(position);
-        text_format(text, " \\\n  | glint-%s", replaced ? position->stand_in : position->stage);
-        if (i != PLAN_IDEAL)
-            continue;
-        text_add_word(text, " --sensors ");
-        write_word(plan->sensors, text);
-        write_effects(plan_effects(plan), text);
+        programs[i] =
+            plan_program(plan_stands_in(position) ? position->stand_in : position->stage, arena);
     }
-    text_add_word(text, "\n");
+    plan_write_pipeline(plan->sensors, plan_names(plan_effects(plan), arena),
+                        programs + PLAN_SENSOR, PLAN_POSITIONS - PLAN_SENSOR, text);
 }

@@ -44,8 +44,19 @@ bool plan_stands_in(const struct plan_position *position);
  * needed. */
 uint64_t plan_effects(const struct plan *plan);
 
-/* Writes a script for bash and for glint: a comment line for each effect and each stage, and the
- * pipeline, which reads frames of any source. Writes nothing if there were no frames. */
-void plan_write(const struct plan *plan, struct text *text);
+/* The effects by their names, as --effects takes them; the text lies in the arena. */
+const char *plan_names(uint64_t effects, struct arena *arena);
+
+/* "glint-sensor" of the stage sensor. */
+const char *plan_program(const char *stage, struct arena *arena);
+
+/* Writes a script for bash and for glint: a comment line for each effect that is on, the number of
+ * the others or, with all, a line for each of them too, a line for each stage, and the pipeline,
+ * which reads frames of any source. Writes nothing if there were no frames. */
+void plan_write(const struct plan *plan, bool all, struct arena *arena, struct text *text);
+
+/* Writes the pipeline alone: extract, ideal with these effects, and the other programs. */
+void plan_write_pipeline(const char *sensors, const char *effects, const char *const *programs,
+                         size_t count, struct text *text);
 
 #endif

@@ -225,32 +225,26 @@ int runner_frame(struct runner *runner, struct frame **frame)
     return more > 0 && take_frame(runner, *frame) == 0 ? 1 : -1;
 }
 
-/* The runner of a stage that a tool tries, made and started when it is tried first. */
-static struct runner *tried_runner(struct runner *runner, const struct stage *stage,
-                                   const struct suite_choice *choice, struct effect_log *log)
+struct runner *runner_trial(struct runner *runner, const struct stage *stage,
+                            const struct suite_choice *choice, struct effect_log *log)
 {
-    for (size_t i = 0; i < runner->tried.count; i++)
-        if (runner->tried.items[i]->stage == stage)
-            return runner->tried.items[i];
-    struct runner *other = arena_get(&runner->arena, sizeof *other);
-    *list_add(&runner->tried, &runner->arena) = other;
-    *other = (struct runner){.program = program_of_stage(stage), .stage = stage, .log = log};
-    other->state = arena_get(&other->arena, stage->options->size);
-    field_clear(stage->options, other->state);
+    struct runner *trial = arena_get(&runner->arena, sizeof *trial);
+    *list_add(&runner->tried, &runner->arena) = trial;
+    *trial = (struct runner){.program = program_of_stage(stage), .stage = stage, .log = log};
+    trial->state = arena_get(&trial->arena, stage->options->size);
+    field_clear(stage->options, trial->state);
     if (choice != NULL)
-        memcpy(other->state, choice, sizeof *choice);
-    runner_start(other);
-    return other;
+        memcpy(trial->state, choice, sizeof *choice);
+    runner_start(trial);
+    return trial;
 }
 
-int runner_try_stage(struct runner *runner, const struct stage *stage,
-                     const struct suite_choice *choice, struct effect_log *log, struct frame *frame)
+int runner_try(struct runner *runner, struct runner *trial, struct frame *frame)
 {
-    struct runner *other = tried_runner(runner, stage, choice, log);
-    if (other->diag.code == DIAG_OK && runner_step(other, frame) == 0)
+    if (trial->diag.code == DIAG_OK && runner_step(trial, frame) == 0)
         return 0;
-    runner->diag = other->diag;
-    return diag_prefix(&runner->diag, "glint-%s: ", stage->name);
+    runner->diag = trial->diag;
+    return diag_prefix(&runner->diag, "glint-%s: ", trial->stage->name);
 }
 
 int runner_finish(struct runner *runner)

@@ -5,6 +5,7 @@
 #include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "frame/frame.h"
+#include "run/cost.h"
 #include "score/ensemble.h"
 #include "score/score.h"
 #include "score/track.h"
@@ -14,6 +15,7 @@ static const struct {
     const char *name;
     const struct record *record;
 } schemas[] = {
+    {"cost", &cost_record},
     {"frame", &frame_record},
     {"scenario", &scenario_record},
     {"score", &score_line_record},

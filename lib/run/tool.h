@@ -51,13 +51,16 @@ struct output *runner_output(struct runner *runner);
 /* A file of that name in the folder, which must exist. NULL after a message. */
 struct output *runner_output_in(struct runner *runner, const char *folder, const char *name);
 
-/* Runs one step of a stage on a frame, with all the checks of a run, for tools that ask what the
- * stage would do. choice are the stage's options; NULL stands for its defaults, and only stages
- * whose state begins with a suite_choice take others. The effects are noted in log, which has a
- * clock; NULL: nowhere. The stage is started when it is tried first, and never stopped. The tool
+/* A stage that a tool tries, to see what it would do. Each call makes one more, with a state of its
+ * own. choice are the stage's options; NULL stands for its defaults, and only stages whose state
+ * begins with a suite_choice take others. The effects are noted in log, which has a clock; NULL:
+ * nowhere. The stage is started here and never stopped; it is freed with the tool. The tool
  * declares the stage's struct `extern`. */
-int runner_try_stage(struct runner *runner, const struct stage *stage,
-                     const struct suite_choice *choice, struct effect_log *log,
-                     struct frame *frame);
+struct runner *runner_trial(struct runner *runner, const struct stage *stage,
+                            const struct suite_choice *choice, struct effect_log *log);
+
+/* Runs one step of a tried stage on a frame, with all the checks of a run. A stage that could not
+ * start fails here. */
+int runner_try(struct runner *runner, struct runner *trial, struct frame *frame);
 
 #endif

@@ -23,16 +23,16 @@ static double mean(const struct energy_sample *sample, struct range rows, struct
     return sum / (double)count;
 }
 
-static double distance_without(const struct energy_sample *sample, size_t without)
+double energy_distance_without(const struct energy_sample *sample, size_t list)
 {
     struct range ones = {0, sample->ones}, others = {sample->ones, sample->ones + sample->others};
-    return 2 * mean(sample, ones, others, without) - mean(sample, ones, ones, without) -
-           mean(sample, others, others, without);
+    return 2 * mean(sample, ones, others, list) - mean(sample, ones, ones, list) -
+           mean(sample, others, others, list);
 }
 
 double energy_distance_of(const struct energy_sample *sample)
 {
-    return distance_without(sample, NONE);
+    return energy_distance_without(sample, NONE);
 }
 
 /* The variance over the lists of one law: (n - 1)/n times the sum of squares about their mean. */
@@ -40,9 +40,9 @@ static double jackknife(const struct energy_sample *sample, struct range lists)
 {
     double count = (double)(lists.end - lists.first), middle = 0, squares = 0;
     for (size_t i = lists.first; i < lists.end; i++)
-        middle += distance_without(sample, i) / count;
+        middle += energy_distance_without(sample, i) / count;
     for (size_t i = lists.first; i < lists.end; i++) {
-        double apart = distance_without(sample, i) - middle;
+        double apart = energy_distance_without(sample, i) - middle;
         squares += apart * apart;
     }
     return (count - 1) / count * squares;

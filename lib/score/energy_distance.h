@@ -20,6 +20,9 @@ struct energy_sample {
 
 double energy_distance_of(const struct energy_sample *sample);
 
+/* The same without the list of that number, for jackknives; its law needs at least 3 lists. */
+double energy_distance_without(const struct energy_sample *sample, size_t list);
+
 /* The variance of that estimate by the jackknife over the lists of both laws; each law needs at
  * least 3 lists. */
 double energy_distance_variance(const struct energy_sample *sample);

@@ -7,7 +7,6 @@
 #include "base/random_sequence.h"
 #include "base/sort.h"
 #include "score/energy_distance.h"
-#include "score/list_embedding.h"
 #include "score/reference_stream.h"
 #include "score/target_score.h"
 
@@ -220,6 +219,14 @@ static struct embedded_list embed(const struct ensemble_list *list, const struct
     }
     list_embedding_close(&embedded, arena);
     return embedded;
+}
+
+struct embedded_list ensemble_embed(const struct frame *frame, const struct sensor_view *view,
+                                    struct arena *arena)
+{
+    struct ensemble_list list = list_of(frame, view, arena);
+    struct target_cell unit = target_score_cell(view, 0, 0);
+    return embed(&list, &unit, arena);
 }
 
 /* Adds a share of the distances between all lists of one frame and sensor. */

@@ -10,6 +10,7 @@
 
 #include "base/intern.h"
 #include "frame/frame.h"
+#include "score/list_embedding.h"
 #include "text/field.h"
 
 struct ensemble_scene;
@@ -38,6 +39,11 @@ struct ensemble_score {
 };
 
 extern const struct record ensemble_score_record;
+
+/* The targets of one sensor of a frame, embedded and closed. Cells are those of the view, a
+ * twentieth of the field of view in azimuth, 3 dB of level; what it makes lies in the arena. */
+struct embedded_list ensemble_embed(const struct frame *frame, const struct sensor_view *view,
+                                    struct arena *arena);
 
 /* Adds the lists of a frame, of every sensor that measured in it. Refuses a frame that does
  * not come behind the last one of its scene and seed (DIAG_DATA). */

@@ -24,9 +24,7 @@ static const char *join(struct arena *arena, const char *a, const char *b, const
     return whole;
 }
 
-/* The folder of the running executable, with a slash at its end; "" if the system does not tell
- * it. */
-static const char *own_folder(struct arena *arena)
+const char *document_own_folder(struct arena *arena)
 {
     enum { ROOM = 4096 };
     char *path = arena_get(arena, ROOM);
@@ -45,7 +43,7 @@ const char *document_find(const char *kind, const char *name, const char *ending
     if (strpbrk(name, "/.") != NULL || strcmp(name, "-") == 0)
         return arena_text(arena, name, strlen(name));
     const char *given = getenv("GLINT_DATA");
-    const char *beside = own_folder(arena);
+    const char *beside = document_own_folder(arena);
     const char *folders[] = {
         given != NULL && *given != '\0' ? join(arena, given, "/", "", "") : NULL,
         *beside != '\0' ? join(arena, beside, "../share/glint/", "", "") : NULL,

@@ -16,6 +16,10 @@ enum { DOCUMENT_SIZE = 64 * 1024 * 1024 };
  * main. */
 void document_guard_memory(void);
 
+/* The folder of the running executable, with a slash at its end; "" if the system does not tell
+ * it. */
+const char *document_own_folder(struct arena *arena);
+
 /* The path of a document by its name, in the arena; NULL after a message that lists the places
  * searched. ending is ".json", or ".csv" for a table. */
 const char *document_find(const char *kind, const char *name, const char *ending,

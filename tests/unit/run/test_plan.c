@@ -1,5 +1,6 @@
 #include "check.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "run/plan.h"
@@ -24,14 +25,16 @@ static struct plan plan_of(const char *sensors)
     };
 }
 
-static void assert_writes(const struct plan *plan, const char *part, bool expected)
+static void assert_writes(const struct plan *plan, bool all, const char *part, bool expected)
 {
+    struct arena arena = {0};
     struct text text = {0};
-    plan_write(plan, &text);
+    plan_write(plan, all, &arena, &text);
     text_add(&text, "", 1);
     if ((strstr(text.bytes, part) != NULL) != expected)
         fail_msg("\"%s\" is %sin:\n%s", part, expected ? "not " : "", text.bytes);
     text_free(&text);
+    arena_free(&arena);
 }
 
 static void a_request_decides_as_auto_does_among_what_is_allowed(void **state)
@@ -62,14 +65,29 @@ static void an_effect_is_asked_for_if_any_scan_needed_it(void **state)
     plan.positions[PLAN_SENSOR].differs = plan.positions[PLAN_NOISE].differs = true;
     plan.positions[PLAN_SENSOR].scene = plan.positions[PLAN_NOISE].scene = "a";
     assert_int_equal(plan_effects(&plan), EFFECT_BIT(EFFECT_OCCLUSION));
-    assert_writes(&plan, " --sensors radar --effects occlusion \\\n", true);
-    assert_writes(&plan,
+    assert_writes(&plan, true, " --sensors radar --effects occlusion \\\n", true);
+    assert_writes(&plan, true,
                   "occlusion         on in 1 of 9 scans: blocks of a vehicle; in the others "
                   "no object stands between the sensor and another object\n",
                   true);
-    assert_writes(&plan, "rows              off: no object has rows\n", true);
-    assert_writes(&plan, "merging           off: nothing describes it", true);
-    assert_writes(&plan, "threshold         off: nothing describes it", true);
+    assert_writes(&plan, true, "rows              off: no object has rows\n", true);
+    assert_writes(&plan, true, "merging           off: nothing describes it", true);
+    assert_writes(&plan, true, "threshold         off: nothing describes it", true);
+}
+
+static void effects_that_are_off_are_counted_unless_all_are_asked_for(void **state)
+{
+    (void)state;
+    struct plan plan = plan_of("radar");
+    plan.positions[PLAN_IDEAL].log.scans_simulated[EFFECT_OCCLUSION] = 1;
+    plan.positions[PLAN_IDEAL].log.scans_left_out[EFFECT_OCCLUSION] = 8;
+    char count[64];
+    snprintf(count, sizeof count, "# %d others are off; --all says why\n", EFFECT_COUNT - 1);
+    assert_writes(&plan, false, "occlusion         on in 1 of 9 scans: blocks of a vehicle\n",
+                  true);
+    assert_writes(&plan, false, "# rows ", false);
+    assert_writes(&plan, false, count, true);
+    assert_writes(&plan, true, "others are off", false);
 }
 
 static void without_effects_none_is_asked_for(void **state)
@@ -77,7 +95,7 @@ static void without_effects_none_is_asked_for(void **state)
     (void)state;
     struct plan plan = plan_of("radar");
     assert_int_equal(plan_effects(&plan), 0);
-    assert_writes(&plan, " --effects none \\\n", true);
+    assert_writes(&plan, true, " --effects none \\\n", true);
 }
 
 static void what_was_not_asked_for_says_so(void **state)
@@ -85,7 +103,7 @@ static void what_was_not_asked_for_says_so(void **state)
     (void)state;
     struct plan plan = plan_of("radar");
     plan.allowed &= ~EFFECT_BIT(EFFECT_ROWS);
-    assert_writes(&plan, "rows              off: not asked for\n", true);
+    assert_writes(&plan, true, "rows              off: not asked for\n", true);
 }
 
 static void a_stage_goes_with_its_effects_where_another_does_the_same(void **state)
@@ -96,13 +114,13 @@ static void a_stage_goes_with_its_effects_where_another_does_the_same(void **sta
     sensor->log.scans_simulated[EFFECT_THRESHOLD] = 9;
     plan.positions[PLAN_NOISE].log.scans_simulated[EFFECT_FINAL_THRESHOLD] = 9;
     assert_int_equal(plan_effects(&plan), 0);
-    assert_writes(&plan, "  | glint-sensor-perfect \\\n  | glint-noise-none\n", true);
+    assert_writes(&plan, true, "  | glint-sensor-perfect \\\n  | glint-noise-none\n", true);
     sensor->differs = true;
     sensor->scene = "cut-in/ego";
     sensor->frame = 7;
     assert_int_equal(plan_effects(&plan), EFFECT_BIT(EFFECT_THRESHOLD));
-    assert_writes(&plan, "  | glint-sensor \\\n  | glint-noise-none\n", true);
-    assert_writes(&plan, "first in frame 7 of scene \"cut-in/ego\"\n", true);
+    assert_writes(&plan, true, "  | glint-sensor \\\n  | glint-noise-none\n", true);
+    assert_writes(&plan, true, "first in frame 7 of scene \"cut-in/ego\"\n", true);
 }
 
 /* Names come from documents: none may end the comment or the word that it stands in. */
@@ -112,18 +130,19 @@ static void names_stay_in_their_place(void **state)
     struct plan plan = plan_of("it's $HOME");
     plan.positions[PLAN_SENSOR].differs = true;
     plan.positions[PLAN_SENSOR].scene = "a\nreboot";
-    assert_writes(&plan, "--sensors 'it'\\''s $HOME' --effects", true);
-    assert_writes(&plan, "of scene \"a\\u000areboot\"\n", true);
-    assert_writes(&plan, "\nreboot", false);
+    assert_writes(&plan, true, "--sensors 'it'\\''s $HOME' --effects", true);
+    assert_writes(&plan, true, "of scene \"a\\u000areboot\"\n", true);
+    assert_writes(&plan, true, "\nreboot", false);
 }
 
 static void no_frames_make_no_plan(void **state)
 {
     (void)state;
     struct plan plan = plan_of("radar");
+    struct arena arena = {0};
     struct text text = {0};
     plan.frames = 0;
-    plan_write(&plan, &text);
+    plan_write(&plan, true, &arena, &text);
     assert_int_equal(text.length, 0);
     text_free(&text);
 }
@@ -190,6 +209,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_request_decides_as_auto_does_among_what_is_allowed),
         cmocka_unit_test(an_effect_is_asked_for_if_any_scan_needed_it),
+        cmocka_unit_test(effects_that_are_off_are_counted_unless_all_are_asked_for),
         cmocka_unit_test(without_effects_none_is_asked_for),
         cmocka_unit_test(what_was_not_asked_for_says_so),
         cmocka_unit_test(a_stage_goes_with_its_effects_where_another_does_the_same),

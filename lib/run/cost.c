@@ -1,0 +1,330 @@
+#include "run/cost.h"
+
+#include "base/elementary.h"
+#include "base/sort.h"
+#include "effects/effect.h"
+#include "run/plan.h"
+#include "run/side_program.h"
+
+enum { FRAMES = 250, FEWEST_FRAMES = 16, SIGNAL_SAMPLES = 32000000 };
+
+/* How far times of equal chains may lie apart. */
+static const double SCATTER = 0.02;
+
+/* The model of Buehren and Yang. Folding is the waveform's, which all chains have. */
+static const uint64_t PAPER = EFFECT_BIT(EFFECT_VISIBILITY) | EFFECT_BIT(EFFECT_PLANE_REFLECTION) |
+                              EFFECT_BIT(EFFECT_ROWS) | EFFECT_BIT(EFFECT_OCCLUSION) |
+                              EFFECT_BIT(EFFECT_AMBIGUITY) | EFFECT_BIT(EFFECT_MERGING) |
+                              EFFECT_BIT(EFFECT_SUPERPOSITION) | EFFECT_BIT(EFFECT_THRESHOLD) |
+                              EFFECT_BIT(EFFECT_ANGLE_NOISE) | EFFECT_BIT(EFFECT_RANGE_NOISE) |
+                              EFFECT_BIT(EFFECT_FINAL_THRESHOLD) | EFFECT_BIT(EFFECT_LIST_LIMIT);
+
+static const char SIGNAL[] = "glint-sensor-signal";
+
+const char *const cost_references[] = {"signal", "all", NULL};
+
+static const struct field interval_fields[] = {
+    {FIELD_REAL_IN(struct relative_error, value, -1e300, 1e300, "the figure")},
+    {FIELD_REAL_IN(struct relative_error, low, -1e300, 1e300, "of its 95 % interval")},
+    {FIELD_REAL_IN(struct relative_error, high, -1e300, 1e300, "of its 95 % interval")},
+    {0},
+};
+
+static const struct record interval_record = {FIELD_TABLE(
+    struct relative_error, interval_fields, "interval", "A figure with its 95 % interval.")};
+
+static const struct field chain_fields[] = {
+    {FIELD_NAME_OF(struct cost_chain, chain, "its name in the table")},
+    {FIELD_NAME_OF(struct cost_chain, effects, "for glint-ideal --effects")},
+    {FIELD_NAMES_OF(struct cost_chain, programs, "those after glint-ideal")},
+    {FIELD_REAL_IN(struct cost_chain, us_per_frame, 0, 1e300,
+                   "CPU time of a frame here, with reading and writing its line")},
+    {FIELD_REAL_IN(struct cost_chain, targets_per_scan, 0, 1e300, "mean number in a list")},
+    {FIELD_RECORD_OF(struct cost_chain, energy, &interval_record,
+                     "energy distance from the reference, absent for itself"),
+     FIELD_OPTIONAL, .section = COST_ENERGY},
+    {FIELD_RECORD_OF(struct cost_chain, error, &interval_record,
+                     "energy over that of ideal echoes, absent where that may be 0"),
+     FIELD_OPTIONAL, .section = COST_ERROR},
+    {0},
+};
+
+static const struct record chain_record = {
+    FIELD_TABLE(struct cost_chain, chain_fields, "cost_chain", "A chain, as it was measured."),
+    .present_offset = offsetof(struct cost_chain, present)};
+
+static const struct field cost_fields[] = {
+    {FIELD_NAME_OF(struct cost, suite, "as --sensors names it")},
+    {FIELD_CHOICE_OF(struct cost, reference, cost_references,
+                     "what errors are from; it has seeds of its own")},
+    {FIELD_INTEGER_IN(struct cost, frames, 0, 0x1p53, "of the sample")},
+    {FIELD_INTEGER_IN(struct cost, seen_frames, 0, 0x1p53, "of the stream")},
+    {FIELD_INTEGER_IN(struct cost, scenes, 0, 0x1p53, "of the stream")},
+    {FIELD_INTEGER_IN(struct cost, blocks, 0, 0x1p53, "which the intervals resample")},
+    {FIELD_NAME_OF(struct cost, chosen, "the chain that was found for a bound"), FIELD_OPTIONAL},
+    {FIELD_LIST_OF(struct cost, chains, &chain_record, "in the order in which they were measured")},
+    {0},
+};
+
+const struct record cost_record = {
+    FIELD_TABLE(struct cost, cost_fields, "cost",
+                "What glint-plan --cost --json writes: chains by time and error.")};
+
+/* The complex samples of one scan of all sensors; 0 if one of them has no waveform. */
+static int64_t signal_samples(const struct suite *suite)
+{
+    int64_t sum = 0;
+    for (size_t i = 0; i < suite->sensors.count; i++) {
+        const struct waveform *waveform = &suite->sensors.items[i].waveform;
+        if (waveform->samples == 0)
+            return 0;
+        int64_t channels = waveform->elements > 0 ? waveform->elements : 2;
+        sum += waveform->samples * waveform->repetitions * channels;
+    }
+    return sum;
+}
+
+int cost_begin(struct cost *cost, int64_t frames)
+{
+    struct arena *arena = runner_arena(cost->runner);
+    const struct suite *suite = runner_suite(cost->runner, cost->suite);
+    if (suite == NULL)
+        return -1;
+    int64_t samples = signal_samples(suite), most = FRAMES;
+    cost->signal = side_program_find(SIGNAL, arena);
+    cost->no_signal = cost->reference == COST_ALL ? "it was not asked for"
+                      : samples == 0              ? "the suite has no waveform"
+                      : cost->signal == NULL      ? "it is not installed beside this program"
+                                                  : NULL;
+    if (cost->no_signal != NULL)
+        cost->reference = COST_ALL;
+    else if (SIGNAL_SAMPLES / samples < most)
+        most = SIGNAL_SAMPLES / samples > FEWEST_FRAMES ? SIGNAL_SAMPLES / samples : FEWEST_FRAMES;
+    cost->sample = (struct frame_sample){.arena = arena, .most = frames > 0 ? frames : most};
+    return 0;
+}
+
+static const struct cost_chain *ideal(const struct cost *cost)
+{
+    return &cost->chains.items[0];
+}
+
+/* The chain with all effects that were asked for: the third. */
+static const struct cost_chain *whole(const struct cost *cost)
+{
+    return &cost->chains.items[2];
+}
+
+static struct cost_chain *add_chain(struct cost *cost, const char *name,
+                                    const struct ladder_chain *measured)
+{
+    struct arena *arena = runner_arena(cost->runner);
+    struct cost_chain *chain = list_add(&cost->chains, arena);
+    *chain = (struct cost_chain){
+        .chain = name,
+        .effects = measured->effects,
+        .us_per_frame = measured->us_per_frame,
+        .targets_per_scan = measured->targets_per_scan,
+        .blocks = measured->blocks,
+    };
+    if (measured->program != NULL) {
+        *list_add(&chain->programs, arena) = SIGNAL;
+        return chain;
+    }
+    *list_add(&chain->programs, arena) = plan_program(measured->sensor->name, arena);
+    *list_add(&chain->programs, arena) = plan_program(measured->noise->name, arena);
+    chain->energy = relative_error_energy(&chain->blocks, arena);
+    chain->present = COST_ENERGY;
+    if (ideal(cost)->energy.low > 0) {
+        chain->error = relative_error_of(&chain->blocks, &ideal(cost)->blocks, arena);
+        chain->present |= COST_ERROR;
+    }
+    return chain;
+}
+
+/* Measures one more chain; NULL after a message. */
+static struct cost_chain *climb(struct cost *cost, const char *name, const char *effects,
+                                uint64_t left_out, const struct stage *sensor,
+                                const struct stage *noise)
+{
+    struct ladder_chain chain = {.effects = effects, .sensor = sensor, .noise = noise};
+    if (ladder_climb(&cost->ladder, &chain) != 0)
+        return NULL;
+    struct cost_chain *added = add_chain(cost, name, &chain);
+    added->left_out = left_out;
+    return added;
+}
+
+/* The whole chain but for these effects, measured unless it already is. NULL after a message. */
+static const struct cost_chain *climb_without(struct cost *cost, uint64_t left_out)
+{
+    for (size_t i = 0; i < cost->chains.count; i++)
+        if (cost->chains.items[i].automatic && cost->chains.items[i].left_out == left_out)
+            return &cost->chains.items[i];
+    struct arena *arena = runner_arena(cost->runner);
+    struct text text = {0};
+    text_add_word(&text, "auto");
+    if (left_out != 0)
+        text_format(&text, ", no %s", plan_names(left_out, arena));
+    const char *name = arena_text(arena, text.bytes, text.length);
+    text_free(&text);
+    struct cost_chain *chain = climb(cost, name, plan_request(cost->allowed & ~left_out, arena),
+                                     left_out, cost->stages.sensor, cost->stages.noise);
+    if (chain != NULL)
+        chain->automatic = true;
+    return chain;
+}
+
+/* The effects at home in ideal, the only ones of which ideal echoes know. */
+static uint64_t of_ideal(void)
+{
+    uint64_t effects = 0;
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        if (effect_table[i]->home == EFFECT_HOME_IDEAL)
+            effects |= EFFECT_BIT(i);
+    return effects;
+}
+
+/* The chains that every ladder has, and those that leave out one effect. */
+static int climb_all(struct cost *cost)
+{
+    const struct cost_stages *use = &cost->stages;
+    struct arena *arena = runner_arena(cost->runner);
+    const char *paper = plan_names(PAPER, arena);
+    if (climb(cost, "perfect", paper, cost->needed & ~(PAPER & of_ideal()), use->perfect,
+              use->none) == NULL ||
+        climb(cost, "paper", paper, cost->needed & ~PAPER, use->sensor, use->noise) == NULL ||
+        climb_without(cost, 0) == NULL)
+        return -1;
+    for (int i = 0; i < EFFECT_COUNT && !cost->brief; i++)
+        if ((cost->needed & EFFECT_BIT(i)) != 0 && climb_without(cost, EFFECT_BIT(i)) == NULL)
+            return -1;
+    const char *all = plan_request(cost->allowed, arena);
+    return climb(cost, "smear", all, 0, use->smear, use->noise) != NULL ? 0 : -1;
+}
+
+int cost_measure(struct cost *cost)
+{
+    const struct cost_stages *use = &cost->stages;
+    bool signal = cost->reference == COST_SIGNAL;
+    struct ladder_chain reference = {.effects = "auto",
+                                     .sensor = use->sensor,
+                                     .noise = use->noise,
+                                     .program = signal ? cost->signal : NULL};
+    cost->ladder = (struct ladder){.runner = cost->runner,
+                                   .sample = &cost->sample,
+                                   .sensors = cost->suite,
+                                   .extract = use->extract,
+                                   .ideal = use->ideal};
+    if (ladder_begin(&cost->ladder, &reference) != 0 || climb_all(cost) != 0)
+        return -1;
+    if (signal)
+        add_chain(cost, "signal", &reference);
+    cost->frames = (int64_t)cost->sample.list.count;
+    cost->seen_frames = cost->sample.seen;
+    cost->scenes = (int64_t)cost->sample.names.list.count;
+    cost->blocks = (int64_t)cost->ladder.blocks;
+    return 0;
+}
+
+struct relative_error cost_added(const struct cost *cost, const struct cost_chain *chain)
+{
+    return relative_error_added(&chain->blocks, &whole(cost)->blocks, &ideal(cost)->blocks,
+                                runner_arena(cost->runner));
+}
+
+/* An effect that may be left out, and the error that it adds for each microsecond that it saves. */
+struct saving {
+    uint64_t effect;
+    double price;
+};
+
+struct savings {
+    LIST_OF(struct saving) list;
+};
+
+static int cheaper(const void *left, const void *right)
+{
+    double a = ((const struct saving *)left)->price, b = ((const struct saving *)right)->price;
+    return (a > b) - (a < b);
+}
+
+/* The effects without which the chain is faster by more than times scatter, the cheapest first. */
+static struct savings savings_of(const struct cost *cost)
+{
+    struct arena *arena = runner_arena(cost->runner);
+    struct savings savings = {0};
+    for (size_t i = 0; i < cost->chains.count; i++) {
+        const struct cost_chain *chain = &cost->chains.items[i];
+        double saved_us = whole(cost)->us_per_frame - chain->us_per_frame;
+        if (chain->automatic && saved_us > SCATTER * whole(cost)->us_per_frame)
+            *list_add(&savings.list, arena) = (struct saving){
+                chain->left_out, elementary_max(cost_added(cost, chain).value, 0) / saved_us};
+    }
+    sort_list(&savings.list, cheaper, arena);
+    return savings;
+}
+
+/* What the bound is on, and what is to be least among the chains that hold it. The reference is
+ * without error. */
+static double bounded(const struct cost_chain *chain, enum cost_bound bound)
+{
+    return bound == COST_BOUND_US ? chain->us_per_frame : chain->error.high;
+}
+
+static double rival(const struct cost_chain *chain, enum cost_bound bound)
+{
+    return bound == COST_BOUND_US ? chain->error.value : chain->us_per_frame;
+}
+
+/* Measures chains without more and more effects. For a time they stay out, until the chain is fast
+ * enough; for an error each stays out only if the bound still holds. */
+static int climb_down(struct cost *cost, enum cost_bound bound, double most)
+{
+    struct savings savings = savings_of(cost);
+    uint64_t left_out = 0;
+    for (size_t i = 0; i < savings.list.count; i++) {
+        const struct cost_chain *chain =
+            climb_without(cost, left_out | savings.list.items[i].effect);
+        if (chain == NULL)
+            return -1;
+        bool holds = bounded(chain, bound) <= most;
+        if (holds && bound == COST_BOUND_US)
+            return 0;
+        if (holds || bound == COST_BOUND_US)
+            left_out = chain->left_out;
+    }
+    return 0;
+}
+
+const struct cost_chain *cost_find(struct cost *cost, enum cost_bound bound, double most)
+{
+    struct diag *diag = runner_diag(cost->runner);
+    if ((ideal(cost)->present & COST_ERROR) == 0) {
+        diag_fail(diag, DIAG_DATA,
+                  "ideal echoes are not told from the reference in these frames (D %.3g, 95 %% "
+                  "interval %.3g to %.3g), so chains have no errors",
+                  ideal(cost)->energy.value, ideal(cost)->energy.low, ideal(cost)->energy.high);
+        return NULL;
+    }
+    if (bounded(whole(cost), bound) > most || bound == COST_BOUND_ERROR)
+        if (climb_down(cost, bound, most) != 0)
+            return NULL;
+    const struct cost_chain *best = NULL, *nearest = ideal(cost);
+    for (size_t i = 0; i < cost->chains.count; i++) {
+        const struct cost_chain *chain = &cost->chains.items[i];
+        if (bounded(chain, bound) < bounded(nearest, bound))
+            nearest = chain;
+        if (bounded(chain, bound) <= most &&
+            (best == NULL || rival(chain, bound) < rival(best, bound)))
+            best = chain;
+    }
+    if (best == NULL)
+        diag_fail(diag, DIAG_DATA,
+                  "no chain holds the bound; the nearest, %s, takes %.1f us a frame and has an "
+                  "error of up to %.1f %%",
+                  nearest->chain, nearest->us_per_frame, 100 * nearest->error.high);
+    else
+        cost->chosen = best->chain;
+    return best;
+}

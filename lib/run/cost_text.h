@@ -1,0 +1,14 @@
+/* Costs of accuracy, as a table and as a pipeline. */
+#ifndef COST_TEXT_H
+#define COST_TEXT_H
+
+#include "run/cost.h"
+
+/* A line for each chain, under lines that say what was measured. */
+void cost_text_table(const struct cost *cost, struct text *text);
+
+/* A script: as comments the chain's time and error, and for every effect that it leaves out what
+ * that saves and adds; then its pipeline. */
+void cost_text_pipeline(const struct cost *cost, const struct cost_chain *chain, struct text *text);
+
+#endif

@@ -1,0 +1,252 @@
+#include "run/ladder.h"
+
+#include <time.h>
+
+#include "base/sort.h"
+#include "frame/frame_text.h"
+#include "run/frame_stream.h"
+#include "run/side_program.h"
+#include "run/suite_choice.h"
+#include "run/tool.h"
+#include "score/ensemble.h"
+#include "score/target_score.h"
+#include "text/list_cache.h"
+
+enum { SEEDS = LADDER_SEEDS, ALL = 2 * SEEDS, STAGES = 4 };
+
+/* One run of a chain over the sample. */
+struct pass {
+    struct ladder *ladder;
+    const char *program; /* after the stages; NULL: none */
+    struct runner *trials[STAGES];
+    int stages;
+    uint64_t seed; /* number k of the seed */
+    struct frame frame;
+    struct arena arena; /* the frame's */
+    struct list_cache cache;
+    struct text written;
+    int64_t spent_ns;
+    struct ladder_lists *lists;
+};
+
+static int64_t cpu_ns(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
+
+/* One frame as `glint` runs it, from its line to a line. */
+static int run_frame(struct pass *pass, const struct sampled_frame *sampled)
+{
+    struct runner *runner = pass->ladder->runner;
+    struct frame *frame = &pass->frame;
+    struct diag *diag = runner_diag(runner);
+    int64_t begin_ns = cpu_ns();
+    if (frame_stream_parse(sampled->line, sampled->length, frame, diag) != 0)
+        return -1;
+    frame->seed = sampled->seed + (pass->seed << 32);
+    for (int i = (frame->present & SECTION_REFLECTORS) != 0; i < pass->stages; i++)
+        if (runner_try(runner, pass->trials[i], frame) != 0)
+            return diag_prefix(diag, "scene \"%s\", frame %lld: ", frame->scene,
+                               (long long)frame->frame);
+    if (pass->program == NULL)
+        pass->written.length = 0;
+    if (frame_text_write(frame, &pass->written, diag) != 0)
+        return -1;
+    pass->spent_ns += cpu_ns() - begin_ns;
+    return 0;
+}
+
+/* The first pass of all notes which scans there are. */
+static int keep_lists(struct pass *pass, const struct sampled_frame *sampled)
+{
+    struct arena *arena = runner_arena(pass->ladder->runner);
+    const struct frame *frame = &pass->frame;
+    for (size_t i = 0; i < frame->sensors.list.count; i++) {
+        const struct sensor_view *view = &frame->sensors.list.items[i];
+        if (!view->measured)
+            continue;
+        if (!target_score_has_cells(view))
+            return diag_fail(runner_diag(pass->ladder->runner), DIAG_DATA,
+                             "sensor \"%s\" has cells of %g m by %g m/s in a view of %g rad; "
+                             "distances in cells need more than 0",
+                             view->name, view->cell_range_m, view->cell_range_rate_mps,
+                             view->field_of_view_rad);
+        if (pass->seed == 1)
+            *list_add(&pass->ladder->scans, arena) =
+                (struct ladder_scan){.scene = sampled->scene, .block = sampled->block};
+        *list_add(&pass->lists->scans, arena) = ensemble_embed(frame, view, arena);
+    }
+    return 0;
+}
+
+/* What the program makes of the frames with echoes that were written: a line for each. */
+static int run_program(struct pass *pass)
+{
+    const struct frame_sample *sample = pass->ladder->sample;
+    struct diag *diag = runner_diag(pass->ladder->runner);
+    struct text made = {0};
+    int result = side_program_run(pass->program, &pass->written, &made, &pass->spent_ns, diag);
+    const char *line = made.bytes, *end = made.bytes + made.length;
+    for (size_t i = 0; result == 0 && i < sample->list.count; i++) {
+        const char *stop = line < end ? memchr(line, '\n', (size_t)(end - line)) : NULL;
+        if (stop == NULL)
+            result = diag_fail(diag, DIAG_INTERNAL, "%s wrote %zu of %zu frames", pass->program, i,
+                               sample->list.count);
+        else if ((result = frame_stream_parse(line, (size_t)(stop - line), &pass->frame, diag)) ==
+                 0)
+            result = keep_lists(pass, &sample->list.items[i]);
+        line = result == 0 ? stop + 1 : end;
+    }
+    text_free(&made);
+    return result;
+}
+
+static int run_pass(struct pass *pass)
+{
+    const struct frame_sample *sample = pass->ladder->sample;
+    pass->frame.arena = &pass->arena;
+    pass->frame.list_cache = &pass->cache;
+    int result = 0;
+    for (size_t i = 0; result == 0 && i < sample->list.count; i++) {
+        result = run_frame(pass, &sample->list.items[i]);
+        if (result == 0 && pass->program == NULL)
+            result = keep_lists(pass, &sample->list.items[i]);
+    }
+    if (result == 0 && pass->program != NULL)
+        result = run_program(pass);
+    text_free(&pass->written);
+    arena_free(&pass->arena);
+    list_cache_free(&pass->cache);
+    return result;
+}
+
+static int ascending(const void *left, const void *right)
+{
+    double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+static double mean_targets(const struct ladder_lists *lists)
+{
+    double targets = 0, scans = 0;
+    for (size_t i = 0; i < SEEDS; i++, scans += (double)lists->scans.count)
+        for (size_t k = 0; k < lists[i].scans.count; k++)
+            targets += (double)lists[i].scans.items[k].targets.count;
+    return targets / scans;
+}
+
+/* A pass with stages of its own: all four, or those before the program. */
+static struct pass begin_pass(struct ladder *ladder, const struct ladder_chain *chain)
+{
+    struct runner *runner = ladder->runner;
+    const struct suite_choice choice = {ladder->sensors, chain->effects};
+    struct pass pass = {.ladder = ladder, .program = chain->program, .stages = 2};
+    pass.trials[0] = runner_trial(runner, ladder->extract, NULL, NULL);
+    pass.trials[1] = runner_trial(runner, ladder->ideal, &choice, NULL);
+    if (chain->program != NULL)
+        return pass;
+    pass.trials[pass.stages++] = runner_trial(runner, chain->sensor, NULL, NULL);
+    pass.trials[pass.stages++] = runner_trial(runner, chain->noise, NULL, NULL);
+    return pass;
+}
+
+/* Runs the chain with the seeds first, first + 2, ... */
+static int run_chain(struct ladder *ladder, struct ladder_chain *chain, uint64_t first,
+                     struct ladder_lists *lists)
+{
+    struct pass begun = begin_pass(ladder, chain);
+    double us[SEEDS];
+    for (size_t i = 0; i < SEEDS; i++) {
+        struct pass pass = begun;
+        pass.seed = first + 2 * i;
+        pass.lists = &lists[i];
+        if (run_pass(&pass) != 0)
+            return -1;
+        us[i] = 1e-3 * (double)pass.spent_ns / (double)ladder->sample->list.count;
+    }
+    sort_items(us, SEEDS, sizeof *us, ascending, runner_arena(ladder->runner));
+    chain->us_per_frame = (us[(SEEDS - 1) / 2] + us[SEEDS / 2]) / 2;
+    chain->targets_per_scan = mean_targets(lists);
+    return 0;
+}
+
+/* Counts the scans of scenes and blocks, numbers the blocks that have any, and weighs them. */
+static void weigh_blocks(struct ladder *ladder)
+{
+    const struct frame_sample *sample = ladder->sample;
+    struct arena *arena = runner_arena(ladder->runner);
+    size_t scenes = 0, names = sample->names.list.count, count = ladder->scans.count;
+    double *of_scene = arena_get(arena, names * sizeof *of_scene);
+    double *of_block = arena_get(arena, sample->blocks * sizeof *of_block);
+    size_t *number = arena_get(arena, sample->blocks * sizeof *number);
+    for (size_t i = 0; i < count; i++) {
+        struct ladder_scan *scan = &ladder->scans.items[i];
+        scenes += of_scene[scan->scene]++ == 0;
+        if (of_block[scan->block]++ == 0)
+            number[scan->block] = ladder->blocks++;
+    }
+    ladder->block_weight = arena_get(arena, ladder->blocks * sizeof(double));
+    for (size_t i = 0; i < count; i++) {
+        struct ladder_scan *scan = &ladder->scans.items[i];
+        scan->share = 1 / of_block[scan->block];
+        scan->block = number[scan->block];
+        ladder->block_weight[scan->block] += 1 / (of_scene[scan->scene] * (double)scenes);
+    }
+}
+
+/* The distances between the lists of a scan, into both halves of its block's matrix. */
+static void add_distances(const struct ladder *ladder, size_t at, const struct ladder_lists *lists,
+                          double *distance)
+{
+    const struct ladder_scan *scan = &ladder->scans.items[at];
+    const struct embedded_list *list[ALL];
+    for (size_t i = 0; i < ALL; i++)
+        list[i] =
+            i < SEEDS ? &ladder->reference[i].scans.items[at] : &lists[i - SEEDS].scans.items[at];
+    for (size_t i = 0; i < ALL; i++)
+        for (size_t k = 0; k < i; k++) {
+            double d = i < SEEDS ? ladder->apart[(at * SEEDS + i) * SEEDS + k]
+                                 : list_embedding_distance(list[i], list[k]);
+            distance[i * ALL + k] += scan->share * d;
+            distance[k * ALL + i] += scan->share * d;
+        }
+}
+
+static void keep_distances(struct ladder *ladder)
+{
+    size_t count = ladder->scans.count;
+    ladder->apart = arena_get(runner_arena(ladder->runner), count * SEEDS * SEEDS * sizeof(double));
+    for (size_t at = 0; at < count; at++)
+        for (size_t i = 0; i < SEEDS; i++)
+            for (size_t k = 0; k < i; k++)
+                ladder->apart[(at * SEEDS + i) * SEEDS + k] = list_embedding_distance(
+                    &ladder->reference[i].scans.items[at], &ladder->reference[k].scans.items[at]);
+}
+
+int ladder_begin(struct ladder *ladder, struct ladder_chain *reference)
+{
+    if (run_chain(ladder, reference, 1, ladder->reference) != 0)
+        return -1;
+    if (ladder->scans.count == 0)
+        return diag_fail(runner_diag(ladder->runner), DIAG_DATA,
+                         "no sensor of the suite measures in these frames");
+    weigh_blocks(ladder);
+    keep_distances(ladder);
+    return 0;
+}
+
+int ladder_climb(struct ladder *ladder, struct ladder_chain *chain)
+{
+    struct ladder_lists lists[SEEDS] = {0};
+    if (run_chain(ladder, chain, 2, lists) != 0)
+        return -1;
+    size_t size = ladder->blocks * ALL * ALL * sizeof(double);
+    double *distance = arena_get(runner_arena(ladder->runner), size);
+    for (size_t at = 0; at < ladder->scans.count; at++)
+        add_distances(ladder, at, lists, distance + ladder->scans.items[at].block * ALL * ALL);
+    chain->blocks =
+        (struct energy_blocks){distance, ladder->block_weight, ladder->blocks, SEEDS, SEEDS};
+    return 0;
+}

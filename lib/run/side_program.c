@@ -1,0 +1,89 @@
+#include "run/side_program.h"
+
+#include <errno.h>
+#include <spawn.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "text/document.h"
+
+extern char **environ;
+
+const char *side_program_find(const char *name, struct arena *arena)
+{
+    struct text text = {0};
+    text_format(&text, "%s%s", document_own_folder(arena), name);
+    const char *path = arena_text(arena, text.bytes, text.length);
+    text_free(&text);
+    return access(path, X_OK) == 0 ? path : NULL;
+}
+
+static int64_t ns_of(struct timeval time)
+{
+    return (int64_t)time.tv_sec * 1000000000 + (int64_t)time.tv_usec * 1000;
+}
+
+/* CPU time of all processes that this one started and that have ended. */
+static int64_t children_ns(void)
+{
+    struct rusage usage;
+    getrusage(RUSAGE_CHILDREN, &usage);
+    return ns_of(usage.ru_utime) + ns_of(usage.ru_stime);
+}
+
+/* Starts it between two files and waits for its end. Returns what waitpid tells of it. */
+static int run_between(const char *path, FILE *in, FILE *out)
+{
+    char *words[] = {(char[]){"glint"}, NULL};
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, fileno(in), STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, fileno(out), STDOUT_FILENO);
+    pid_t child;
+    int status = -1;
+    if (posix_spawn(&child, path, &actions, NULL, words, environ) == 0)
+        while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+            continue;
+    posix_spawn_file_actions_destroy(&actions);
+    return status;
+}
+
+static int read_all(FILE *file, struct text *output)
+{
+    enum { PIECE = 64 * 1024 };
+    rewind(file);
+    size_t got;
+    while ((got = fread(text_room(output, PIECE), 1, PIECE, file)) > 0)
+        output->length += got;
+    return ferror(file);
+}
+
+/* Files instead of pipes: neither side ever waits for the other. */
+int side_program_run(const char *path, const struct text *input, struct text *output,
+                     int64_t *cpu_ns, struct diag *diag)
+{
+    FILE *in = tmpfile(), *out = tmpfile();
+    int64_t before_ns = children_ns();
+    int status = 0;
+    bool whole = in != NULL && out != NULL &&
+                 fwrite(input->bytes, 1, input->length, in) == input->length && fflush(in) == 0;
+    if (whole) {
+        rewind(in);
+        status = run_between(path, in, out);
+        whole = read_all(out, output) == 0;
+    }
+    *cpu_ns += children_ns() - before_ns;
+    if (in != NULL)
+        fclose(in);
+    if (out != NULL)
+        fclose(out);
+    if (!whole)
+        return diag_fail(diag, DIAG_IO, "cannot exchange files with %s", path);
+    if (status == 0)
+        return 0;
+    enum diag_code code = WIFEXITED(status) ? (enum diag_code)WEXITSTATUS(status) : DIAG_INTERNAL;
+    return diag_fail(diag, code, "%s failed", path);
+}

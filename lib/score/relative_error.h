@@ -1,0 +1,45 @@
+/* Error of a chain, relative to that of ideal echoes.
+ *
+ * The lists of a reference, of a chain and of ideal echoes are samples of random lists, over the
+ * same scans. The error of the chain is
+ *     D(chain, reference) / D(ideal, reference),
+ * D the energy distance (energy_distance.h): 1 for ideal echoes, 0 for a chain that is not told
+ * from the reference (MODEL 11.2).
+ *
+ * Scans that follow each other are alike, so they are counted in blocks: whole scenes, or stretches
+ * of one. The 95 % interval takes numerator and denominator together. It has two parts, whose
+ * lengths are added as squares: a bootstrap over the blocks, drawn apart by what Student's
+ * distribution is wider than the normal one (Hesterberg, The American Statistician 69, 2015), and
+ * 1.96 standard errors by the jackknife over the seeds of the reference and of the chains. */
+#ifndef RELATIVE_ERROR_H
+#define RELATIVE_ERROR_H
+
+#include "base/arena.h"
+
+/* The distances of all lists from each other, by block: matrices as energy_distance.h has them,
+ * first the lists of the reference and then those of a chain, each a mean over the scans of its
+ * block. weight is the share of each block in the mean; the weights sum to 1. */
+struct energy_blocks {
+    const double *distance, *weight;
+    size_t blocks, references, seeds; /* at least 3 references and 3 seeds */
+};
+
+/* A figure with its 95 % interval. */
+struct relative_error {
+    double value, low, high;
+};
+
+/* D of the chain itself. Compared with it, the others may only stand where its low is above 0 for
+ * the ideal echoes. */
+struct relative_error relative_error_energy(const struct energy_blocks *chain, struct arena *arena);
+
+/* The error of the chain, for an ideal with the same blocks and seeds. */
+struct relative_error relative_error_of(const struct energy_blocks *chain,
+                                        const struct energy_blocks *ideal, struct arena *arena);
+
+/* How much more error the chain has than another one. */
+struct relative_error relative_error_added(const struct energy_blocks *chain,
+                                           const struct energy_blocks *other,
+                                           const struct energy_blocks *ideal, struct arena *arena);
+
+#endif

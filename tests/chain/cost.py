@@ -1,0 +1,143 @@
+"""What glint-plan --cost says, measured again.
+
+Usage: python3 tests/chain/cost.py [--long] BIN_DIR
+
+Energies are those of glint-score --ensemble for lists that glint makes with the same seeds. They change from
+run to run in no bit, fused or alone. A printed pipeline runs in bash and in glint, and is the chain that was
+measured. And promises hold: errors from samples of random traffic, against those of a held-out part of it
+that is fifteen times as large.
+"""
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+SEEDS = 4
+REFERENCE = range(1, 2 * SEEDS, 2)
+CHAIN = range(2, 2 * SEEDS + 1, 2)
+
+
+class Bench:
+    def __init__(self, bin_dir, folder):
+        self.folder = folder
+        self.environment = dict(os.environ, PATH=bin_dir + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
+
+    def run(self, words, data=b""):
+        done = subprocess.run(words, input=data, env=self.environment, cwd=ROOT, capture_output=True)
+        if done.returncode != 0:
+            sys.exit(f"cost: {' '.join(words)}: exit {done.returncode}: {done.stderr.decode()}")
+        return done.stdout
+
+    def glint(self, text, data=b""):
+        return self.run(["glint", "-c", text], data)
+
+    def cost(self, frames, suite, *options):
+        return json.loads(self.run(["glint-plan", "--cost", "--json", "--sensors", suite, *options], frames))
+
+    def lists(self, frames, suite, effects, programs, ks):
+        """Target lists of all seeds; those of one frame's own seed s are s + k 2^32."""
+        made = b""
+        for k in ks:
+            seeded = re.sub(rb'"seed":"(\d+)"', lambda found: b'"seed":"%d"' % (int(found[1]) + (k << 32)), frames)
+            made += self.glint(f"glint-extract | glint-ideal --sensors {suite} --effects {effects} | "
+                               + " | ".join(programs), seeded)
+        return made
+
+    def energy(self, truth, listed):
+        path = os.path.join(self.folder, "truth.jsonl")
+        with open(path, "wb") as file:
+            file.write(truth)
+        return json.loads(self.run(["glint-score", "--ensemble", "--truth", path], listed))["energy"]
+
+
+def without_times(cost):
+    for chain in cost["chains"]:
+        del chain["us_per_frame"]
+    return cost
+
+
+def same_as_the_score(bench, frames, suite, *options):
+    """Every energy of the ladder against glint-score's, which reads lists and knows no ladder."""
+    cost = bench.cost(frames, suite, *options)
+    programs = ["glint-sensor-signal"] if cost["reference"] == "signal" else ["glint-sensor", "glint-noise"]
+    truth = bench.lists(frames, suite, "auto", programs, REFERENCE)
+    for chain in cost["chains"]:
+        if "energy" not in chain:
+            continue
+        energy = bench.energy(truth, bench.lists(frames, suite, chain["effects"], chain["programs"], CHAIN))
+        if abs(energy - chain["energy"]["value"]) > 1e-9 * max(1, abs(energy)):
+            sys.exit(f"cost: {suite}: {chain['chain']}: D {chain['energy']['value']}, glint-score says {energy}")
+        error = chain["energy"]["value"] / cost["chains"][0]["energy"]["value"]
+        if "error" in chain and abs(error - chain["error"]["value"]) > 1e-9:
+            sys.exit(f"cost: {suite}: {chain['chain']}: error {chain['error']['value']}, D over D of ideal {error}")
+    return cost
+
+
+def same_again(bench, frames, suite):
+    text = f"glint-plan --cost --json --reference all --sensors {suite}"
+    runs = [without_times(json.loads(run)) for run in
+            (bench.run(text.split(), frames), bench.run(text.split(), frames), bench.glint(text, frames))]
+    if runs[0] != runs[1] or runs[0] != runs[2]:
+        sys.exit("cost: another run measures other errors")
+
+
+def pipeline_is_the_chain(bench, frames, suite, option):
+    """The text to paste makes the lists of the chain that was chosen, byte for byte."""
+    chosen = bench.cost(frames, suite, *option)
+    chain = next(one for one in chosen["chains"] if one["chain"] == chosen["chosen"])
+    if not any(name in chain["chain"] for name in ("no", "paper", "perfect")):
+        sys.exit(f"cost: {' '.join(option)}: {chain['chain']} leaves out nothing")
+    plan = bench.run(["glint-plan", *option, "--sensors", suite], frames).decode()
+    seed = re.search(rb'"seed":"(\d+)"', frames)[1]
+    expected = bench.lists(frames, suite, chain["effects"], chain["programs"], [0])
+    for shell in "bash", "glint":
+        if f"--effects {chain['effects']} " in plan and bench.run([shell, "-c", plan], frames) != expected:
+            sys.exit(f"cost: run by {shell}, other lists than those of {chain['chain']} (seed {seed}) from\n{plan}")
+
+
+def promises_hold(bench, suite, options, splits, sample, held_out):
+    """How many intervals from samples hold the error of the held-out part, and how many there are."""
+    def frames(first, count):
+        return bench.glint(f"glint-traffic-random --first {first} --frames {count} {options}")
+
+    def errors(*cost):
+        return {chain["chain"]: chain["error"] for chain in bench.cost(*cost)["chains"] if "error" in chain}
+    truth = errors(frames(100000, held_out), suite, "--brief", "--reference", "all", "--frames", str(held_out))
+    held = promised = 0
+    for split in range(splits):
+        for name, error in errors(frames(split * sample, sample), suite, "--brief", "--reference", "all").items():
+            if name != "perfect":
+                held += error["low"] <= truth[name]["value"] <= error["high"]
+                promised += 1
+    print(f"cost: {suite}: {held} of {promised} intervals hold the held-out error")
+    return held, promised
+
+
+def main(bin_dir, long):
+    with tempfile.TemporaryDirectory(prefix="glint-cost.") as folder:
+        bench = Bench(os.path.abspath(bin_dir), folder)
+        cut_in = bench.glint("glint-traffic cut-in").splitlines(keepends=True)
+        some = b"".join(cut_in[60:120:5] + bench.glint("glint-traffic two-vehicles").splitlines(keepends=True)[:7])
+        same_as_the_score(bench, some, "srr24-pair")
+        same_as_the_score(bench, some, "corner77", "--effects", "auto,-occlusion")
+        if os.path.exists(os.path.join(bin_dir, "glint-sensor-signal")):
+            cost = same_as_the_score(bench, b"".join(cut_in[::20]), "srr24-signal", "--brief")
+            if cost["reference"] != "signal":
+                sys.exit("cost: the suite has a waveform, but the signal is not the reference")
+        same_again(bench, some, "srr24-pair")
+        pipeline_is_the_chain(bench, b"".join(cut_in[::4]), "lrr77-full", ["--error", "30%"])
+        suites = ["srr24-pair-every-frame", "lrr77-full"] + (["corner77-every-frame", "radarscenes77-full"] if long else [])
+        results = [promises_hold(bench, suite, "--density dense --rate-hz 10", 40 if long else 10, 40, 600) for suite in suites]
+        held, promised = (sum(counts) for counts in zip(*results))
+        if promised < 10 * len(suites) or held < 0.9 * promised:
+            sys.exit(f"cost: {held} of {promised} intervals hold the held-out error; at least 9 of 10 should")
+
+
+if __name__ == "__main__":
+    words = [word for word in sys.argv[1:] if word != "--long"]
+    if len(words) != 1:
+        sys.exit(__doc__)
+    main(words[0], "--long" in sys.argv)

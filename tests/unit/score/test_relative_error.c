@@ -1,0 +1,137 @@
+#include "check.h"
+
+#include <stdbool.h>
+
+#include "base/random_sequence.h"
+#include "score/relative_error.h"
+
+enum { SEEDS = 4, ALL = 2 * SEEDS, BLOCKS = 10, SCANS = 20 };
+
+/* Lists of one target that is there or not, and 1 apart if they differ: with the chances p and q
+ * the energy distance is 2 (p - q)^2. One draw each for the lists of reference and chain. */
+static void add_scan(double *distance, double p, double q, const double uniform[ALL])
+{
+    bool there[ALL];
+    for (int i = 0; i < ALL; i++)
+        there[i] = uniform[i] < (i < SEEDS ? p : q);
+    for (int i = 0; i < ALL; i++)
+        for (int k = 0; k < ALL; k++)
+            distance[i * ALL + k] += (there[i] != there[k]) / (double)SCANS;
+}
+
+struct trial {
+    double chain[BLOCKS * ALL * ALL], ideal[BLOCKS * ALL * ALL], weight[BLOCKS];
+};
+
+/* Blocks whose chances differ: the reference lists the target with p between 0.2 and 0.4, the chain
+ * with p + 0.2, the ideal with p + 0.6. So the error is 1/9. */
+static void draw(struct trial *trial, uint64_t number)
+{
+    *trial = (struct trial){0};
+    struct random_sequence draws =
+        random_sequence_at((struct random_address){.item = number}, RANDOM_TRAFFIC);
+    for (int block = 0; block < BLOCKS; block++) {
+        trial->weight[block] = 1.0 / BLOCKS;
+        double p = random_sequence_between(&draws, 0.2, 0.4);
+        for (int scan = 0; scan < SCANS; scan++) {
+            double uniform[ALL];
+            for (int i = 0; i < ALL; i++)
+                uniform[i] = random_sequence_next(&draws);
+            add_scan(trial->chain + block * ALL * ALL, p, p + 0.2, uniform);
+            add_scan(trial->ideal + block * ALL * ALL, p, p + 0.6, uniform);
+        }
+    }
+}
+
+static struct energy_blocks blocks_of(const double *distance, const struct trial *trial)
+{
+    return (struct energy_blocks){distance, trial->weight, BLOCKS, SEEDS, SEEDS};
+}
+
+static void ideal_echoes_have_an_error_of_exactly_1(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct trial trial;
+    draw(&trial, 1);
+    struct energy_blocks ideal = blocks_of(trial.ideal, &trial);
+    struct relative_error error = relative_error_of(&ideal, &ideal, &arena);
+    assert_close(error.value, 1, 0);
+    assert_close(error.low, 1, 1e-12);
+    assert_close(error.high, 1, 1e-12);
+    arena_free(&arena);
+}
+
+/* 0 and 1 apart, in one block: 2 x 1 - 0 - 0 and 2 x 0.5 - 0 - 2/3 by the definition. */
+static void the_error_is_the_ratio_of_energy_distances(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    double chain[ALL * ALL] = {0}, ideal[ALL * ALL] = {0}, one = 1;
+    const int half[ALL] = {0, 0, 0, 0, 0, 0, 1, 1}, other[ALL] = {0, 0, 0, 0, 1, 1, 1, 1};
+    for (int i = 0; i < ALL; i++)
+        for (int k = 0; k < ALL; k++) {
+            chain[i * ALL + k] = half[i] != half[k];
+            ideal[i * ALL + k] = other[i] != other[k];
+        }
+    struct energy_blocks of_chain = {chain, &one, 1, SEEDS, SEEDS};
+    struct energy_blocks of_ideal = {ideal, &one, 1, SEEDS, SEEDS};
+    assert_near(relative_error_energy(&of_ideal, &arena).value, 2.0, 1e-15);
+    assert_near(relative_error_energy(&of_chain, &arena).value, 1.0 / 3, 1e-15);
+    assert_near(relative_error_of(&of_chain, &of_ideal, &arena).value, 1.0 / 6, 1e-15);
+    assert_near(relative_error_added(&of_ideal, &of_chain, &of_ideal, &arena).value, 5.0 / 6,
+                1e-15);
+    arena_free(&arena);
+}
+
+/* The mean over blocks is by weight: of the errors 1 and 0, with D of the ideal 2 in both. */
+static void blocks_count_by_their_weight(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    double chain[2 * ALL * ALL] = {0}, ideal[2 * ALL * ALL] = {0};
+    for (int i = 0; i < 2 * ALL * ALL; i++) {
+        int at = i % (ALL * ALL);
+        ideal[i] = (at / ALL < SEEDS) != (at % ALL < SEEDS);
+        chain[i] = i < ALL * ALL ? ideal[i] : 0;
+    }
+    const double weight[] = {0.75, 0.25};
+    struct energy_blocks of_chain = {chain, weight, 2, SEEDS, SEEDS};
+    struct energy_blocks of_ideal = {ideal, weight, 2, SEEDS, SEEDS};
+    assert_near(relative_error_of(&of_chain, &of_ideal, &arena).value, 0.75, 1e-15);
+    arena_free(&arena);
+}
+
+/* Nominally 95 %; the parts by blocks and by seeds both have the scatter of the draws, so the
+ * interval is rather too wide. */
+static void the_interval_covers_the_true_error(void **state)
+{
+    (void)state;
+    enum { TRIALS = 300 };
+    int covered = 0, too_low = 0;
+    for (int i = 0; i < TRIALS; i++) {
+        struct arena arena = {0};
+        struct trial trial;
+        draw(&trial, (uint64_t)i);
+        struct energy_blocks chain = blocks_of(trial.chain, &trial);
+        struct energy_blocks ideal = blocks_of(trial.ideal, &trial);
+        struct relative_error error = relative_error_of(&chain, &ideal, &arena);
+        covered += error.low <= 1.0 / 9 && error.high >= 1.0 / 9;
+        too_low += error.value < 1.0 / 9;
+        arena_free(&arena);
+    }
+    assert_true(covered >= 0.92 * TRIALS);
+    assert_true(covered < TRIALS);
+    assert_in_range(too_low, 0.4 * TRIALS, 0.6 * TRIALS);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ideal_echoes_have_an_error_of_exactly_1),
+        cmocka_unit_test(the_error_is_the_ratio_of_energy_distances),
+        cmocka_unit_test(blocks_count_by_their_weight),
+        cmocka_unit_test(the_interval_covers_the_true_error),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
