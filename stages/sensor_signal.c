@@ -7,10 +7,10 @@
 #include "sensor/scan.h"
 #include "signal/detections.h"
 
-/* One sensor's channels and the transform that turns them into spectra, in place. */
+/* One sensor's signal and the transforms that turn it into a spectrum, in place. */
 struct transform {
     struct signal_cube signal;
-    fftw_plan plan;
+    fftw_plan over_range, over_rate; /* of pulses the former is NULL */
 };
 
 struct sensor_signal {
@@ -18,17 +18,17 @@ struct sensor_signal {
     LIST_OF(struct transform) transforms;
 };
 
-/* The transform of chirps runs over samples and repetitions, that of pulses over repetitions alone;
- * its exponent is positive. With these flags FFTW chooses it by the sizes alone: not by time that
- * it measures, nor by addresses, nor by the vector unit of the CPU. */
-static fftw_plan plan_of(const struct signal_cube *signal)
+/* Transforms of a length, count of them: elements of one are stride apart, those of neighbours
+ * apart. The exponent is positive. With these flags FFTW chooses its way by the sizes alone: not by
+ * time that it measures, nor by addresses, nor by the vector unit of the CPU. */
+static fftw_plan plan_of(struct phasor *first, size_t length, size_t count, size_t stride,
+                         size_t apart)
 {
-    bool pulses = signal->sensor->waveform.kind == WAVEFORM_PULSE;
-    int bins[] = {(int)signal->repetitions, (int)signal->samples};
-    fftw_complex *cube = (fftw_complex *)signal->cube;
-    return fftw_plan_many_dft(pulses ? 1 : 2, bins, pulses ? bins[1] : 1, cube, NULL,
-                              pulses ? bins[1] : 1, 1, cube, NULL, pulses ? bins[1] : 1, 1,
-                              FFTW_BACKWARD, FFTW_ESTIMATE | FFTW_UNALIGNED | FFTW_NO_SIMD);
+    int lengths[] = {(int)length};
+    fftw_complex *at = (fftw_complex *)first;
+    return fftw_plan_many_dft(1, lengths, (int)count, at, NULL, (int)stride, (int)apart, at, NULL,
+                              (int)stride, (int)apart, FFTW_BACKWARD,
+                              FFTW_ESTIMATE | FFTW_UNALIGNED | FFTW_NO_SIMD);
 }
 
 static struct transform *transform_of(struct sensor_signal *own, const struct sensor *sensor,
@@ -38,20 +38,32 @@ static struct transform *transform_of(struct sensor_signal *own, const struct se
         if (own->transforms.items[i].signal.sensor == sensor)
             return &own->transforms.items[i];
     struct arena *arena = runner_arena(runner);
-    struct signal_cube signal = signal_cube_of(sensor);
-    signal.cube = arena_get(arena, signal_cube_size(&signal) * sizeof *signal.cube);
-    signal.row = arena_get(arena, signal.samples * sizeof *signal.row);
     struct transform *transform = list_add(&own->transforms, arena);
-    *transform = (struct transform){signal, plan_of(&signal)};
+    struct signal_cube signal = signal_cube_of(sensor, arena);
+    size_t kept = signal.range_cells, row = signal.row_cells;
+    transform->signal = signal;
+    if (signal.chirp_s > 0)
+        transform->over_range = plan_of(signal.rows, row, signal.channels, 1, row);
+    transform->over_rate =
+        plan_of(signal.spectrum, SIGNAL_CUBE_PADDING * signal.repetitions, kept, kept, 1);
     return transform;
 }
 
-static void to_spectrum(const struct transform *transform)
+/* Receives all trains of a scan, and transforms the first to a spectrum. */
+static void receive(const struct transform *transform, const struct signal_input *input)
 {
     const struct signal_cube *signal = &transform->signal;
+    size_t size = SIGNAL_CUBE_PADDING * signal->repetitions * signal->range_cells;
+    for (size_t train = 0; train < (signal->second != NULL ? 2 : 1); train++)
+        for (size_t repetition = 0; repetition < signal->repetitions; repetition++) {
+            signal_cube_receive(signal, input, train, repetition);
+            if (transform->over_range != NULL)
+                fftw_execute(transform->over_range);
+            signal_cube_store(signal, train, repetition);
+        }
     for (size_t channel = 0; channel < signal->channels; channel++) {
-        struct phasor *samples = signal->cube + channel * signal->samples * signal->repetitions;
-        fftw_execute_dft(transform->plan, (fftw_complex *)samples, (fftw_complex *)samples);
+        fftw_complex *at = (fftw_complex *)(signal->spectrum + channel * size);
+        fftw_execute_dft(transform->over_rate, at, at);
     }
 }
 
@@ -65,10 +77,11 @@ static void sense(struct frame *frame, const struct transform *transform,
     struct scan scan = scan_receive(&context);
     scan_count_added(&scan, frame);
     scan_lose_silent(&scan, frame, "sensor-signal");
-    signal_cube_receive(signal, &scan, effect_simulates(&noise, EFFECT_ANGLE_NOISE));
-    to_spectrum(transform);
+    struct signal_input input =
+        signal_cube_input(signal, &scan, effect_simulates(&noise, EFFECT_ANGLE_NOISE));
+    receive(transform, &input);
     struct range_doppler spectrum = signal_cube_spectrum(signal, frame->arena);
-    struct detections detections = detections_of(signal, &spectrum, &context);
+    struct detections detections = detections_of(signal, &spectrum, input.sigma > 0, &context);
     detections_label(&detections, frame, "sensor-signal", &scan.received);
     detections_list(&detections, frame, "sensor-signal", &noise);
     effects_count_scan(selection);
@@ -97,8 +110,10 @@ static int sensor_signal_step(void *state, struct frame *frame, struct runner *r
 static void sensor_signal_release(void *state)
 {
     struct sensor_signal *own = state;
-    for (size_t i = 0; i < own->transforms.count; i++)
-        fftw_destroy_plan(own->transforms.items[i].plan);
+    for (size_t i = 0; i < own->transforms.count; i++) {
+        fftw_destroy_plan(own->transforms.items[i].over_range);
+        fftw_destroy_plan(own->transforms.items[i].over_rate);
+    }
 }
 
 static const struct field sensor_signal_fields[] = {
@@ -120,8 +135,8 @@ const struct stage stage_sensor_signal = {
         "chirps or pulses, by the sensor's waveform: every echo with its phase, in a sum and a\n"
         "delta channel or in a row of elements, and thermal noise. It applies windows and the\n"
         "range-Doppler transform, finds peaks by CFAR, and places them between the bins; their\n"
-        "angle comes from the channels. Noise, threshold and amplitudes are those of the two\n"
-        "stages.\n"
+        "angle comes from the channels. A second train of chirps or pulses tells fast from slow.\n"
+        "Noise and amplitudes are those of the two stages, the threshold is that of the CFAR.\n"
         "\n"
         "The transforms are the FFTW library's. One build of it gives the same bytes on every\n"
         "machine, fused or piped; another version or another kind of CPU may differ in the last\n"

@@ -14,7 +14,10 @@ static const char *const cfars[] = {[CFAR_ORDERED] = "ordered", [CFAR_MEAN] = "m
 static const struct field waveform_fields[] = {
     {CHOICE(kind, kinds, "a chirp that is mixed with its echo, or a pulse")},
     {INTEGER(samples, 16, 4096, "range bins: one to a range cell for chirps, four for pulses")},
-    {INTEGER(repetitions, 16, 4096, "chirps or pulses of a scan, as many as range rate cells")},
+    {INTEGER(repetitions, 16, 4096, "chirps or pulses of a train, as many as range rate cells")},
+    {INTEGER(stagger, 2, 64,
+             "n: a second train, 1 + 1/n as long, tells n folds of range rate apart; absent: none"),
+     FIELD_OPTIONAL},
     {INTEGER(elements, 2, 64, "receivers in a row; absent: the antenna's sum and delta channel"),
      FIELD_OPTIONAL},
     {REAL(spacing, 0.1, 100, "distance between elements, in wavelengths"), FIELD_OPTIONAL,
@@ -22,7 +25,8 @@ static const struct field waveform_fields[] = {
     {CHOICE(window, windows, "window of the Fourier transforms"), FIELD_OPTIONAL},
     {CHOICE(cfar, cfars, "noise level of a cell: the neighbour of cfar_rank, or the mean of all"),
      FIELD_OPTIONAL},
-    {INTEGER(cfar_cells, 2, CFAR_MOST_CELLS, "neighbours in range rate, half of them on each side"),
+    {INTEGER(cfar_cells, 2, CFAR_MOST_CELLS,
+             "neighbours in range rate, half of them on each side; every third with Hann's window"),
      FIELD_OPTIONAL, .absent = 16},
     {INTEGER(cfar_guard, 0, 64, "cells between a cell and its neighbours, on each side"),
      FIELD_OPTIONAL, .absent = 2},
@@ -42,6 +46,36 @@ double waveform_range_step_m(const struct waveform *waveform, double cell_range_
     return waveform->kind == WAVEFORM_PULSE ? cell_range_m / 4 : cell_range_m;
 }
 
+size_t waveform_independent_bins(const struct waveform *waveform)
+{
+    return waveform->window == POINT_RESPONSE_HANN ? 3 : 1;
+}
+
+/* Refuses a CFAR window, or a stagger, for which the range rates do not suffice. */
+static int check_rates(const struct waveform *waveform, struct diag *diag)
+{
+    struct cfar cfar = waveform_cfar(waveform, 1);
+    long long apart = (long long)waveform_independent_bins(waveform);
+    long long guard = waveform->cfar_guard, repetitions = waveform->repetitions;
+    if (guard + 1 < apart)
+        return diag_fail(diag, DIAG_CONFIG,
+                         "cfar_guard: %lld; expected at least %lld, as the window correlates "
+                         "nearer cells",
+                         guard, apart - 1);
+    if ((long long)cfar_extent(&cfar) - 1 + apart > repetitions)
+        return diag_fail(diag, DIAG_CONFIG,
+                         "cfar_cells: %lld, every %s, behind cfar_guard, %lld, span %zu cells and "
+                         "need %lld repetitions; there are %lld",
+                         (long long)waveform->cfar_cells, apart == 3 ? "third" : "one", guard,
+                         cfar_extent(&cfar), (long long)cfar_extent(&cfar) - 1 + apart,
+                         repetitions);
+    if (waveform->stagger * apart > repetitions)
+        return diag_fail(
+            diag, DIAG_CONFIG, "stagger: %lld; expected at most %lld, a %s of repetitions",
+            (long long)waveform->stagger, repetitions / apart, apart == 3 ? "third" : "whole");
+    return 0;
+}
+
 int waveform_check(const struct waveform *waveform, double cell_range_m, double range_max_m,
                    struct diag *diag)
 {
@@ -59,22 +93,17 @@ int waveform_check(const struct waveform *waveform, double cell_range_m, double 
     if (waveform->cfar == CFAR_ORDERED && waveform->cfar_rank > waveform->cfar_cells)
         return diag_fail(diag, DIAG_CONFIG, "cfar_rank: %lld is above cfar_cells, %lld",
                          (long long)waveform->cfar_rank, (long long)waveform->cfar_cells);
-    if (waveform->cfar_cells + 2 * waveform->cfar_guard >= waveform->repetitions)
-        return diag_fail(diag, DIAG_CONFIG,
-                         "cfar_cells: %lld plus twice cfar_guard, %lld, must be less than "
-                         "repetitions, %lld",
-                         (long long)waveform->cfar_cells, (long long)waveform->cfar_guard,
-                         (long long)waveform->repetitions);
-    return 0;
+    return check_rates(waveform, diag);
 }
 
-struct cfar waveform_cfar(const struct waveform *waveform)
+struct cfar waveform_cfar(const struct waveform *waveform, size_t padding)
 {
     size_t cells = (size_t)waveform->cfar_cells, rank = (size_t)waveform->cfar_rank;
     return (struct cfar){
         .kind = waveform->cfar,
         .cells = cells,
-        .guard = (size_t)waveform->cfar_guard,
+        .nearest = padding * ((size_t)waveform->cfar_guard + 1),
+        .spacing = padding * waveform_independent_bins(waveform),
         .rank = rank,
         .factor = cfar_factor(waveform->cfar, cells, rank, waveform->cfar_false_alarm),
     };

@@ -1,7 +1,7 @@
 /* Waveform and CFAR search of a radar, for glint-sensor-signal. The record is the member `waveform`
  * of a sensor's document. The resolution is that of the document's cells: chirps have the bandwidth
- * c/(2 cell_range_m), pulses are cell_range_m wide at half their amplitude, and a scan lasts
- * wavelength/(2 cell_range_rate_mps). */
+ * c/(2 cell_range_m), pulses are cell_range_m wide at half their amplitude, and a train of
+ * repetitions lasts wavelength/(2 cell_range_rate_mps). */
 #ifndef WAVEFORM_H
 #define WAVEFORM_H
 
@@ -14,7 +14,8 @@ enum waveform_kind { WAVEFORM_CHIRP, WAVEFORM_PULSE };
 struct waveform {
     enum waveform_kind kind;
     int64_t samples;     /* 0: the document describes no waveform */
-    int64_t repetitions; /* chirps or pulses of a scan */
+    int64_t repetitions; /* chirps or pulses of a train */
+    int64_t stagger;     /* range rates are known within so many folds; 0: they fold */
     int64_t elements;    /* 0: the sum and delta channels of the antenna */
     double spacing;      /* of the elements, in wavelengths */
     enum point_response window;
@@ -32,6 +33,11 @@ double waveform_range_step_m(const struct waveform *waveform, double cell_range_
 int waveform_check(const struct waveform *waveform, double cell_range_m, double range_max_m,
                    struct diag *diag);
 
-struct cfar waveform_cfar(const struct waveform *waveform);
+/* Bins of the transform over this distance or more have independent noise. */
+size_t waveform_independent_bins(const struct waveform *waveform);
+
+/* The search in a spectrum of `padding` cells to a bin. Its windows take neighbours whose noise is
+ * independent. */
+struct cfar waveform_cfar(const struct waveform *waveform, size_t padding);
 
 #endif

@@ -54,12 +54,17 @@ static double mean(const double *values, size_t count)
     return sum / (double)count;
 }
 
+size_t cfar_extent(const struct cfar *cfar)
+{
+    return 2 * (cfar->nearest + (cfar->cells / 2 - 1) * cfar->spacing) + 1;
+}
+
 double cfar_threshold(const struct cfar *cfar, const double *power, size_t count, size_t stride,
                       size_t at)
 {
     double window[CFAR_MOST_CELLS] = {0};
     for (size_t i = 0; i < cfar->cells / 2; i++) {
-        size_t away = cfar->guard + 1 + i;
+        size_t away = cfar->nearest + i * cfar->spacing;
         window[2 * i] = power[(at + count - away) % count * stride];
         window[2 * i + 1] = power[(at + away) % count * stride];
     }

@@ -15,19 +15,24 @@ enum { CFAR_MOST_CELLS = 64 };
 
 struct cfar {
     enum cfar_kind kind;
-    size_t cells;  /* in both windows together; even, at most CFAR_MOST_CELLS */
-    size_t guard;  /* cells left out to each side of the cell under test */
-    size_t rank;   /* for CFAR_ORDERED: 1 is the smallest, at most cells */
-    double factor; /* cfar_factor */
+    size_t cells;   /* in both windows together; even, at most CFAR_MOST_CELLS */
+    size_t nearest; /* distance of each window's first cell from the cell under test, at least 1 */
+    size_t spacing; /* from one cell of a window to the next, at least 1 */
+    size_t rank;    /* for CFAR_ORDERED: 1 is the smallest, at most cells */
+    double factor;  /* cfar_factor */
 };
 
 /* The factor with which noise passes with the probability P = false_alarm, if its power is
- * exponential and independent from cell to cell. For the mean of N cells it is N (P^(-1/N) - 1);
- * for the rank k it is the alpha that solves P = product over i < k of (N - i)/(N - i + alpha). */
+ * exponential and independent in the cell and all cells of the windows. For the mean of N cells it
+ * is N (P^(-1/N) - 1); for the rank k it is the alpha that solves P = product over i < k of
+ * (N - i)/(N - i + alpha). */
 double cfar_factor(enum cfar_kind kind, size_t cells, size_t rank, double false_alarm);
 
+/* Cells from the first of one window to the last of the other, the cell under test included. */
+size_t cfar_extent(const struct cfar *cfar);
+
 /* The power that cell number at must reach, of count cells that form a ring: cell i is power[i *
- * stride]. count is at least cells + 2 guard + 1. */
+ * stride]. count is at least cfar_extent. */
 double cfar_threshold(const struct cfar *cfar, const double *power, size_t count, size_t stride,
                       size_t at);
 

@@ -30,21 +30,19 @@ double point_response_noise(enum point_response response, size_t count);
  * 2^-(d/2)^2 for PULSE. */
 double point_response_value(enum point_response response, double bins);
 
+/* Distance from the peak to the first null, in bins: nothing nearer is a side lobe. 2 for HANN, 1
+ * for RECTANGULAR, infinite for PULSE, which has no side lobes. */
+double point_response_main_lobe(enum point_response response);
+
 /* An upper bound on the size of point_response_value that does not rise with |bins|; 1 within the
  * main lobe. */
 double point_response_envelope(enum point_response response, double bins);
 
-/* The place of an echo relative to bin at, in bins, from that bin and the bins before and after it.
- * Channels receive the same echo and stand stride samples apart. For one echo the place is exact.
- * For pulses it is the vertex of a parabola through the logarithms of the three powers. For
- * windows, with a, x, b the parts of the three bins that are in phase with the middle one and g =
- * (a - b)/(2 x + a + b), it is d = 2 g/(sqrt(8 g^2 + 1) + 1)       without a window (Macleod 1998),
- *     d = 2 g/(sqrt(4 g^2 + 9/4) + 3/2)   with Hann's, from the same ratio.
- * The result is in [-3/4, 3/4], as an echo farther off has a stronger bin next to at; it is 0 if
- * all three bins are 0. */
-double point_response_offset(enum point_response response, const struct phasor *before,
-                             const struct phasor *at, const struct phasor *after, size_t channels,
-                             size_t stride);
+/* By how many cells a peak is beyond the cell of the most power, in [-1/2, 1/2]: the vertex of the
+ * parabola through the logarithms of its power and of the powers before and after it. For one echo
+ * it is exact for pulses; with two cells to a bin it is within 0.0017 bins with Hann's window and
+ * 0.0104 without. 0 where a power is 0 or all are equal. */
+double point_response_vertex(double before, double at, double after);
 
 /* The response with a Hann window of a hundred samples or more, W(d) = sin(pi d)/(pi d (1 - d^2)):
  * 1 at 0, 1/2 at -1 and 1, exactly 0 at all other whole numbers, and exactly even. Its main lobe is

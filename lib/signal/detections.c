@@ -6,20 +6,28 @@
 #include "base/units.h"
 #include "effects/effect.h"
 #include "noise/false_alarm_cells.h"
-#include "radar/interferer.h"
+#include "radar/folding.h"
 #include "sensor/cell_margins.h"
+#include "signal/unfolding.h"
 
 #define NONE SIZE_MAX
 #define LEAST_PART 0.5
 
+/* Adds a detection of this amplitude and azimuth, unless no range rate puts it where the sensor
+ * measures. */
 static struct detection *add(struct detections *detections, const struct range_doppler_peak *peak,
-                             struct arena *arena)
+                             double amplitude, double azimuth_rad, struct arena *arena)
 {
-    const struct signal_cube *signal = detections->signal;
+    struct unfolding_reading reading;
+    if (!unfolding_choose(detections->signal, peak, amplitude, elementary_sin(azimuth_rad),
+                          &reading))
+        return NULL;
     struct detection *detection = list_add(&detections->list, arena);
     detection->peak = peak;
-    detection->range_m = elementary_max(peak->range * signal->range_step_m, 0);
-    detection->range_rate_mps = peak->rate * signal->rate_step_mps;
+    detection->range_m = reading.range_m;
+    detection->range_rate_mps = reading.range_rate_mps;
+    detection->azimuth_rad = azimuth_rad;
+    detection->amplitude = amplitude;
     return detection;
 }
 
@@ -35,10 +43,9 @@ static void add_monopulse(struct detections *detections, const struct range_dopp
     };
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);
-    struct detection *detection = add(detections, peak, arena);
-    detection->azimuth_rad = angle.azimuth_rad;
-    detection->sign_undecided = angle.sign_undecided;
-    detection->amplitude = peak->amplitude;
+    struct detection *detection = add(detections, peak, peak->amplitude, angle.azimuth_rad, arena);
+    if (detection != NULL)
+        detection->sign_undecided = angle.sign_undecided;
 }
 
 static void add_beams(struct detections *detections, const struct range_doppler_peak *peak,
@@ -47,31 +54,32 @@ static void add_beams(struct detections *detections, const struct range_doppler_
     const struct signal_cube *signal = detections->signal;
     struct beamforming_peak beams[BEAMFORMING_MOST_PEAKS];
     double limit = elementary_sin(signal->sensor->field_of_view_rad / 2);
-    size_t count = beamforming_peaks(&signal->array, at, stride, limit,
-                                     detections->threshold * peak->gain, beams);
-    for (size_t i = 0; i < count; i++) {
-        struct detection *detection = add(detections, peak, arena);
-        detection->azimuth_rad = elementary_asin(beams[i].sine);
-        detection->amplitude = beams[i].amplitude / peak->gain;
-    }
+    double least = elementary_max(peak->threshold, detections->least) * peak->gain;
+    size_t count = beamforming_peaks(&signal->array, at, stride, limit, least, beams);
+    for (size_t i = 0; i < count; i++)
+        add(detections, peak, beams[i].amplitude / peak->gain, elementary_asin(beams[i].sine),
+            arena);
 }
 
 struct detections detections_of(const struct signal_cube *signal,
-                                const struct range_doppler *spectrum,
+                                const struct range_doppler *spectrum, bool noisy,
                                 const struct effect_scan *context)
 {
     struct arena *arena = context->frame->arena;
-    double threshold = signal->sensor->threshold * interferer_noise_factor(context->interference);
-    struct detections detections = {signal, spectrum, threshold, context->time_s, {NULL, 0, 0}};
-    struct cfar cfar = waveform_cfar(&signal->sensor->waveform);
+    struct detections detections = {
+        .signal = signal,
+        .spectrum = spectrum,
+        .cfar = waveform_cfar(&signal->sensor->waveform, SIGNAL_CUBE_PADDING),
+        .least = noisy ? 0 : suite_threshold(signal->sensor, context->interference),
+        .time_s = context->time_s,
+    };
     struct range_doppler_peak *peaks;
     bool array = signal->array.elements > 0;
-    size_t count = range_doppler_peaks(
-        spectrum, &cfar, array ? SIGNAL_CUBE_BETWEEN_BEAMS * threshold : threshold, arena, &peaks);
-    size_t stride = spectrum->range_bins * spectrum->rate_bins;
+    size_t count = range_doppler_peaks(spectrum, &detections.cfar, detections.least, arena, &peaks);
+    size_t width = spectrum->range_cells, stride = width * spectrum->rate_cells;
     for (size_t i = 0; i < count; i++) {
         const struct phasor *at =
-            spectrum->samples + peaks[i].rate_bin * spectrum->range_bins + peaks[i].range_bin;
+            signal->spectrum + peaks[i].rate_cell * width + peaks[i].range_cell;
         (array ? add_beams : add_monopulse)(&detections, &peaks[i], at, stride, arena);
     }
     return detections;
@@ -83,10 +91,10 @@ static double part_of(const struct detections *detections, const struct received
 {
     const struct signal_cube *signal = detections->signal;
     const struct range_doppler *spectrum = detections->spectrum;
-    double range = range_doppler_distance(received->range_m / signal->range_step_m,
-                                          detection->peak->range, spectrum->range_bins);
-    double rate = range_doppler_distance(received->range_rate_mps / signal->rate_step_mps,
-                                         detection->peak->rate, spectrum->rate_bins);
+    double range, rate;
+    signal_cube_place(signal, received, &range, &rate);
+    range = range_doppler_range_away(spectrum, range, detection->peak);
+    rate = range_doppler_rate_away(spectrum, rate, detection->peak);
     double part = fabs(point_response_value(spectrum->range_response, range) *
                        point_response_value(spectrum->rate_response, rate));
     if (signal->array.elements > 0)
@@ -129,15 +137,18 @@ static size_t dominant_echo_of(const struct detections *detections,
     return dominant;
 }
 
-static void label(const struct sensor *sensor, struct detection *detection,
-                  const struct received_echo *received_echoes, size_t count, struct arena *arena)
+/* Labels a detection with its echoes, whose range rates count in the fold of the strongest. */
+static void label(const struct signal_cube *signal, struct detection *detection,
+                  struct received_echo *members, size_t count, struct arena *arena)
 {
-    resolution_cell_of(sensor, received_echoes, count, true, arena, &detection->cell);
+    double first_mps = folding_range_rate_mps(members[0].echo.range_rate_mps,
+                                              (double)signal->folds * signal->fold_mps / 2);
     for (size_t i = 0; i < count; i++)
-        margins_merge(&detection->cell.margins, received_echoes[i].margins);
-    double span_mps = (double)sensor->waveform.repetitions * sensor->cell_range_rate_mps;
-    double away_mps = received_echoes[0].range_rate_mps - detection->range_rate_mps;
-    detection->range_rate_mps += span_mps * round(away_mps / span_mps);
+        members[i].range_rate_mps =
+            first_mps + remainder(members[i].echo.range_rate_mps - first_mps, signal->fold_mps);
+    resolution_cell_of(signal->sensor, members, count, true, arena, &detection->cell);
+    for (size_t i = 0; i < count; i++)
+        margins_merge(&detection->cell.margins, members[i].margins);
 }
 
 static void label_false_alarm(const struct sensor *sensor, struct detection *detection,
@@ -165,18 +176,19 @@ static void lose_echo(const struct detections *detections, struct frame *frame, 
                       const struct received_echo *received)
 {
     const struct signal_cube *signal = detections->signal;
-    double shown =
-        range_doppler_amplitude(detections->spectrum, received->range_m / signal->range_step_m,
-                                received->range_rate_mps / signal->rate_step_mps);
-    double threshold = detections->threshold;
-    struct lost_echo lost = {.id = received->echo.id};
+    double range, rate;
+    signal_cube_place(signal, received, &range, &rate);
+    struct range_doppler_peak shown =
+        range_doppler_at(detections->spectrum, &detections->cfar, range, rate);
+    double threshold = elementary_max(shown.threshold, detections->least);
+    struct lost_echo lost = {.id = received->echo.id, .margins = *received->margins};
     enum loss reason = LOSS_MASKED;
-    if (received->amplitude < threshold || shown < threshold) {
+    if (received->amplitude < threshold || (shown.amplitude < threshold && shown.amplitude > 0)) {
         bool alone = received->amplitude < threshold;
         reason = alone ? LOSS_BELOW_THRESHOLD : LOSS_BELOW_FINAL;
-        lost.shortfall_db = units_shortfall_db(threshold, alone ? received->amplitude : shown);
+        lost.shortfall_db =
+            units_shortfall_db(threshold, alone ? received->amplitude : shown.amplitude);
     }
-    lost.margins = *received->margins;
     frame_lose(frame, stage, signal->sensor->name, reason, &lost);
 }
 
@@ -205,7 +217,7 @@ void detections_label(struct detections *detections, struct frame *frame, const 
             owner[dominant] = owner[dominant] == NONE ? number : owner[dominant];
         }
         if (own > 0)
-            label(sensor, detection, members, own, arena);
+            label(detections->signal, detection, members, own, arena);
         else
             label_false_alarm(sensor, detection, ++alarms, detections->time_s, arena);
     }

@@ -24,20 +24,22 @@ struct detection {
 struct detections {
     const struct signal_cube *signal;
     const struct range_doppler *spectrum;
-    double threshold;
+    struct cfar cfar;
+    double least;  /* amplitude of a detection where no noise makes a threshold */
     double time_s; /* instant of the measurement */
     LIST_OF(struct detection) list;
 };
 
-/* A detection for every peak that meets the threshold, which rises with interference, in every
- * beam: range, azimuth, range rate and amplitude. Memory comes from the frame's arena. */
+/* A detection for every peak of the spectrum, in every beam that passes its threshold: range,
+ * azimuth, range rate and amplitude. Without noise, detections must meet the sensor's threshold.
+ * Memory comes from the frame's arena. */
 struct detections detections_of(const struct signal_cube *signal,
-                                const struct range_doppler *spectrum,
+                                const struct range_doppler *spectrum, bool noisy,
                                 const struct effect_scan *context);
 
-/* Gives every detection its cell, and the alias of its range rate that is nearest to its strongest
- * echo. Records the received echoes that no detection shows as lost, and counts false alarms.
- * resolved has the strongest echo first. */
+/* Gives every detection its cell, whose range rate is folded as the waveform folds it. Records the
+ * received echoes that no detection shows as lost, and counts false alarms. resolved has the
+ * strongest echo first. */
 void detections_label(struct detections *detections, struct frame *frame, const char *stage,
                       const struct clustered_echoes *resolved);
 

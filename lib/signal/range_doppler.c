@@ -1,8 +1,8 @@
 #include "signal/range_doppler.h"
 
 #include <math.h>
-#include <stdbool.h>
 
+#include "base/elementary.h"
 #include "base/sort.h"
 
 /* Noise and other echoes may raise a side lobe by this factor. */
@@ -13,15 +13,15 @@ struct peak_list {
 };
 
 /* True if a cell is a peak; of neighbours with equal power the first one is. */
-static bool is_peak(const struct range_doppler *spectrum, size_t rate_bin, size_t range_bin)
+static bool is_peak(const struct range_doppler *spectrum, size_t rate_cell, size_t range_cell)
 {
-    size_t width = spectrum->range_bins, height = spectrum->rate_bins;
-    double power = spectrum->power[rate_bin * width + range_bin];
+    size_t width = spectrum->range_cells, height = spectrum->rate_cells;
+    double power = spectrum->strongest[rate_cell * width + range_cell];
     for (size_t down = 0; down < 3; down++)
         for (size_t along = 0; along < 3; along++) {
-            size_t row = (rate_bin + height + down - 1) % height;
-            size_t column = (range_bin + width + along - 1) % width;
-            double other = spectrum->power[row * width + column];
+            size_t row = (rate_cell + height + down - 1) % height;
+            size_t column = (range_cell + width + along - 1) % width;
+            double other = spectrum->strongest[row * width + column];
             bool before = down * 3 + along < 4;
             if (other > power || (other == power && before))
                 return false;
@@ -29,34 +29,59 @@ static bool is_peak(const struct range_doppler *spectrum, size_t rate_bin, size_
     return true;
 }
 
-static double signed_bin(size_t bin, size_t bins)
+/* The strongest beam of a cell; of equal ones the first. */
+static size_t strongest_beam(const struct range_doppler *spectrum, size_t cell)
 {
-    return bin < bins / 2 ? (double)bin : (double)bin - (double)bins;
+    size_t beam = 0, size = spectrum->range_cells * spectrum->rate_cells;
+    while (beam + 1 < spectrum->beams &&
+           spectrum->power[beam * size + cell] < spectrum->strongest[cell])
+        beam++;
+    return beam;
 }
 
-static struct range_doppler_peak peak_at(const struct range_doppler *spectrum, size_t rate_bin,
-                                         size_t range_bin)
+static double signed_cell(size_t cell, size_t cells)
 {
-    size_t width = spectrum->range_bins, height = spectrum->rate_bins, stride = width * height;
-    const struct phasor *row = spectrum->samples + rate_bin * width;
-    const struct phasor *at = row + range_bin;
-    double range =
-        point_response_offset(spectrum->range_response, row + (range_bin + width - 1) % width, at,
-                              row + (range_bin + 1) % width, spectrum->channels, stride);
-    const struct phasor *column = spectrum->samples + range_bin;
-    double rate = point_response_offset(
-        spectrum->rate_response, column + (rate_bin + height - 1) % height * width, at,
-        column + (rate_bin + 1) % height * width, spectrum->channels, stride);
-    double gain = point_response_value(spectrum->range_response, range) *
-                  point_response_value(spectrum->rate_response, rate);
+    return cell < cells / 2 ? (double)cell : (double)cell - (double)cells;
+}
+
+static struct range_doppler_peak peak_at(const struct range_doppler *spectrum,
+                                         const struct cfar *cfar, size_t row, size_t column)
+{
+    size_t width = spectrum->range_cells, height = spectrum->rate_cells, size = width * height;
+    size_t beam = strongest_beam(spectrum, row * width + column);
+    const double *power = spectrum->power + beam * size;
+    double at = power[row * width + column];
     return (struct range_doppler_peak){
-        .range_bin = range_bin,
-        .rate_bin = rate_bin,
-        .range = (double)range_bin + range,
-        .rate = signed_bin(rate_bin, height) + rate,
-        .gain = gain,
-        .amplitude = sqrt(spectrum->power[rate_bin * width + range_bin]) / gain,
+        .range_cell = column,
+        .rate_cell = row,
+        .beam = beam,
+        .range = (spectrum->first_cell + (double)column) / (double)spectrum->range_padding,
+        .rate = signed_cell(row, height) / (double)spectrum->rate_padding,
+        .gain = 1,
+        .amplitude = sqrt(at),
+        .threshold = sqrt(cfar_threshold(cfar, power + column, height, width, row)),
     };
+}
+
+/* Moves a peak from its cell to its place between the cells. */
+static void interpolate(const struct range_doppler *spectrum, struct range_doppler_peak *peak)
+{
+    size_t width = spectrum->range_cells, height = spectrum->rate_cells;
+    const double *power = spectrum->power + peak->beam * width * height;
+    const double *row = power + peak->rate_cell * width, *column = power + peak->range_cell;
+    size_t along = peak->range_cell, down = peak->rate_cell;
+    double range = point_response_vertex(row[(along + width - 1) % width], row[along],
+                                         row[(along + 1) % width]) /
+                   (double)spectrum->range_padding;
+    double rate = point_response_vertex(column[(down + height - 1) % height * width],
+                                        column[down * width], column[(down + 1) % height * width]) /
+                  (double)spectrum->rate_padding;
+    peak->gain = point_response_value(spectrum->range_response, range) *
+                 point_response_value(spectrum->rate_response, rate);
+    peak->range += range;
+    peak->rate += rate;
+    peak->amplitude /= peak->gain;
+    peak->threshold /= peak->gain;
 }
 
 static int compare_peaks(const void *left, const void *right)
@@ -64,9 +89,9 @@ static int compare_peaks(const void *left, const void *right)
     const struct range_doppler_peak *a = left, *b = right;
     if (a->amplitude != b->amplitude)
         return a->amplitude > b->amplitude ? -1 : 1;
-    if (a->range_bin != b->range_bin)
-        return a->range_bin < b->range_bin ? -1 : 1;
-    return (a->rate_bin > b->rate_bin) - (a->rate_bin < b->rate_bin);
+    if (a->range_cell != b->range_cell)
+        return a->range_cell < b->range_cell ? -1 : 1;
+    return (a->rate_cell > b->rate_cell) - (a->rate_cell < b->rate_cell);
 }
 
 double range_doppler_distance(double to, double from, size_t bins)
@@ -74,12 +99,27 @@ double range_doppler_distance(double to, double from, size_t bins)
     return remainder(to - from, (double)bins);
 }
 
+double range_doppler_range_away(const struct range_doppler *spectrum, double range,
+                                const struct range_doppler_peak *peak)
+{
+    return range_doppler_distance(range, peak->range, spectrum->range_bins);
+}
+
+double range_doppler_rate_away(const struct range_doppler *spectrum, double rate,
+                               const struct range_doppler_peak *peak)
+{
+    return range_doppler_distance(rate, peak->rate, spectrum->rate_cells / spectrum->rate_padding);
+}
+
 static bool is_side_lobe(const struct range_doppler *spectrum,
                          const struct range_doppler_peak *peak,
                          const struct range_doppler_peak *stronger)
 {
-    double range = range_doppler_distance(peak->range, stronger->range, spectrum->range_bins);
-    double rate = range_doppler_distance(peak->rate, stronger->rate, spectrum->rate_bins);
+    double range = range_doppler_range_away(spectrum, peak->range, stronger);
+    double rate = range_doppler_rate_away(spectrum, peak->rate, stronger);
+    if (fabs(range) < point_response_main_lobe(spectrum->range_response) &&
+        fabs(rate) < point_response_main_lobe(spectrum->rate_response))
+        return false;
     double most = stronger->amplitude * point_response_envelope(spectrum->range_response, range) *
                   point_response_envelope(spectrum->rate_response, rate);
     return peak->amplitude < SIDE_LOBE_MARGIN * most;
@@ -100,36 +140,35 @@ static size_t drop_side_lobes(const struct range_doppler *spectrum,
 }
 
 size_t range_doppler_peaks(const struct range_doppler *spectrum, const struct cfar *cfar,
-                           double threshold, struct arena *arena, struct range_doppler_peak **peaks)
+                           double least, struct arena *arena, struct range_doppler_peak **peaks)
 {
-    size_t width = spectrum->range_bins;
+    size_t edge = spectrum->range_ring ? 0 : 1;
     struct peak_list found = {{NULL, 0, 0}};
-    /* But for noise, no bin is farther from its peak than half a bin on both axes. */
-    double loss = point_response_value(spectrum->range_response, 0.5) *
-                  point_response_value(spectrum->rate_response, 0.5) / SIDE_LOBE_MARGIN;
-    double least = threshold * threshold * loss * loss;
-    for (size_t row = 0; row < spectrum->rate_bins; row++) {
-        const double *power = spectrum->power + row * width;
-        for (size_t column = 0; column < width; column++) {
-            if (!(power[column] >= least) || !is_peak(spectrum, row, column) ||
-                power[column] <
-                    cfar_threshold(cfar, spectrum->power + column, spectrum->rate_bins, width, row))
+    for (size_t row = 0; row < spectrum->rate_cells; row++)
+        for (size_t column = edge; column + edge < spectrum->range_cells; column++) {
+            if (!is_peak(spectrum, row, column))
                 continue;
-            struct range_doppler_peak peak = peak_at(spectrum, row, column);
-            if (peak.amplitude >= threshold)
+            struct range_doppler_peak peak = peak_at(spectrum, cfar, row, column);
+            if (!(peak.amplitude >= peak.threshold))
+                continue;
+            interpolate(spectrum, &peak);
+            if (peak.amplitude >= least)
                 *list_add(&found.list, arena) = peak;
         }
-    }
     sort_items(found.list.items, found.list.count, sizeof *found.list.items, compare_peaks, arena);
     *peaks = found.list.items;
     return drop_side_lobes(spectrum, found.list.items, found.list.count);
 }
 
-double range_doppler_amplitude(const struct range_doppler *spectrum, double range, double rate)
+struct range_doppler_peak range_doppler_at(const struct range_doppler *spectrum,
+                                           const struct cfar *cfar, double range, double rate)
 {
-    size_t width = spectrum->range_bins, height = spectrum->rate_bins;
-    double column = round(range), row = round(rate);
-    column -= (double)width * floor(column / (double)width);
+    size_t width = spectrum->range_cells, height = spectrum->rate_cells;
+    double column = round(range * (double)spectrum->range_padding) - spectrum->first_cell;
+    double row = round(rate * (double)spectrum->rate_padding);
+    if (spectrum->range_ring)
+        column -= (double)width * floor(column / (double)width);
+    column = elementary_min(elementary_max(column, 0), (double)(width - 1));
     row -= (double)height * floor(row / (double)height);
-    return sqrt(spectrum->power[(size_t)row * width + (size_t)column]);
+    return peak_at(spectrum, cfar, (size_t)row, (size_t)column);
 }

@@ -16,16 +16,65 @@
 /* Reach, in bins, of the receiver's filter for pulses, 2^-(k^2/2), whose autocorrelation is their
  * point response. */
 #define FILTER_REACH 7
+/* Bins of range that are kept beyond those that the sensor can read. */
+#define MARGIN 4
 
 static bool is_pulsed(const struct signal_cube *signal)
 {
     return signal->range_response == POINT_RESPONSE_PULSE;
 }
 
-struct signal_cube signal_cube_of(const struct sensor *sensor)
+/* Times of the waveform, and how a chirp couples range with range rate. */
+static void set_times(struct signal_cube *signal)
+{
+    const struct sensor *sensor = signal->sensor;
+    double bandwidth_hz = SPEED_OF_LIGHT_MPS / (2 * sensor->cell_range_m);
+    signal->train_s = units_wavelength_m(sensor->carrier_hz) / (2 * signal->rate_step_mps);
+    signal->repetition_s = signal->train_s / (double)signal->repetitions;
+    signal->fold_mps = (double)signal->repetitions * signal->rate_step_mps;
+    if (is_pulsed(signal))
+        return;
+    signal->slope_hzps = sensor->chirp_slope_hzps > 0 ? sensor->chirp_slope_hzps
+                                                      : bandwidth_hz / signal->repetition_s;
+    signal->chirp_s = bandwidth_hz / signal->slope_hzps;
+    signal->coupling = sensor->carrier_hz / signal->slope_hzps / signal->range_step_m;
+}
+
+/* Keeps the cells from the least to the greatest reading of a range, or the whole row. */
+static void set_cells(struct signal_cube *signal)
+{
+    signal->range_padding = is_pulsed(signal) ? 1 : SIGNAL_CUBE_PADDING;
+    signal->row_cells = signal->range_padding * signal->samples;
+    double farthest = signal->sensor->range_max_m / signal->range_step_m;
+    double shift = signal->coupling * (double)signal->folds * signal->fold_mps / 2 + MARGIN;
+    double below = ceil(shift * SIGNAL_CUBE_PADDING);
+    double cells = below + ceil((farthest + shift) * SIGNAL_CUBE_PADDING) + 1;
+    bool all = is_pulsed(signal) || cells >= (double)signal->row_cells;
+    signal->first_cell = all ? 0 : -(ptrdiff_t)below;
+    signal->range_cells = all ? signal->row_cells : (size_t)cells;
+}
+
+static void set_memory(struct signal_cube *signal, struct arena *arena)
+{
+    size_t channels = signal->channels, kept = signal->range_cells;
+    size_t rows = channels * signal->repetitions;
+    signal->weight = arena_get(arena, signal->samples * sizeof *signal->weight);
+    signal->tone = arena_get(arena, signal->samples * sizeof *signal->tone);
+    signal->rows = arena_get(arena, channels * signal->row_cells * sizeof *signal->rows);
+    signal->spectrum =
+        arena_get(arena, SIGNAL_CUBE_PADDING * rows * kept * sizeof *signal->spectrum);
+    if (signal->folds > 1)
+        signal->second = arena_get(arena, rows * kept * sizeof *signal->second);
+    for (size_t n = 0; n < signal->samples; n++)
+        signal->weight[n] = is_pulsed(signal)
+                                ? 1
+                                : point_response_weight(signal->range_response, n, signal->samples);
+}
+
+struct signal_cube signal_cube_of(const struct sensor *sensor, struct arena *arena)
 {
     const struct waveform *waveform = &sensor->waveform;
-    return (struct signal_cube){
+    struct signal_cube signal = {
         .sensor = sensor,
         .samples = (size_t)waveform->samples,
         .repetitions = (size_t)waveform->repetitions,
@@ -34,18 +83,29 @@ struct signal_cube signal_cube_of(const struct sensor *sensor)
             waveform->kind == WAVEFORM_PULSE ? POINT_RESPONSE_PULSE : waveform->window,
         .range_step_m = waveform_range_step_m(waveform, sensor->cell_range_m),
         .rate_step_mps = sensor->cell_range_rate_mps,
+        .folds = waveform->stagger > 0 ? (size_t)waveform->stagger : 1,
         .array = {(size_t)waveform->elements, waveform->spacing},
     };
+    set_times(&signal);
+    set_cells(&signal);
+    set_memory(&signal, arena);
+    return signal;
 }
 
-size_t signal_cube_size(const struct signal_cube *signal)
+double signal_cube_instant_s(const struct signal_cube *signal, size_t train, size_t repetition)
 {
-    return signal->channels * signal->repetitions * signal->samples;
+    double number = (double)repetition, half_s = signal->train_s / 2;
+    if (train == 0)
+        return signal->repetition_s * number - half_s;
+    return half_s + signal->repetition_s * (1 + 1 / (double)signal->folds) * number;
 }
 
-void signal_cube_clear(const struct signal_cube *signal)
+void signal_cube_place(const struct signal_cube *signal, const struct received_echo *received,
+                       double *range, double *rate)
 {
-    memset(signal->cube, 0, signal_cube_size(signal) * sizeof *signal->cube);
+    double rate_mps = received->echo.range_rate_mps;
+    *range = received->range_m / signal->range_step_m + signal->coupling * rate_mps;
+    *rate = rate_mps / signal->rate_step_mps;
 }
 
 static struct phasor phasor_of(double amplitude, double turns)
@@ -59,10 +119,11 @@ static struct phasor times(struct phasor a, struct phasor b)
     return (struct phasor){a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
 }
 
-/* An echo as the channels receive it, and its place in bins. */
-struct source {
+/* An echo as the channels receive it: its delay at the instant of the measurement, and by how much
+ * that grows in a second. */
+struct signal_source {
     struct phasor weight[BEAMFORMING_MOST_ELEMENTS];
-    double turns, range, rate, range_walk;
+    double turns, delay_s, stretch;
 };
 
 static void weigh_channels(const struct signal_cube *signal, const struct received_echo *received,
@@ -82,30 +143,45 @@ static void weigh_channels(const struct signal_cube *signal, const struct receiv
     }
 }
 
-static struct source source_of(const struct signal_cube *signal,
-                               const struct received_echo *received)
+/* A polynomial of the phase, in turns, over the time since the middle of a chirp in units of its
+ * length. */
+struct chirp_phase {
+    double constant, linear, square;
+};
+
+/* The phase of MODEL 11.3 in powers of t', so that whole turns of the carrier over the range, which
+ * are in the echo's phase already, never appear. */
+static struct chirp_phase chirp_phase_of(const struct signal_cube *signal,
+                                         const struct signal_source *source, double instant_s)
 {
-    double scan_s = units_wavelength_m(signal->sensor->carrier_hz) / (2 * signal->rate_step_mps);
-    struct source source = {
-        .turns = received->phase_rad / (2 * PI),
-        .range = received->range_m / signal->range_step_m,
-        .rate = received->range_rate_mps / signal->rate_step_mps,
-        .range_walk = received->range_rate_mps * scan_s / signal->range_step_m,
+    double carrier_hz = signal->sensor->carrier_hz, slope = signal->slope_hzps;
+    double stretch = source->stretch, length = signal->chirp_s;
+    double moved_s = stretch * instant_s, delay_s = source->delay_s + moved_s;
+    return (struct chirp_phase){
+        .constant =
+            source->turns - moved_s * (carrier_hz - slope * (source->delay_s + moved_s / 2)),
+        .linear = -length * (carrier_hz * stretch + slope * delay_s * (1 - stretch)),
+        .square = -length * length * slope * stretch * (1 - stretch / 2),
     };
-    weigh_channels(signal, received, source.weight);
-    return source;
 }
 
-/* The samples of one repetition of chirps: a tone by rotation, in CHAINS independent chains, since
- * each sample waits for the one it comes from. n turns leave an error of at most n/CHAINS ulp. */
-static void chirp(struct phasor *tone, size_t count, double cells, struct phasor first)
+/* The samples of one chirp by rotation, in CHAINS independent chains, since each sample waits for
+ * the one it comes from; the rotation itself turns with the square of time. n turns leave an error
+ * of at most n/CHAINS ulp. */
+static void chirp(struct phasor *tone, size_t count, struct chirp_phase phase)
 {
     enum { CHAINS = 4 };
-    double turns = -cells / (double)count;
-    struct phasor step = phasor_of(1, CHAINS * turns);
-    for (size_t n = 0; n < count; n++)
-        tone[n] = n < CHAINS ? times(first, phasor_of(1, cells / 2 + (double)n * turns))
-                             : times(tone[n - CHAINS], step);
+    double unit = 1 / (double)count, leap = CHAINS * unit;
+    struct phasor step[CHAINS], turn = phasor_of(1, 2 * phase.square * leap * leap);
+    for (size_t n = 0; n < CHAINS; n++) {
+        double x = (double)n * unit - 0.5;
+        tone[n] = phasor_of(1, phase.constant + x * (phase.linear + x * phase.square));
+        step[n] = phasor_of(1, leap * (phase.linear + phase.square * (2 * x + leap)));
+    }
+    for (size_t n = CHAINS; n < count; n++) {
+        tone[n] = times(tone[n - CHAINS], step[n % CHAINS]);
+        step[n % CHAINS] = times(step[n % CHAINS], turn);
+    }
 }
 
 static void pulse(struct phasor *tone, size_t count, double bins, struct phasor first)
@@ -133,28 +209,20 @@ static void add(struct phasor *row, const struct phasor *tone, size_t count, str
     }
 }
 
-static void add_source(const struct signal_cube *signal, const struct source *source, size_t m)
+static void add_source(const struct signal_cube *signal, const struct signal_source *source,
+                       double instant_s)
 {
-    size_t size = signal->repetitions * signal->samples;
-    double part = (double)m / (double)signal->repetitions - 0.5;
-    (is_pulsed(signal) ? pulse : chirp)(signal->row, signal->samples,
-                                        source->range + source->range_walk * part,
-                                        phasor_of(1, source->turns - source->rate * part));
+    if (is_pulsed(signal)) {
+        double moved_s = source->stretch * instant_s;
+        double range_m = (source->delay_s + moved_s) * SPEED_OF_LIGHT_MPS / 2;
+        pulse(signal->tone, signal->samples, range_m / signal->range_step_m,
+              phasor_of(1, source->turns - signal->sensor->carrier_hz * moved_s));
+    } else {
+        chirp(signal->tone, signal->samples, chirp_phase_of(signal, source, instant_s));
+    }
     for (size_t channel = 0; channel < signal->channels; channel++)
-        add(signal->cube + channel * size + m * signal->samples, signal->row, signal->samples,
+        add(signal->rows + channel * signal->row_cells, signal->tone, signal->samples,
             source->weight[channel]);
-}
-
-/* Goes repetition by repetition, so that its samples stay in the cache. */
-void signal_cube_add(const struct signal_cube *signal, const struct received_echo *received_echoes,
-                     size_t count, struct arena *arena)
-{
-    struct source *sources = arena_get(arena, (count + 1) * sizeof *sources);
-    for (size_t i = 0; i < count; i++)
-        sources[i] = source_of(signal, &received_echoes[i]);
-    for (size_t m = 0; m < signal->repetitions; m++)
-        for (size_t i = 0; i < count; i++)
-            add_source(signal, &sources[i], m);
 }
 
 /* Adds noise through the receiver's filter, closed to a ring, with its RMS unchanged. */
@@ -174,106 +242,166 @@ static void filter(struct phasor *row, const struct phasor *noise, size_t count)
     }
 }
 
-void signal_cube_add_noise(const struct signal_cube *signal, const struct random_address *address,
-                           double sigma)
+/* The deviation of each part of a sample's noise that gives a cell the RMS sigma. */
+static double sample_sigma(const struct signal_cube *signal, double sigma)
 {
-    size_t count = signal->samples, rows = signal->channels * signal->repetitions;
-    double gain = point_response_noise(signal->sensor->waveform.window, signal->repetitions) *
-                  (is_pulsed(signal) ? 1 : point_response_noise(signal->range_response, count));
+    double gain =
+        point_response_noise(signal->sensor->waveform.window, signal->repetitions) *
+        (is_pulsed(signal) ? 1 : point_response_noise(signal->range_response, signal->samples));
     double elements = signal->array.elements > 0 ? (double)signal->array.elements : 1;
-    double scale = sigma * sqrt(elements / 2) / gain, draw[4];
-    uint32_t block = 0;
-    struct phasor *noise = signal->row;
-    for (size_t row = 0; row < rows; row++) {
-        struct phasor *samples = signal->cube + row * count;
+    return sigma * sqrt(elements / 2) / gain;
+}
+
+static void add_noise(const struct signal_cube *signal, const struct signal_input *input,
+                      size_t number)
+{
+    size_t count = signal->samples;
+    double scale = sample_sigma(signal, input->sigma), draw[4];
+    struct phasor *noise = signal->tone;
+    uint32_t block = (uint32_t)(number * signal->channels * ((count + 1) / 2));
+    for (size_t channel = 0; channel < signal->channels; channel++) {
+        struct phasor *row = signal->rows + channel * signal->row_cells;
         for (size_t n = 0; n < count; n++) {
             if (n % 2 == 0)
-                random_gaussian(address, RANDOM_SIGNAL, block++, draw);
+                random_gaussian(&input->address, RANDOM_SIGNAL, block++, draw);
             noise[n] = (struct phasor){scale * draw[n % 2 * 2], scale * draw[n % 2 * 2 + 1]};
         }
         if (is_pulsed(signal))
-            filter(samples, noise, count);
+            filter(row, noise, count);
         else
-            add(samples, noise, count, (struct phasor){1, 0});
+            add(row, noise, count, (struct phasor){1, 0});
     }
 }
 
-void signal_cube_apply_windows(const struct signal_cube *signal)
+struct signal_input signal_cube_sources(const struct signal_cube *signal,
+                                        const struct received_echo *received_echoes, size_t count,
+                                        struct arena *arena)
 {
-    size_t count = signal->samples, rows = signal->channels * signal->repetitions;
-    for (size_t n = 0; n < count; n++)
-        signal->row[n].re =
-            is_pulsed(signal) ? 1 : point_response_weight(signal->range_response, n, count);
-    for (size_t row = 0; row < rows; row++) {
-        struct phasor *samples = signal->cube + row * count;
-        double slow = point_response_weight(signal->sensor->waveform.window,
-                                            row % signal->repetitions, signal->repetitions);
-        for (size_t n = 0; n < count; n++) {
-            samples[n].re *= slow * signal->row[n].re;
-            samples[n].im *= slow * signal->row[n].re;
-        }
+    struct signal_source *sources = arena_get(arena, (count + 1) * sizeof *sources);
+    for (size_t i = 0; i < count; i++) {
+        const struct received_echo *received = &received_echoes[i];
+        sources[i].turns = received->phase_rad / (2 * PI);
+        sources[i].delay_s = 2 * received->range_m / SPEED_OF_LIGHT_MPS;
+        sources[i].stretch = 2 * received->echo.range_rate_mps / SPEED_OF_LIGHT_MPS;
+        weigh_channels(signal, received, sources[i].weight);
     }
+    return (struct signal_input){.sources = sources, .count = count};
 }
 
-void signal_cube_receive(const struct signal_cube *signal, const struct scan *scan, bool noisy)
+struct signal_input signal_cube_input(const struct signal_cube *signal, const struct scan *scan,
+                                      bool noisy)
 {
     const struct effect_scan *context = &scan->context;
-    struct random_address address =
-        draw_address_in(context->address, false_alarm_cells_contributor(0).id);
-    signal_cube_clear(signal);
-    signal_cube_add(signal, scan->received.echoes, scan->received.count, context->frame->arena);
+    struct signal_input input = signal_cube_sources(signal, scan->received.echoes,
+                                                    scan->received.count, context->frame->arena);
+    input.address = draw_address_in(context->address, false_alarm_cells_contributor(0).id);
     if (noisy)
-        signal_cube_add_noise(signal, &address,
-                              signal->sensor->pointer_sigma *
-                                  interferer_noise_factor(context->interference));
-    signal_cube_apply_windows(signal);
+        input.sigma =
+            signal->sensor->pointer_sigma * interferer_noise_factor(context->interference);
+    return input;
 }
 
-/* Raises the power of one row to that of a beam, where the beam's is higher. */
-static void raise_to_beam(const struct signal_cube *signal, double sine, size_t rate_bin,
-                          double *power)
+void signal_cube_receive(const struct signal_cube *signal, const struct signal_input *input,
+                         size_t train, size_t repetition)
 {
-    size_t count = signal->samples, size = signal->repetitions * count;
+    double instant_s = signal_cube_instant_s(signal, train, repetition);
+    double slow =
+        point_response_weight(signal->sensor->waveform.window, repetition, signal->repetitions);
+    memset(signal->rows, 0, signal->channels * signal->row_cells * sizeof *signal->rows);
+    for (size_t i = 0; i < input->count; i++)
+        add_source(signal, &input->sources[i], instant_s);
+    if (input->sigma > 0)
+        add_noise(signal, input, train * signal->repetitions + repetition);
+    for (size_t channel = 0; channel < signal->channels; channel++)
+        for (size_t n = 0; n < signal->samples; n++) {
+            struct phasor *sample = &signal->rows[channel * signal->row_cells + n];
+            sample->re *= slow * signal->weight[n];
+            sample->im *= slow * signal->weight[n];
+        }
+}
+
+void signal_cube_store(const struct signal_cube *signal, size_t train, size_t repetition)
+{
+    size_t kept = signal->range_cells, size = kept * sizeof *signal->rows;
+    size_t rows = (train == 0 ? SIGNAL_CUBE_PADDING : 1) * signal->repetitions;
+    size_t negative = (size_t)-signal->first_cell;
+    for (size_t channel = 0; channel < signal->channels; channel++) {
+        const struct phasor *from = signal->rows + channel * signal->row_cells;
+        struct phasor *base =
+            (train == 0 ? signal->spectrum : signal->second) + channel * rows * kept;
+        struct phasor *to = base + repetition * kept;
+        memcpy(to, from + signal->row_cells - negative, negative * sizeof *to);
+        memcpy(to + negative, from, size - negative * sizeof *to);
+        if (train == 0)
+            memset(to + signal->repetitions * kept, 0, size);
+    }
+}
+
+/* The power of one row of the spectrum in a beam. */
+static void form_beam(const struct signal_cube *signal, double sine, size_t rate_cell,
+                      double *power)
+{
+    size_t kept = signal->range_cells, size = SIGNAL_CUBE_PADDING * signal->repetitions * kept;
     double part = 1 / (double)signal->channels;
-    memset(signal->row, 0, count * sizeof *signal->row);
+    struct phasor *sum = signal->rows;
+    memset(sum, 0, kept * sizeof *sum);
     for (size_t element = 0; element < signal->channels; element++) {
         struct phasor response = beamforming_element_response(&signal->array, sine, element);
-        add(signal->row, signal->cube + element * size + rate_bin * count, count,
+        add(sum, signal->spectrum + element * size + rate_cell * kept, kept,
             (struct phasor){part * response.re, -part * response.im});
     }
-    for (size_t n = 0; n < count; n++)
-        power[n] = elementary_max(power[n], signal->row[n].re * signal->row[n].re +
-                                                signal->row[n].im * signal->row[n].im);
+    for (size_t n = 0; n < kept; n++)
+        power[n] = sum[n].re * sum[n].re + sum[n].im * sum[n].im;
 }
 
-static void raise_to_all_beams(const struct signal_cube *signal, double *power)
+/* Forms all beams from edge to edge of the field of view, and finds the strongest in each cell. */
+static void form_beams(const struct signal_cube *signal, const struct range_doppler *spectrum,
+                       double *power, double *strongest)
 {
     double limit = elementary_sin(signal->sensor->field_of_view_rad / 2);
+    size_t kept = spectrum->range_cells, size = kept * spectrum->rate_cells;
+    for (size_t row = 0; row < spectrum->rate_cells; row++)
+        for (size_t beam = 0; beam < spectrum->beams; beam++) {
+            double part = (double)beam / (double)(spectrum->beams - 1);
+            double *at = power + beam * size + row * kept;
+            form_beam(signal, limit * (2 * part - 1), row, at);
+            for (size_t n = 0; n < kept; n++)
+                strongest[row * kept + n] = elementary_max(strongest[row * kept + n], at[n]);
+        }
+}
+
+static size_t beams_of(const struct signal_cube *signal)
+{
+    if (signal->array.elements == 0)
+        return 1;
+    double limit = elementary_sin(signal->sensor->field_of_view_rad / 2);
     double width = 1 / (signal->array.spacing * (double)signal->array.elements);
-    size_t steps = 1 + (size_t)(2 * limit / (width / 2));
-    for (size_t rate_bin = 0; rate_bin < signal->repetitions; rate_bin++)
-        for (size_t i = 0; i <= steps; i++)
-            raise_to_beam(signal, limit * (2 * (double)i / (double)steps - 1), rate_bin,
-                          power + rate_bin * signal->samples);
+    return 2 + (size_t)(2 * limit / (width / 2));
 }
 
 struct range_doppler signal_cube_spectrum(const struct signal_cube *signal, struct arena *arena)
 {
-    size_t bins = signal->samples * signal->repetitions;
-    double *power = arena_get(arena, bins * sizeof *power);
-    bool array = signal->array.elements > 0;
-    for (size_t i = 0; i < bins && !array; i++)
-        power[i] =
-            signal->cube[i].re * signal->cube[i].re + signal->cube[i].im * signal->cube[i].im;
-    if (array)
-        raise_to_all_beams(signal, power);
-    return (struct range_doppler){
+    size_t rate_cells = SIGNAL_CUBE_PADDING * signal->repetitions;
+    size_t cells = signal->range_cells * rate_cells, beams = beams_of(signal);
+    double *power = arena_get(arena, (beams + 1) * cells * sizeof *power);
+    struct range_doppler spectrum = {
+        .range_cells = signal->range_cells,
+        .rate_cells = rate_cells,
+        .beams = beams,
+        .range_ring = signal->range_cells == signal->row_cells,
+        .range_padding = signal->range_padding,
+        .rate_padding = SIGNAL_CUBE_PADDING,
+        .first_cell = (double)signal->first_cell,
         .range_bins = signal->samples,
-        .rate_bins = signal->repetitions,
-        .channels = array ? signal->channels : 1,
         .range_response = signal->range_response,
         .rate_response = signal->sensor->waveform.window,
-        .samples = signal->cube,
         .power = power,
+        .strongest = beams > 1 ? power + beams * cells : power,
     };
+    if (beams > 1)
+        form_beams(signal, &spectrum, power, power + beams * cells);
+    for (size_t i = 0; i < cells && beams == 1; i++)
+        power[i] = signal->spectrum[i].re * signal->spectrum[i].re +
+                   signal->spectrum[i].im * signal->spectrum[i].im;
+    return spectrum;
 }

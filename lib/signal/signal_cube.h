@@ -1,20 +1,18 @@
-/* Signal of one scan, sample by sample, before the transforms (MODEL 11.3).
+/* Signal of one scan, sample by sample, and its spectrum (MODEL 11.3).
  *
- * An echo of amplitude A, range R, range rate v and phase p makes, in repetition m and sample n,
+ * A scan is one train of repetitions, or two for a waveform with stagger. A repetition's samples in
+ * all channels lie in `rows`: the caller has signal_cube_receive make and weight them, transforms
+ * them in place over range (chirps), and signal_cube_store keep what the sensor can read. The first
+ * train's rows are then transformed over the repetitions into the spectrum; the second's stay.
  *
- *     A exp j(p - 2 pi (v/dv) (m/M - 1/2)) exp -j(2 pi (R_m/dR) (n/N - 1/2))     for chirps,
- *     A exp j(p - 2 pi (v/dv) (m/M - 1/2)) 2^-(2 (n dR - R_m)/w)^2               for pulses,
+ * Every echo has the exact phase of its delay at the sample's instant, and every channel weights
+ * it: with the antenna's sum and delta pointers at its azimuth, or, for a row of elements, with the
+ * magnitude of the sum pointer and the phase of the element's place.
  *
- * with R_m = R + v (m/M - 1/2) wavelength/(2 dv): it moves from one repetition to the next. The
- * carrier is the middle of a chirp, and the instant of the measurement the middle of the scan.
- * Transforms with a positive exponent over n (of chirps) and m then give it the amplitude A at the
- * bins R/dR and v/dv. Every channel weights the echo: with the antenna's sum and delta pointers at
- * its azimuth, or, for a row of elements, with the magnitude of the sum pointer and the phase of
- * the element's place.
- *
- * A is the amplitude of the received echo in glint-sensor. pointer_sigma is the RMS noise of a cell
- * after windows and transforms, over all elements together, as in glint-noise. The noise of pulses
- * has passed a matched receiver, so that its correlation over range is their point response. */
+ * An echo's amplitude is that of the received echo in glint-sensor. pointer_sigma is the RMS noise
+ * of a cell after windows and transforms, over all elements together, as in glint-noise. The noise
+ * of pulses has passed a matched receiver, so that its correlation over range is their point
+ * response. */
 #ifndef SIGNAL_CUBE_H
 #define SIGNAL_CUBE_H
 
@@ -26,44 +24,66 @@
 struct received_echo;
 struct scan;
 
+/* Cells of the spectrum to a bin; pulses have one along range. */
+enum { SIGNAL_CUBE_PADDING = 2 };
+
 struct signal_cube {
     const struct sensor *sensor;
     size_t samples, repetitions, channels;
     enum point_response range_response;
-    double range_step_m, rate_step_mps; /* distance between bins */
+    double range_step_m, rate_step_mps; /* width of a bin */
+    double train_s, repetition_s;       /* the first train's length and repetition interval */
+    double chirp_s, slope_hzps;         /* 0 for pulses */
+    double coupling;                    /* bins of range that a rate of 1 m/s adds; 0 for pulses */
+    double fold_mps;                    /* range rates this far apart share a bin */
+    size_t folds;                       /* that the second train tells apart; 1: there is none */
     struct beamforming_array array;     /* elements 0: the channels are sum and delta */
-    struct phasor *cube;                /* [channel][repetition][sample] */
-    struct phasor *row;                 /* scratch for the samples of one repetition */
+    size_t range_padding, row_cells;    /* cells to a bin; cells of a transformed row */
+    ptrdiff_t first_cell;               /* the first that is kept; below 0 from the row's end */
+    size_t range_cells;                 /* how many are kept */
+    double *weight;                     /* window over the samples */
+    struct phasor *tone;                /* scratch: the samples of one echo */
+    struct phasor *rows;                /* [channel][row cell]: one repetition */
+    struct phasor *spectrum;            /* [channel][rate cell][range cell] */
+    struct phasor *second;              /* [channel][repetition][range cell]; NULL without */
 };
 
-/* The cube of a sensor with a waveform; the caller allocates cube, of signal_cube_size, and row. */
-struct signal_cube signal_cube_of(const struct sensor *sensor);
-size_t signal_cube_size(const struct signal_cube *signal);
+/* What the receivers receive in one scan. */
+struct signal_input {
+    const struct signal_source *sources;
+    size_t count;
+    struct random_address address; /* of the noise */
+    double sigma;                  /* RMS of the noise in a cell; 0: none */
+};
 
-/* Sets all samples to zero. */
-void signal_cube_clear(const struct signal_cube *signal);
+/* The cube of a sensor with a waveform; all memory comes from the arena. */
+struct signal_cube signal_cube_of(const struct sensor *sensor, struct arena *arena);
 
-/* Adds echoes; memory comes from the arena. */
-void signal_cube_add(const struct signal_cube *signal, const struct received_echo *received_echoes,
-                     size_t count, struct arena *arena);
+/* The instant of a repetition, from that of the measurement on. */
+double signal_cube_instant_s(const struct signal_cube *signal, size_t train, size_t repetition);
 
-/* Adds noise with this RMS in each cell of the sum and delta channel, or of beams of all elements,
- * after windows and transforms. */
-void signal_cube_add_noise(const struct signal_cube *signal, const struct random_address *address,
-                           double sigma);
+/* Where the echo has its peak: in bins of range, and of rate without folding. */
+void signal_cube_place(const struct signal_cube *signal, const struct received_echo *received,
+                       double *range, double *rate);
 
-/* Multiplies the samples by the windows. */
-void signal_cube_apply_windows(const struct signal_cube *signal);
+/* The echoes of a scan and its noise, if noisy; memory comes from the arena. */
+struct signal_input signal_cube_input(const struct signal_cube *signal, const struct scan *scan,
+                                      bool noisy);
 
-/* Clears the cube, adds the echoes of a scan and its noise, if noisy, and applies the windows: the
- * cube is then ready for the transforms. */
-void signal_cube_receive(const struct signal_cube *signal, const struct scan *scan, bool noisy);
+/* The sources of echoes alone. */
+struct signal_input signal_cube_sources(const struct signal_cube *signal,
+                                        const struct received_echo *received_echoes, size_t count,
+                                        struct arena *arena);
 
-/* The spectrum of the transformed cube. Its power is that of the sum channel, or of the strongest
- * of beams that cover the field of view, half a beam's width apart. Memory comes from the arena. */
+/* Makes the samples of one repetition, weighted by both windows and padded with zeros. */
+void signal_cube_receive(const struct signal_cube *signal, const struct signal_input *input,
+                         size_t train, size_t repetition);
+
+/* Keeps the transformed rows of one repetition. */
+void signal_cube_store(const struct signal_cube *signal, size_t train, size_t repetition);
+
+/* The transformed spectrum with its power in every beam: of the sum channel, or of beams that cover
+ * the field of view, half a beam's width apart. Memory comes from the arena. */
 struct range_doppler signal_cube_spectrum(const struct signal_cube *signal, struct arena *arena);
-
-/* Between such beams an echo has at least this part of its amplitude. */
-#define SIGNAL_CUBE_BETWEEN_BEAMS 0.9
 
 #endif

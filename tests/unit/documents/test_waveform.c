@@ -32,11 +32,13 @@ static void absent_members_mean_hanns_window_and_the_twelfth_of_sixteen(void **s
 {
     (void)state;
     struct waveform waveform = usual(WAVEFORM_CHIRP);
-    struct cfar cfar = waveform_cfar(&waveform);
+    struct cfar cfar = waveform_cfar(&waveform, 2);
     assert_int_equal(waveform.window, POINT_RESPONSE_HANN);
     assert_int_equal(cfar.kind, CFAR_ORDERED);
     assert_int_equal(cfar.cells, 16);
-    assert_int_equal(cfar.guard, 2);
+    assert_int_equal(cfar.nearest, 6);
+    assert_int_equal(cfar.spacing, 6);
+    assert_int_equal(waveform.stagger, 0);
     assert_int_equal(cfar.rank, 12);
     assert_near(cfar.factor, 11.080194, 1e-7);
     assert_fine(&waveform, 1.79, 229);
@@ -74,8 +76,21 @@ static void contradictory_members_are_refused_by_name(void **state)
     assert_fault(&waveform, "cfar_rank: ");
     waveform.cfar = CFAR_MEAN;
     assert_fine(&waveform, 1.79, 229);
-    waveform.repetitions = 12;
+    waveform = usual(WAVEFORM_CHIRP);
+    waveform.repetitions = 50;
     assert_fault(&waveform, "cfar_cells: ");
+    waveform.window = POINT_RESPONSE_RECTANGULAR;
+    assert_fine(&waveform, 1.79, 229);
+    waveform.repetitions = 20;
+    assert_fault(&waveform, "cfar_cells: ");
+    waveform = usual(WAVEFORM_CHIRP);
+    waveform.cfar_guard = 1;
+    assert_fault(&waveform, "cfar_guard: ");
+    waveform = usual(WAVEFORM_CHIRP);
+    waveform.stagger = 21;
+    assert_fine(&waveform, 1.79, 229);
+    waveform.stagger = 22;
+    assert_fault(&waveform, "stagger: ");
 }
 
 int main(void)

@@ -48,16 +48,16 @@ static double measured(struct cfar cfar, double false_alarm)
 static void noise_passes_as_often_as_the_closed_form_says(void **state)
 {
     (void)state;
-    assert_near(measured((struct cfar){CFAR_MEAN, 16, 2, 0, 0}, 1e-2), 1e-2, 0.06);
-    assert_near(measured((struct cfar){CFAR_ORDERED, 16, 2, 12, 0}, 1e-2), 1e-2, 0.06);
-    assert_near(measured((struct cfar){CFAR_MEAN, 32, 0, 0, 0}, 1e-3), 1e-3, 0.2);
+    assert_near(measured((struct cfar){CFAR_MEAN, 16, 3, 1, 0, 0}, 1e-2), 1e-2, 0.06);
+    assert_near(measured((struct cfar){CFAR_ORDERED, 16, 3, 1, 12, 0}, 1e-2), 1e-2, 0.06);
+    assert_near(measured((struct cfar){CFAR_MEAN, 32, 1, 1, 0, 0}, 1e-3), 1e-3, 0.2);
 }
 
 static void guards_and_the_cell_itself_do_not_count_and_the_ring_is_closed(void **state)
 {
     (void)state;
     double power[2 * 9] = {0};
-    struct cfar cfar = {CFAR_MEAN, 4, 2, 0, 1};
+    struct cfar cfar = {CFAR_MEAN, 4, 3, 1, 0, 1};
     for (size_t i = 0; i < 9; i++)
         power[2 * i] = 1;
     power[0] = power[2] = power[4] = power[2 * 7] = power[2 * 8] = 100;
@@ -66,11 +66,21 @@ static void guards_and_the_cell_itself_do_not_count_and_the_ring_is_closed(void 
     assert_close(cfar_threshold(&cfar, power, 9, 2, 0), 2, 0);
 }
 
+static void a_window_takes_cells_as_far_apart_as_its_spacing_says(void **state)
+{
+    (void)state;
+    double power[15] = {0};
+    struct cfar cfar = {CFAR_MEAN, 4, 2, 3, 0, 1};
+    power[7 - 2] = power[7 + 2] = power[7 - 5] = power[7 + 5] = 1;
+    assert_int_equal(cfar_extent(&cfar), 11);
+    assert_close(cfar_threshold(&cfar, power, 15, 1, 7), 1, 0);
+}
+
 static void a_strong_neighbour_raises_the_mean_and_not_the_rank(void **state)
 {
     (void)state;
     double power[40];
-    struct cfar mean = {CFAR_MEAN, 16, 2, 12, 1}, ordered = {CFAR_ORDERED, 16, 2, 12, 1};
+    struct cfar mean = {CFAR_MEAN, 16, 3, 1, 12, 1}, ordered = {CFAR_ORDERED, 16, 3, 1, 12, 1};
     for (size_t i = 0; i < COUNT(power); i++)
         power[i] = 1;
     for (size_t i = 0; i < 4; i++)
@@ -86,6 +96,7 @@ int main(void)
         cmocka_unit_test(factors_are_those_of_the_published_formulas),
         cmocka_unit_test(noise_passes_as_often_as_the_closed_form_says),
         cmocka_unit_test(guards_and_the_cell_itself_do_not_count_and_the_ring_is_closed),
+        cmocka_unit_test(a_window_takes_cells_as_far_apart_as_its_spacing_says),
         cmocka_unit_test(a_strong_neighbour_raises_the_mean_and_not_the_rank),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

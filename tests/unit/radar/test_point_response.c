@@ -63,37 +63,32 @@ static void the_envelope_bounds_the_response_and_falls(void **state)
         }
 }
 
-/* What bin `bin` shows of an echo at `place`: windowed responses change sign from bin to bin. */
-static struct phasor shown(enum point_response response, double place, int bin, double phase)
+static double power_at(enum point_response response, double bins)
 {
-    double sign = response != POINT_RESPONSE_PULSE && bin % 2 != 0 ? -1 : 1;
-    double size = 7 * sign * point_response_value(response, bin - place);
-    return (struct phasor){size * cos(phase), size * sin(phase)};
+    double value = 7 * point_response_value(response, bins);
+    return value * value;
 }
 
-static void the_place_between_bins_is_exact_for_one_echo(void **state)
+/* Two cells to a bin; pulses have one. */
+static void the_vertex_is_next_to_an_echo_alone(void **state)
 {
     (void)state;
-    for (size_t i = 0; i < COUNT(all); i++)
-        for (double place = -0.5; place <= 0.5; place += 0.0625) {
-            struct phasor bins[3][2];
-            for (int bin = -1; bin <= 1; bin++)
-                for (int channel = 0; channel < 2; channel++)
-                    bins[bin + 1][channel] = shown(all[i], place, bin, 1 + 2 * channel);
-            for (size_t channels = 1; channels <= 2; channels++)
-                assert_close(point_response_offset(all[i], bins[0], bins[1], bins[2], channels, 1),
-                             place, 1e-14);
+    static const double within[] = {[POINT_RESPONSE_HANN] = 0.0017,
+                                    [POINT_RESPONSE_RECTANGULAR] = 0.0104,
+                                    [POINT_RESPONSE_PULSE] = 1e-13};
+    for (size_t i = 0; i < COUNT(all); i++) {
+        double cell = all[i] == POINT_RESPONSE_PULSE ? 1 : 0.5, worst = 0;
+        for (double place = -cell / 2; place <= cell / 2; place += cell / 256) {
+            double read = cell * point_response_vertex(power_at(all[i], -cell - place),
+                                                       power_at(all[i], place),
+                                                       power_at(all[i], cell - place));
+            worst = fmax(worst, fabs(read - place));
         }
-}
-
-static void nothing_received_stands_in_the_middle_of_its_bin(void **state)
-{
-    (void)state;
-    const struct phasor silence = {0, 0}, one = {1, 0};
-    for (size_t i = 0; i < COUNT(all); i++)
-        assert_close(point_response_offset(all[i], &silence, &silence, &silence, 1, 1), 0, 0);
-    assert_true(fabs(point_response_offset(POINT_RESPONSE_HANN, &one, &one, &silence, 1, 1)) <=
-                0.75);
+        assert_true(worst <= within[all[i]]);
+    }
+    assert_close(point_response_vertex(0, 1, 1), 0, 0);
+    assert_close(point_response_vertex(2, 2, 2), 0, 0);
+    assert_close(point_response_vertex(1, 1, 0.5), -0.5, 1e-15);
 }
 
 static void the_hann_response_has_its_published_values(void **state)
@@ -248,8 +243,7 @@ int main(void)
         cmocka_unit_test(a_response_is_a_half_at_its_half_width),
         cmocka_unit_test(weights_sum_to_one_and_noise_is_their_rms),
         cmocka_unit_test(the_envelope_bounds_the_response_and_falls),
-        cmocka_unit_test(the_place_between_bins_is_exact_for_one_echo),
-        cmocka_unit_test(nothing_received_stands_in_the_middle_of_its_bin),
+        cmocka_unit_test(the_vertex_is_next_to_an_echo_alone),
         cmocka_unit_test(the_hann_response_has_its_published_values),
         cmocka_unit_test(the_hann_response_is_even_and_zero_at_whole_bins),
         cmocka_unit_test(the_hann_response_is_that_of_a_raised_cosine),

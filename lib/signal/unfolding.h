@@ -1,0 +1,24 @@
+/* Range rates told from those that fold alike.
+ *
+ * The hypotheses are the range rates v + 2 k v_u within the folds of the waveform that put the peak
+ * at a range the sensor measures: a chirp reads the range R of an echo as R + carrier_hz v/slope,
+ * so that each has a range of its own. Each foretells where the echo is in every repetition of the
+ * second train, whose rates fold elsewhere, and so how strong it is there when its phases are
+ * turned back. The hypothesis with the amplitude nearest to that in the first train is chosen; of
+ * equal ones the slowest (MODEL 11.3). */
+#ifndef UNFOLDING_H
+#define UNFOLDING_H
+
+#include "signal/signal_cube.h"
+
+struct unfolding_reading {
+    double range_m, range_rate_mps;
+};
+
+/* Chooses for a peak of this amplitude in a beam at the sine of an azimuth; without elements sine
+ * does not count. False if there is no hypothesis. Without a second train the rate is that of the
+ * peak, in [-v_u, v_u). */
+bool unfolding_choose(const struct signal_cube *signal, const struct range_doppler_peak *peak,
+                      double amplitude, double sine, struct unfolding_reading *reading);
+
+#endif
