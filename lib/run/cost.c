@@ -190,7 +190,7 @@ static int climb_all(struct cost *cost)
 {
     const struct cost_stages *use = &cost->stages;
     struct arena *arena = runner_arena(cost->runner);
-    const char *paper = plan_names(PAPER, arena);
+    const char *paper = plan_request(PAPER, arena);
     if (climb(cost, "perfect", paper, cost->needed & ~(PAPER & of_ideal()), use->perfect,
               use->none) == NULL ||
         climb(cost, "paper", paper, cost->needed & ~PAPER, use->sensor, use->noise) == NULL ||

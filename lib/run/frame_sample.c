@@ -81,7 +81,8 @@ void frame_sample_divide(struct frame_sample *sample)
     size_t present = 0;
     for (size_t i = 0; i < count; i++)
         present += frames[sample->list.items[i].scene]++ == 0;
-    size_t length = present >= FEWEST_BLOCKS ? count : (count + FEWEST_BLOCKS - 1) / FEWEST_BLOCKS;
+    size_t length = present >= FEWEST_BLOCKS ? count : count / FEWEST_BLOCKS;
+    length += length == 0;
     for (size_t i = 0; i < scenes; i++)
         first[i + 1] = first[i] + (frames[i] + length - 1) / length;
     for (size_t i = 0; i < count; i++) {

@@ -84,6 +84,7 @@ static void few_scenes_are_cut_into_stretches(void **state)
     assert_int_equal(one.blocks, 10);
     assert_int_equal(three.blocks, 12);
     assert_int_equal(short_one.blocks, 4);
+    assert_int_equal(sample_of(62, 1, 100, &arena).blocks, 11);
     for (size_t i = 0; i < 50; i++)
         assert_int_equal(one.list.items[i].block, i / 5);
     for (size_t i = 0; i < 60; i++)
