@@ -33,6 +33,7 @@ static struct sensor_view view_of(const struct sensor *sensor, bool measured)
         .range_max_m = sensor->range_max_m,
         .cell_range_m = 2 * sensor->half_range_m,
         .cell_range_rate_mps = 2 * sensor->half_range_rate_mps,
+        .azimuth_cell_rad = sensor->azimuth_cell_rad,
         .cycle_s = sensor->cycle_s,
         .measured = measured,
     };

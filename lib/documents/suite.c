@@ -2,9 +2,11 @@
 
 #include <string.h>
 
+#include "base/elementary.h"
 #include "base/units.h"
 #include "radar/interferer.h"
 #include "radar/scan_timing.h"
+#include "radar/snr_sigma.h"
 
 /* A field of view ends this much before its border, so that the foot on a wall parallel to
  * boresight, at 90 degrees but for its rounding, is outside. */
@@ -111,6 +113,9 @@ static const struct field sensor_fields[] = {
      FIELD_OPTIONAL},
     {REAL(cell_range_m, 1e-6, 1e6, "size of the resolution cell in range")},
     {REAL(cell_range_rate_mps, 1e-6, 1e5, "size of the resolution cell in range rate")},
+    {REAL(azimuth_cell_rad, 1e-6, 2 * PI,
+          "azimuths this far apart count as one cell in scores; absent: a twentieth of the view"),
+     FIELD_OPTIONAL},
     {CHOICE(cell_extent, extents, "does the cell's size mean its width or half of it?"),
      FIELD_OPTIONAL},
     {CHOICE(cell_phase, phases, "do echoes of a cell add in phase, at random or by their paths?"),
@@ -223,6 +228,31 @@ double suite_amplitude(const struct sensor *sensor, double range_m, double azimu
 {
     return radar_reference_amplitude(&sensor->amplitude_law, range_m) * ercs *
            antenna_gain(&sensor->antenna, azimuth_rad);
+}
+
+static double sigma_of(const struct sensor *sensor, double amplitude, double cell, double sigma)
+{
+    double ratio = amplitude / sensor->pointer_sigma;
+    struct snr_sigma law = {.cell = cell, .factor = sensor->window_factor, .floor = sigma};
+    switch (sensor->sigma_law) {
+    case SIGMA_BY_SNR:
+        return snr_sigma_of(&law, ratio * ratio);
+    case SIGMA_BY_AMPLITUDE:
+        return elementary_min(sensor->threshold / amplitude, 1) * sigma;
+    case SIGMA_FIXED:
+        break;
+    }
+    return sigma;
+}
+
+double suite_range_sigma_m(const struct sensor *sensor, double amplitude)
+{
+    return sigma_of(sensor, amplitude, sensor->cell_range_m, sensor->range_sigma_m);
+}
+
+double suite_range_rate_sigma_mps(const struct sensor *sensor, double amplitude)
+{
+    return sigma_of(sensor, amplitude, sensor->cell_range_rate_mps, sensor->range_rate_sigma_mps);
 }
 
 int suite_check(const struct sensor *sensor, struct diag *diag)

@@ -48,6 +48,7 @@ struct sensor {
     const char *amplitude_table;
 
     double cell_range_m, cell_range_rate_mps;
+    double azimuth_cell_rad; /* 0: not given */
     enum cell_extent cell_extent;
     enum cell_phase cell_phase;
 
@@ -110,5 +111,11 @@ double suite_threshold(const struct sensor *sensor, double interference);
  * MODEL 4). */
 double suite_amplitude(const struct sensor *sensor, double range_m, double azimuth_rad,
                        double ercs);
+
+/* The standard deviations of range and range rate at an amplitude > 0, by sigma_law (MODEL 9,
+ * 14.7): the document's; those times threshold/amplitude, at most 1; or those of radar/snr_sigma.h
+ * at the ratio (amplitude/pointer_sigma)^2, with the document's as floors. */
+double suite_range_sigma_m(const struct sensor *sensor, double amplitude);
+double suite_range_rate_sigma_mps(const struct sensor *sensor, double amplitude);
 
 #endif

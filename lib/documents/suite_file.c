@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/hash.h"
+#include "documents/consistency.h"
 #include "text/csv_table.h"
 #include "text/document.h"
 
@@ -123,6 +124,8 @@ static int complete_suite(struct suite *suite, const char *path, const struct te
                              i, sensor->name);
         if (suite_check(sensor, diag) != 0)
             return diag_prefix(diag, "%s: sensors[%zu].", path, i);
+        if (consistency_check(sensor, i, diag) != 0)
+            return diag_prefix(diag, "%s: ", path);
         if (add_tables(path, sensor, &digest, arena, diag) != 0)
             return diag_prefix(diag, "%s: sensors[%zu].", path, i);
         suite_derive(sensor);

@@ -66,8 +66,9 @@ struct sensor_view {
     double field_of_view_rad;
     double range_max_m;
     double cell_range_m, cell_range_rate_mps;
-    double cycle_s; /* 0: a scan in every frame */
-    bool measured;  /* does the frame have a scan of this sensor? */
+    double azimuth_cell_rad; /* 0: a twentieth of the field of view */
+    double cycle_s;          /* 0: a scan in every frame */
+    bool measured;           /* does the frame have a scan of this sensor? */
 };
 
 struct sensors {

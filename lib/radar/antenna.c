@@ -155,6 +155,14 @@ double antenna_gain(const struct antenna *antenna, double azimuth_rad)
     return pair_at(antenna, azimuth_rad).sum;
 }
 
+double antenna_beam_rad(const struct antenna *antenna)
+{
+    double edge = sqrt(0.5) * antenna_gain(antenna, 0), step_rad = PI / 2 / 65536, azimuth_rad = 0;
+    while (azimuth_rad < PI / 2 && antenna_gain(antenna, azimuth_rad) > edge)
+        azimuth_rad += step_rad;
+    return 2 * azimuth_rad;
+}
+
 double antenna_azimuth_rad(const struct antenna *antenna, double delta, double sum)
 {
     /* Scaling by a power of two changes neither the ratio nor any rounding. */

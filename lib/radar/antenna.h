@@ -49,6 +49,10 @@ struct antenna_pointers antenna_pointers(const struct antenna *antenna, double a
 /* |H_sum|: the antenna pattern A_phi of equation (2). */
 double antenna_gain(const struct antenna *antenna, double azimuth_rad);
 
+/* The width of the main beam where A_phi is down to 1/sqrt 2, 3 dB both ways together: twice the
+ * least such azimuth to the left, within 5e-5 rad; PI if there is none. */
+double antenna_beam_rad(const struct antenna *antenna);
+
 /* The azimuth at which the antenna has this ratio of delta to sum: equation (7) inverted (MODEL
  * 7.2). sum >= 0, delta is signed, not both are zero. The result is in [-pi/2, pi/2], or within the
  * ends of a table; for the dipole pair it is within 4 ulp (hard case 7). */

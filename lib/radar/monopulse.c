@@ -62,6 +62,26 @@ struct monopulse_angle monopulse_angle(const struct antenna *antenna,
     return angle;
 }
 
+/* atan(delta/sum) at an azimuth, from -pi/2 to pi/2. */
+static double ratio_angle_rad(const struct antenna *antenna, double azimuth_rad)
+{
+    struct antenna centred = *antenna;
+    centred.phase = PHASE_CENTRE;
+    struct antenna_pointers pointers = antenna_pointers(&centred, azimuth_rad);
+    return elementary_atan2(-cimag(pointers.delta), creal(pointers.sum));
+}
+
+double monopulse_sigma_rad(const struct antenna *antenna, enum monopulse_estimator estimator,
+                           double azimuth_rad, double snr)
+{
+    const double step_rad = 1e-4;
+    double slope = (ratio_angle_rad(antenna, azimuth_rad + step_rad) -
+                    ratio_angle_rad(antenna, azimuth_rad - step_rad)) /
+                   (2 * step_rad);
+    double power = estimator == MONOPULSE_MAGNITUDE && azimuth_rad == 0 ? 1 : 0.5;
+    return elementary_cos(ratio_angle_rad(antenna, azimuth_rad)) * sqrt(power / snr) / slope;
+}
+
 double monopulse_sign_margin(struct antenna_pointers pointers)
 {
     struct scaled_pointer sum = scale_pointer(pointers.sum);

@@ -35,8 +35,26 @@ double radar_reference_amplitude(const struct radar_equation *equation, double r
            elementary_pow(equation->calibration_range_m / counted_m, equation->exponent);
 }
 
+/* The last range at which the table, straight in the logarithms, falls below this amplitude. */
+static double table_range_m(const struct radar_equation *equation, double amplitude)
+{
+    size_t last = equation->row_count - 1;
+    if (last == 0 || equation->rows[last].amplitude >= equation->rows[last - 1].amplitude)
+        return INFINITY;
+    for (size_t i = last; i > 0; i--) {
+        const struct radar_row *from = &equation->rows[i - 1], *to = from + 1;
+        double part = elementary_log(amplitude / from->amplitude) /
+                      elementary_log(to->amplitude / from->amplitude);
+        if (to->amplitude < from->amplitude && part >= 0 && (part <= 1 || i == last))
+            return from->range_m * elementary_pow(to->range_m / from->range_m, part);
+    }
+    return 0;
+}
+
 double radar_detection_range_m(const struct radar_equation *equation, double gain, double ercs)
 {
+    if (equation->law == RADAR_TABLE)
+        return table_range_m(equation, equation->threshold / (gain * ercs));
     return equation->calibration_range_m *
            elementary_pow(ercs * gain / equation->calibration_ercs, 1 / equation->exponent);
 }

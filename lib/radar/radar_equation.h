@@ -32,8 +32,10 @@ struct radar_equation {
  * goes on as between the last two. */
 double radar_reference_amplitude(const struct radar_equation *equation, double range_m);
 
-/* The range at which A_ref · gain · ercs meets the threshold (MODEL 4.1), for figures and tests:
- * calibration_range_m (ercs · gain / calibration_ercs)^(1/exponent). Only for RADAR_POWER_LAW. */
+/* The range up to which A_ref · gain · ercs meets the threshold (MODEL 4.1): by the power law
+ * calibration_range_m (ercs · gain / calibration_ercs)^(1/exponent), by a table where its amplitude
+ * falls below the threshold for good: 0 if it is so everywhere, infinity if the table does not fall
+ * in the end. Both leave range_floor_m aside. gain and ercs > 0. */
 double radar_detection_range_m(const struct radar_equation *equation, double gain, double ercs);
 
 /* The equivalent radar cross section of the paper, a factor on amplitude: sqrt(sigma / 10 m^2)

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "documents/datasheet_text.h"
+#include "documents/suite_file.h"
 #include "effects/effect.h"
 #include "run/chain.h"
 #include "run/pipeline.h"
@@ -15,6 +17,7 @@ static const char usage[] =
     "  or:  glint -c TEXT\n"
     "  or:  glint --times FILE\n"
     "  or:  glint --list stages | tools | effects\n"
+    "  or:  glint --datasheet SUITE\n"
     "Run a pipeline of glint stages, and a tool at its end, in one process.\n"
     "\n"
     "FILE is a script that bash would run too, with the same output and exit code. It holds\n"
@@ -25,11 +28,15 @@ static const char usage[] =
     "  -c TEXT              run TEXT instead of a file\n"
     "      --times FILE     run FILE, then print where the time went to stderr (JSON lines)\n"
     "      --list WHAT      list the stages, the tools, or the effects\n"
+    "      --datasheet SUITE\n"
+    "                       print the radars of a suite (a name in data/sensors/, or a path) as\n"
+    "                       their maker would: resolution, accuracy, ranges of detection, false\n"
+    "                       alarms, and how well the figures agree with each other\n"
     "      --help           print this help\n"
     "      --version        print the version\n"
     "\n"
     "Exit status: that of the rightmost program that fails, as with bash's pipefail; 64 if the\n"
-    "pipeline is refused.\n";
+    "pipeline is refused, 78 if a suite is.\n";
 
 static int complain(const struct diag *diag)
 {
@@ -204,6 +211,19 @@ static int list(const char *what)
     return code;
 }
 
+static int print_datasheet(const char *name, struct arena *arena)
+{
+    struct diag diag = {0};
+    const struct suite *suite = suite_file_load(name, arena, &diag);
+    if (suite == NULL)
+        return complain(&diag);
+    struct text text = {0};
+    datasheet_text_add(suite, &text);
+    int code = print(text.bytes, text.length);
+    text_free(&text);
+    return code;
+}
+
 static int run(int count, char **words, struct arena *arena)
 {
     const char *first = count > 1 ? words[1] : "", *second = count > 2 ? words[2] : NULL;
@@ -217,6 +237,8 @@ static int run(int count, char **words, struct arena *arena)
         return run_file(second, true, arena);
     if (count == 3 && strcmp(first, "--list") == 0)
         return list(second);
+    if (count == 3 && strcmp(first, "--datasheet") == 0)
+        return print_datasheet(second, arena);
     if (count == 2 && (first[0] != '-' || first[1] == '\0'))
         return run_file(first, false, arena);
     return complain(

@@ -137,6 +137,7 @@ static bool same_scan(const struct ensemble_list *a, const struct ensemble_list 
 static bool same_cells(const struct sensor_view *a, const struct sensor_view *b)
 {
     return a->cell_range_m == b->cell_range_m && a->cell_range_rate_mps == b->cell_range_rate_mps &&
+           a->azimuth_cell_rad == b->azimuth_cell_rad &&
            a->field_of_view_rad == b->field_of_view_rad;
 }
 

@@ -15,9 +15,12 @@ struct target_list {
 struct target_cell target_score_cell(const struct sensor_view *view, double azimuth_rad,
                                      double cutoff)
 {
+    if (azimuth_rad == 0)
+        azimuth_rad =
+            view->azimuth_cell_rad > 0 ? view->azimuth_cell_rad : view->field_of_view_rad / 20;
     return (struct target_cell){
         .range_m = view->cell_range_m,
-        .azimuth_rad = azimuth_rad > 0 ? azimuth_rad : view->field_of_view_rad / 20,
+        .azimuth_rad = azimuth_rad,
         .range_rate_mps = view->cell_range_rate_mps,
         .cutoff = cutoff,
     };

@@ -18,8 +18,8 @@ struct target_cell {
     double cutoff;
 };
 
-/* The cell of a sensor, from the view in the truth. An azimuth_rad of 0 stands for a twentieth of
- * its field of view. */
+/* The cell of a sensor, from the view in the truth. An azimuth_rad of 0 stands for the view's
+ * azimuth_cell_rad, or where that is absent for a twentieth of its field of view. */
 struct target_cell target_score_cell(const struct sensor_view *view, double azimuth_rad,
                                      double cutoff);
 

@@ -15,8 +15,8 @@ import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 REQUEST = re.compile(rb'"effects":"[^"]*"')
-QUIET = {"pointer_sigma": 0, "range_sigma_m": 0, "range_rate_sigma_mps": 0, "final_threshold": False,
-         "list_limit": 250}
+QUIET = {"pointer_sigma": 0, "azimuth_floor_rad": 0, "range_sigma_m": 0, "range_rate_sigma_mps": 0,
+         "final_threshold": False, "list_limit": 250}
 
 
 class Bench:

@@ -245,8 +245,8 @@ def folded_together(bench):
 
 # ---- interference -----------------------------------------------------------------------------
 
-RECEIVER = {"carrier_hz": 76.5e9, "receiver_bandwidth_hz": 1e7, "noise_figure_db": 12, "antenna_gain_dbi": 20,
-            "chirp_slope_hzps": 7.5e12, "chirp_s": 2e-5}
+RECEIVER = {"carrier_hz": 76.5e9, "range_max_m": 199, "receiver_bandwidth_hz": 1e7, "noise_figure_db": 12,
+            "antenna_gain_dbi": 20, "chirp_slope_hzps": 7.5e12, "chirp_s": 2e-5}
 
 
 def interferer(name="other", slope=-7.5e12, hits=1.0):

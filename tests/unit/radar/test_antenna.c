@@ -121,6 +121,7 @@ static void the_sum_beam_has_the_published_widths(void **state)
 {
     (void)state;
     assert_close(2 * width_deg(sqrt(0.5)), 45.910123, 1e-5);
+    assert_close(antenna_beam_rad(&CENTRE), 45.910123 * DEGREE, 5e-5);
     assert_close(width_deg(0.5), 32.326863, 1e-5);
     assert_close(width_deg(units_amplitude_from_db(-3)), 22.9, 0.05);
     assert_close(width_deg(units_amplitude_from_db(-10)), 41.4, 0.05);

@@ -408,6 +408,37 @@ static void noise_spreads_the_ratio_angle_as_published(void **state)
     }
 }
 
+/* MODEL 7.3: 0.8156, 0.7457, 0.5666 degrees at 0, 20, 40 degrees and 30 dB, and the rows of both
+ * rules there; of a table by drawing. */
+static void the_predicted_spread_is_that_of_noise(void **state)
+{
+    (void)state;
+    static const double published[][2] = {{0, 0.8156}, {20, 0.7457}, {40, 0.5666}};
+    for (size_t i = 0; i < COUNT(published); i++)
+        assert_close(
+            monopulse_sigma_rad(&ELEMENT, MONOPULSE_RATIO, published[i][0] * DEGREE, 1000) / DEGREE,
+            published[i][1], 5e-5);
+    static const double rows[][2] = {{0, 2.28}, {10, 1.68}, {30, 2.38}, {50, 5.00}};
+    for (size_t i = 0; i < COUNT(rows); i++) {
+        double azimuth_rad = rows[i][0] * DEGREE, sum = 16 * antenna_gain(&ELEMENT, azimuth_rad);
+        assert_near(monopulse_sigma_rad(&ELEMENT, MONOPULSE_MAGNITUDE, azimuth_rad, sum * sum) /
+                        DEGREE,
+                    rows[i][1], 0.03);
+    }
+    double squares = 0;
+    struct random_address address = {.seed = 5};
+    for (address.frame = 0; address.frame < DRAWS; address.frame++) {
+        double draw[4], noise = 0.85 / sqrt(2 * 10000.0); /* the sum is 0.85 at 0.35 rad */
+        random_gaussian(&address, RANDOM_POINTERS, 0, draw);
+        struct antenna_pointers pointers = antenna_pointers(&TABLE, 0.35);
+        pointers.sum += noise * (draw[0] + draw[1] * (double _Complex)I);
+        pointers.delta += noise * (draw[2] + draw[3] * (double _Complex)I);
+        double error_rad = monopulse_angle(&TABLE, MONOPULSE_RATIO, pointers).azimuth_rad - 0.35;
+        squares += error_rad * error_rad / DRAWS;
+    }
+    assert_near(monopulse_sigma_rad(&TABLE, MONOPULSE_RATIO, 0.35, 10000), sqrt(squares), 0.015);
+}
+
 static void the_magnitude_angle_folds_at_boresight(void **state)
 {
     (void)state;
@@ -457,6 +488,7 @@ int main(void)
         cmocka_unit_test(one_ulp_of_an_amplitude_does_not_flip_the_sign),
         cmocka_unit_test(noise_spreads_the_magnitude_angle_as_published),
         cmocka_unit_test(noise_spreads_the_ratio_angle_as_published),
+        cmocka_unit_test(the_predicted_spread_is_that_of_noise),
         cmocka_unit_test(the_magnitude_angle_folds_at_boresight),
         cmocka_unit_test(the_sign_margin_is_the_sine_between_the_channels),
     };

@@ -90,6 +90,26 @@ static void the_amplitude_at_the_detection_range_is_the_threshold(void **state)
         }
 }
 
+static void a_table_is_left_for_good_at_its_last_crossing(void **state)
+{
+    (void)state;
+    struct radar_equation law = table_law();
+    /* Rows, between rows, and beyond the last one. */
+    for (double range_m = 1.1; range_m < 200; range_m *= 1.3) {
+        double ercs = law.threshold / radar_reference_amplitude(&law, range_m);
+        assert_near(radar_detection_range_m(&law, 1, ercs), range_m, 1e-12);
+        assert_near(radar_detection_range_m(&law, 0.5, 2 * ercs), range_m, 1e-12);
+    }
+    assert_close(radar_detection_range_m(&law, 1, 1e-3), 0, 0);
+    static const struct radar_row dip[] = {{1, 1000}, {2, 1}, {3, 100}, {4, 10}};
+    law.rows = dip;
+    law.row_count = 4;
+    assert_close(radar_detection_range_m(&law, 1, law.threshold / 50), 3 * pow(4.0 / 3, log10(2)),
+                 1e-12);
+    law.row_count = 3;
+    assert_true(isinf(radar_detection_range_m(&law, 1, 1)));
+}
+
 /* MODEL 4.1, 4.2 and 13. */
 static void reference_amplitudes_are_those_of_the_paper(void **state)
 {
@@ -221,6 +241,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(detection_areas_are_those_of_the_paper),
         cmocka_unit_test(the_amplitude_at_the_detection_range_is_the_threshold),
+        cmocka_unit_test(a_table_is_left_for_good_at_its_last_crossing),
         cmocka_unit_test(reference_amplitudes_are_those_of_the_paper),
         cmocka_unit_test(twice_the_range_costs_twelve_decibels),
         cmocka_unit_test(other_exponents_move_the_detection_ranges),

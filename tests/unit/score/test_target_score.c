@@ -62,6 +62,16 @@ static void assert_same_text(const struct score *one, const struct score *other)
     text_free(&other_text);
 }
 
+static void the_azimuth_cell_is_the_option_the_suites_or_a_twentieth_of_the_view(void **state)
+{
+    (void)state;
+    struct sensor_view view = {.cell_range_m = 1, .cell_range_rate_mps = 2, .field_of_view_rad = 3};
+    assert_close(target_score_cell(&view, 0, 2).azimuth_rad, 0.15, 1e-16);
+    view.azimuth_cell_rad = 0.02;
+    assert_close(target_score_cell(&view, 0, 2).azimuth_rad, 0.02, 0);
+    assert_close(target_score_cell(&view, 0.07, 2).azimuth_rad, 0.07, 0);
+}
+
 static void one_cell_is_a_distance_of_one_in_each_component(void **state)
 {
     (void)state;
@@ -221,6 +231,7 @@ static void without_scans_all_is_zero(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_azimuth_cell_is_the_option_the_suites_or_a_twentieth_of_the_view),
         cmocka_unit_test(one_cell_is_a_distance_of_one_in_each_component),
         cmocka_unit_test(azimuths_differ_the_short_way_round),
         cmocka_unit_test(the_order_of_targets_changes_no_bit),

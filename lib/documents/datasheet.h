@@ -1,0 +1,33 @@
+/* Figures of a sensor as its maker would print them.
+ *
+ * They follow from the document alone: one echo, no rain, no interference, heights left aside. */
+#ifndef DATASHEET_H
+#define DATASHEET_H
+
+#include "documents/suite.h"
+
+enum { DATASHEET_AZIMUTHS = 4, DATASHEET_LEVELS = 3, DATASHEET_ECHOES = 3, DATASHEET_CHANCES = 2 };
+
+/* Standard deviations of reported values at one amplitude; with steps, those of rounding are in. */
+struct datasheet_accuracy {
+    double snr_db; /* infinity without noise */
+    double range_sigma_m, range_rate_sigma_mps;
+    double azimuth_sigma_rad[DATASHEET_AZIMUTHS]; /* infinity where the antenna receives nothing */
+};
+
+struct datasheet {
+    double azimuth_rad[DATASHEET_AZIMUTHS]; /* from boresight to the border of the view */
+    struct datasheet_accuracy accuracy[DATASHEET_LEVELS]; /* at the threshold, 10 and 20 dB above */
+    double
+        chance[DATASHEET_CHANCES]; /* of detection: where the mean echo meets the threshold, 0.9 */
+    double echo_dbsm[DATASHEET_ECHOES]; /* 0, 10, 20 */
+    /* The range up to which an echo is detected with that chance, at most range_max_m; 0 if it is
+     * so nowhere from range_min_m on. */
+    double range_m[DATASHEET_AZIMUTHS][DATASHEET_ECHOES][DATASHEET_CHANCES];
+    double weakest_dbsm; /* meets the threshold on boresight at range_max_m */
+};
+
+/* The figures of a sensor with its derived members. */
+void datasheet_of(const struct sensor *sensor, struct datasheet *sheet);
+
+#endif

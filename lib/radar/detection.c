@@ -1,0 +1,123 @@
+#include "radar/detection.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+#include "base/elementary.h"
+#include "base/units.h"
+
+#define LN_10 2.30258509299404568402
+#define GAUSSIAN_CUT 3              /* of the log-normal law */
+#define BEYOND_CUT 0.00134989803163 /* what a standard Gaussian number exceeds 3 with */
+
+/* (1 - exp(-x))/x. */
+static double mean_decay(double x)
+{
+    return x < 1e-8 ? 1 : (1 - elementary_exp(-x)) / x;
+}
+
+/* Noise falls inside the circle of radius T around the origin with a probability that is an
+ * integral along the circle, seen from the echo at A: rays from there see it through the angle
+ * T (T - A cos a)/rho^2 da, and |n| ends before it, at rho, with 1 - exp(-rho^2/noise^2). The
+ * integrand is smooth and periodic, so the trapezoidal rule converges exponentially. */
+double detection_in_noise(double amplitude, double threshold, double noise)
+{
+    if (!(threshold < 600 * noise))
+        return amplitude >= threshold ? 1 : 0;
+    double power = noise * noise, sum = 0;
+    int steps = 16 + (int)(8 * (threshold / noise));
+    for (int i = 0; i <= steps; i++) {
+        double cosine = elementary_sincos_turns(0.5 * i / steps).cos;
+        double beyond = threshold - amplitude * cosine, gap = amplitude - threshold;
+        double rho2 = gap * gap + 2 * amplitude * threshold * (1 - cosine);
+        sum += (i == 0 || i == steps ? 0.5 : 1) * beyond * mean_decay(rho2 / power);
+    }
+    return elementary_max(0, elementary_min(1, 1 - threshold / power * sum / steps));
+}
+
+static double log_normal_mean_db(double sigma_db)
+{
+    return -LN_10 / 20 * sigma_db * sigma_db;
+}
+
+/* The factor on amplitude by the law's own variable: the power of Swerling's laws, the standard
+ * Gaussian number of the log-normal one; and the variable of a factor. */
+static double factor_at(const struct detection *detection, double variable)
+{
+    double sigma_db = detection->fluctuation_sigma_db;
+    return detection->fluctuation == FLUCTUATION_LOG_NORMAL
+               ? units_amplitude_from_db(log_normal_mean_db(sigma_db) + sigma_db * variable)
+               : sqrt(variable);
+}
+
+static double variable_at(const struct detection *detection, double factor)
+{
+    double sigma_db = detection->fluctuation_sigma_db;
+    return detection->fluctuation == FLUCTUATION_LOG_NORMAL
+               ? (units_amplitude_db(factor) - log_normal_mean_db(sigma_db)) / sigma_db
+               : factor * factor;
+}
+
+static double density(const struct detection *detection, double variable)
+{
+    if (detection->fluctuation == FLUCTUATION_SWERLING_1)
+        return elementary_exp(-variable);
+    if (detection->fluctuation == FLUCTUATION_SWERLING_3)
+        return 4 * variable * elementary_exp(-2 * variable);
+    return elementary_exp(-variable * variable / 2) / sqrt(2 * PI);
+}
+
+/* An echo that meets the first threshold, at the final one. */
+static double passes(const struct detection *detection, double amplitude)
+{
+    if (detection->final_threshold == 0)
+        return 1;
+    return detection_in_noise(amplitude, detection->final_threshold, detection->noise);
+}
+
+/* Simpson's rule over the variable from `from` to `to`, with steps that grow from 0: the final
+ * threshold decides close to the first one. */
+static double integral(const struct detection *detection, double amplitude, double from, double to)
+{
+    enum { STEPS = 256 };
+    double sum = 0;
+    for (int i = 1; i <= STEPS; i++) {
+        double part = (double)i / STEPS, variable = from + (to - from) * part * part;
+        double weight = i == STEPS ? 1 : i % 2 == 1 ? 4 : 2;
+        sum += weight * 2 * part * density(detection, variable) *
+               passes(detection, amplitude * factor_at(detection, variable));
+    }
+    return (to - from) * sum / (3 * STEPS);
+}
+
+double detection_probability(const struct detection *detection, double amplitude)
+{
+    double least = detection->threshold / amplitude;
+    bool log_normal = detection->fluctuation == FLUCTUATION_LOG_NORMAL;
+    if (detection->fluctuation == FLUCTUATION_NONE ||
+        (log_normal && detection->fluctuation_sigma_db == 0))
+        return least <= 1 ? passes(detection, amplitude) : 0;
+    double from = least > 0 ? variable_at(detection, least) : 0;
+    if (!log_normal)
+        return integral(detection, amplitude, from, from + 40);
+    from = least > 0 ? elementary_max(from, -9) : -9;
+    if (from > GAUSSIAN_CUT)
+        return 0;
+    double strongest = amplitude * factor_at(detection, GAUSSIAN_CUT);
+    return integral(detection, amplitude, from, GAUSSIAN_CUT) +
+           BEYOND_CUT * passes(detection, strongest);
+}
+
+double detection_amplitude(const struct detection *detection, double probability)
+{
+    double highest = elementary_max(detection->threshold, detection->final_threshold);
+    double low = 1e-3 * highest, high = 1e4 * highest;
+    while (high > low * (1 + 1e-7)) {
+        double middle = sqrt(low * high);
+        if (detection_probability(detection, middle) < probability)
+            low = middle;
+        else
+            high = middle;
+    }
+    return high;
+}

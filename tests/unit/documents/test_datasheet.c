@@ -1,0 +1,270 @@
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arena.h"
+#include "base/units.h"
+#include "documents/consistency.h"
+#include "documents/datasheet.h"
+#include "documents/datasheet_text.h"
+#include "documents/suite_file.h"
+
+#define DEGREE (PI / 180)
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+/* A steady sensor of the paper's antenna without noise. */
+static struct sensor quiet_sensor(void)
+{
+    struct sensor sensor = {
+        .name = "front",
+        .carrier_hz = SPEED_OF_LIGHT_MPS / 0.004, /* a wavelength of 4 mm */
+        .range_min_m = 1,
+        .range_max_m = 100,
+        .field_of_view_rad = 120 * DEGREE,
+        .threshold_db = 6,
+        .calibration_ercs = 1, /* 10 dBsm */
+        .calibration_range_m = 50,
+        .exponent = 2,
+        .range_floor_m = 0.5,
+        .cell_range_m = 1,
+        .cell_range_rate_mps = 0.1, /* a dwell of 20 ms */
+        .angle_estimator = MONOPULSE_RATIO,
+        .range_sigma_m = 0.1,
+        .range_rate_sigma_mps = 0.01,
+        .false_alarm_range_rate_mps = 70,
+    };
+    return sensor;
+}
+
+static const struct consistency *check_of(const struct sensor *sensor, const char *left)
+{
+    static struct consistency checks[CONSISTENCY_MOST];
+    struct sensor derived = *sensor;
+    suite_derive(&derived);
+    size_t count = consistency_list(&derived, checks);
+    assert_true(count <= CONSISTENCY_MOST);
+    for (size_t i = 0; i < count; i++)
+        if (strncmp(checks[i].left, left, strlen(left)) == 0)
+            return &checks[i];
+    return NULL;
+}
+
+/* Every check with figures that just agree, and the same a little off. */
+static void checks_tell_figures_that_agree_from_those_that_do_not(void **state)
+{
+    (void)state;
+    struct sensor good = quiet_sensor();
+    good.cycle_s = 0.0201;
+    good.unambiguous_rate_mps = 50; /* a repetition of 20 us, a walk of 1 m */
+    good.unambiguous_range_m = 100.1;
+    good.chirp_s = 20e-6;
+    good.chirp_slope_hzps = -1e3 * SPEED_OF_LIGHT_MPS * 26; /* a sweep of 0.9615 m */
+    good.receiver_bandwidth_hz = 2 * 100.05 * 26e3; /* beats of 26 kHz a metre, there and back */
+    good.latency_s = 0.0101;
+    good.range_sigma_m = 0.2886;
+    good.range_rate_sigma_mps = 0.02886;
+    good.sigma_law = SIGMA_BY_SNR;
+    good.window_factor = 0.39;
+    good.azimuth_cell_rad = 46 * DEGREE;
+    good.azimuth_floor_rad = 13.2 * DEGREE;
+    good.false_alarms = 0.01;
+    good.false_alarm_range_rate_mps = 49.9;
+    /* 99 ranges, 998 rates, 120/46 azimuths. */
+    double cells = 99 * 998 * 120 / 46.0;
+    good.pointer_sigma = units_amplitude_from_db(6) / sqrt(log(cells / 0.015));
+    struct sensor bad[14];
+    for (size_t i = 0; i < COUNT(bad); i++)
+        bad[i] = good;
+    bad[0].cycle_s = 0.0199;
+    bad[1].receiver_bandwidth_hz = 2 * 99.9 * 26e3;
+    bad[2].false_alarm_range_rate_mps = 50.1;
+    bad[3].chirp_slope_hzps *= 0.95;
+    bad[4].chirp_s = 20.1e-6;
+    bad[5].unambiguous_range_m = 99.9;
+    bad[6].receiver_bandwidth_hz = 2 * 100.2 * 26e3;
+    bad[7].unambiguous_rate_mps = 50.1;
+    bad[8].latency_s = 0.0099;
+    bad[9].false_alarms = 0.035;
+    bad[10].range_sigma_m = 0.2888;
+    bad[11].range_rate_sigma_mps = 0.02888;
+    bad[12].azimuth_cell_rad = 45 * DEGREE;
+    bad[13].azimuth_floor_rad = 13.3 * DEGREE;
+    static const char *const names[] = {"dwell",
+                                        "beat",
+                                        "false alarms to",
+                                        "sweep",
+                                        "chirp_s",
+                                        "range_max_m",
+                                        "receiver_bandwidth_hz",
+                                        "walk",
+                                        "half a dwell",
+                                        "false_alarms",
+                                        "range_sigma_m",
+                                        "range_rate_sigma_mps",
+                                        "beam",
+                                        "azimuth_floor_rad"};
+    for (size_t i = 0; i < COUNT(bad); i++) {
+        const struct consistency *check = check_of(&good, names[i]);
+        assert_non_null(check);
+        if (!consistency_holds(check))
+            fail_msg("%s does not hold: %g, %g", names[i], check->left_value, check->right_value);
+        check = check_of(&bad[i], names[i]);
+        if (consistency_holds(check))
+            fail_msg("%s holds: %g, %g", names[i], check->left_value, check->right_value);
+    }
+    assert_true(consistency_holds(check_of(&good, "Cramer-Rao")));
+    good.window_factor = 0.389;
+    assert_false(consistency_holds(check_of(&good, "Cramer-Rao")));
+}
+
+static void figures_that_a_document_leaves_out_are_not_checked(void **state)
+{
+    (void)state;
+    struct sensor sensor = quiet_sensor();
+    struct consistency checks[CONSISTENCY_MOST];
+    suite_derive(&sensor);
+    /* The sigmas of range and rate. */
+    assert_int_equal(consistency_list(&sensor, checks), 2);
+}
+
+static void half_widths_count_twice(void **state)
+{
+    (void)state;
+    struct sensor sensor = quiet_sensor();
+    assert_close(consistency_dwell_s(&sensor), 0.02, 1e-15);
+    sensor.cell_extent = CELL_HALF_WIDTH;
+    assert_close(consistency_dwell_s(&sensor), 0.01, 1e-15);
+}
+
+static void a_row_of_elements_has_its_own_beam(void **state)
+{
+    (void)state;
+    struct sensor sensor = quiet_sensor();
+    suite_derive(&sensor);
+    /* MODEL 11.5: 8 elements half a wavelength apart. */
+    sensor.waveform.elements = 8;
+    sensor.waveform.spacing = 0.5;
+    assert_close(consistency_beam_rad(&sensor), 12.8025 * DEGREE, 0.15 * DEGREE);
+}
+
+/* MODEL 4.1: ranges go with the root of an ERCS, which is 1 at 10 dBsm. */
+static void echoes_are_detected_where_they_meet_the_threshold(void **state)
+{
+    (void)state;
+    struct sensor sensor = quiet_sensor();
+    struct datasheet sheet;
+    suite_derive(&sensor);
+    datasheet_of(&sensor, &sheet);
+    static const double boresight_m[] = {28.117066, 50, 88.913970};
+    for (int k = 0; k < DATASHEET_ECHOES; k++) {
+        assert_close(sheet.echo_dbsm[k], 10 * k, 0);
+        for (int i = 0; i < DATASHEET_AZIMUTHS; i++) {
+            double gain = antenna_gain(&sensor.antenna, i * 20 * DEGREE);
+            assert_near(sheet.range_m[i][k][0], boresight_m[k] * sqrt(gain), 1e-7);
+            /* Without noise, what meets the threshold is detected. */
+            assert_near(sheet.range_m[i][k][1], sheet.range_m[i][k][0], 1e-6);
+        }
+    }
+    assert_close(sheet.chance[0], 1, 0);
+    /* An ERCS of (100/50)^2. */
+    assert_close(sheet.weakest_dbsm, 10 + 40 * log10(2), 1e-9);
+}
+
+static void ranges_end_at_the_sensors_own(void **state)
+{
+    (void)state;
+    struct sensor sensor = quiet_sensor();
+    struct datasheet sheet;
+    sensor.range_max_m = 60;
+    sensor.range_min_m = 30;
+    suite_derive(&sensor);
+    datasheet_of(&sensor, &sheet);
+    assert_close(sheet.range_m[0][0][0], 0, 0);
+    assert_close(sheet.range_m[0][1][0], 50, 1e-9);
+    assert_close(sheet.range_m[0][2][0], 60, 0);
+}
+
+/* At 9 in 10, a Swerling 1 echo without noise is stronger by sqrt(-1/ln 0.9). */
+static void fluctuation_costs_range(void **state)
+{
+    (void)state;
+    struct sensor sensor = quiet_sensor();
+    struct datasheet sheet;
+    sensor.fluctuation = FLUCTUATION_SWERLING_1;
+    suite_derive(&sensor);
+    datasheet_of(&sensor, &sheet);
+    assert_close(sheet.chance[0], exp(-1), 1e-6);
+    assert_near(sheet.range_m[0][1][1], 50 * pow(-log(0.9), 0.25), 1e-5);
+}
+
+static void accuracy_follows_law_noise_and_steps(void **state)
+{
+    (void)state;
+    struct sensor sensor = quiet_sensor();
+    struct datasheet sheet;
+    sensor.pointer_sigma = units_amplitude_from_db(6 - 10);
+    sensor.sigma_law = SIGMA_BY_SNR;
+    sensor.window_factor = 0.5;
+    sensor.range_step_m = 0.12;
+    sensor.azimuth_floor_rad = 0.01;
+    suite_derive(&sensor);
+    datasheet_of(&sensor, &sheet);
+    for (int i = 0; i < DATASHEET_LEVELS; i++) {
+        double snr = pow(10, 1 + i);
+        assert_close(sheet.accuracy[i].snr_db, 10 * (1 + i), 1e-9);
+        double noise_m = fmin(0.25 / snr + 0.01, 1.0 / 12);
+        assert_near(sheet.accuracy[i].range_sigma_m, sqrt(noise_m + 0.0012), 1e-9);
+        assert_near(sheet.accuracy[i].range_rate_sigma_mps,
+                    sqrt(fmin(0.0025 / snr + 1e-4, 0.01 / 12)), 1e-9);
+        for (int k = 0; k < DATASHEET_AZIMUTHS; k++) {
+            double azimuth_rad = k * 20 * DEGREE, u = PI / 2 * sin(azimuth_rad);
+            assert_near(sheet.accuracy[i].azimuth_sigma_rad[k],
+                        hypot(0.01, 2 / PI * cos(u) / (cos(azimuth_rad) * sqrt(2 * snr))), 1e-6);
+        }
+    }
+    sensor.sigma_law = SIGMA_BY_AMPLITUDE;
+    datasheet_of(&sensor, &sheet);
+    assert_near(sheet.accuracy[2].range_rate_sigma_mps, 0.001, 1e-9);
+}
+
+static void sensors_that_differ_in_their_mount_share_a_sheet(void **state)
+{
+    (void)state;
+    struct sensor sensors[3] = {quiet_sensor(), quiet_sensor(), quiet_sensor()};
+    struct suite suite = {.sensors = {sensors, 3}};
+    struct text text = {0};
+    sensors[1].name = "left";
+    sensors[1].mount_yaw_rad = 1;
+    sensors[2].name = "far";
+    sensors[2].range_max_m = 200;
+    for (int i = 0; i < 3; i++)
+        suite_derive(&sensors[i]);
+    datasheet_text_add(&suite, &text);
+    text_add(&text, "", 1);
+    int sheets = 0;
+    for (const char *at = text.bytes; (at = strstr(at, "carrier")) != NULL; at++)
+        sheets++;
+    assert_int_equal(sheets, 2);
+    assert_memory_equal(text.bytes, "front: ", 7);
+    assert_non_null(
+        strstr(text.bytes, "\nleft: at x 0 m, y 0 m, looking to 57.3 degrees\n  carrier"));
+    assert_non_null(strstr(text.bytes, "\n\nfar: "));
+    text_free(&text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(checks_tell_figures_that_agree_from_those_that_do_not),
+        cmocka_unit_test(figures_that_a_document_leaves_out_are_not_checked),
+        cmocka_unit_test(half_widths_count_twice),
+        cmocka_unit_test(a_row_of_elements_has_its_own_beam),
+        cmocka_unit_test(echoes_are_detected_where_they_meet_the_threshold),
+        cmocka_unit_test(ranges_end_at_the_sensors_own),
+        cmocka_unit_test(fluctuation_costs_range),
+        cmocka_unit_test(accuracy_follows_law_noise_and_steps),
+        cmocka_unit_test(sensors_that_differ_in_their_mount_share_a_sheet),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,147 @@
+#include "check.h"
+
+#include "base/random.h"
+#include "radar/detection.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+#define NOISE_THRESHOLD2 9.2103403719761836 /* -ln 1e-4 */
+
+static double amplitude_of(double db)
+{
+    return pow(10, db / 20);
+}
+
+/* Marcum's Q(sqrt 2 A, sqrt 2 T) for noise of power 1, by its series of Poisson terms. */
+static double marcum(double amplitude, double threshold)
+{
+    double x = amplitude * amplitude, y = threshold * threshold;
+    double weight = exp(-x), term = exp(-y), below = term, sum = weight * below;
+    for (int k = 1; k < 2000; k++) {
+        weight *= x / k;
+        term *= y / k;
+        below += term;
+        sum += weight * below;
+    }
+    return sum;
+}
+
+static void noise_carries_an_echo_over_the_threshold_by_marcums_function(void **state)
+{
+    (void)state;
+    static const double thresholds[] = {0.5, 2, 3.0348, 8, 15};
+    static const double shares[] = {0, 1e-9, 0.5, 0.9, 1 - 1e-9, 1, 1.01, 1.2, 1.7};
+    for (size_t i = 0; i < COUNT(thresholds); i++)
+        for (size_t k = 0; k < COUNT(shares); k++) {
+            double amplitude = shares[k] * thresholds[i];
+            assert_close(detection_in_noise(3 * amplitude, 3 * thresholds[i], 3),
+                         marcum(amplitude, thresholds[i]), 1e-12);
+        }
+    /* MODEL 14.14: a steady echo at a threshold 6 dB above the noise. */
+    assert_close(detection_in_noise(2, 2, 2 / amplitude_of(6)), 0.571892, 5e-7);
+    assert_close(detection_in_noise(0, 2, 1), exp(-4), 1e-12);
+}
+
+static void without_noise_the_threshold_decides(void **state)
+{
+    (void)state;
+    assert_close(detection_in_noise(2, 2, 0), 1, 0);
+    assert_close(detection_in_noise(1.999, 2, 0), 0, 0);
+    assert_close(detection_in_noise(1.999, 2, 1e-6), 0, 0);
+    struct detection detection = {.threshold = 2, .final_threshold = 2, .noise = 0};
+    assert_close(detection_probability(&detection, 2), 1, 0);
+    assert_close(detection_probability(&detection, 1.999), 0, 0);
+}
+
+/* MODEL 14.14, final threshold alone. */
+static void fluctuating_echoes_are_detected_as_published(void **state)
+{
+    (void)state;
+    static const struct {
+        enum fluctuation_law law;
+        double probability[3];
+    } cases[] = {
+        {FLUCTUATION_NONE, {0.092480, 0.616136, 0.999910}},
+        {FLUCTUATION_SWERLING_1, {0.157384, 0.432876, 0.754026}},
+        {FLUCTUATION_SWERLING_3, {0.140198, 0.491042, 0.876107}},
+    };
+    static const double snr_db[] = {6, 10, 15};
+    for (size_t i = 0; i < COUNT(cases); i++)
+        for (size_t k = 0; k < COUNT(snr_db); k++) {
+            struct detection detection = {
+                .fluctuation = cases[i].law, .final_threshold = sqrt(NOISE_THRESHOLD2), .noise = 1};
+            assert_close(detection_probability(&detection, amplitude_of(snr_db[k])),
+                         cases[i].probability[k], 1.5e-6);
+        }
+}
+
+static void without_a_final_threshold_the_laws_tails_decide(void **state)
+{
+    (void)state;
+    for (double amplitude = 0.3; amplitude < 30; amplitude *= 1.7) {
+        double power = 4 / (amplitude * amplitude);
+        struct detection detection = {.fluctuation = FLUCTUATION_SWERLING_1, .threshold = 2};
+        assert_close(detection_probability(&detection, amplitude), exp(-power), 1e-6);
+        detection.fluctuation = FLUCTUATION_SWERLING_3;
+        assert_close(detection_probability(&detection, amplitude),
+                     (1 + 2 * power) * exp(-2 * power), 1e-6);
+        detection.fluctuation = FLUCTUATION_LOG_NORMAL;
+        detection.fluctuation_sigma_db = 3.41;
+        double mean_db = -log(10) / 20 * 3.41 * 3.41;
+        double deviations = (10 * log10(power) - mean_db) / 3.41;
+        assert_close(detection_probability(&detection, amplitude),
+                     deviations > 3 ? 0 : erfc(deviations / sqrt(2)) / 2, 1e-6);
+        detection.fluctuation_sigma_db = 0;
+        assert_close(detection_probability(&detection, amplitude), power <= 1, 0);
+    }
+}
+
+/* Both thresholds, by drawing factors and noise as the stages do. */
+static void both_thresholds_together_are_those_of_drawn_echoes(void **state)
+{
+    (void)state;
+    enum { DRAWS = 100000 };
+    static const enum fluctuation_law laws[] = {FLUCTUATION_SWERLING_1, FLUCTUATION_SWERLING_3,
+                                                FLUCTUATION_LOG_NORMAL};
+    static const double noises[] = {0.25, 1};
+    for (int i = 0; i < 6; i++) {
+        struct detection detection = {laws[i / 2], 3.41, 2, 2, noises[i % 2]};
+        double amplitude = 1.5 + 0.5 * i;
+        int64_t found = 0;
+        for (int k = 0; k < DRAWS; k++) {
+            struct random_address address = {.seed = 7, .frame = (uint64_t)k};
+            double uniform[4], noise[4];
+            random_uniform(&address, RANDOM_FLUCTUATION, 0, uniform);
+            random_gaussian(&address, RANDOM_POINTERS, 0, noise);
+            double steady = amplitude * swerling_amplitude_factor(laws[i / 2], 3.41, uniform);
+            double part = detection.noise * sqrt(0.5);
+            found += steady >= 2 && hypot(steady + part * noise[0], part * noise[1]) >= 2;
+        }
+        double share = (double)found / DRAWS;
+        assert_close(detection_probability(&detection, amplitude), share,
+                     4 * sqrt(share * (1 - share) / DRAWS));
+    }
+}
+
+static void the_amplitude_of_a_probability_is_detected_with_it(void **state)
+{
+    (void)state;
+    struct detection detection = {FLUCTUATION_SWERLING_1, 0, 2, 2, 0.25};
+    double probability = detection_probability(&detection, 5);
+    assert_near(detection_amplitude(&detection, probability), 5.0, 1e-6);
+    /* A steady echo just above the first threshold passes the final one with more than 0.5. */
+    detection.fluctuation = FLUCTUATION_NONE;
+    assert_near(detection_amplitude(&detection, 0.3), 2.0, 1e-6);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(noise_carries_an_echo_over_the_threshold_by_marcums_function),
+        cmocka_unit_test(without_noise_the_threshold_decides),
+        cmocka_unit_test(fluctuating_echoes_are_detected_as_published),
+        cmocka_unit_test(without_a_final_threshold_the_laws_tails_decide),
+        cmocka_unit_test(both_thresholds_together_are_those_of_drawn_echoes),
+        cmocka_unit_test(the_amplitude_of_a_probability_is_detected_with_it),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
