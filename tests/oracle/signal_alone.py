@@ -21,6 +21,7 @@ ROOT = Path(__file__).resolve().parents[2]
 QUIET = "all,-angle_noise"
 PADDING = 2  # cells of the transforms to a bin
 SEED = 14
+FAST = {"chirp_slope_hzps": 4e12}  # chirps of 20 us with the cells of lrr77
 # How near the parabola of MODEL 11.3 comes to the summit of a spectrum, in cells and dB; shipped suites have Hann's
 # window.
 NEAR = {"hann": (0.005, 0.05), "rectangular": (0.011, 0.12)}
@@ -245,7 +246,8 @@ def small(kind, window, **changes):
     """A radar of few samples, with the cells of srr24-signal."""
     sensor = shipped("srr24-signal")
     sensor["waveform"] = {"kind": kind, "samples": {"chirp": 32, "pulse": 80}[kind], "repetitions": 32,
-                          "window": window, "cfar": "ordered", "cfar_cells": 8, "cfar_rank": 6, "cfar_false_alarm": 1e-4}
+                          "window": window, "cfar": "ordered", "cfar_cells": 8, "cfar_rank": 6,
+                          "cfar_false_alarm": 1e-4}
     return dict(sensor, range_min_m=0, range_max_m={"chirp": 9.6, "pulse": 6.0}[kind], **changes)
 
 
@@ -307,6 +309,8 @@ def compare(program, name, sensor, points):
         off = differences(radar, one, *read(radar, radar.map(radar.receive(place, rate))))
         program.check(max(off[:2]) < 0.002 and off[2] < 0.02, f"{where}: off the reading by {off}")
         worst[0] = np.maximum(worst[0], off)
+        if radar.folds > 1:
+            program.check(abs(one["range_rate_mps"] - rate) < radar.rate_cell, f"{where}: unfolded to {one}")
         if walk < 0.5:
             off = differences(radar, one, *summit(radar, place, rate))
             program.check(max(off[:2]) < NEAR[radar.window][0] and off[2] < NEAR[radar.window][1],
@@ -316,19 +320,21 @@ def compare(program, name, sensor, points):
 
 
 def lone_points(program, long):
-    """Everywhere in a cell, at rates from 0 to 50 m/s, with every window; and with the shipped waveforms."""
+    """Everywhere in a cell, at rates from 0 to 50 m/s, with every window; and with the shipped waveforms, one of
+    them also with fast chirps."""
     draw = np.random.default_rng(SEED)
     for kind in ("chirp", "pulse"):
         for window in ("hann", "rectangular"):
             sensor = small(kind, window)
             rates = np.concatenate([draw.uniform(-1, 1, 20), draw.uniform(-10, 10, 20), draw.uniform(-50, 50, 10)])
             compare(program, f"{kind}, {window}", sensor, [(draw.uniform(2.5, 3.5), rate, 1e3) for rate in rates])
-    for name, count in (("lrr77-signal-small", 20), ("srr24-signal", 20), ("lrr77-signal-medium", 8),
-                        ("lrr77-signal-large", 4)):
-        sensor = shipped(name)
+    for name, count, changes in (("lrr77-signal-small", 20, {}), ("lrr77-signal-small", 20, FAST),
+                                 ("srr24-signal", 20, {}), ("lrr77-signal-medium", 8, {}),
+                                 ("lrr77-signal-large", 4, {})):
+        sensor = dict(shipped(name), **changes)
         points = [(draw.uniform(0.3, 0.7) * sensor["range_max_m"], draw.uniform(-50, 50), 1e3)
                   for _ in range(count * (5 if long else 1))]
-        compare(program, name, sensor, points)
+        compare(program, name + ", fast" * bool(changes), sensor, points)
 
 
 def are_two(radar, samples, detector=None):

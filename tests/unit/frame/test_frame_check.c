@@ -160,7 +160,7 @@ static void a_part_is_refused_for_its_own_faults_alone(void **state)
         unsigned section, another;
     } cases[] = {{name_one_twice, SECTION_OBJECTS, SECTION_ECHOES},
                  {list_an_object_twice, SECTION_REFLECTORS, SECTION_OBJECTS},
-                          {name_a_sensor_twice, SECTION_SENSORS, SECTION_OBJECTS},
+                 {name_a_sensor_twice, SECTION_SENSORS, SECTION_OBJECTS},
                  {open_an_empty_cell, SECTION_CELLS, SECTION_TARGETS},
                  {report_a_target_without_label, SECTION_TARGETS, SECTION_CELLS}};
     for (size_t i = 0; i < COUNT(cases); i++) {
