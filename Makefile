@@ -187,7 +187,7 @@ check: all unit
 bench: all
 	$(Q)scripts/bench
 
-# What accuracy costs, into data/accuracy: minutes.
+# What accuracy costs, into data/accuracy: half an hour at most.
 accuracy: all
 	$(Q)scripts/accuracy-cost
 

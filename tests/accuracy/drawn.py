@@ -1,85 +1,302 @@
-"""The diagram of scripts/accuracy-cost, by gnuplot."""
+"""The diagrams of scripts/accuracy-cost, by gnuplot: cost-long.svg, cost-short.svg, knobs.svg.
+
+All axes are scaled here, so that the place of every point is known and labels can be placed beside it.
+"""
 import math
 import os
+import re
 import subprocess
 
-from scores import pick
+import labels
+from labels import Box
+from written import RADARS, changes, pick, spent_more
 
-BLUE, ORANGE = "#0072b2", "#d55e00"
-LEAST = 1e-9  # where exactly nothing is drawn
-
-
-def block(name, rows, x, y, least=0):
-    text = "\n".join(f'{row[x]:.6g} {max(row[y], least):.6g} "{row["way"]}"' for row in rows)
-    return f"${name} << END\n{text}\nEND\n"
+BLUE, ORANGE, GREY = "#0072b2", "#d55e00", "#888888"
+SIZE = 11  # of the font, in pixels
 
 
-def labels(rows, x, y, near, least=0):
-    """One row, with all their names, for points that lie nearer than such a part of both axes,
-    which are a decade long at least."""
-    def place(row):
-        return math.log10(row[x]), math.log10(max(row[y], least))
+def power(value):
+    return f"{value:,.10g}"
 
-    axes = [max(max(values) - min(values), 1) for values in zip(*map(place, rows))]
+
+class Logarithmic:
+    """Decades. Values below the least decade, zero and negative ones stand beyond a break."""
+
+    def __init__(self, values, least=None):
+        above = [value for value in values if value > 0]
+        self.low = math.floor(math.log10(max(min(above), least or 0)))
+        self.high = max(math.ceil(math.log10(max(above))), self.low + 1)
+        self.broken = any(value < 10 ** self.low for value in values)
+        self.gap = 0.08 * (self.high - self.low)
+        self.range = (self.low - (1.5 * self.gap if self.broken else 0), self.high)
+
+    def at(self, value):
+        return math.log10(value) if value >= 10 ** self.low else self.low - self.gap
+
+    def tics(self, suffix=""):
+        marks = [f'"{power(10.0 ** k)}{suffix}" {k}' for k in range(self.low, self.high + 1)]
+        if self.broken:
+            marks.insert(0, f'"<{power(10.0 ** self.low)}{suffix}" {self.low - self.gap:g}')
+        return "(" + ", ".join(marks) + ")"
+
+
+class Signed:
+    """Decades to both sides of a piece around zero that is linear."""
+    LINEAR = 0.2
+    MARKS = [-100, -30, -10, -3, -1, -0.3, 0, 0.3, 1, 3, 10, 30, 100]
+
+    def __init__(self, values):
+        self.range = (self.at(min([*values, 0]) * 1.2), self.at(max(values) * 1.2))
+
+    def at(self, value):
+        return math.asinh(value / self.LINEAR)
+
+    def tics(self, suffix=""):
+        low, high = self.range
+        marks = [mark for mark in self.MARKS if low <= self.at(mark) <= high]
+        return "(" + ", ".join(f'"{mark:g}{suffix}" {self.at(mark):.6g}' for mark in marks) + ")"
+
+
+class Rows:
+    """One row for each name, the first on top."""
+
+    def __init__(self, names):
+        self.names, self.range = names, (-0.8, len(names) - 0.2)
+
+    def at(self, value):
+        return len(self.names) - 1 - value
+
+    def tics(self, suffix=""):
+        return "(" + ", ".join(f'"{name}{suffix}" {self.at(row)}' for row, name in enumerate(self.names)) + ")"
+
+
+class Panel:
+    """One diagram; frame is its part of the page in pixels, y upwards."""
+
+    def __init__(self, page, frame, x, y, texts, suffixes=("", "")):
+        self.page, self.frame, self.x, self.y = page, frame, x, y
+        self.texts, self.suffixes = texts, suffixes
+        self.blocks, self.plots, self.more, self.legend = [], [], [], []
+
+    def pixel(self, x, y):
+        (left, right), (low, high) = self.x.range, self.y.range
+        frame = self.frame
+        return (frame.left + (self.x.at(x) - left) / (right - left) * (frame.right - frame.left),
+                frame.low + (self.y.at(y) - low) / (high - low) * (frame.high - frame.low))
+
+    def data(self, rows):
+        name = f"$PANEL_{len(self.blocks)}"
+        self.blocks.append((name, rows))
+        return name
+
+    def series(self, points, colour, style="points pt 7 ps 0.6", title=None):
+        name = self.data([f"{self.x.at(x):.6g} {self.y.at(y):.6g}" for x, y in points])
+        self.plots.append(f'{name} using 1:2 with {style} lc rgb "{colour}" notitle')
+        if title:
+            self.legend.append((title, colour))
+
+    def bars(self, spans, colour, vertical):
+        """Intervals: (x, y, low, high) each, along y or along x."""
+        rows, boxes = [], []
+        if not spans:
+            return []
+        for x, y, low, high in spans:
+            ends = [(x, low), (x, high)] if vertical else [(low, y), (high, y)]
+            rows += [f"{self.x.at(a):.6g} {self.y.at(b):.6g}" for a, b in ends] + [""]
+            boxes.append(around(*(self.pixel(*end) for end in ends)))
+        self.plots.append(f'{self.data(rows)} using 1:2 with lines lw 1.4 lc rgb "{colour}" notitle')
+        return boxes
+
+    def names(self, points, bars):
+        """Labels (x, y, text, colour), with a line to the point where they stand far from it."""
+        at = [(*self.pixel(x, y), text) for x, y, text, _ in points]
+        for (x, y, text), (*_, colour), (left, low, anchor) in zip(
+                at, points, labels.placed(at, self.frame, bars, SIZE)):
+            self.write(text, left, low, {"start": "left", "middle": "center", "end": "right"}[anchor], colour)
+            width, height = self.page
+            if math.hypot(left - x, low - y) > 20:
+                self.more.append(f'set arrow from screen {x / width:.6f}, screen {y / height:.6f} to screen '
+                                 f'{left / width:.6f}, screen {low / height:.6f} nohead lw 0.5 lc rgb "{GREY}"')
+
+    def breaks(self):
+        """Two strokes across an axis where it is broken."""
+        text = []
+        for axis, along in ((self.x, "x"), (self.y, "y")):
+            if not getattr(axis, "broken", False):
+                continue
+            for shift in (-0.006, 0.006):
+                at = (axis.low - 0.5 * axis.gap - axis.range[0]) / (axis.range[1] - axis.range[0]) + shift
+                ends = ((at - 0.006, -0.012, at + 0.006, 0.012) if along == "x" else
+                        (-0.006, at - 0.012, 0.006, at + 0.012))
+                text.append("set arrow from graph {:.5f}, {:.5f} to graph {:.5f}, {:.5f} nohead front".format(*ends))
+        return text
+
+    def heading(self):
+        """Above the frame: the title, the vertical axis below it, and the legend to the right in its colours."""
+        title, _, ylabel = self.texts
+        left, right, high = self.frame.left - 40, self.frame.right, self.frame.high
+        self.write(title, left, high + 36)
+        self.write(ylabel, left, high + 19)
+        for row, (text, colour) in enumerate(self.legend):
+            self.write(text, right, high + 36 - 17 * row, "right", colour)
+
+    def write(self, text, x, y, side="left", colour="black"):
+        width, height = self.page
+        if text:
+            self.more.append(f'set label "{text}" at screen {x / width:.6f}, screen {y / height:.6f} '
+                             f'{side} tc rgb "{colour}"')
+
+    def commands(self, number):
+        width, height = self.page
+        frame = self.frame
+        self.heading()
+        blocks = "".join(f"{name} << END\n" + "\n".join(rows) + "\nEND\n" for name, rows in self.blocks)
+        text = f"""unset label; unset arrow
+set lmargin at screen {frame.left / width:.6f}; set rmargin at screen {frame.right / width:.6f}
+set bmargin at screen {frame.low / height:.6f}; set tmargin at screen {frame.high / height:.6f}
+set xlabel "{self.texts[1]}"
+set xrange [{self.x.range[0]:.6g}:{self.x.range[1]:.6g}]; set yrange [{self.y.range[0]:.6g}:{self.y.range[1]:.6g}]
+set xtics {self.x.tics(self.suffixes[0])}; set ytics {self.y.tics(self.suffixes[1])}
+""" + "\n".join([*self.breaks(), *self.more]) + "\nplot " + ", ".join(self.plots) + "\n"
+        return [part.replace("$PANEL_", f"$panel{number}_") for part in (blocks, text)]
+
+
+def page(path, size, panels):
+    """Writes the panels as one picture."""
+    parts = [panel.commands(number) for number, panel in enumerate(panels)]
+    text = (f'set terminal svg size {size[0]},{size[1]} fixed noenhanced font "sans-serif,{SIZE}"\n'
+            + f'set output "{path}"\n' + "".join(blocks for blocks, _ in parts)
+            + "set multiplot\nset border 3; set tics nomirror out\n"
+            + "".join(commands for _, commands in parts) + "unset multiplot\n")
+    subprocess.run(["gnuplot", "-d"], input=text, check=True, text=True)
+
+
+def around(one, other):
+    """The box of a line between two pixels."""
+    (left, right), (low, high) = (sorted(pair) for pair in zip(one, other))
+    return Box(left - 1, right + 1, low - 1, high + 1)
+
+
+def front(rows):
+    """The chains than which no cheaper one has a smaller error, cheapest first."""
+    kept = []
+    for row in sorted(rows, key=lambda row: (row["us"], row["error"])):
+        if not kept or row["error"] < kept[-1]["error"]:
+            kept.append(row)
+    return kept
+
+
+def models_panel(rows, radar, size, frame):
+    own = [row for row in pick(rows, radar=radar)
+           if row["group"] in ("models", "reference") and "us" in row and "error" in row]
+    panel = Panel(size, frame, Logarithmic([row["us"] for row in own]),
+                  Logarithmic([row[key] for row in own for key in ("error", "low", "high")], 0.1),
+                  (f"What accuracy costs: radar of {radar} range", "CPU time of a frame, µs",
+                   "error: energy distance from the signal, 100 % is that of ideal echoes"), ("", " %%"))
+    best = front(own)
+    steps = [point for one, after in zip(best, best[1:]) for point in
+             ((one["us"], one["error"]), (after["us"], one["error"]))] + [(best[-1]["us"], best[-1]["error"])]
+    panel.series(steps, GREY, "lines lw 1 dt 2", "no cheaper chain is nearer")
+    bars = panel.bars([(row["us"], row["error"], row["low"], row["high"]) for row in own], BLUE, True)
+    bars += [around(panel.pixel(*one), panel.pixel(*after)) for one, after in zip(steps, steps[1:])]
+    panel.series([(row["us"], row["error"]) for row in own], BLUE, title="chain, with its 95 % interval")
+    panel.names([(row["us"], row["error"], row["chain"], "black") for row in own], bars)
+    return panel
+
+
+def effect_panels(rows, radar, size, frames):
+    """What effects gain, and beside it what they cost."""
+    own = [row for row in pick(rows, radar=radar)
+           if row["group"] in ("added", "left out") and changes(row) and "gain" in row and "us" in row]
+    best = {}
+    for row in own:
+        best[row["chain"]] = max(best.get(row["chain"], -1000), row["gain"])
+    names = sorted(best, key=lambda name: -best[name])
+    ends = [row[key] for row in own for key in ("gain_low", "gain_high")]
+    gains = Panel(size, frames[0], Signed(ends), Rows(names),
+                  ("Error that an effect takes away, with its 95 % interval", "points", ""))
+    cost = {id(row): spent_more(rows, row) for row in own}
+    costs = Panel(size, frames[1], Logarithmic(list(cost.values()), 1), Rows(["" for _ in names]),
+                  ("Time that it takes", "CPU time of a frame, µs", ""))
+    gains.more.append(f"set arrow from 0, graph 0 to 0, graph 1 nohead lw 0.5 lc rgb \"{GREY}\"")
+    for group, colour, shift, title in (("added", BLUE, -0.16, "added to the paper's"),
+                                        ("left out", ORANGE, 0.16, "in all others")):
+        at = [(row, names.index(row["chain"]) + shift) for row in own if row["group"] == group]
+        gains.bars([(row["gain"], y, row["gain_low"], row["gain_high"]) for row, y in at], colour, False)
+        gains.series([(row["gain"], y) for row, y in at], colour)
+        costs.series([(cost[id(row)], y) for row, y in at], colour, title=title)
+    return [gains, costs]
+
+
+def cost_page(rows, radar, path):
+    shown = {row["chain"] for row in pick(rows, radar=radar) if "gain" in row and changes(row)}
+    middle = 80 + 17 * len(shown)
+    size = (1000, middle + 480)
+    frames = [Box(130, 620, 60, middle), Box(690, 960, 60, middle)]
+    page(path, size, [models_panel(rows, radar, size, Box(70, 960, middle + 100, size[1] - 45)),
+                      *effect_panels(rows, radar, size, frames)])
+
+
+def knob_panel(rows, group, x, y, least, size, frame, texts):
+    """One series for each radar, every setting labelled."""
+    own = [row for row in pick(rows, group=group) if x in row and y in row]
+    panel = Panel(size, frame, Logarithmic([row[x] for row in own]),
+                  Logarithmic([row[key] for row in own for key in (y, "low", "high") if key in row], least), texts)
+    bars, names = [], []
+    for radar, colour in zip(RADARS if own[0]["radar"] else [""], (BLUE, ORANGE)):
+        of = pick(own, radar=radar)
+        names += [(row[x], row[y], row["setting"], colour) for row in of]
+        bars += panel.bars([(row[x], row[y], row["low"], row["high"]) for row in of if "low" in row], colour, True)
+        panel.series([(row[x], row[y]) for row in of], colour, title=f"{radar} range" if radar else None)
+    panel.names(names, bars)
+    return panel
+
+
+FRAME, ANGLE = "CPU time of a frame, µs", "CPU time of an angle, µs"
+
+
+def knobs_page(rows, path):
+    size = (1100, 860)
+    frames = [Box(80, 520, 490, 815), Box(630, 1070, 490, 815), Box(80, 520, 60, 385), Box(630, 1070, 60, 385)]
+    panels = [("table", "us", "off", 0, ("Angle by a table of so many entries", ANGLE, "greatest error, rad")),
+              ("spacing", "us", "off", 1e-6, ("Spacing of a contour", FRAME, "error against 0.05 m, %")),
+              ("digits", "bytes", "off", 1e-6, ("Digits from stage to stage", "bytes of a frame",
+                                                "GOSPA from all digits, cells")),
+              ("plumbing", "us", "bytes", 1e-6, ("Plumbing: the same targets", FRAME, "bytes of a frame"))]
+    page(path, size, [knob_panel(rows, group, x, y, least, size, frame, texts)
+                      for (group, x, y, least, texts), frame in zip(panels, frames)])
+
+
+def draw(cost, settings, folder):
+    for radar in RADARS:
+        cost_page(cost, radar, os.path.join(folder, f"cost-{radar}.svg"))
+    knobs_page(settings, os.path.join(folder, "knobs.svg"))
+
+
+# --- what a picture shows --------------------------------------------------------------------------
+
+TEXT = re.compile(r'<g transform="translate\(([-\d.]+),([-\d.]+)\)( rotate\([-\d.]+\))?".*?text-anchor="(\w+)">\s*'
+                  r"<text>(.*?)</text>", re.DOTALL)
+
+
+def texts_of(path):
+    """The texts of a picture with their boxes, read from its SVG."""
+    with open(path) as file:
+        picture = file.read()
     found = []
-    for row in rows:
-        for other in found:
-            if all(abs(a - b) < near * axis for a, b, axis in zip(place(row), place(other), axes)):
-                other["way"] += ", " + row["way"]
-                break
-        else:
-            found.append(dict(row))
-    return found
+    for x, y, turned, anchor, inside in TEXT.findall(picture):
+        text = re.sub(r"<[^>]*>", "", inside).replace("&lt;", "<").strip()
+        box = labels.text_box(text, 0, 0, anchor, SIZE)
+        x, y = float(x), float(y) - 0.35 * SIZE
+        if turned:
+            box = Box(box.low, box.high, -box.right, -box.left)
+        found.append((text, Box(x + box.left, x + box.right, y + box.low, y + box.high)))
+    return [(text, box) for text, box in found if text]
 
 
-def knob_panel(rows, ladder, x, y, texts, more="", line="linespoints", least=LEAST):
-    """One series for each radar; texts are title and axes."""
-    title, xlabel, ylabel = texts
-    own = pick(rows, ladder=ladder)
-    radars = list(dict.fromkeys(row["radar"] for row in own))
-    names = [f"{ladder}_{radar or 'any'}" for radar in radars]
-    blocks = [block(name, [row for row in own if row["radar"] == radar], x, y, least)
-              for name, radar in zip(names, radars)]
-    plots = [f'${name} using 1:2 with {line} pt 7 ps 0.7 lc rgb "{colour}" '
-             + (f'title "{radar} range"' if radar else "notitle")
-             for name, radar, colour in zip(names, radars, (BLUE, ORANGE))]
-    shown = [labels(pick(own, radar=radar), x, y, 0.08, least) for radar in radars]
-    blocks += [block(f"label_{name}", of, x, y, least) for name, of in zip(names, shown)]
-    plots += [f'$label_{name} using 1:2:3 with labels left rotate by 25 offset 0.6, 0.4 font ",9" notitle'
-              for name in names]
-    return blocks, f"""
-set title "{title}"; set xlabel "{xlabel}"; set ylabel "{ylabel}"; set autoscale; set key top right; {more}
-plot {", ".join(plots)}"""
-
-
-FRAME, ANGLE = "CPU time per frame, µs", "CPU time per angle, µs"
-
-
-def knobs(rows):
-    exact = f"set yrange [{LEAST / 3:g}:30]"
-    panels = [
-        knob_panel(rows, "table", "cpu_us", "azimuth_rad_max",
-                   ("Angle by a table of so many entries", ANGLE, "greatest error, rad"),
-                   "set xrange [0.002:1]; set yrange [1e-17:1]", "points", 0),
-        knob_panel(rows, "spacing", "cpu_us", "gospa",
-                   ("Spacing of a contour", FRAME, "GOSPA from its signal, cells"),
-                   "set yrange [0.8:10]"),
-        knob_panel(rows, "digits", "bytes", "gospa",
-                   ("Digits from stage to stage", "bytes written per frame", "GOSPA from all digits, cells"),
-                   exact + "; set key center"),
-        knob_panel(rows, "plumbing", "cpu_us", "bytes",
-                   ("Plumbing: the same targets", FRAME, "bytes written per frame"),
-                   "set xrange [50:3e3]; set yrange [300:3e5]; set key top left", "points"),
-    ]
-    parts = [f"set origin {number % 2 / 2}, {0.5 - 0.5 * (number // 2)}; set size 0.5, 0.5{commands}"
-             for number, (_, commands) in enumerate(panels)]
-    return "".join(text for blocks, _ in panels for text in blocks) + """set multiplot
-set border 3; set tics nomirror out; set logscale xy; set key top right samplen 1 font ",9"; set bmargin 4
-set format x "10^{%L}"; set format y "10^{%L}"
-""" + "\n".join([*parts, "unset multiplot\n"])
-
-
-def draw(rows, folder):
-    place = os.path.join(folder, "knobs.svg")
-    head = f'set terminal svg size 1100,800 fixed font "sans-serif,12"\nset output "{place}"\n'
-    subprocess.run(["gnuplot", "-d"], input=head + knobs(rows), check=True, text=True)
+def collisions(path):
+    """Pairs of texts that cover each other, or a text and the edge of the picture."""
+    found = texts_of(path)
+    width, height = map(int, re.search(r'width="(\d+)" height="(\d+)"', open(path).read()).groups())
+    beyond = [(text, "the edge") for text, box in found if not box.within(Box(0, width, 0, height))]
+    return beyond + [(a, b) for i, (a, one) in enumerate(found) for b, other in found[:i] if one.meets(other)]

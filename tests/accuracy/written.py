@@ -1,34 +1,46 @@
-"""The rows of scripts/accuracy-cost as CSV and as tables in Markdown."""
+"""The tables of scripts/accuracy-cost: cost.csv, knobs.csv, and the same in Markdown."""
 import csv
+import os
 
-from scores import COLUMNS, pick, spent
+COST = ["radar", "group", "chain", "scenes", "seeds", "us", "error", "low", "high", "gain", "gain_low", "gain_high",
+        "digest"]
+KNOBS = ["radar", "group", "setting", "us", "off", "low", "high", "bytes"]
+WORDS = ("radar", "group", "chain", "setting", "digest")
+RADARS = ("long", "short")
+BEGIN = "## Tables\n\n"
 
-# The chains of the README's table: a way, its commands, what it simulates.
+# The chains of the README's table: their commands, and what they simulate.
 CHAINS = {
     "perfect": ("`glint-sensor-perfect \\| glint-noise-none`", "one exact target per echo"),
     "paper": ("`glint-sensor \\| glint-noise`", "the paper: cells, threshold, monopulse angle, noise"),
     "all effects": ("the same with `--effects all`", "ghosts, soft shadows, wheels, clutter, weather and more besides"),
     "smear": ("`glint-sensor-smear \\| glint-noise`", "all that, and the peaks of a windowed transform"),
-    "centres": ("`glint-sensor-signal`", "all that, from 512 samples of 256 chirps in 8 channels"),
+    "signal, large": ("`glint-sensor-signal`", "all that, from 512 samples of 256 chirps in 8 channels"),
 }
 
 
-def write_csv(rows, path):
+def write_csv(rows, columns, path):
     with open(path, "w", newline="") as out:
-        table = csv.DictWriter(out, COLUMNS, lineterminator="\n")
+        table = csv.DictWriter(out, columns, lineterminator="\n", extrasaction="raise")
         table.writeheader()
         for row in rows:
-            table.writerow({key: f"{value:.6g}" if isinstance(value, float) else value
-                            for key, value in row.items()})
+            table.writerow({key: f"{value:.5g}" if isinstance(value, float) else value for key, value in row.items()})
 
 
 def read_csv(path):
-    """The rows that write_csv wrote, without empty cells."""
-    words = ("ladder", "radar", "way", "against", "scene")
+    """The rows that write_csv wrote, without empty cells; none where there is no file."""
+    if not os.path.exists(path):
+        return []
     with open(path) as file:
-        return [{key: value if key in words else float(value)
-                 for key, value in row.items() if value or key in words} for row in csv.DictReader(file)]
+        return [{key: value if key in WORDS else float(value)
+                 for key, value in row.items() if value or key in WORDS} for row in csv.DictReader(file)]
 
+
+def pick(rows, **wanted):
+    return [row for row in rows if all(row[key] == value for key, value in wanted.items())]
+
+
+# --- Markdown --------------------------------------------------------------------------------------
 
 def line(cells):
     return "| " + " | ".join(cells) + " |\n"
@@ -39,44 +51,121 @@ def head(cells):
 
 
 def chain_times(cpu_us):
-    """The README's table, from the times per frame by way."""
+    """The README's table, from the times per frame by chain."""
     return head(["chain", "µs a frame", "what it simulates"]) + "".join(
-        line([chain, f"{float(f'{cpu_us[way]:.2g}'):,.0f}", simulated])
-        for way, (chain, simulated) in CHAINS.items() if way in cpu_us)
+        line([chain, f"{float(f'{cpu_us[name]:.2g}'):,.0f}", simulated])
+        for name, (chain, simulated) in CHAINS.items() if name in cpu_us)
+
+
+def spent(us):
+    return f"{us:.3g} µs" if us < 1000 else f"{us / 1000:.3g} ms"
+
+
+def with_interval(row, name, low, high):
+    return f"{row[name]:.1f} ({row[low]:.1f} to {row[high]:.1f})" if name in row else "not told"
 
 
 def models(rows):
-    """Ways against both references of both radars. A reference's own row is its lists against
-    those of other seeds."""
-    own = [row for row in pick(rows) if row["ladder"] in ("models", "reference")]
-    found = {(row["way"], row["radar"], row["against"]): row for row in own}
-    columns = [(radar, against) for radar in ("long", "short") for against in ("centres", "contour")]
-    text = head(["way", *(f"GOSPA, {radar}, {against}" for radar, against in columns),
-                 "CPU, long", "CPU, short"])
-    for way in dict.fromkeys(row["way"] for row in own):
-        scores = [found.get((way, *column)) for column in columns]
-        first = [next(row for row in scores[side:side + 2] if row) for side in (0, 2)]
-        name = f"{way}: other seeds" if first[0]["ladder"] == "reference" else way
-        text += line([name, *(f"{row['gospa']:.2f} ± {row['gospa_error']:.2f}" if row else "" for row in scores),
-                      *(spent(row["cpu_us"]) for row in first)])
+    """Chains of both radars: error with its interval, and time."""
+    text = "".join(f"{radar.capitalize()} range: {row['scenes']:.0f} scenes, {row['seeds']:.0f} seeds of the "
+                   "reference.\n" for radar in RADARS for row in pick(rows, radar=radar)[:1])
+    text += "\n" + head(["chain", *(f"{what}, {radar} range" for radar in RADARS for what in ("error, %", "time"))])
+    names = dict.fromkeys(row["chain"] for row in rows if row["group"] in ("models", "reference"))
+    for name in names:
+        cells = [name]
+        for radar in RADARS:
+            row = next(row for row in pick(rows, radar=radar, chain=name) if row["group"] in ("models", "reference"))
+            cells += [with_interval(row, "error", "low", "high"), spent(row["us"]) if "us" in row else ""]
+        text += line(cells)
     return text
 
 
-def knob(rows, ladder, unit):
-    columns = {"gospa": "GOSPA", "azimuth_rad_max": "greatest error, rad", "cpu_us": f"CPU per {unit}", "bytes": "bytes"}
-    own = pick(rows, ladder=ladder)
-    shown = [key for key in columns if all(key in row for row in own)
-             and (key != "azimuth_rad_max" or ladder == "table")]
-    text = f"\n{ladder.capitalize()}\n\n" + head(["radar", "way", *(columns[key] for key in shown)])
+def told(row):
+    """1 if the effect gains and its interval says so, -1 if it harms, else 0."""
+    return (row["gain_low"] > 0) - (row["gain_high"] < 0) if "gain" in row else 0
+
+
+def changes(row):
+    """Whether the effect changes any list: then no distance is the same to the digit."""
+    return any(row.get(key) for key in ("gain", "gain_low", "gain_high"))
+
+
+def spent_more(rows, row):
+    """What the effect takes in microseconds; None before times are measured."""
+    without = "paper" if row["group"] == "added" else "all effects"
+    base = pick(rows, radar=row["radar"], group="models", chain=without)[0]
+    if "us" not in row or "us" not in base:
+        return None
+    return row["us"] - base["us"] if row["group"] == "added" else base["us"] - row["us"]
+
+
+NOISE_US = 2  # differences of times below it are not told from none
+
+
+def effect_cells(rows, row):
+    if row is None:
+        return ["", "", ""]
+    more = spent_more(rows, row)
+    rate = ""
+    if told(row) and more is not None:
+        rate = f"{row['gain'] / more:.2g}" if more > NOISE_US else "free"
+    return [with_interval(row, "gain", "gain_low", "gain_high"), "" if more is None else f"{more:.0f}", rate]
+
+
+def effects(rows, radar):
+    """What each effect gains and takes, added to the paper's and left out of all."""
+    own = [row for row in pick(rows, radar=radar) if row["group"] in ("added", "left out") and changes(row)]
+    found = {(row["group"], row["chain"]): row for row in own}
+    text = f"\nEffects, {radar} range: points of error that an effect takes away\n\n"
+    text += head(["effect", "added to the paper's", "µs", "points per µs", "in all others", "µs", "points per µs"])
+    gains = {}
     for row in own:
-        text += line([row["radar"] or "any", row["way"], *(
-            spent(row[key]) if key == "cpu_us" else f"{row[key]:.0f}" if key == "bytes" else f"{row[key]:.3g}"
-            for key in shown)])
+        gains[row["chain"]] = max(gains.get(row["chain"], -1000), row.get("gain", 0))
+    for name in sorted(gains, key=lambda name: -gains[name]):
+        text += line([name, *(cell for group in ("added", "left out")
+                              for cell in effect_cells(rows, found.get((group, name))))])
     return text
 
 
-def markdown(rows):
-    """The tables of data/accuracy/README.md: GOSPA in cells, CPU time and bytes of a frame."""
-    return models(rows) + "".join(
-        knob(rows, ladder, "angle" if ladder == "table" else "frame")
-        for ladder in ("table", "spacing", "digits", "plumbing"))
+def verdicts(rows, radar):
+    """What the intervals support, in words."""
+    text = f"\n{radar.capitalize()} range:\n\n"
+    for group, where in (("added", "added to the paper's"), ("left out", "in all others")):
+        own = pick(rows, radar=radar, group=group)
+        said = {"gain": [row for row in own if told(row) > 0], "harm": [row for row in own if told(row) < 0],
+                "are not told from nothing": [row for row in own if not told(row) and changes(row)],
+                "change no list here": [row for row in own if not changes(row)]}
+        for verb, of in said.items():
+            names = ", ".join(row["chain"] for row in sorted(of, key=lambda row: -abs(row.get("gain", 0))))
+            text += f"- {where}, {verb}: {names}\n" if of else ""
+    return text
+
+
+UNITS = {"table": "greatest error, rad", "spacing": "error against 0.05 m, %", "digits": "GOSPA, cells",
+         "plumbing": ""}
+
+
+def knob(rows, group):
+    own = pick(rows, group=group)
+    columns = [key for key in ("off", "us", "bytes") if any(key in row for row in own)]
+    names = {"off": UNITS[group], "us": "time", "bytes": "bytes a frame"}
+    text = f"\n{group.capitalize()}\n\n" + head(["radar", group, *(names[key] for key in columns)])
+    for row in own:
+        cells = {"us": spent(row["us"]) if "us" in row else "", "bytes": f"{row.get('bytes', 0):.0f}",
+                 "off": with_interval(row, "off", "low", "high") if "low" in row else f"{row.get('off', 0):.3g}"}
+        text += line([row["radar"] or "any", row["setting"], *(cells[key] for key in columns)])
+    return text
+
+
+def markdown(cost, settings):
+    """The tables of data/accuracy/README.md."""
+    return models(cost) + "".join(verdicts(cost, radar) + effects(cost, radar) for radar in RADARS) + "".join(
+        knob(settings, group) for group in UNITS if pick(settings, group=group))
+
+
+def renew_page(path, tables):
+    """Replaces what stands behind the heading of the tables, the end of the page."""
+    with open(path) as file:
+        text = file.read().partition(BEGIN)[0]
+    with open(path, "w") as out:
+        out.write(text + BEGIN + tables)

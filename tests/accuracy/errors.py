@@ -1,0 +1,108 @@
+"""Errors of chains: energy distances from the reference, as parts of that of ideal echoes.
+
+The error of a chain is the mean of its scenes' energy distances (glint-score --ensemble, MODEL 11.2) over
+that of `perfect`. Its interval is the bootstrap's over whole scenes, which draws the same scenes for both
+means. A scene's distance holds the noise of its seeds, so the spread over scenes holds both.
+"""
+import json
+import os
+import random
+import subprocess
+import sys
+import tempfile
+
+import chains
+
+RESAMPLES = 4000
+SIGNIFICANT = 1.96
+
+
+def joined(files, path):
+    """Blocks of lists as one file: .gz files in a row are one."""
+    with open(path, "wb") as out:
+        for name in files:
+            with open(name, "rb") as file:
+                out.write(file.read())
+
+
+def ensemble(truth, listed):
+    """What glint-score --ensemble says of files of lists with the same scenes and other seeds."""
+    with tempfile.TemporaryDirectory() as folder:
+        paths = [os.path.join(folder, name) for name in ("truth.jsonl.gz", "listed.jsonl.gz")]
+        joined(truth, paths[0])
+        joined(listed, paths[1])
+        done = subprocess.run([os.path.join(chains.BIN, "glint-score"), "--ensemble", "--truth", *paths],
+                              check=True, stdout=subprocess.PIPE, text=True)
+    return json.loads(done.stdout)
+
+
+def energies(cache, truth, listed):
+    """By scene: its energy distance and the standard error that the seeds leave."""
+    def write(path):
+        with open(path, "w") as out:
+            out.write(json.dumps(ensemble(truth, listed)["scenes"]))
+    scored = cache.file(".energies", [chains.program_digest("glint-score"), *truth, "against", *listed], write)
+    return {of["scene"]: (of["energy"], of["energy_error"]) for of in json.loads(chains.content(scored))}
+
+
+def refuse_empty(lists, radar):
+    """Scans in which the reference lists nothing whatever the seed would count as agreement."""
+    listed = set()
+    for line in chains.content(lists).splitlines():
+        frame = json.loads(line)
+        if frame["targets"]:
+            listed.add((frame["scene"], frame["frame"]))
+    empty = [scan for scan in ((frame["scene"], frame["frame"]) for frame in radar.frames) if scan not in listed]
+    if empty:
+        sys.exit(f"accuracy-cost: {radar.name} range: the reference lists nothing in {empty}; "
+                 "expected a target in every frame")
+
+
+class Resamples:
+    """Draws of as many scenes with replacement as there are."""
+
+    def __init__(self, count, draws=RESAMPLES):
+        source = random.Random(1)
+        self.draws = [source.choices(range(count), k=count) for _ in range(draws)]
+
+    def totals(self, values):
+        return [sum(map(values.__getitem__, draw)) for draw in self.draws]
+
+
+def interval(values):
+    """The middle 95 %."""
+    ordered = sorted(values)
+    cut = len(ordered) // 40
+    return ordered[cut], ordered[-1 - cut]
+
+
+class Errors:
+    """Turns distances by scene into errors in per cent of those of ideal echoes. All chains have the
+    scenes of `ideal` in its order."""
+
+    def __init__(self, ideal, resamples=None):
+        self.scenes = list(ideal)
+        self.resamples = resamples or Resamples(len(self.scenes))
+        self.whole = sum(self.values(ideal))
+        self.totals = self.resamples.totals(self.values(ideal))
+        self.told = interval(self.totals)[0] > 0  # else ideal echoes are not told from the reference
+
+    def values(self, distances):
+        return [distances[scene][0] for scene in self.scenes]
+
+    def ratio(self, values):
+        """The sum over scenes in per cent of that of ideal echoes, with its interval."""
+        ratios = [100 * total / whole for total, whole in zip(self.resamples.totals(values), self.totals)]
+        return (100 * sum(values) / self.whole, *interval(ratios))
+
+    def error(self, distances):
+        return self.ratio(self.values(distances))
+
+    def difference(self, one, other):
+        """How much the first is off beyond the second, on the same scenes."""
+        return self.ratio([a - b for a, b in zip(self.values(one), self.values(other))])
+
+    def of_seeds(self, distances):
+        """The half of the interval that seeds alone would leave."""
+        squares = sum(distances[scene][1] ** 2 for scene in self.scenes)
+        return 100 * SIGNIFICANT * squares ** 0.5 / self.whole

@@ -1,0 +1,149 @@
+"""The radars of scripts/accuracy-cost and the frames that they look at."""
+import json
+import os
+import subprocess
+
+import chains
+
+SEEDS = 8  # in a block
+OF_CHAINS = 1000  # seeds of chains begin behind those of the reference
+HIGHWAY = "data/trajectories/highway.csv --radius-m 250 --scene highway"
+
+# Scripted scenes, vehicles of the recorded table that carry the radar, and frames of random traffic.
+LONG = {"scripted": ["corner-approach", "cut-in", "empty-road", "highway-straight", "intersection", "open-road",
+                     "shadows", "two-vehicles", "walled-road", "wet-road", "wheels-and-limbs"],
+        "recorded": ["3", "5", "9", "13"], "random": {"sparse": 4, "medium": 8, "dense": 8}}
+SHORT = {"scripted": ["corner-approach", "cut-in", "empty-road", "highway-straight", "intersection", "open-road",
+                      "shadows", "side-crossing", "two-vehicles"],
+         "recorded": ["1", "5", "7", "13"], "random": {"medium": 12, "dense": 12}}
+EACH = 3  # frames of a scripted scene, and of a drive of the recorded table
+DRY = {"road": "asphalt", "clutter_per_m2": 1e-3, "clutter_ercs": 0.05}
+RAIN = DRY | {"rain_mmph": 10, "fog_gpm3": 0.1}
+SIZES = ["small", "medium", "large"]
+
+# What a sensor has to say so that an effect exists: taken from where all are described, but for
+# false alarms, of which noise 18 dB below the threshold makes none.
+DESCRIBED = ["mount_z_m", "elevation_half_width_rad", "diffraction", "curved_sides", "micro_motion",
+             "latency_s", "bounces", "fluctuation", "fluctuation_sigma_db", "receiver_bandwidth_hz",
+             "noise_figure_db", "antenna_gain_dbi", "chirp_slope_hzps", "chirp_s", "sigma_law",
+             "window_factor", "misalignment_rad", "radome_bias_rad", "radome_period_rad",
+             "radome_phase_rad"]
+
+
+def sensors(name):
+    with open(os.path.join(chains.ROOT, "data", "sensors", name + ".json")) as text:
+        return json.load(text)
+
+
+def described(suite, repetitions, most_repetitions, rate_mps):
+    """The suite with every effect and a scan in every frame. Fewer repetitions of the same chirps or
+    pulses tell rates apart less well, and fold them alike."""
+    full = sensors("lrr77-full")["sensors"][0]
+    for sensor in suite["sensors"]:
+        sensor |= {key: full[key] for key in DESCRIBED}
+        sensor.pop("cycle_s", None)
+        sensor["unambiguous_rate_mps"] = rate_mps * most_repetitions / 2
+        sensor["cell_range_rate_mps"] = rate_mps * most_repetitions / repetitions
+        sensor["range_sigma_m"] = 0.1 * sensor["cell_range_m"]
+        sensor["range_rate_sigma_mps"] = 0.1 * sensor["cell_range_rate_mps"]
+        sensor["waveform"]["repetitions"] = repetitions
+    return suite
+
+
+def long_range(size):
+    """A chirp every 20 us: 256 of them part rates by 0.383 m/s."""
+    suite = sensors(f"lrr77-signal-{size}")
+    return described(suite, suite["sensors"][0]["waveform"]["repetitions"], 256, 97.971392 / 256)
+
+
+def short_range(size):
+    repetitions = {"small": 24, "medium": 40, "large": 64}[size]
+    return described(sensors("srr24-signal"), repetitions, 64, 0.5)
+
+
+def played(text):
+    done = subprocess.run([chains.GLINT, "-c", text], check=True, stdout=subprocess.PIPE, cwd=chains.ROOT)
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def evenly(items, count):
+    """As many of the items, from the middles of equal pieces; all where there are no more."""
+    if len(items) <= count:
+        return items
+    return [items[(2 * i + 1) * len(items) // (2 * count)] for i in range(count)]
+
+
+def recorded(egos):
+    """Drives of one table are one scene: they share its traffic. Frames and times ascend."""
+    return [frame | {"frame": frame["frame"] + 1000 * drive, "time_s": frame["time_s"] + 100 * drive}
+            for drive, ego in enumerate(egos) for frame in evenly(played(f"glint-traffic {HIGHWAY} --ego {ego}"), 24)]
+
+
+class Radar:
+    """Its suites by size, and frames in which it lists something."""
+
+    def __init__(self, name, cache, few=False):
+        suites, self.plan = {"long": (long_range, LONG), "short": (short_range, SHORT)}[name]
+        self.name, self.cache, self.few = name, cache, few
+        self.suites, self.described = {}, {}
+        for size in SIZES:
+            self.add_suite(size, suites(size))
+        self.contour = f"glint-extract-contour --spacing-m {self.cell_range_m / 3:.9g}"
+        self.frames = self.few_frames() if few else self.chosen()
+        self.first = cache.text(".jsonl", lines_of(self.frames[:1], [1]))
+
+    def add_suite(self, size, suite):
+        """The digest of a suite does not know where the antenna's table lies."""
+        text = json.dumps(suite)
+        for sensor in suite["sensors"]:
+            self.cell_range_m = sensor["cell_range_m"]
+            if "antenna_table" in sensor:
+                sensor["antenna_table"] = os.path.join(chains.ROOT, "data", "sensors", sensor["antenna_table"])
+        self.suites[size] = self.cache.text(".json", json.dumps(suite))
+        self.described[self.suites[size]] = text
+
+    def few_frames(self):
+        """The sample: one frame from each of a few scenes."""
+        some = self.plan["scripted"][1:6]
+        scripted = [frame for scene in some for frame in evenly(played(f"glint-traffic {scene}"), 1)]
+        return weathered(scripted + played("glint-traffic-random --density dense --frames 3"))
+
+    def chosen(self):
+        """Candidates are more than what is taken of them: frames in which the smallest signal sees a target."""
+        found = []
+        for scene in self.plan["scripted"]:
+            found += evenly(self.seen(evenly(played(f"glint-traffic {scene}"), 24)), EACH)
+        drives = self.seen(recorded(self.plan["recorded"]))
+        for drive in range(len(self.plan["recorded"])):
+            found += evenly([frame for frame in drives if frame["frame"] // 1000 == drive], EACH)
+        for density, count in self.plan["random"].items():
+            found += self.seen(played(f"glint-traffic-random --density {density} --frames 80"))[:count]
+        return weathered(found)
+
+    def seen(self, frames):
+        """Those in which the smallest signal lists a target of an echo in 3 of 4 draws."""
+        chain = chains.Chain("choice", "signal, small", self, chains.SIGNAL, size="small")
+        lists = chain.lists(self.cache, self.cache.text(".jsonl", lines_of(weathered(frames), range(1, 5))))
+        hits = {}
+        for line in chains.content(lists).splitlines():
+            listed = json.loads(line)
+            scan = listed["scene"], listed["frame"]
+            hits[scan] = hits.get(scan, 0) + any(target["contributors"] for target in listed["targets"])
+        return [frame for frame in frames if hits[frame["scene"], frame["frame"]] >= 3]
+
+    def block(self, number, first=0):
+        """The file of all frames under as many seeds, seed by seed."""
+        seeds = range(first + 1 + number * SEEDS, first + 1 + (number + 1) * SEEDS)
+        return self.cache.text(".jsonl", lines_of(self.frames, seeds))
+
+
+def weathered(frames):
+    """Dry and in rain in turn, on asphalt with ground clutter, where the scene says nothing else."""
+    return [frame | {"conditions": (RAIN if number % 2 else DRY) | frame.get("conditions", {})}
+            for number, frame in enumerate(frames)]
+
+
+def lines_of(frames, seeds):
+    """The frames under each seed; that a frame is the last of its scene does not hold any more."""
+    kept = [{key: value for key, value in frame.items() if key != "last"} for frame in frames]
+    return "".join(json.dumps(frame | {"seed": str(seed)}) + "\n" for seed in seeds for frame in kept)
