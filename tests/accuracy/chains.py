@@ -92,8 +92,10 @@ class Chain:
 
     def lists(self, cache, frames):
         """The file with the lists of a file of frames."""
-        key = [program_digest(stage.split()[0]) for stage in self.stages]
-        return cache.file(".jsonl.gz", [*key, *self.stages, frames], lambda path: self.run([frames], path))
+        programs = [program_digest(stage.split()[0]) for stage in self.stages]
+        texts = [stage.replace(self.suite, self.radar.described[self.suite]) for stage in self.stages]
+        return cache.file(".jsonl.gz", [*programs, *texts, os.path.basename(frames)],
+                          lambda path: self.run([frames], path))
 
     def digest(self, frames):
         """Of its suite, wherever it lies, the program's version and the lists of the frames; the signal's

@@ -12,6 +12,7 @@ import sys
 import tempfile
 
 import chains
+import scenes
 
 RESAMPLES = 4000
 SIGNIFICANT = 1.96
@@ -41,21 +42,22 @@ def energies(cache, truth, listed):
     def write(path):
         with open(path, "w") as out:
             out.write(json.dumps(ensemble(truth, listed)["scenes"]))
-    scored = cache.file(".energies", [chains.program_digest("glint-score"), *truth, "against", *listed], write)
+    lists = map(os.path.basename, [*truth, "against", *listed])
+    scored = cache.file(".energies", [chains.program_digest("glint-score"), *lists], write)
     return {of["scene"]: (of["energy"], of["energy_error"]) for of in json.loads(chains.content(scored))}
 
 
 def refuse_empty(lists, radar):
-    """Scans in which the reference lists nothing whatever the seed would count as agreement."""
+    """Frames in which the reference lists no object whatever the seed would count as agreement."""
     listed = set()
     for line in chains.content(lists).splitlines():
         frame = json.loads(line)
-        if frame["targets"]:
+        if any(map(scenes.of_an_object, frame["targets"])):
             listed.add((frame["scene"], frame["frame"]))
     empty = [scan for scan in ((frame["scene"], frame["frame"]) for frame in radar.frames) if scan not in listed]
     if empty:
-        sys.exit(f"accuracy-cost: {radar.name} range: the reference lists nothing in {empty}; "
-                 "expected a target in every frame")
+        sys.exit(f"accuracy-cost: {radar.name} range: the reference lists no object in {empty}; "
+                 "expected one in every frame")
 
 
 class Resamples:

@@ -1,5 +1,6 @@
 """The radars of scripts/accuracy-cost and the frames that they look at."""
 import json
+import math
 import os
 import subprocess
 
@@ -35,9 +36,17 @@ def sensors(name):
         return json.load(text)
 
 
-def described(suite, repetitions, most_repetitions, rate_mps):
-    """The suite with every effect and a scan in every frame. Fewer repetitions of the same chirps or
-    pulses tell rates apart less well, and fold them alike."""
+def false_alarm(sensor, cells, rank):
+    """The probability by which the signal's ordered CFAR (MODEL 11.4) has its mean threshold where the chain's
+    is, threshold_db above noise of pointer_sigma."""
+    above_noise = 10 ** (sensor["threshold_db"] / 10) / sensor["pointer_sigma"] ** 2
+    factor = above_noise / sum(1 / (cells - i) for i in range(rank))
+    return math.prod((cells - i) / (cells - i + factor) for i in range(rank))
+
+
+def described(suite, repetitions, most_repetitions, rate_mps, cells=16):
+    """The suite with every effect and a scan in every frame, without a second train: chain and signal fold
+    alike. Fewer repetitions of the same chirps or pulses tell rates apart less well."""
     full = sensors("lrr77-full")["sensors"][0]
     for sensor in suite["sensors"]:
         sensor |= {key: full[key] for key in DESCRIBED}
@@ -46,7 +55,10 @@ def described(suite, repetitions, most_repetitions, rate_mps):
         sensor["cell_range_rate_mps"] = rate_mps * most_repetitions / repetitions
         sensor["range_sigma_m"] = 0.1 * sensor["cell_range_m"]
         sensor["range_rate_sigma_mps"] = 0.1 * sensor["cell_range_rate_mps"]
-        sensor["waveform"]["repetitions"] = repetitions
+        rank = 3 * cells // 4
+        sensor["waveform"] |= {"repetitions": repetitions, "cfar_cells": cells, "cfar_rank": rank,
+                               "cfar_false_alarm": false_alarm(sensor, cells, rank)}
+        sensor["waveform"].pop("stagger", None)
     return suite
 
 
@@ -57,8 +69,9 @@ def long_range(size):
 
 
 def short_range(size):
-    repetitions = {"small": 24, "medium": 40, "large": 64}[size]
-    return described(sensors("srr24-signal"), repetitions, 64, 0.5)
+    """Fewer pulses leave less room for the noise's window."""
+    repetitions, cells = {"small": (28, 8), "medium": (40, 12), "large": (64, 16)}[size]
+    return described(sensors("srr24-signal"), repetitions, 64, 0.5, cells)
 
 
 def played(text):
@@ -121,20 +134,25 @@ class Radar:
         return weathered(found)
 
     def seen(self, frames):
-        """Those in which the smallest signal lists a target of an echo in 3 of 4 draws."""
+        """Those in which the smallest signal lists an object in 3 of 4 draws."""
         chain = chains.Chain("choice", "signal, small", self, chains.SIGNAL, size="small")
         lists = chain.lists(self.cache, self.cache.text(".jsonl", lines_of(weathered(frames), range(1, 5))))
         hits = {}
         for line in chains.content(lists).splitlines():
             listed = json.loads(line)
             scan = listed["scene"], listed["frame"]
-            hits[scan] = hits.get(scan, 0) + any(target["contributors"] for target in listed["targets"])
+            hits[scan] = hits.get(scan, 0) + any(map(of_an_object, listed["targets"]))
         return [frame for frame in frames if hits[frame["scene"], frame["frame"]] >= 3]
 
     def block(self, number, first=0):
         """The file of all frames under as many seeds, seed by seed."""
         seeds = range(first + 1 + number * SEEDS, first + 1 + (number + 1) * SEEDS)
         return self.cache.text(".jsonl", lines_of(self.frames, seeds))
+
+
+def of_an_object(target):
+    """Neither a false alarm nor clutter."""
+    return any(part["path"] not in ("false_alarm", "clutter") for part in target["contributors"])
 
 
 def weathered(frames):
