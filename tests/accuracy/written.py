@@ -9,15 +9,6 @@ WORDS = ("radar", "group", "chain", "setting", "digest")
 RADARS = ("long", "short")
 BEGIN = "## Tables\n\n"
 
-# The chains of the README's table: their commands, and what they simulate.
-CHAINS = {
-    "perfect": ("`glint-sensor-perfect \\| glint-noise-none`", "one exact target per echo"),
-    "paper": ("`glint-sensor \\| glint-noise`", "the paper: cells, threshold, monopulse angle, noise"),
-    "all effects": ("the same with `--effects all`", "ghosts, soft shadows, wheels, clutter, weather and more besides"),
-    "smear": ("`glint-sensor-smear \\| glint-noise`", "all that, and the peaks of a windowed transform"),
-    "signal, large": ("`glint-sensor-signal`", "all that, from 512 samples of 256 chirps in 8 channels"),
-}
-
 
 def write_csv(rows, columns, path):
     with open(path, "w", newline="") as out:
@@ -48,13 +39,6 @@ def line(cells):
 
 def head(cells):
     return line(cells) + "|---" * len(cells) + "|\n"
-
-
-def chain_times(cpu_us):
-    """The README's table, from the times per frame by chain."""
-    return head(["chain", "µs a frame", "what it simulates"]) + "".join(
-        line([chain, f"{float(f'{cpu_us[name]:.2g}'):,.0f}", simulated])
-        for name, (chain, simulated) in CHAINS.items() if name in cpu_us)
 
 
 def spent(us):
