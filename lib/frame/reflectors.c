@@ -115,6 +115,9 @@ static const struct field mirror_fields[] = {
     {FIELD_REAL_IN(struct mirror_plane, radius_m, 1e-3, 1e6,
                    "of curvature along the side; absent: straight"),
      FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct mirror_plane, bottom, 0, 1,
+                   "lower edge, as a fraction of the object's height; absent: on the road"),
+     FIELD_OPTIONAL},
     {0},
 };
 

@@ -53,6 +53,7 @@ struct mirror_plane {
     double reflection;      /* amplitude reflection coefficient |Gamma|; 0: that of the material */
     enum material material; /* MATERIAL_NONE: reflection is constant */
     double profile_radius_m, radius_m; /* of curvature, upright and in the plane; 0: straight */
+    double bottom;                     /* lower edge, as a fraction of the object's height */
 };
 
 /* Equal points along a line, such as the posts of a guardrail. The first, number 0, is at from;

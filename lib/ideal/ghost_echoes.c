@@ -181,6 +181,16 @@ static bool pass_directly(const struct look *look, struct ghost_candidate *candi
     return pass_leg(look, &candidate->direct, line, &candidate->body, 1);
 }
 
+/* How far the bounce is from the mirror's top and its lower edge; negative if it is beyond one. */
+static double upright_margin_m(const struct look *look, const struct mirror_face *face,
+                               double height_m)
+{
+    double top_m = look_top_m(look, face->body);
+    double bottom_m = isinf(top_m) ? 0 : face->plane->bottom * top_m;
+    double below_m = top_m - height_m;
+    return bottom_m > 0 ? elementary_min(below_m, height_m - bottom_m) : below_m;
+}
+
 static bool pass_by_mirror(const struct look *look, struct ghost_candidate *candidate)
 {
     const struct mirror_face *face = candidate->face;
@@ -189,18 +199,18 @@ static bool pass_by_mirror(const struct look *look, struct ghost_candidate *cand
     double onward_m = vec2_length(vec2_sub(candidate->place, candidate->bounce));
     double height_m =
         look->height_m + (candidate->height_m - look->height_m) * (out_m / (out_m + onward_m));
-    double below_m = look_top_m(look, face->body) - height_m;
+    double within_m = upright_margin_m(look, face, height_m);
     struct route *route = &candidate->mirrored;
     struct obstruction_line out = {look->pose.position_m, candidate->bounce, look->height_m,
                                    height_m};
     struct obstruction_line onward = {candidate->bounce, candidate->place, height_m,
                                       candidate->height_m};
-    if (!(route->factor > 0 && below_m >= 0) || !pass_leg(look, route, out, touched, 3) ||
+    if (!(route->factor > 0 && within_m >= 0) || !pass_leg(look, route, out, touched, 3) ||
         !pass_leg(look, route, onward, touched, 4))
         return false;
     if (look->frame->margins)
-        route->margin_m = elementary_min(route->margin_m,
-                                         elementary_min(bounce_margin_m(look, candidate), below_m));
+        route->margin_m = elementary_min(
+            route->margin_m, elementary_min(bounce_margin_m(look, candidate), within_m));
     return true;
 }
 

@@ -21,7 +21,8 @@
  * still block the direct leg, and the reflector's body the leg between sensor and mirror. Nothing
  * passes under vehicles.
  *
- * Heights run straight along the unfolded path, and a bounce above the mirror's top does not exist.
+ * Heights run straight along the unfolded path, and a bounce above the mirror's top or below its
+ * lower edge does not exist.
  * A path that travels a leg once has the square root of the leg's factors for height, beam and soft
  * shadow, which look.h has for there and back. Planes have the curvature of direct echoes, at the
  * image's distance.

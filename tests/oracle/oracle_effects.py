@@ -485,8 +485,9 @@ class Bent:
         if heights:
             turn = heights[0] + self.share * rise
             first, second = (heights[0], turn), (turn, heights[1])
-            self.doubtful |= near(turn, mirror.body.height) and "height" in scene.effects
-            if turn > mirror.body.height > 0 and "height" in scene.effects:
+            bottom = mirror.side.get("bottom", 0) * mirror.body.height
+            self.doubtful |= (near(turn, mirror.body.height) or near(turn, bottom)) and "height" in scene.effects
+            if (turn > mirror.body.height > 0 or turn < bottom) and "height" in scene.effects:
                 self.there = False
         self.lines = [Line(scene.place, self.bounce, first), Line(self.bounce, place, second)]
         self.free = [mirror.free, mirror.free | {body}]

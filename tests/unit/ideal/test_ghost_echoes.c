@@ -670,6 +670,17 @@ static void heights_count_on_every_leg(void **state)
     assert_close(ghost_of(scene, PATH_OBJECT_WALL)->margins.sight_m, 1e-9, 1e-15);
     wall->height_m = 1.7 - 1e-9;
     assert_int_equal(paths_of(scene), 0);
+    /* At 1.7 m the path passes under a wall whose lower edge is there. */
+    struct mirror_plane *mirror = scene->frame.reflectors.items[1].mirrors.items;
+    wall->height_m = 3.4;
+    mirror->bottom = 0.5 - 1e-9;
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    assert_close(ghost_of(scene, PATH_OBJECT_WALL)->margins.sight_m, 3.4e-9, 1e-14);
+    mirror->bottom = 0.5 + 1e-9;
+    assert_int_equal(paths_of(scene), 0);
+    scene->selection.allowed &= ~EFFECT_BIT(EFFECT_HEIGHT);
+    assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
+    scene->selection.allowed |= EFFECT_BIT(EFFECT_HEIGHT);
     wall->height_m = 0;
     assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
     /* A low box hides nothing: the direct leg is at 2 m half way, the leg to the wall at 1.1 m. */
