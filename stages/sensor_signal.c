@@ -42,7 +42,7 @@ static struct transform *transform_of(struct sensor_signal *own, const struct se
     struct signal_cube signal = signal_cube_of(sensor, arena);
     size_t kept = signal.range_cells, row = signal.row_cells;
     transform->signal = signal;
-    if (signal.chirp_s > 0)
+    if (signal.chirp_s != 0)
         transform->over_range = plan_of(signal.rows, row, signal.channels, 1, row);
     transform->over_rate =
         plan_of(signal.spectrum, SIGNAL_CUBE_PADDING * signal.repetitions, kept, kept, 1);

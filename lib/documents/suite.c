@@ -1,5 +1,6 @@
 #include "documents/suite.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/elementary.h"
@@ -255,6 +256,24 @@ double suite_range_rate_sigma_mps(const struct sensor *sensor, double amplitude)
     return sigma_of(sensor, amplitude, sensor->cell_range_rate_mps, sensor->range_rate_sigma_mps);
 }
 
+/* Refuses chirps that would take longer than from one repetition to the next. */
+static int check_chirp(const struct sensor *sensor, struct diag *diag)
+{
+    const struct waveform *waveform = &sensor->waveform;
+    if (waveform->samples == 0 || waveform->kind == WAVEFORM_PULSE || sensor->chirp_slope_hzps == 0)
+        return 0;
+    double bandwidth_hz = SPEED_OF_LIGHT_MPS / (2 * sensor->cell_range_m);
+    double repetition_s = units_wavelength_m(sensor->carrier_hz) /
+                          (2 * sensor->cell_range_rate_mps * (double)waveform->repetitions);
+    if (fabs(sensor->chirp_slope_hzps) * repetition_s >= bandwidth_hz * (1 - 1e-9))
+        return 0;
+    return diag_fail(diag, DIAG_CONFIG,
+                     "chirp_slope_hzps: %g; expected at least %g either way, as a chirp of the "
+                     "waveform sweeps %g Hz and has %g s",
+                     sensor->chirp_slope_hzps, bandwidth_hz / repetition_s, bandwidth_hz,
+                     repetition_s);
+}
+
 int suite_check(const struct sensor *sensor, struct diag *diag)
 {
     if (sensor->receiver_bandwidth_hz > 0 && sensor->chirp_s == 0)
@@ -284,5 +303,5 @@ int suite_check(const struct sensor *sensor, struct diag *diag)
                          "mount_z_m: missing; elevation_half_width_rad needs it");
     if (waveform_check(&sensor->waveform, sensor->cell_range_m, sensor->range_max_m, diag) != 0)
         return diag_prefix(diag, "waveform.");
-    return 0;
+    return check_chirp(sensor, diag);
 }

@@ -54,7 +54,7 @@ size_t waveform_independent_bins(const struct waveform *waveform)
 /* Refuses a CFAR window, or a stagger, for which the range rates do not suffice. */
 static int check_rates(const struct waveform *waveform, struct diag *diag)
 {
-    struct cfar cfar = waveform_cfar(waveform, 1);
+    struct cfar cfar = waveform_cfar(waveform, 1, 1);
     long long apart = (long long)waveform_independent_bins(waveform);
     long long guard = waveform->cfar_guard, repetitions = waveform->repetitions;
     if (guard + 1 < apart)
@@ -96,7 +96,7 @@ int waveform_check(const struct waveform *waveform, double cell_range_m, double 
     return check_rates(waveform, diag);
 }
 
-struct cfar waveform_cfar(const struct waveform *waveform, size_t padding)
+struct cfar waveform_cfar(const struct waveform *waveform, size_t padding, size_t beams)
 {
     size_t cells = (size_t)waveform->cfar_cells, rank = (size_t)waveform->cfar_rank;
     return (struct cfar){
@@ -105,6 +105,7 @@ struct cfar waveform_cfar(const struct waveform *waveform, size_t padding)
         .nearest = padding * ((size_t)waveform->cfar_guard + 1),
         .spacing = padding * waveform_independent_bins(waveform),
         .rank = rank,
-        .factor = cfar_factor(waveform->cfar, cells, rank, waveform->cfar_false_alarm),
+        .factor =
+            cfar_factor(waveform->cfar, cells, rank, waveform->cfar_false_alarm / (double)beams),
     };
 }

@@ -37,7 +37,7 @@ int waveform_check(const struct waveform *waveform, double cell_range_m, double 
 size_t waveform_independent_bins(const struct waveform *waveform);
 
 /* The search in a spectrum of `padding` cells to a bin. Its windows take neighbours whose noise is
- * independent. */
-struct cfar waveform_cfar(const struct waveform *waveform, size_t padding);
+ * independent. Each beam has its share of the probability of a false alarm. */
+struct cfar waveform_cfar(const struct waveform *waveform, size_t padding, size_t beams);
 
 #endif

@@ -69,7 +69,7 @@ struct detections detections_of(const struct signal_cube *signal,
     struct detections detections = {
         .signal = signal,
         .spectrum = spectrum,
-        .cfar = waveform_cfar(&signal->sensor->waveform, SIGNAL_CUBE_PADDING),
+        .cfar = waveform_cfar(&signal->sensor->waveform, SIGNAL_CUBE_PADDING, spectrum->beams),
         .least = noisy ? 0 : suite_threshold(signal->sensor, context->interference),
         .time_s = context->time_s,
     };

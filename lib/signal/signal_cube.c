@@ -34,8 +34,8 @@ static void set_times(struct signal_cube *signal)
     signal->fold_mps = (double)signal->repetitions * signal->rate_step_mps;
     if (is_pulsed(signal))
         return;
-    signal->slope_hzps = sensor->chirp_slope_hzps > 0 ? sensor->chirp_slope_hzps
-                                                      : bandwidth_hz / signal->repetition_s;
+    signal->slope_hzps = sensor->chirp_slope_hzps != 0 ? sensor->chirp_slope_hzps
+                                                       : bandwidth_hz / signal->repetition_s;
     signal->chirp_s = bandwidth_hz / signal->slope_hzps;
     signal->coupling = sensor->carrier_hz / signal->slope_hzps / signal->range_step_m;
 }
@@ -46,7 +46,7 @@ static void set_cells(struct signal_cube *signal)
     signal->range_padding = is_pulsed(signal) ? 1 : SIGNAL_CUBE_PADDING;
     signal->row_cells = signal->range_padding * signal->samples;
     double farthest = signal->sensor->range_max_m / signal->range_step_m;
-    double shift = signal->coupling * (double)signal->folds * signal->fold_mps / 2 + MARGIN;
+    double shift = fabs(signal->coupling) * (double)signal->folds * signal->fold_mps / 2 + MARGIN;
     double below = ceil(shift * SIGNAL_CUBE_PADDING);
     double cells = below + ceil((farthest + shift) * SIGNAL_CUBE_PADDING) + 1;
     bool all = is_pulsed(signal) || cells >= (double)signal->row_cells;

@@ -33,7 +33,9 @@ struct signal_cube {
     enum point_response range_response;
     double range_step_m, rate_step_mps; /* width of a bin */
     double train_s, repetition_s;       /* the first train's length and repetition interval */
-    double chirp_s, slope_hzps;         /* 0 for pulses */
+    double slope_hzps;                  /* of a chirp; 0 for pulses */
+    double chirp_s;                     /* its length; negative if it falls, as samples are sorted
+                                         * by frequency; 0 for pulses */
     double coupling;                    /* bins of range that a rate of 1 m/s adds; 0 for pulses */
     double fold_mps;                    /* range rates this far apart share a bin */
     size_t folds;                       /* that the second train tells apart; 1: there is none */

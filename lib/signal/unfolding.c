@@ -29,7 +29,7 @@ static double range_of(const struct signal_cube *signal, double range, double ra
 {
     double bins = (double)signal->samples, least = -0.5;
     double read = range - signal->coupling * rate_mps - least;
-    if (signal->chirp_s > 0)
+    if (signal->chirp_s != 0)
         read -= bins * floor(read / bins);
     return (read + least) * signal->range_step_m;
 }
@@ -71,7 +71,7 @@ static double focus(const struct signal_cube *signal, const struct beam *beam, d
                     double rate_mps)
 {
     double doppler_hz = rate_mps / (signal->rate_step_mps * signal->train_s), number;
-    double quarter = signal->chirp_s > 0 ? 0.25 : 0;
+    double quarter = signal->chirp_s != 0 ? 0.25 : 0;
     struct phasor sum = {0, 0};
     for (size_t m = 0; m < signal->repetitions; m++) {
         double instant_s = signal_cube_instant_s(signal, 1, m);

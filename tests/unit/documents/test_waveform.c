@@ -32,7 +32,7 @@ static void absent_members_mean_hanns_window_and_the_twelfth_of_sixteen(void **s
 {
     (void)state;
     struct waveform waveform = usual(WAVEFORM_CHIRP);
-    struct cfar cfar = waveform_cfar(&waveform, 2);
+    struct cfar cfar = waveform_cfar(&waveform, 2, 1);
     assert_int_equal(waveform.window, POINT_RESPONSE_HANN);
     assert_int_equal(cfar.kind, CFAR_ORDERED);
     assert_int_equal(cfar.cells, 16);

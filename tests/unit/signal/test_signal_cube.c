@@ -162,24 +162,27 @@ static long double beat(long double carrier, long double slope, long double rang
     return sent - heard - (carrier * first - slope * first * first / 2);
 }
 
-/* At 60 m/s each of 16 chirps of 240 us moves the echo by 15 mm. */
+/* At 60 m/s each of 16 chirps of 240 us moves the echo by 15 mm. The samples of chirps that fall,
+ * of which the second train's are made here, are sorted by frequency. */
 static void every_sample_has_the_exact_phase_of_its_delay(void **state)
 {
     (void)state;
     for (size_t train = 0; train < 2; train++) {
+        int way = train == 0 ? 1 : -1;
         struct bench bench;
         struct sensor sensor = radar(WAVEFORM_CHIRP, POINT_RESPONSE_RECTANGULAR, 0);
+        long double interval = 299792458 / 76.5e9L / (2 * 0.5L) / REPETITIONS;
+        long double slope = way * 299792458 / 2.L / interval;
         sensor.waveform.stagger = 5;
+        sensor.chirp_slope_hzps = (double)slope;
         begin(&bench, sensor);
         struct signal_input input = echo(&bench, ray_at(&bench.sensor, 20, -60, 0, 0.7));
-        long double interval = 299792458 / 76.5e9L / (2 * 0.5L) / REPETITIONS;
-        long double slope = 299792458 / 2.L / interval;
         for (size_t m = 0; m < REPETITIONS; m += 5) {
             long double middle = train == 0 ? interval * ((long double)m - REPETITIONS / 2)
                                             : interval * (REPETITIONS / 2 + 1.2L * (long double)m);
             signal_cube_receive(&bench.signal, &input, train, m);
             for (size_t n = 0; n < SAMPLES; n++) {
-                long double since = interval * ((long double)n / SAMPLES - 0.5L);
+                long double since = way * interval * ((long double)n / SAMPLES - 0.5L);
                 double turns = (double)fmodl(-beat(76.5e9L, slope, 20, -60, middle, since), 1.0L);
                 struct phasor sample = bench.signal.rows[n];
                 double size = 3. / SAMPLES / REPETITIONS;
