@@ -237,7 +237,7 @@ const struct tool tool_plan = {
         "asked for. Prints which effects were needed and why, for which stages a simpler one\n"
         "can stand in, and the pipeline without the others. On these scenes it gives the\n"
         "targets of the whole chain, byte for byte. Of the frames, only the objects are used,\n"
-        "and their reflectors if they are there.\n"
+        "and their reflectors if they are there. Prints at the end of the stream.\n"
         "\n"
         "With --cost, --error or --within it measures chains of stages on a sample of the\n"
         "frames: CPU time, and error. The error is the energy distance of a chain's lists from\n"

@@ -121,7 +121,8 @@ const struct stage stage_summary = {
     .summary = "Print how many targets the sensors reported, of which classes, and how far.",
     .details =
         "With --account given to glint-ideal it also prints what became of every reflector that\n"
-        "a sensor looked for: how many are in a target, and how many are lost for which reason.",
+        "a sensor looked for: how many are in a target, and how many are lost for which reason.\n"
+        "Prints at the end of the stream.",
     .options = &summary_record,
     .sink = true,
     .reads = SECTION_OBJECTS | SECTION_SENSORS | SECTION_TARGETS,

@@ -116,7 +116,7 @@ const struct stage stage_view = {
         "The page is one file without any connection: open it in a browser. With --account\n"
         "given to glint-ideal it also tells why a reflector is in no target. Without --frame\n"
         "the page opens where most is to be seen, and the still shows the frame with most\n"
-        "targets.",
+        "targets. Written at the end of the stream.",
     .options = &view_record,
     .sink = true,
     .reads = SECTION_OBJECTS,

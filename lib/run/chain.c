@@ -167,6 +167,15 @@ static void run_tool(struct chain *chain)
         add_time(chain, &chain->times->step_ns[chain->stages], chain->tool_begin_ns);
 }
 
+/* Sends on what the chain has made before it waits for a frame, which may depend on it. A failure
+ * ends the chain with the next frame. */
+static void send_on(void *with)
+{
+    struct runner *runner = last(with);
+    for (size_t i = 0; i < runner->outputs.count; i++)
+        output_flush(runner->outputs.items[i], &runner->diag);
+}
+
 /* Runners whose command line was refused stay in the chain, as programs that fail do in a pipe. */
 static void start(struct chain *chain)
 {
@@ -209,6 +218,9 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
     chain.input.count = runners[0].common.files.count;
     chain.frame.arena = &chain.arena;
     chain.frame.list_cache = &chain.list_cache;
+    chain.input.pause = (struct input_pause){send_on, &chain};
+    for (size_t i = 0; i < count; i++)
+        runners[i].pause = chain.input.pause;
     if (times != NULL)
         time_clock(&chain);
     start(&chain);

@@ -3,7 +3,6 @@
 #include "frame/frame_check.h"
 #include "frame/frame_order.h"
 #include "frame/frame_text.h"
-#include "text/input.h"
 
 static int open_next(struct frame_stream *stream, struct diag *diag)
 {
@@ -13,7 +12,10 @@ static int open_next(struct frame_stream *stream, struct diag *diag)
     stream->path++;
     stream->line = 0;
     stream->input = input_open(path, diag);
-    return stream->input != NULL ? 1 : diag_prefix(diag, "%s: ", path);
+    if (stream->input == NULL)
+        return diag_prefix(diag, "%s: ", path);
+    input_before_waiting(stream->input, stream->pause);
+    return 1;
 }
 
 /* Lines of other programs may have sections in any order; stages rely on the canonical one. */

@@ -4,13 +4,15 @@
 #define FRAME_STREAM_H
 
 #include "frame/frame.h"
+#include "text/input.h"
 
 struct frame_stream {
     const char *const *paths;
     size_t count; /* of paths; 0: standard input */
     struct input *input;
-    size_t path, line; /* how many paths are open or done, and lines of the last of them */
-    int64_t bytes;     /* of all lines so far */
+    struct input_pause pause; /* before a wait for the next frame */
+    size_t path, line;        /* how many paths are open or done, and lines of the last of them */
+    int64_t bytes;            /* of all lines so far */
 };
 
 /* The next frame, in canonical order and checked: 1; 0 at the end; -1 after a message. */

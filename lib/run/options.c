@@ -313,6 +313,8 @@ void options_help(const struct program *program, struct text *text)
                       program->reads, text);
     if (program->writes != 0)
         help_sections("Frames go as JSON lines to standard output; writes", program->writes, text);
+    if (program->kind == PROGRAM_FILTER)
+        text_add_word(text, "Each goes out before the program waits for the next.\n");
     if (program->takes_files && program->writes == 0)
         text_add_word(text, "Writes no frames: in a pipeline it stands last.\n");
     text_add_word(text, "\nOptions:\n");

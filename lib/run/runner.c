@@ -84,6 +84,8 @@ struct reference_stream *runner_reference_stream(struct runner *runner, const ch
                   "\"-\" is standard input, where the frames come from; name their file");
     else if (runner->reference_stream == NULL)
         runner->reference_stream = reference_stream_open(path, partial, &runner->diag);
+    if (runner->reference_stream != NULL)
+        reference_stream_before_waiting(runner->reference_stream, runner->pause);
     return runner->reference_stream;
 }
 

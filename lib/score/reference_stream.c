@@ -7,7 +7,6 @@
 #include "frame/frame_check.h"
 #include "frame/frame_order.h"
 #include "frame/frame_text.h"
-#include "text/input.h"
 #include "text/json_scan.h"
 #include "text/record_text.h"
 
@@ -47,6 +46,11 @@ struct reference_stream *reference_stream_open(const char *path, bool partial, s
     reference->last = &reference->first;
     reference->frame.arena = &reference->arena;
     return reference;
+}
+
+void reference_stream_before_waiting(struct reference_stream *reference, struct input_pause pause)
+{
+    input_before_waiting(reference->input, pause);
 }
 
 void reference_stream_close(struct reference_stream *reference)

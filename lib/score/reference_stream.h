@@ -9,12 +9,14 @@
 
 #include "frame/frame.h"
 #include "score/track.h"
+#include "text/input.h"
 
 struct reference_stream;
 
 /* Opens the file, or standard input for "-". With partial true, frames that only one stream has are
  * counted; else they are errors. NULL after a message. */
 struct reference_stream *reference_stream_open(const char *path, bool partial, struct diag *diag);
+void reference_stream_before_waiting(struct reference_stream *reference, struct input_pause pause);
 void reference_stream_close(struct reference_stream *reference);
 
 /* Finds the line for this frame's scene and number and reads it as a frame with these sections and

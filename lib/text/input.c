@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -15,6 +16,7 @@ enum { RAW_SIZE = 64 * 1024, LINE_STEP = 64 * 1024 };
 struct input {
     int fd;
     const char *name;
+    struct input_pause pause;
     size_t raw_at, raw_end;
     bool sniffed, gzip, inside_member, damaged;
     z_stream stream;
@@ -62,12 +64,21 @@ const char *input_name(const struct input *input)
     return input->name;
 }
 
+void input_before_waiting(struct input *input, struct input_pause pause)
+{
+    input->pause = pause;
+}
+
+/* Reads what there is, or else waits, also where whoever opened the file asked not to. */
 static long read_file(struct input *input, void *bytes, size_t size, struct diag *diag)
 {
+    struct pollfd file = {.fd = input->fd, .events = POLLIN};
+    if (input->pause.act != NULL && poll(&file, 1, 0) == 0)
+        input->pause.act(input->pause.with);
     ssize_t got;
     do
         got = read(input->fd, bytes, size);
-    while (got < 0 && errno == EINTR);
+    while (got < 0 && (errno == EINTR || (errno == EAGAIN && poll(&file, 1, -1) > 0)));
     if (got < 0)
         return diag_fail(diag, errno == EISDIR ? DIAG_NO_INPUT : DIAG_IO, "%s", strerror(errno));
     return got;
@@ -106,8 +117,10 @@ static int sniff(struct input *input, struct diag *diag)
     if (more <= 0)
         return more;
     if (input->raw_end == 1) {
-        ssize_t got = read(input->fd, input->raw + 1, RAW_SIZE - 1);
-        input->raw_end += got > 0 ? (size_t)got : 0;
+        long got = read_file(input, input->raw + 1, RAW_SIZE - 1, diag);
+        if (got < 0)
+            return -1;
+        input->raw_end += (size_t)got;
     }
     bool gzip = input->raw_end >= 2 && input->raw[0] == 0x1f && input->raw[1] == 0x8b;
     return gzip ? start_member(input, diag) : 0;

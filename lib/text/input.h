@@ -3,7 +3,10 @@
  * gzip is unpacked by an inflate loop that insists on the end mark of every member, because zlib's
  * gzread has been measured to accept truncated files silently. Anything after the last member is
  * refused. A directory, a missing file and the like are DIAG_NO_INPUT, damaged gzip is
- * DIAG_DATA. */
+ * DIAG_DATA.
+ *
+ * A line is given out as soon as its newline can be read, from pipes, sockets and terminals and out
+ * of gzip alike. */
 #ifndef INPUT_H
 #define INPUT_H
 
@@ -15,6 +18,12 @@
 
 struct input;
 
+/* What to do before a wait for bytes: whoever writes them may first wait for what is held back. */
+struct input_pause {
+    void (*act)(void *with); /* NULL: nothing */
+    void *with;
+};
+
 /* Opens the standard streams that are closed, so that no file opened later gets their numbers.
  * Reading from them or writing to them then fails. Called once, in main. */
 void input_guard_descriptors(void);
@@ -22,6 +31,9 @@ void input_guard_descriptors(void);
 /* Opens a path, or standard input for "-". NULL after a message, which does not name the file. */
 struct input *input_open(const char *path, struct diag *diag);
 void input_close(struct input *input);
+
+/* Sets what a read does first if it would have to wait. */
+void input_before_waiting(struct input *input, struct input_pause pause);
 
 /* "stdin" or the path, for messages. */
 const char *input_name(const struct input *input);

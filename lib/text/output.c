@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -128,11 +129,13 @@ struct output *output_open(const char *path, struct diag *diag)
     return output;
 }
 
+/* Waits where there is no room, also if whoever opened the file asked not to. */
 static int write_all(int fd, const char *bytes, size_t length)
 {
+    struct pollfd file = {.fd = fd, .events = POLLOUT};
     while (length > 0) {
         ssize_t written = write(fd, bytes, length);
-        if (written < 0 && errno != EINTR)
+        if (written < 0 && errno != EINTR && !(errno == EAGAIN && poll(&file, 1, -1) > 0))
             return -1;
         if (written > 0) {
             bytes += written;
@@ -176,6 +179,12 @@ int output_send(struct output *output, struct diag *diag)
 {
     size_t whole = output->held.length / PIECE_SIZE * PIECE_SIZE;
     return whole == 0 ? 0 : send_first(output, whole, diag);
+}
+
+int output_flush(struct output *output, struct diag *diag)
+{
+    bool awaited = output->temporary == NULL && output->gzip == NULL;
+    return awaited ? send_first(output, output->held.length, diag) : 0;
 }
 
 int output_write(struct output *output, const char *bytes, size_t length, struct diag *diag)

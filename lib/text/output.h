@@ -25,6 +25,10 @@ struct output *output_open(const char *path, struct diag *diag);
 struct text *output_text(struct output *output);
 int output_send(struct output *output, struct diag *diag);
 
+/* Writes all that is held where somebody may wait for it: to standard output, a pipe or a device. A
+ * file and compressed output keep it until there is more, or the end. */
+int output_flush(struct output *output, struct diag *diag);
+
 /* Writes bytes that lie elsewhere. */
 int output_write(struct output *output, const char *bytes, size_t length, struct diag *diag);
 

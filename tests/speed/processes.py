@@ -1,8 +1,9 @@
-"""What scripts/bench measures of whole processes: how fast they start, what two shards gain, and whether the end
-of a long stream costs as much as its beginning."""
+"""What scripts/bench measures of whole processes: how fast they start, what two shards gain, how long the targets
+of a single frame take, and whether the end of a long stream costs as much as its beginning."""
 import os
 import statistics
 import subprocess
+import time
 
 import scenes
 import timing
@@ -78,6 +79,41 @@ def shard_lines(glint, repeat, folder, frames=1000, reads=15):
         yield {"shards": name} | timing.spread(values)
 
 
+def trips(commands, lines):
+    """Nanoseconds from writing each frame to having its targets, if each waits for those of the one before."""
+    processes, took = pipe(commands, subprocess.PIPE), []
+    first, last = processes[0].stdin, processes[-1].stdout
+    for line in lines:
+        begin = time.perf_counter_ns()
+        first.write(line)
+        first.flush()
+        last.readline()
+        took.append(time.perf_counter_ns() - begin)
+    first.close()
+    if any(process.wait() != 0 for process in processes):
+        raise SystemExit("bench: a stage of the round trip failed")
+    return took
+
+
+def round_trip_lines(glint, folder, frames=1000):
+    """Wall times of the way there and back of a simulator in the loop, through processes and through one."""
+    source, *stages = scenes.commands("highway", 20, 1, frames, "default")
+    path = os.path.join(folder, "trips.jsonl")
+    subprocess.run([glint, "-c", f"{source} -o {path}"], check=True)
+    with open(path, "rb") as file:
+        lines = file.readlines()
+    programs = [[os.path.join(os.path.dirname(glint), word) if at == 0 else word
+                 for at, word in enumerate(stage.split())] for stage in stages]
+    for mode, commands in (("fused", [[glint, "-c", " | ".join(stages)]]), ("piped", programs)):
+        took = trips(commands, lines)
+        yield {"round_trip": mode, "processes": len(commands)} | spread_of(took)
+
+
+def spread_of(took):
+    took = sorted(took)
+    return {"ns": took[len(took) // 2], "p99_ns": took[len(took) * 99 // 100], "max_ns": took[-1]}
+
+
 def seen(processes):
     """CPU time so far, and resident memory now, of running processes together."""
     cpu_ns = resident_kB = 0
@@ -104,11 +140,11 @@ def follow(title, processes, frames):
     return found
 
 
-def pipe(commands):
+def pipe(commands, source=subprocess.DEVNULL):
     processes = []
     for command in commands:
-        before = processes[-1].stdout if processes else subprocess.DEVNULL
-        processes.append(subprocess.Popen(command.split(), stdin=before, stdout=subprocess.PIPE))
+        before = processes[-1].stdout if processes else source
+        processes.append(subprocess.Popen(command, stdin=before, stdout=subprocess.PIPE))
         if len(processes) > 1:
             before.close()
     return processes
@@ -119,7 +155,7 @@ def stream_lines(glint, frames):
     commands = scenes.commands("platoon", 20, 1, frames, "default")
     fused = [subprocess.Popen([glint, "-c", " | ".join(commands)], stdout=subprocess.PIPE)]
     for mode, processes in (("fused", fused), ("piped", None)):
-        found = follow(mode, processes or pipe(commands), frames)
+        found = follow(mode, processes or pipe([command.split() for command in commands]), frames)
         for tenth in range(1, len(found)):
             cpu_ns = (found[tenth][0] - found[tenth - 1][0]) / (frames / TENTHS)
             yield {"stream": frames, "mode": mode, "tenth": tenth, "cpu_ns_per_frame": round(cpu_ns),

@@ -1,5 +1,8 @@
+/* For F_SETPIPE_SZ. */
+#define _GNU_SOURCE
 #include "check.h"
 
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -303,14 +306,14 @@ static void the_message_says_why_a_file_cannot_be_read(void **state)
 }
 
 /* A pipe gives what it has; the least is one byte at a time. */
-static void a_pipe_that_gives_one_byte_at_a_time_is_read_whole(void **state)
+static void check_slow_pipe(int flags)
 {
-    (void)state;
     struct text packed = {0}, text = {0};
     struct diag diag = {0};
     add_member("one\ntwo\n", 8, &packed);
     int ends[2], standard = dup(STDIN_FILENO);
     assert_int_equal(pipe(ends), 0);
+    assert_int_equal(fcntl(ends[0], F_SETFL, flags), 0);
     pid_t child = fork();
     if (child == 0) {
         for (size_t i = 0; i < packed.length; i++) {
@@ -337,6 +340,105 @@ static void a_pipe_that_gives_one_byte_at_a_time_is_read_whole(void **state)
     text_free(&text);
 }
 
+static void a_pipe_that_gives_one_byte_at_a_time_is_read_whole(void **state)
+{
+    (void)state;
+    check_slow_pipe(0);
+    check_slow_pipe(O_NONBLOCK);
+}
+
+/* Whoever writes the next line when its reader would wait for it, and not before. */
+struct answering_writer {
+    int fd;
+    size_t lines; /* written so far */
+    bool packed;
+    z_stream stream; /* of all lines, made whole after each, as a live sender makes them */
+};
+
+/* The lengths of lines, newlines included; 0: the end. They fill room for 64 KiB exactly, and not.
+ */
+static const size_t answers[] = {8, 65536, 65537, 131072, 3, 400000, 0};
+
+static void answer(void *with)
+{
+    struct answering_writer *writer = with;
+    unsigned char packed[4096];
+    assert_true(writer->lines < COUNT(answers));
+    size_t length = answers[writer->lines++];
+    struct text line = {0};
+    memset(text_room(&line, length + 1), 'a', length + 1);
+    line.bytes[length > 0 ? length - 1 : 0] = '\n';
+    writer->stream.next_in = (unsigned char *)line.bytes;
+    writer->stream.avail_in = (unsigned)length;
+    writer->stream.next_out = packed;
+    writer->stream.avail_out = sizeof packed;
+    int flush = length > 0 ? Z_SYNC_FLUSH : Z_FINISH;
+    assert_true(!writer->packed || deflate(&writer->stream, flush) >= Z_OK);
+    const void *bytes = writer->packed ? (const void *)packed : line.bytes;
+    size_t count = writer->packed ? sizeof packed - writer->stream.avail_out : length;
+    assert_int_equal(write(writer->fd, bytes, count), (ssize_t)count);
+    if (length == 0)
+        assert_int_equal(close(writer->fd), 0);
+    text_free(&line);
+}
+
+/* A wait that came too early, with a whole line there to be read, would make the writer write
+ * again. */
+static void check_answers(bool packed)
+{
+    int ends[2];
+    struct diag diag = {0};
+    assert_int_equal(pipe(ends), 0);
+    assert_true(fcntl(ends[1], F_SETPIPE_SZ, 1 << 20) >= 1 << 20);
+    struct answering_writer writer = {.fd = ends[1], .packed = packed};
+    assert_int_equal(deflateInit2(&writer.stream, 1, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_FIXED), Z_OK);
+    int standard = dup(STDIN_FILENO);
+    dup2(ends[0], STDIN_FILENO);
+    close(ends[0]);
+    struct input *input = input_open("-", &diag);
+    input_before_waiting(input, (struct input_pause){answer, &writer});
+    const char *line;
+    size_t length, at = 0;
+    for (; input_line(input, SIZE_MAX, &line, &length, &diag) > 0; at++) {
+        assert_int_equal(length, answers[at] - 1);
+        assert_int_equal(writer.lines, at + 1);
+    }
+    assert_int_equal(diag.code, DIAG_OK);
+    assert_int_equal(at, COUNT(answers) - 1);
+    input_close(input);
+    deflateEnd(&writer.stream);
+    dup2(standard, STDIN_FILENO);
+    close(standard);
+}
+
+static void a_read_pauses_before_it_waits_and_only_then(void **state)
+{
+    (void)state;
+    check_answers(false);
+    check_answers(true);
+}
+
+static void count_pause(void *with)
+{
+    ++*(size_t *)with;
+}
+
+static void a_file_is_read_without_a_pause(void **state)
+{
+    struct scratch *scratch = *state;
+    struct text bytes = repeatable_bytes(300000, 1), text = {0};
+    struct diag diag = {0};
+    size_t pauses = 0;
+    struct input *input = open_bytes(scratch, bytes.bytes, bytes.length);
+    input_before_waiting(input, (struct input_pause){count_pause, &pauses});
+    assert_int_equal(input_all(input, SIZE_MAX, &text, &diag), 0);
+    assert_int_equal(text.length, bytes.length);
+    assert_int_equal(pauses, 0);
+    input_close(input);
+    text_free(&bytes);
+    text_free(&text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -350,6 +452,8 @@ int main(void)
         cmocka_unit_test(a_line_may_be_as_long_as_the_limit),
         cmocka_unit_test(the_message_says_why_a_file_cannot_be_read),
         cmocka_unit_test(a_pipe_that_gives_one_byte_at_a_time_is_read_whole),
+        cmocka_unit_test(a_read_pauses_before_it_waits_and_only_then),
+        cmocka_unit_test(a_file_is_read_without_a_pause),
     };
     return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -337,6 +338,45 @@ static void pipes_and_devices_are_written_directly(void **state)
     text_free(&back);
 }
 
+static long waiting_in(int fd)
+{
+    int bytes = 0;
+    assert_int_equal(ioctl(fd, FIONREAD, &bytes), 0);
+    return bytes;
+}
+
+static void what_a_pipe_holds_back_is_flushed(void **state)
+{
+    struct scratch *scratch = *state;
+    struct diag diag = {0};
+    unlink(scratch->fifo);
+    assert_int_equal(mkfifo(scratch->fifo, 0600), 0);
+    int reader = open(scratch->fifo, O_RDONLY | O_NONBLOCK);
+    struct output *output = output_open(scratch->fifo, &diag);
+    assert_int_equal(output_flush(output, &diag), 0);
+    assert_int_equal(output_write(output, "held", 4, &diag), 0);
+    assert_int_equal(waiting_in(reader), 0);
+    assert_int_equal(output_flush(output, &diag), 0);
+    assert_int_equal(waiting_in(reader), 4);
+    assert_int_equal(output_close(output, true, &diag), 0);
+    assert_int_equal(waiting_in(reader), 4);
+    close(reader);
+}
+
+/* Nobody can read a file before it has its name, and the bytes of a .gz do not depend on time. */
+static void files_keep_what_they_hold_back(void **state)
+{
+    struct scratch *scratch = *state;
+    for (int packed = 0; packed <= 1; packed++) {
+        struct diag diag = {0};
+        struct output *output = output_open(packed ? scratch->packed : scratch->path, &diag);
+        assert_int_equal(output_write(output, "held", 4, &diag), 0);
+        assert_int_equal(output_flush(output, &diag), 0);
+        assert_int_equal(output_text(output)->length, 4);
+        assert_int_equal(output_close(output, true, &diag), 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -350,6 +390,8 @@ int main(void)
         cmocka_unit_test(the_message_says_why_a_file_cannot_be_created_and_nothing_is_left),
         cmocka_unit_test(a_full_device_is_noticed_at_the_latest_when_it_is_closed),
         cmocka_unit_test(pipes_and_devices_are_written_directly),
+        cmocka_unit_test(what_a_pipe_holds_back_is_flushed),
+        cmocka_unit_test(files_keep_what_they_hold_back),
     };
     return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
 }
