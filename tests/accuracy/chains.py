@@ -73,8 +73,8 @@ def cpu_s(words):
 
 
 class Chain:
-    """All stages in one process. A name is unique in its group; base names the chain of `models` that
-    a chain of another group differs from by one effect."""
+    """All stages in one process. A name is unique in its group; base names the chain of `models` that it is
+    compared with: of a chain of another group, the one from which it differs by an effect."""
 
     def __init__(self, group, name, radar, sensor=SENSOR, effects="all", extract="glint-extract", size="large",
                  base=None):
@@ -125,6 +125,12 @@ def reference(radar):
     return Chain(REFERENCE, "signal, large", radar, SIGNAL)
 
 
+# What each model is compared with.
+BASES = {"gauss": "perfect", "paper": "perfect", "all effects": "paper", "all effects, 3gpp": "all effects",
+         "all effects, contour": "all effects", "smear": "all effects", "signal, small": "smear",
+         "signal, medium": "signal, small"}
+
+
 def models(radar):
     paper = ",".join(PAPER)
     made = [("perfect", {"sensor": "glint-sensor-perfect | glint-noise-none", "effects": paper}),
@@ -136,7 +142,7 @@ def models(radar):
             ("smear", {"sensor": "glint-sensor-smear | glint-noise"}),
             ("signal, small", {"sensor": SIGNAL, "size": "small"}),
             ("signal, medium", {"sensor": SIGNAL, "size": "medium"})]
-    return [Chain("models", name, radar, **how) for name, how in made]
+    return [Chain("models", name, radar, base=BASES.get(name), **how) for name, how in made]
 
 
 def added(radar):

@@ -9,7 +9,7 @@ import subprocess
 
 import labels
 from labels import Box
-from written import RADARS, changes, pick, spent_more
+from written import RADARS, changes, measured, pick, spent_more
 
 BLUE, ORANGE, GREY = "#0072b2", "#d55e00", "#888888"
 SIZE = 11  # of the font, in pixels
@@ -229,7 +229,7 @@ def effect_panels(rows, radar, size, frames):
 
 
 def cost_page(rows, radar, path):
-    shown = {row["chain"] for row in pick(rows, radar=radar) if "gain" in row and changes(row)}
+    shown = {row["chain"] for row in pick(rows, radar=radar) if row["group"] in ("added", "left out") and changes(row)}
     middle = 80 + 17 * len(shown)
     size = (1000, middle + 480)
     frames = [Box(130, 620, 60, middle), Box(690, 960, 60, middle)]
@@ -268,7 +268,7 @@ def knobs_page(rows, path):
 
 
 def draw(cost, settings, folder):
-    for radar in RADARS:
+    for radar in filter(lambda radar: measured(cost, radar), RADARS):
         cost_page(cost, radar, os.path.join(folder, f"cost-{radar}.svg"))
     knobs_page(settings, os.path.join(folder, "knobs.svg"))
 

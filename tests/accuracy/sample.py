@@ -10,6 +10,7 @@ import drawn
 import errors
 import knobs
 import scenes
+import written
 from written import RADARS, pick
 
 
@@ -87,6 +88,15 @@ def coverage(checks):
     checks.hold(0.9 * tries <= held <= 0.99 * tries, f"intervals hold the ratio in {held} of {tries} tries")
 
 
+def no_ratio(checks):
+    """Where ideal echoes are not told from the reference there is no error, and the tables say so."""
+    scale = errors.Errors({i: (value, 0) for i, value in enumerate([-1, 1.1] * 10)})
+    checks.hold(not scale.told, "a ratio to a distance whose interval reaches 0")
+    rows = [{"radar": radar, "group": "models", "chain": "perfect", "scenes": 2, "seeds": 8, "us": 1}
+            for radar in RADARS]
+    checks.hold(written.markdown(rows, []).count("not told from the reference") == len(RADARS), "no word of that")
+
+
 def pictures(checks, tables):
     """No text covers another one in the pictures as they are drawn."""
     with tempfile.TemporaryDirectory() as folder:
@@ -119,5 +129,6 @@ def check(tables):
     angles = {name: off for name, _, off in knobs.angles(1)}
     checks.hold(angles["closed form"] <= angles["65536"] <= 1e-6 * angles["16"], f"tables of angles: {angles}")
     coverage(checks)
+    no_ratio(checks)
     pictures(checks, tables)
     return 1 if checks.failed else 0

@@ -22,13 +22,11 @@ DRY = {"road": "asphalt", "clutter_per_m2": 1e-3, "clutter_ercs": 0.05}
 RAIN = DRY | {"rain_mmph": 10, "fog_gpm3": 0.1}
 SIZES = ["small", "medium", "large"]
 
-# What a sensor has to say so that an effect exists: taken from where all are described, but for
-# false alarms, of which noise 18 dB below the threshold makes none.
-DESCRIBED = ["mount_z_m", "elevation_half_width_rad", "diffraction", "curved_sides", "micro_motion",
-             "latency_s", "bounces", "fluctuation", "fluctuation_sigma_db", "receiver_bandwidth_hz",
-             "noise_figure_db", "antenna_gain_dbi", "chirp_slope_hzps", "chirp_s", "sigma_law",
-             "window_factor", "misalignment_rad", "radome_bias_rad", "radome_period_rad",
-             "radome_phase_rad"]
+# What lrr77-full says of itself; all else that it has and a suite lacks is taken from it, so that every
+# effect exists. Steps and the azimuth cell are those of the radar of long range.
+OF_ITS_OWN = ["sources", "antenna_table", "unambiguous_range_m", "unambiguous_rate_mps", "false_alarms",
+              "false_alarm_range_rate_mps"]
+OF_LONG_RANGE = ["azimuth_cell_rad", "range_step_m", "range_rate_step_mps", "azimuth_step_rad"]
 
 
 def sensors(name):
@@ -44,20 +42,24 @@ def false_alarm(sensor, cells, rank):
     return math.prod((cells - i) / (cells - i + factor) for i in range(rank))
 
 
-def described(suite, repetitions, most_repetitions, rate_mps, cells=16):
+def described(suite, repetitions, most_repetitions, rate_mps, cells=16, without=()):
     """The suite with every effect and a scan in every frame, without a second train: chain and signal fold
     alike. Fewer repetitions of the same chirps or pulses tell rates apart less well."""
     full = sensors("lrr77-full")["sensors"][0]
-    for sensor in suite["sensors"]:
-        sensor |= {key: full[key] for key in DESCRIBED}
+    taken = {key: value for key, value in full.items() if key not in OF_ITS_OWN and key not in without}
+    rank = 3 * cells // 4
+    for number, sensor in enumerate(suite["sensors"]):
+        sensor = suite["sensors"][number] = taken | sensor
         sensor.pop("cycle_s", None)
         sensor["unambiguous_rate_mps"] = rate_mps * most_repetitions / 2
         sensor["cell_range_rate_mps"] = rate_mps * most_repetitions / repetitions
         sensor["range_sigma_m"] = 0.1 * sensor["cell_range_m"]
         sensor["range_rate_sigma_mps"] = 0.1 * sensor["cell_range_rate_mps"]
-        rank = 3 * cells // 4
+        probability = false_alarm(sensor, cells, rank)
+        sensor["false_alarms"] = probability * repetitions * sensor["range_max_m"] / sensor["cell_range_m"]
+        sensor["false_alarm_range_rate_mps"] = sensor["unambiguous_rate_mps"]
         sensor["waveform"] |= {"repetitions": repetitions, "cfar_cells": cells, "cfar_rank": rank,
-                               "cfar_false_alarm": false_alarm(sensor, cells, rank)}
+                               "cfar_false_alarm": probability}
         sensor["waveform"].pop("stagger", None)
     return suite
 
@@ -71,7 +73,7 @@ def long_range(size):
 def short_range(size):
     """Fewer pulses leave less room for the noise's window."""
     repetitions, cells = {"small": (28, 8), "medium": (40, 12), "large": (64, 16)}[size]
-    return described(sensors("srr24-signal"), repetitions, 64, 0.5, cells)
+    return described(sensors("srr24-signal"), repetitions, 64, 0.5, cells, OF_LONG_RANGE)
 
 
 def played(text):

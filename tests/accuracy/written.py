@@ -2,6 +2,8 @@
 import csv
 import os
 
+from chains import BASES
+
 COST = ["radar", "group", "chain", "scenes", "seeds", "us", "error", "low", "high", "gain", "gain_low", "gain_high",
         "digest"]
 KNOBS = ["radar", "group", "setting", "us", "off", "low", "high", "bytes"]
@@ -46,22 +48,29 @@ def spent(us):
 
 
 def with_interval(row, name, low, high):
-    return f"{row[name]:.1f} ({row[low]:.1f} to {row[high]:.1f})" if name in row else "not told"
+    return f"{row[name]:.2f} ({row[low]:.2f} to {row[high]:.2f})" if name in row else "not told"
 
 
 def models(rows):
     """Chains of both radars: error with its interval, and time."""
     text = "".join(f"{radar.capitalize()} range: {row['scenes']:.0f} scenes, {row['seeds']:.0f} seeds of the "
                    "reference.\n" for radar in RADARS for row in pick(rows, radar=radar)[:1])
-    text += "\n" + head(["chain", *(f"{what}, {radar} range" for radar in RADARS for what in ("error, %", "time"))])
+    columns = ("error, %", "time", "points less than")
+    text += "\n" + head(["chain", *(f"{what}, {radar} range" for radar in RADARS for what in columns)])
     names = dict.fromkeys(row["chain"] for row in rows if row["group"] in ("models", "reference"))
     for name in names:
         cells = [name]
         for radar in RADARS:
             row = next(row for row in pick(rows, radar=radar, chain=name) if row["group"] in ("models", "reference"))
-            cells += [with_interval(row, "error", "low", "high"), spent(row["us"]) if "us" in row else ""]
+            less = f"{BASES[name]}: " + with_interval(row, "gain", "gain_low", "gain_high") if "gain" in row else ""
+            cells += [with_interval(row, "error", "low", "high"), spent(row["us"]) if "us" in row else "", less]
         text += line(cells)
     return text
+
+
+def measured(rows, radar):
+    """False where the interval of ideal echoes reaches 0."""
+    return all("error" in row for row in pick(rows, radar=radar))
 
 
 def told(row):
@@ -98,6 +107,8 @@ def effect_cells(rows, row):
 
 def effects(rows, radar):
     """What each effect gains and takes, added to the paper's and left out of all."""
+    if not measured(rows, radar):
+        return ""
     own = [row for row in pick(rows, radar=radar) if row["group"] in ("added", "left out") and changes(row)]
     found = {(row["group"], row["chain"]): row for row in own}
     text = f"\nEffects, {radar} range: points of error that an effect takes away\n\n"
@@ -114,6 +125,8 @@ def effects(rows, radar):
 def verdicts(rows, radar):
     """What the intervals support, in words."""
     text = f"\n{radar.capitalize()} range:\n\n"
+    if not measured(rows, radar):
+        return text + "Ideal echoes are not told from the reference, so there are no errors.\n"
     for group, where in (("added", "added to the paper's"), ("left out", "in all others")):
         own = pick(rows, radar=radar, group=group)
         said = {"gain": [row for row in own if told(row) > 0], "harm": [row for row in own if told(row) < 0],
