@@ -22,6 +22,7 @@ QUIET = "all,-angle_noise"
 PADDING = 2  # cells of the transforms to a bin
 SEED = 14
 FAST = {"chirp_slope_hzps": 4e12}  # chirps of 20 us with the cells of lrr77
+FALLING = {"chirp_slope_hzps": -4e12}
 # How near the parabola of MODEL 11.3 comes to the summit of a spectrum, in cells and dB; shipped suites have Hann's
 # window.
 NEAR = {"hann": (0.005, 0.05), "rectangular": (0.011, 0.12)}
@@ -329,12 +330,12 @@ def lone_points(program, long):
             rates = np.concatenate([draw.uniform(-1, 1, 20), draw.uniform(-10, 10, 20), draw.uniform(-50, 50, 10)])
             compare(program, f"{kind}, {window}", sensor, [(draw.uniform(2.5, 3.5), rate, 1e3) for rate in rates])
     for name, count, changes in (("lrr77-signal-small", 20, {}), ("lrr77-signal-small", 20, FAST),
-                                 ("srr24-signal", 20, {}), ("lrr77-signal-medium", 8, {}),
-                                 ("lrr77-signal-large", 4, {})):
+                                 ("lrr77-signal-small", 20, FALLING), ("srr24-signal", 20, {}),
+                                 ("lrr77-signal-medium", 8, {}), ("lrr77-signal-large", 4, {})):
         sensor = dict(shipped(name), **changes)
         points = [(draw.uniform(0.3, 0.7) * sensor["range_max_m"], draw.uniform(-50, 50), 1e3)
                   for _ in range(count * (5 if long else 1))]
-        compare(program, name + ", fast" * bool(changes), sensor, points)
+        compare(program, " ".join((name, *map(str, changes.values()))), sensor, points)
 
 
 def are_two(radar, samples, detector=None):
