@@ -4,7 +4,6 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
-#include "radar/snr_sigma.h"
 
 /* The size of a cell in a document may mean half of it. */
 static double width(const struct sensor *sensor, double cell)
@@ -18,6 +17,13 @@ double consistency_dwell_s(const struct sensor *sensor)
            (2 * width(sensor, sensor->cell_range_rate_mps));
 }
 
+double consistency_fold_mps(const struct sensor *sensor)
+{
+    const struct waveform *waveform = &sensor->waveform;
+    double folds = elementary_max(1, (double)waveform->stagger);
+    return folds * (double)waveform->repetitions * sensor->cell_range_rate_mps / 2;
+}
+
 double consistency_beam_rad(const struct sensor *sensor)
 {
     const struct waveform *waveform = &sensor->waveform;
@@ -26,7 +32,9 @@ double consistency_beam_rad(const struct sensor *sensor)
     return antenna_beam_rad(&sensor->antenna);
 }
 
-double consistency_cells(const struct sensor *sensor)
+/* The resolution cells in which a sensor tests for echoes: ranges times the range rates of its
+ * false alarms times azimuths, of which there is one without an azimuth_cell_rad. */
+static double cells(const struct sensor *sensor)
 {
     double ranges =
         (sensor->range_max_m - sensor->range_min_m) / width(sensor, sensor->cell_range_m);
@@ -37,10 +45,11 @@ double consistency_cells(const struct sensor *sensor)
     return elementary_max(ranges, 1) * elementary_max(rates, 1) * elementary_max(azimuths, 1);
 }
 
-double consistency_noise_alarms(const struct sensor *sensor)
+/* The mean number of cells that noise alone carries over the threshold in a scan (MODEL 14.9). */
+static double noise_alarms(const struct sensor *sensor)
 {
     double ratio = units_amplitude_from_db(sensor->threshold_db) / sensor->pointer_sigma;
-    return consistency_cells(sensor) * elementary_exp(-ratio * ratio);
+    return cells(sensor) * elementary_exp(-elementary_min(ratio * ratio, 600));
 }
 
 static double beat_hz(const struct sensor *sensor, double range_m)
@@ -48,7 +57,7 @@ static double beat_hz(const struct sensor *sensor, double range_m)
     return 2 * range_m * fabs(sensor->chirp_slope_hzps) / SPEED_OF_LIGHT_MPS;
 }
 
-/* Adds a check whose sides the document has both. */
+/* Adds a check of which the document has both sides. */
 static size_t add(struct consistency *checks, size_t count, const struct consistency *check)
 {
     if (check->left_value > 0 && check->right_value > 0)
@@ -56,60 +65,67 @@ static size_t add(struct consistency *checks, size_t count, const struct consist
     return count;
 }
 
-#define ADD(...) count = add(checks, count, &(struct consistency){__VA_ARGS__})
+#define ADD(kind, unit, left, left_value, right, right_value, member)                              \
+    count = add(checks, count,                                                                     \
+                &(struct consistency){CONSISTENCY_##kind, CONSISTENCY_##unit, left, right,         \
+                                      left_value, right_value, member})
+#define LIMIT(...) ADD(LIMIT, __VA_ARGS__, NULL)
 
 static size_t add_strict(const struct sensor *sensor, struct consistency *checks)
 {
     size_t count = 0;
-    ADD(CONSISTENCY_STRICT, CONSISTENCY_S, "dwell, wavelength/(2 cell_range_rate_mps)", "cycle_s",
-        consistency_dwell_s(sensor), sensor->cycle_s, "cell_range_rate_mps");
-    ADD(CONSISTENCY_STRICT, CONSISTENCY_HZ, "beat, 2 range_max_m chirp_slope_hzps/c",
-        "receiver_bandwidth_hz", beat_hz(sensor, sensor->range_max_m),
-        sensor->receiver_bandwidth_hz, "range_max_m");
-    ADD(CONSISTENCY_STRICT, CONSISTENCY_MPS, "false alarms to false_alarm_range_rate_mps",
-        "unambiguous_rate_mps", sensor->false_alarms > 0 ? sensor->false_alarm_range_rate_mps : 0,
-        sensor->unambiguous_rate_mps, "false_alarm_range_rate_mps");
+    double alarm_rate_mps = sensor->false_alarms > 0 ? sensor->false_alarm_range_rate_mps : 0;
+    double dwell_s = consistency_dwell_s(sensor), stagger = (double)sensor->waveform.stagger;
+    double trains = stagger > 0 ? 2 + 1 / stagger : 0;
+    ADD(STRICT, S, "dwell, wavelength/(2 cell_range_rate_mps)", dwell_s, "cycle_s", sensor->cycle_s,
+        "cell_range_rate_mps");
+    ADD(STRICT, S, "dwell of both trains, (2 + 1/stagger) wavelength/(2 cell_range_rate_mps)",
+        trains * dwell_s, "cycle_s", sensor->cycle_s, "waveform.stagger");
+    ADD(STRICT, HZ, "beat, 2 range_max_m chirp_slope_hzps/c", beat_hz(sensor, sensor->range_max_m),
+        "receiver_bandwidth_hz", sensor->receiver_bandwidth_hz, "range_max_m");
+    ADD(STRICT, MPS, "false alarms to false_alarm_range_rate_mps", alarm_rate_mps,
+        "unambiguous_rate_mps", sensor->unambiguous_rate_mps, "false_alarm_range_rate_mps");
     return count;
 }
 
 static size_t add_signal(const struct sensor *sensor, struct consistency *checks, size_t count)
 {
     double sweep_hz = fabs(sensor->chirp_slope_hzps) * sensor->chirp_s;
-    double dwell_s = consistency_dwell_s(sensor), rate_mps = sensor->unambiguous_rate_mps;
+    double sweep_m = sweep_hz > 0 ? SPEED_OF_LIGHT_MPS / (2 * sweep_hz) : 0;
+    double rate_mps = sensor->unambiguous_rate_mps, dwell_s = consistency_dwell_s(sensor);
+    double repetition_s =
+        rate_mps > 0 ? units_wavelength_m(sensor->carrier_hz) / (4 * rate_mps) : 0;
     double cell_m = width(sensor, sensor->cell_range_m);
-    ADD(CONSISTENCY_LIMIT, CONSISTENCY_M, "sweep, c/(2 chirp_slope_hzps chirp_s)", "cell_range_m",
-        sweep_hz > 0 ? SPEED_OF_LIGHT_MPS / (2 * sweep_hz) : 0, cell_m, NULL);
-    ADD(CONSISTENCY_LIMIT, CONSISTENCY_S, "chirp_s",
-        "repetition, wavelength/(4 unambiguous_rate_mps)", sensor->chirp_s,
-        rate_mps > 0 ? units_wavelength_m(sensor->carrier_hz) / (4 * rate_mps) : 0, NULL);
-    ADD(CONSISTENCY_LIMIT, CONSISTENCY_M, "range_max_m", "unambiguous_range_m", sensor->range_max_m,
-        sensor->unambiguous_range_m, NULL);
-    ADD(CONSISTENCY_LIMIT, CONSISTENCY_HZ, "receiver_bandwidth_hz",
-        "beat, 2 unambiguous_range_m chirp_slope_hzps/c", sensor->receiver_bandwidth_hz,
-        beat_hz(sensor, sensor->unambiguous_range_m), NULL);
-    ADD(CONSISTENCY_LIMIT, CONSISTENCY_M, "walk in a dwell at unambiguous_rate_mps", "cell_range_m",
-        rate_mps * dwell_s, cell_m, NULL);
-    ADD(CONSISTENCY_LIMIT, CONSISTENCY_S, "half a dwell", "latency_s", dwell_s / 2,
-        sensor->latency_s, NULL);
-    ADD(CONSISTENCY_EQUAL, CONSISTENCY_ONE, "false_alarms",
-        "noise alone, cells exp(-(threshold/pointer_sigma)^2)", sensor->false_alarms,
-        sensor->pointer_sigma > 0 ? elementary_max(consistency_noise_alarms(sensor), 1e-300) : 0,
-        NULL);
+    LIMIT(MPS, "unambiguous_rate_mps", rate_mps, "signal, by repetitions and stagger",
+          consistency_fold_mps(sensor));
+    LIMIT(M, "sweep, c/(2 chirp_slope_hzps chirp_s)", sweep_m, "cell_range_m", cell_m);
+    LIMIT(S, "chirp_s", sensor->chirp_s, "repetition, wavelength/(4 unambiguous_rate_mps)",
+          repetition_s);
+    LIMIT(M, "range_max_m", sensor->range_max_m, "unambiguous_range_m",
+          sensor->unambiguous_range_m);
+    LIMIT(HZ, "receiver_bandwidth_hz", sensor->receiver_bandwidth_hz,
+          "beat, 2 unambiguous_range_m chirp_slope_hzps/c",
+          beat_hz(sensor, sensor->unambiguous_range_m));
+    LIMIT(M, "walk in a dwell at unambiguous_rate_mps", rate_mps * dwell_s, "cell_range_m", cell_m);
+    LIMIT(S, "half a dwell", dwell_s / 2, "latency_s", sensor->latency_s);
     return count;
 }
 
 static size_t add_accuracy(const struct sensor *sensor, struct consistency *checks, size_t count)
 {
-    ADD(CONSISTENCY_LIMIT, CONSISTENCY_M, "range_sigma_m", "cell_range_m/sqrt(12)",
-        sensor->range_sigma_m, width(sensor, sensor->cell_range_m) / sqrt(12), NULL);
-    ADD(CONSISTENCY_LIMIT, CONSISTENCY_MPS, "range_rate_sigma_mps", "cell_range_rate_mps/sqrt(12)",
-        sensor->range_rate_sigma_mps, width(sensor, sensor->cell_range_rate_mps) / sqrt(12), NULL);
-    ADD(CONSISTENCY_LIMIT, CONSISTENCY_RAD, "azimuth_floor_rad", "azimuth_cell_rad/sqrt(12)",
-        sensor->azimuth_floor_rad, sensor->azimuth_cell_rad / sqrt(12), NULL);
-    ADD(CONSISTENCY_LIMIT, CONSISTENCY_ONE, "Cramer-Rao bound, sqrt(6)/(2 pi)", "window_factor",
-        sqrt(6) / (2 * PI), sensor->sigma_law == SIGMA_BY_SNR ? sensor->window_factor : 0, NULL);
-    ADD(CONSISTENCY_LIMIT, CONSISTENCY_RAD, "beam of the antenna", "azimuth_cell_rad",
-        consistency_beam_rad(sensor), sensor->azimuth_cell_rad, NULL);
+    double cell_m = width(sensor, sensor->cell_range_m);
+    double cell_mps = width(sensor, sensor->cell_range_rate_mps), even = 1 / sqrt(12);
+    double factor = sensor->sigma_law == SIGMA_BY_SNR ? sensor->window_factor : 0;
+    LIMIT(M, "range_sigma_m", sensor->range_sigma_m, "cell_range_m/sqrt(12)", cell_m * even);
+    LIMIT(MPS, "range_rate_sigma_mps", sensor->range_rate_sigma_mps, "cell_range_rate_mps/sqrt(12)",
+          cell_mps * even);
+    LIMIT(RAD, "azimuth_floor_rad", sensor->azimuth_floor_rad, "azimuth_cell_rad/sqrt(12)",
+          sensor->azimuth_cell_rad * even);
+    LIMIT(ONE, "Cramer-Rao bound, sqrt(6)/(2 pi)", sqrt(6) / (2 * PI), "window_factor", factor);
+    LIMIT(RAD, "beam of the antenna", consistency_beam_rad(sensor), "azimuth_cell_rad",
+          sensor->azimuth_cell_rad);
+    ADD(EQUAL, ONE, "false_alarms", sensor->false_alarms,
+        "noise alone, cells exp(-(threshold/pointer_sigma)^2)", noise_alarms(sensor), NULL);
     return count;
 }
 

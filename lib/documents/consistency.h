@@ -48,16 +48,12 @@ int consistency_check(const struct sensor *sensor, size_t index, struct diag *di
 /* The time that the signal of a scan takes to part range rates by a cell, wavelength/(2 cell). */
 double consistency_dwell_s(const struct sensor *sensor);
 
+/* Range rates within +- this are read right from the signal of the waveform (MODEL 11.3); 0 without
+ * one. */
+double consistency_fold_mps(const struct sensor *sensor);
+
 /* The 3 dB width of a beam on boresight: of the row of elements, where the waveform has one, else
  * of the antenna's sum pattern, two ways. */
 double consistency_beam_rad(const struct sensor *sensor);
-
-/* The resolution cells in which a sensor tests for echoes: ranges times the range rates of its
- * false alarms times azimuths, of which there is one without an azimuth_cell_rad. */
-double consistency_cells(const struct sensor *sensor);
-
-/* The mean number of these cells that noise alone carries over the threshold in a scan: cells
- * exp(-(threshold/pointer_sigma)^2) (MODEL 14.9). */
-double consistency_noise_alarms(const struct sensor *sensor);
 
 #endif

@@ -19,10 +19,13 @@ static struct datasheet_accuracy accuracy_at(const struct sensor *sensor, double
     double ratio = amplitude / sensor->pointer_sigma;
     struct datasheet_accuracy accuracy = {
         .snr_db = units_amplitude_db(ratio),
-        .range_sigma_m =
-            with_rounding(suite_range_sigma_m(sensor, amplitude), sensor->range_step_m),
-        .range_rate_sigma_mps = with_rounding(suite_range_rate_sigma_mps(sensor, amplitude),
-                                              sensor->range_rate_step_mps),
+        .range_sigma_m = with_rounding(
+            suite_sigma(sensor, amplitude, sensor->cell_range_m, sensor->range_sigma_m),
+            sensor->range_step_m),
+        .range_rate_sigma_mps =
+            with_rounding(suite_sigma(sensor, amplitude, sensor->cell_range_rate_mps,
+                                      sensor->range_rate_sigma_mps),
+                          sensor->range_rate_step_mps),
     };
     for (int i = 0; i < DATASHEET_AZIMUTHS; i++) {
         double sigma_rad = monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator,

@@ -30,9 +30,12 @@ static void add_ambiguity(const struct sensor *sensor, struct text *text)
     else
         text_add_word(text, "at every range, ");
     if (sensor->unambiguous_rate_mps > 0)
-        text_format(text, "within +-%.4g km/h\n", KMH * sensor->unambiguous_rate_mps);
+        text_format(text, "within +-%.4g km/h", KMH * sensor->unambiguous_rate_mps);
     else
-        text_add_word(text, "at every rate\n");
+        text_add_word(text, "at every rate");
+    if (sensor->waveform.samples > 0)
+        text_format(text, "; the signal within +-%.4g km/h", KMH * consistency_fold_mps(sensor));
+    text_add_word(text, "\n");
 }
 
 static void add_resolution(const struct sensor *sensor, struct text *text)
@@ -42,17 +45,6 @@ static void add_resolution(const struct sensor *sensor, struct text *text)
     if (sensor->azimuth_cell_rad > 0)
         text_format(text, ", %.3g degrees", DEGREES * sensor->azimuth_cell_rad);
     text_format(text, "; beam of %.3g degrees\n", DEGREES * consistency_beam_rad(sensor));
-}
-
-static void add_false_alarms(const struct sensor *sensor, struct text *text)
-{
-    text_format(text, "  false alarms       %.3g a scan", sensor->false_alarms);
-    if (sensor->false_alarms > 0)
-        text_format(text, ", within +-%.4g km/h", KMH * sensor->false_alarm_range_rate_mps);
-    if (sensor->pointer_sigma > 0)
-        text_format(text, "; noise alone makes %.2g in %.3g cells",
-                    consistency_noise_alarms(sensor), consistency_cells(sensor));
-    text_add_word(text, "\n");
 }
 
 static void add_figures(const struct sensor *sensor, const struct datasheet *sheet,
@@ -67,7 +59,7 @@ static void add_figures(const struct sensor *sensor, const struct datasheet *she
     add_resolution(sensor, text);
     add_ambiguity(sensor, text);
     add_update(sensor, text);
-    add_false_alarms(sensor, text);
+    text_format(text, "  false alarms       %.3g a scan\n", sensor->false_alarms);
     if (sensor->list_limit > 0)
         text_format(text, "  list               the %s %lld\n",
                     sensor->list_order == LIST_STRONGEST ? "strongest" : "nearest",

@@ -231,29 +231,15 @@ double suite_amplitude(const struct sensor *sensor, double range_m, double azimu
            antenna_gain(&sensor->antenna, azimuth_rad);
 }
 
-static double sigma_of(const struct sensor *sensor, double amplitude, double cell, double sigma)
+double suite_sigma(const struct sensor *sensor, double amplitude, double cell, double sigma)
 {
     double ratio = amplitude / sensor->pointer_sigma;
     struct snr_sigma law = {.cell = cell, .factor = sensor->window_factor, .floor = sigma};
-    switch (sensor->sigma_law) {
-    case SIGMA_BY_SNR:
+    if (sensor->sigma_law == SIGMA_BY_SNR)
         return snr_sigma_of(&law, ratio * ratio);
-    case SIGMA_BY_AMPLITUDE:
+    if (sensor->sigma_law == SIGMA_BY_AMPLITUDE)
         return elementary_min(sensor->threshold / amplitude, 1) * sigma;
-    case SIGMA_FIXED:
-        break;
-    }
     return sigma;
-}
-
-double suite_range_sigma_m(const struct sensor *sensor, double amplitude)
-{
-    return sigma_of(sensor, amplitude, sensor->cell_range_m, sensor->range_sigma_m);
-}
-
-double suite_range_rate_sigma_mps(const struct sensor *sensor, double amplitude)
-{
-    return sigma_of(sensor, amplitude, sensor->cell_range_rate_mps, sensor->range_rate_sigma_mps);
 }
 
 /* Refuses chirps that would take longer than from one repetition to the next. */

@@ -112,10 +112,9 @@ double suite_threshold(const struct sensor *sensor, double interference);
 double suite_amplitude(const struct sensor *sensor, double range_m, double azimuth_rad,
                        double ercs);
 
-/* The standard deviations of range and range rate at an amplitude > 0, by sigma_law (MODEL 9,
- * 14.7): the document's; those times threshold/amplitude, at most 1; or those of radar/snr_sigma.h
- * at the ratio (amplitude/pointer_sigma)^2, with the document's as floors. */
-double suite_range_sigma_m(const struct sensor *sensor, double amplitude);
-double suite_range_rate_sigma_mps(const struct sensor *sensor, double amplitude);
+/* The standard deviation of range or range rate at an amplitude > 0, by sigma_law (MODEL 9, 14.7),
+ * of that size of a cell: sigma itself, the document's; threshold/amplitude of it, at most 1; or
+ * that of radar/snr_sigma.h at the ratio (amplitude/pointer_sigma)^2, with sigma as floor. */
+double suite_sigma(const struct sensor *sensor, double amplitude, double cell, double sigma);
 
 #endif

@@ -7,8 +7,8 @@
 #include "base/units.h"
 
 #define LN_10 2.30258509299404568402
-#define GAUSSIAN_CUT 3              /* of the log-normal law */
-#define BEYOND_CUT 0.00134989803163 /* what a standard Gaussian number exceeds 3 with */
+/* What a Gaussian number is beyond 3 deviations with, where the log-normal law is cut. */
+#define BEYOND_CUT 0.00134989803163
 
 /* (1 - exp(-x))/x. */
 static double mean_decay(double x)
@@ -40,31 +40,16 @@ static double log_normal_mean_db(double sigma_db)
     return -LN_10 / 20 * sigma_db * sigma_db;
 }
 
-/* The factor on amplitude by the law's own variable: the power of Swerling's laws, the standard
- * Gaussian number of the log-normal one; and the variable of a factor. */
-static double factor_at(const struct detection *detection, double variable)
+/* How likely a fluctuating power is, per decibel. */
+static double density(const struct detection *detection, double power_db)
 {
-    double sigma_db = detection->fluctuation_sigma_db;
-    return detection->fluctuation == FLUCTUATION_LOG_NORMAL
-               ? units_amplitude_from_db(log_normal_mean_db(sigma_db) + sigma_db * variable)
-               : sqrt(variable);
-}
-
-static double variable_at(const struct detection *detection, double factor)
-{
-    double sigma_db = detection->fluctuation_sigma_db;
-    return detection->fluctuation == FLUCTUATION_LOG_NORMAL
-               ? (units_amplitude_db(factor) - log_normal_mean_db(sigma_db)) / sigma_db
-               : factor * factor;
-}
-
-static double density(const struct detection *detection, double variable)
-{
+    double power = elementary_pow(10, power_db / 10), sigma_db = detection->fluctuation_sigma_db;
+    double deviations = (power_db - log_normal_mean_db(sigma_db)) / sigma_db;
     if (detection->fluctuation == FLUCTUATION_SWERLING_1)
-        return elementary_exp(-variable);
+        return LN_10 / 10 * power * elementary_exp(-power);
     if (detection->fluctuation == FLUCTUATION_SWERLING_3)
-        return 4 * variable * elementary_exp(-2 * variable);
-    return elementary_exp(-variable * variable / 2) / sqrt(2 * PI);
+        return LN_10 / 10 * 4 * power * power * elementary_exp(-2 * power);
+    return elementary_exp(-deviations * deviations / 2) / (sigma_db * sqrt(2 * PI));
 }
 
 /* An echo that meets the first threshold, at the final one. */
@@ -75,37 +60,37 @@ static double passes(const struct detection *detection, double amplitude)
     return detection_in_noise(amplitude, detection->final_threshold, detection->noise);
 }
 
-/* Simpson's rule over the variable from `from` to `to`, with steps that grow from 0: the final
- * threshold decides close to the first one. */
+/* Simpson's rule over the power in decibels, with steps that grow from 0: the final threshold
+ * decides close to the first one. */
 static double integral(const struct detection *detection, double amplitude, double from, double to)
 {
     enum { STEPS = 256 };
     double sum = 0;
     for (int i = 1; i <= STEPS; i++) {
-        double part = (double)i / STEPS, variable = from + (to - from) * part * part;
+        double part = (double)i / STEPS, power_db = from + (to - from) * part * part;
         double weight = i == STEPS ? 1 : i % 2 == 1 ? 4 : 2;
-        sum += weight * 2 * part * density(detection, variable) *
-               passes(detection, amplitude * factor_at(detection, variable));
+        sum += weight * 2 * part * density(detection, power_db) *
+               passes(detection, amplitude * units_amplitude_from_db(power_db));
     }
     return (to - from) * sum / (3 * STEPS);
 }
 
 double detection_probability(const struct detection *detection, double amplitude)
 {
-    double least = detection->threshold / amplitude;
+    double sigma_db = detection->fluctuation_sigma_db, least = detection->threshold / amplitude;
     bool log_normal = detection->fluctuation == FLUCTUATION_LOG_NORMAL;
-    if (detection->fluctuation == FLUCTUATION_NONE ||
-        (log_normal && detection->fluctuation_sigma_db == 0))
+    if (detection->fluctuation == FLUCTUATION_NONE || (log_normal && sigma_db == 0))
         return least <= 1 ? passes(detection, amplitude) : 0;
-    double from = least > 0 ? variable_at(detection, least) : 0;
-    if (!log_normal)
-        return integral(detection, amplitude, from, from + 40);
-    from = least > 0 ? elementary_max(from, -9) : -9;
-    if (from > GAUSSIAN_CUT)
+    double mean_db = log_normal_mean_db(sigma_db);
+    double from = log_normal ? mean_db - 9 * sigma_db : -90,
+           to = log_normal ? mean_db + 3 * sigma_db : 17;
+    if (least > 0)
+        from = elementary_max(from, units_amplitude_db(least));
+    if (from > to)
         return 0;
-    double strongest = amplitude * factor_at(detection, GAUSSIAN_CUT);
-    return integral(detection, amplitude, from, GAUSSIAN_CUT) +
-           BEYOND_CUT * passes(detection, strongest);
+    double cut =
+        log_normal ? BEYOND_CUT * passes(detection, amplitude * units_amplitude_from_db(to)) : 0;
+    return integral(detection, amplitude, from, to) + cut;
 }
 
 double detection_amplitude(const struct detection *detection, double probability)

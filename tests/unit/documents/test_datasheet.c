@@ -137,6 +137,24 @@ static void half_widths_count_twice(void **state)
     assert_close(consistency_dwell_s(&sensor), 0.01, 1e-15);
 }
 
+static void a_signal_has_its_own_limits(void **state)
+{
+    (void)state;
+    struct sensor sensor = quiet_sensor();
+    sensor.waveform = (struct waveform){.samples = 128, .repetitions = 64};
+    assert_close(consistency_fold_mps(&sensor), 3.2, 1e-12);
+    sensor.waveform.stagger = 4;
+    assert_close(consistency_fold_mps(&sensor), 12.8, 1e-12);
+    sensor.unambiguous_rate_mps = 12.7;
+    sensor.cycle_s = 0.0451; /* 2.25 dwells of 20 ms */
+    assert_true(consistency_holds(check_of(&sensor, "unambiguous_rate_mps")));
+    assert_true(consistency_holds(check_of(&sensor, "dwell of both trains")));
+    sensor.unambiguous_rate_mps = 12.9;
+    sensor.cycle_s = 0.0449;
+    assert_false(consistency_holds(check_of(&sensor, "unambiguous_rate_mps")));
+    assert_false(consistency_holds(check_of(&sensor, "dwell of both trains")));
+}
+
 static void a_row_of_elements_has_its_own_beam(void **state)
 {
     (void)state;
@@ -259,6 +277,7 @@ int main(void)
         cmocka_unit_test(checks_tell_figures_that_agree_from_those_that_do_not),
         cmocka_unit_test(figures_that_a_document_leaves_out_are_not_checked),
         cmocka_unit_test(half_widths_count_twice),
+        cmocka_unit_test(a_signal_has_its_own_limits),
         cmocka_unit_test(a_row_of_elements_has_its_own_beam),
         cmocka_unit_test(echoes_are_detected_where_they_meet_the_threshold),
         cmocka_unit_test(ranges_end_at_the_sensors_own),
