@@ -74,6 +74,7 @@ static void sense(struct frame *frame, const struct transform *transform,
     const struct sensor *sensor = signal->sensor;
     struct effect_scan context = effect_begin(frame, sensor, selection, EFFECT_HOME_SENSOR);
     struct effect_scan noise = effect_begin(frame, sensor, selection, EFFECT_HOME_NOISE);
+    context.receiving &= ~EFFECT_BIT(EFFECT_RANGE_MIGRATION); /* the samples have it */
     struct scan scan = scan_receive(&context);
     scan_count_added(&scan, frame);
     scan_lose_silent(&scan, frame, "sensor-signal");

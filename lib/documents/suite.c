@@ -19,6 +19,11 @@ static const char *const phases[] = {[CELL_IN_PHASE] = "in_phase",
                                      [CELL_RANDOM_PHASE] = "random",
                                      [CELL_PHASE_BY_PATH] = "by_path",
                                      NULL};
+static const char *const migrations[] = {[MIGRATION_NONE] = "none",
+                                         [MIGRATION_RECTANGULAR] = "rectangular",
+                                         [MIGRATION_HANN] = "hann",
+                                         [MIGRATION_COMPENSATED] = "compensated",
+                                         NULL};
 static const char *const laws[] = {[SIGMA_FIXED] = "fixed",
                                    [SIGMA_BY_AMPLITUDE] = "by_amplitude",
                                    [SIGMA_BY_SNR] = "by_snr",
@@ -120,6 +125,10 @@ static const struct field sensor_fields[] = {
     {CHOICE(cell_extent, extents, "does the cell's size mean its width or half of it?"),
      FIELD_OPTIONAL},
     {CHOICE(cell_phase, phases, "do echoes of a cell add in phase, at random or by their paths?"),
+     FIELD_OPTIONAL},
+    {CHOICE(range_migration, migrations,
+            "window under which echoes that walk through range cells fade and widen, or "
+            "compensated: they do not"),
      FIELD_OPTIONAL},
     {CHOICE(antenna_pattern, patterns, "the paper's two dipoles, or a table")},
     {FIELD_NAME_OF(struct sensor, antenna_table, "CSV file with azimuth_rad, sum, delta"),

@@ -19,6 +19,12 @@ enum cell_extent { CELL_WIDTH, CELL_HALF_WIDTH };
 enum cell_phase { CELL_IN_PHASE, CELL_RANDOM_PHASE, CELL_PHASE_BY_PATH };
 enum sigma_law { SIGMA_FIXED, SIGMA_BY_AMPLITUDE, SIGMA_BY_SNR };
 enum if_sampling { IF_REAL, IF_COMPLEX };
+enum range_migration {
+    MIGRATION_NONE,
+    MIGRATION_RECTANGULAR,
+    MIGRATION_HANN,
+    MIGRATION_COMPENSATED
+};
 enum list_order { LIST_STRONGEST, LIST_NEAREST };
 
 struct sensor {
@@ -51,6 +57,7 @@ struct sensor {
     double azimuth_cell_rad; /* 0: not given */
     enum cell_extent cell_extent;
     enum cell_phase cell_phase;
+    enum range_migration range_migration;
 
     enum antenna_pattern antenna_pattern;
     const char *antenna_table;

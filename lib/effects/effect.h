@@ -53,6 +53,7 @@ struct effect_reception {
     double strength, amplitude;     /* linear, before and after the antenna */
     double range_m, range_rate_mps; /* as the radar reads them */
     double phase_rad;
+    double widening; /* the response is 1 + widening times as wide as at rest */
 };
 
 /* Echoes that effects add to those of ideal. */

@@ -71,3 +71,38 @@ double point_response_hann_offset(double before, double peak, double after)
     double bins = elementary_max((2 * ratio - 1) / (ratio + 1), 0);
     return before > after ? -bins : before < after ? bins : 0;
 }
+
+double point_response_wide_offset(double before, double peak, double after)
+{
+    if (!(before > 0 && after > 0) || before == after)
+        return 0;
+    double left = elementary_log(before), right = elementary_log(after);
+    return (left - right) / (2 * (left - 2 * elementary_log(peak) + right));
+}
+
+/* A ratio that is 1 at rest and goes with the number of cells far off; for Gaussian windows b and c
+ * are 0. The coefficients were fitted to the integral. */
+struct walk_law {
+    double a, b, c;
+};
+
+static double walk_ratio(const struct walk_law *law, double cells)
+{
+    double square = cells * cells, cube = cells * square;
+    return sqrt(1 + square * ((law->a + law->b * cube) / (1 + law->c * cube)));
+}
+
+struct point_response_walk point_response_of_walk(enum point_response response, double cells)
+{
+    static const struct walk_law loss[] = {
+        [POINT_RESPONSE_RECTANGULAR] = {0.142, 0.1191, 0.1389},
+        [POINT_RESPONSE_HANN] = {0.04446, 0.0003041, 0.004899},
+    };
+    static const struct walk_law width[] = {
+        [POINT_RESPONSE_RECTANGULAR] = {0, 0.07909, 0.1149},
+        [POINT_RESPONSE_HANN] = {0.0368, 0.0002462, 0.003976},
+    };
+    double walked = fabs(cells);
+    return (struct point_response_walk){1 / walk_ratio(&loss[response], walked),
+                                        walk_ratio(&width[response], walked) - 1};
+}

@@ -12,8 +12,18 @@
 static bool shares_cell(const struct resolution_echo *leader, const struct resolution_echo *echo,
                         double half_range_m, double half_range_rate_mps)
 {
-    return fabs(echo->range_m - leader->range_m) <= half_range_m &&
-           fabs(echo->range_rate_mps - leader->range_rate_mps) <= half_range_rate_mps;
+    double size = 1 + elementary_max(leader->widening, echo->widening);
+    return fabs(echo->range_m - leader->range_m) <= size * half_range_m &&
+           fabs(echo->range_rate_mps - leader->range_rate_mps) <= size * half_range_rate_mps;
+}
+
+/* The size of the largest echo's cell, where the sensor's is 1. */
+static double largest_size(const struct resolution_echo *echoes, size_t count)
+{
+    double widening = 0;
+    for (size_t i = 0; i < count; i++)
+        widening = elementary_max(widening, echoes[i].widening);
+    return 1 + widening;
 }
 
 static int compare_ranges(const void *left, const void *right)
@@ -35,9 +45,10 @@ bool resolution_close(const struct resolution_echo *echoes, size_t count, double
             return true;
     memcpy(by_range, echoes, count * sizeof *echoes);
     sort_items(by_range, count, sizeof *by_range, compare_ranges, arena);
+    double reach_m = half_range_m * largest_size(echoes, count);
     for (size_t i = 0; i < count; i++)
-        for (size_t j = i + 1;
-             j < count && by_range[j].range_m - by_range[i].range_m <= half_range_m; j++)
+        for (size_t j = i + 1; j < count && by_range[j].range_m - by_range[i].range_m <= reach_m;
+             j++)
             if (shares_cell(&by_range[i], &by_range[j], half_range_m, half_range_rate_mps))
                 return true;
     return false;
@@ -76,6 +87,7 @@ size_t resolution_cluster(const struct resolution_echo *echoes, size_t count, do
                           double half_range_rate_mps, size_t *cell, struct arena *arena)
 {
     size_t cells = 0;
+    double reach_m = half_range_m * largest_size(echoes, count);
     struct ranks ranks = rank(echoes, count, arena);
     for (size_t i = 0; i < count; i++)
         cell[i] = NO_CELL;
@@ -84,9 +96,9 @@ size_t resolution_cluster(const struct resolution_echo *echoes, size_t count, do
             continue;
         const struct resolution_echo *first = &echoes[leader];
         size_t low = ranks.place[leader], high = low;
-        while (low > 0 && first->range_m - ranks.items[low - 1].range_m <= half_range_m)
+        while (low > 0 && first->range_m - ranks.items[low - 1].range_m <= reach_m)
             low--;
-        while (high < count && ranks.items[high].range_m - first->range_m <= half_range_m)
+        while (high < count && ranks.items[high].range_m - first->range_m <= reach_m)
             high++;
         for (size_t i = low; i < high; i++) {
             size_t echo = ranks.items[i].echo;

@@ -3,7 +3,7 @@
  * The strongest echo left opens a cell centred on it, as its leader, and takes every echo left that
  * is within half a cell of it in range and in range rate, borders included; then the next strongest
  * does (MODEL 6). A cell's range and range rate are amplitude-weighted means, equations (4) and
- * (5).
+ * (5). Two echoes share a cell by the larger one of theirs.
  */
 #ifndef RESOLUTION_H
 #define RESOLUTION_H
@@ -17,6 +17,7 @@ struct resolution_echo {
     double range_m;
     double range_rate_mps;
     double amplitude; /* > 0 */
+    double widening;  /* >= 0: the echo's cell is 1 + widening times as large as the sensor's */
 };
 
 /* Writes to cell[i] the number of echo i's cell and returns how many cells there are. Cells are

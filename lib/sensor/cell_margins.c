@@ -12,8 +12,11 @@ static double beyond_edge(const struct sensor *sensor, const struct received_ech
 {
     double range_m = fabs(other->range_m - leader->range_m);
     double rate_mps = fabs(other->range_rate_mps - leader->range_rate_mps);
-    return elementary_max((range_m - sensor->half_range_m) / sensor->half_range_m,
-                          (rate_mps - sensor->half_range_rate_mps) / sensor->half_range_rate_mps);
+    double size = 1 + elementary_max(leader->widening, other->widening);
+    double half_range_m = size * sensor->half_range_m;
+    double half_rate_mps = size * sensor->half_range_rate_mps;
+    return elementary_max((range_m - half_range_m) / half_range_m,
+                          (rate_mps - half_rate_mps) / half_rate_mps);
 }
 
 static void note_pair(const struct sensor *sensor, const struct received_echo *leader,

@@ -52,5 +52,6 @@ struct received_echo received_echo_of(const struct effect_scan *context, const s
     received.range_m = reception.range_m;
     received.range_rate_mps = reception.range_rate_mps;
     received.phase_rad = reception.phase_rad;
+    received.widening = reception.widening;
     return received;
 }

@@ -16,6 +16,7 @@ struct received_echo {
     double amplitude;               /* A = G A_phi, equation (2) */
     double range_m, range_rate_mps; /* as the radar reads them: the echo's, or folded */
     double phase_rad;               /* cells use its difference from the leader's; 0 in the paper */
+    double widening;                /* its cell is 1 + widening times as large as the sensor's */
     uint64_t effects; /* the effects that changed the echo, its amplitude, range or range rate */
     const struct margins *margins; /* the echo's */
 };

@@ -55,7 +55,7 @@ static void resolve(struct scan *scan, const struct selection *selection)
     size_t *cell = arena_get(arena, (count + 1) * sizeof *cell);
     for (size_t i = 0; i < count; i++)
         places[i] = (struct resolution_echo){echoes[i].range_m, echoes[i].range_rate_mps,
-                                             echoes[i].amplitude};
+                                             echoes[i].amplitude, echoes[i].widening};
     bool merge =
         effects_forced(selection, EFFECT_MERGING) ||
         (effects_enabled(selection, EFFECT_MERGING) &&

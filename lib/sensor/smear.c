@@ -6,8 +6,13 @@
 #include "base/elementary.h"
 #include "radar/point_response.h"
 
-/* Samples in a bin; samples that an echo reaches to either side of its own, and in all. */
-enum { SAMPLES_PER_BIN = 2, REACH = 3 * SAMPLES_PER_BIN, TAPS = 2 * REACH + 1 };
+/* Samples in a bin, the widest response, where that of an echo at rest is 1, and the most samples
+ * that an echo reaches along one axis. */
+enum {
+    SAMPLES_PER_BIN = 2,
+    MOST_WIDTH = 8,
+    MOST_TAPS = 2 * SAMPLES_PER_BIN * (1 + 2 * MOST_WIDTH) + 1
+};
 
 /* The sample nearest to a value, and by how many bins the value is beyond it, in [-1/4, 1/4]. */
 struct place {
@@ -69,34 +74,57 @@ static double _Complex phasor_of(double phase_rad)
     return phase.cos + phase.sin * (double _Complex)I;
 }
 
+static double width_of(const struct received_echo *received)
+{
+    return elementary_min(1 + received->widening, MOST_WIDTH);
+}
+
+/* How many samples an echo reaches to either side of its own. */
+static int reach_of(double width)
+{
+    return (int)ceil(SAMPLES_PER_BIN * (1 + 2 * width));
+}
+
+/* The samples that an echo reaches along one axis, and its response there. */
+struct taps {
+    int64_t first;
+    int count;
+    double weight[MOST_TAPS];
+};
+
+static void set_taps(struct taps *taps, struct place place, double width)
+{
+    int reach = reach_of(width);
+    taps->first = place.sample - reach;
+    taps->count = 2 * reach + 1;
+    for (int i = 0; i < taps->count; i++)
+        taps->weight[i] =
+            point_response_hann(((double)(i - reach) / SAMPLES_PER_BIN - place.offset) / width);
+}
+
 static void add_echo(struct smear *smear, const struct received_echo *received)
 {
-    struct place range = range_place(smear, received), rate = rate_place(smear, received);
+    struct taps range, rate;
+    set_taps(&range, range_place(smear, received), width_of(received));
+    set_taps(&rate, rate_place(smear, received), width_of(received));
     struct antenna_pointers pointers =
         antenna_pointers(&smear->sensor->antenna, received->echo.azimuth_rad);
     double _Complex strength = received->strength * phasor_of(received->phase_rad);
     bool out_of_phase = received->phase_rad != smear->echoes[0].phase_rad;
     uint64_t effects = received->effects | (out_of_phase ? EFFECT_BIT(EFFECT_COHERENCE) : 0);
-    double rate_weight[TAPS];
-    for (int j = 0; j < TAPS; j++)
-        rate_weight[j] = point_response_hann((double)(j - REACH) / SAMPLES_PER_BIN - rate.offset);
     pointers.sum *= strength;
     pointers.delta *= strength;
-    for (int i = 0; i < TAPS; i++) {
-        double range_weight =
-            point_response_hann((double)(i - REACH) / SAMPLES_PER_BIN - range.offset);
-        for (int j = 0; j < TAPS; j++) {
-            double weight = range_weight * rate_weight[j];
+    for (int i = 0; i < range.count; i++)
+        for (int j = 0; j < rate.count; j++) {
+            double weight = range.weight[i] * rate.weight[j];
             if (weight == 0)
                 continue;
-            struct smear_sample *sample =
-                find_or_add(smear, range.sample + i - REACH, rate.sample + j - REACH);
+            struct smear_sample *sample = find_or_add(smear, range.first + i, rate.first + j);
             sample->pointers.sum += weight * pointers.sum;
             sample->pointers.delta += weight * pointers.delta;
             sample->echoes++;
             sample->effects |= effects;
         }
-    }
 }
 
 /* Amplitude of the sum channel; 0 where no echo reaches. */
@@ -135,11 +163,22 @@ static size_t peak_of(const struct smear *smear, const struct received_echo *rec
     return (size_t)(at - smear->samples);
 }
 
+/* The number of samples if no two echoes reach the same one. */
+static size_t most_samples(const struct received_echo *echoes, size_t count)
+{
+    size_t most = 0;
+    for (size_t i = 0; i < count; i++) {
+        size_t taps = 2 * (size_t)reach_of(width_of(&echoes[i])) + 1;
+        most += taps * taps;
+    }
+    return most;
+}
+
 struct smear smear_make(const struct sensor *sensor, const struct received_echo *echoes,
                         size_t count, struct arena *arena)
 {
     struct smear smear = {.sensor = sensor, .echoes = echoes, .count = count, .slots = 2};
-    size_t most = count * TAPS * TAPS;
+    size_t most = most_samples(echoes, count);
     while (smear.slots < 2 * most)
         smear.slots *= 2;
     smear.samples = arena_get(arena, most * sizeof *smear.samples);
@@ -159,9 +198,9 @@ struct smear smear_make(const struct sensor *sensor, const struct received_echo 
     return smear;
 }
 
-/* By how many bins the interpolated peak is beyond its sample, along range or along rate; at most
- * half way to the next sample. */
-static double offset_of(const struct smear *smear, const struct smear_sample *peak,
+/* By how many bins the interpolated peak of an echo of that width is beyond its sample, along range
+ * or along rate; at most half way to the next sample. */
+static double offset_of(const struct smear *smear, const struct smear_sample *peak, double width,
                         bool along_range)
 {
     int64_t range = along_range ? SAMPLES_PER_BIN : 0, rate = along_range ? 0 : SAMPLES_PER_BIN;
@@ -170,8 +209,9 @@ static double offset_of(const struct smear *smear, const struct smear_sample *pe
         return 0;
     double before = magnitude(find(smear, peak->range - range, peak->rate - rate));
     double after = magnitude(find(smear, peak->range + range, peak->rate + rate));
-    return elementary_max(elementary_min(point_response_hann_offset(before, here, after), most),
-                          least);
+    double offset = width > 1 ? point_response_wide_offset(before, here, after)
+                              : point_response_hann_offset(before, here, after);
+    return elementary_max(elementary_min(offset, most), least);
 }
 
 /* The effects at a peak. A single echo merges with nothing and has no phase relative to others. */
@@ -201,12 +241,14 @@ bool smear_cell(const struct smear *smear, size_t number, struct arena *arena, s
 {
     const struct sensor *sensor = smear->sensor;
     const struct smear_sample *peak = &smear->samples[smear->peak[number]];
-    double range = offset_of(smear, peak, true), rate = offset_of(smear, peak, false);
     const struct received_echo *leader = smear->echoes;
     while (smear->cell[leader - smear->echoes] != number)
         leader++;
+    double width = width_of(leader);
+    double range = offset_of(smear, peak, width, true);
+    double rate = offset_of(smear, peak, width, false);
     double _Complex gain = conj(phasor_of(leader->phase_rad)) /
-                           (point_response_hann(range) * point_response_hann(rate));
+                           (point_response_hann(range / width) * point_response_hann(rate / width));
     struct antenna_pointers pointers = {gain * peak->pointers.sum, gain * peak->pointers.delta};
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, pointers);

@@ -5,7 +5,9 @@
  * cell_range_m by cell_range_rate_mps and holds two samples by two, as of a transform that is
  * padded with zeros to twice its length. The sum and delta channel of a sample are the sums over
  * the echoes within three bins of G H W(range) W(rate), with the echoes' phases. What lies farther
- * off, below -41 dB, is left out, and nothing wraps around at ambiguous ranges or rates.
+ * off, below -41 dB, is left out, and nothing wraps around at ambiguous ranges or rates. An echo
+ * that walks (MODEL 14.20) has W(range/f) W(rate/f) with f = 1 + widening, at most 8, within 1 + 2
+ * f bins.
  *
  * A peak is a sample whose sum channel none of its eight neighbours exceeds (of equal samples the
  * first by range, then by rate). From the sample nearest to an echo, steps to the strongest

@@ -22,7 +22,7 @@ import oracle_effects  # noqa: E402
 import random_scenes  # noqa: E402
 
 QUIET = ["angle_noise", "range_noise", "false_alarms", "fluctuation", "wheels", "limbs", "clutter", "coherence"]
-EFFECTS_OFF = [[], ["diffraction"], ["elevation"], ["height", "curvature"], ["ghosts", "latency"],
+EFFECTS_OFF = [[], ["diffraction"], ["elevation", "range_migration"], ["height", "curvature"], ["ghosts", "latency"],
                ["ambiguity", "interference", "quantisation", "two_ray"], ["diffraction", "misalignment", *oracle_effects.ATTENUATIONS]]
 RELATIVE, ABSOLUTE, FAINT = 1e-9, 1e-9, 1e-11
 # In a deep shadow, or nearly out of sight, a cross section depends on the last digits of its place.
@@ -38,7 +38,7 @@ def described():
             "latency_s": 0.04, "bounces": 3, "unambiguous_range_m": 61.7, "unambiguous_rate_mps": 17.3,
             "receiver_bandwidth_hz": 1e7, "noise_figure_db": 12, "antenna_gain_dbi": 12, "chirp_slope_hzps": 7.5e12,
             "chirp_s": 2e-5, "misalignment_rad": -0.02, "radome_bias_rad": 0.015, "radome_period_rad": 0.6,
-            "radome_phase_rad": 0.3, "range_step_m": 0.1, "range_rate_step_mps": 0.05, "azimuth_step_rad": 0.002,
+            "radome_phase_rad": 0.3, "range_migration": "rectangular", "range_step_m": 0.1, "range_rate_step_mps": 0.05, "azimuth_step_rad": 0.002,
             "list_order": "nearest", "list_limit": 25}
 
 

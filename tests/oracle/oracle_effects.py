@@ -649,6 +649,20 @@ def weather_dbpkm(sensor, conditions, effects):
                if effect in effects)
 
 
+def walked(sensor, echo, effects):
+    """Level and width of an echo that walks through range cells, 1 at rest (MODEL 14.20)."""
+    laws = {"rectangular": ((0.142, 0.1191, 0.1389), (0, 0.07909, 0.1149)),
+            "hann": ((0.04446, 3.041e-4, 4.899e-3), (0.0368, 2.462e-4, 3.976e-3))}
+    window = sensor.get("range_migration")
+    if window not in laws or "range_migration" not in effects:
+        return 1.0, 1.0
+    dwell = LIGHT_MPS / sensor["carrier_hz"] / 2 / sensor["cell_range_rate_mps"]
+    cells = abs(echo.rate) * dwell / sensor["cell_range_m"]
+    loss, width = [math.sqrt(1 + cells ** 2 * (a + b * cells ** 3) / (1 + c * cells ** 3))
+                   for a, b, c in laws[window]]
+    return 1 / loss, width
+
+
 def folded(value, low, width):
     return value - width * math.floor((value - low) / width)
 
@@ -717,6 +731,8 @@ class Ray:
         self.echo, self.key = echo, echo.key
         self.strength = oracle.reference_amplitude(sensor, echo.range) * echo.ercs * echo.road
         self.strength *= 10 ** (-2 * weather * echo.range / 1000 / 20)
+        level, self.size = walked(sensor, echo, effects)
+        self.strength *= level
         h_s, h_d = antenna.pointers(echo.azimuth)
         if echo.departure != 0:
             out = abs(antenna.pointers(echo.azimuth + echo.departure)[0])
@@ -765,7 +781,8 @@ def resolve(scan, sensor, antenna, rays, limit):
     while left:
         leader, members, others = left[0], [], []
         for ray in left:
-            far, fast = abs(ray.range - leader.range), abs(ray.rate - leader.rate)
+            size = max(ray.size, leader.size)
+            far, fast = abs(ray.range - leader.range) / size, abs(ray.rate - leader.rate) / size
             tie = near(ray.amplitude, leader.amplitude, leader.amplitude) and ray is not leader
             same = far <= NEAR and fast <= NEAR
             scan.doubtful_cells |= (tie and not same) or near(far, half_range) or near(fast, half_rate)

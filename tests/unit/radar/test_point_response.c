@@ -1,5 +1,7 @@
 #include "check.h"
 
+#include <complex.h>
+
 #include "base/units.h"
 #include "radar/point_response.h"
 #include "sample.h"
@@ -236,6 +238,124 @@ static void two_echoes_two_bins_apart_are_always_two(void **state)
         assert_int_equal(peaks_of(2, phase_rad, place, height_db), 2);
 }
 
+enum { WALK_POINTS = 200 };
+
+static double walk_weight(enum point_response window, double x)
+{
+    return window == POINT_RESPONSE_HANN ? 1 + cos(2 * PI * x) : 1;
+}
+
+/* The transform of the window, of integral 1, at a distance in cells. */
+static double transform(enum point_response window, double d)
+{
+    if (fabs(d) < 1e-9)
+        return 1;
+    double sinc = sin(PI * d) / (PI * d);
+    if (window == POINT_RESPONSE_RECTANGULAR)
+        return sinc;
+    return fabs(fabs(d) - 1) < 1e-9 ? 0.5 : sinc / (1 - d * d);
+}
+
+/* The integral of MODEL 14.20: over y in closed form, over x by the midpoint rule. */
+static double walk_response(enum point_response window, double cells, double a, double b)
+{
+    double _Complex sum = 0;
+    for (int i = 0; i < WALK_POINTS; i++) {
+        double x = (i + 0.5) / WALK_POINTS - 0.5;
+        sum += walk_weight(window, x) * transform(window, cells * x + b) *
+               cexp(2 * PI * a * x * (double _Complex)I);
+    }
+    return cabs(sum) / WALK_POINTS;
+}
+
+struct peak {
+    double a, b, level;
+};
+
+static struct peak peak_of(enum point_response window, double cells)
+{
+    struct peak peak = {0, 0, walk_response(window, cells, 0, 0)};
+    for (double a = 0; a <= cells / 2; a += 0.25)
+        for (double b = -cells / 2; b <= cells / 2; b += 0.25) {
+            double level = walk_response(window, cells, a, b);
+            if (level > peak.level)
+                peak = (struct peak){a, b, level};
+        }
+    return peak;
+}
+
+/* From the peak along b to where the response is half of it, to one side. */
+static double half_width(enum point_response window, double cells, const struct peak *peak,
+                         double side)
+{
+    double d = 0;
+    while (walk_response(window, cells, peak->a, peak->b + side * d) >= peak->level / 2)
+        d += 0.01;
+    return d - 0.005;
+}
+
+static void check_window(enum point_response window, double level_db, double width_cells)
+{
+    const struct peak rest = {0, 0, 1};
+    double width_at_rest = 2 * half_width(window, 0, &rest, 1);
+    for (double cells = 0.25; cells <= 10; cells += 0.75) {
+        struct point_response_walk law = point_response_of_walk(window, cells);
+        struct peak peak = peak_of(window, cells);
+        double width = half_width(window, cells, &peak, 1) + half_width(window, cells, &peak, -1);
+        assert_close(20 * log10(law.level), 20 * log10(peak.level), level_db);
+        assert_close(width_at_rest * (1 + law.widening), width, width_cells);
+    }
+}
+
+static void level_and_width_are_those_of_the_integral(void **state)
+{
+    (void)state;
+    check_window(POINT_RESPONSE_HANN, 0.02, 0.03);
+    check_window(POINT_RESPONSE_RECTANGULAR, 0.3, 0.2);
+}
+
+/* Measured of a sampled chirp: -11.0 and -2.5 dB over four cells; -18.7 and -7.8 dB over 9.3, where
+ * Hann's response is 4.75 cells wide. */
+static void level_and_width_are_those_of_a_chirp(void **state)
+{
+    (void)state;
+    static const struct {
+        enum point_response window;
+        double cells, level_db;
+    } cases[] = {{POINT_RESPONSE_RECTANGULAR, 4, -11.0},
+                 {POINT_RESPONSE_RECTANGULAR, 9.3, -18.7},
+                 {POINT_RESPONSE_HANN, 4, -2.5},
+                 {POINT_RESPONSE_HANN, 9.3, -7.8}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        assert_close(20 * log10(point_response_of_walk(cases[i].window, cases[i].cells).level),
+                     cases[i].level_db, 0.35);
+    assert_close(2 * (1 + point_response_of_walk(POINT_RESPONSE_HANN, 9.3).widening), 4.75, 0.1);
+}
+
+static void an_echo_at_rest_keeps_its_level_and_width_to_the_bit(void **state)
+{
+    (void)state;
+    for (enum point_response window = POINT_RESPONSE_HANN; window <= POINT_RESPONSE_RECTANGULAR;
+         window++)
+        for (double cells = -1e-8; cells <= 1e-8; cells += 1e-9) {
+            struct point_response_walk law = point_response_of_walk(window, cells);
+            assert_true(law.level == 1 && law.widening == 0);
+        }
+}
+
+/* Far out the response has the shape of the window itself, over as many cells as the echo walks:
+ * amplitudes of 4/K and 1/K, half of them K/2 and K cells wide. */
+static void a_long_walk_draws_the_window(void **state)
+{
+    (void)state;
+    struct point_response_walk hann = point_response_of_walk(POINT_RESPONSE_HANN, -1e4);
+    struct point_response_walk plain = point_response_of_walk(POINT_RESPONSE_RECTANGULAR, 1e4);
+    assert_near(hann.level, 4e-4, 0.01);
+    assert_near(hann.widening, 2.5e3, 0.01);
+    assert_near(1.2067 * plain.widening, 1e4, 0.01);
+    assert_true(plain.level > 1e-4 && plain.level < 1.2e-4);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -254,6 +374,10 @@ int main(void)
         cmocka_unit_test(equal_echoes_a_bin_apart_read_as_one_between_them),
         cmocka_unit_test(two_echoes_a_bin_apart_merge_or_flee_by_their_phase),
         cmocka_unit_test(two_echoes_two_bins_apart_are_always_two),
+        cmocka_unit_test(level_and_width_are_those_of_the_integral),
+        cmocka_unit_test(level_and_width_are_those_of_a_chirp),
+        cmocka_unit_test(an_echo_at_rest_keeps_its_level_and_width_to_the_bit),
+        cmocka_unit_test(a_long_walk_draws_the_window),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,7 +55,7 @@ static void the_four_echoes_of_the_model_make_three_cells(void **state)
 {
     (void)state;
     static const struct resolution_echo echoes[] = {
-        {10.00, -2.0, 10}, {10.10, -2.1, 5}, {10.40, -2.0, 4}, {10.12, -1.5, 3}};
+        {10.00, -2.0, 10, 0}, {10.10, -2.1, 5, 0}, {10.40, -2.0, 4, 0}, {10.12, -1.5, 3, 0}};
     static const size_t expected[] = {0, 0, 1, 2};
     size_t cell[4];
     assert_int_equal(cluster(echoes, 4, 0.15, 0.25, cell), 3);
@@ -81,12 +81,13 @@ static void the_border_is_decided_by_the_doubles(void **state)
         size_t cells;
     } cases[] = {{12.55, 12.40, 2}, {12.70, 12.55, 1}, {0.45, 0.30, 2}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct resolution_echo echoes[] = {{cases[i].leader_m, 0, 2}, {cases[i].echo_m, 0, 1}};
+        struct resolution_echo echoes[] = {{cases[i].leader_m, 0, 2, 0},
+                                           {cases[i].echo_m, 0, 1, 0}};
         size_t cell[2];
         assert_int_equal(cluster(echoes, 2, 0.15, 0.25, cell), cases[i].cells);
     }
     static const struct resolution_echo exact[] = {
-        {8, 1, 5}, {8, 1.25, 4}, {8, 0.75, 3}, {8.125, 1, 2}, {7.875, 1, 1}};
+        {8, 1, 5, 0}, {8, 1.25, 4, 0}, {8, 0.75, 3, 0}, {8.125, 1, 2, 0}, {7.875, 1, 1, 0}};
     size_t cell[5];
     assert_int_equal(cluster(exact, 5, 0.125, 0.25, cell), 1);
 }
@@ -95,7 +96,7 @@ static void a_cell_does_not_grow_along_a_chain(void **state)
 {
     (void)state;
     static const struct resolution_echo echoes[] = {
-        {10.0, 0, 5}, {10.1, 0, 4}, {10.2, 0, 3}, {10.3, 0, 2}};
+        {10.0, 0, 5, 0}, {10.1, 0, 4, 0}, {10.2, 0, 3, 0}, {10.3, 0, 2, 0}};
     static const size_t expected[] = {0, 0, 1, 1};
     size_t cell[4];
     assert_int_equal(cluster(echoes, 4, 0.15, 0.25, cell), 2);
@@ -152,6 +153,15 @@ static void echoes_are_close_exactly_if_a_pair_is(void **state)
 }
 
 /* Hard case 45. */
+/* Two echoes are within the larger of their cells. */
+static bool share(const struct resolution_echo *one, const struct resolution_echo *other,
+                  double half_range_m, double half_rate_mps)
+{
+    double size = 1 + fmax(one->widening, other->widening);
+    return fabs(one->range_m - other->range_m) <= size * half_range_m &&
+           fabs(one->range_rate_mps - other->range_rate_mps) <= size * half_rate_mps;
+}
+
 /* As the rule is written: every leader asks all echoes that are left. */
 static size_t cluster_all_pairs(const struct resolution_echo *echoes, size_t count,
                                 double half_range_m, double half_rate_mps, size_t *cell)
@@ -163,16 +173,15 @@ static size_t cluster_all_pairs(const struct resolution_echo *echoes, size_t cou
         if (cell[leader] < count)
             continue;
         for (size_t i = leader; i < count; i++)
-            if (cell[i] == count &&
-                fabs(echoes[i].range_m - echoes[leader].range_m) <= half_range_m &&
-                fabs(echoes[i].range_rate_mps - echoes[leader].range_rate_mps) <= half_rate_mps)
+            if (cell[i] == count && share(&echoes[i], &echoes[leader], half_range_m, half_rate_mps))
                 cell[i] = cells;
         cells++;
     }
     return cells;
 }
 
-/* Some on borders, some equal, some a rounding apart. */
+/* Some on borders, some equal, some a rounding apart; some with larger cells in half of the scenes.
+ */
 static void a_crowd_clusters_as_if_every_pair_were_asked(void **state)
 {
     (void)state;
@@ -187,7 +196,8 @@ static void a_crowd_clusters_as_if_every_pair_were_asked(void **state)
             double step = at % 2 == 0 ? floor(draw(scene, at) * 400) / 400 : draw(scene, at);
             echoes[i] =
                 (struct resolution_echo){spread * step * (1 + (double)(at % 3) * 0x1p-52),
-                                         floor(draw(scene, at + 1) * 10) / 8, draw(scene, at + 2)};
+                                         floor(draw(scene, at + 1) * 10) / 8, draw(scene, at + 2),
+                                         (double)(scene % 2) * floor(draw(scene, at + 3) * 4) / 2};
         }
         qsort(echoes, count, sizeof echoes[0], compare_echoes);
         double half = half_m[scene % 3];
@@ -195,6 +205,23 @@ static void a_crowd_clusters_as_if_every_pair_were_asked(void **state)
                          cluster_all_pairs(echoes, count, half, 0.25, expected));
         assert_memory_equal(cell, expected, count * sizeof cell[0]);
     }
+}
+
+/* A leader with the sensor's cell takes an echo whose own cell reaches it, and the other way round.
+ */
+static void the_larger_cell_of_two_echoes_counts(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    for (size_t wide = 0; wide < 3; wide++) {
+        struct resolution_echo echoes[] = {{10, 1, 5, 0}, {10.375, 0.5, 4, 0}}, by_range[2];
+        size_t cell[2], shared = wide < 2;
+        if (shared)
+            echoes[wide].widening = 2;
+        assert_int_equal(cluster(echoes, 2, 0.125, 0.25, cell), 2 - shared);
+        assert_int_equal(resolution_close(echoes, 2, 0.125, 0.25, by_range, &arena), shared);
+    }
+    arena_free(&arena);
 }
 
 static void sorted_echoes_cluster_alike_in_every_input_order(void **state)
@@ -228,7 +255,7 @@ static void three_equal_echoes_make_two_cells(void **state)
         struct resolution_echo echoes[3];
         size_t cell[3];
         for (size_t k = 0; k < 3; k++)
-            echoes[k] = (struct resolution_echo){ranges_m[i][k], 0, 1};
+            echoes[k] = (struct resolution_echo){ranges_m[i][k], 0, 1, 0};
         qsort(echoes, 3, sizeof *echoes, compare_echoes);
         assert_int_equal(cluster(echoes, 3, 0.15, 0.25, cell), 2);
         assert_int_equal(cell[0], 0);
@@ -306,6 +333,7 @@ int main(void)
         cmocka_unit_test(every_echo_lies_in_the_first_cell_that_reaches_it),
         cmocka_unit_test(echoes_are_close_exactly_if_a_pair_is),
         cmocka_unit_test(a_crowd_clusters_as_if_every_pair_were_asked),
+        cmocka_unit_test(the_larger_cell_of_two_echoes_counts),
         cmocka_unit_test(sorted_echoes_cluster_alike_in_every_input_order),
         cmocka_unit_test(three_equal_echoes_make_two_cells),
         cmocka_unit_test(the_mean_of_equal_values_is_that_value),

@@ -28,8 +28,8 @@ static size_t margins_of(const struct given_echo *given, size_t count, struct ma
                                            .range_rate_mps = given[i].range_rate_mps,
                                            .amplitude = given[i].amplitude,
                                            .margins = &sight_margins[i]};
-        to_cluster[i] =
-            (struct resolution_echo){given[i].range_m, given[i].range_rate_mps, given[i].amplitude};
+        to_cluster[i] = (struct resolution_echo){given[i].range_m, given[i].range_rate_mps,
+                                                 given[i].amplitude, 0};
     }
     struct arena arena = {0};
     size_t cells = resolution_cluster(to_cluster, count, sensor.half_range_m,
@@ -122,6 +122,23 @@ static void a_cell_has_the_least_margins_of_its_pairs(void **state)
     }
 }
 
+/* One of the cells reaches 2 m, of which 1.5 m are a quarter from the edge. */
+static void the_edge_is_that_of_the_larger_cell(void **state)
+{
+    (void)state;
+    for (size_t wide = 0; wide < 2; wide++) {
+        const struct margins none_of_sight = {0};
+        struct received_echo echoes[] = {
+            {.range_m = 10, .amplitude = 10, .margins = &none_of_sight},
+            {.range_m = 11.5, .amplitude = 5, .margins = &none_of_sight}};
+        const size_t cell[] = {0, 0};
+        echoes[wide].widening = 1;
+        const struct clustered_echoes all = {echoes, cell, 2};
+        struct margins margins = cell_margins_of(&sensor, &all, 0);
+        assert_close(margins.cell_edge, 0.25, 1e-13);
+    }
+}
+
 /* With delta 3 - 4j and sum 2, Im(delta conj sum) is -8 and |delta| |sum| is 10. */
 static void a_cell_has_margins_of_threshold_and_sign(void **state)
 {
@@ -165,6 +182,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cell_has_the_least_margins_of_its_pairs),
+        cmocka_unit_test(the_edge_is_that_of_the_larger_cell),
         cmocka_unit_test(a_cell_has_margins_of_threshold_and_sign),
         cmocka_unit_test(the_noisy_cell_has_the_lesser_margins),
     };

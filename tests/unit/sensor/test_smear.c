@@ -265,6 +265,37 @@ static void every_echo_is_in_one_cell_and_weights_add_up(void **state)
     }
 }
 
+/* Over widths of Hann's response from that at rest to eight times as much. */
+static void a_walking_echo_alone_keeps_its_place_and_amplitude(void **state)
+{
+    struct scene *scene = *state;
+    uint64_t sample = 1;
+    for (int i = 0; i < 1000; i++) {
+        start(scene);
+        double range_bins = sample_between(&sample, 10, 200);
+        double rate_bins = sample_between(&sample, -60, 60);
+        add(scene, range_bins, rate_bins, 5, 1)->widening = sample_between(&sample, 1e-3, 8);
+        assert_int_equal(cells_of(scene), 1);
+        assert_close(scene->cells[0].range_m, 0.5 * range_bins, 0.5 * 0.016);
+        assert_close(scene->cells[0].range_rate_mps, 0.25 * rate_bins, 0.25 * 0.016);
+        assert_close(20 * log10(scene->cells[0].amplitude / 5), 0, 0.05);
+    }
+}
+
+/* Equal echoes in phase, a bin and a half apart with the sum's one peak at rest (MODEL 6.1), are
+ * one up to about 1.5 f bins for responses f times as wide. */
+static void echoes_that_walk_are_one_farther_apart(void **state)
+{
+    struct scene *scene = *state;
+    for (double width = 1; width <= 4; width *= 2)
+        for (double apart = 1; apart <= 2; apart += 1) {
+            start(scene);
+            add(scene, 20, 8, 5, 0)->widening = width - 1;
+            add(scene, 20 + apart * width, 8, 5, 0)->widening = width - 1;
+            assert_int_equal(cells_of(scene), (size_t)apart);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -282,6 +313,10 @@ int main(void)
                                         remove_scene),
         cmocka_unit_test_setup_teardown(side_lobes_alone_are_no_cells, make_scene, remove_scene),
         cmocka_unit_test_setup_teardown(echoes_that_cancel_have_no_amplitude, make_scene,
+                                        remove_scene),
+        cmocka_unit_test_setup_teardown(a_walking_echo_alone_keeps_its_place_and_amplitude,
+                                        make_scene, remove_scene),
+        cmocka_unit_test_setup_teardown(echoes_that_walk_are_one_farther_apart, make_scene,
                                         remove_scene),
         cmocka_unit_test_setup_teardown(every_echo_is_in_one_cell_and_weights_add_up, make_scene,
                                         remove_scene),

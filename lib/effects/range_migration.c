@@ -1,0 +1,52 @@
+/* Echoes that walk through range cells while they are measured (MODEL 14.20). The lost level is the
+ * amplitude's; cells and peaks take the widening (radar/resolution.h, sensor/smear.h).
+ * glint-sensor-signal has the walk in its samples instead. */
+#include "effects/effect.h"
+
+#include "base/units.h"
+
+/* Effects before this one may add echoes that walk where those of ideal stand. */
+static bool some_echo_walks(const struct effect_scan *scan)
+{
+    bool walks = (scan->effects & (EFFECT_BIT(EFFECT_WHEELS) | EFFECT_BIT(EFFECT_LIMBS) |
+                                   EFFECT_BIT(EFFECT_CLUTTER))) != 0;
+    for (size_t i = 0; i < scan->echoes.count && !walks; i++)
+        walks = scan->echoes.items[i].range_rate_mps != 0;
+    return walks;
+}
+
+static bool described(const struct effect_scan *scan)
+{
+    enum range_migration migration = scan->sensor->range_migration;
+    return (migration == MIGRATION_RECTANGULAR || migration == MIGRATION_HANN) &&
+           some_echo_walks(scan);
+}
+
+/* The cells of range that an echo of 1 m/s walks in a dwell. */
+static void begin(const struct effect_scan *scan, double *cells_per_mps)
+{
+    const struct sensor *sensor = scan->sensor;
+    double dwell_s = units_wavelength_m(sensor->carrier_hz) / (2 * sensor->cell_range_rate_mps);
+    *cells_per_mps = dwell_s / sensor->cell_range_m;
+}
+
+static bool receive(const struct effect_scan *scan, struct effect_reception *reception)
+{
+    bool hann = scan->sensor->range_migration == MIGRATION_HANN;
+    double cells = scan->constants[EFFECT_RANGE_MIGRATION][0] * reception->echo->range_rate_mps;
+    struct point_response_walk walk =
+        point_response_of_walk(hann ? POINT_RESPONSE_HANN : POINT_RESPONSE_RECTANGULAR, cells);
+    reception->widening = walk.widening;
+    return effect_scale(reception, walk.level) || walk.widening > 0;
+}
+
+const struct effect effect_range_migration = {
+    .summary = "echoes that walk through range cells in a dwell fade and widen",
+    .cause = "range_migration of a sensor",
+    .left_out_when = "the sensor's range_migration names no window, or no echo moves in range",
+    .cost = "two square roots per echo",
+    .home = EFFECT_HOME_SENSOR,
+    .described = described,
+    .begin = begin,
+    .receive = receive,
+};
