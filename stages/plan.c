@@ -142,15 +142,33 @@ static int begin_cost(struct plan_state *own, struct runner *runner)
     return own->cost ? cost_begin(&own->measured, own->frames) : 0;
 }
 
+/* Finds the effects that the frames of the sample call for. */
+static int try_sample(struct plan_state *own, struct runner *runner)
+{
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena};
+    const struct frame_sample *sample = &own->measured.sample;
+    int result = 0;
+    for (size_t i = 0; result == 0 && i < sample->list.count; i++)
+        if (frame_sample_read(&sample->list.items[i], &frame, runner_diag(runner)) != 0 ||
+            try_chain(own, &frame, runner) != 0)
+            result = diag_prefix(runner_diag(runner), "scene \"%s\", frame %lld: ", frame.scene,
+                                 (long long)frame.frame);
+    arena_free(&arena);
+    return result;
+}
+
 /* After the last frame: measures the chains, and finds the one that was asked for. */
-static int measure(struct plan_state *own)
+static int measure(struct plan_state *own, struct runner *runner)
 {
     struct cost *cost = &own->measured;
-    cost->allowed = own->plan.allowed;
-    cost->needed = plan_effects(&own->plan);
     frame_sample_divide(&cost->sample);
     if (cost->sample.list.count == 0)
         return 0;
+    if (try_sample(own, runner) != 0)
+        return -1;
+    cost->allowed = own->plan.allowed;
+    cost->needed = plan_effects(&own->plan);
     if (cost_measure(cost) != 0)
         return -1;
     if (own->error != NULL)
@@ -160,9 +178,9 @@ static int measure(struct plan_state *own)
     return own->chosen != NULL || (own->error == NULL && own->within == NULL) ? 0 : -1;
 }
 
-static void write(struct plan_state *own, struct arena *arena, struct text *text)
+static void print(const struct plan_state *own, struct arena *arena, struct text *text)
 {
-    struct cost *cost = &own->measured;
+    const struct cost *cost = &own->measured;
     if (!own->cost)
         plan_write(&own->plan, own->all, arena, text);
     else if (cost->chains.count == 0)
@@ -187,13 +205,13 @@ static int plan_run(void *state, struct runner *runner)
     struct frame *frame;
     int more;
     while ((more = runner_frame(runner, &frame)) > 0)
-        if ((own->cost && frame_sample_add(&own->measured.sample, frame, diag) != 0) ||
-            try_chain(own, frame, runner) != 0)
+        if ((own->cost ? frame_sample_add(&own->measured.sample, frame, diag)
+                       : try_chain(own, frame, runner)) != 0)
             return -1;
-    if (more < 0 || (own->cost && measure(own) != 0))
+    if (more < 0 || (own->cost && measure(own, runner) != 0))
         return -1;
     struct text text = {0};
-    write(own, runner_arena(runner), &text);
+    print(own, runner_arena(runner), &text);
     int result = output_write(output, text.bytes, text.length, diag);
     text_free(&text);
     return result;

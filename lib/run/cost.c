@@ -59,7 +59,7 @@ static const struct field cost_fields[] = {
                      "what errors are from; it has seeds of its own")},
     {FIELD_INTEGER_IN(struct cost, frames, 0, 0x1p53, "of the sample")},
     {FIELD_INTEGER_IN(struct cost, seen_frames, 0, 0x1p53, "of the stream")},
-    {FIELD_INTEGER_IN(struct cost, scenes, 0, 0x1p53, "of the stream")},
+    {FIELD_INTEGER_IN(struct cost, scenes, 0, 0x1p53, "of the sample")},
     {FIELD_INTEGER_IN(struct cost, blocks, 0, 0x1p53, "which the intervals resample")},
     {FIELD_NAME_OF(struct cost, chosen, "the chain that was found for a bound"), FIELD_OPTIONAL},
     {FIELD_LIST_OF(struct cost, chains, &chain_record, "in the order in which they were measured")},
@@ -222,7 +222,7 @@ int cost_measure(struct cost *cost)
         add_chain(cost, "signal", &reference);
     cost->frames = (int64_t)cost->sample.list.count;
     cost->seen_frames = cost->sample.seen;
-    cost->scenes = (int64_t)cost->sample.names.list.count;
+    cost->scenes = (int64_t)cost->sample.scenes;
     cost->blocks = (int64_t)cost->ladder.blocks;
     return 0;
 }

@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "frame/frame_text.h"
+#include "run/frame_stream.h"
 
 enum { FEWEST_BLOCKS = 10 };
 
@@ -72,16 +73,20 @@ int frame_sample_add(struct frame_sample *sample, const struct frame *frame, str
     return result;
 }
 
+int frame_sample_read(const struct sampled_frame *sampled, struct frame *frame, struct diag *diag)
+{
+    return frame_stream_parse(sampled->line, sampled->length, frame, diag);
+}
+
 void frame_sample_divide(struct frame_sample *sample)
 {
     size_t count = sample->list.count, scenes = sample->names.list.count;
     size_t *frames = arena_get(sample->arena, (scenes + 1) * sizeof *frames);
     size_t *passed = arena_get(sample->arena, (scenes + 1) * sizeof *passed);
     size_t *first = arena_get(sample->arena, (scenes + 1) * sizeof *first);
-    size_t present = 0;
     for (size_t i = 0; i < count; i++)
-        present += frames[sample->list.items[i].scene]++ == 0;
-    size_t length = present >= FEWEST_BLOCKS ? count : count / FEWEST_BLOCKS;
+        sample->scenes += frames[sample->list.items[i].scene]++ == 0;
+    size_t length = sample->scenes >= FEWEST_BLOCKS ? count : count / FEWEST_BLOCKS;
     length += length == 0;
     for (size_t i = 0; i < scenes; i++)
         first[i + 1] = first[i] + (frames[i] + length - 1) / length;

@@ -23,8 +23,8 @@ struct frame_sample {
     int64_t most; /* of the frames that are kept; at least 1 */
     int64_t seen, stride;
     LIST_OF(struct sampled_frame) list;
-    struct intern names; /* of scenes, with their seeds */
-    size_t blocks;
+    struct intern names;   /* of scenes, with their seeds */
+    size_t scenes, blocks; /* of the frames that are kept; set by frame_sample_divide */
 };
 
 int frame_sample_add(struct frame_sample *sample, const struct frame *frame, struct diag *diag);
@@ -33,5 +33,8 @@ int frame_sample_add(struct frame_sample *sample, const struct frame *frame, str
  * else each scene is cut into stretches, 10 in all or a few more, or as many as there are frames.
  */
 void frame_sample_divide(struct frame_sample *sample);
+
+/* Reads a frame of the sample, in canonical order and checked. */
+int frame_sample_read(const struct sampled_frame *sampled, struct frame *frame, struct diag *diag);
 
 #endif

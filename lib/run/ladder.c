@@ -27,6 +27,7 @@ struct pass {
     struct text written;
     int64_t spent_ns;
     struct ladder_lists *lists;
+    struct arena *kept; /* of the lists */
 };
 
 static int64_t cpu_ns(void)
@@ -43,7 +44,7 @@ static int run_frame(struct pass *pass, const struct sampled_frame *sampled)
     struct frame *frame = &pass->frame;
     struct diag *diag = runner_diag(runner);
     int64_t begin_ns = cpu_ns();
-    if (frame_stream_parse(sampled->line, sampled->length, frame, diag) != 0)
+    if (frame_sample_read(sampled, frame, diag) != 0)
         return -1;
     frame->seed = sampled->seed + (pass->seed << 32);
     for (int i = (frame->present & SECTION_REFLECTORS) != 0; i < pass->stages; i++)
@@ -61,7 +62,6 @@ static int run_frame(struct pass *pass, const struct sampled_frame *sampled)
 /* The first pass of all notes which scans there are. */
 static int keep_lists(struct pass *pass, const struct sampled_frame *sampled)
 {
-    struct arena *arena = runner_arena(pass->ladder->runner);
     const struct frame *frame = &pass->frame;
     for (size_t i = 0; i < frame->sensors.list.count; i++) {
         const struct sensor_view *view = &frame->sensors.list.items[i];
@@ -74,9 +74,9 @@ static int keep_lists(struct pass *pass, const struct sampled_frame *sampled)
                              view->name, view->cell_range_m, view->cell_range_rate_mps,
                              view->field_of_view_rad);
         if (pass->seed == 1)
-            *list_add(&pass->ladder->scans, arena) =
+            *list_add(&pass->ladder->scans, pass->kept) =
                 (struct ladder_scan){.scene = sampled->scene, .block = sampled->block};
-        *list_add(&pass->lists->scans, arena) = ensemble_embed(frame, view, arena);
+        *list_add(&pass->lists->scans, pass->kept) = ensemble_embed(frame, view, pass->kept);
     }
     return 0;
 }
@@ -90,7 +90,8 @@ static int run_program(struct pass *pass)
     int result = side_program_run(pass->program, &pass->written, &made, &pass->spent_ns, diag);
     const char *line = made.bytes, *end = made.bytes + made.length;
     for (size_t i = 0; result == 0 && i < sample->list.count; i++) {
-        const char *stop = line < end ? memchr(line, '\n', (size_t)(end - line)) : NULL;
+        const char *stop =
+            line != NULL && line < end ? memchr(line, '\n', (size_t)(end - line)) : NULL;
         if (stop == NULL)
             result = diag_fail(diag, DIAG_INTERNAL, "%s wrote %zu of %zu frames", pass->program, i,
                                sample->list.count);
@@ -154,7 +155,7 @@ static struct pass begin_pass(struct ladder *ladder, const struct ladder_chain *
 
 /* Runs the chain with the seeds first, first + 2, ... */
 static int run_chain(struct ladder *ladder, struct ladder_chain *chain, uint64_t first,
-                     struct ladder_lists *lists)
+                     struct ladder_lists *lists, struct arena *kept)
 {
     struct pass begun = begin_pass(ladder, chain);
     double us[SEEDS];
@@ -162,6 +163,7 @@ static int run_chain(struct ladder *ladder, struct ladder_chain *chain, uint64_t
         struct pass pass = begun;
         pass.seed = first + 2 * i;
         pass.lists = &lists[i];
+        pass.kept = kept;
         if (run_pass(&pass) != 0)
             return -1;
         us[i] = 1e-3 * (double)pass.spent_ns / (double)ladder->sample->list.count;
@@ -227,7 +229,7 @@ static void keep_distances(struct ladder *ladder)
 
 int ladder_begin(struct ladder *ladder, struct ladder_chain *reference)
 {
-    if (run_chain(ladder, reference, 1, ladder->reference) != 0)
+    if (run_chain(ladder, reference, 1, ladder->reference, runner_arena(ladder->runner)) != 0)
         return -1;
     if (ladder->scans.count == 0)
         return diag_fail(runner_diag(ladder->runner), DIAG_DATA,
@@ -237,16 +239,23 @@ int ladder_begin(struct ladder *ladder, struct ladder_chain *reference)
     return 0;
 }
 
-int ladder_climb(struct ladder *ladder, struct ladder_chain *chain)
+static void compare(const struct ladder *ladder, const struct ladder_lists *lists,
+                    struct energy_blocks *blocks)
 {
-    struct ladder_lists lists[SEEDS] = {0};
-    if (run_chain(ladder, chain, 2, lists) != 0)
-        return -1;
     size_t size = ladder->blocks * ALL * ALL * sizeof(double);
     double *distance = arena_get(runner_arena(ladder->runner), size);
     for (size_t at = 0; at < ladder->scans.count; at++)
         add_distances(ladder, at, lists, distance + ladder->scans.items[at].block * ALL * ALL);
-    chain->blocks =
-        (struct energy_blocks){distance, ladder->block_weight, ladder->blocks, SEEDS, SEEDS};
-    return 0;
+    *blocks = (struct energy_blocks){distance, ladder->block_weight, ladder->blocks, SEEDS, SEEDS};
+}
+
+int ladder_climb(struct ladder *ladder, struct ladder_chain *chain)
+{
+    struct ladder_lists lists[SEEDS] = {0};
+    struct arena kept = {0};
+    int result = run_chain(ladder, chain, 2, lists, &kept);
+    if (result == 0)
+        compare(ladder, lists, &chain->blocks);
+    arena_free(&kept);
+    return result;
 }
