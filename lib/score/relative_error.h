@@ -10,7 +10,9 @@
  * of one. The 95 % interval takes numerator and denominator together. It has two parts, whose
  * lengths are added as squares: a bootstrap over the blocks, drawn apart by what Student's
  * distribution is wider than the normal one (Hesterberg, The American Statistician 69, 2015), and
- * 1.96 standard errors by the jackknife over the seeds of the reference and of the chains. */
+ * 1.96 standard errors by the jackknife over the seeds of the reference and of the chains. Both
+ * have the scatter of single draws in them, so where nothing else scatters the interval is too
+ * wide. */
 #ifndef RELATIVE_ERROR_H
 #define RELATIVE_ERROR_H
 
