@@ -40,7 +40,7 @@ static double table_range_m(const struct radar_equation *equation, double amplit
 {
     size_t last = equation->row_count - 1;
     if (last == 0 || equation->rows[last].amplitude >= equation->rows[last - 1].amplitude)
-        return INFINITY;
+        return (double)INFINITY;
     for (size_t i = last; i > 0; i--) {
         const struct radar_row *from = &equation->rows[i - 1], *to = from + 1;
         double part = elementary_log(amplitude / from->amplitude) /

@@ -250,7 +250,7 @@ static void sensors_that_differ_in_their_mount_share_a_sheet(void **state)
 {
     (void)state;
     struct sensor sensors[3] = {quiet_sensor(), quiet_sensor(), quiet_sensor()};
-    struct suite suite = {.sensors = {sensors, 3}};
+    struct suite suite = {.sensors = {sensors, 3, 3}};
     struct text text = {0};
     sensors[1].name = "left";
     sensors[1].mount_yaw_rad = 1;
