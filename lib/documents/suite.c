@@ -269,6 +269,14 @@ static int check_chirp(const struct sensor *sensor, struct diag *diag)
                      repetition_s);
 }
 
+/* Does range_migration name another window than the waveform? */
+static bool other_window(const struct sensor *sensor)
+{
+    enum range_migration other =
+        sensor->waveform.window == POINT_RESPONSE_HANN ? MIGRATION_RECTANGULAR : MIGRATION_HANN;
+    return sensor->range_migration == other;
+}
+
 int suite_check(const struct sensor *sensor, struct diag *diag)
 {
     if (sensor->receiver_bandwidth_hz > 0 && sensor->chirp_s == 0)
@@ -296,6 +304,10 @@ int suite_check(const struct sensor *sensor, struct diag *diag)
     if (sensor->elevation_half_width_rad > 0 && !(sensor->mount_z_m > 0))
         return diag_fail(diag, DIAG_CONFIG,
                          "mount_z_m: missing; elevation_half_width_rad needs it");
+    if (sensor->waveform.samples > 0 && other_window(sensor))
+        return diag_fail(diag, DIAG_CONFIG,
+                         "range_migration: \"%s\"; expected waveform.window, or compensated",
+                         migrations[sensor->range_migration]);
     if (waveform_check(&sensor->waveform, sensor->cell_range_m, sensor->range_max_m, diag) != 0)
         return diag_prefix(diag, "waveform.");
     return check_chirp(sensor, diag);

@@ -143,6 +143,15 @@ static void weigh_channels(const struct signal_cube *signal, const struct receiv
     }
 }
 
+/* By how much the delay of the range cells has grown since the instant of the measurement. A radar
+ * that compensates the walk shifts them back, but for the carrier's phase (MODEL 14.20). */
+static double walked_s(const struct signal_cube *signal, const struct signal_source *source,
+                       double instant_s)
+{
+    bool compensated = signal->sensor->range_migration == MIGRATION_COMPENSATED;
+    return compensated ? 0 : source->stretch * instant_s;
+}
+
 /* A polynomial of the phase, in turns, over the time since the middle of a chirp in units of its
  * length. */
 struct chirp_phase {
@@ -156,7 +165,8 @@ static struct chirp_phase chirp_phase_of(const struct signal_cube *signal,
 {
     double carrier_hz = signal->sensor->carrier_hz, slope = signal->slope_hzps;
     double stretch = source->stretch, length = signal->chirp_s;
-    double moved_s = stretch * instant_s, delay_s = source->delay_s + moved_s;
+    double moved_s = stretch * instant_s;
+    double delay_s = source->delay_s + walked_s(signal, source, instant_s);
     return (struct chirp_phase){
         .constant =
             source->turns - moved_s * (carrier_hz - slope * (source->delay_s + moved_s / 2)),
@@ -214,7 +224,8 @@ static void add_source(const struct signal_cube *signal, const struct signal_sou
 {
     if (is_pulsed(signal)) {
         double moved_s = source->stretch * instant_s;
-        double range_m = (source->delay_s + moved_s) * SPEED_OF_LIGHT_MPS / 2;
+        double delay_s = source->delay_s + walked_s(signal, source, instant_s);
+        double range_m = delay_s * SPEED_OF_LIGHT_MPS / 2;
         pulse(signal->tone, signal->samples, range_m / signal->range_step_m,
               phasor_of(1, source->turns - signal->sensor->carrier_hz * moved_s));
     } else {
