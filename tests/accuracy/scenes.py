@@ -34,12 +34,20 @@ def sensors(name):
         return json.load(text)
 
 
+def beams(sensor):
+    """How many beams the signal searches, half a beam's width apart over the view (MODEL 11.3)."""
+    waveform = sensor["waveform"]
+    if "elements" not in waveform:
+        return 1
+    return 2 + int(4 * math.sin(sensor["field_of_view_rad"] / 2) * waveform["spacing"] * waveform["elements"])
+
+
 def false_alarm(sensor, cells, rank):
-    """The probability by which the signal's ordered CFAR (MODEL 11.4) has its mean threshold where the chain's
-    is, threshold_db above noise of pointer_sigma."""
+    """The probability, shared by all beams, by which the signal's ordered CFAR (MODEL 11.4) has its mean
+    threshold where the chain's is, threshold_db above noise of pointer_sigma."""
     above_noise = 10 ** (sensor["threshold_db"] / 10) / sensor["pointer_sigma"] ** 2
     factor = above_noise / sum(1 / (cells - i) for i in range(rank))
-    return math.prod((cells - i) / (cells - i + factor) for i in range(rank))
+    return beams(sensor) * math.prod((cells - i) / (cells - i + factor) for i in range(rank))
 
 
 def described(suite, repetitions, most_repetitions, rate_mps, cells=16, without=()):
