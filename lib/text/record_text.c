@@ -339,7 +339,7 @@ static int read_record(struct reader *reader, const struct record *record, void 
     json_scan_take(scan, '{');
     if (!json_scan_take(scan, '}') && read_members(reader, record, base, &seen) != 0)
         return -1;
-    for (uint64_t unseen = ~seen;; unseen &= unseen - 1) {
+    for (uint64_t unseen = ~seen; unseen != 0; unseen &= unseen - 1) {
         const struct field *field = &record->fields[__builtin_ctzll(unseen)];
         if (field->name == NULL)
             return 0;
@@ -347,6 +347,7 @@ static int read_record(struct reader *reader, const struct record *record, void 
             return field_require(record, seen, scan->diag);
         field_set_absent(field, base);
     }
+    return 0;
 }
 
 static int no_record(struct json_scan *scan, const struct record *record)
