@@ -44,13 +44,12 @@ static double signed_cell(size_t cell, size_t cells)
     return cell < cells / 2 ? (double)cell : (double)cell - (double)cells;
 }
 
-static struct range_doppler_peak peak_at(const struct range_doppler *spectrum,
-                                         const struct cfar *cfar, size_t row, size_t column)
+static struct range_doppler_peak peak_in_beam(const struct range_doppler *spectrum,
+                                              const struct cfar *cfar, size_t row, size_t column,
+                                              size_t beam)
 {
-    size_t width = spectrum->range_cells, height = spectrum->rate_cells, size = width * height;
-    size_t beam = strongest_beam(spectrum, row * width + column);
-    const double *power = spectrum->power + beam * size;
-    double at = power[row * width + column];
+    size_t width = spectrum->range_cells, height = spectrum->rate_cells;
+    const double *power = spectrum->power + beam * width * height + column;
     return (struct range_doppler_peak){
         .range_cell = column,
         .rate_cell = row,
@@ -58,9 +57,32 @@ static struct range_doppler_peak peak_at(const struct range_doppler *spectrum,
         .range = (spectrum->first_cell + (double)column) / (double)spectrum->range_padding,
         .rate = signed_cell(row, height) / (double)spectrum->rate_padding,
         .gain = 1,
-        .amplitude = sqrt(at),
-        .threshold = sqrt(cfar_threshold(cfar, power + column, height, width, row)),
+        .amplitude = sqrt(power[row * width]),
+        .threshold = sqrt(cfar_threshold(cfar, power, height, width, row)),
     };
+}
+
+static bool is_above_threshold(const struct range_doppler_peak *peak)
+{
+    return peak->amplitude >= peak->threshold;
+}
+
+/* The peak of a cell in its strongest beam, or if that is below its threshold, in the strongest
+ * beam that is not: noise differs between beams, and each has its share of the false alarms. */
+static struct range_doppler_peak peak_at(const struct range_doppler *spectrum,
+                                         const struct cfar *cfar, size_t row, size_t column)
+{
+    size_t strongest = strongest_beam(spectrum, row * spectrum->range_cells + column);
+    struct range_doppler_peak peak = peak_in_beam(spectrum, cfar, row, column, strongest);
+    if (is_above_threshold(&peak))
+        return peak;
+    for (size_t beam = 0; beam < spectrum->beams; beam++) {
+        struct range_doppler_peak other = peak_in_beam(spectrum, cfar, row, column, beam);
+        if (is_above_threshold(&other) &&
+            (!is_above_threshold(&peak) || other.amplitude > peak.amplitude))
+            peak = other;
+    }
+    return peak;
 }
 
 /* Moves a peak from its cell to its place between the cells. */
@@ -149,7 +171,7 @@ size_t range_doppler_peaks(const struct range_doppler *spectrum, const struct cf
             if (!is_peak(spectrum, row, column))
                 continue;
             struct range_doppler_peak peak = peak_at(spectrum, cfar, row, column);
-            if (!(peak.amplitude >= peak.threshold))
+            if (!is_above_threshold(&peak))
                 continue;
             interpolate(spectrum, &peak);
             if (peak.amplitude >= least)

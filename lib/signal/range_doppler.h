@@ -5,8 +5,8 @@
  * ranges if it has all cells of a row.
  *
  * A peak is a cell that none of its eight neighbours exceeds in the power of its strongest beam. In
- * that beam it must exceed the CFAR threshold (cfar.h) among the range rates of its range; along
- * range, walls and rows of posts would hide themselves. Its place is interpolated between the
+ * one of its beams it must exceed the CFAR threshold (cfar.h) among the range rates of its range;
+ * along range, walls and rows of posts would hide themselves. Its place is interpolated between the
  * cells, and its amplitude is that at this place (point_response.h). Stronger peaks take
  * precedence: beyond the main lobe of a stronger one, a peak that is less than twice what its side
  * lobes can be at that place is taken for one of them. */
@@ -53,7 +53,7 @@ double range_doppler_range_away(const struct range_doppler *spectrum, double ran
 double range_doppler_rate_away(const struct range_doppler *spectrum, double rate,
                                const struct range_doppler_peak *peak);
 
-/* The peak that the cell nearest to a place would be, in its strongest beam, with that cell's
+/* The peak that the cell nearest to a place would be, in the beam that decides, with that cell's
  * amplitude and threshold. A range outside the spectrum counts as its nearest cell. */
 struct range_doppler_peak range_doppler_at(const struct range_doppler *spectrum,
                                            const struct cfar *cfar, double range, double rate);

@@ -160,6 +160,37 @@ static void a_peak_must_exceed_the_rates_of_its_range(void **state)
     }
 }
 
+/* In its strongest beam the peak stands in a clutter of rates, in the other one alone. */
+static void a_peak_may_exceed_the_threshold_in_another_than_its_strongest_beam(void **state)
+{
+    (void)state;
+    static double power[2 * WIDTH * HEIGHT];
+    struct sky cluttered, clear;
+    struct range_doppler_peak *peaks;
+    struct cfar cfar = {CFAR_MEAN, 16, 6, 2, 0, 100};
+    begin(&cluttered, POINT_RESPONSE_RECTANGULAR, POINT_RESPONSE_RECTANGULAR);
+    begin(&clear, POINT_RESPONSE_RECTANGULAR, POINT_RESPONSE_RECTANGULAR);
+    for (int rate = 0; rate < HEIGHT; rate++)
+        add(&cluttered, 5, rate, 2, rate);
+    add(&cluttered, 5, 30, 10, 30);
+    add(&clear, 5, 30, 9, 0);
+    assert_int_equal(search(&cluttered, &cfar, 8, &peaks), 0);
+    assert_int_equal(search(&clear, &cfar, 8, &peaks), 1);
+    memcpy(power, cluttered.power, sizeof cluttered.power);
+    memcpy(power + WIDTH * HEIGHT, clear.power, sizeof clear.power);
+    for (size_t i = 0; i < WIDTH * HEIGHT; i++)
+        if (clear.power[i] > cluttered.power[i])
+            cluttered.power[i] = clear.power[i];
+    cluttered.spectrum.beams = 2;
+    cluttered.spectrum.power = power;
+    assert_int_equal(range_doppler_peaks(&cluttered.spectrum, &cfar, 8, &cluttered.arena, &peaks),
+                     1);
+    assert_int_equal(peaks[0].beam, 1);
+    assert_near(peaks[0].amplitude, 9., 0.01);
+    arena_free(&cluttered.arena);
+    arena_free(&clear.arena);
+}
+
 static void rings_close_at_both_ends(void **state)
 {
     (void)state;
@@ -184,6 +215,7 @@ int main(void)
         cmocka_unit_test(a_close_pair_has_its_peak_at_the_published_place),
         cmocka_unit_test(a_weak_echo_is_found_outside_the_side_lobes_of_a_strong_one_only),
         cmocka_unit_test(a_peak_must_exceed_the_rates_of_its_range),
+        cmocka_unit_test(a_peak_may_exceed_the_threshold_in_another_than_its_strongest_beam),
         cmocka_unit_test(rings_close_at_both_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
