@@ -45,14 +45,18 @@ $(foreach n,$(filter-out $(names),$(all_names)),$(info glint-$(subst _,-,$(n)) i
 # A file defines either a struct stage or a struct tool.
 tools := $(filter $(names),$(patsubst stages/%.c,%,$(shell grep -l '^const struct tool tool_' stages/*.c)))
 stages := $(filter-out $(tools),$(names))
-# What it needs beyond the four packages is compiled and linked into it, and into glint.
+# What it needs beyond the four packages is linked into it, and into glint.
 flags_of = $(if $(call needs,$(1)),$(shell pkg-config --cflags $(call needs,$(1))))
 libs_of = $(if $(call needs,$(1)),$(shell pkg-config --libs $(call needs,$(1))))
 stage_libs := $(foreach n,$(names),$(call libs_of,$(n)))
 
 lib_objects := $(patsubst lib/%,$(BUILD)/lib/%.o,$(wildcard lib/*.c lib/*/*.c lib/*/*.cc lib/*.cc)) $(BUILD)/lib/view_page.o
 stage_objects := $(patsubst %,$(BUILD)/stages/%.o,$(names))
-programs := $(foreach n,$(names),$(BUILD)/bin/glint-$(subst _,-,$(n))) $(BUILD)/bin/glint
+programs_of = $(foreach n,$(1),$(BUILD)/bin/glint-$(subst _,-,$(n)))
+plain_names := $(foreach n,$(names),$(if $(call needs,$(n)),,$(n)))
+plain_programs := $(call programs_of,$(plain_names))
+full_programs := $(BUILD)/bin/glint $(call programs_of,$(filter-out $(plain_names),$(names)))
+programs := $(plain_programs) $(full_programs)
 tests := $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/test_*.c tests/*/test_*.c tests/unit/*/test_*.c))
 hard_tests := $(patsubst tests/hard/%.c,$(BUILD)/tests/hard/%,$(wildcard tests/hard/*.c))
 soundness_tests := $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/soundness/planted_*.c))
@@ -92,44 +96,40 @@ $(BUILD)/stages/%.o: stages/%.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(HOUSE_C) $(call flags_of,$*) $(CFLAGS) -c -o $@ $<
 
-# From which an executable takes the stages that its own one names.
-$(BUILD)/libstages.a: $(stage_objects)
-	$(Q)rm -f $@
-	$(Q)$(AR) rcs $@ $^
-
-# One main for all: glint-sensor-perfect is stages/sensor_perfect.c and this.
-.SECONDEXPANSION:
-main_of = $(if $(filter $(1),$(tools)),TOOL=tool,STAGE=stage)_$(1)
-$(BUILD)/main/%.o: stages/main.c stages/%.c
-	@mkdir -p $(@D)
-	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -D$(call main_of,$*) -c -o $@ $<
-
-under = $(subst -,_,$(patsubst $(BUILD)/bin/glint-%,%,$(1)))
-$(BUILD)/bin/glint-%: $(BUILD)/stages/$$(subst -,_,$$*).o $(BUILD)/main/$$(subst -,_,$$*).o \
-    $(BUILD)/libstages.a $(BUILD)/libglint.a
-	@mkdir -p $(@D)
-	$(Q)$(LINK) -o $@ $^ $(call libs_of,$(call under,$@)) $(LIBS)
-
 # The folder is the registry; the file is rewritten only when the list has changed.
 registry = for n in $(2); do echo "extern const struct $(1) $(1)_$$n;"; done; \
     echo "const struct $(1) *const $(1)s[] = {"; \
     for n in $(2); do echo "    &$(1)_$$n,"; done; echo "    NULL,"; echo "};"
+write_registry = mkdir -p $(@D); { echo '\#include "run/fused.h"'; \
+    $(call registry,stage,$(filter $(stages),$(1))); $(call registry,tool,$(filter $(tools),$(1))); } >$@.new; \
+    cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 $(BUILD)/registry.c: FORCE
-	@mkdir -p $(@D)
-	@{ echo '#include "run/fused.h"'; $(call registry,stage,$(stages)); \
-	    $(call registry,tool,$(tools)); } > $@.new
-	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+	@$(call write_registry,$(names))
+$(BUILD)/plain_registry.c: FORCE
+	@$(call write_registry,$(plain_names))
 
-$(BUILD)/registry.o: $(BUILD)/registry.c
+$(BUILD)/registry.o $(BUILD)/plain_registry.o: %.o: %.c
 	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
 
-$(BUILD)/main/glint.o: stages/main.c
+$(BUILD)/main.o: stages/main.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
 
-$(BUILD)/bin/glint: $(BUILD)/main/glint.o $(BUILD)/registry.o $(stage_objects) $(BUILD)/libglint.a
+# Two files under many names, which say what they do: glint with all stages, and those that need no
+# library beyond the four packages.
+$(BUILD)/bin/glint: $(BUILD)/main.o $(BUILD)/registry.o $(stage_objects) $(BUILD)/libglint.a
 	@mkdir -p $(@D)
 	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS)
+
+$(BUILD)/plain: $(BUILD)/main.o $(BUILD)/plain_registry.o $(plain_names:%=$(BUILD)/stages/%.o) $(BUILD)/libglint.a
+	$(Q)$(LINK) -o $@ $^ $(LIBS)
+
+$(plain_programs): $(BUILD)/plain
+	@mkdir -p $(@D)
+	$(Q)ln -f $< $@
+
+$(filter-out $(BUILD)/bin/glint,$(full_programs)): $(BUILD)/bin/glint
+	$(Q)ln -f $< $@
 
 $(BUILD)/tests/%.o: tests/%.c
 	@mkdir -p $(@D)
@@ -215,9 +215,23 @@ man: all
 
 # Pages about data and pipelines go with them; the others, with their pictures, go to share/doc.
 doc_pages = README.md CHANGES.md MODEL.md LICENSE $(wildcard stages/README.md tests/*/README.md)
+# One file under the names of several programs, without what only a debugger reads.
+bin = $(DESTDIR)$(PREFIX)/bin
+install_as_one = install -s -m 755 $(firstword $(1)) $(bin) && \
+    for name in $(notdir $(filter-out $(firstword $(1)),$(1))); do \
+        ln -f $(bin)/$(notdir $(firstword $(1))) $(bin)/$$name || exit 1; done
+# What a stage outside this tree is built from: the headers, the library, and how to ask for them.
+headers = $(wildcard lib/*/*.h lib/*/*.def)
+version = $(shell sed -n 's/^.define GLINT_VERSION "\(.*\)"/\1/p' lib/run/options.h)
 install: all man
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1 $(DESTDIR)$(PREFIX)/share/glint
-	install -m 755 $(programs) $(DESTDIR)$(PREFIX)/bin
+	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin lib/pkgconfig share/man/man1 share/glint)
+	$(call install_as_one,$(plain_programs))
+	$(call install_as_one,$(full_programs))
+	install -m 644 $(BUILD)/libglint.a $(DESTDIR)$(PREFIX)/lib
+	strip -g $(DESTDIR)$(PREFIX)/lib/libglint.a
+	sed 's/@version@/$(version)/' stages/glint.pc >$(DESTDIR)$(PREFIX)/lib/pkgconfig/glint.pc
+	$(Q)for header in $(headers:lib/%=%); do \
+	    install -D -m 644 lib/$$header $(DESTDIR)$(PREFIX)/include/glint/$$header || exit 1; done
 	$(Q)for page in $(BUILD)/man/*.1; do \
 	    [ ! -e $$page ] || install -m 644 $$page $(DESTDIR)$(PREFIX)/share/man/man1; done
 	cp -R data/* $(DESTDIR)$(PREFIX)/share/glint
@@ -232,6 +246,6 @@ clean:
 
 FORCE:
 .PHONY: all unit hard soundness check bench accuracy schemas format lint man install clean FORCE
-.PRECIOUS: $(BUILD)/main/%.o $(BUILD)/tests/%.o $(tests) $(BUILD)/tests/hard/%
+.PRECIOUS: $(BUILD)/tests/%.o $(tests) $(BUILD)/tests/hard/%
 
 -include $(wildcard $(BUILD)/*.d $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d)

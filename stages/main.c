@@ -1,31 +1,33 @@
-/* The main of every executable: glint-NAME with -DSTAGE=stage_NAME or -DTOOL=tool_NAME, glint
- * itself without. */
+/* The main of every program. A file is what its name says: glint-NAME is that stage or tool, and
+ * any other name is glint itself. */
+#include <stdio.h>
+#include <unistd.h>
+
 #include "run/chain.h"
 #include "run/fused.h"
 
-#if defined STAGE
-
-extern const struct stage STAGE;
+/* The name of the file that runs, or else the name that it was called by: a file keeps its meaning
+ * behind a link of another name. NULL: neither begins with glint-. */
+static const char *own_name(char *path, size_t size, const char *called)
+{
+    ssize_t length = readlink("/proc/self/exe", path, size - 1);
+    path[length > 0 ? length : 0] = '\0';
+    const char *name = fused_name(path);
+    return name != NULL || called == NULL ? name : fused_name(called);
+}
 
 int main(int count, char **words)
 {
-    return chain_main(&STAGE, count, words);
+    char path[4096];
+    const char *name = own_name(path, sizeof path, words[0]);
+    if (name == NULL)
+        return fused_main(count, words);
+    const struct stage *stage = fused_stage(name);
+    if (stage != NULL)
+        return chain_main(stage, count, words);
+    const struct tool *tool = fused_tool(name);
+    if (tool != NULL)
+        return chain_main_tool(tool, count, words);
+    fprintf(stderr, "glint-%s: this file's name is that of no stage or tool in it\n", name);
+    return DIAG_USAGE;
 }
-
-#elif defined TOOL
-
-extern const struct tool TOOL;
-
-int main(int count, char **words)
-{
-    return chain_main_tool(&TOOL, count, words);
-}
-
-#else
-
-int main(int count, char **words)
-{
-    return fused_main(count, words);
-}
-
-#endif

@@ -9,7 +9,8 @@
 #include <stdint.h>
 
 /* The purpose of a draw. New purposes go at the end, because their numbers are part of every data
- * set made. */
+ * set made. Numbers from RANDOM_OWN on are free for stages outside this tree: glint's own stay
+ * below. */
 enum random_purpose {
     RANDOM_POINTERS = 1,            /* complex noise on sum and delta: four Gaussians */
     RANDOM_RANGE_RATE = 2,          /* noise on range and range rate */
@@ -29,6 +30,8 @@ enum random_purpose {
     RANDOM_BOOTSTRAP = 15,   /* which scenes or blocks a resample has (glint-score --ensemble,
                               * glint-plan --cost) */
     RANDOM_SAMPLE = 16,      /* which frame of a stretch is in a sample (glint-plan --cost) */
+    RANDOM_OWN = 1 << 16,    /* any number from here to 2^31 - 1, one for each purpose of the
+                              * stages that run together */
 };
 
 struct random_address {

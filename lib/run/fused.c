@@ -44,32 +44,45 @@ static int complain(const struct diag *diag)
     return (int)diag->code;
 }
 
-/* "plan" for "/usr/bin/glint-plan"; NULL for a program that is not called glint-NAME. */
-static const char *name_of(const char *program)
+const char *fused_name(const char *path)
 {
-    const char *slash = strrchr(program, '/');
-    const char *name = slash != NULL ? slash + 1 : program;
+    const char *slash = strrchr(path, '/');
+    const char *name = slash != NULL ? slash + 1 : path;
     return strncmp(name, "glint-", 6) == 0 ? name + 6 : NULL;
+}
+
+const struct stage *fused_stage(const char *name)
+{
+    for (size_t i = 0; stages[i] != NULL; i++)
+        if (strcmp(stages[i]->name, name) == 0)
+            return stages[i];
+    return NULL;
+}
+
+const struct tool *fused_tool(const char *name)
+{
+    for (size_t i = 0; tools[i] != NULL; i++)
+        if (strcmp(tools[i]->name, name) == 0)
+            return tools[i];
+    return NULL;
 }
 
 /* False if this build has no such stage or tool. A runner whose command line is refused is prepared
  * all the same: it fails when the chain starts, as it would in a pipe. */
 static bool prepare(struct runner *runner, const struct command *command)
 {
-    const char *name = name_of(command->words.items[0]);
+    const char *name = fused_name(command->words.items[0]);
+    if (name == NULL)
+        return false;
+    const struct stage *stage = fused_stage(name);
+    const struct tool *tool = fused_tool(name);
     size_t count = command->words.count - 1;
     const char *const *words = command->words.items + 1;
-    for (size_t i = 0; name != NULL && stages[i] != NULL; i++)
-        if (strcmp(stages[i]->name, name) == 0) {
-            runner_prepare(runner, stages[i], count, words);
-            return true;
-        }
-    for (size_t i = 0; name != NULL && tools[i] != NULL; i++)
-        if (strcmp(tools[i]->name, name) == 0) {
-            runner_prepare_tool(runner, tools[i], count, words);
-            return true;
-        }
-    return false;
+    if (stage != NULL)
+        runner_prepare(runner, stage, count, words);
+    else if (tool != NULL)
+        runner_prepare_tool(runner, tool, count, words);
+    return stage != NULL || tool != NULL;
 }
 
 /* Refuses what a pipe of processes would do in another way than one process. */

@@ -83,12 +83,14 @@ static void every_bit_of_the_address_counts(void **state)
 static void purposes_and_indices_draw_different_numbers(void **state)
 {
     (void)state;
-    static const enum random_purpose purposes[] = {RANDOM_POINTERS, RANDOM_RANGE_RATE,
-                                                   RANDOM_AZIMUTH, RANDOM_PHASE};
-    double drawn[12][4];
-    for (uint32_t i = 0; i < 12; i++)
-        random_uniform(&ADDRESS, purposes[i % 4], i / 4, drawn[i]);
-    for (size_t i = 0; i < 12; i++)
+    static const enum random_purpose purposes[] = {
+        RANDOM_POINTERS, RANDOM_RANGE_RATE, RANDOM_AZIMUTH, RANDOM_PHASE,
+        RANDOM_OWN,      RANDOM_OWN + 1,    INT32_MAX};
+    enum { PURPOSES = sizeof purposes / sizeof *purposes, ALL = 3 * PURPOSES };
+    double drawn[ALL][4];
+    for (uint32_t i = 0; i < ALL; i++)
+        random_uniform(&ADDRESS, purposes[i % PURPOSES], i / PURPOSES, drawn[i]);
+    for (size_t i = 0; i < ALL; i++)
         for (size_t k = 0; k < i; k++)
             assert_all_differ(drawn[i], drawn[k]);
 }

@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""What `make install` leaves in a folder: programs as small as they may be, and what own stages are built from.
+
+    tests/chain/installed.py PREFIX BIN_DIR
+
+PREFIX may lie elsewhere than where it was installed. BIN_DIR has the programs that were installed. The
+stage is the one that the installed page shows, built with the Makefile that the page shows.
+"""
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+PREFIX, BUILT = (os.path.abspath(folder) for folder in sys.argv[1:3])
+PROGRAMS = os.path.join(PREFIX, "bin")
+MOST_BYTES = 4_000_000
+ENVIRONMENT = {"PATH": f"{PROGRAMS}:/usr/local/bin:/usr/bin:/bin", "LC_ALL": "C",
+               "PKG_CONFIG_PATH": os.path.join(PREFIX, "lib/pkgconfig")}
+REACH_M = 40
+
+
+def run(command, folder="/", expected=0):
+    done = subprocess.run(["bash", "-o", "pipefail", "-c", command], cwd=folder, env=ENVIRONMENT,
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert done.returncode == expected, f"{command}: {done.returncode}, not {expected}\n{done.stderr}"
+    return done.stdout + done.stderr
+
+
+def frames(command, folder="/"):
+    return [json.loads(line) for line in run(command, folder).splitlines()]
+
+
+def check_programs():
+    """Every program that was built is installed, says the same, and all of them share their bytes."""
+    names = sorted(os.listdir(BUILT))
+    assert sorted(os.listdir(PROGRAMS)) == names, "other programs are installed than were built"
+    of_one_file = {}
+    for name in names:
+        path = os.path.join(PROGRAMS, name)
+        of_one_file[os.stat(path).st_ino] = os.path.getsize(path)
+        for option in "--help", "--version":
+            assert run(f"{path} {option}") == run(f"{BUILT}/{name} {option}"), f"{name} {option} differs"
+    assert sum(of_one_file.values()) <= MOST_BYTES, f"the programs have {sum(of_one_file.values())} bytes"
+    assert not run(f"nm {PROGRAMS}/glint 2>/dev/null", expected=0), "glint is not stripped"
+
+
+def build_stage(folder):
+    """The page's stage, without a warning, beside glint's own programs."""
+    with open(os.path.join(PREFIX, "share/doc/glint/stages/README.md"), encoding="utf-8") as page:
+        blocks = dict(re.findall(r"```(c|make)\n(.*?)```", page.read(), re.DOTALL))
+    for name, text in ("spray.c", blocks["c"]), ("Makefile", blocks["make"]):
+        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+            file.write(text)
+    assert len(blocks["make"].splitlines()) <= 12, "the page promises a Makefile of twelve lines"
+    run('make -s install CFLAGS="-std=c11 -O2 -Wall -Wextra -Werror"', folder)
+
+
+def check_stage(folder):
+    """Each echo is kept or accounted for, by the law that the page states, and by its address alone."""
+    source = "glint-traffic-random --frames 400 --seed 5 | glint-extract | glint-ideal --sensors corner77 --account"
+    run(f"{source} >ideal.jsonl && glint-spray --reach-m {REACH_M} ideal.jsonl >spray.jsonl", folder)
+    before, after = frames("cat ideal.jsonl", folder), frames("cat spray.jsonl", folder)
+    expected = variance = kept = lost = 0
+    for ideal, sprayed in zip(before, after, strict=True):
+        chances = [math.exp(-echo["range_m"] / REACH_M) for echo in ideal["echoes"]]
+        expected += sum(chances)
+        variance += sum(chance * (1 - chance) for chance in chances)
+        kept += len(sprayed["echoes"])
+        lost += sum(len(group["echoes"]) for group in sprayed["lost"] if group["stage"] == "spray")
+    assert kept + lost == sum(len(frame["echoes"]) for frame in before), "echoes vanished without account"
+    assert lost > 1000 and abs(kept - expected) < 4 * math.sqrt(variance), f"kept {kept}, expected {expected:.0f}"
+    tail = frames(f"tail -n 7 ideal.jsonl | glint-spray --reach-m {REACH_M}", folder)
+    assert tail == after[-7:], "what is lost depends on the frames before"
+    summary = run("glint-sensor spray.jsonl | glint-noise | glint-summary", folder)
+    assert re.search(r"\d+  blocked", summary), summary
+    refusal = run("glint-spray --reach-m 0.5", folder, expected=64)
+    assert refusal.startswith("glint-spray: --reach-m: "), refusal
+
+
+check_programs()
+with tempfile.TemporaryDirectory() as place:
+    build_stage(place)
+    check_stage(place)
+print("installed: one body for all programs, and a stage of one's own")
