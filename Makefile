@@ -24,6 +24,16 @@ comma = ,
 SANITIZE = -fsanitize=address$(comma)undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 endif
 
+# scripts/fuzz: what libFuzzer needs, which is clang's. An empty list may be NULL, and clang calls NULL + 0 an overflow.
+ifdef FUZZ
+BUILD = build-fuzz
+CC = clang
+CXX = clang++
+comma = ,
+SANITIZE = -fsanitize=fuzzer-no-link$(comma)address$(comma)undefined$(comma)float-cast-overflow \
+    -fno-sanitize=pointer-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer
+endif
+
 WARNINGS = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes \
     -Werror=implicit-function-declaration -Wmissing-prototypes -Wvla -Wundef -Wwrite-strings -Wcast-align -Wdouble-promotion -Wformat=2
 # Contraction would let a compiler round a*b+c once instead of twice, and so change results.
@@ -148,6 +158,12 @@ $(BUILD)/tests/soundness/planted_%: $(BUILD)/tests/soundness/planted_%.o $(sound
     $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
 	$(Q)$(LINK) $(call wraps,tests/soundness/planted_$*.c) -o $@ $^ $(stage_libs) $(LIBS)
 
+# Harnesses of libFuzzer, each with the mutator of numbers: make FUZZ=1 fuzz.
+harnesses := $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/fuzz/fuzz_*.c))
+$(harnesses): %: %.o $(addprefix $(BUILD)/tests/fuzz/,fuzz.o numbers_mutated.o) \
+    $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
+	$(Q)$(LINK) -fsanitize=fuzzer -o $@ $^ $(stage_libs) $(LIBS)
+
 # For scripts/bench: our functions beside libm's, the machine's floors, what a command spends. For
 # scripts/accuracy-cost: angles by table.
 $(BUILD)/tests/speed/%: $(BUILD)/tests/speed/%.o $(BUILD)/libglint.a
@@ -180,6 +196,8 @@ hard: $(addsuffix .ran,$(hard_tests))
 	@echo "hard cases: $$(cat $(addsuffix .log,$(hard_tests)) | grep -c '^hard') held"
 
 soundness: $(soundness_tests)
+
+fuzz: $(harnesses)
 
 check: all unit
 	$(Q)BUILD=$(BUILD) scripts/check-house
@@ -245,7 +263,7 @@ clean:
 	rm -rf build build-*
 
 FORCE:
-.PHONY: all unit hard soundness check bench accuracy schemas format lint man install clean FORCE
+.PHONY: all unit hard soundness fuzz check bench accuracy schemas format lint man install clean FORCE
 .PRECIOUS: $(BUILD)/tests/%.o $(tests) $(BUILD)/tests/hard/%
 
 -include $(wildcard $(BUILD)/*.d $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d)

@@ -146,7 +146,8 @@ static unsigned sections_among(const struct record *record, const struct items *
 static int check_records(const struct record *record, struct items *items, unsigned sections,
                          struct diag *diag)
 {
-    if (record->fields[0].section != 0 && sections_among(record, items) == 0)
+    bool sectioned = record->fields[0].section != 0;
+    if (items->count == 0 || (sectioned && sections_among(record, items) == 0))
         return 0;
     for (const struct field *field = record->fields; field->name != NULL; field++) {
         bool wanted = field->section == 0 || (field->section & sections) != 0;
