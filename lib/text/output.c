@@ -153,7 +153,9 @@ static const char *shown_name(const struct output *output)
 static int cannot_write(struct output *output, struct diag *diag)
 {
     output->failed = true;
-    return diag_fail(diag, DIAG_IO, "%s: %s", shown_name(output), strerror(errno));
+    /* zlib allocates with its first write. */
+    return diag_fail(diag, errno == ENOMEM ? DIAG_MEMORY : DIAG_IO, "%s: %s", shown_name(output),
+                     strerror(errno));
 }
 
 /* Writes the first bytes that are held; the others move up. */
