@@ -1,4 +1,8 @@
 /* Scores of a tracker: how far its tracks are from the objects of the frames. */
+#include <string.h>
+
+#include "base/intern.h"
+#include "documents/vehicle.h"
 #include "run/stage.h"
 #include "score/reference_stream.h"
 #include "score/score_table.h"
@@ -13,6 +17,7 @@ struct score_tracks {
     int64_t frames, id_switches;
     struct score_tally tally; /* for the summary */
     struct track_memory memory;
+    struct intern seen; /* classes of all objects but the egos, for --classes */
 };
 
 static int score_tracks_start(void *state, struct runner *runner)
@@ -23,6 +28,33 @@ static int score_tracks_start(void *state, struct runner *runner)
     return own->other != NULL ? 0 : -1;
 }
 
+static void note_classes(struct score_tracks *own, const struct frame *frame, struct arena *arena)
+{
+    for (size_t i = 0; i < frame->objects.count; i++)
+        if (!frame_same_name(frame->objects.items[i].id, frame->ego))
+            intern_word(&own->seen, frame->objects.items[i].class, arena);
+}
+
+/* Refuses a class that no object has, unless a document describes it: it is misspelt. */
+static int check_classes(struct score_tracks *own, struct runner *runner)
+{
+    struct arena *arena = runner_arena(runner);
+    size_t seen = own->seen.list.count;
+    for (const char *at = own->classes; at != NULL;) {
+        size_t length = strcspn(at, ",");
+        const char *class = arena_text(arena, at, length);
+        struct diag unused = {0};
+        if (intern_word(&own->seen, class, arena) >= seen &&
+            vehicle_load(class, arena, &unused) == NULL)
+            return diag_fail(runner_diag(runner), DIAG_DATA,
+                             "--classes: no object of the stream is of the class \"%s\", and no "
+                             "vehicle document describes it",
+                             class);
+        at = at[length] == ',' ? at + length + 1 : NULL;
+    }
+    return 0;
+}
+
 static int score_tracks_step(void *state, struct frame *frame, struct runner *runner)
 {
     struct score_tracks *own = state;
@@ -30,6 +62,8 @@ static int score_tracks_step(void *state, struct frame *frame, struct runner *ru
     struct track_list tracks;
     if (track_score_check(frame, own->objects, runner_diag(runner)) != 0)
         return -1;
+    if (own->classes != NULL)
+        note_classes(own, frame, lasting);
     int found = reference_stream_tracks(own->other, frame, &tracks, runner_diag(runner));
     if (found <= 0)
         return found;
@@ -53,7 +87,8 @@ static int score_tracks_step(void *state, struct frame *frame, struct runner *ru
 static int score_tracks_stop(void *state, struct runner *runner)
 {
     struct score_tracks *own = state;
-    if (reference_stream_finish(own->other, runner_diag(runner)) != 0)
+    if (reference_stream_finish(own->other, runner_diag(runner)) != 0 ||
+        check_classes(own, runner) != 0)
         return -1;
     if (!own->summary)
         return 0;

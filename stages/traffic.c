@@ -53,7 +53,7 @@ static int traffic_next(void *state, struct frame *frame, struct runner *runner)
     frame->ego = traffic->playback.ego;
     frame->frame = traffic->frame++;
     frame->last = traffic->frame == traffic->playback.frames;
-    if (traffic->radius_m > 0)
+    if (traffic->radius_m >= 0)
         limit_radius(frame, traffic->radius_m);
     return 1;
 }
@@ -75,7 +75,7 @@ static const struct field traffic_options[] = {
     {FIELD_NAME_OF(struct traffic, scene, "name of the scene; absent: SOURCE/EGO"), FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct traffic, radius_m, 0, 1e6,
                    "leave out objects farther than this from the ego"),
-     FIELD_OPTIONAL},
+     FIELD_OPTIONAL, .absent = -1},
     {FIELD_RECORD_OF(struct traffic, conditions, &conditions_changes_record,
                      "over what the scenario says"),
      FIELD_OPTIONAL},

@@ -24,6 +24,8 @@ int frame_sequence_follow(struct frame_sequence *sequence, const struct frame *f
 
 int frame_sequence_end(const struct frame_sequence *sequence, struct diag *diag)
 {
+    if (sequence->scenes.count == 0)
+        return diag_fail(diag, DIAG_DATA, "no frame at all; expected whole scenes");
     for (size_t i = 0; i < sequence->scenes.count; i++)
         if (!sequence->scenes.items[i].closed)
             return diag_fail(diag, DIAG_DATA, "scene \"%s\" ends before its last frame",

@@ -25,7 +25,8 @@ struct frame_sequence {
 int frame_sequence_follow(struct frame_sequence *sequence, const struct frame *frame,
                           struct arena *arena, struct diag *diag);
 
-/* Fails with DIAG_DATA if a scene lacks its last frame. */
+/* Fails with DIAG_DATA if a scene lacks its last frame, or if there was no frame at all, as a
+ * source that fails leaves none. */
 int frame_sequence_end(const struct frame_sequence *sequence, struct diag *diag);
 
 #endif

@@ -21,7 +21,7 @@ static const struct field common_fields[] = {
                    "append which effects were simulated or left out, why, and the time they took"),
      FIELD_OPTIONAL, .word = "FILE"},
     {FIELD_FLAG_OF(struct common_options, complete,
-                   "fail unless every scene has all frames from 0 to its last"),
+                   "fail unless there is a scene, and each has all frames from 0 to its last"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct common_options, help, "print this help"), FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct common_options, version, "print the version"), FIELD_OPTIONAL},

@@ -211,6 +211,11 @@ static int take_frame(struct runner *runner, struct frame *frame)
                : 0;
 }
 
+static int check_complete(struct runner *runner)
+{
+    return runner->common.complete ? frame_sequence_end(&runner->sequence, &runner->diag) : 0;
+}
+
 int runner_step(struct runner *runner, struct frame *frame)
 {
     if (take_frame(runner, frame) != 0 ||
@@ -223,7 +228,7 @@ int runner_frame(struct runner *runner, struct frame **frame)
 {
     int more = runner->frames.next(runner->frames.from, frame);
     if (more == 0)
-        return frame_sequence_end(&runner->sequence, &runner->diag);
+        return check_complete(runner);
     return more > 0 && take_frame(runner, *frame) == 0 ? 1 : -1;
 }
 
@@ -251,9 +256,9 @@ int runner_try(struct runner *runner, struct runner *trial, struct frame *frame)
 
 int runner_finish(struct runner *runner)
 {
-    if (frame_sequence_end(&runner->sequence, &runner->diag) != 0)
-        return -1;
     const struct stage *stage = runner->stage;
+    if (check_complete(runner) != 0)
+        return -1;
     if (stage->stop != NULL && ensure_message(runner, stage->stop(runner->state, runner)) != 0)
         return -1;
     return runner->log == NULL

@@ -110,12 +110,21 @@ static int start_member(struct input *input, struct diag *diag)
     return 0;
 }
 
+/* An empty file is an empty stream, but gzip data has a header even of nothing. */
+static int check_empty(const struct input *input, struct diag *diag)
+{
+    size_t length = strlen(input->name);
+    if (length < 3 || strcmp(input->name + length - 3, ".gz") != 0)
+        return 0;
+    return diag_fail(diag, DIAG_DATA, "0 bytes; expected gzip data");
+}
+
 static int sniff(struct input *input, struct diag *diag)
 {
     input->sniffed = true;
     int more = fill(input, diag);
     if (more <= 0)
-        return more;
+        return more < 0 ? -1 : check_empty(input, diag);
     if (input->raw_end == 1) {
         long got = read_file(input, input->raw + 1, RAW_SIZE - 1, diag);
         if (got < 0)

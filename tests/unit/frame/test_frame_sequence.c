@@ -17,11 +17,12 @@ static int follow(struct bench *bench, const char *scene, int64_t number, bool l
     return frame_sequence_follow(&bench->completeness, &frame, &bench->arena, &bench->diag);
 }
 
-static void nothing_at_all_is_complete(void **state)
+static void nothing_at_all_is_not_complete(void **state)
 {
     (void)state;
     struct bench bench = {0};
-    assert_int_equal(frame_sequence_end(&bench.completeness, &bench.diag), 0);
+    assert_int_equal(frame_sequence_end(&bench.completeness, &bench.diag), -1);
+    assert_string_equal(bench.diag.text, "no frame at all; expected whole scenes");
 }
 
 static void scenes_may_interleave(void **state)
@@ -92,7 +93,7 @@ static void each_of_many_scenes_is_remembered(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_at_all_is_complete),
+        cmocka_unit_test(nothing_at_all_is_not_complete),
         cmocka_unit_test(scenes_may_interleave),
         cmocka_unit_test(gaps_repetitions_and_what_comes_after_the_end_are_refused),
         cmocka_unit_test(a_scene_without_its_end_is_told),
