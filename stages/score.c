@@ -1,5 +1,8 @@
 /* Scores: how far the targets of this stream are from those of another, the truth. */
+#include <inttypes.h>
+
 #include "base/units.h"
+#include "frame/frame_sequence.h"
 #include "run/stage.h"
 #include "score/ensemble.h"
 #include "score/reference_stream.h"
@@ -14,6 +17,7 @@ struct score_state {
     bool partial, summary, table, ensemble;
     struct reference_stream *other;
     int64_t frames;
+    struct frame_sequence sequence;
     struct score_tallies sensors; /* for the summary */
     struct ensemble lists;        /* for the ensemble */
 };
@@ -31,17 +35,39 @@ static int score_start(void *state, struct runner *runner)
     return own->other != NULL ? 0 : -1;
 }
 
+/* Streams are matched by the names of scenes. So both sides of a pair must have one seed, and with
+ * --partial, where a frame may lack its partner, a name must have one seed in the whole stream. */
+static int check_scene(struct score_state *own, const struct frame *frame, struct runner *runner)
+{
+    if (frame_sequence_ascend(&own->sequence, frame, runner_place(runner), runner_arena(runner),
+                              runner_diag(runner)) != 0)
+        return -1;
+    return own->partial ? frame_sequence_one_seed(&own->sequence, runner_diag(runner)) : 0;
+}
+
+static int check_pair(struct score_state *own, const struct frame *truth, const struct frame *frame,
+                      struct diag *diag)
+{
+    if (truth->seed == frame->seed)
+        return target_score_check(truth, frame, diag);
+    diag_fail(diag, DIAG_DATA, "seed: %" PRIu64 "; expected %" PRIu64 ", as in the other stream",
+              truth->seed, frame->seed);
+    return reference_stream_prefix(own->other, diag);
+}
+
 static int score_step(void *state, struct frame *frame, struct runner *runner)
 {
     struct score_state *own = state;
     const struct frame *truth;
     if (own->ensemble)
         return ensemble_add(&own->lists, frame, runner_diag(runner));
+    if (check_scene(own, frame, runner) != 0)
+        return -1;
     int found = reference_stream_frame(own->other, frame, SECTION_SENSORS | SECTION_TARGETS, &truth,
                                        runner_diag(runner));
     if (found <= 0)
         return found;
-    if (target_score_check(truth, frame, runner_diag(runner)) != 0)
+    if (check_pair(own, truth, frame, runner_diag(runner)) != 0)
         return -1;
     own->frames++;
     struct score_line line = {frame->scene, frame->frame, frame->time_s, {0}};
@@ -140,7 +166,8 @@ const struct stage stage_score = {
     .summary = "Score targets against those of another stream, frame by frame.",
     .details =
         "Both streams must be of the same scenes and frames, ascending within a scene; scenes\n"
-        "may interleave differently. Suites may differ, but not the names of their sensors.\n"
+        "may interleave differently. A scene is a name and a seed: seeds of one name must stand\n"
+        "in the same order. Suites may differ, but not the names of their sensors.\n"
         "Writes a JSON line for each frame, with a score for each sensor that measured on\n"
         "either side: GOSPA (order 2, alpha 2) with its parts, OSPA, counts, differences of the\n"
         "pairs, and the Wasserstein-1 distance of each component. The distance of two targets\n"

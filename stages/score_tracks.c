@@ -3,6 +3,7 @@
 
 #include "base/intern.h"
 #include "documents/vehicle.h"
+#include "frame/frame_sequence.h"
 #include "run/stage.h"
 #include "score/reference_stream.h"
 #include "score/score_table.h"
@@ -17,6 +18,7 @@ struct score_tracks {
     int64_t frames, id_switches;
     struct score_tally tally; /* for the summary */
     struct track_memory memory;
+    struct frame_sequence sequence;
     struct intern seen; /* classes of all objects but the egos, for --classes */
 };
 
@@ -60,7 +62,10 @@ static int score_tracks_step(void *state, struct frame *frame, struct runner *ru
     struct score_tracks *own = state;
     struct arena *lasting = runner_arena(runner);
     struct track_list tracks;
-    if (track_score_check(frame, own->objects, runner_diag(runner)) != 0)
+    if (frame_sequence_ascend(&own->sequence, frame, runner_place(runner), lasting,
+                              runner_diag(runner)) != 0 ||
+        frame_sequence_one_seed(&own->sequence, runner_diag(runner)) != 0 ||
+        track_score_check(frame, own->objects, runner_diag(runner)) != 0)
         return -1;
     if (own->classes != NULL)
         note_classes(own, frame, lasting);
@@ -146,7 +151,7 @@ const struct stage stage_score_tracks = {
         "track than last time. Objects that count are, by --objects: in_view, those whose centre\n"
         "is within the range and field of view of a sensor; detected, those with an echo in a\n"
         "target of the frame; all. The ego never counts. Frames that one side lacks are errors\n"
-        "unless --partial is given.",
+        "unless --partial is given. Tracks have no seed, so a scene must come with one alone.",
     .options = &score_tracks_record,
     .sink = true,
     .reads = SECTION_OBJECTS,

@@ -2,6 +2,7 @@
  * one frame as an SVG still. */
 #include <string.h>
 
+#include "frame/frame_sequence.h"
 #include "run/stage.h"
 #include "view/view_data.h"
 #include "view/view_head.h"
@@ -14,6 +15,7 @@ struct view {
     const char *scene;
     bool found; /* a frame that was asked for */
     struct view_data data;
+    struct frame_sequence sequence;
     const char *still; /* of the frame with most targets so far; NULL: none yet */
     size_t targets;    /* how many that frame has */
 };
@@ -41,6 +43,9 @@ static int view_step(void *state, struct frame *frame, struct runner *runner)
     struct view *view = state;
     if (view->scene != NULL && strcmp(view->scene, frame->scene) != 0)
         return 0;
+    if (frame_sequence_once(&view->sequence, frame, runner_place(runner), runner_arena(runner),
+                            runner_diag(runner)) != 0)
+        return -1;
     view->found = view->found || view->frame < 0 || view->frame == frame->frame;
     if (!view->svg)
         view_data_add(&view->data, frame);

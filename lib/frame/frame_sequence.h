@@ -1,29 +1,50 @@
-/* Completeness of the scenes in a stream of frames.
+/* Order and completeness of scenes in a stream of frames.
  *
- * With --complete the frames of each scene must ascend from 0 without a gap and end with its last
- * frame. Scenes may interleave. Every scene is remembered to the end of the stream, as a scene must
- * not come back after its last frame: about a hundred bytes for each. */
+ * A scene is told by its name and its seed. With --complete the frames of each scene must ascend
+ * from 0 without a gap and end with its last frame; sinks that match frames ask less. Scenes may
+ * interleave. Every scene is remembered to the end of the stream, as a scene must not come back
+ * after its last frame: about 150 bytes for each. */
 #ifndef FRAME_SEQUENCE_H
 #define FRAME_SEQUENCE_H
 
 #include "base/intern.h"
 #include "frame/frame.h"
 
+/* Where a frame was read. */
+struct frame_place {
+    const char *file; /* lives as long as the sequence */
+    size_t line;
+};
+
 struct scene_progress {
-    int64_t frame; /* number of the latest frame */
-    bool closed;   /* was that the scene's last? */
+    const char *name;
+    uint64_t seed;
+    int64_t frame;            /* number of the latest frame */
+    bool closed;              /* was that the scene's last? */
+    struct frame_place begin; /* of the scene's first frame in the stream */
 };
 
 /* All zero before the first frame. */
 struct frame_sequence {
-    struct intern names;
-    LIST_OF(struct scene_progress) scenes; /* by the number of the scene's name */
+    struct intern names, keys;             /* of scenes; a key is a name's number and a seed */
+    LIST_OF(struct scene_progress) scenes; /* by the number of the scene's key */
+    struct intern frames;                  /* a scene's number and a frame's */
+    LIST_OF(struct frame_place) places;    /* by the number of the frame */
 };
 
-/* Notes a frame. Fails with DIAG_DATA if it is not the next of its scene. Names are kept in the
+/* Notes a frame. Fails with DIAG_DATA if it is not the next of its scene; ascend allows gaps, and
+ * once any order, but no frame twice, for some hundred bytes a frame. A message about a frame that
+ * comes again names both places: the caller puts the frame's own in front. What is kept lies in the
  * arena. */
 int frame_sequence_follow(struct frame_sequence *sequence, const struct frame *frame,
-                          struct arena *arena, struct diag *diag);
+                          struct frame_place place, struct arena *arena, struct diag *diag);
+int frame_sequence_ascend(struct frame_sequence *sequence, const struct frame *frame,
+                          struct frame_place place, struct arena *arena, struct diag *diag);
+int frame_sequence_once(struct frame_sequence *sequence, const struct frame *frame,
+                        struct frame_place place, struct arena *arena, struct diag *diag);
+
+/* Fails with DIAG_DATA if scenes of one name came with two seeds. */
+int frame_sequence_one_seed(const struct frame_sequence *sequence, struct diag *diag);
 
 /* Fails with DIAG_DATA if a scene lacks its last frame, or if there was no frame at all, as a
  * source that fails leaves none. */

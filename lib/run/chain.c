@@ -219,8 +219,10 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
     chain.frame.arena = &chain.arena;
     chain.frame.list_cache = &chain.list_cache;
     chain.input.pause = (struct input_pause){send_on, &chain};
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
         runners[i].pause = chain.input.pause;
+        runners[i].input = runners[0].program.kind == PROGRAM_SOURCE ? NULL : &chain.input;
+    }
     if (times != NULL)
         time_clock(&chain);
     start(&chain);

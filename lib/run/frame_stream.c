@@ -50,6 +50,11 @@ int frame_stream_next(struct frame_stream *stream, struct frame *frame, struct d
     }
 }
 
+struct frame_place frame_stream_place(const struct frame_stream *stream)
+{
+    return (struct frame_place){input_name(stream->input), stream->line};
+}
+
 void frame_stream_name_line(const struct frame_stream *stream, struct diag *diag)
 {
     if (stream->input == NULL)

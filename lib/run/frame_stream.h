@@ -3,7 +3,7 @@
 #ifndef FRAME_STREAM_H
 #define FRAME_STREAM_H
 
-#include "frame/frame.h"
+#include "frame/frame_sequence.h"
 #include "text/input.h"
 
 struct frame_stream {
@@ -20,6 +20,9 @@ int frame_stream_next(struct frame_stream *stream, struct frame *frame, struct d
 
 /* One line, without its newline, as such a frame: 0, or -1 after a message. */
 int frame_stream_parse(const char *line, size_t length, struct frame *frame, struct diag *diag);
+
+/* File and line of the last frame. */
+struct frame_place frame_stream_place(const struct frame_stream *stream);
 
 /* Puts file and line of the last frame in front of a message. Nothing at the end of the stream. */
 void frame_stream_name_line(const struct frame_stream *stream, struct diag *diag);

@@ -27,6 +27,12 @@ struct effect_log *runner_log(struct runner *runner)
     return runner->log;
 }
 
+struct frame_place runner_place(const struct runner *runner)
+{
+    const struct frame_stream *input = runner->input;
+    return input == NULL ? (struct frame_place){"the source", 0} : frame_stream_place(input);
+}
+
 void runner_expect(struct runner *runner, int64_t frames)
 {
     runner->expected_frames = frames;
@@ -207,7 +213,8 @@ static int take_frame(struct runner *runner, struct frame *frame)
     if (check_sections(runner, frame) != 0)
         return -1;
     return runner->common.complete
-               ? frame_sequence_follow(&runner->sequence, frame, &runner->arena, &runner->diag)
+               ? frame_sequence_follow(&runner->sequence, frame, runner_place(runner),
+                                       &runner->arena, &runner->diag)
                : 0;
 }
 

@@ -5,10 +5,10 @@
 #define RUNNER_H
 
 #include "frame/frame_sequence.h"
+#include "run/frame_stream.h"
 #include "run/options.h"
 #include "run/stage.h"
 #include "run/tool.h"
-#include "text/input.h"
 #include "text/output.h"
 
 /* Where a tool's frames come from: next gives 1 and a frame, 0 at the end, or -1 after a message in
@@ -29,6 +29,7 @@ struct runner {
     LIST_OF(struct output *) outputs; /* only the last runner of a chain has any */
     struct frame_source frames;       /* of a tool; set by the chain */
     struct input_pause pause;         /* before a wait for input; set by the chain */
+    const struct frame_stream *input; /* what the chain reads; NULL: it begins with a source */
     LIST_OF(const struct suite *) suites;
     LIST_OF(const struct vehicle *) vehicles;
     struct frame_sequence sequence;            /* of the frames so far, under --complete */

@@ -19,6 +19,7 @@
 
 #include "frame/frame.h"
 
+struct frame_place;
 struct reference_stream;
 struct runner;
 struct suite;
@@ -76,6 +77,9 @@ int runner_write_record(struct runner *runner, const struct record *record, cons
  * input, and refused where the frames come from there. A sink has one; the runner closes it. */
 struct reference_stream *runner_reference_stream(struct runner *runner, const char *path,
                                                  bool partial);
+
+/* Where the frame was read that the stage has now (frame/frame_sequence.h). */
+struct frame_place runner_place(const struct runner *runner);
 
 /* How many frames a source will make, for the progress bar. */
 void runner_expect(struct runner *runner, int64_t frames);

@@ -43,12 +43,14 @@ void view_data_begin(struct view_data *data, struct arena *arena)
 
 static uint32_t scene_of(struct view_data *data, const struct frame *frame)
 {
-    uint32_t number = intern_word(&data->scene_names, frame->scene, data->arena);
+    const uint64_t key[] = {name_of(data, frame->scene), frame->seed};
+    uint32_t number = intern_number(&data->scene_keys, key, sizeof key, data->arena);
     if (number == data->scenes.count) {
         const struct object *ego = frame_object(frame, frame->ego);
         bool has_sensors = (frame->present & SECTION_SENSORS) != 0;
         *list_add(&data->scenes, data->arena) = (struct view_scene){
-            .name = name_of(data, frame->scene),
+            .name = (int64_t)key[0],
+            .seed = frame->seed,
             .ego = name_of(data, frame->ego),
             .suite = name_of(data, has_sensors ? frame->sensors.suite : ""),
             .first_frame = frame->frame,

@@ -17,6 +17,7 @@
 
 struct view_scene {
     int64_t name, ego, suite; /* numbers in the table of names */
+    uint64_t seed;
     int64_t first_frame;
     double start_s;
     double anchor_x_m, anchor_y_m;
@@ -26,7 +27,7 @@ struct view_scene {
 struct view_data {
     struct arena *arena;
     struct view_models models;
-    struct intern names, scene_names, patterns, effect_sets;
+    struct intern names, scene_keys, patterns, effect_sets;
     LIST_OF(struct view_scene) scenes;
     LIST_OF(struct sensor_view) sensors;
     struct view_columns columns;

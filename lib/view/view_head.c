@@ -50,6 +50,7 @@ static const struct record effect_set_record = {
     FIELD_INTEGER_IN(struct view_scene, member, 0, UINT32_MAX, "number of its name")
 static const struct field scene_fields[] = {
     {NAME_NUMBER(name)},
+    {FIELD_SEED_OF(struct view_scene, seed, "tells it from scenes of the same name")},
     {NAME_NUMBER(ego)},
     {NAME_NUMBER(suite)},
     {FIELD_INTEGER_IN(struct view_scene, first_frame, 0, 0x1p53,

@@ -155,12 +155,20 @@ function stepBy(rows) {
 
 // Starting.
 
+const namesakes = new Map();
+head.scenes.forEach(({name}) => namesakes.set(name, 1 + (namesakes.get(name) || 0)));
+
+// The name of a scene, with its seed where another one has the same name.
+function sceneName({name, seed}) {
+    return names[name] + (namesakes.get(name) === 1 ? '' : `, seed ${seed}`);
+}
+
 function scenesCutShort() {
-    return head.scenes.filter(scene => !scene.ended).map(scene => names[scene.name]);
+    return head.scenes.filter(scene => !scene.ended).map(sceneName);
 }
 
 function scenesWithHoles() {
-    return head.scenes.filter((_, number) => framesMissing(number) > 0).map(scene => names[scene.name]);
+    return head.scenes.filter((_, number) => framesMissing(number) > 0).map(sceneName);
 }
 
 function someOf(scenes) {
@@ -203,7 +211,7 @@ function setScene(number) {
 function fillScenes() {
     const choice = control('scene');
     head.scenes.forEach((scene, i) => {
-        const option = make('option', names[scene.name]);
+        const option = make('option', sceneName(scene));
         option.value = String(i);
         choice.append(option);
     });
