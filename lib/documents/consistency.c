@@ -5,16 +5,10 @@
 #include "base/elementary.h"
 #include "base/units.h"
 
-/* The size of a cell in a document may mean half of it. */
-static double width(const struct sensor *sensor, double cell)
-{
-    return sensor->cell_extent == CELL_HALF_WIDTH ? 2 * cell : cell;
-}
-
 double consistency_dwell_s(const struct sensor *sensor)
 {
     return units_wavelength_m(sensor->carrier_hz) /
-           (2 * width(sensor, sensor->cell_range_rate_mps));
+           (2 * suite_cell_width(sensor, sensor->cell_range_rate_mps));
 }
 
 double consistency_fold_mps(const struct sensor *sensor)
@@ -36,13 +30,23 @@ double consistency_beam_rad(const struct sensor *sensor)
  * false alarms times azimuths, of which there is one without an azimuth_cell_rad. */
 static double cells(const struct sensor *sensor)
 {
-    double ranges =
-        (sensor->range_max_m - sensor->range_min_m) / width(sensor, sensor->cell_range_m);
-    double rates =
-        2 * sensor->false_alarm_range_rate_mps / width(sensor, sensor->cell_range_rate_mps);
+    double ranges = (sensor->range_max_m - sensor->range_min_m) /
+                    suite_cell_width(sensor, sensor->cell_range_m);
+    double rates = 2 * sensor->false_alarm_range_rate_mps /
+                   suite_cell_width(sensor, sensor->cell_range_rate_mps);
     double azimuths =
         sensor->azimuth_cell_rad > 0 ? sensor->field_of_view_rad / sensor->azimuth_cell_rad : 1;
     return elementary_max(ranges, 1) * elementary_max(rates, 1) * elementary_max(azimuths, 1);
+}
+
+/* The mean number of bins in which noise alone passes the waveform's CFAR in a scan (MODEL 11.4).
+ */
+static double signal_alarms(const struct sensor *sensor)
+{
+    const struct waveform *waveform = &sensor->waveform;
+    double step_m = waveform_range_step_m(waveform, sensor->cell_range_m);
+    return (sensor->range_max_m - sensor->range_min_m) / step_m * (double)waveform->repetitions *
+           waveform->cfar_false_alarm;
 }
 
 /* The mean number of cells that noise alone carries over the threshold in a scan (MODEL 14.9). */
@@ -95,7 +99,8 @@ static size_t add_signal(const struct sensor *sensor, struct consistency *checks
     double rate_mps = sensor->unambiguous_rate_mps, dwell_s = consistency_dwell_s(sensor);
     double repetition_s =
         rate_mps > 0 ? units_wavelength_m(sensor->carrier_hz) / (4 * rate_mps) : 0;
-    double cell_m = width(sensor, sensor->cell_range_m);
+    double cell_m = suite_cell_width(sensor, sensor->cell_range_m);
+    double walk_m = sensor->range_migration == MIGRATION_COMPENSATED ? 0 : rate_mps * dwell_s;
     LIMIT(MPS, "unambiguous_rate_mps", rate_mps, "signal, by repetitions and stagger",
           consistency_fold_mps(sensor));
     LIMIT(M, "sweep, c/(2 chirp_slope_hzps chirp_s)", sweep_m, "cell_range_m", cell_m);
@@ -106,15 +111,15 @@ static size_t add_signal(const struct sensor *sensor, struct consistency *checks
     LIMIT(HZ, "receiver_bandwidth_hz", sensor->receiver_bandwidth_hz,
           "beat, 2 unambiguous_range_m chirp_slope_hzps/c",
           beat_hz(sensor, sensor->unambiguous_range_m));
-    LIMIT(M, "walk in a dwell at unambiguous_rate_mps", rate_mps * dwell_s, "cell_range_m", cell_m);
+    LIMIT(M, "walk in a dwell at unambiguous_rate_mps", walk_m, "cell_range_m", cell_m);
     LIMIT(S, "half a dwell", dwell_s / 2, "latency_s", sensor->latency_s);
     return count;
 }
 
 static size_t add_accuracy(const struct sensor *sensor, struct consistency *checks, size_t count)
 {
-    double cell_m = width(sensor, sensor->cell_range_m);
-    double cell_mps = width(sensor, sensor->cell_range_rate_mps), even = 1 / sqrt(12);
+    double cell_m = suite_cell_width(sensor, sensor->cell_range_m);
+    double cell_mps = suite_cell_width(sensor, sensor->cell_range_rate_mps), even = 1 / sqrt(12);
     double factor = sensor->sigma_law == SIGMA_BY_SNR ? sensor->window_factor : 0;
     LIMIT(M, "range_sigma_m", sensor->range_sigma_m, "cell_range_m/sqrt(12)", cell_m * even);
     LIMIT(MPS, "range_rate_sigma_mps", sensor->range_rate_sigma_mps, "cell_range_rate_mps/sqrt(12)",
@@ -124,8 +129,13 @@ static size_t add_accuracy(const struct sensor *sensor, struct consistency *chec
     LIMIT(ONE, "Cramer-Rao bound, sqrt(6)/(2 pi)", sqrt(6) / (2 * PI), "window_factor", factor);
     LIMIT(RAD, "beam of the antenna", consistency_beam_rad(sensor), "azimuth_cell_rad",
           sensor->azimuth_cell_rad);
-    ADD(EQUAL, ONE, "false_alarms", sensor->false_alarms,
-        "noise alone, cells exp(-(threshold/pointer_sigma)^2)", noise_alarms(sensor), NULL);
+    if (sensor->waveform.samples > 0 && sensor->pointer_sigma > 0)
+        ADD(EQUAL, ONE, "false_alarms", sensor->false_alarms,
+            "noise alone, range bins times repetitions times cfar_false_alarm",
+            signal_alarms(sensor), NULL);
+    else
+        ADD(EQUAL, ONE, "false_alarms", sensor->false_alarms,
+            "noise alone, cells exp(-(threshold/pointer_sigma)^2)", noise_alarms(sensor), NULL);
     return count;
 }
 

@@ -73,8 +73,12 @@ static void add_accuracy(const struct datasheet *sheet, struct text *text)
         text_format(text, " %6.3g", DEGREES * sheet->azimuth_rad[i]);
     for (int i = 0; i < DATASHEET_LEVELS; i++) {
         const struct datasheet_accuracy *accuracy = &sheet->accuracy[i];
-        text_format(text, "\n  SNR %5.1f dB         %12.2g %12.2g%22s", accuracy->snr_db,
-                    accuracy->range_sigma_m, KMH * accuracy->range_rate_sigma_mps, "");
+        if (isfinite(accuracy->snr_db))
+            text_format(text, "\n  SNR %5.1f dB       ", accuracy->snr_db);
+        else
+            text_format(text, "\n  threshold + %2d dB  ", 10 * i);
+        text_format(text, "  %12.2g %12.2g%22s", accuracy->range_sigma_m,
+                    KMH * accuracy->range_rate_sigma_mps, "");
         for (int k = 0; k < DATASHEET_AZIMUTHS; k++)
             if (isfinite(accuracy->azimuth_sigma_rad[k]))
                 text_format(text, " %6.2g", DEGREES * accuracy->azimuth_sigma_rad[k]);

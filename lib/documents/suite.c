@@ -224,6 +224,11 @@ void suite_derive(struct sensor *sensor)
     sensor->amplitude_law.threshold = sensor->threshold;
 }
 
+double suite_cell_width(const struct sensor *sensor, double cell)
+{
+    return sensor->cell_extent == CELL_HALF_WIDTH ? 2 * cell : cell;
+}
+
 double suite_border_rad(const struct sensor *sensor)
 {
     return sensor->field_of_view_rad / 2 - BORDER_RAD;

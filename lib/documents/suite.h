@@ -107,6 +107,9 @@ void suite_derive(struct sensor *sensor);
  * field. */
 int suite_check(const struct sensor *sensor, struct diag *diag);
 
+/* The full width of a resolution cell of which the document says this size (cell_extent). */
+double suite_cell_width(const struct sensor *sensor, double cell);
+
 /* Azimuths from this on, to either side, are outside the sensor's field of view. */
 double suite_border_rad(const struct sensor *sensor);
 

@@ -1,5 +1,8 @@
 #include "run/cost.h"
 
+#include <math.h>
+#include <string.h>
+
 #include "base/elementary.h"
 #include "base/sort.h"
 #include "effects/effect.h"
@@ -20,6 +23,9 @@ static const uint64_t PAPER = EFFECT_BIT(EFFECT_VISIBILITY) | EFFECT_BIT(EFFECT_
                               EFFECT_BIT(EFFECT_FINAL_THRESHOLD) | EFFECT_BIT(EFFECT_LIST_LIMIT);
 
 static const char SIGNAL[] = "glint-sensor-signal";
+
+/* The effects of the reference. */
+static const char REFERENCE[] = "auto";
 
 const char *const cost_references[] = {"signal", "all", NULL};
 
@@ -207,7 +213,7 @@ int cost_measure(struct cost *cost)
 {
     const struct cost_stages *use = &cost->stages;
     bool signal = cost->reference == COST_SIGNAL;
-    struct ladder_chain reference = {.effects = "auto",
+    struct ladder_chain reference = {.effects = REFERENCE,
                                      .sensor = use->sensor,
                                      .noise = use->noise,
                                      .program = signal ? cost->signal : NULL};
@@ -265,16 +271,26 @@ static struct savings savings_of(const struct cost *cost)
     return savings;
 }
 
-/* What the bound is on, and what is to be least among the chains that hold it. The reference is
- * without error. */
+/* Draws its lists from the law of the reference. */
+static bool is_reference(const struct cost *cost, const struct cost_chain *chain)
+{
+    if (cost->reference == COST_SIGNAL)
+        return (chain->present & COST_ENERGY) == 0;
+    return chain == whole(cost) && strcmp(chain->effects, REFERENCE) == 0;
+}
+
+/* What the bound is on, and what is to be least among the chains that hold it. Estimates of errors
+ * may be negative, and yet no chain is more accurate than the reference. */
 static double bounded(const struct cost_chain *chain, enum cost_bound bound)
 {
     return bound == COST_BOUND_US ? chain->us_per_frame : chain->error.high;
 }
 
-static double rival(const struct cost_chain *chain, enum cost_bound bound)
+static double rival(const struct cost *cost, const struct cost_chain *chain, enum cost_bound bound)
 {
-    return bound == COST_BOUND_US ? chain->error.value : chain->us_per_frame;
+    if (bound == COST_BOUND_ERROR)
+        return chain->us_per_frame;
+    return is_reference(cost, chain) ? -(double)INFINITY : chain->error.value;
 }
 
 /* Measures chains without more and more effects. For a time they stay out, until the chain is fast
@@ -316,7 +332,7 @@ const struct cost_chain *cost_find(struct cost *cost, enum cost_bound bound, dou
         if (bounded(chain, bound) < bounded(nearest, bound))
             nearest = chain;
         if (bounded(chain, bound) <= most &&
-            (best == NULL || rival(chain, bound) < rival(best, bound)))
+            (best == NULL || rival(cost, chain, bound) < rival(cost, best, bound)))
             best = chain;
     }
     if (best == NULL)

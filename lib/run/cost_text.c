@@ -18,9 +18,9 @@ static void write_sample(const struct cost *cost, const char *mark, struct text 
 {
     text_format(text,
                 "%s%" PRId64 " of %" PRId64 " frames of %" PRId64 " scene%s in %" PRId64
-                " blocks, seen by %s, with %d seeds.\n",
+                " block%s, seen by %s, with %d seeds.\n",
                 mark, cost->frames, cost->seen_frames, cost->scenes, cost->scenes == 1 ? "" : "s",
-                cost->blocks, cost->suite, LADDER_SEEDS);
+                cost->blocks, cost->blocks == 1 ? "" : "s", cost->suite, LADDER_SEEDS);
 }
 
 /* In per cent with one digit behind the point, and no minus before a 0. */

@@ -95,8 +95,9 @@ static int run_program(struct pass *pass)
         if (stop == NULL)
             result = diag_fail(diag, DIAG_INTERNAL, "%s wrote %zu of %zu frames", pass->program, i,
                                sample->list.count);
-        else if ((result = frame_stream_parse(line, (size_t)(stop - line), &pass->frame, diag)) ==
-                 0)
+        else if (frame_stream_parse(line, (size_t)(stop - line), &pass->frame, diag) != 0)
+            result = diag_prefix(diag, "%s: line %zu: ", pass->program, i + 1);
+        else
             result = keep_lists(pass, &sample->list.items[i]);
         line = result == 0 ? stop + 1 : end;
     }

@@ -10,6 +10,8 @@
 
 #include "text/document.h"
 
+enum { NOT_STARTED = -1 };
+
 extern char **environ;
 
 const char *side_program_find(const char *name, struct arena *arena)
@@ -34,7 +36,8 @@ static int64_t children_ns(void)
     return ns_of(usage.ru_utime) + ns_of(usage.ru_stime);
 }
 
-/* Starts it between two files and waits for its end. Returns what waitpid tells of it. */
+/* Starts it between two files and waits for its end. Returns what waitpid tells of it, or
+ * NOT_STARTED. */
 static int run_between(const char *path, FILE *in, FILE *out)
 {
     char *words[] = {(char[]){"glint"}, NULL};
@@ -43,7 +46,7 @@ static int run_between(const char *path, FILE *in, FILE *out)
     posix_spawn_file_actions_adddup2(&actions, fileno(in), STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&actions, fileno(out), STDOUT_FILENO);
     pid_t child;
-    int status = -1;
+    int status = NOT_STARTED;
     if (posix_spawn(&child, path, &actions, NULL, words, environ) == 0)
         while (waitpid(child, &status, 0) < 0 && errno == EINTR)
             continue;
@@ -59,6 +62,19 @@ static int read_all(FILE *file, struct text *output)
     while ((got = fread(text_room(output, PIECE), 1, PIECE, file)) > 0)
         output->length += got;
     return ferror(file);
+}
+
+/* Only the programs of glint end with codes of diag.h. */
+static int tell_end(const char *path, int status, struct diag *diag)
+{
+    if (status == NOT_STARTED)
+        return diag_fail(diag, DIAG_INTERNAL, "%s: cannot be started", path);
+    if (!WIFEXITED(status))
+        return diag_fail(diag, DIAG_INTERNAL, "%s: ended by signal %d", path, WTERMSIG(status));
+    int code = WEXITSTATUS(status);
+    bool known = code >= DIAG_USAGE && code <= DIAG_CONFIG;
+    return diag_fail(diag, known ? (enum diag_code)code : DIAG_INTERNAL,
+                     "%s: failed with exit status %d", path, code);
 }
 
 /* Files instead of pipes: neither side ever waits for the other. */
@@ -82,8 +98,5 @@ int side_program_run(const char *path, const struct text *input, struct text *ou
         fclose(out);
     if (!whole)
         return diag_fail(diag, DIAG_IO, "cannot exchange files with %s", path);
-    if (status == 0)
-        return 0;
-    enum diag_code code = WIFEXITED(status) ? (enum diag_code)WEXITSTATUS(status) : DIAG_INTERNAL;
-    return diag_fail(diag, code, "%s failed", path);
+    return status == 0 ? 0 : tell_end(path, status, diag);
 }

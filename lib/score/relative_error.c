@@ -7,7 +7,7 @@
 #include "base/sort.h"
 #include "score/energy_distance.h"
 
-enum { RESAMPLES = 2000, TAIL = RESAMPLES / 40 };
+enum { RESAMPLES = 2000 };
 
 static const double NORMAL = 1.96; /* the 97.5 % quantile of the normal distribution */
 
@@ -62,11 +62,12 @@ static int ascending(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-/* The ratios of sums over resampled blocks, in ascending order. */
-static const double *resample(const double *above, const double *below, size_t blocks,
-                              struct arena *arena)
+/* Writes the ratios of sums over resampled blocks in ascending order and returns their number.
+ * There is none of blocks that are all empty, whose sum below is 0. */
+static size_t resample(const double *above, const double *below, size_t blocks, double *ratios,
+                       struct arena *arena)
 {
-    double *ratios = arena_get(arena, RESAMPLES * sizeof *ratios);
+    size_t count = 0;
     struct random_sequence draws =
         random_sequence_at((struct random_address){.seed = 1}, RANDOM_BOOTSTRAP);
     for (size_t i = 0; i < RESAMPLES; i++) {
@@ -76,10 +77,11 @@ static const double *resample(const double *above, const double *below, size_t b
             one += above[drawn];
             other += below[drawn];
         }
-        ratios[i] = one / other;
+        if (other > 0)
+            ratios[count++] = one / other;
     }
-    sort_items(ratios, RESAMPLES, sizeof *ratios, ascending, arena);
-    return ratios;
+    sort_items(ratios, count, sizeof *ratios, ascending, arena);
+    return count;
 }
 
 /* One end of the interval: what the blocks and the seeds make it go apart, as squares. */
@@ -107,12 +109,13 @@ static struct relative_error ratio(const struct energy_blocks *chain,
     double variance = jackknife(&one, under, 0, chain->references) +
                       jackknife(&one, under, chain->references, chain->seeds);
     double by_seeds = NORMAL * sqrt(variance);
-    const double *ratios = resample(above, below, blocks, arena);
+    double *ratios = arena_get(arena, RESAMPLES * sizeof *ratios);
+    size_t count = resample(above, below, blocks, ratios, arena), tail = count / 40;
     double n = (double)blocks, wider = blocks > 1 ? student(n - 1) * sqrt(n / (n - 1)) : 1;
     return (struct relative_error){
         value,
-        value - apart(wider * (value - ratios[TAIL]), by_seeds),
-        value + apart(wider * (ratios[RESAMPLES - 1 - TAIL] - value), by_seeds),
+        value - apart(wider * (value - ratios[tail]), by_seeds),
+        value + apart(wider * (ratios[count - 1 - tail] - value), by_seeds),
     };
 }
 

@@ -656,8 +656,9 @@ def walked(sensor, echo, effects):
     window = sensor.get("range_migration")
     if window not in laws or "range_migration" not in effects:
         return 1.0, 1.0
-    dwell = LIGHT_MPS / sensor["carrier_hz"] / 2 / sensor["cell_range_rate_mps"]
-    cells = abs(echo.rate) * dwell / sensor["cell_range_m"]
+    full = 2 if sensor.get("cell_extent", "width") == "half_width" else 1
+    dwell = LIGHT_MPS / sensor["carrier_hz"] / 2 / (full * sensor["cell_range_rate_mps"])
+    cells = abs(echo.rate) * dwell / (full * sensor["cell_range_m"])
     loss, width = [math.sqrt(1 + cells ** 2 * (a + b * cells ** 3) / (1 + c * cells ** 3))
                    for a, b, c in laws[window]]
     return 1 / loss, width

@@ -155,6 +155,30 @@ static void a_signal_has_its_own_limits(void **state)
     assert_false(consistency_holds(check_of(&sensor, "dwell of both trains")));
 }
 
+/* 99 ranges and 64 range rates at 1e-4, or 4 samples to a range for pulses. */
+static void false_alarms_of_a_signal_are_those_of_its_cfar(void **state)
+{
+    (void)state;
+    struct sensor sensor = quiet_sensor();
+    sensor.pointer_sigma = 0.1;
+    sensor.false_alarms = 1;
+    sensor.waveform =
+        (struct waveform){.samples = 512, .repetitions = 64, .cfar_false_alarm = 1e-4};
+    assert_near(check_of(&sensor, "false_alarms")->right_value, 0.6336, 1e-12);
+    sensor.waveform.kind = WAVEFORM_PULSE;
+    assert_near(check_of(&sensor, "false_alarms")->right_value, 4 * 0.6336, 1e-12);
+}
+
+static void a_walk_that_is_compensated_is_no_doubt(void **state)
+{
+    (void)state;
+    struct sensor sensor = quiet_sensor();
+    sensor.unambiguous_rate_mps = 60;
+    assert_false(consistency_holds(check_of(&sensor, "walk")));
+    sensor.range_migration = MIGRATION_COMPENSATED;
+    assert_null(check_of(&sensor, "walk"));
+}
+
 static void a_row_of_elements_has_its_own_beam(void **state)
 {
     (void)state;
@@ -246,6 +270,21 @@ static void accuracy_follows_law_noise_and_steps(void **state)
     assert_near(sheet.accuracy[2].range_rate_sigma_mps, 0.001, 1e-9);
 }
 
+static void without_noise_rows_of_accuracy_say_how_strong_an_echo_is(void **state)
+{
+    (void)state;
+    struct sensor sensor = quiet_sensor();
+    struct suite suite = {.sensors = {&sensor, 1, 1}};
+    struct text text = {0};
+    suite_derive(&sensor);
+    datasheet_text_add(&suite, &text);
+    text_add(&text, "", 1);
+    assert_non_null(strstr(text.bytes, "\n  threshold +  0 dB             0.1        0.036"));
+    assert_non_null(strstr(text.bytes, "\n  threshold + 20 dB             0.1        0.036"));
+    assert_null(strstr(text.bytes, "inf"));
+    text_free(&text);
+}
+
 static void sensors_that_differ_in_their_mount_share_a_sheet(void **state)
 {
     (void)state;
@@ -278,11 +317,14 @@ int main(void)
         cmocka_unit_test(figures_that_a_document_leaves_out_are_not_checked),
         cmocka_unit_test(half_widths_count_twice),
         cmocka_unit_test(a_signal_has_its_own_limits),
+        cmocka_unit_test(false_alarms_of_a_signal_are_those_of_its_cfar),
+        cmocka_unit_test(a_walk_that_is_compensated_is_no_doubt),
         cmocka_unit_test(a_row_of_elements_has_its_own_beam),
         cmocka_unit_test(echoes_are_detected_where_they_meet_the_threshold),
         cmocka_unit_test(ranges_end_at_the_sensors_own),
         cmocka_unit_test(fluctuation_costs_range),
         cmocka_unit_test(accuracy_follows_law_noise_and_steps),
+        cmocka_unit_test(without_noise_rows_of_accuracy_say_how_strong_an_echo_is),
         cmocka_unit_test(sensors_that_differ_in_their_mount_share_a_sheet),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

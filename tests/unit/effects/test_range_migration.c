@@ -38,6 +38,23 @@ static void echoes_that_walk_fade_and_widen_in_either_direction(void **state)
         }
 }
 
+static void a_cell_of_which_half_is_told_walks_as_the_whole_one(void **state)
+{
+    struct effect_bench *bench = *state;
+    bool labelled;
+    struct echo echo = walking_echo(bench, 30);
+    set_radar(bench, MIGRATION_HANN);
+    struct effect_reception whole =
+        effect_bench_receive(bench, EFFECT_RANGE_MIGRATION, &echo, &labelled);
+    bench->sensor.cell_extent = CELL_HALF_WIDTH;
+    bench->sensor.cell_range_m /= 2;
+    bench->sensor.cell_range_rate_mps /= 2;
+    struct effect_reception half =
+        effect_bench_receive(bench, EFFECT_RANGE_MIGRATION, &echo, &labelled);
+    assert_close(half.amplitude, whole.amplitude, 1e-15);
+    assert_close(half.widening, whole.widening, 1e-15);
+}
+
 static bool is_simulated(struct effect_bench *bench, enum range_migration migration,
                          uint64_t effects)
 {
@@ -74,6 +91,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         EFFECT_TEST(echoes_that_walk_fade_and_widen_in_either_direction),
+        EFFECT_TEST(a_cell_of_which_half_is_told_walks_as_the_whole_one),
         EFFECT_TEST(it_is_simulated_only_if_the_radar_has_a_window_and_an_echo_walks),
         EFFECT_TEST(echoes_that_other_effects_add_may_walk),
     };

@@ -106,6 +106,30 @@ static void blocks_count_by_their_weight(void **state)
     arena_free(&arena);
 }
 
+/* In 7 of 10 blocks neither the reference nor ideal echoes list anything, and 28 in 1,000 resamples
+ * have only these. The other blocks have the errors 0, 0.5 and 1, so the ends of the interval are
+ * equally far from 0.5. */
+static void blocks_that_are_empty_have_no_ratio(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct trial trial = {0};
+    for (int i = 0; i < BLOCKS * ALL * ALL; i++) {
+        int block = i / (ALL * ALL), at = i % (ALL * ALL);
+        bool apart = (at / ALL < SEEDS) != (at % ALL < SEEDS);
+        trial.ideal[i] = block < 3 && apart;
+        trial.chain[i] = trial.ideal[i] * block / 2;
+        trial.weight[block] = 1.0 / BLOCKS;
+    }
+    struct energy_blocks chain = blocks_of(trial.chain, &trial);
+    struct energy_blocks ideal = blocks_of(trial.ideal, &trial);
+    struct relative_error error = relative_error_of(&chain, &ideal, &arena);
+    assert_true(relative_error_energy(&ideal, &arena).low > 0);
+    assert_near(error.value, 0.5, 1e-15);
+    assert_near(error.high - 0.5, 0.5 - error.low, 1e-12);
+    arena_free(&arena);
+}
+
 /* Nominally 95 %. */
 static void the_interval_covers_the_true_error(void **state)
 {
@@ -134,6 +158,7 @@ int main(void)
         cmocka_unit_test(ideal_echoes_have_an_error_of_exactly_1),
         cmocka_unit_test(the_error_is_the_ratio_of_energy_distances),
         cmocka_unit_test(blocks_count_by_their_weight),
+        cmocka_unit_test(blocks_that_are_empty_have_no_ratio),
         cmocka_unit_test(the_interval_covers_the_true_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
