@@ -178,8 +178,8 @@ $(BUILD)/tests/speed/same_heap.so: tests/speed/same_heap.c
 
 $(filter %/test_compare,$(tests)): $(BUILD)/tests/soundness/compare.o
 
-# Its test sees a file system without files that have no names.
-$(filter %/test_output,$(tests)): LDFLAGS += -Wl,--wrap=open
+# Its test sees file systems of other kinds, and random names that it knows.
+$(filter %/test_output,$(tests)): LDFLAGS += -Wl,--wrap=open,--wrap=getrandom,--wrap=rename
 
 # The reference of this one test alone.
 $(filter %/test_elementary,$(tests)): LIBS += -lmpfr -lgmp

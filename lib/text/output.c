@@ -1,10 +1,9 @@
-#define _GNU_SOURCE /* NOLINT(bugprone-reserved-identifier): for O_TMPFILE, which is Linux's */
 #include "text/output.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <poll.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -13,27 +12,19 @@
 #include <zlib.h>
 
 #include "base/arena.h"
+#include "text/whole_file.h"
 
-/* Bytes that a pipe takes at once. */
-enum { PIECE_SIZE = 64 * 1024 };
+/* Bytes that a pipe takes at once, and links that Linux follows for one path. */
+enum { PIECE_SIZE = 64 * 1024, LINKS = 40 };
 
 struct output {
     int fd;
-    gzFile gzip;            /* NULL for plain output */
-    char *name;             /* as it was given, for messages */
-    char *path, *temporary; /* temporary is NULL if the path is written directly */
-    bool unnamed;           /* the file has no name at all yet, not even the temporary one */
-    struct text held;       /* text that is not written yet */
+    gzFile gzip;             /* NULL for plain output */
+    char *name;              /* as it was given, for messages */
+    struct whole_file *file; /* NULL if the path is written directly */
+    struct text held;        /* text that is not written yet */
     bool failed; /* something that was written is lost: the file must not take its name */
 };
-
-static char *temporary_name(const char *path)
-{
-    size_t size = strlen(path) + 32;
-    char *name = memory_get(size);
-    snprintf(name, size, "%s.tmp.%ld", path, (long)getpid());
-    return name;
-}
 
 static char *copy(const char *text)
 {
@@ -41,11 +32,19 @@ static char *copy(const char *text)
     return memcpy(memory_get(size), text, size);
 }
 
-/* The path to write: for a symbolic link that of its target, so that the link is not replaced. */
-static char *target(const char *path)
+/* The descriptor that the path stands for, which a shell's > would write to as well; -1: none. */
+static int descriptor_of(const char *path)
 {
-    char *resolved = strcmp(path, "-") != 0 ? realpath(path, NULL) : NULL;
-    return resolved != NULL ? resolved : copy(path);
+    static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/", "/proc/thread-self/fd/"};
+    if (strcmp(path, "-") == 0 || strcmp(path, "/dev/stdout") == 0)
+        return STDOUT_FILENO;
+    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
+        size_t length = strlen(folders[i]),
+               digits = strspn(path + strnlen(path, length), "0123456789");
+        if (strncmp(path, folders[i], length) == 0 && digits > 0 && path[length + digits] == '\0')
+            return (int)strtol(path + length, NULL, 10);
+    }
+    return -1;
 }
 
 static bool is_special(const char *path)
@@ -54,11 +53,38 @@ static bool is_special(const char *path)
     return stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
 }
 
+/* The path that the link leads to. */
+static char *lead_on(const char *path, const char *target)
+{
+    const char *slash = target[0] != '/' ? strrchr(path, '/') : NULL;
+    size_t folder = slash != NULL ? (size_t)(slash + 1 - path) : 0;
+    char *next = memory_get(folder + strlen(target) + 1);
+    memcpy(next, path, folder);
+    strcpy(next + folder, target);
+    return next;
+}
+
+/* The path at the end of a chain of links, so that none of them is replaced. There need be no file
+ * of that name. */
+static char *follow_links(const char *path)
+{
+    char *at = copy(path);
+    for (int i = 0; i < LINKS && descriptor_of(at) < 0 && !is_special(at); i++) {
+        char target[PATH_MAX];
+        ssize_t length = readlink(at, target, sizeof target - 1);
+        if (length < 0)
+            break;
+        target[length] = '\0';
+        char *next = lead_on(at, target);
+        free(at);
+        at = next;
+    }
+    return at;
+}
+
 static void discard(struct output *output)
 {
     free(output->name);
-    free(output->path);
-    free(output->temporary);
     text_free(&output->held);
     free(output);
 }
@@ -68,65 +94,68 @@ static int cannot_create(const char *name, struct diag *diag)
     return diag_fail(diag, DIAG_CANNOT_CREATE, "%s: %s", name, strerror(errno));
 }
 
-/* Opens a new file without a name in the path's folder; -1 where the file system has none. It gets
- * its name through /proc later. */
-static int open_unnamed(const char *path)
+static const char *shown_name(const struct output *output)
 {
-    int fd = -1;
-#ifdef O_TMPFILE
-    char *folder = copy(path), *slash = strrchr(folder, '/');
-    if (slash != NULL)
-        slash[slash == folder] = '\0';
-    if (access("/proc/self/fd", X_OK) == 0)
-        fd = open(slash != NULL ? folder : ".", O_TMPFILE | O_WRONLY, 0666);
-    free(folder);
-#endif
-    return fd;
+    return strcmp(output->name, "-") == 0 ? "stdout" : output->name;
 }
 
-static int open_file(struct output *output)
+static int cannot_write(struct output *output, struct diag *diag)
 {
-    struct stat status;
-    bool replaces = stat(output->path, &status) == 0;
-    if (replaces && S_ISDIR(status.st_mode)) {
-        errno = EISDIR;
-        return -1;
-    }
-    if (is_special(output->path))
-        return open(output->path, O_WRONLY | O_TRUNC);
-    output->temporary = temporary_name(output->path);
-    int fd = open_unnamed(output->path);
-    output->unnamed = fd >= 0;
-    if (fd < 0)
-        fd = open(output->temporary, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    if (fd >= 0 && replaces)
-        fchmod(fd, status.st_mode & 07777);
-    return fd;
+    output->failed = true;
+    /* zlib allocates with its first write. */
+    return diag_fail(diag, errno == ENOMEM ? DIAG_MEMORY : DIAG_IO, "%s: %s", shown_name(output),
+                     strerror(errno));
+}
+
+/* Standard output itself, or a copy of another descriptor. Refuses one that is not open for
+ * writing.
+ */
+static int open_descriptor(struct output *output, int number, struct diag *diag)
+{
+    int flags = fcntl(number, F_GETFL);
+    if (flags >= 0 && (flags & O_ACCMODE) != O_RDONLY)
+        output->fd =
+            number == STDOUT_FILENO ? number : fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    else
+        errno = EBADF;
+    return output->fd < 0 ? cannot_write(output, diag) : 0;
+}
+
+static int open_path(struct output *output, const char *path, struct diag *diag)
+{
+    int number = descriptor_of(path);
+    if (number >= 0)
+        return open_descriptor(output, number, diag);
+    if (is_special(path))
+        output->fd = open(path, O_WRONLY | O_TRUNC | O_CLOEXEC);
+    else if ((output->file = whole_file_make(path)) != NULL)
+        output->fd = whole_file_descriptor(output->file);
+    return output->fd < 0 ? cannot_create(output->name, diag) : 0;
+}
+
+/* Level 1: at 116 MB/s it keeps up with the chain. A copy of the descriptor, because gzclose closes
+ * it before the file can be synced. */
+static void pack(struct output *output)
+{
+    output->gzip = gzdopen(dup(output->fd), "wb1");
+    if (output->gzip == NULL)
+        memory_get((size_t)-1);
 }
 
 struct output *output_open(const char *path, struct diag *diag)
 {
     struct output *output = memory_get(sizeof *output);
-    *output = (struct output){.fd = STDOUT_FILENO};
-    output->name = copy(path);
-    output->path = target(path);
-    if (strcmp(path, "-") == 0 || strcmp(path, "/dev/stdout") == 0)
+    *output = (struct output){.fd = -1, .name = copy(path)};
+    char *target = follow_links(path);
+    int result = open_path(output, target, diag);
+    size_t length = strlen(target);
+    if (result == 0 && length > 3 && strcmp(target + length - 3, ".gz") == 0)
+        pack(output);
+    free(target);
+    if (result == 0)
         return output;
-    output->fd = open_file(output);
-    if (output->fd < 0) {
-        cannot_create(output->name, diag);
-        discard(output);
-        return NULL;
-    }
-    size_t length = strlen(output->path);
-    if (length > 3 && strcmp(output->path + length - 3, ".gz") == 0) {
-        /* Level 1: at 116 MB/s it keeps up with the chain. A copy of the descriptor, because
-         * gzclose closes it before the file can be synced. */
-        output->gzip = gzdopen(dup(output->fd), "wb1");
-        if (output->gzip == NULL)
-            memory_get((size_t)-1);
-    }
-    return output;
+    discard(output);
+    return NULL;
 }
 
 /* Waits where there is no room, also if whoever opened the file asked not to. */
@@ -143,19 +172,6 @@ static int write_all(int fd, const char *bytes, size_t length)
         }
     }
     return 0;
-}
-
-static const char *shown_name(const struct output *output)
-{
-    return strcmp(output->name, "-") == 0 ? "stdout" : output->name;
-}
-
-static int cannot_write(struct output *output, struct diag *diag)
-{
-    output->failed = true;
-    /* zlib allocates with its first write. */
-    return diag_fail(diag, errno == ENOMEM ? DIAG_MEMORY : DIAG_IO, "%s: %s", shown_name(output),
-                     strerror(errno));
 }
 
 /* Writes the first bytes that are held; the others move up. */
@@ -185,7 +201,7 @@ int output_send(struct output *output, struct diag *diag)
 
 int output_flush(struct output *output, struct diag *diag)
 {
-    bool awaited = output->temporary == NULL && output->gzip == NULL;
+    bool awaited = output->file == NULL && output->gzip == NULL;
     return awaited ? send_first(output, output->held.length, diag) : 0;
 }
 
@@ -208,39 +224,28 @@ int output_finish(struct output *output, struct diag *diag)
     if (output->gzip != NULL && gzclose(output->gzip) != Z_OK)
         cannot_write(output, diag);
     output->gzip = NULL;
-    if (output->temporary != NULL && !output->failed && fsync(output->fd) != 0)
+    if (output->file != NULL && !output->failed && fsync(output->fd) != 0)
         cannot_write(output, diag);
     return output->failed ? -1 : 0;
-}
-
-/* Gives an unnamed file the temporary name, after removing a file of that name that a killed run
- * with the same PID left. */
-static int name_file(const struct output *output)
-{
-    char file[64];
-    snprintf(file, sizeof file, "/proc/self/fd/%d", output->fd);
-    unlink(output->temporary);
-    return linkat(AT_FDCWD, file, AT_FDCWD, output->temporary, AT_SYMLINK_FOLLOW);
-}
-
-static int take_name(const struct output *output, struct diag *diag)
-{
-    if ((!output->unnamed || name_file(output) == 0) &&
-        rename(output->temporary, output->path) == 0)
-        return 0;
-    return cannot_create(output->name, diag);
 }
 
 int output_close(struct output *output, bool whole, struct diag *diag)
 {
     int result = output_finish(output, diag);
-    whole = whole && result == 0;
-    if (output->temporary != NULL && whole)
-        result = take_name(output, diag);
-    if (output->temporary != NULL && (result != 0 || !whole))
-        unlink(output->temporary);
-    if (close(output->fd) != 0 && result == 0)
+    if (output->file != NULL && whole && result == 0 && whole_file_take_name(output->file) != 0)
+        result = cannot_create(output->name, diag);
+    int closed = output->file != NULL ? whole_file_close(output->file) : close(output->fd);
+    if (closed != 0 && result == 0)
         result = cannot_write(output, diag);
     discard(output);
     return result;
+}
+
+int output_print(const char *bytes, size_t length, struct diag *diag)
+{
+    struct output *output = output_open("-", diag);
+    if (output == NULL)
+        return -1;
+    output_write(output, bytes, length, diag);
+    return output_close(output, true, diag);
 }

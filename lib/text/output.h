@@ -1,11 +1,11 @@
 /* Output to a file or standard output, whole or nothing.
  *
  * A named file is written without a name, in the folder where it will be, and takes its name only
- * when it is complete and on the disk: a run that fails or is killed leaves the folder as it was.
- * Where the file system has no files without names, the file is called NAME.tmp.PID meanwhile, and
- * only a killed run leaves it behind. A name ending in .gz compresses, with bytes that depend on
- * the content alone. What is not a regular file (a pipe, a device) is written directly. Every write
- * and the final close are checked. */
+ * when it is complete and on the disk: a run that fails or is killed leaves the folder as it was
+ * (whole_file.h). A name ending in .gz compresses, with bytes that depend on the content alone.
+ * Links are followed, also one to a file that is not there, and never replaced. What is not a
+ * regular file (a pipe, a device) is written directly, and so is a descriptor that is open:
+ * standard output, /dev/fd/N, /proc/self/fd/N. Every write and the final close are checked. */
 #ifndef OUTPUT_H
 #define OUTPUT_H
 
@@ -17,8 +17,8 @@
 
 struct output;
 
-/* Opens a path for writing; "-" and /dev/stdout are standard output. A file that is replaced keeps
- * its mode. NULL after a message (DIAG_CANNOT_CREATE). */
+/* Opens a path for writing; "-" and /dev/stdout are standard output. NULL after a message
+ * (DIAG_CANNOT_CREATE; DIAG_IO for a descriptor that is not open for writing). */
 struct output *output_open(const char *path, struct diag *diag);
 
 /* The text to append to, and a call that writes its whole pieces of 64 KiB. */
@@ -39,5 +39,8 @@ int output_finish(struct output *output, struct diag *diag);
 /* Finishes, closes and names the file; the output is gone afterwards. If whole is false, a file is
  * removed instead; what was written to standard output or to a device stays written. */
 int output_close(struct output *output, bool whole, struct diag *diag);
+
+/* Writes bytes to standard output and closes it. */
+int output_print(const char *bytes, size_t length, struct diag *diag);
 
 #endif

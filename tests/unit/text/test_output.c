@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
+#include <sys/random.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,9 +19,11 @@
 #include "text/input.h"
 #include "text/output.h"
 
-/* Replaces the system's open (Makefile), so that a test can have a file system without files
- * without names. */
+/* Replace functions of the system (Makefile). A test can have a file system without files without
+ * names, random names that it knows, and a file that is mounted by itself. */
 static bool names_only;
+static uint64_t next_name; /* 0: random */
+static bool mounted;
 
 /* True if the file system of the scratch folder has files without names. */
 static bool has_unnamed(const char *folder)
@@ -38,6 +42,27 @@ int __wrap_open(const char *path, int flags, ...)
         return -1;
     }
     return __real_open(path, flags, 0666);
+}
+
+ssize_t __real_getrandom(void *bytes, size_t size, unsigned flags);
+ssize_t __wrap_getrandom(void *bytes, size_t size, unsigned flags);
+
+ssize_t __wrap_getrandom(void *bytes, size_t size, unsigned flags)
+{
+    if (next_name == 0)
+        return __real_getrandom(bytes, size, flags);
+    memcpy(bytes, &next_name, size);
+    next_name++;
+    return (ssize_t)size;
+}
+
+int __real_rename(const char *from, const char *to);
+int __wrap_rename(const char *from, const char *to);
+
+int __wrap_rename(const char *from, const char *to)
+{
+    errno = EBUSY;
+    return mounted ? -1 : __real_rename(from, to);
 }
 
 struct scratch {
@@ -232,50 +257,262 @@ static void a_file_that_is_replaced_keeps_its_mode(void **state)
     names_only = false;
 }
 
-static void a_killed_run_leaves_the_folder_as_it_was(void **state)
+/* The process that removes a temporary file does so soon after the writer's end. */
+static void wait_until_files_are(const struct scratch *scratch, int count)
+{
+    for (int i = 0; i < 10000 && files_in(scratch->directory) != count; i++)
+        usleep(1000);
+    assert_int_equal(files_in(scratch->directory), count);
+}
+
+static void expect_bytes(const char *path, const char *bytes)
+{
+    struct text back = read_all(path);
+    assert_int_equal(back.length, strlen(bytes));
+    assert_memory_equal(back.bytes, bytes, back.length);
+    text_free(&back);
+}
+
+/* A whole file of these bytes. */
+static void write_word(const char *path, const char *word)
+{
+    struct text text = {0};
+    text_add_word(&text, word);
+    write_file(path, &text, text.length);
+    text_free(&text);
+}
+
+static void a_run_that_is_ended_leaves_the_folder_as_it_was(void **state)
 {
     struct scratch *scratch = *state;
-    if (!has_unnamed(scratch->directory))
-        skip();
-    struct text old = sample_text(3), new = sample_text(100000);
-    write_file(scratch->path, &old, 3);
-    int before = files_in(scratch->directory), code = 0;
-    pid_t child = fork();
-    if (child == 0) {
-        struct diag diag = {0};
-        struct output *output = output_open(scratch->path, &diag);
-        output_write(output, new.bytes, new.length, &diag);
-        output_finish(output, &diag);
-        kill(getpid(), SIGKILL);
+    static const int signals[] = {SIGTERM, SIGINT, SIGHUP, SIGKILL, 0};
+    struct text new = sample_text(100000);
+    write_word(scratch->path, "old");
+    int before = files_in(scratch->directory);
+    for (int i = 0; i < 10; i++) {
+        names_only = i % 2 == 1;
+        int signal = signals[i / 2], code = 0;
+        pid_t child = fork();
+        if (child == 0) {
+            struct diag diag = {0};
+            struct output *output = output_open(scratch->path, &diag);
+            output_write(output, new.bytes, new.length, &diag);
+            output_finish(output, &diag);
+            if (signal != 0)
+                raise(signal);
+            _exit(DIAG_MEMORY);
+        }
+        assert_int_equal(waitpid(child, &code, 0), child);
+        assert_int_equal(signal, WIFSIGNALED(code) ? WTERMSIG(code) : 0);
+        wait_until_files_are(scratch, before);
+        expect_bytes(scratch->path, "old");
     }
-    assert_int_equal(waitpid(child, &code, 0), child);
-    assert_true(WIFSIGNALED(code));
-    assert_int_equal(files_in(scratch->directory), before);
-    struct text back = read_all(scratch->path);
-    assert_int_equal(back.length, 3);
-    text_free(&back);
-    text_free(&old);
+    names_only = false;
     text_free(&new);
 }
 
-/* A temporary file of a run that was killed where the file system has no files without names. */
-static void a_leftover_temporary_file_does_no_harm(void **state)
+static void a_full_disk_leaves_the_folder_as_it_was(void **state)
 {
     struct scratch *scratch = *state;
-    char left[128];
-    snprintf(left, sizeof left, "%s.tmp.%ld", scratch->path, (long)getpid());
-    struct text text = sample_text(10);
+    struct text new = sample_text(100000);
+    write_word(scratch->path, "old");
+    int before = files_in(scratch->directory);
     for (int i = 0; i < 2; i++) {
         names_only = i == 1;
+        int code = -1;
+        pid_t child = fork();
+        if (child == 0) {
+            struct diag diag = {0};
+            signal(SIGXFSZ, SIG_IGN);
+            setrlimit(RLIMIT_FSIZE, &(struct rlimit){1000, 1000});
+            struct output *output = output_open(scratch->path, &diag);
+            output_write(output, new.bytes, new.length, &diag);
+            output_close(output, true, &diag);
+            _exit((int)diag.code);
+        }
+        assert_int_equal(waitpid(child, &code, 0), child);
+        assert_int_equal(WEXITSTATUS(code), DIAG_IO);
+        assert_int_equal(files_in(scratch->directory), before);
+        expect_bytes(scratch->path, "old");
+    }
+    names_only = false;
+    text_free(&new);
+}
+
+/* Somebody who guessed the temporary name has made a link of that name. */
+static void a_planted_link_is_neither_followed_nor_removed(void **state)
+{
+    struct scratch *scratch = *state;
+    char planted[128], victim[128];
+    snprintf(planted, sizeof planted, "%s/.glint-0000000000000001", scratch->directory);
+    snprintf(victim, sizeof victim, "%s/victim", scratch->directory);
+    write_word(victim, "precious");
+    assert_int_equal(symlink("victim", planted), 0);
+    for (int i = 0; i < 2; i++) {
+        names_only = i == 1;
+        write_word(scratch->path, "old");
         int before = files_in(scratch->directory);
-        FILE *file = fopen(left, "w");
-        assert_non_null(file);
-        assert_int_equal(fclose(file), 0);
-        write_file(scratch->path, &text, 10);
+        next_name = 1;
+        write_word(scratch->path, "new");
+        assert_true(next_name > 2);
+        next_name = 0;
+        expect_bytes(scratch->path, "new");
+        expect_bytes(victim, "precious");
+        expect_bytes(planted, "precious");
         assert_int_equal(files_in(scratch->directory), before);
     }
     names_only = false;
-    text_free(&text);
+    unlink(planted);
+    unlink(victim);
+}
+
+static void two_writers_of_one_name_each_leave_a_whole_file(void **state)
+{
+    struct scratch *scratch = *state;
+    int before = files_in(scratch->directory);
+    for (int i = 0; i < 2; i++) {
+        names_only = i == 1;
+        struct diag diag = {0};
+        struct output *first = output_open(scratch->path, &diag);
+        struct output *second = output_open(scratch->path, &diag);
+        assert_int_equal(output_write(first, "first", 5, &diag), 0);
+        assert_int_equal(output_write(second, "second", 6, &diag), 0);
+        assert_int_equal(output_close(first, true, &diag), 0);
+        expect_bytes(scratch->path, "first");
+        assert_int_equal(output_close(second, true, &diag), 0);
+        expect_bytes(scratch->path, "second");
+        assert_int_equal(files_in(scratch->directory), before);
+    }
+    names_only = false;
+}
+
+static void a_file_of_two_names_stays_one_file(void **state)
+{
+    struct scratch *scratch = *state;
+    char twin[128];
+    snprintf(twin, sizeof twin, "%s/twin", scratch->directory);
+    write_word(scratch->path, "older");
+    assert_int_equal(link(scratch->path, twin), 0);
+    write_word(scratch->path, "new");
+    expect_bytes(twin, "new");
+    struct diag diag = {0};
+    struct output *output = output_open(scratch->path, &diag);
+    assert_int_equal(output_write(output, "half", 4, &diag), 0);
+    assert_int_equal(output_close(output, false, &diag), 0);
+    expect_bytes(twin, "new");
+    unlink(twin);
+}
+
+static void a_file_that_is_mounted_by_itself_is_written(void **state)
+{
+    struct scratch *scratch = *state;
+    write_word(scratch->path, "older");
+    int before = files_in(scratch->directory);
+    mounted = true;
+    write_word(scratch->path, "new");
+    mounted = false;
+    expect_bytes(scratch->path, "new");
+    assert_int_equal(files_in(scratch->directory), before);
+}
+
+static void a_file_that_may_not_be_written_is_refused_at_once(void **state)
+{
+    struct scratch *scratch = *state;
+    write_word(scratch->path, "old");
+    assert_int_equal(chmod(scratch->path, 0444), 0);
+    assert_int_equal(chmod(scratch->directory, 0777), 0);
+    int code = -1;
+    pid_t child = fork();
+    if (child == 0) {
+        struct diag diag = {0};
+        bool ordinary = geteuid() != 0 || setuid(65534) == 0;
+        bool refused = output_open(scratch->path, &diag) == NULL;
+        _exit(ordinary && refused && strstr(diag.text, "Permission denied") ? 0 : 1);
+    }
+    assert_int_equal(waitpid(child, &code, 0), child);
+    assert_int_equal(code, 0);
+    unlink(scratch->path);
+}
+
+static void a_link_to_nothing_makes_the_file_that_it_names(void **state)
+{
+    struct scratch *scratch = *state;
+    char second[128];
+    struct stat status;
+    snprintf(second, sizeof second, "%s/link", scratch->directory);
+    unlink(scratch->path);
+    assert_int_equal(symlink("fifo", second), 0);
+    assert_int_equal(symlink("a", scratch->fifo), 0);
+    for (int i = 0; i < 2; i++) {
+        write_word(second, i == 0 ? "made" : "again");
+        expect_bytes(scratch->path, i == 0 ? "made" : "again");
+        assert_true(lstat(second, &status) == 0 && S_ISLNK(status.st_mode));
+        assert_true(lstat(scratch->fifo, &status) == 0 && S_ISLNK(status.st_mode));
+        assert_true(lstat(scratch->path, &status) == 0 && S_ISREG(status.st_mode));
+    }
+    unlink(scratch->path);
+    assert_int_equal(symlink("link", scratch->path), 0);
+    struct diag diag = {0};
+    assert_null(output_open(second, &diag));
+    assert_non_null(strstr(diag.text, ": Too many levels of symbolic links"));
+    unlink(second);
+    unlink(scratch->fifo);
+    unlink(scratch->path);
+}
+
+static void a_name_may_be_as_long_as_the_file_system_allows(void **state)
+{
+    struct scratch *scratch = *state;
+    char path[400];
+    struct diag diag = {0};
+    for (int letters = 255; letters <= 256; letters++) {
+        names_only = !names_only;
+        snprintf(path, sizeof path, "%s/%0*d", scratch->directory, letters, 0);
+        struct output *output = output_open(path, &diag);
+        assert_int_equal(output != NULL, letters == 255);
+        if (output != NULL)
+            assert_int_equal(output_close(output, true, &diag), 0);
+        unlink(path);
+    }
+    assert_non_null(strstr(diag.text, ": File name too long"));
+}
+
+/* What a shell's > would do: the bytes go where the descriptor stands, behind what is there. */
+static void an_open_descriptor_is_written_directly(void **state)
+{
+    struct scratch *scratch = *state;
+    static const char *const folders[] = {"/dev/fd", "/proc/self/fd"};
+    char path[64], link[128];
+    snprintf(link, sizeof link, "%s/link", scratch->directory);
+    for (int i = 0; i < 4; i++) {
+        write_word(scratch->path, "");
+        int file = open(scratch->path, O_WRONLY);
+        assert_int_equal(write(file, "before ", 7), 7);
+        snprintf(path, sizeof path, "%s/%d", folders[i % 2], file);
+        assert_int_equal(symlink(path, link), 0);
+        write_word(i < 2 ? path : link, "between ");
+        assert_int_equal(write(file, "after", 5), 5);
+        expect_bytes(scratch->path, "before between after");
+        assert_int_equal(close(file), 0);
+        unlink(link);
+    }
+}
+
+static void a_descriptor_that_cannot_be_written_is_refused(void **state)
+{
+    struct scratch *scratch = *state;
+    char path[64];
+    write_word(scratch->path, "old");
+    int file = open(scratch->path, O_RDONLY);
+    snprintf(path, sizeof path, "/dev/fd/%d", file);
+    for (int i = 0; i < 2; i++) { /* open for reading, and not open */
+        struct diag diag = {0};
+        assert_null(output_open(path, &diag));
+        assert_int_equal(diag.code, DIAG_IO);
+        assert_non_null(strstr(diag.text, ": Bad file descriptor"));
+        assert_int_equal(close(file), i == 0 ? 0 : -1);
+    }
+    expect_bytes(scratch->path, "old");
 }
 
 static void the_message_says_why_a_file_cannot_be_created_and_nothing_is_left(void **state)
@@ -385,8 +622,17 @@ int main(void)
         cmocka_unit_test(gz_is_gzip_and_depends_on_nothing_but_its_content),
         cmocka_unit_test(the_name_is_taken_only_when_the_file_is_complete),
         cmocka_unit_test(a_file_that_is_replaced_keeps_its_mode),
-        cmocka_unit_test(a_killed_run_leaves_the_folder_as_it_was),
-        cmocka_unit_test(a_leftover_temporary_file_does_no_harm),
+        cmocka_unit_test(a_run_that_is_ended_leaves_the_folder_as_it_was),
+        cmocka_unit_test(a_full_disk_leaves_the_folder_as_it_was),
+        cmocka_unit_test(a_planted_link_is_neither_followed_nor_removed),
+        cmocka_unit_test(two_writers_of_one_name_each_leave_a_whole_file),
+        cmocka_unit_test(a_file_of_two_names_stays_one_file),
+        cmocka_unit_test(a_file_that_is_mounted_by_itself_is_written),
+        cmocka_unit_test(a_file_that_may_not_be_written_is_refused_at_once),
+        cmocka_unit_test(a_link_to_nothing_makes_the_file_that_it_names),
+        cmocka_unit_test(a_name_may_be_as_long_as_the_file_system_allows),
+        cmocka_unit_test(an_open_descriptor_is_written_directly),
+        cmocka_unit_test(a_descriptor_that_cannot_be_written_is_refused),
         cmocka_unit_test(the_message_says_why_a_file_cannot_be_created_and_nothing_is_left),
         cmocka_unit_test(a_full_device_is_noticed_at_the_latest_when_it_is_closed),
         cmocka_unit_test(pipes_and_devices_are_written_directly),
