@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include "frame/frame_text.h"
+#include "run/explain.h"
 #include "run/frame_stream.h"
 #include "run/progress.h"
 #include "text/document.h"
@@ -179,6 +180,7 @@ static void send_on(void *with)
 /* Runners whose command line was refused stay in the chain, as programs that fail do in a pipe. */
 static void start(struct chain *chain)
 {
+    explain_refuse_used(chain->runners, chain->count);
     for (size_t i = 0; i < chain->stages; i++)
         if (!failed(&chain->runners[i]))
             runner_start(&chain->runners[i]);
@@ -207,7 +209,7 @@ static void finish(struct chain *chain)
         first--;
     for (size_t i = first; i < chain->stages; i++)
         runner_finish(&chain->runners[i]);
-    runner_close_outputs(last(chain));
+    runner_close_outputs(last(chain), !any_failed(chain));
 }
 
 int chain_run(struct runner *runners, size_t count, struct chain_times *times)
@@ -250,9 +252,7 @@ static int print_about(struct runner *runner)
         options_help(&runner->program, &text);
     else
         text_format(&text, "glint-%s (glint) %s\n", runner->program.name, GLINT_VERSION);
-    struct output *output = output_open("-", &runner->diag);
-    output_write(output, text.bytes, text.length, &runner->diag);
-    output_close(output, true, &runner->diag);
+    output_print(text.bytes, text.length, &runner->diag);
     text_free(&text);
     if (failed(runner))
         chain_complain(runner);

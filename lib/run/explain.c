@@ -9,6 +9,8 @@
 
 #include "base/text.h"
 #include "effects/effect.h"
+#include "run/runner.h"
+#include "text/same_file.h"
 
 static int64_t clock_ns(void)
 {
@@ -56,6 +58,59 @@ static int append(const char *path, const struct text *text, struct diag *diag)
     if (close(file) != 0)
         diag_fail(diag, DIAG_IO, "%s: %s", path, strerror(errno));
     return diag->code == DIAG_OK ? 0 : -1;
+}
+
+/* Is the file one that an option or the operand of the stage names? */
+static bool is_option(const char *path, const struct field *fields, const char *base)
+{
+    for (const struct field *field = fields; field->name != NULL; field++) {
+        const char *const *value = (const void *)(base + field->offset);
+        bool name = field->kind == FIELD_NAME && *value != NULL;
+        if (name && same_file(path, strcmp(*value, "-") == 0 ? "/dev/stdin" : *value))
+            return true;
+        if (field->kind == FIELD_RECORD &&
+            is_option(path, field->record->fields, base + field->offset))
+            return true;
+    }
+    return false;
+}
+
+static bool is_input(const char *path, const struct runner *runner, bool first)
+{
+    const struct common_options *common = &runner->common;
+    for (size_t i = 0; i < common->files.count; i++) {
+        const char *file = common->files.items[i];
+        if (same_file(path, strcmp(file, "-") == 0 ? "/dev/stdin" : file))
+            return true;
+    }
+    bool standard = first && common->files.count == 0 && runner->program.takes_files;
+    return (standard && same_file(path, "/dev/stdin")) ||
+           is_option(path, runner->program.options->fields, runner->state);
+}
+
+static bool is_output(const char *path, const struct runner *last)
+{
+    const char *output = last->common.output;
+    return same_file(path, output == NULL || strcmp(output, "-") == 0 ? "/dev/stdout" : output);
+}
+
+static void refuse_used(struct runner *runner, struct runner *runners, size_t count)
+{
+    const char *path = runner->common.explain;
+    const char *use = is_output(path, &runners[count - 1]) ? "the output" : NULL;
+    for (size_t i = 0; i < count && use == NULL; i++)
+        if (is_input(path, &runners[i], i == 0))
+            use = "an input";
+    if (use != NULL)
+        diag_fail(&runner->diag, DIAG_USAGE, "--explain: %s is %s; expected another file", path,
+                  use);
+}
+
+void explain_refuse_used(struct runner *runners, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (runners[i].common.explain != NULL)
+            refuse_used(&runners[i], runners, count);
 }
 
 int explain_check(const char *path, struct diag *diag)

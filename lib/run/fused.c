@@ -9,8 +9,11 @@
 #include "effects/effect.h"
 #include "run/chain.h"
 #include "run/pipeline.h"
+#include "run/side_program.h"
 #include "text/document.h"
 #include "text/input.h"
+#include "text/output.h"
+#include "text/same_file.h"
 
 static const char usage[] =
     "Usage: glint FILE\n"
@@ -22,7 +25,8 @@ static const char usage[] =
     "\n"
     "FILE is a script that bash would run too, with the same output and exit code. It holds\n"
     "one pipeline: words, quotes, comments, continued lines, |, and the line\n"
-    "`set -o pipefail`. Anything else is refused, with its line.\n"
+    "`set -o pipefail`. Anything else is refused, with its line. If any program fails, the\n"
+    "file of -o is left as it was.\n"
     "\n"
     "Options:\n"
     "  -c TEXT              run TEXT instead of a file\n"
@@ -67,12 +71,22 @@ const struct tool *fused_tool(const char *name)
     return NULL;
 }
 
+/* A program that is named by a path may be another one of the same name. */
+static bool is_own(const char *program, struct arena *arena)
+{
+    const char *slash = strrchr(program, '/');
+    if (slash == NULL)
+        return true;
+    const char *own = side_program_find(slash + 1, arena);
+    return own != NULL && same_file(program, own);
+}
+
 /* False if this build has no such stage or tool. A runner whose command line is refused is prepared
  * all the same: it fails when the chain starts, as it would in a pipe. */
-static bool prepare(struct runner *runner, const struct command *command)
+static bool prepare(struct runner *runner, const struct command *command, struct arena *arena)
 {
-    const char *name = fused_name(command->words.items[0]);
-    if (name == NULL)
+    const char *program = command->words.items[0], *name = fused_name(program);
+    if (name == NULL || !is_own(program, arena))
         return false;
     const struct stage *stage = fused_stage(name);
     const struct tool *tool = fused_tool(name);
@@ -110,12 +124,12 @@ static int check_place(const struct runner *runner, const struct command *comman
 }
 
 static int run_commands(const struct pipeline *pipeline, struct runner *runners,
-                        struct chain_times *times, struct diag *diag)
+                        struct chain_times *times, struct arena *arena, struct diag *diag)
 {
     size_t count = pipeline->commands.count;
     for (size_t i = 0; i < count; i++) {
         const struct command *command = &pipeline->commands.items[i];
-        if (!prepare(&runners[i], command))
+        if (!prepare(&runners[i], command, arena))
             return diag_fail(diag, DIAG_USAGE,
                              "%zu: %s is no stage or tool of this build; run it with bash",
                              command->line, command->words.items[0]);
@@ -155,7 +169,7 @@ static int run_text(const char *name, const char *text, size_t length, bool time
     size_t count = pipeline.commands.count;
     struct runner *runners = arena_get(arena, count * sizeof *runners);
     struct chain_times times = {.step_ns = arena_get(arena, count * sizeof(int64_t))};
-    int code = run_commands(&pipeline, runners, timed ? &times : NULL, &diag);
+    int code = run_commands(&pipeline, runners, timed ? &times : NULL, arena, &diag);
     if (timed && diag.code == DIAG_OK)
         print_times(&times, runners, count);
     for (size_t i = 0; i < count; i++)
@@ -182,10 +196,7 @@ static int run_file(const char *path, bool timed, struct arena *arena)
 static int print(const char *bytes, size_t length)
 {
     struct diag diag = {0};
-    struct output *output = output_open("-", &diag);
-    output_write(output, bytes, length, &diag);
-    output_close(output, 1, &diag);
-    return diag.code == DIAG_OK ? 0 : complain(&diag);
+    return output_print(bytes, length, &diag) == 0 ? 0 : complain(&diag);
 }
 
 static void list_effects(struct text *text)

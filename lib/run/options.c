@@ -8,8 +8,10 @@
 const struct record no_options_record = {.name = "stage", .fields = field_none};
 
 static const struct field common_fields[] = {
-    {FIELD_NAME_OF(struct common_options, output,
-                   "write to this file instead of standard output; .gz compresses"),
+    {FIELD_NAME_OF(
+         struct common_options, output,
+         "write to this file instead of standard output; .gz compresses; like > of a shell, keeps "
+         "mode, owner and links of a file that is there; unlike it, all of it or nothing"),
      FIELD_OPTIONAL, .word = "FILE"},
     {FIELD_FLAG_OF(struct common_options, keep,
                    "keep the sections that this stage would drop after use"),
@@ -209,20 +211,6 @@ static int check_required(const struct command_line *line)
     return 0;
 }
 
-/* --explain cannot append to the output: that file is replaced when it takes its name at the end.
- */
-static int check_explain(const struct common_options *common, struct diag *diag)
-{
-    if (common->explain == NULL)
-        return 0;
-    if (strcmp(common->explain, "-") == 0)
-        return diag_fail(diag, DIAG_USAGE, "--explain: - is the stream of frames; expected a file");
-    if (common->output != NULL && strcmp(common->explain, common->output) == 0)
-        return diag_fail(diag, DIAG_USAGE, "--explain: %s is the output; expected another file",
-                         common->explain);
-    return 0;
-}
-
 int options_read(const struct program *program, size_t count, const char *const *words, void *state,
                  struct common_options *common, struct arena *arena, struct diag *diag)
 {
@@ -244,8 +232,9 @@ int options_read(const struct program *program, size_t count, const char *const 
     common->seed_given = (line.common_seen >> seed & 1) != 0;
     if (result == 0 && !common->help && !common->version)
         result = check_required(&line);
-    if (result == 0)
-        result = check_explain(common, diag);
+    if (result == 0 && common->explain != NULL && strcmp(common->explain, "-") == 0)
+        result =
+            diag_fail(diag, DIAG_USAGE, "--explain: - is the stream of frames; expected a file");
     if (result != 0)
         diag->code = DIAG_USAGE;
     return result;

@@ -10,6 +10,7 @@
 #include "run/explain.h"
 #include "run/suite_choice.h"
 #include "score/reference_stream.h"
+#include "text/document.h"
 #include "text/record_text.h"
 
 struct arena *runner_arena(struct runner *runner)
@@ -52,15 +53,35 @@ int runner_write_record(struct runner *runner, const struct record *record, cons
     return result;
 }
 
-const struct suite *runner_suite(struct runner *runner, const char *name)
+static const struct suite *loaded_suite(const struct runner *runner, const char *name)
 {
     for (size_t i = 0; i < runner->suites.count; i++)
         if (strcmp(runner->suites.items[i]->name, name) == 0)
             return runner->suites.items[i];
+    return NULL;
+}
+
+static const struct suite *load_suite(struct runner *runner, const char *name)
+{
     const struct suite *suite = suite_file_load(name, &runner->arena, &runner->diag);
     if (suite != NULL)
         *list_add(&runner->suites, &runner->arena) = suite;
     return suite;
+}
+
+const struct suite *runner_suite(struct runner *runner, const char *name)
+{
+    const struct suite *suite = loaded_suite(runner, name);
+    return suite != NULL ? suite : load_suite(runner, name);
+}
+
+const struct suite *runner_suite_of_frame(struct runner *runner, const char *name)
+{
+    const struct suite *suite = loaded_suite(runner, name);
+    if (suite != NULL || document_is_regular(name))
+        return suite != NULL ? suite : load_suite(runner, name);
+    diag_fail(&runner->diag, DIAG_DATA, "sensors.suite: %s: not a regular file", name);
+    return NULL;
 }
 
 const struct vehicle *runner_vehicle(struct runner *runner, const char *class)
@@ -68,7 +89,11 @@ const struct vehicle *runner_vehicle(struct runner *runner, const char *class)
     for (size_t i = 0; i < runner->vehicles.count; i++)
         if (frame_same_name(runner->vehicles.items[i]->reflectors.model, class))
             return runner->vehicles.items[i];
-    const struct vehicle *vehicle = vehicle_load(class, &runner->arena, &runner->diag);
+    const struct vehicle *vehicle = NULL;
+    if (!document_is_plain(class))
+        diag_fail(&runner->diag, DIAG_DATA, "\"%s\" is a path; expected a plain name", class);
+    else
+        vehicle = vehicle_load(class, &runner->arena, &runner->diag);
     if (vehicle != NULL)
         *list_add(&runner->vehicles, &runner->arena) = vehicle;
     return vehicle;
@@ -301,11 +326,11 @@ struct output *runner_output_in(struct runner *runner, const char *folder, const
     return output;
 }
 
-int runner_close_outputs(struct runner *runner)
+int runner_close_outputs(struct runner *runner, bool whole)
 {
     for (size_t i = 0; i < runner->outputs.count; i++)
         output_finish(runner->outputs.items[i], &runner->diag);
-    bool whole = runner->diag.code == DIAG_OK;
+    whole = whole && runner->diag.code == DIAG_OK;
     for (size_t i = 0; i < runner->outputs.count; i++)
         output_close(runner->outputs.items[i], whole, &runner->diag);
     runner->outputs.count = 0;

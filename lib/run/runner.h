@@ -53,9 +53,9 @@ int runner_step(struct runner *runner, struct frame *frame);
 int runner_finish(struct runner *runner);
 int runner_run_tool(struct runner *runner);
 
-/* Closes the outputs: all are written to the disk, and then take their names; after any failure
- * none does, and nothing is left of them. */
-int runner_close_outputs(struct runner *runner);
+/* Closes the outputs: all are written to the disk, and then take their names. After a failure, or
+ * if they are not whole because another runner failed, none does and nothing is left of them. */
+int runner_close_outputs(struct runner *runner, bool whole);
 
 void runner_free(struct runner *runner);
 

@@ -64,9 +64,12 @@ struct diag *runner_diag(struct runner *runner);
 /* Where the stage notes which effects it simulates and leaves out; NULL without --explain. */
 struct effect_log *runner_log(struct runner *runner);
 
-/* The suite of that name (documents/suite_file.h), and the vehicle document of a class. Each is
- * loaded once. Stages after ideal ask for the frame's suite instead (suite_choice.h). */
+/* The suite of that name (documents/suite_file.h), which the command line or a frame gives, and the
+ * vehicle document of a frame's class. Each is loaded once. A frame, whoever wrote it, names a
+ * class by a plain name, never by a path, and only regular files are read for it. Stages after
+ * ideal ask for the frame's suite by suite_choice.h. */
 const struct suite *runner_suite(struct runner *runner, const char *name);
+const struct suite *runner_suite_of_frame(struct runner *runner, const char *name);
 const struct vehicle *runner_vehicle(struct runner *runner, const char *class);
 
 /* What a sink writes: bytes, or a record as a line of JSON. */

@@ -42,9 +42,11 @@ static int check_sensors(const struct suite *suite, const struct frame *frame, s
 const struct suite *suite_choice_suite(const struct suite_choice *choice, const struct frame *frame,
                                        struct runner *runner)
 {
-    const char *name = choice->sensors != NULL ? choice->sensors : frame->sensors.suite;
+    bool given = choice->sensors != NULL;
+    const char *name = given ? choice->sensors : frame->sensors.suite;
     struct diag *diag = runner_diag(runner);
-    const struct suite *suite = runner_suite(runner, name);
+    const struct suite *suite =
+        given ? runner_suite(runner, name) : runner_suite_of_frame(runner, name);
     if (suite == NULL)
         return NULL;
     if (strcmp(suite->digest, frame->sensors.digest) != 0) {

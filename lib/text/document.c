@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <jansson.h>
@@ -67,13 +68,29 @@ const char *document_find(const char *kind, const char *name, const char *ending
     return NULL;
 }
 
+bool document_is_plain(const char *name)
+{
+    return strchr(name, '/') == NULL;
+}
+
+bool document_is_regular(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode);
+}
+
 const char *document_find_file(const char *kind, const char *name, const char *ending,
                                struct arena *arena, struct diag *diag)
 {
-    if (strcmp(name, "-") != 0)
-        return document_find(kind, name, ending, arena, diag);
-    diag_fail(diag, DIAG_CONFIG, "\"-\" is standard input; expected a name in %s/, or a path",
-              kind);
+    if (strcmp(name, "-") == 0) {
+        diag_fail(diag, DIAG_CONFIG, "\"-\" is standard input; expected a name in %s/, or a path",
+                  kind);
+        return NULL;
+    }
+    const char *path = document_find(kind, name, ending, arena, diag);
+    if (path == NULL || !document_is_plain(name) || document_is_regular(path))
+        return path;
+    diag_fail(diag, DIAG_CONFIG, "%s: not a regular file", path);
     return NULL;
 }
 

@@ -25,10 +25,17 @@ const char *document_own_folder(struct arena *arena);
 const char *document_find(const char *kind, const char *name, const char *ending,
                           struct arena *arena, struct diag *diag);
 
-/* The same, but refuses "-" (DIAG_CONFIG): for programs whose standard input is the stream of
- * frames. */
+/* The same, but refuses "-", and a name without a slash of what is no regular file (DIAG_CONFIG):
+ * for programs whose standard input is the stream of frames, and for names that frames give. */
 const char *document_find_file(const char *kind, const char *name, const char *ending,
                                struct arena *arena, struct diag *diag);
+
+/* Is the name no path, but one without a slash? */
+bool document_is_plain(const char *name);
+
+/* False for a pipe, a device and the like, which may never end. True for a file that is not there.
+ */
+bool document_is_regular(const char *path);
 
 /* Reads a document (standard input for "-") into the struct that the record describes; all of it
  * lies in the arena. Messages are "PATH: objects[2].x_m: ...". */

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "radar/scan_timing.h"
+#include "text/document.h"
 
 /* The label of a target has the exact instant; a scan without targets takes that of the sensor's
  * cycle. */
@@ -58,6 +59,7 @@ const struct vehicle *view_frame_vehicle(struct view_models *models, const char 
     struct diag unused = {0};
     struct view_model *model = list_add(&models->list, models->arena);
     model->class = arena_text(models->arena, class, strlen(class));
-    model->vehicle = vehicle_load(class, models->arena, &unused);
+    if (document_is_plain(class))
+        model->vehicle = vehicle_load(class, models->arena, &unused);
     return model->vehicle;
 }
