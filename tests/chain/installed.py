@@ -94,4 +94,5 @@ with tempfile.TemporaryDirectory() as place:
     check_headers(place)
     build_stage(place)
     check_stage(place)
+os.remove(os.path.join(PROGRAMS, "glint-spray"))
 print("installed: one body for all programs, and a stage of one's own")
