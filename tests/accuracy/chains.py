@@ -93,19 +93,20 @@ class Chain:
     def lists(self, cache, frames):
         """The file with the lists of a file of frames."""
         programs = [program_digest(stage.split()[0]) for stage in self.stages]
-        texts = [stage.replace(self.suite, self.radar.described[self.suite]) for stage in self.stages]
+        texts = [stage.replace(self.suite, os.path.basename(self.suite)) for stage in self.stages]
         return cache.file(".jsonl.gz", [*programs, *texts, os.path.basename(frames)],
                           lambda path: self.run([frames], path))
 
     def digest(self, frames):
-        """Of its suite, wherever it lies, the program's version and the lists of the frames; the signal's
-        lists do not count, because FFTW rounds them as its version does."""
+        """Of its suite, whose name says what is in it, the program's version and the lists of the frames; the
+        signal's lists do not count, because FFTW rounds them as its version does."""
         version = subprocess.run([GLINT, "--version"], check=True, stdout=subprocess.PIPE).stdout
         made = b""
         if not self.slow:
             made = subprocess.run([GLINT, "-c", self.text([frames], "/dev/stdout")], check=True,
-                                  stdout=subprocess.PIPE).stdout.replace(self.suite.encode(), b"suite")
-        return digest(version, self.radar.described[self.suite], made)
+                                  stdout=subprocess.PIPE).stdout
+        name = os.path.basename(self.suite)
+        return digest(version, name, made.replace(self.suite.encode(), name.encode()))
 
     def frame_us(self, frames, count, repeat):
         """CPU time of a frame, without start-up and the first frame."""

@@ -1,6 +1,5 @@
 """The radars of scripts/accuracy-cost and the frames that they look at."""
 import json
-import math
 import os
 import subprocess
 
@@ -34,28 +33,11 @@ def sensors(name):
         return json.load(text)
 
 
-def beams(sensor):
-    """How many beams the signal searches, half a beam's width apart over the view (MODEL 11.3)."""
-    waveform = sensor["waveform"]
-    if "elements" not in waveform:
-        return 1
-    return 2 + int(4 * math.sin(sensor["field_of_view_rad"] / 2) * waveform["spacing"] * waveform["elements"])
-
-
-def false_alarm(sensor, cells, rank):
-    """The probability, shared by all beams, by which the signal's ordered CFAR (MODEL 11.4) has its mean
-    threshold where the chain's is, threshold_db above noise of pointer_sigma."""
-    above_noise = 10 ** (sensor["threshold_db"] / 10) / sensor["pointer_sigma"] ** 2
-    factor = above_noise / sum(1 / (cells - i) for i in range(rank))
-    return beams(sensor) * math.prod((cells - i) / (cells - i + factor) for i in range(rank))
-
-
 def described(suite, repetitions, most_repetitions, rate_mps, cells=16, without=()):
     """The suite with every effect and a scan in every frame, without a second train: chain and signal fold
     alike. Fewer repetitions of the same chirps or pulses tell rates apart less well."""
     full = sensors("lrr77-full")["sensors"][0]
     taken = {key: value for key, value in full.items() if key not in OF_ITS_OWN and key not in without}
-    rank = 3 * cells // 4
     for number, sensor in enumerate(suite["sensors"]):
         sensor = suite["sensors"][number] = taken | sensor
         sensor.pop("cycle_s", None)
@@ -63,11 +45,8 @@ def described(suite, repetitions, most_repetitions, rate_mps, cells=16, without=
         sensor["cell_range_rate_mps"] = rate_mps * most_repetitions / repetitions
         sensor["range_sigma_m"] = 0.1 * sensor["cell_range_m"]
         sensor["range_rate_sigma_mps"] = 0.1 * sensor["cell_range_rate_mps"]
-        probability = false_alarm(sensor, cells, rank)
-        sensor["false_alarms"] = probability * repetitions * sensor["range_max_m"] / sensor["cell_range_m"]
         sensor["false_alarm_range_rate_mps"] = sensor["unambiguous_rate_mps"]
-        sensor["waveform"] |= {"repetitions": repetitions, "cfar_cells": cells, "cfar_rank": rank,
-                               "cfar_false_alarm": probability}
+        sensor["waveform"] |= {"repetitions": repetitions, "cfar_cells": cells, "cfar_rank": 3 * cells // 4}
         sensor["waveform"].pop("stagger", None)
     return suite
 
@@ -108,22 +87,20 @@ class Radar:
     def __init__(self, name, cache, few=False):
         suites, self.plan = {"long": (long_range, LONG), "short": (short_range, SHORT)}[name]
         self.name, self.cache, self.few = name, cache, few
-        self.suites, self.described = {}, {}
-        for size in SIZES:
-            self.add_suite(size, suites(size))
+        self.suites = {size: self.suite_file(suites(size)) for size in SIZES}
+        with open(self.suites["large"]) as suite:
+            self.cell_range_m = json.load(suite)["sensors"][0]["cell_range_m"]
         self.contour = f"glint-extract-contour --spacing-m {self.cell_range_m / 3:.9g}"
         self.frames = self.few_frames() if few else self.chosen()
         self.first = cache.text(".jsonl", lines_of(self.frames[:1], [1]))
 
-    def add_suite(self, size, suite):
-        """The digest of a suite does not know where the antenna's table lies."""
-        text = json.dumps(suite)
+    def suite_file(self, suite):
+        """The suite with its antenna's table beside it: its text and name are the same in every folder."""
         for sensor in suite["sensors"]:
-            self.cell_range_m = sensor["cell_range_m"]
             if "antenna_table" in sensor:
-                sensor["antenna_table"] = os.path.join(chains.ROOT, "data", "sensors", sensor["antenna_table"])
-        self.suites[size] = self.cache.text(".json", json.dumps(suite))
-        self.described[self.suites[size]] = text
+                with open(os.path.join(chains.ROOT, "data", "sensors", sensor["antenna_table"])) as table:
+                    sensor["antenna_table"] = os.path.basename(self.cache.text(".csv", table.read()))
+        return self.cache.text(".json", json.dumps(suite))
 
     def few_frames(self):
         """The sample: one frame from each of a few scenes."""

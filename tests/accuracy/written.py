@@ -73,9 +73,12 @@ def measured(rows, radar):
     return all("error" in row for row in pick(rows, radar=radar))
 
 
+NEGLIGIBLE = 0.01  # points
+
+
 def told(row):
     """1 if the effect gains and its interval says so, -1 if it harms, else 0."""
-    return (row["gain_low"] > 0) - (row["gain_high"] < 0) if "gain" in row else 0
+    return (row["gain_low"] > 0) - (row["gain_high"] < 0) if abs(row.get("gain", 0)) >= NEGLIGIBLE else 0
 
 
 def changes(row):
@@ -130,7 +133,7 @@ def verdicts(rows, radar):
     for group, where in (("added", "added to the paper's"), ("left out", "in all others")):
         own = pick(rows, radar=radar, group=group)
         said = {"gain": [row for row in own if told(row) > 0], "harm": [row for row in own if told(row) < 0],
-                "are not told from nothing": [row for row in own if not told(row) and changes(row)],
+                "are not told from nothing, or below 0.01": [row for row in own if not told(row) and changes(row)],
                 "change no list here": [row for row in own if not changes(row)]}
         for verb, of in said.items():
             names = ", ".join(row["chain"] for row in sorted(of, key=lambda row: -abs(row.get("gain", 0))))
