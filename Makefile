@@ -5,7 +5,7 @@
 #   make check      unit tests and house checks     make test   all of scripts/test
 #   make SAN=1 ...  the same under address and undefined-behaviour sanitizers, in build-san/
 #   make CC=clang CXX=clang++ BUILD=build-clang
-#   make install    PREFIX=/usr/local DESTDIR=
+#   make install    PREFIX=/usr/local DESTDIR=      make uninstall   with the same two
 
 # No built-in rules: one of them would try to make a.d from a.d.o.
 MAKEFLAGS += -r
@@ -259,11 +259,18 @@ install: all man
 	ln -sfn ../../glint $(DESTDIR)$(PREFIX)/share/doc/glint/data
 	ln -sfn ../../glint/pipelines ../../glint/schemas $(DESTDIR)$(PREFIX)/share/doc/glint
 
+# Takes away what `make install` puts there: programs and pages by name, and glint's own folders.
+uninstall:
+	rm -f $(addprefix $(DESTDIR)$(PREFIX)/bin/,$(notdir $(programs)))
+	rm -f $(patsubst %,$(DESTDIR)$(PREFIX)/share/man/man1/%.1,$(notdir $(programs)))
+	rm -f $(addprefix $(DESTDIR)$(PREFIX)/lib/,libglint.a pkgconfig/glint.pc)
+	rm -rf $(addprefix $(DESTDIR)$(PREFIX)/,include/glint share/glint share/doc/glint)
+
 clean:
 	rm -rf build build-*
 
 FORCE:
-.PHONY: all unit hard soundness fuzz check bench accuracy schemas format lint man install clean FORCE
+.PHONY: all unit hard soundness fuzz check bench accuracy schemas format lint man install uninstall clean FORCE
 .PRECIOUS: $(BUILD)/tests/%.o $(tests) $(BUILD)/tests/hard/%
 
 -include $(wildcard $(BUILD)/*.d $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d)

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "base/suggestion.h"
+
 const char *const effects_names[] = {
 #define EFFECT(id, name) #name,
 #include "frame/effects.def"
@@ -29,10 +31,14 @@ static int add_effect(const char *text, size_t length, struct selection *selecti
                 selection->allowed |= EFFECT_BIT(i);
             return 0;
         }
+    struct suggestion meant = suggestion_begin(name, length - remove);
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        suggestion_offer(&meant, effects_names[i]);
     return diag_fail(diag, DIAG_CONFIG,
-                     "\"%.*s\" is no effect; expected auto, all, none or names from "
+                     "\"%.*s\" is no effect%s; expected auto, all, none or names from "
                      "glint --list effects",
-                     (int)(length < 80 ? length : 80), text);
+                     (int)(length < 80 ? length : 80), text,
+                     suggestion_question(&meant, remove ? "-" : ""));
 }
 
 int effects_read(const char *text, struct selection *selection, struct diag *diag)

@@ -3,11 +3,13 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "base/suggestion.h"
 #include "documents/datasheet_text.h"
 #include "documents/suite_file.h"
-#include "effects/effect.h"
 #include "run/chain.h"
+#include "run/listing.h"
 #include "run/pipeline.h"
 #include "run/side_program.h"
 #include "text/document.h"
@@ -19,24 +21,25 @@ static const char usage[] =
     "Usage: glint FILE\n"
     "  or:  glint -c TEXT\n"
     "  or:  glint --times FILE\n"
-    "  or:  glint --list stages | tools | effects\n"
+    "  or:  glint --list sensors | scenarios | vehicles | pipelines | stages | tools | effects\n"
     "  or:  glint --datasheet SUITE\n"
     "Run a pipeline of glint stages, and a tool at its end, in one process.\n"
     "\n"
     "FILE is a script that bash would run too, with the same output and exit code. It holds\n"
     "one pipeline: words, quotes, comments, continued lines, |, and the line\n"
     "`set -o pipefail`. Anything else is refused, with its line. If any program fails, the\n"
-    "file of -o is left as it was.\n"
+    "file of -o is left as it was. A name without dot and slash that no file has is that of an\n"
+    "installed pipeline: glint two-vehicles.\n"
     "\n"
     "Options:\n"
     "  -c TEXT              run TEXT instead of a file\n"
     "      --times FILE     run FILE, then print where the time went to stderr (JSON lines)\n"
-    "      --list WHAT      list the stages, the tools, or the effects\n"
+    "      --list WHAT      list what is installed, with a sentence on each\n"
     "      --datasheet SUITE\n"
     "                       print the radars of a suite (a name in data/sensors/, or a path) as\n"
     "                       their maker would: resolution, accuracy, ranges of detection, false\n"
     "                       alarms, and how well the figures agree with each other\n"
-    "      --help           print this help\n"
+    "  -h, --help           print this help\n"
     "      --version        print the version\n"
     "\n"
     "Exit status: that of the rightmost program that fails, as with bash's pipefail; 64 if the\n"
@@ -123,6 +126,20 @@ static int check_place(const struct runner *runner, const struct command *comman
                      program->name, fault);
 }
 
+static int unknown_program(const struct command *command, struct diag *diag)
+{
+    const char *program = command->words.items[0], *name = fused_name(program);
+    struct suggestion meant =
+        suggestion_begin(name != NULL ? name : program, strlen(name != NULL ? name : program));
+    for (size_t i = 0; stages[i] != NULL; i++)
+        suggestion_offer(&meant, stages[i]->name);
+    for (size_t i = 0; tools[i] != NULL; i++)
+        suggestion_offer(&meant, tools[i]->name);
+    return diag_fail(diag, DIAG_USAGE,
+                     "%zu: %s is no stage or tool of this build%s; run it with bash", command->line,
+                     program, suggestion_question(&meant, "glint-"));
+}
+
 static int run_commands(const struct pipeline *pipeline, struct runner *runners,
                         struct chain_times *times, struct arena *arena, struct diag *diag)
 {
@@ -130,9 +147,7 @@ static int run_commands(const struct pipeline *pipeline, struct runner *runners,
     for (size_t i = 0; i < count; i++) {
         const struct command *command = &pipeline->commands.items[i];
         if (!prepare(&runners[i], command, arena))
-            return diag_fail(diag, DIAG_USAGE,
-                             "%zu: %s is no stage or tool of this build; run it with bash",
-                             command->line, command->words.items[0]);
+            return unknown_program(command, diag);
         if (check_place(&runners[i], command, i, count, diag) != 0)
             return -1;
     }
@@ -180,12 +195,19 @@ static int run_text(const char *name, const char *text, size_t length, bool time
     return complain(&diag);
 }
 
-static int run_file(const char *path, bool timed, struct arena *arena)
+/* The file of that name, or else the installed pipeline. */
+static const char *find_script(const char *name, struct arena *arena, struct diag *diag)
+{
+    return access(name, F_OK) == 0 ? name : document_find("pipelines", name, ".sh", arena, diag);
+}
+
+static int run_file(const char *name, bool timed, struct arena *arena)
 {
     struct diag diag = {0};
     struct text text = {0};
     int code;
-    if (document_bytes(path, &text, &diag) != 0)
+    const char *path = find_script(name, arena, &diag);
+    if (path == NULL || document_bytes(path, &text, &diag) != 0)
         code = complain(&diag);
     else
         code = run_text(path, text.bytes, text.length, timed, arena);
@@ -199,38 +221,12 @@ static int print(const char *bytes, size_t length)
     return output_print(bytes, length, &diag) == 0 ? 0 : complain(&diag);
 }
 
-static void list_effects(struct text *text)
+static int list(const char *kind, struct arena *arena)
 {
-    for (int i = 0; i < EFFECT_COUNT; i++) {
-        const struct effect *effect = effect_table[i];
-        text_format(text, "%-17s %s\n%17s simulated by glint-%s, described by %s\n",
-                    effects_names[i], effect->summary, "", effect_homes[effect->home],
-                    effect->cause);
-        if (effect->left_out_when != NULL)
-            text_format(text, "%17s auto leaves it out when %s\n", "", effect->left_out_when);
-        else
-            text_format(text, "%17s auto never leaves it out\n", "");
-        text_format(text, "%17s costs %s\n", "", effect->cost);
-    }
-}
-
-static int list(const char *what)
-{
+    struct diag diag = {0};
     struct text text = {0};
-    bool known = true;
-    if (strcmp(what, "stages") == 0)
-        for (size_t i = 0; stages[i] != NULL; i++)
-            text_format(&text, "glint-%-16s %s\n", stages[i]->name, stages[i]->summary);
-    else if (strcmp(what, "tools") == 0)
-        for (size_t i = 0; tools[i] != NULL; i++)
-            text_format(&text, "glint-%-16s %s\n", tools[i]->name, tools[i]->summary);
-    else if (strcmp(what, "effects") == 0)
-        list_effects(&text);
-    else
-        known = false;
-    int code = known
-                   ? print(text.bytes, text.length)
-                   : complain(&(struct diag){DIAG_USAGE, "--list takes stages, tools or effects"});
+    int code = listing_add(kind, &text, arena, &diag) == 0 ? print(text.bytes, text.length)
+                                                           : complain(&diag);
     text_free(&text);
     return code;
 }
@@ -248,10 +244,29 @@ static int print_datasheet(const char *name, struct arena *arena)
     return code;
 }
 
+static int refuse_options(const char *first)
+{
+    static const char *const options[] = {"c", "times", "list", "datasheet", "help", "version"};
+    const char *name = first + strspn(first, "-");
+    struct suggestion meant = suggestion_begin(name, strlen(name));
+    bool known = first[0] != '-';
+    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
+        suggestion_offer(&meant, options[i]);
+        known = known || strcmp(name, options[i]) == 0;
+    }
+    struct diag diag = {0};
+    if (known)
+        diag_fail(&diag, DIAG_USAGE, "expected a FILE, -c TEXT or an option; see --help");
+    else
+        diag_fail(&diag, DIAG_USAGE, "unknown option %s%s; see --help", first,
+                  suggestion_question(&meant, "--"));
+    return complain(&diag);
+}
+
 static int run(int count, char **words, struct arena *arena)
 {
     const char *first = count > 1 ? words[1] : "", *second = count > 2 ? words[2] : NULL;
-    if (strcmp(first, "--help") == 0)
+    if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)
         return print(usage, sizeof usage - 1);
     if (strcmp(first, "--version") == 0)
         return print("glint (glint) " GLINT_VERSION "\n", sizeof "glint (glint) " GLINT_VERSION);
@@ -260,13 +275,12 @@ static int run(int count, char **words, struct arena *arena)
     if (count == 3 && strcmp(first, "--times") == 0)
         return run_file(second, true, arena);
     if (count == 3 && strcmp(first, "--list") == 0)
-        return list(second);
+        return list(second, arena);
     if (count == 3 && strcmp(first, "--datasheet") == 0)
         return print_datasheet(second, arena);
     if (count == 2 && (first[0] != '-' || first[1] == '\0'))
         return run_file(first, false, arena);
-    return complain(
-        &(struct diag){DIAG_USAGE, "expected a FILE, -c TEXT or an option; see --help"});
+    return refuse_options(first);
 }
 
 int fused_main(int count, char **words)

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/suggestion.h"
 #include "run/stage.h"
 
 const struct record no_options_record = {.name = "stage", .fields = field_none};
@@ -153,19 +154,51 @@ static const struct field *take_option(struct command_line *line, const char *na
     return shared.field;
 }
 
+static void offer_options(const struct field *fields, const struct program *program,
+                          struct suggestion *meant)
+{
+    for (const struct field *field = fields; field->name != NULL; field++) {
+        char spelling[80];
+        spell(field->name, spelling, sizeof spelling);
+        if (field->kind == FIELD_RECORD)
+            offer_options(field->record->fields, program, meant);
+        else if (field->kind != FIELD_LIST && (fields != common_fields || applies(program, field)))
+            suggestion_offer(meant, spelling);
+    }
+}
+
+static int unknown_option(const struct command_line *line, const char *word)
+{
+    const char *name = word + strspn(word, "-");
+    struct suggestion meant = suggestion_begin(name, strcspn(name, "="));
+    offer_options(named_options(line->program), line->program, &meant);
+    offer_options(common_fields, line->program, &meant);
+    return diag_fail(line->diag, DIAG_USAGE, "unknown option %s%s; see --help", word,
+                     suggestion_question(&meant, "--"));
+}
+
+/* The name that an option's word begins with: "output" for -o, "help" for -h; "" if the word is
+ * spelt like no option. */
+static const char *option_name(const char *word)
+{
+    if (strcmp(word, "-o") == 0)
+        return "output";
+    if (strcmp(word, "-h") == 0)
+        return "help";
+    return word[1] == '-' ? word + 2 : "";
+}
+
 /* Reads the option at words[*at]; advances *at if its value is the word after it. */
 static int read_option(struct command_line *line, size_t count, const char *const *words,
                        size_t *at)
 {
     struct diag *diag = line->diag;
-    const char *word = words[*at];
-    bool output = strcmp(word, "-o") == 0, spelled = word[1] == '-' || output;
-    const char *name = output ? "output" : word + 2;
+    const char *word = words[*at], *name = option_name(word);
     size_t length = strcspn(name, "=");
     void *base;
-    const struct field *field = spelled ? take_option(line, name, length, &base) : NULL;
+    const struct field *field = take_option(line, name, length, &base);
     if (field == NULL)
-        return diag_fail(diag, DIAG_USAGE, "unknown option %s; see --help", word);
+        return unknown_option(line, word);
     const char *value = name[length] == '=' ? name + length + 1 : NULL;
     if (field->kind == FIELD_FLAG) {
         if (value != NULL)
@@ -259,8 +292,11 @@ static void help_option(const struct field *field, struct text *text)
     char left[160], spelling[80], expected[512];
     spell(field->name, spelling, sizeof spelling);
     bool flag = field->kind == FIELD_FLAG;
-    snprintf(left, sizeof left, "%s--%s%s%s", strcmp(spelling, "output") == 0 ? "-o, " : "    ",
-             spelling, flag ? "" : "=", flag ? "" : value_word(field));
+    const char *letter = strcmp(spelling, "output") == 0 ? "-o, "
+                         : strcmp(spelling, "help") == 0 ? "-h, "
+                                                         : "    ";
+    snprintf(left, sizeof left, "%s--%s%s%s", letter, spelling, flag ? "" : "=",
+             flag ? "" : value_word(field));
     text_format(text, "  %-26s  %s", left, field->help);
     if (field->kind == FIELD_REAL || field->kind == FIELD_INTEGER || field->kind == FIELD_CHOICE) {
         field_expectation(field, expected, sizeof expected);

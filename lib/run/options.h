@@ -23,8 +23,8 @@ struct common_options {
 };
 
 /* Reads the words after the program's name into state and common, both cleared first, in GNU style:
- * --radius-m 50, --radius-m=50, -o FILE; -- ends the options; a flag takes no value; the last of
- * two counts. Refuses unknown options, missing values and values out of bounds with DIAG_USAGE.
+ * --radius-m 50, --radius-m=50, -o FILE, -h; -- ends the options; a flag takes no value; the last
+ * of two counts. Refuses unknown options, missing values and values out of bounds with DIAG_USAGE.
  * Required options may be missing beside --help and --version. */
 int options_read(const struct program *program, size_t count, const char *const *words, void *state,
                  struct common_options *common, struct arena *arena, struct diag *diag);

@@ -1,5 +1,6 @@
 #include "text/document.h"
 
+#include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +9,8 @@
 
 #include <jansson.h>
 
+#include "base/sort.h"
+#include "base/suggestion.h"
 #include "text/input.h"
 #include "text/record_text.h"
 
@@ -38,33 +41,108 @@ const char *document_own_folder(struct arena *arena)
     return path;
 }
 
+/* Where documents of a kind may lie, the first place first; all end with a slash. */
+struct folders {
+    const char *paths[4];
+    size_t count;
+};
+
+static struct folders folders_of(const char *kind, struct arena *arena)
+{
+    const char *given = getenv("GLINT_DATA"), *own = document_own_folder(arena);
+    const char *checkout = strcmp(kind, "pipelines") == 0 ? "../../" : "../../data/";
+    struct folders folders = {0};
+    if (given != NULL && *given != '\0')
+        folders.paths[folders.count++] = join(arena, given, "/", "", "");
+    if (*own != '\0') {
+        folders.paths[folders.count++] = join(arena, own, "../share/glint/", "", "");
+        folders.paths[folders.count++] = join(arena, own, checkout, "", "");
+    }
+    folders.paths[folders.count++] = "data/";
+    return folders;
+}
+
+static void list_folder(const char *folder, const char *ending, struct document_names *list,
+                        struct arena *arena)
+{
+    DIR *entries = opendir(folder);
+    if (entries == NULL)
+        return;
+    for (struct dirent *entry; (entry = readdir(entries)) != NULL;) {
+        size_t length = strlen(entry->d_name), tail = strlen(ending);
+        if (length > tail && strcmp(entry->d_name + length - tail, ending) == 0 &&
+            strcspn(entry->d_name, ".") == length - tail)
+            *list_add(&list->names, arena) = arena_text(arena, entry->d_name, length - tail);
+    }
+    closedir(entries);
+}
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+void document_list(const char *kind, const char *ending, struct document_names *list,
+                   struct arena *arena)
+{
+    *list = (struct document_names){0};
+    struct folders folders = folders_of(kind, arena);
+    for (size_t i = 0; i < folders.count; i++)
+        list_folder(join(arena, folders.paths[i], kind, "", ""), ending, list, arena);
+    sort_list(&list->names, compare_names, arena);
+    size_t kept = 0;
+    for (size_t i = 0; i < list->names.count; i++)
+        if (kept == 0 || strcmp(list->names.items[kept - 1], list->names.items[i]) != 0)
+            list->names.items[kept++] = list->names.items[i];
+    list->names.count = kept;
+}
+
+const char *document_origin(const char *path, struct arena *arena)
+{
+    json_t *tree = json_load_file(path, 0, NULL);
+    const char *origin = json_string_value(json_object_get(tree, "origin"));
+    if (origin != NULL)
+        origin = arena_text(arena, origin, strlen(origin));
+    json_decref(tree);
+    return origin;
+}
+
+static void append(struct diag *diag, const char *separator, const char *text)
+{
+    size_t used = strlen(diag->text);
+    snprintf(diag->text + used, sizeof diag->text - used, "%s%s", separator, text);
+}
+
+/* Says what was meant, where it was looked for, and what is there instead. */
+static void refuse_name(const char *kind, const char *name, const char *ending,
+                        const struct folders *folders, struct arena *arena, struct diag *diag)
+{
+    struct document_names there;
+    document_list(kind, ending, &there, arena);
+    struct suggestion meant = suggestion_begin(name, strlen(name));
+    for (size_t i = 0; i < there.names.count; i++)
+        suggestion_offer(&meant, there.names.items[i]);
+    diag_fail(diag, DIAG_CONFIG, "there is no %s/%s%s%s; looked in", kind, name, ending,
+              suggestion_question(&meant, ""));
+    for (size_t i = 0; i < folders->count; i++)
+        append(diag, i == 0 ? " " : ", ", folders->paths[i]);
+    for (size_t i = 0; i < there.names.count; i++)
+        append(diag, i == 0 ? "; there are " : ", ", there.names.items[i]);
+}
+
 const char *document_find(const char *kind, const char *name, const char *ending,
                           struct arena *arena, struct diag *diag)
 {
     if (strpbrk(name, "/.") != NULL || strcmp(name, "-") == 0)
         return arena_text(arena, name, strlen(name));
-    const char *given = getenv("GLINT_DATA");
-    const char *beside = document_own_folder(arena);
-    const char *folders[] = {
-        given != NULL && *given != '\0' ? join(arena, given, "/", "", "") : NULL,
-        *beside != '\0' ? join(arena, beside, "../share/glint/", "", "") : NULL,
-        *beside != '\0' ? join(arena, beside, "../../data/", "", "") : NULL,
-        "data/",
-    };
-    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
-        if (folders[i] == NULL)
-            continue;
-        const char *path = join(arena, join(arena, folders[i], kind, "/", ""), name, ending, "");
+    struct folders folders = folders_of(kind, arena);
+    for (size_t i = 0; i < folders.count; i++) {
+        const char *path =
+            join(arena, join(arena, folders.paths[i], kind, "/", ""), name, ending, "");
         if (access(path, F_OK) == 0)
             return path;
     }
-    diag_fail(diag, DIAG_CONFIG, "there is no %s/%s%s; looked in", kind, name, ending);
-    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
-        size_t used = strlen(diag->text);
-        if (folders[i] != NULL)
-            snprintf(diag->text + used, sizeof diag->text - used, "%s %s",
-                     diag->text[used - 1] == 'n' ? "" : ",", folders[i]);
-    }
+    refuse_name(kind, name, ending, &folders, arena, diag);
     return NULL;
 }
 

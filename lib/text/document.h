@@ -21,7 +21,8 @@ void document_guard_memory(void);
 const char *document_own_folder(struct arena *arena);
 
 /* The path of a document by its name, in the arena; NULL after a message that lists the places
- * searched. ending is ".json", or ".csv" for a table. */
+ * searched and the names that are there. ending is ".json", ".csv" for a table, or ".sh" for a
+ * pipeline; pipelines lie beside data/ in a checkout, not in it. */
 const char *document_find(const char *kind, const char *name, const char *ending,
                           struct arena *arena, struct diag *diag);
 
@@ -36,6 +37,16 @@ bool document_is_plain(const char *name);
 /* False for a pipe, a device and the like, which may never end. True for a file that is not there.
  */
 bool document_is_regular(const char *path);
+
+/* The names of a kind in all those places, each once, in the order of their bytes. */
+struct document_names {
+    LIST_OF(const char *) names;
+};
+void document_list(const char *kind, const char *ending, struct document_names *list,
+                   struct arena *arena);
+
+/* What a document says under "origin"; NULL if it is no document, or says nothing there. */
+const char *document_origin(const char *path, struct arena *arena);
 
 /* Reads a document (standard input for "-") into the struct that the record describes; all of it
  * lies in the arena. Messages are "PATH: objects[2].x_m: ...". */

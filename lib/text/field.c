@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/suggestion.h"
 #include "base/text.h"
 
 const struct field field_none[] = {{0}};
@@ -118,10 +119,14 @@ static int choice_of(const struct field *field, const char *text, size_t length,
     for (int i = 0; field->choices[i] != NULL; i++)
         if (is_word(field->choices[i], text, length))
             return i;
+    struct suggestion meant = suggestion_begin(text, length);
+    for (int i = 0; field->choices[i] != NULL; i++)
+        suggestion_offer(&meant, field->choices[i]);
     char expected[1024];
     field_expectation(field, expected, sizeof expected);
-    return diag_fail(diag, DIAG_DATA, "%s: \"%.*s\" is unknown; expected %s", field->name,
-                     (int)(length < 80 ? length : 80), text, expected);
+    return diag_fail(diag, DIAG_DATA, "%s: \"%.*s\" is unknown%s; expected %s", field->name,
+                     (int)(length < 80 ? length : 80), text, suggestion_question(&meant, ""),
+                     expected);
 }
 
 static int set_choice(const struct field *field, void *base, const char *text, size_t length,
@@ -338,12 +343,16 @@ int field_unknown(const struct record *record, const char *name, size_t length, 
 {
     char known[1536] = "";
     size_t used = 0;
-    for (const struct field *field = record->fields; field->name != NULL; field++)
+    struct suggestion meant = suggestion_begin(name, length);
+    for (const struct field *field = record->fields; field->name != NULL; field++) {
+        suggestion_offer(&meant, field->name);
         if (used < sizeof known)
             used += (size_t)snprintf(known + used, sizeof known - used, "%s%s",
                                      field == record->fields ? "" : ", ", field->name);
-    return diag_fail(diag, DIAG_DATA, "%.*s: unknown key; expected one of %s",
-                     (int)(length < 80 ? length : 80), name, known);
+    }
+    return diag_fail(diag, DIAG_DATA, "%.*s: unknown key%s; expected one of %s",
+                     (int)(length < 80 ? length : 80), name, suggestion_question(&meant, ""),
+                     known);
 }
 
 int field_twice(const struct field *field, struct diag *diag)

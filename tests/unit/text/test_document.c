@@ -99,8 +99,33 @@ static void for_an_unknown_name_the_message_lists_the_places(void **state)
                           scratch->directory);
     assert_memory_equal(diag.text, begin, (size_t)length);
     assert_non_null(strstr(diag.text, "../share/glint/, /"));
-    assert_string_equal(diag.text + strlen(diag.text) - 18, "../../data/, data/");
+    assert_non_null(strstr(diag.text, "../../data/, data/"));
     assert_int_equal(diag.code, DIAG_CONFIG);
+}
+
+static void names_are_listed_in_order_and_each_once(void **state)
+{
+    struct scratch *scratch = *state;
+    struct document_names list;
+    assert_int_equal(setenv("GLINT_DATA", "data", 1), 0); /* the same place twice */
+    document_list("vehicles", ".json", &list, &scratch->arena);
+    assert_true(list.names.count > 5);
+    for (size_t i = 1; i < list.names.count; i++)
+        assert_true(strcmp(list.names.items[i - 1], list.names.items[i]) < 0);
+    document_list("vehicles", ".none", &list, &scratch->arena);
+    assert_int_equal(list.names.count, 0);
+    assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
+}
+
+static void a_name_that_is_nearly_right_is_guessed(void **state)
+{
+    struct scratch *scratch = *state;
+    struct diag diag = {0};
+    assert_null(document_find("vehicles", "pedestrain", ".json", &scratch->arena, &diag));
+    static const char begin[] =
+        "there is no vehicles/pedestrain.json (did you mean pedestrian?); looked in ";
+    assert_memory_equal(diag.text, begin, sizeof begin - 1);
+    assert_non_null(strstr(diag.text, "; there are articulated_truck, bicycle, bus, car, "));
 }
 
 static void a_document_fills_its_struct(void **state)
@@ -232,6 +257,8 @@ int main(void)
         cmocka_unit_test(names_are_looked_up_in_the_data_folder_first),
         cmocka_unit_test(a_name_with_a_slash_or_a_dot_is_a_path),
         cmocka_unit_test(for_an_unknown_name_the_message_lists_the_places),
+        cmocka_unit_test(names_are_listed_in_order_and_each_once),
+        cmocka_unit_test(a_name_that_is_nearly_right_is_guessed),
         cmocka_unit_test(a_document_fills_its_struct),
         cmocka_unit_test(faults_are_named_with_path_member_and_expectation),
         cmocka_unit_test(text_that_is_not_a_document_is_refused_with_its_line),

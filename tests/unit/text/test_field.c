@@ -307,7 +307,9 @@ static void names_and_choices_are_checked(void **state)
     static const char *const wrong[] = {"", "Red", "re", "redd", "red "};
     for (size_t i = 0; i < COUNT(wrong); i++)
         assert_int_equal(set_text(COLOUR, &thing, wrong[i], &arena, &diag), -1);
-    assert_string_equal(diag.text, "colour: \"red \" is unknown; expected one of red, green, blue");
+    assert_string_equal(
+        diag.text,
+        "colour: \"red \" is unknown (did you mean red?); expected one of red, green, blue");
     assert_int_equal(set_text(RANGE, &thing, "1", &arena, &diag), -1);
     assert_string_equal(diag.text, "range_m: a string; expected a number in [-1.5, 1e6] m");
     arena_free(&arena);
@@ -353,7 +355,8 @@ static void the_first_missing_member_is_named(void **state)
     }
     diag = (struct diag){0};
     assert_int_equal(field_unknown(&part_record, "with_m", 6, &diag), -1);
-    assert_string_equal(diag.text, "with_m: unknown key; expected one of width_m");
+    assert_string_equal(diag.text,
+                        "with_m: unknown key (did you mean width_m?); expected one of width_m");
     diag = (struct diag){0};
     assert_int_equal(field_twice(&fields[NAME], &diag), -1);
     assert_string_equal(diag.text, "name: the key stands twice");
