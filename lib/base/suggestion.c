@@ -12,9 +12,9 @@ struct suggestion suggestion_begin(const char *word, size_t length)
     return (struct suggestion){.word = word, .length = length};
 }
 
-static char small(char letter)
+static int small(char letter)
 {
-    return letter >= 'A' && letter <= 'Z' ? (char)(letter - 'A' + 'a') : letter;
+    return letter >= 'A' && letter <= 'Z' ? letter - 'A' + 'a' : letter;
 }
 
 static size_t least(size_t a, size_t b)

@@ -76,10 +76,12 @@ static const struct effect_log *log_of(const struct plan *plan, int effect)
 
 const char *plan_program(const char *stage, struct arena *arena)
 {
-    size_t room = sizeof "glint-" + strlen(stage);
-    char *program = arena_get(arena, room);
-    memcpy(program, "glint-", sizeof "glint-");
-    return strcat(program, stage);
+    static const char prefix[] = "glint-";
+    const size_t begin = sizeof prefix - 1, length = strlen(stage);
+    char *program = arena_get(arena, begin + length + 1);
+    memcpy(program, prefix, begin);
+    memcpy(program + begin, stage, length + 1);
+    return program;
 }
 
 static void write_effect(const struct plan *plan, int effect, bool all, struct text *text)

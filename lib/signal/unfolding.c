@@ -92,7 +92,8 @@ bool unfolding_choose(const struct signal_cube *signal, const struct range_doppl
     double half_mps = (double)signal->folds * signal->fold_mps / 2, least = INFINITY;
     for (size_t i = 0; i < signal->folds; i++) {
         /* 0, 1, -1, 2, -2 ... folds, then back into the bounds */
-        double away = (double)((i + 1) / 2) * (i % 2 == 1 ? 1 : -1) * signal->fold_mps;
+        size_t folds = (i + 1) / 2;
+        double away = (double)folds * (i % 2 == 1 ? 1 : -1) * signal->fold_mps;
         double rate_mps =
             folding_range_rate_mps(peak->rate * signal->rate_step_mps + away, half_mps);
         double range_m = range_of(signal, peak->range, rate_mps);

@@ -58,9 +58,10 @@ static char *lead_on(const char *path, const char *target)
 {
     const char *slash = target[0] != '/' ? strrchr(path, '/') : NULL;
     size_t folder = slash != NULL ? (size_t)(slash + 1 - path) : 0;
-    char *next = memory_get(folder + strlen(target) + 1);
+    size_t length = strlen(target);
+    char *next = memory_get(folder + length + 1);
     memcpy(next, path, folder);
-    strcpy(next + folder, target);
+    memcpy(next + folder, target, length + 1);
     return next;
 }
 
