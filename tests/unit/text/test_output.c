@@ -298,6 +298,9 @@ static void a_run_that_is_ended_leaves_the_folder_as_it_was(void **state)
             struct output *output = output_open(scratch->path, &diag);
             output_write(output, new.bytes, new.length, &diag);
             output_finish(output, &diag);
+            /* A run in the background inherits that SIGINT or SIGHUP is ignored. */
+            if (signal != 0 && signal != SIGKILL)
+                sigaction(signal, &(struct sigaction){.sa_handler = SIG_DFL}, NULL);
             if (signal != 0)
                 raise(signal);
             _exit(DIAG_MEMORY);
