@@ -51,17 +51,14 @@ static const enum effect_id losing_effects[] = {
 };
 
 /* Bounds of members. No scene reaches beyond 1e7 m and no radar beyond 1e6 m; reported values, with
- * noise and rounding, may be ten times the exact ones. A scan may show the world earlier than its
- * frame. The squares of amplitudes are doubles. */
+ * noise and rounding, may be ten times the exact ones. */
 #define PLACE(owner, member, help) FIELD_REAL_IN(owner, member, -1e7, 1e7, help)
 #define ANGLE(owner, member, help) FIELD_REAL_IN(owner, member, -1e6, 1e6, help)
 #define SPEED(owner, member, help) FIELD_REAL_IN(owner, member, -1e4, 1e4, help)
 #define SIZE(owner, member, help) FIELD_REAL_IN(owner, member, 0, 1e6, help)
-#define AMPLITUDE(owner, member, help) FIELD_REAL_IN(owner, member, 0, 1e150, help)
-#define POINTER(owner, member, help) FIELD_REAL_IN(owner, member, -1e150, 1e150, help)
+#define AMPLITUDE(owner, member, help) FIELD_REAL_IN(owner, member, 0, 1e308, help)
+#define POINTER(owner, member, help) FIELD_REAL_IN(owner, member, -1e308, 1e308, help)
 #define INSTANT(owner, member, help) FIELD_REAL_IN(owner, member, -1e10, 1e10, help)
-#define SCAN_INSTANT(owner, member, help) FIELD_REAL_IN(owner, member, -1e11, 1e11, help)
-#define ERCS(owner, member, help) FIELD_REAL_IN(owner, member, 0, 1e30, help)
 #define RANGE(owner, member, help) FIELD_REAL_IN(owner, member, 0, 1e6, help)
 #define AZIMUTH(owner, member, help) FIELD_REAL_IN(owner, member, -PI, PI, help)
 #define RATE(owner, member, help) FIELD_REAL_IN(owner, member, -1e5, 1e5, help)
@@ -94,9 +91,9 @@ static const enum effect_id losing_effects[] = {
     {RANGE(owner, range_m, "from the sensor to the reflector, exact")},                            \
         {AZIMUTH(owner, azimuth_rad, "from boresight, positive to the left, exact")},              \
         {RATE(owner, range_rate_mps, "positive when receding, exact")},                            \
-        {ERCS(owner, ercs, "equivalent radar cross section in this direction")},                   \
+        {AMPLITUDE(owner, ercs, "equivalent radar cross section in this direction")},              \
     {                                                                                              \
-        SCAN_INSTANT(owner, time_s, "instant of the measurement")                                  \
+        INSTANT(owner, time_s, "instant of the measurement")                                       \
     }
 
 static const struct field object_fields[] = {
@@ -182,7 +179,7 @@ static const struct field echo_fields[] = {
     {0},
 };
 
-const struct record echo_record = {
+static const struct record echo_record = {
     FIELD_TABLE(struct echo, echo_fields, "echo",
                 "What a sensor would read of a reflector along one path, exactly.")};
 
@@ -217,7 +214,7 @@ static const struct field cell_fields[] = {
     {0},
 };
 
-const struct record cell_record = {
+static const struct record cell_record = {
     FIELD_TABLE(struct cell, cell_fields, "cell", "A resolution cell before noise.")};
 
 static const struct field target_fields[] = {
@@ -238,7 +235,7 @@ static const struct field target_fields[] = {
     {0},
 };
 
-const struct record target_record = {
+static const struct record target_record = {
     FIELD_TABLE(struct target, target_fields, "target", "A detection with its exact label.")};
 
 static const struct field lost_echo_fields[] = {
@@ -426,7 +423,7 @@ struct echo_span frame_echoes_of(const struct frame *frame, const char *sensor)
     for (end = first; end < frame->echoes.count; end++)
         if (!frame_same_name(frame->echoes.items[end].sensor, sensor))
             break;
-    return (struct echo_span){end > first ? &frame->echoes.items[first] : NULL, end - first};
+    return (struct echo_span){frame->echoes.items + first, end - first};
 }
 
 struct cell_span frame_cells_of(const struct frame *frame, const char *sensor)
@@ -437,7 +434,7 @@ struct cell_span frame_cells_of(const struct frame *frame, const char *sensor)
     for (end = first; end < frame->cells.count; end++)
         if (!frame_same_name(frame->cells.items[end].sensor, sensor))
             break;
-    return (struct cell_span){end > first ? &frame->cells.items[first] : NULL, end - first};
+    return (struct cell_span){frame->cells.items + first, end - first};
 }
 
 struct contributor frame_contributor(const struct echo *echo)

@@ -146,37 +146,3 @@ int frame_check_part(struct frame *frame, struct frame_part part, struct diag *d
         return -1;
     return check_sections(frame, part.sections, diag);
 }
-
-static int locate(const struct record *record, const void *entry, const char *sensor,
-                  const char *object, struct diag *diag)
-{
-    return field_check(record, entry, diag) == 0
-               ? 0
-               : diag_prefix(diag, "object \"%s\", seen by \"%s\": ", object, sensor);
-}
-
-int frame_check_extremes(const struct frame *frame, struct diag *diag)
-{
-    for (size_t i = 0; i < frame->objects.count; i++)
-        if (field_check(&object_record, &frame->objects.items[i], diag) != 0)
-            return diag_prefix(diag, "object \"%s\": ", frame->objects.items[i].id);
-    for (size_t i = 0; i < frame->echoes.count; i++) {
-        const struct echo *echo = &frame->echoes.items[i];
-        if (locate(&echo_record, echo, echo->sensor, echo->id.object, diag) != 0)
-            return -1;
-    }
-    for (size_t i = 0; i < frame->cells.count; i++) {
-        const struct cell *cell = &frame->cells.items[i];
-        if (cell->members.count > 0 &&
-            locate(&cell_record, cell, cell->sensor, cell->members.items[0].id.object, diag) != 0)
-            return -1;
-    }
-    for (size_t i = 0; i < frame->targets.count; i++) {
-        const struct target *target = &frame->targets.items[i];
-        if (target->contributors.count > 0 &&
-            locate(&target_record, target, target->sensor, target->contributors.items[0].id.object,
-                   diag) != 0)
-            return -1;
-    }
-    return 0;
-}

@@ -38,13 +38,13 @@
 #define NAMES "\"object\":\"e\",\"reflector\":\"p\",\"path\":\"direct\""
 #define IDEAL                                                                                      \
     ",\"range_m\":1e+06,\"azimuth_rad\":-3.141592653589793,\"range_rate_mps\":-0.1,"               \
-    "\"ercs\":1e+30,\"time_s\":0.27"
+    "\"ercs\":1e+308,\"time_s\":0.27"
 #define MEMBER "[{" NAMES IDEAL ",\"weight\":1}]"
 #define SIGHT ",\"margins\":{\"sight_m\":0}"
 #define ECHOES "\"echoes\":[{\"sensor\":\"f\"," NAMES IDEAL SIGHT ",\"extra\":null}],"
 #define CELLS                                                                                      \
     "\"cells\":[{\"sensor\":\"f\",\"range_m\":1,\"azimuth_rad\":0,\"range_rate_mps\":0,"           \
-    "\"amplitude\":2,\"sum_re\":1,\"sum_im\":-1e+150,\"delta_re\":0,\"delta_im\":3,"               \
+    "\"amplitude\":2,\"sum_re\":1,\"sum_im\":-1e+308,\"delta_re\":0,\"delta_im\":3,"               \
     "\"sign_undecided\":true,\"members\":" MEMBER ",\"margins\":{\"cell_edge\":2.5,\"sign\":1},"   \
     "\"extra\":\"x\"}],"
 #define TARGETS                                                                                    \
