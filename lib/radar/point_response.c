@@ -44,7 +44,7 @@ double point_response_value(enum point_response response, double bins)
 double point_response_main_lobe(enum point_response response)
 {
     if (response == POINT_RESPONSE_PULSE)
-        return INFINITY;
+        return (double)INFINITY;
     return response == POINT_RESPONSE_HANN ? 2 : 1;
 }
 

@@ -89,7 +89,7 @@ bool unfolding_choose(const struct signal_cube *signal, const struct range_doppl
                       double amplitude, double sine, struct unfolding_reading *reading)
 {
     struct beam beam = beam_at(signal, sine);
-    double half_mps = (double)signal->folds * signal->fold_mps / 2, least = INFINITY;
+    double half_mps = (double)signal->folds * signal->fold_mps / 2, least = (double)INFINITY;
     for (size_t i = 0; i < signal->folds; i++) {
         /* 0, 1, -1, 2, -2 ... folds, then back into the bounds */
         size_t folds = (i + 1) / 2;
