@@ -115,4 +115,5 @@ const struct stage stage_ideal = {
     .writes = SECTION_SENSORS | SECTION_ECHOES | SECTION_LOST | SECTION_COUNTS,
     .start = ideal_start,
     .step = ideal_step,
+    .locate_fault = suite_choice_locate_fault,
 };

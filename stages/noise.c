@@ -66,4 +66,5 @@ const struct stage stage_noise = {
     .reads = SECTION_SENSORS | SECTION_CELLS,
     .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS,
     .step = noise_step,
+    .locate_fault = suite_choice_locate_fault,
 };

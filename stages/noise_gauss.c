@@ -52,4 +52,5 @@ const struct stage stage_noise_gauss = {
     .reads = SECTION_SENSORS | SECTION_CELLS,
     .writes = SECTION_TARGETS | SECTION_LOST,
     .step = noise_gauss_step,
+    .locate_fault = suite_choice_locate_fault,
 };

@@ -29,4 +29,5 @@ const struct stage stage_noise_none = {
     .reads = SECTION_SENSORS | SECTION_CELLS,
     .writes = SECTION_TARGETS | SECTION_LOST,
     .step = noise_none_step,
+    .locate_fault = suite_choice_locate_fault,
 };

@@ -69,4 +69,5 @@ const struct stage stage_sensor = {
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_CELLS | SECTION_LOST | SECTION_COUNTS,
     .step = sensor_step,
+    .locate_fault = suite_choice_locate_fault,
 };

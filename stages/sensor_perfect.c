@@ -43,4 +43,5 @@ const struct stage stage_sensor_perfect = {
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_CELLS | SECTION_LOST,
     .step = sensor_perfect_step,
+    .locate_fault = suite_choice_locate_fault,
 };

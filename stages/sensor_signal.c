@@ -7,6 +7,14 @@
 #include "sensor/scan.h"
 #include "signal/detections.h"
 
+/* FFTW takes its memory here, instead of in its own function of this name, which would abort the
+ * program where there is none. */
+void *fftw_kernel_malloc(size_t size);
+void *fftw_kernel_malloc(size_t size)
+{
+    return memory_get(size);
+}
+
 /* One sensor's signal and the transforms that turn it into a spectrum, in place. */
 struct transform {
     struct signal_cube signal;
@@ -146,5 +154,6 @@ const struct stage stage_sensor_signal = {
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS,
     .step = sensor_signal_step,
+    .locate_fault = suite_choice_locate_fault,
     .release = sensor_signal_release,
 };

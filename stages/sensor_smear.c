@@ -74,4 +74,5 @@ const struct stage stage_sensor_smear = {
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_CELLS | SECTION_LOST | SECTION_COUNTS,
     .step = sensor_smear_step,
+    .locate_fault = suite_choice_locate_fault,
 };

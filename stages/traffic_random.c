@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "documents/vehicle.h"
+#include "frame/frame_check.h"
 #include "run/stage.h"
 #include "traffic/adversarial_traffic.h"
 #include "traffic/random_traffic.h"
@@ -68,6 +69,19 @@ static int traffic_random_next(void *state, struct frame *frame, struct runner *
     return 1;
 }
 
+/* Ordinary scenes have ordinary values. Those that are made for a suite depend on its figures. */
+static int traffic_random_locate_fault(void *state, const struct frame *frame,
+                                       struct runner *runner)
+{
+    const struct traffic_random *traffic = state;
+    struct diag *diag = runner_diag(runner);
+    if (traffic->suite == NULL || frame_check_extremes(frame, diag) == 0)
+        return 0;
+    diag->code = DIAG_CONFIG;
+    return diag_prefix(diag, "%s: no adversarial scene of its figures; scene \"%s\", ",
+                       traffic->sensors, frame->scene);
+}
+
 static const struct field traffic_random_options[] = {
     {FIELD_CHOICE_OF(struct traffic_random, density, random_traffic_densities,
                      "how many objects, and how near"),
@@ -107,4 +121,5 @@ const struct stage stage_traffic_random = {
     .writes = SECTION_OBJECTS,
     .start = traffic_random_start,
     .next = traffic_random_next,
+    .locate_fault = traffic_random_locate_fault,
 };

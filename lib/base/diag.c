@@ -1,6 +1,7 @@
 #include "base/diag.h"
 
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -19,11 +20,15 @@ int diag_fail(struct diag *diag, enum diag_code code, const char *format, ...)
 void diag_print(const char *program, const struct diag *diag)
 {
     fprintf(stderr, "%s: ", program);
-    for (const char *at = diag->text; *at != '\0'; at++)
-        if ((unsigned char)*at < 0x20 || *at == 0x7f)
+    const unsigned char *at = (const unsigned char *)diag->text;
+    for (; *at != '\0'; at++) {
+        bool wide = at[0] == 0xc2 && at[1] >= 0x80 && at[1] < 0xa0; /* U+0080 to U+009F */
+        at += wide;
+        if (wide || *at < 0x20 || *at == 0x7f)
             fprintf(stderr, "\\x%02x", (unsigned)*at);
         else
             fputc(*at, stderr);
+    }
     fputc('\n', stderr);
 }
 

@@ -33,8 +33,8 @@ int diag_fail(struct diag *diag, enum diag_code code, const char *format, ...)
  * knows; returns -1. */
 int diag_prefix(struct diag *diag, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Prints "PROGRAM: MESSAGE" to stderr, with control characters as \xNN, since a message may quote
- * input. */
+/* Prints "PROGRAM: MESSAGE" to stderr, with control characters as \xNN, those of two bytes (U+0080
+ * to U+009F) too, since a message may quote input. */
 void diag_print(const char *program, const struct diag *diag);
 
 #endif

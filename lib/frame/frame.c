@@ -51,7 +51,8 @@ static const enum effect_id losing_effects[] = {
 };
 
 /* Bounds of members. No scene reaches beyond 1e7 m and no radar beyond 1e6 m; reported values, with
- * noise and rounding, may be ten times the exact ones. */
+ * noise and rounding, may be ten times the exact ones. A scan may show the world earlier than its
+ * frame. */
 #define PLACE(owner, member, help) FIELD_REAL_IN(owner, member, -1e7, 1e7, help)
 #define ANGLE(owner, member, help) FIELD_REAL_IN(owner, member, -1e6, 1e6, help)
 #define SPEED(owner, member, help) FIELD_REAL_IN(owner, member, -1e4, 1e4, help)
@@ -59,6 +60,7 @@ static const enum effect_id losing_effects[] = {
 #define AMPLITUDE(owner, member, help) FIELD_REAL_IN(owner, member, 0, 1e308, help)
 #define POINTER(owner, member, help) FIELD_REAL_IN(owner, member, -1e308, 1e308, help)
 #define INSTANT(owner, member, help) FIELD_REAL_IN(owner, member, -1e10, 1e10, help)
+#define SCAN_INSTANT(owner, member, help) FIELD_REAL_IN(owner, member, -1e11, 1e11, help)
 #define RANGE(owner, member, help) FIELD_REAL_IN(owner, member, 0, 1e6, help)
 #define AZIMUTH(owner, member, help) FIELD_REAL_IN(owner, member, -PI, PI, help)
 #define RATE(owner, member, help) FIELD_REAL_IN(owner, member, -1e5, 1e5, help)
@@ -93,7 +95,7 @@ static const enum effect_id losing_effects[] = {
         {RATE(owner, range_rate_mps, "positive when receding, exact")},                            \
         {AMPLITUDE(owner, ercs, "equivalent radar cross section in this direction")},              \
     {                                                                                              \
-        INSTANT(owner, time_s, "instant of the measurement")                                       \
+        SCAN_INSTANT(owner, time_s, "instant of the measurement")                                  \
     }
 
 static const struct field object_fields[] = {
@@ -179,7 +181,7 @@ static const struct field echo_fields[] = {
     {0},
 };
 
-static const struct record echo_record = {
+const struct record echo_record = {
     FIELD_TABLE(struct echo, echo_fields, "echo",
                 "What a sensor would read of a reflector along one path, exactly.")};
 
@@ -214,7 +216,7 @@ static const struct field cell_fields[] = {
     {0},
 };
 
-static const struct record cell_record = {
+const struct record cell_record = {
     FIELD_TABLE(struct cell, cell_fields, "cell", "A resolution cell before noise.")};
 
 static const struct field target_fields[] = {
@@ -235,7 +237,7 @@ static const struct field target_fields[] = {
     {0},
 };
 
-static const struct record target_record = {
+const struct record target_record = {
     FIELD_TABLE(struct target, target_fields, "target", "A detection with its exact label.")};
 
 static const struct field lost_echo_fields[] = {
@@ -423,7 +425,7 @@ struct echo_span frame_echoes_of(const struct frame *frame, const char *sensor)
     for (end = first; end < frame->echoes.count; end++)
         if (!frame_same_name(frame->echoes.items[end].sensor, sensor))
             break;
-    return (struct echo_span){frame->echoes.items + first, end - first};
+    return (struct echo_span){end > first ? &frame->echoes.items[first] : NULL, end - first};
 }
 
 struct cell_span frame_cells_of(const struct frame *frame, const char *sensor)
@@ -434,7 +436,7 @@ struct cell_span frame_cells_of(const struct frame *frame, const char *sensor)
     for (end = first; end < frame->cells.count; end++)
         if (!frame_same_name(frame->cells.items[end].sensor, sensor))
             break;
-    return (struct cell_span){frame->cells.items + first, end - first};
+    return (struct cell_span){end > first ? &frame->cells.items[first] : NULL, end - first};
 }
 
 struct contributor frame_contributor(const struct echo *echo)

@@ -144,12 +144,12 @@ static int compare_with_counts(const struct frame *frame, const int64_t *entries
         const struct count *counted = &frame->counts.items[i];
         int64_t due = counted->pairs + made_indirectly(counted);
         if (entries[i] != due)
-            return diag_fail(diag, DIAG_INTERNAL,
+            return diag_fail(diag, DIAG_DATA,
                              "account: sensor \"%s\" has %lld entries; %lld are due",
                              counted->sensor, (long long)entries[i], (long long)due);
     }
     if (entries[frame->counts.count] != 0)
-        return diag_fail(diag, DIAG_INTERNAL, "account: %lld entries of sensors without a count",
+        return diag_fail(diag, DIAG_DATA, "account: %lld entries of sensors without a count",
                          (long long)entries[frame->counts.count]);
     return 0;
 }
@@ -160,7 +160,7 @@ int frame_account_check(const struct frame *frame, struct diag *diag)
     int64_t *entries = arena_get(frame->arena, (frame->counts.count + 1) * sizeof *entries);
     collect(frame, &check, entries);
     if (check.doubled != NULL)
-        return diag_fail(diag, DIAG_INTERNAL,
+        return diag_fail(diag, DIAG_DATA,
                          "account: sensor \"%s\", object \"%s\", reflector \"%s\" has two "
                          "entries",
                          check.doubled->sensor, check.doubled->id.object,

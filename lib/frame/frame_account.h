@@ -10,8 +10,9 @@
 
 #include "frame/frame.h"
 
-/* For frames with targets that keep account. Fails with DIAG_INTERNAL, and names the first echo
- * that has two entries or the first sensor with a wrong number of entries. */
+/* For frames with targets that keep account. Fails with DIAG_DATA, and names the first echo that
+ * has two entries or the first sensor with a wrong number of entries: an account that does not add
+ * up was in most cases wrong when it was read. */
 int frame_account_check(const struct frame *frame, struct diag *diag);
 
 #endif

@@ -1,5 +1,6 @@
 #include "frame/frame_check.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "frame/frame_order.h"
@@ -145,4 +146,59 @@ int frame_check_part(struct frame *frame, struct frame_part part, struct diag *d
         ((part.sections & SECTION_LOST) != 0 && check_lost_members(frame, part.stage, diag) != 0))
         return -1;
     return check_sections(frame, part.sections, diag);
+}
+
+/* An entry's own values. An amplitude beyond the doubles is told before the angle that it spoils. */
+static int check_entry(const struct record *record, const void *entry, double amplitude,
+                       struct diag *diag)
+{
+    if (isfinite(amplitude))
+        return field_check(record, entry, diag);
+    return diag_fail(diag, DIAG_DATA, "amplitude: %g; expected a finite number", amplitude);
+}
+
+static int name_entry(const char *object, const char *sensor, struct diag *diag)
+{
+    return diag_prefix(diag, "object \"%s\", seen by \"%s\": ", object, sensor);
+}
+
+static int check_echo_values(const struct frame *frame, struct diag *diag)
+{
+    for (size_t i = 0; i < frame->echoes.count; i++) {
+        const struct echo *echo = &frame->echoes.items[i];
+        if (check_entry(&echo_record, echo, 0, diag) != 0)
+            return name_entry(echo->id.object, echo->sensor, diag);
+    }
+    return 0;
+}
+
+static int check_cell_values(const struct frame *frame, struct diag *diag)
+{
+    for (size_t i = 0; i < frame->cells.count; i++) {
+        const struct cell *cell = &frame->cells.items[i];
+        if (cell->members.count > 0 && check_entry(&cell_record, cell, cell->amplitude, diag) != 0)
+            return name_entry(cell->members.items[0].id.object, cell->sensor, diag);
+    }
+    return 0;
+}
+
+static int check_target_values(const struct frame *frame, struct diag *diag)
+{
+    for (size_t i = 0; i < frame->targets.count; i++) {
+        const struct target *target = &frame->targets.items[i];
+        if (target->contributors.count > 0 &&
+            check_entry(&target_record, target, target->cell_amplitude, diag) != 0)
+            return name_entry(target->contributors.items[0].id.object, target->sensor, diag);
+    }
+    return 0;
+}
+
+int frame_check_extremes(const struct frame *frame, struct diag *diag)
+{
+    for (size_t i = 0; i < frame->objects.count; i++)
+        if (field_check(&object_record, &frame->objects.items[i], diag) != 0)
+            return diag_prefix(diag, "object \"%s\": ", frame->objects.items[i].id);
+    bool good = check_echo_values(frame, diag) == 0 && check_cell_values(frame, diag) == 0 &&
+                check_target_values(frame, diag) == 0;
+    return good ? 0 : -1;
 }

@@ -170,7 +170,7 @@ static int check_sections(struct runner *runner, const struct frame *frame)
 }
 
 /* A frame that fails its check is an error of the stage itself (DIAG_INTERNAL), unless the stage
- * finds the fault in what it read. */
+ * finds the cause in what it read. */
 static int refuse(struct runner *runner, const struct frame *frame)
 {
     const struct stage *stage = runner->stage;

@@ -42,8 +42,8 @@ struct stage {
     int (*start)(void *state, struct runner *runner);
     int (*next)(void *state, struct frame *frame, struct runner *runner);
     int (*step)(void *state, struct frame *frame, struct runner *runner);
-    /* Called on a source whose frame is refused. Returns -1 after a message that names the place in
-     * the source's input, or 0 if its input is not to blame. NULL: it never is. */
+    /* Called on a stage whose frame is refused. Returns -1 after a message that names the place in
+     * what the stage read, or 0 if that is not to blame. NULL: it never is. */
     int (*locate_fault)(void *state, const struct frame *frame, struct runner *runner);
     int (*stop)(void *state, struct runner *runner); /* after the last frame; NULL: nothing */
     /* Frees what a library made for the state, after a failure too; NULL: nothing. */

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "frame/frame_check.h"
+
 static const struct field suite_choice_fields[] = {SUITE_CHOICE_AFTER_IDEAL, {0}};
 
 const struct record suite_choice_record = {
@@ -91,4 +93,10 @@ int suite_choice_visit(const struct suite_choice *choice, struct frame *frame,
         effects_count_scan(&selection);
     }
     return 0;
+}
+
+int suite_choice_locate_fault(void *state, const struct frame *frame, struct runner *runner)
+{
+    (void)state;
+    return frame_check_extremes(frame, runner_diag(runner));
 }

@@ -54,4 +54,8 @@ int suite_choice_visit(const struct suite_choice *choice, struct frame *frame,
                        void (*visit)(struct frame *frame, const struct sensor *sensor,
                                      const struct selection *selection));
 
+/* For locate_fault of ideal and the stages after it: a speed, an amplitude or the like that is out
+ * of bounds comes from extreme values of an object or of the suite. */
+int suite_choice_locate_fault(void *state, const struct frame *frame, struct runner *runner);
+
 #endif

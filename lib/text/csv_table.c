@@ -5,6 +5,7 @@
 
 #include <csv.h>
 
+#include "base/intern.h"
 #include "text/field.h"
 #include "text/input.h"
 #include "text/json_scan.h"
@@ -26,13 +27,16 @@ static void refuse_semicolons(const struct csv_table *table, struct diag *diag)
         diag_fail(diag, DIAG_DATA, "the columns are separated by semicolons; expected commas");
 }
 
-static void refuse_repeated_names(const struct csv_table *table, struct diag *diag)
+static void refuse_repeated_names(const struct csv_table *table, struct arena *arena,
+                                  struct diag *diag)
 {
-    for (size_t i = 1; i < table->columns; i++)
-        for (size_t j = 0; j < i; j++)
-            if (strcmp(table->header[i], table->header[j]) == 0)
-                diag_fail(diag, DIAG_DATA, "columns %zu and %zu are both named \"%.80s\"", j + 1,
-                          i + 1, table->header[i]);
+    struct intern names = intern_begin(table->columns, arena);
+    for (size_t i = 0; i < table->columns && diag->code == DIAG_OK; i++) {
+        uint32_t number = intern_word(&names, table->header[i], arena);
+        if (number < i)
+            diag_fail(diag, DIAG_DATA, "columns %zu and %zu are both named \"%.80s\"",
+                      (size_t)number + 1, i + 1, table->header[i]);
+    }
 }
 
 static void take_header(struct reader *reader)
@@ -45,7 +49,7 @@ static void take_header(struct reader *reader)
     table->columns = columns;
     reader->cells.count = 0;
     refuse_semicolons(table, reader->diag);
-    refuse_repeated_names(table, reader->diag);
+    refuse_repeated_names(table, reader->arena, reader->diag);
 }
 
 static void take_row(struct reader *reader)

@@ -136,11 +136,15 @@ static int open_path(struct output *output, const char *path, struct diag *diag)
 
 /* Level 1: at 116 MB/s it keeps up with the chain. A copy of the descriptor, because gzclose closes
  * it before the file can be synced. */
-static void pack(struct output *output)
+static int pack(struct output *output, struct diag *diag)
 {
-    output->gzip = gzdopen(dup(output->fd), "wb1");
+    int copied = dup(output->fd);
+    if (copied < 0)
+        return cannot_create(output->name, diag);
+    output->gzip = gzdopen(copied, "wb1");
     if (output->gzip == NULL)
         memory_get((size_t)-1);
+    return 0;
 }
 
 struct output *output_open(const char *path, struct diag *diag)
@@ -151,10 +155,12 @@ struct output *output_open(const char *path, struct diag *diag)
     int result = open_path(output, target, diag);
     size_t length = strlen(target);
     if (result == 0 && length > 3 && strcmp(target + length - 3, ".gz") == 0)
-        pack(output);
+        result = pack(output, diag);
     free(target);
     if (result == 0)
         return output;
+    if (output->file != NULL)
+        whole_file_close(output->file);
     discard(output);
     return NULL;
 }

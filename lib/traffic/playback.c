@@ -8,6 +8,9 @@
 #include "text/document.h"
 #include "text/field_check.h"
 
+/* A frame stands for at most 1e6 s. */
+#define MOST_INTERVAL_MS 1000000000LL
+
 static bool ends_with(const char *text, const char *suffix)
 {
     size_t length = strlen(text), tail = strlen(suffix);
@@ -87,9 +90,18 @@ static int open_table(struct playback *playback, const char *path, struct arena 
         return diag_fail(diag, DIAG_DATA, "%s: ego: \"%s\" is not the track_id of a row", path,
                          playback->ego);
     playback->steps = arena_get(arena, table.step_count * sizeof *playback->steps);
-    for (size_t i = 0; i < table.step_count; i++)
-        if (find_state(&table.steps[i], playback->ego) != NULL)
-            playback->steps[playback->frames++] = &table.steps[i];
+    for (size_t i = 0; i < table.step_count; i++) {
+        const struct recorded_state *state = find_state(&table.steps[i], playback->ego);
+        if (state == NULL)
+            continue;
+        if (table.steps[i].interval_ms > MOST_INTERVAL_MS)
+            return diag_fail(diag, DIAG_DATA,
+                             "%s: row %zu, column \"timestamp_ms\": %lld ms between two steps; "
+                             "expected at most %lld",
+                             path, state->row, (long long)table.steps[i].interval_ms,
+                             MOST_INTERVAL_MS);
+        playback->steps[playback->frames++] = &table.steps[i];
+    }
     const struct recorded_state *ego = find_state(playback->steps[0], playback->ego);
     playback->origin_m = local_origin((struct vec2){ego->x_m, ego->y_m});
     return 0;

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/elementary.h"
+#include "base/intern.h"
 #include "base/units.h"
 #include "text/document.h"
 
@@ -84,40 +85,48 @@ static int check_waypoints(const struct actor *actor, struct diag *diag)
     return 0;
 }
 
-static int check_actor(const struct scenario *scenario, size_t index, struct diag *diag)
+/* Notes the ids in names, so that an id's number is that of its object. */
+static int check_ids(const struct scenario *scenario, struct intern *names, struct arena *arena,
+                     struct diag *diag)
 {
     const struct actor *actors = scenario->objects.items;
-    for (size_t i = 0; i < index; i++)
-        if (strcmp(actors[i].id, actors[index].id) == 0)
-            return diag_fail(diag, DIAG_CONFIG, "id: \"%s\" is the id of objects[%zu] already",
-                             actors[i].id, i);
-    return actors[index].waypoints.count > 0 ? check_waypoints(&actors[index], diag) : 0;
-}
-
-static bool has_actor(const struct scenario *scenario, const char *id)
-{
-    for (size_t i = 0; i < scenario->objects.count; i++)
-        if (strcmp(scenario->objects.items[i].id, id) == 0)
-            return true;
-    return false;
-}
-
-int scenario_check(const struct scenario *scenario, struct diag *diag)
-{
-    for (size_t i = 0; i < scenario->objects.count; i++)
-        if (check_actor(scenario, i, diag) != 0)
+    for (size_t i = 0; i < scenario->objects.count; i++) {
+        uint32_t number = intern_word(names, actors[i].id, arena);
+        if (number < i)
+            return diag_fail(diag, DIAG_CONFIG,
+                             "objects[%zu].id: \"%s\" is the id of objects[%u] already", i,
+                             actors[i].id, (unsigned)number);
+        if (actors[i].waypoints.count > 0 && check_waypoints(&actors[i], diag) != 0)
             return diag_prefix(diag, "objects[%zu].", i);
+    }
+    return 0;
+}
+
+static int check_names(const struct scenario *scenario, struct arena *arena, struct diag *diag)
+{
+    size_t count = scenario->objects.count;
+    struct intern names = intern_begin(count, arena);
+    if (check_ids(scenario, &names, arena, diag) != 0)
+        return -1;
     for (size_t i = 0; i < scenario->conditions.interferers.count; i++) {
         const char *id = scenario->conditions.interferers.items[i].object;
-        if (!has_actor(scenario, id))
+        if (intern_word(&names, id, arena) >= count)
             return diag_fail(
                 diag, DIAG_CONFIG,
                 "conditions.interferers[%zu].object: \"%s\" is not the id of an object", i, id);
     }
-    return has_actor(scenario, scenario->ego)
+    return intern_word(&names, scenario->ego, arena) < count
                ? 0
                : diag_fail(diag, DIAG_CONFIG, "ego: \"%s\" is not the id of an object",
                            scenario->ego);
+}
+
+int scenario_check(const struct scenario *scenario, struct diag *diag)
+{
+    struct arena arena = {0};
+    int result = check_names(scenario, &arena, diag);
+    arena_free(&arena);
+    return result;
 }
 
 static void shift_actor(struct actor *actor, struct vec2 origin_m)

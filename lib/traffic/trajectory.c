@@ -24,6 +24,9 @@ struct column {
 
 enum { MOVING = 4, BOX = 3 };
 
+/* Frames have times to 1e10 s; microseconds since 1970 are beyond that. */
+#define MOST_MS 1e13
+
 static const struct column moving_columns[MOVING] = {
     COLUMN("x", x_m, -1e9, 1e9),
     COLUMN("y", y_m, -1e9, 1e9),
@@ -92,7 +95,7 @@ static int read_time(const struct csv_table *table, size_t row, size_t column, i
                      struct diag *diag)
 {
     double value;
-    if (csv_table_number(table, row, column, -0x1p53, 0x1p53, &value, diag) != 0)
+    if (csv_table_number(table, row, column, -MOST_MS, MOST_MS, &value, diag) != 0)
         return -1;
     if (value != floor(value))
         return diag_fail(diag, DIAG_DATA, "row %zu, column \"%s\": %s is not a whole number",

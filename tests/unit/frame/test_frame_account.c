@@ -111,7 +111,7 @@ static void planted_faults_in_the_account_are_caught(void **state)
         cases[i].plant(&frame);
         assert_int_equal(frame_account_check(&frame, &diag), -1);
         assert_string_equal(diag.text, cases[i].message);
-        assert_int_equal(diag.code, DIAG_INTERNAL);
+        assert_int_equal(diag.code, DIAG_DATA);
         arena_free(&arena);
     }
 }

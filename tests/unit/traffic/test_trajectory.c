@@ -226,7 +226,7 @@ static void damaged_recordings_are_refused(void **state)
         {HEADER "1,1,100.5,car,0,0,0,0,0,4,2\n",
          "row 2, column \"timestamp_ms\": 100.5 is not a whole number"},
         {HEADER "1,1,1e16,car,0,0,0,0,0,4,2\n",
-         "row 2, column \"timestamp_ms\": 1e16 is outside [-9.0072e+15, 9.0072e+15]"},
+         "row 2, column \"timestamp_ms\": 1e16 is outside [-1e+13, 1e+13]"},
         {HEADER "1,1,,car,0,0,0,0,0,4,2\n", "row 2, column \"timestamp_ms\": \"\" is not a number"},
         {HEADER "1,1,100,car,0,2e9,0,0,0,4,2\n",
          "row 2, column \"y\": 2e9 is outside [-1e+09, 1e+09]"},
