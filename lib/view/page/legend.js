@@ -84,7 +84,7 @@ function colourLines() {
 }
 
 function showLegend() {
-    const lines = sensorNames.map((name, i) => legendLine(
+    const lines = sensorNames.map((name, i) => switchLine('sensor', i,
         symbolCanvas(i, sensorColour(i), 18), `target of ${name}`));
     const ghosts = pathsSeen.some(path => ghostPaths[path])
         ? [legendLine(symbolCanvas(0, ink.soft, 18, true), 'ghost: seen by way of a mirror')] : [];
@@ -93,5 +93,6 @@ function showLegend() {
             state.rates === 'raw' ? 'its radial speed, 0.5 s long' : 'its radial speed over ground, 0.5 s long'),
         legendLine(lineMark(1.2, [[1, 8, 5, 8], [7, 8, 11, 8], [13, 8, 17, 8]]), 'field of view'),
         legendLine(dotMark(ink.edge), 'reflection centre'),
-        legendLine(markCanvas(drawing => drawLostMark(drawing, {x: 9, y: 8}, 5)), 'echo that is in no target'));
+        legendLine(markCanvas(drawing => drawLostMark(drawing, {x: 9, y: 8}, 5)), 'echo that is in no target'),
+        switchesBelow());
 }

@@ -127,7 +127,7 @@ function drawObject(row) {
     const box = boxOf(row);
     const id = column('object_id')[row];
     const isEgo = id === head.scenes[state.scene].ego;
-    if (!onScreen(toScreen(box), Math.max(box.length, box.width) * camera.scale)) {
+    if (!isClassShown(row) || !onScreen(toScreen(box), Math.max(box.length, box.width) * camera.scale)) {
         return;
     }
     traceOutline(box);
@@ -169,7 +169,7 @@ function drawDot(at, radius, colour) {
 
 function drawReflectors(row) {
     const kind = classOf(row);
-    if (camera.scale < 6 || column('object_id')[row] === head.scenes[state.scene].ego) {
+    if (!isClassShown(row) || camera.scale < 6 || column('object_id')[row] === head.scenes[state.scene].ego) {
         return;
     }
     const box = boxOf(row);
@@ -198,16 +198,6 @@ function drawTrail() {
         });
     }
     context.globalAlpha = 1;
-}
-
-function eachTarget(frame, visit) {
-    const {begin, end} = scansOf(frame);
-    for (let scan = begin; scan < end; scan++) {
-        const targets = targetsOf(scan);
-        for (let target = targets.begin; target < targets.end; target++) {
-            visit(scan, target);
-        }
-    }
 }
 
 // Draws a target's range rate as its way in half a second, along the line of sight, away from the
@@ -315,7 +305,7 @@ function drawFates() {
     }
     const {begin, end} = scansOf(state.frame);
     for (let scan = begin; scan < end; scan++) {
-        for (const {target} of targetsFrom(scan, state.object)) {
+        for (const {target} of shownTargetsFrom(scan, state.object)) {
             drawContributors(scan, target, false);
         }
     }
@@ -330,7 +320,7 @@ function drawFates() {
 function labelTargets() {
     const {begin, end} = scansOf(state.frame);
     for (let scan = begin; scan < end; scan++) {
-        for (const {target, number} of targetsFrom(scan, state.object).slice(0, 12)) {
+        for (const {target, number} of shownTargetsFrom(scan, state.object).slice(0, 12)) {
             putLabel(String(number), toScreen(targetPlace(scan, target)), colourOf(scan, target), true);
         }
     }
@@ -427,7 +417,9 @@ function drawMap() {
     const objects = objectsOf(state.frame);
     const scans = scansOf(state.frame);
     for (let scan = scans.begin; scan < scans.end; scan++) {
-        drawBeam(scan);
+        if (isSensorShown(scan)) {
+            drawBeam(scan);
+        }
     }
     for (let row = objects.begin; row < objects.end; row++) {
         drawObject(row);

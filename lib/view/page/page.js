@@ -8,6 +8,9 @@ const state = {
     object: -1, // chosen object, by the number of its id in names; -1: none
     reflector: null,
     target: -1,
+    hover: -1, // target under the pointer; -1: none
+    pane: 'panel', // what is shown beside the map
+    loop: false,
     colour: 'sensor',
     effect: -1, // effect whose targets are coloured; -1: colour by `colour`
     rates: 'raw',
@@ -36,11 +39,17 @@ function redraw() {
 function draw() {
     drawn = true;
     drawMap();
-    drawPlots();
+    drawHover();
+    if (!control('plots').hidden) {
+        drawPlots();
+    }
 }
 
 function refresh() {
-    showPanel();
+    if (state.frame >= 0) {
+        fillPane();
+        rememberPlace();
+    }
     redraw();
 }
 
@@ -104,6 +113,7 @@ function showRow(row) {
     state.row = Math.max(0, Math.min(frames.length - 1, row));
     if (state.frame !== frames[state.row]) {
         state.target = -1;
+        hideTip();
     }
     state.frame = frames.length > 0 ? frames[state.row] : -1;
     state.ego = egoBox();
@@ -127,24 +137,29 @@ function playOn(now) {
     if (row !== state.row) {
         showRow(row);
     }
-    if (row === frames.length - 1) {
-        setPlaying(false);
+    if (row === frames.length - 1 &&
+        (frames.length > 1 || time - playedFrom.time >= oneFrameSeconds)) {
+        playFromEnd();
+    } else {
+        requestAnimationFrame(playOn);
     }
-    requestAnimationFrame(playOn);
 }
 
 function setPlaying(playing) {
     const last = sceneFrames[state.scene].length - 1;
-    if (playing && state.row === last) {
+    if (playing && state.row === last && last > 0) {
         showRow(0);
     }
-    state.playing = playing && last > 0;
+    const wasPlaying = state.playing;
+    state.playing = playing && (last > 0 || sceneAfter() >= 0);
     control('play').textContent = state.playing ? '❚❚' : '▶';
     control('play').setAttribute('aria-label', state.playing ? 'Pause' : 'Play');
     panel.setAttribute('aria-live', state.playing ? 'off' : 'polite');
     if (state.playing) {
         startClock();
-        requestAnimationFrame(playOn);
+        if (!wasPlaying) {
+            requestAnimationFrame(playOn);
+        }
     }
 }
 
@@ -194,17 +209,21 @@ function showNotice() {
     control('notice').textContent = notes.join(' ');
 }
 
-function setScene(number) {
+// Shows a scene: at a place, a row and an object, or else where it opens best.
+function setScene(number, place) {
     state.scene = number;
     state.object = -1;
     state.reflector = null;
     state.target = -1;
     control('scrub').max = String(sceneFrames[number].length - 1);
-    const open = openingOf(number);
-    state.object = open.object;
+    control('scene').value = String(number);
+    const open = place || openingOf(number);
     setPlaying(false);
+    state.frame = -1;
+    state.object = open.object;
     showRow(open.row);
     fitView();
+    showTimeline();
     refresh();
 }
 
@@ -235,6 +254,9 @@ function setTheme(dark) {
     document.documentElement.classList.toggle('dark', dark);
     readInk();
     showLegend();
+    if (state.frame >= 0) {
+        showTimeline();
+    }
     refresh();
 }
 
@@ -319,13 +341,27 @@ const keyActions = {
     'f': () => toggle('follow'),
     't': () => toggle('trail'),
     'd': () => setTheme(!isDark()),
+    'p': showNextPane,
+    '/': () => { showPane('targets'); control('search').focus(); },
+    'ArrowDown': () => chooseRow(1),
+    'ArrowUp': () => chooseRow(-1),
+    'o': () => sortTable((table.sort + 1) % tableColumns.length),
+    'y': copyTable,
+    'h': () => control('legend').querySelector('input').focus(),
+    'g': () => control('goto').select(),
+    'l': () => setLoop(!state.loop),
+    'PageDown': () => stepScene(1),
+    'PageUp': () => stepScene(-1),
     '?': () => control('keys').showModal(),
     'Escape': chooseNone,
 };
 
 // True if the control with the focus uses this key itself.
 function isOwnKey({target, key}) {
-    const presses = ['SELECT', 'INPUT', 'BUTTON'].includes(target.tagName);
+    if (target.type === 'search' || target.type === 'text') {
+        return true;
+    }
+    const presses = ['SELECT', 'INPUT', 'BUTTON', 'SUMMARY'].includes(target.tagName);
     const moves = target.tagName === 'SELECT' || target.type === 'range';
     return key === ' ' ? presses : moves && (key.startsWith('Arrow') || key === 'Home' || key === 'End');
 }
@@ -351,13 +387,17 @@ function followTheme() {
 function showEmpty() {
     control('empty').hidden = false;
     control('empty').textContent = 'The stream is empty: it has no frames.';
-    for (const part of document.querySelectorAll('header label, footer, aside, #legend, #zoom, #theme')) {
+    for (const part of document.querySelectorAll('header label, #more, footer, aside, #legend, #zoom, #theme')) {
         part.hidden = true;
     }
 }
 
 function start() {
     followTheme();
+    control('more').addEventListener('click', () => {
+        const open = control('options').classList.toggle('open');
+        control('more').setAttribute('aria-expanded', String(open));
+    });
     control('help').addEventListener('click', () => control('keys').showModal());
     if (head.scenes.length === 0) {
         showEmpty();
@@ -368,13 +408,18 @@ function start() {
     connectChoices();
     connectButtons();
     connectPointers();
+    connectPanes();
+    connectTable();
+    connectHover();
+    connectTimeline();
+    connectLinks();
     document.addEventListener('keydown', onKey);
     new ResizeObserver(redraw).observe(canvas);
     state.amplitudes = extremes('target_amplitude_db', false);
     setRates('raw');
     showNotice();
     showLegend();
-    setScene(0);
+    followLink();
 }
 
 start();

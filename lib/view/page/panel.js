@@ -16,13 +16,17 @@ function make(tag, text, className) {
 
 function symbolCanvas(style, colour, size, ghost) {
     const small = make('canvas');
+    paintSymbol(small, style, colour, size, ghost);
+    return small;
+}
+
+function paintSymbol(small, style, colour, size, ghost) {
     const ratio = window.devicePixelRatio || 1;
     small.width = small.height = Math.round(size * ratio);
     small.style.width = small.style.height = size + 'px';
     const drawing = small.getContext('2d');
     drawing.scale(ratio, ratio);
     drawTargetSymbol(drawing, style, size / 2, size / 2, size * 0.36, colour, ghost);
-    return small;
 }
 
 function round(value, digits) {

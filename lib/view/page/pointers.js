@@ -129,7 +129,7 @@ function clickAt(at) {
     if (state.frame < 0) {
         return;
     }
-    const target = nearest(targetHits(), at, 14);
+    const target = targetMeant(targetHits(), at);
     const reflector = nearest(reflectorHits(), at, target ? 6 : 11);
     const onTarget = target && (!reflector || Math.hypot(target.x - at.x, target.y - at.y) <=
         Math.hypot(reflector.x - at.x, reflector.y - at.y) + 3);
@@ -143,7 +143,7 @@ function clickAt(at) {
 }
 
 function clickPlot(plot, event) {
-    const hit = nearest(plot.hits, {x: event.offsetX, y: event.offsetY}, 14);
+    const hit = targetMeant(plot.hits, {x: event.offsetX, y: event.offsetY});
     if (hit) {
         chooseTarget(hit.target);
     }

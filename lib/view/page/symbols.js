@@ -66,12 +66,13 @@ function objectOrder(number) {
     if (order === undefined) {
         order = new Map();
         for (const frame of sceneFrames[number]) {
-            eachTarget(frame, (scan, target) => {
+            const {begin, end} = scansOf(frame);
+            for (let target = starts('scan_targets')[begin]; target < starts('scan_targets')[end]; target++) {
                 const object = objectOfTarget(target);
                 if (!order.has(object)) {
                     order.set(object, order.size);
                 }
-            });
+            }
         }
         objectOrders.set(number, order);
     }
