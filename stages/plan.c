@@ -26,8 +26,9 @@ struct plan_state {
     struct suite_choice choice; /* first: the options, and ideal's when it is tried */
     bool all, cost, brief, json;
     const char *error, *within;
-    int64_t frames; /* of the sample */
-    int reference;  /* enum cost_reference */
+    const char *request; /* the effects that were asked for; "auto" if all may be simulated */
+    int64_t frames;      /* of the sample */
+    int reference;       /* enum cost_reference */
     struct plan plan;
     struct runner *extract, *tried[PLAN_POSITIONS], *stand_in[PLAN_POSITIONS];
     struct cost measured;
@@ -55,6 +56,7 @@ static int begin(struct plan_state *own, struct runner *runner)
         effects_read(request.effects, &selection, diag) != 0)
         return -1;
     own->choice.effects = plan_request(selection.allowed, runner_arena(runner));
+    own->request = strcmp(own->choice.effects, "auto") == 0 ? "auto" : request.effects;
     plan->sensors = own->choice.sensors;
     plan->allowed = selection.allowed;
     for (int i = 0; i < PLAN_POSITIONS; i++)
@@ -168,6 +170,7 @@ static int measure(struct plan_state *own, struct runner *runner)
     if (try_sample(own, runner) != 0)
         return -1;
     cost->allowed = own->plan.allowed;
+    cost->whole = own->request;
     cost->needed = plan_effects(&own->plan);
     if (cost_measure(cost) != 0)
         return -1;

@@ -6,23 +6,25 @@
 #include "base/text.h"
 #include "run/stage.h"
 
-/* A name, and how often it was counted. */
+/* A name, and how often it was counted; of a sensor also its scans. */
 struct tally {
     const char *name;
-    int64_t count;
+    int64_t count, scans;
 };
 
 struct tallies {
     LIST_OF(struct tally) list;
+    int64_t sum; /* of all counts */
 };
 
 struct summary {
-    int64_t frames, scenes, targets, merged;
+    int64_t frames, scenes, scans, merged;
     double seconds, farthest_m;
-    struct tallies scans, detections, classes, outcomes;
+    struct tallies sensors, classes, others, outcomes;
 };
 
-static void count(struct tallies *tallies, const char *name, int64_t times, struct arena *arena)
+static struct tally *count(struct tallies *tallies, const char *name, int64_t times,
+                           struct arena *arena)
 {
     struct tally *tally = NULL;
     for (size_t i = 0; i < tallies->list.count && tally == NULL; i++)
@@ -30,29 +32,60 @@ static void count(struct tallies *tallies, const char *name, int64_t times, stru
             tally = &tallies->list.items[i];
     if (tally == NULL) {
         tally = list_add(&tallies->list, arena);
-        tally->name = arena_text(arena, name, strlen(name));
+        *tally = (struct tally){.name = arena_text(arena, name, strlen(name))};
     }
     tally->count += times;
+    tallies->sum += times;
+    return tally;
+}
+
+/* What a target is that shows no object at its place; NULL: it shows one. */
+static const char *other_of(const struct contributor *strongest)
+{
+    switch (strongest->id.path) {
+    case PATH_WALL_OBJECT:
+    case PATH_OBJECT_WALL:
+    case PATH_WALL_OBJECT_WALL:
+        return "ghost";
+    case PATH_CLUTTER:
+        return "clutter";
+    case PATH_FALSE_ALARM:
+        return "false alarm";
+    default:
+        return NULL;
+    }
+}
+
+static void count_kind(struct summary *summary, const struct frame *frame,
+                       const struct contributor *strongest, struct arena *arena)
+{
+    const struct object *object = frame_object(frame, strongest->id.object);
+    const char *other = other_of(strongest);
+    if (other != NULL)
+        count(&summary->others, other, 1, arena);
+    else
+        count(&summary->classes, object != NULL ? object->class : strongest->id.object, 1, arena);
 }
 
 static void count_target(struct summary *summary, const struct frame *frame,
                          const struct target *target, struct arena *arena)
 {
+    const struct contributor *strongest = NULL;
     bool merged = false;
     for (size_t i = 0; i < target->contributors.count; i++) {
         const struct contributor *from = &target->contributors.items[i];
-        const struct object *object = frame_object(frame, from->id.object);
         merged = merged || strcmp(from->id.object, target->contributors.items[0].id.object) != 0;
-        if (i == 0)
-            count(&summary->classes, object != NULL ? object->class : from->id.object, 1, arena);
+        if (strongest == NULL || from->weight > strongest->weight)
+            strongest = from;
+        if (frame->account && from->id.path != PATH_FALSE_ALARM)
+            count(&summary->outcomes, "in a target", 1, arena);
     }
-    summary->targets++;
+    if (strongest != NULL)
+        count_kind(summary, frame, strongest, arena);
     summary->merged += merged;
     if (target->range_m > summary->farthest_m)
         summary->farthest_m = target->range_m;
-    count(&summary->detections, target->sensor, 1, arena);
-    if (frame->account)
-        count(&summary->outcomes, "in a target", (int64_t)target->contributors.count, arena);
+    count(&summary->sensors, target->sensor, 1, arena);
 }
 
 static int summary_step(void *state, struct frame *frame, struct runner *runner)
@@ -63,8 +96,10 @@ static int summary_step(void *state, struct frame *frame, struct runner *runner)
     summary->scenes += frame->last;
     summary->seconds += frame->interval_s;
     for (size_t i = 0; i < frame->sensors.list.count; i++)
-        if (frame->sensors.list.items[i].measured)
-            count(&summary->scans, frame->sensors.list.items[i].name, 1, arena);
+        if (frame->sensors.list.items[i].measured) {
+            count(&summary->sensors, frame->sensors.list.items[i].name, 0, arena)->scans++;
+            summary->scans++;
+        }
     for (size_t i = 0; i < frame->targets.count; i++)
         count_target(summary, frame, &frame->targets.items[i], arena);
     for (size_t i = 0; i < frame->lost.count; i++)
@@ -79,16 +114,28 @@ static int most_first(const void *left, const void *right)
     return a->count != b->count ? (a->count < b->count ? 1 : -1) : strcmp(a->name, b->name);
 }
 
-static void print_tallies(const char *title, struct tallies *tallies, struct text *text,
-                          struct arena *arena)
+static double share(int64_t part, int64_t whole)
+{
+    return whole > 0 ? (double)part / (double)whole : 0;
+}
+
+/* Counts, and their shares in per cent of the whole. */
+static void print_tallies(const char *title, struct tallies *tallies, int64_t whole,
+                          struct text *text, struct arena *arena)
 {
     if (tallies->list.count == 0)
         return;
     sort_list(&tallies->list, most_first, arena);
     text_format(text, "\n%s\n", title);
-    for (size_t i = 0; i < tallies->list.count; i++)
-        text_format(text, "  %9" PRId64 "  %s\n", tallies->list.items[i].count,
-                    tallies->list.items[i].name);
+    for (size_t i = 0; i < tallies->list.count; i++) {
+        const struct tally *tally = &tallies->list.items[i];
+        text_format(text, "  %9" PRId64 "  %5.1f %%  %s", tally->count,
+                    100 * share(tally->count, whole), tally->name);
+        if (tally->scans > 0)
+            text_format(text, ": %.2f in each of %" PRId64 " scans",
+                        share(tally->count, tally->scans), tally->scans);
+        text_add_word(text, "\n");
+    }
 }
 
 static int summary_stop(void *state, struct runner *runner)
@@ -96,18 +143,21 @@ static int summary_stop(void *state, struct runner *runner)
     struct summary *summary = state;
     struct arena *arena = runner_arena(runner);
     struct text text = {0};
+    int64_t targets = summary->sensors.sum;
     text_format(&text, "%" PRId64 " frames, %.2f s; scenes that reached their end: %" PRId64 "\n",
                 summary->frames, summary->seconds, summary->scenes);
     text_format(&text,
-                "%" PRId64 " targets, the farthest at %.1f m, %" PRId64
-                " of them merged from several objects\n",
-                summary->targets, summary->farthest_m, summary->merged);
-    print_tallies("scans by sensor", &summary->scans, &text, arena);
-    print_tallies("targets by sensor", &summary->detections, &text, arena);
-    print_tallies("targets by class of their strongest contributor", &summary->classes, &text,
+                "%" PRId64 " targets, %.2f a scan, the farthest at %.1f m; %" PRId64
+                " (%.1f %%) of them merged from several objects\n",
+                targets, share(targets, summary->scans), summary->farthest_m, summary->merged,
+                100 * share(summary->merged, targets));
+    print_tallies("targets by sensor", &summary->sensors, targets, &text, arena);
+    print_tallies("targets by class of the object that made the most of them", &summary->classes,
+                  targets, &text, arena);
+    print_tallies("targets that show no object at their place", &summary->others, targets, &text,
                   arena);
     print_tallies("reflectors that a sensor looked for, by what became of them", &summary->outcomes,
-                  &text, arena);
+                  summary->outcomes.sum, &text, arena);
     int result = runner_write(runner, text.bytes, text.length);
     text_free(&text);
     return result;
@@ -120,6 +170,8 @@ const struct stage stage_summary = {
     .name = "summary",
     .summary = "Print how many targets the sensors reported, of which classes, and how far.",
     .details =
+        "A target counts for its strongest contributor: for the class of the object, or, apart\n"
+        "from classes, as ghost, clutter or false alarm. Shares are of all targets.\n"
         "With --account given to glint-ideal it also prints what became of every reflector that\n"
         "a sensor looked for: how many are in a target, and how many are lost for which reason.\n"
         "Prints at the end of the stream.",

@@ -169,7 +169,7 @@ static const struct cost_chain *climb_without(struct cost *cost, uint64_t left_o
             return &cost->chains.items[i];
     struct arena *arena = runner_arena(cost->runner);
     struct text text = {0};
-    text_add_word(&text, "auto");
+    text_add_word(&text, cost->whole);
     if (left_out != 0)
         text_format(&text, ", no %s", plan_names(left_out, arena));
     const char *name = arena_text(arena, text.bytes, text.length);

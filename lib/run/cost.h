@@ -43,6 +43,7 @@ struct cost {
     LIST_OF(struct cost_chain) chains; /* the first is that of ideal echoes */
     const char *chosen;                /* the name of the one that was found; NULL: none was */
     bool brief;                        /* no chains that leave out an effect */
+    const char *whole;        /* what tables call the chain with all effects that are allowed */
     uint64_t allowed, needed; /* EFFECT_BITs of what was asked for, and of what frames call for */
     struct runner *runner;
     struct cost_stages stages;

@@ -2,6 +2,7 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <string.h>
 
 #include "run/plan.h"
 
@@ -35,9 +36,9 @@ static void write_error(struct relative_error error, struct text *text)
                 percent(error.high));
 }
 
-static void write_chain(const struct cost_chain *chain, struct text *text)
+static void write_chain(const struct cost_chain *chain, int width, struct text *text)
 {
-    text_format(text, "%-28s %11.1f", chain->chain, chain->us_per_frame);
+    text_format(text, "%-*s %11.1f", width, chain->chain, chain->us_per_frame);
     if ((chain->present & COST_ERROR) != 0)
         text_format(text, " %7.1f %% %8.1f to %5.1f", percent(chain->error.value),
                     percent(chain->error.low), percent(chain->error.high));
@@ -56,12 +57,16 @@ void cost_text_table(const struct cost *cost, struct text *text)
                     "There are none: ideal echoes are not told from the reference (D %.3g, %.3g to "
                     "%.3g).\n",
                     ideal->energy.value, ideal->energy.low, ideal->energy.high);
-    text_format(text, "\n%-28s %11s %9s %17s %8s\n", "chain", "us a frame", "error", "interval",
-                "targets");
+    int width = 28;
     for (size_t i = 0; i < cost->chains.count; i++)
-        write_chain(&cost->chains.items[i], text);
+        if ((int)strlen(cost->chains.items[i].chain) > width)
+            width = (int)strlen(cost->chains.items[i].chain);
+    text_format(text, "\n%-*s %11s %9s %17s %8s\n", width, "chain", "us a frame", "error",
+                "interval", "targets");
+    for (size_t i = 0; i < cost->chains.count; i++)
+        write_chain(&cost->chains.items[i], width, text);
     if (cost->no_signal != NULL)
-        text_format(text, "%-28s left out: %s\n", "signal", cost->no_signal);
+        text_format(text, "%-*s left out: %s\n", width, "signal", cost->no_signal);
 }
 
 /* The chain that leaves out this effect alone. */

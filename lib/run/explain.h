@@ -1,9 +1,10 @@
-/* Lines of --explain: effects simulated, left out, and their time. JSON, one line per stage. */
+/* What --explain says of effects: simulated, left out, their time. */
 #ifndef EXPLAIN_H
 #define EXPLAIN_H
 
 #include "frame/effects.h"
 
+struct common_options;
 struct runner;
 
 /* An empty log whose times are measured. */
@@ -19,8 +20,10 @@ int explain_check(const char *path, struct diag *diag);
 
 /* Appends one line for every effect that is at home in the stage or in the one that it stands in
  * for: in how many scans it was simulated and left out, how much time it took, and when auto leaves
- * it out. The lines go out in one write, so stages of one pipeline may share the file. */
-int explain_append(const char *path, const char *stage, const struct effect_log *log,
+ * it out. Lines are JSON, or with --table rows under a head with the stage's name. The time is null
+ * or "-" where none was taken: the effect is simulated together with others, or was left out. The
+ * lines go out in one write, so stages of one pipeline may share the file. */
+int explain_append(const struct common_options *common, const char *stage, const struct effect_log *log,
                    struct diag *diag);
 
 #endif

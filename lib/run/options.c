@@ -23,6 +23,8 @@ static const struct field common_fields[] = {
     {FIELD_NAME_OF(struct common_options, explain,
                    "append which effects were simulated or left out, why, and the time they took"),
      FIELD_OPTIONAL, .word = "FILE"},
+    {FIELD_FLAG_OF(struct common_options, table, "append to the file of --explain as a table"),
+     FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct common_options, complete,
                    "fail unless there is a scene, and each has all frames from 0 to its last"),
      FIELD_OPTIONAL},
@@ -76,6 +78,7 @@ static bool applies(const struct program *program, const struct field *field)
     case offsetof(struct common_options, seed):
         return stage || program->takes_files;
     case offsetof(struct common_options, explain):
+    case offsetof(struct common_options, table):
         return simulates;
     case offsetof(struct common_options, complete):
         return program->takes_files;
@@ -268,6 +271,8 @@ int options_read(const struct program *program, size_t count, const char *const 
     if (result == 0 && common->explain != NULL && strcmp(common->explain, "-") == 0)
         result =
             diag_fail(diag, DIAG_USAGE, "--explain: - is the stream of frames; expected a file");
+    if (result == 0 && common->table && common->explain == NULL)
+        result = diag_fail(diag, DIAG_USAGE, "--table: only with --explain");
     if (result != 0)
         diag->code = DIAG_USAGE;
     return result;

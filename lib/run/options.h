@@ -14,6 +14,7 @@
 struct common_options {
     const char *output; /* NULL: standard output */
     const char *explain;
+    bool table; /* the lines of explain are a table for people */
     bool keep;
     bool complete;
     uint64_t seed;

@@ -295,7 +295,7 @@ int runner_finish(struct runner *runner)
         return -1;
     return runner->log == NULL
                ? 0
-               : explain_append(runner->common.explain, stage->name, runner->log, &runner->diag);
+               : explain_append(&runner->common, stage->name, runner->log, &runner->diag);
 }
 
 int runner_run_tool(struct runner *runner)

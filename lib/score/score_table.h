@@ -1,5 +1,8 @@
-/* Scores as a table for people. It has a column for each score and a row for every figure that any
- * of them has. */
+/* Scores as a table for people: angles in degrees, with rates of misses.
+ *
+ * It has a column for each score and a row, with its unit, for every figure that any of them has.
+ * Missed targets are also in per cent of the true ones, false ones in per cent of the listed ones;
+ * "-" stands where there are none. Distances are in cells for targets, in metres for tracks. */
 #ifndef SCORE_TABLE_H
 #define SCORE_TABLE_H
 
@@ -7,12 +10,10 @@
 #include "score/ensemble.h"
 #include "score/score.h"
 
-/* Writes count scores; each has its head above its column. */
-void score_table_write(const struct score *scores, const char *const *heads, size_t count,
-                       struct text *text);
-
+/* The scores of each sensor, and of all together where there are several. */
 void score_table_summary(const struct score_summary *summary, struct text *text,
                          struct arena *arena);
+
 void score_table_track_summary(const struct score_track_summary *summary, struct text *text);
 
 /* Energy distances of all scenes, a row each, and of all together. */

@@ -127,6 +127,10 @@ def main(bin_dir, long):
             cost = same_as_the_score(bench, b"".join(cut_in[::20]), "srr24-signal", "--brief")
             if cost["reference"] != "signal":
                 sys.exit("cost: the suite has a waveform, but the signal is not the reference")
+        for effects, name in ("none", "none"), ("merging,occlusion", "merging,occlusion"), ("all", "auto"):
+            chains = bench.cost(some, "srr24-pair", "--effects", effects, "--brief")["chains"]
+            if [chain["chain"] for chain in chains] != ["perfect", "paper", name, "smear"]:
+                sys.exit(f"cost: with {effects} the whole chain is not called {name}: {chains}")
         same_again(bench, some, "srr24-pair")
         pipeline_is_the_chain(bench, b"".join(cut_in[::4]), "lrr77-full", ["--error", "30%"])
         suites = ["srr24-pair-every-frame", "lrr77-full", "corner77-every-frame"] + (["radarscenes77-full"] if long else [])

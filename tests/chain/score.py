@@ -12,6 +12,7 @@ import json
 import math
 import os
 import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -180,12 +181,27 @@ class Bench:
         self.environment = dict(os.environ, PATH=os.path.abspath(bin_dir) + os.pathsep + os.environ["PATH"],
                                 GLINT_DATA=ROOT + "/data")
 
+    def table(self, text):
+        """{figure: (unit, [number or None, ...])} of a table, whose columns must end where their heads do."""
+        lines = self.output(text).splitlines()[1:]
+        ends = [match.end() for match in re.finditer(r"\S+", lines[0])][1:]
+        found = {}
+        for line in lines[1:]:
+            cells = [match for match in re.finditer(r"\S+", line[36:])]
+            check([36 + cell.end() for cell in cells] == ends, f"{text}: not under its heads: {line}")
+            found[line[:24].rstrip()] = line[24:36].strip(), [
+                None if cell[0] == "-" else float(cell[0]) for cell in cells]
+        return found
+
     def run(self, text):
+        return [json.loads(line) for line in self.output(text).splitlines()]
+
+    def output(self, text):
         done = subprocess.run(["bash", "-o", "pipefail", "-c", text], env=self.environment, cwd=self.folder,
                               text=True, capture_output=True, check=False)
         if done.returncode != 0:
             sys.exit(f"score: {text}: exit {done.returncode}: {done.stderr}")
-        return [json.loads(line) for line in done.stdout.splitlines()]
+        return done.stdout
 
     def write(self, name, lines):
         with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
@@ -229,7 +245,10 @@ def check_targets(bench, rng, source, suite, cutoff, azimuth_cell):
                                  [t for t in b["targets"] if t["sensor"] == view["name"]], view, cutoff, azimuth_cell)
             tally.compare(score, f"{source} {a['scene']} {a['frame']} {view['name']}")
             sensors.setdefault(view["name"], Tally()).add(tally)
-    check_summary(bench.run(command + " --summary")[0], sensors, source)
+    summary = bench.run(command + " --summary")[0]
+    check_summary(summary, sensors, source)
+    check_table(bench.table(command + " --table"), summary["sensors"] + [summary["all"]] * (len(sensors) > 1), "cells",
+                source)
     swapped = bench.run(command.replace("truth.jsonl list.jsonl", "list.jsonl truth.jsonl") + " --summary")[0]
     for tally in sensors.values():
         tally.counts = [tally.counts[1], tally.counts[0], tally.counts[2]]
@@ -237,6 +256,43 @@ def check_targets(bench, rng, source, suite, cutoff, azimuth_cell):
         tally.truth, tally.listed = tally.listed, tally.truth
         tally.apart = {name: [-value for value in values] for name, values in tally.apart.items()}
     check_summary(swapped, sensors, source + ", swapped")
+
+
+UNITS = {"range_m": "m", "azimuth_rad": "deg", "range_rate_mps": "m/s", "amplitude_db": "dB", "position_m": "m",
+         "velocity_mps": "m/s"}
+
+
+def rows(score, distance):
+    """The table of a score: {figure: (unit, number)}, from its definitions."""
+    found = {"missed": ("% of true", 100 * score["missed_count"] / score["true_count"] if score["true_count"] else None),
+             "false": ("% of listed",
+                       100 * score["false_count"] / score["listed_count"] if score["listed_count"] else None)}
+    for key, value in score.items():
+        if key in UNITS:
+            scale = 180 / math.pi if key == "azimuth_rad" else 1
+            found.update({f"{key.rpartition('_')[0]} {figure}": (UNITS[key], scale * size)
+                          for figure, size in value.items()})
+        elif key != "sensor":
+            square = key in ("gospa_localisation", "gospa_missed", "gospa_false")
+            unit = distance + "^2" * square if key[0] in "go" else ""
+            found[key] = unit, value
+    return found
+
+
+def check_table(table, scores, distance, what):
+    """A table says what the JSON lines do: in degrees, with units and rates, a column for each score."""
+    columns = [rows(score, distance) for score in scores]
+    expected = {name: column[name][0] for column in columns for name in column
+                if any(other.get(name, (0, None))[1] is not None for other in columns)}
+    check({name: unit for name, (unit, _) in table.items()} == expected, f"{what}: rows {list(table)}, not {expected}")
+    for name, (unit, numbers) in table.items():
+        for number, column in zip(numbers, columns, strict=True):
+            value = column.get(name, ("", None))[1]
+            rounding = 0.0501 if "%" in unit else max(0.0000501, 0.000501 * abs(value or 0) * (abs(value or 0) >= 1e6))
+            near_zero = value is not None and 0 < abs(value) < 0.00005
+            good = number is value is None or (None not in (number, value) and abs(number - value) <= (
+                0.001 * abs(value) if near_zero else rounding))
+            check(good, f"{what}: {name} is {number}, expected {value}")
 
 
 def check_summary(summary, sensors, what):
@@ -314,6 +370,7 @@ def check_tracks(bench, rng, frames, which, cutoff):
         total += switches
     summary = bench.run(command + " --summary")[0]
     everything.compare(summary["all"], f"tracks {which}, summary")
+    check_table(bench.table(command + " --table"), [summary["all"]], "m", f"tracks {which}")
     check(summary["id_switches"] == total > 0, f"tracks {which}: {summary['id_switches']} switches, expected {total}")
 
 
