@@ -23,7 +23,7 @@ int explain_check(const char *path, struct diag *diag);
  * it out. Lines are JSON, or with --table rows under a head with the stage's name. The time is null
  * or "-" where none was taken: the effect is simulated together with others, or was left out. The
  * lines go out in one write, so stages of one pipeline may share the file. */
-int explain_append(const struct common_options *common, const char *stage, const struct effect_log *log,
-                   struct diag *diag);
+int explain_append(const struct common_options *common, const char *stage,
+                   const struct effect_log *log, struct diag *diag);
 
 #endif

@@ -1,4 +1,4 @@
-/* Scores as a table for people: angles in degrees, with rates of misses.
+/* Scores as a table for people. Angles are in degrees.
  *
  * It has a column for each score and a row, with its unit, for every figure that any of them has.
  * Missed targets are also in per cent of the true ones, false ones in per cent of the listed ones;
