@@ -1,6 +1,4 @@
 /* Scores: how far the targets of this stream are from those of another, the truth. */
-#include <inttypes.h>
-
 #include "base/units.h"
 #include "frame/frame_sequence.h"
 #include "run/stage.h"
@@ -8,8 +6,6 @@
 #include "score/reference_stream.h"
 #include "score/score_table.h"
 #include "score/target_score.h"
-
-#define CUTOFF 2 /* cells */
 
 struct score_state {
     const char *truth;
@@ -27,7 +23,7 @@ static int score_start(void *state, struct runner *runner)
     struct score_state *own = state;
     own->summary = own->summary || own->table;
     own->lists.arena = runner_arena(runner);
-    if (own->ensemble && (own->partial || own->cutoff != CUTOFF))
+    if (own->ensemble && (own->partial || own->cutoff != TARGET_SCORE_CUTOFF))
         return diag_fail(runner_diag(runner), DIAG_USAGE,
                          "--ensemble: has no pairs and no frames of one side, so it takes neither "
                          "--cutoff nor --partial");
@@ -48,11 +44,9 @@ static int check_scene(struct score_state *own, const struct frame *frame, struc
 static int check_pair(struct score_state *own, const struct frame *truth, const struct frame *frame,
                       struct diag *diag)
 {
-    if (truth->seed == frame->seed)
-        return target_score_check(truth, frame, diag);
-    diag_fail(diag, DIAG_DATA, "seed: %" PRIu64 "; expected %" PRIu64 ", as in the other stream",
-              truth->seed, frame->seed);
-    return reference_stream_prefix(own->other, diag);
+    return reference_stream_same_seed(own->other, frame, diag) != 0
+               ? -1
+               : target_score_check(truth, frame, diag);
 }
 
 static int score_step(void *state, struct frame *frame, struct runner *runner)
@@ -140,7 +134,7 @@ static const struct field score_options[] = {
      .word = "FILE"},
     {FIELD_REAL_IN(struct score_state, cutoff, 1e-6, 1e6,
                    "targets this many cells apart are no pair (absent: 2)"),
-     FIELD_OPTIONAL, .absent = CUTOFF},
+     FIELD_OPTIONAL, .absent = TARGET_SCORE_CUTOFF},
     {FIELD_REAL_IN(
          struct score_state, azimuth_cell_rad, 1e-6, 2 * PI,
          "cell in azimuth (absent: that of the suite, or a twentieth of the field of view)"),

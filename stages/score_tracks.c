@@ -125,7 +125,7 @@ static const struct field score_tracks_options[] = {
      FIELD_OPTIONAL, .word = "LIST"},
     {FIELD_REAL_IN(struct score_tracks, cutoff_m, 1e-6, 1e6,
                    "a track that far from an object is none of it (absent: 5)"),
-     FIELD_OPTIONAL, .absent = 5},
+     FIELD_OPTIONAL, .absent = TRACK_SCORE_CUTOFF_M},
     {FIELD_FLAG_OF(struct score_tracks, partial,
                    "count frames that only one side has instead of refusing them"),
      FIELD_OPTIONAL},

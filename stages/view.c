@@ -4,7 +4,7 @@
 
 #include "frame/frame_sequence.h"
 #include "run/stage.h"
-#include "view/view_data.h"
+#include "view/view_comparison.h"
 #include "view/view_head.h"
 #include "view/view_page.h"
 #include "view/view_svg.h"
@@ -12,19 +12,32 @@
 struct view {
     bool svg;
     int64_t frame;
-    const char *scene;
+    const char *scene, *truth, *tracks;
     bool found; /* a frame that was asked for */
+    struct view_comparison comparison;
     struct view_data data;
     struct frame_sequence sequence;
     const char *still; /* of the frame with most targets so far; NULL: none yet */
     size_t targets;    /* how many that frame has */
 };
 
+static int open_beside(const char *path, struct reference_stream **stream, struct runner *runner)
+{
+    if (path != NULL)
+        *stream = runner_reference_stream(runner, path, true);
+    return path == NULL || *stream != NULL ? 0 : -1;
+}
+
 static int view_start(void *state, struct runner *runner)
 {
     struct view *view = state;
     view_data_begin(&view->data, runner_arena(runner));
-    return 0;
+    if (view->svg && (view->truth != NULL || view->tracks != NULL))
+        return diag_fail(runner_diag(runner), DIAG_USAGE,
+                         "--svg: the still shows neither --truth nor --tracks");
+    return open_beside(view->truth, &view->comparison.truth, runner) != 0
+               ? -1
+               : open_beside(view->tracks, &view->comparison.tracks, runner);
 }
 
 static void take_still(struct view *view, const struct frame *frame, struct arena *arena)
@@ -38,18 +51,30 @@ static void take_still(struct view *view, const struct frame *frame, struct aren
     text_free(&text);
 }
 
+/* What lies beside the frames is matched by their names and numbers, in ascending order. */
+static int check_order(struct view *view, const struct frame *frame, struct runner *runner)
+{
+    bool beside = view->truth != NULL || view->tracks != NULL;
+    if ((beside ? frame_sequence_ascend
+                : frame_sequence_once)(&view->sequence, frame, runner_place(runner),
+                                       runner_arena(runner), runner_diag(runner)) != 0)
+        return -1;
+    return beside ? frame_sequence_one_seed(&view->sequence, runner_diag(runner)) : 0;
+}
+
 static int view_step(void *state, struct frame *frame, struct runner *runner)
 {
     struct view *view = state;
     if (view->scene != NULL && strcmp(view->scene, frame->scene) != 0)
         return 0;
-    if (frame_sequence_once(&view->sequence, frame, runner_place(runner), runner_arena(runner),
-                            runner_diag(runner)) != 0)
+    if (check_order(view, frame, runner) != 0)
         return -1;
     view->found = view->found || view->frame < 0 || view->frame == frame->frame;
-    if (!view->svg)
+    if (!view->svg) {
         view_data_add(&view->data, frame);
-    else if (view->frame < 0 || view->frame == frame->frame)
+        return view_comparison_add(&view->comparison, &view->data, frame, runner_diag(runner));
+    }
+    if (view->frame < 0 || view->frame == frame->frame)
         take_still(view, frame, runner_arena(runner));
     return 0;
 }
@@ -89,7 +114,8 @@ static int view_stop(void *state, struct runner *runner)
 {
     struct view *view = state;
     struct text text = {0};
-    if (check_found(view, runner) != 0)
+    if (check_found(view, runner) != 0 ||
+        view_comparison_finish(&view->comparison, runner_diag(runner)) != 0)
         return -1;
     if (!view->svg)
         write_page(view, &text);
@@ -108,6 +134,10 @@ static const struct field view_fields[] = {
                       "the page opens at this frame, the still shows it"),
      FIELD_OPTIONAL, .absent = -1},
     {FIELD_NAME_OF(struct view, scene, "only this scene"), FIELD_OPTIONAL},
+    {FIELD_NAME_OF(struct view, truth, "frames to compare with: what is missed and false in them"),
+     FIELD_OPTIONAL, .word = "FILE"},
+    {FIELD_NAME_OF(struct view, tracks, "what a tracker says, as for glint-score-tracks"),
+     FIELD_OPTIONAL, .word = "FILE"},
     {0},
 };
 
@@ -121,7 +151,9 @@ const struct stage stage_view = {
         "The page is one file without any connection: open it in a browser. With --account\n"
         "given to glint-ideal it also tells why a reflector is in no target. Without --frame\n"
         "the page opens where most is to be seen, and the still shows the frame with most\n"
-        "targets. Written at the end of the stream.",
+        "targets. Written at the end of the stream. With --truth the page shows the targets of\n"
+        "another stream of the same scenes over those of this one, paired as glint-score pairs\n"
+        "them; with --tracks a tracker's tracks, paired with the objects in view.",
     .options = &view_record,
     .sink = true,
     .reads = SECTION_OBJECTS,

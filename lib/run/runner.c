@@ -110,14 +110,17 @@ static bool reads_standard_input(const struct runner *runner)
 struct reference_stream *runner_reference_stream(struct runner *runner, const char *path,
                                                  bool partial)
 {
+    struct reference_stream *stream = NULL;
     if (strcmp(path, "-") == 0 && reads_standard_input(runner))
         diag_fail(&runner->diag, DIAG_USAGE,
                   "\"-\" is standard input, where the frames come from; name their file");
-    else if (runner->reference_stream == NULL)
-        runner->reference_stream = reference_stream_open(path, partial, &runner->diag);
-    if (runner->reference_stream != NULL)
-        reference_stream_before_waiting(runner->reference_stream, runner->pause);
-    return runner->reference_stream;
+    else
+        stream = reference_stream_open(path, partial, &runner->diag);
+    if (stream == NULL)
+        return NULL;
+    *list_add(&runner->reference_streams, &runner->arena) = stream;
+    reference_stream_before_waiting(stream, runner->pause);
+    return stream;
 }
 
 static int prepare(struct runner *runner, size_t count, const char *const *words)
@@ -148,7 +151,8 @@ void runner_free(struct runner *runner)
 {
     for (size_t i = 0; i < runner->tried.count; i++)
         runner_free(runner->tried.items[i]);
-    reference_stream_close(runner->reference_stream);
+    for (size_t i = 0; i < runner->reference_streams.count; i++)
+        reference_stream_close(runner->reference_streams.items[i]);
     if (runner->stage != NULL && runner->stage->release != NULL)
         runner->stage->release(runner->state);
     arena_free(&runner->arena);

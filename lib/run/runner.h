@@ -32,11 +32,11 @@ struct runner {
     const struct frame_stream *input; /* what the chain reads; NULL: it begins with a source */
     LIST_OF(const struct suite *) suites;
     LIST_OF(const struct vehicle *) vehicles;
-    struct frame_sequence sequence;            /* of the frames so far, under --complete */
-    int64_t expected_frames;                   /* 0 if the source does not say */
-    struct effect_log *log;                    /* NULL unless --explain was given */
-    LIST_OF(struct runner *) tried;            /* of the stages that a tool tries */
-    struct reference_stream *reference_stream; /* NULL: none was asked for */
+    struct frame_sequence sequence; /* of the frames so far, under --complete */
+    int64_t expected_frames;        /* 0 if the source does not say */
+    struct effect_log *log;         /* NULL unless --explain was given */
+    LIST_OF(struct runner *) tried; /* of the stages that a tool tries */
+    LIST_OF(struct reference_stream *) reference_streams;
 };
 
 /* A runner is prepared with the words of its command line, started, given its frames (runner_next

@@ -77,7 +77,8 @@ int runner_write(struct runner *runner, const char *bytes, size_t length);
 int runner_write_record(struct runner *runner, const struct record *record, const void *base);
 
 /* A second stream beside the one that is read, for sinks that compare the two. "-" is standard
- * input, and refused where the frames come from there. A sink has one; the runner closes it. */
+ * input, and refused where the frames come from there. The runner closes it. NULL after a
+ * message. */
 struct reference_stream *runner_reference_stream(struct runner *runner, const char *path,
                                                  bool partial);
 

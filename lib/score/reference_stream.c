@@ -1,5 +1,6 @@
 #include "score/reference_stream.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -286,6 +287,16 @@ int reference_stream_frame(struct reference_stream *reference, const struct fram
         check_time(frame, (*other)->time_s, diag) != 0)
         return reference_stream_prefix(reference, diag);
     return 1;
+}
+
+int reference_stream_same_seed(const struct reference_stream *reference, const struct frame *frame,
+                               struct diag *diag)
+{
+    if (reference->frame.seed == frame->seed)
+        return 0;
+    diag_fail(diag, DIAG_DATA, "seed: %" PRIu64 "; expected %" PRIu64 ", as in the other stream",
+              reference->frame.seed, frame->seed);
+    return reference_stream_prefix(reference, diag);
 }
 
 int reference_stream_next(struct reference_stream *reference, unsigned sections,

@@ -25,6 +25,10 @@ void reference_stream_close(struct reference_stream *reference);
 int reference_stream_frame(struct reference_stream *reference, const struct frame *frame,
                            unsigned sections, const struct frame **other, struct diag *diag);
 
+/* Refuses the frame that was read last if its seed is not that of this frame. */
+int reference_stream_same_seed(const struct reference_stream *reference, const struct frame *frame,
+                               struct diag *diag);
+
 /* Reads the next line as such a frame, whatever its scene: for streams that are read alone, never
  * between calls of the other functions. Returns 1, 0 at the end, -1 after a message. */
 int reference_stream_next(struct reference_stream *reference, unsigned sections,

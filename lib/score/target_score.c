@@ -5,6 +5,7 @@
 
 #include "base/sort.h"
 #include "base/units.h"
+#include "score/assignment.h"
 
 enum { COMPONENTS = SCORE_AMPLITUDE + 1 };
 
@@ -121,29 +122,70 @@ static void add_pair(struct score_tally *tally, const struct target *truth,
     }
 }
 
+/* The targets of a sensor in both frames, and for each true one the index of its pair in listed, or
+ * ASSIGNMENT_NONE. */
+struct pairing {
+    struct target_list truths, listed;
+    double *distance; /* distance[truth * listed + item] in cells */
+    size_t *item_of, pairs;
+};
+
+static struct pairing pair(const char *sensor, const struct frame *truth,
+                           const struct frame *listed, const struct target_cell *cell,
+                           struct arena *arena)
+{
+    struct pairing pairing = {.truths = targets_of(truth, sensor, arena),
+                              .listed = targets_of(listed, sensor, arena)};
+    size_t rows = pairing.truths.list.count, columns = pairing.listed.list.count;
+    pairing.distance = arena_get(arena, rows * columns * sizeof *pairing.distance);
+    pairing.item_of = arena_get(arena, rows * sizeof *pairing.item_of);
+    for (size_t i = 0; i < rows; i++)
+        for (size_t j = 0; j < columns; j++)
+            pairing.distance[i * columns + j] = target_score_distance(
+                pairing.truths.list.items[i], pairing.listed.list.items[j], cell);
+    pairing.pairs =
+        gospa_pair(pairing.distance, rows, columns, cell->cutoff, pairing.item_of, arena);
+    return pairing;
+}
+
+struct target_pairs target_score_pairs(const char *sensor, const struct frame *truth,
+                                       const struct frame *listed, const struct target_cell *cell,
+                                       struct arena *arena)
+{
+    struct pairing pairing = pair(sensor, truth, listed, cell, arena);
+    struct target_pairs pairs = {0};
+    bool *paired = arena_get(arena, pairing.listed.list.count * sizeof *paired);
+    for (size_t i = 0; i < pairing.truths.list.count; i++) {
+        size_t item = pairing.item_of[i];
+        struct target_pair *added = list_add(&pairs.list, arena);
+        added->truth = pairing.truths.list.items[i];
+        if (item == ASSIGNMENT_NONE)
+            continue;
+        added->listed = pairing.listed.list.items[item];
+        paired[item] = true;
+    }
+    for (size_t j = 0; j < pairing.listed.list.count; j++)
+        if (!paired[j])
+            list_add(&pairs.list, arena)->listed = pairing.listed.list.items[j];
+    return pairs;
+}
+
 void target_score_scan(struct score_tally *tally, const struct frame *truth,
                        const struct frame *listed, const struct target_cell *cell,
                        struct arena *arena)
 {
-    struct target_list true_list = targets_of(truth, tally->sensor, arena);
-    struct target_list list = targets_of(listed, tally->sensor, arena);
-    size_t rows = true_list.list.count, columns = list.list.count;
-    double *distance = arena_get(arena, rows * columns * sizeof *distance);
-    size_t *item_of = arena_get(arena, rows * sizeof *item_of);
-    for (size_t i = 0; i < rows; i++)
-        for (size_t j = 0; j < columns; j++)
-            distance[i * columns + j] =
-                target_score_distance(true_list.list.items[i], list.list.items[j], cell);
-    size_t pairs = gospa_pair(distance, rows, columns, cell->cutoff, item_of, arena);
+    struct pairing pairing = pair(tally->sensor, truth, listed, cell, arena);
+    size_t rows = pairing.truths.list.count, columns = pairing.listed.list.count;
     double squares = 0;
     for (size_t i = 0; i < rows; i++) {
-        if (item_of[i] >= columns) /* ASSIGNMENT_NONE is above all columns */
+        size_t item = pairing.item_of[i];
+        if (item == ASSIGNMENT_NONE)
             continue;
-        double error = distance[i * columns + item_of[i]];
+        double error = pairing.distance[i * columns + item];
         squares += error * error;
-        add_pair(tally, true_list.list.items[i], list.list.items[item_of[i]], arena);
+        add_pair(tally, pairing.truths.list.items[i], pairing.listed.list.items[item], arena);
     }
-    score_add_scan(tally, squares, pairs, rows, columns, cell->cutoff);
-    add_values(tally->values[SCORE_TRUTH], &true_list, arena);
-    add_values(tally->values[SCORE_LISTED], &list, arena);
+    score_add_scan(tally, squares, pairing.pairs, rows, columns, cell->cutoff);
+    add_values(tally->values[SCORE_TRUTH], &pairing.truths, arena);
+    add_values(tally->values[SCORE_LISTED], &pairing.listed, arena);
 }

@@ -18,6 +18,8 @@ struct target_cell {
     double cutoff;
 };
 
+enum { TARGET_SCORE_CUTOFF = 2 }; /* cells, unless the user says otherwise */
+
 /* The cell of a sensor, from the view in the truth. An azimuth_rad of 0 stands for the view's
  * azimuth_cell_rad, or where that is absent for a twentieth of its field of view. */
 struct target_cell target_score_cell(const struct sensor_view *view, double azimuth_rad,
@@ -32,6 +34,22 @@ double target_score_distance(const struct target *a, const struct target *b,
 /* Refuses frames that cannot be compared (DIAG_DATA). Suites may differ, but not in the names of
  * their sensors; and cells and fields of view of the truth must be wider than 0. */
 int target_score_check(const struct frame *truth, const struct frame *listed, struct diag *diag);
+
+/* A true target and the listed one that it is paired with. truth is NULL for a false target, listed
+ * for a missed one. */
+struct target_pair {
+    const struct target *truth, *listed;
+};
+
+struct target_pairs {
+    LIST_OF(struct target_pair) list;
+};
+
+/* Pairs the targets of a sensor in both frames as the score does: all true targets in ascending
+ * order, and then all false ones. */
+struct target_pairs target_score_pairs(const char *sensor, const struct frame *truth,
+                                       const struct frame *listed, const struct target_cell *cell,
+                                       struct arena *arena);
 
 /* Adds one scan to the tally: the targets of the tally's sensor in both frames. The order of
  * targets changes no bit. */

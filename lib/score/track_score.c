@@ -72,22 +72,23 @@ bool track_score_counts(const struct frame *frame, const struct object *object,
             (truth == TRACK_TRUTH_DETECTED && frame_detects(frame, object->id)));
 }
 
-bool track_score_switches(struct track_memory *memory, const char *scene, const char *object,
-                          const char *track, struct arena *arena)
+const char *track_score_replaced(struct track_memory *memory, const char *scene, const char *object,
+                                 const char *track, struct arena *arena)
 {
     for (size_t i = 0; i < memory->pairings.count; i++) {
         struct track_pairing *last = &memory->pairings.items[i];
         if (strcmp(last->object, object) != 0 || strcmp(last->scene, scene) != 0)
             continue;
-        if (strcmp(last->track, track) == 0)
-            return false;
+        const char *before = last->track;
+        if (strcmp(before, track) == 0)
+            return NULL;
         last->track = arena_text(arena, track, strlen(track));
-        return true;
+        return before;
     }
     *list_add(&memory->pairings, arena) = (struct track_pairing){
         arena_text(arena, scene, strlen(scene)), arena_text(arena, object, strlen(object)),
         arena_text(arena, track, strlen(track))};
-    return false;
+    return NULL;
 }
 
 void track_score_forget(struct track_memory *memory, const char *scene)
@@ -116,37 +117,62 @@ static struct object_list true_objects(const struct frame *frame, enum track_tru
     return objects;
 }
 
-int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
-                          const struct track_list *list, enum track_truth truth,
-                          const char *classes, double cutoff_m, struct track_memory *memory,
-                          struct arena *lasting)
+struct track_pairs track_score_pairs(const struct frame *frame, const struct track_list *list,
+                                     enum track_truth truth, const char *classes, double cutoff_m)
 {
     struct object_list objects = true_objects(frame, truth, classes);
     size_t rows = objects.list.count, columns = list->tracks.count;
     double *distance = arena_get(frame->arena, rows * columns * sizeof *distance);
     size_t *track_of = arena_get(frame->arena, rows * sizeof *track_of);
+    bool *paired = arena_get(frame->arena, columns * sizeof *paired);
     for (size_t i = 0; i < rows; i++)
         for (size_t j = 0; j < columns; j++)
             distance[i * columns + j] =
                 elementary_hypot(objects.list.items[i]->x_m - list->tracks.items[j].x_m,
                                  objects.list.items[i]->y_m - list->tracks.items[j].y_m);
-    size_t pairs = gospa_pair(distance, rows, columns, cutoff_m, track_of, frame->arena);
-    double squares = 0;
-    int64_t switches = 0;
+    gospa_pair(distance, rows, columns, cutoff_m, track_of, frame->arena);
+    struct track_pairs pairs = {0};
     for (size_t i = 0; i < rows; i++) {
+        struct track_pair *pair = list_add(&pairs.list, frame->arena);
+        pair->object = objects.list.items[i];
         if (track_of[i] == ASSIGNMENT_NONE)
             continue;
-        const struct object *object = objects.list.items[i];
-        const struct track *track = &list->tracks.items[track_of[i]];
-        double apart_m = distance[i * columns + track_of[i]];
-        squares += apart_m * apart_m;
-        score_add_value(&tally->values[SCORE_ERROR][SCORE_POSITION], apart_m, frame->arena);
+        pair->track = &list->tracks.items[track_of[i]];
+        pair->apart_m = distance[i * columns + track_of[i]];
+        paired[track_of[i]] = true;
+    }
+    for (size_t j = 0; j < columns; j++)
+        if (!paired[j])
+            list_add(&pairs.list, frame->arena)->track = &list->tracks.items[j];
+    return pairs;
+}
+
+int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
+                          const struct track_list *list, enum track_truth truth,
+                          const char *classes, double cutoff_m, struct track_memory *memory,
+                          struct arena *lasting)
+{
+    struct track_pairs found = track_score_pairs(frame, list, truth, classes, cutoff_m);
+    double squares = 0;
+    int64_t switches = 0;
+    size_t objects = 0, pairs = 0;
+    for (size_t i = 0; i < found.list.count; i++) {
+        const struct track_pair *pair = &found.list.items[i];
+        const struct object *object = pair->object;
+        const struct track *track = pair->track;
+        objects += object != NULL;
+        if (object == NULL || track == NULL)
+            continue;
+        pairs++;
+        squares += pair->apart_m * pair->apart_m;
+        score_add_value(&tally->values[SCORE_ERROR][SCORE_POSITION], pair->apart_m, frame->arena);
         score_add_value(
             &tally->values[SCORE_ERROR][SCORE_VELOCITY],
             elementary_hypot(object->vx_mps - track->vx_mps, object->vy_mps - track->vy_mps),
             frame->arena);
-        switches += track_score_switches(memory, frame->scene, object->id, track->id, lasting);
+        switches +=
+            track_score_replaced(memory, frame->scene, object->id, track->id, lasting) != NULL;
     }
-    score_add_scan(tally, squares, pairs, rows, columns, cutoff_m);
+    score_add_scan(tally, squares, pairs, objects, list->tracks.count, cutoff_m);
     return switches;
 }

@@ -26,6 +26,8 @@ int track_score_check(const struct frame *frame, enum track_truth truth, struct 
 bool track_score_counts(const struct frame *frame, const struct object *object,
                         enum track_truth truth, const char *classes);
 
+enum { TRACK_SCORE_CUTOFF_M = 5 }; /* unless the user says otherwise */
+
 /* The last track of every object, by scene. It lies in the arena it is given and grows with the
  * objects. A zeroed one is empty. */
 struct track_pairing {
@@ -35,12 +37,30 @@ struct track_memory {
     LIST_OF(struct track_pairing) pairings;
 };
 
-/* Records a pair; true if it is an identity switch. */
-bool track_score_switches(struct track_memory *memory, const char *scene, const char *object,
-                          const char *track, struct arena *arena);
+/* Records a pair. Returns the track that it replaces, which makes it an identity switch, or NULL.
+ */
+const char *track_score_replaced(struct track_memory *memory, const char *scene, const char *object,
+                                 const char *track, struct arena *arena);
 
 /* Forgets the pairs of a scene that is over. */
 void track_score_forget(struct track_memory *memory, const char *scene);
+
+/* An expected object and its track, and the distance of their centres. object is NULL for a false
+ * track, track for a missed object. */
+struct track_pair {
+    const struct object *object;
+    const struct track *track;
+    double apart_m;
+};
+
+struct track_pairs {
+    LIST_OF(struct track_pair) list;
+};
+
+/* Pairs as the score does: all expected objects, and then all false tracks, each in the order of
+ * their ids. The pairs lie in the frame's arena. */
+struct track_pairs track_score_pairs(const struct frame *frame, const struct track_list *list,
+                                     enum track_truth truth, const char *classes, double cutoff_m);
 
 /* Adds one frame, with tracks in the order of their ids, to the tally. Pairs are recorded in
  * memory, which lies in the lasting arena. Returns the number of identity switches. */

@@ -73,7 +73,25 @@
     COLUMN(ITEM_NUMBER, "item_number", 'u')                                                        \
     COLUMN(ITEM_STAGE, "item_stage", 'u')                                                          \
     COLUMN(ITEM_REASON, "item_reason", 'u')                                                        \
-    COLUMN(ITEM_EFFECT, "item_effect", 'u')
+    COLUMN(ITEM_EFFECT, "item_effect", 'u')                                                        \
+    COLUMN(FRAME_COMPARED, "frame_compared", 'u')                                                  \
+    COLUMN(SCAN_TRUTHS, "scan_truths", 'u')                                                        \
+    COLUMN(TRUTH_RANGE, "truth_range_m", 'f')                                                      \
+    COLUMN(TRUTH_AZIMUTH, "truth_azimuth_rad", 'f')                                                \
+    COLUMN(TRUTH_RATE, "truth_range_rate_mps", 'f')                                                \
+    COLUMN(TRUTH_AMPLITUDE, "truth_amplitude_db", 'f')                                             \
+    COLUMN(TRUTH_OBJECT, "truth_object", 'u')                                                      \
+    COLUMN(TRUTH_LISTED, "truth_listed", 'u')                                                      \
+    COLUMN(FRAME_TRACKED, "frame_tracked", 'u')                                                    \
+    COLUMN(FRAME_TRACKS, "frame_tracks", 'u')                                                      \
+    COLUMN(TRACK_X, "track_x_m", 'f')                                                              \
+    COLUMN(TRACK_Y, "track_y_m", 'f')                                                              \
+    COLUMN(TRACK_VX, "track_vx_mps", 'f')                                                          \
+    COLUMN(TRACK_VY, "track_vy_mps", 'f')                                                          \
+    COLUMN(TRACK_APART, "track_apart_m", 'f')                                                      \
+    COLUMN(TRACK_ID, "track_id", 'u')                                                              \
+    COLUMN(TRACK_OBJECT, "track_object", 'u')                                                      \
+    COLUMN(TRACK_BEFORE, "track_before", 'u')
 
 #define VIEW_COLUMNS_ENUMERATOR(name, key, kind) COLUMN_##name,
 

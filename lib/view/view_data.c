@@ -15,12 +15,12 @@ struct loss_row {
     struct item item;
 };
 
-static void add_real(struct view_data *data, enum view_column column, double value)
+void view_data_real(struct view_data *data, enum view_column column, double value)
 {
     view_columns_add_real(&data->columns, column, value, data->arena);
 }
 
-static void add_count(struct view_data *data, enum view_column column, uint32_t value)
+void view_data_count(struct view_data *data, enum view_column column, uint32_t value)
 {
     view_columns_add_count(&data->columns, column, value, data->arena);
 }
@@ -87,46 +87,46 @@ static uint32_t sensor_of(struct view_data *data, const struct sensor_view *sens
 static void add_object(struct view_data *data, const struct object *object, struct vec2 shift)
 {
     struct box box = view_frame_box(object, view_frame_vehicle(&data->models, object->class));
-    add_real(data, COLUMN_OBJECT_X, object->x_m + shift.x);
-    add_real(data, COLUMN_OBJECT_Y, object->y_m + shift.y);
-    add_real(data, COLUMN_OBJECT_YAW, remainder(object->yaw_rad, 2 * acos(-1)));
-    add_real(data, COLUMN_OBJECT_VX, object->vx_mps);
-    add_real(data, COLUMN_OBJECT_VY, object->vy_mps);
-    add_real(data, COLUMN_OBJECT_LENGTH, box.length_m);
-    add_real(data, COLUMN_OBJECT_WIDTH, box.width_m);
-    add_count(data, COLUMN_OBJECT_ID, name_of(data, object->id));
-    add_count(data, COLUMN_OBJECT_CLASS, name_of(data, object->class));
+    view_data_real(data, COLUMN_OBJECT_X, object->x_m + shift.x);
+    view_data_real(data, COLUMN_OBJECT_Y, object->y_m + shift.y);
+    view_data_real(data, COLUMN_OBJECT_YAW, remainder(object->yaw_rad, 2 * acos(-1)));
+    view_data_real(data, COLUMN_OBJECT_VX, object->vx_mps);
+    view_data_real(data, COLUMN_OBJECT_VY, object->vy_mps);
+    view_data_real(data, COLUMN_OBJECT_LENGTH, box.length_m);
+    view_data_real(data, COLUMN_OBJECT_WIDTH, box.width_m);
+    view_data_count(data, COLUMN_OBJECT_ID, name_of(data, object->id));
+    view_data_count(data, COLUMN_OBJECT_CLASS, name_of(data, object->class));
 }
 
 static void add_contributor(struct view_data *data, const struct contributor *from)
 {
-    add_real(data, COLUMN_CONTRIBUTOR_RANGE, from->range_m);
-    add_real(data, COLUMN_CONTRIBUTOR_AZIMUTH, from->azimuth_rad);
-    add_real(data, COLUMN_CONTRIBUTOR_RATE, from->range_rate_mps);
-    add_real(data, COLUMN_CONTRIBUTOR_ERCS, from->ercs);
-    add_real(data, COLUMN_CONTRIBUTOR_WEIGHT, from->weight);
-    add_count(data, COLUMN_CONTRIBUTOR_OBJECT, name_of(data, from->id.object));
-    add_count(data, COLUMN_CONTRIBUTOR_REFLECTOR, name_of(data, from->id.reflector));
-    add_count(data, COLUMN_CONTRIBUTOR_PATH, from->id.path);
-    add_count(data, COLUMN_CONTRIBUTOR_MIRROR, optional_name(data, from->id.mirror));
-    add_count(data, COLUMN_CONTRIBUTOR_NUMBER, (uint32_t)from->id.number);
+    view_data_real(data, COLUMN_CONTRIBUTOR_RANGE, from->range_m);
+    view_data_real(data, COLUMN_CONTRIBUTOR_AZIMUTH, from->azimuth_rad);
+    view_data_real(data, COLUMN_CONTRIBUTOR_RATE, from->range_rate_mps);
+    view_data_real(data, COLUMN_CONTRIBUTOR_ERCS, from->ercs);
+    view_data_real(data, COLUMN_CONTRIBUTOR_WEIGHT, from->weight);
+    view_data_count(data, COLUMN_CONTRIBUTOR_OBJECT, name_of(data, from->id.object));
+    view_data_count(data, COLUMN_CONTRIBUTOR_REFLECTOR, name_of(data, from->id.reflector));
+    view_data_count(data, COLUMN_CONTRIBUTOR_PATH, from->id.path);
+    view_data_count(data, COLUMN_CONTRIBUTOR_MIRROR, optional_name(data, from->id.mirror));
+    view_data_count(data, COLUMN_CONTRIBUTOR_NUMBER, (uint32_t)from->id.number);
 }
 
 static void add_target(struct view_data *data, const struct target *target)
 {
-    add_real(data, COLUMN_TARGET_RANGE, target->range_m);
-    add_real(data, COLUMN_TARGET_AZIMUTH, target->azimuth_rad);
-    add_real(data, COLUMN_TARGET_RATE, target->range_rate_mps);
-    add_real(data, COLUMN_TARGET_AMPLITUDE, target->amplitude_db);
-    add_real(data, COLUMN_TARGET_CELL_RANGE, target->cell_range_m);
-    add_real(data, COLUMN_TARGET_CELL_AZIMUTH, target->cell_azimuth_rad);
-    add_real(data, COLUMN_TARGET_CELL_RATE, target->cell_range_rate_mps);
-    add_real(data, COLUMN_TARGET_CELL_AMPLITUDE, target->cell_amplitude);
-    add_count(data, COLUMN_TARGET_UNDECIDED, target->sign_undecided);
-    add_count(
+    view_data_real(data, COLUMN_TARGET_RANGE, target->range_m);
+    view_data_real(data, COLUMN_TARGET_AZIMUTH, target->azimuth_rad);
+    view_data_real(data, COLUMN_TARGET_RATE, target->range_rate_mps);
+    view_data_real(data, COLUMN_TARGET_AMPLITUDE, target->amplitude_db);
+    view_data_real(data, COLUMN_TARGET_CELL_RANGE, target->cell_range_m);
+    view_data_real(data, COLUMN_TARGET_CELL_AZIMUTH, target->cell_azimuth_rad);
+    view_data_real(data, COLUMN_TARGET_CELL_RATE, target->cell_range_rate_mps);
+    view_data_real(data, COLUMN_TARGET_CELL_AMPLITUDE, target->cell_amplitude);
+    view_data_count(data, COLUMN_TARGET_UNDECIDED, target->sign_undecided);
+    view_data_count(
         data, COLUMN_TARGET_EFFECTS,
         intern_number(&data->effect_sets, &target->effects, sizeof target->effects, data->arena));
-    add_count(data, COLUMN_TARGET_CONTRIBUTORS, (uint32_t)target->contributors.count);
+    view_data_count(data, COLUMN_TARGET_CONTRIBUTORS, (uint32_t)target->contributors.count);
     for (size_t i = 0; i < target->contributors.count; i++)
         add_contributor(data, &target->contributors.items[i]);
 }
@@ -145,13 +145,13 @@ static uint32_t add_targets(struct view_data *data, const struct frame *frame, c
 static void add_detail(struct view_data *data, const struct loss_row *row,
                        const struct lost_echo *echo)
 {
-    add_real(data, COLUMN_DETAIL_SHORTFALL, echo->shortfall_db);
-    add_count(data, COLUMN_DETAIL_OBJECT, row->object);
-    add_count(data, COLUMN_DETAIL_REFLECTOR, row->item.reflector);
-    add_count(data, COLUMN_DETAIL_PATH, row->item.path);
-    add_count(data, COLUMN_DETAIL_MIRROR, row->item.mirror);
-    add_count(data, COLUMN_DETAIL_NUMBER, row->item.number);
-    add_count(data, COLUMN_DETAIL_BY, optional_name(data, echo->by));
+    view_data_real(data, COLUMN_DETAIL_SHORTFALL, echo->shortfall_db);
+    view_data_count(data, COLUMN_DETAIL_OBJECT, row->object);
+    view_data_count(data, COLUMN_DETAIL_REFLECTOR, row->item.reflector);
+    view_data_count(data, COLUMN_DETAIL_PATH, row->item.path);
+    view_data_count(data, COLUMN_DETAIL_MIRROR, row->item.mirror);
+    view_data_count(data, COLUMN_DETAIL_NUMBER, row->item.number);
+    view_data_count(data, COLUMN_DETAIL_BY, optional_name(data, echo->by));
 }
 
 /* Orders by object; within one, in any order that is the same for the same losses. */
@@ -205,21 +205,21 @@ static void add_fate(struct view_data *data, const struct loss_row *rows, size_t
     struct item *items = arena_get(scratch, count * sizeof *items);
     for (size_t i = 0; i < count; i++)
         items[i] = rows[i].item;
-    add_count(data, COLUMN_FATE_OBJECT, rows->object);
+    view_data_count(data, COLUMN_FATE_OBJECT, rows->object);
     size_t known = data->patterns.list.count;
     uint32_t pattern = intern_number(&data->patterns, items, count * sizeof *items, data->arena);
-    add_count(data, COLUMN_FATE_PATTERN, pattern);
+    view_data_count(data, COLUMN_FATE_PATTERN, pattern);
     if (pattern < known)
         return;
-    add_count(data, COLUMN_PATTERN_ITEMS, (uint32_t)count);
+    view_data_count(data, COLUMN_PATTERN_ITEMS, (uint32_t)count);
     for (size_t i = 0; i < count; i++) {
-        add_count(data, COLUMN_ITEM_REFLECTOR, items[i].reflector);
-        add_count(data, COLUMN_ITEM_PATH, items[i].path);
-        add_count(data, COLUMN_ITEM_MIRROR, items[i].mirror);
-        add_count(data, COLUMN_ITEM_NUMBER, items[i].number);
-        add_count(data, COLUMN_ITEM_STAGE, items[i].stage);
-        add_count(data, COLUMN_ITEM_REASON, items[i].reason);
-        add_count(data, COLUMN_ITEM_EFFECT, items[i].effect);
+        view_data_count(data, COLUMN_ITEM_REFLECTOR, items[i].reflector);
+        view_data_count(data, COLUMN_ITEM_PATH, items[i].path);
+        view_data_count(data, COLUMN_ITEM_MIRROR, items[i].mirror);
+        view_data_count(data, COLUMN_ITEM_NUMBER, items[i].number);
+        view_data_count(data, COLUMN_ITEM_STAGE, items[i].stage);
+        view_data_count(data, COLUMN_ITEM_REASON, items[i].reason);
+        view_data_count(data, COLUMN_ITEM_EFFECT, items[i].effect);
     }
 }
 
@@ -237,37 +237,48 @@ static void add_losses(struct view_data *data, const struct frame *frame, const 
                 break;
         add_fate(data, rows.list.items + begin, end - begin, frame->arena);
     }
-    add_count(data, COLUMN_SCAN_FATES, fates);
-    add_count(data, COLUMN_SCAN_DETAILS, details);
+    view_data_count(data, COLUMN_SCAN_FATES, fates);
+    view_data_count(data, COLUMN_SCAN_DETAILS, details);
 }
 
 static void add_scan(struct view_data *data, const struct frame *frame,
                      const struct sensor_view *sensor, struct vec2 shift)
 {
     struct view_scan scan = view_frame_scan(frame, sensor);
-    add_real(data, COLUMN_SCAN_X, scan.pose.position_m.x + shift.x);
-    add_real(data, COLUMN_SCAN_Y, scan.pose.position_m.y + shift.y);
-    add_real(data, COLUMN_SCAN_YAW, remainder(scan.pose.yaw_rad, 2 * acos(-1)));
-    add_real(data, COLUMN_SCAN_VX, scan.pose.velocity_mps.x);
-    add_real(data, COLUMN_SCAN_VY, scan.pose.velocity_mps.y);
-    add_real(data, COLUMN_SCAN_AGE, scan.age_s);
-    add_count(data, COLUMN_SCAN_SENSOR, sensor_of(data, sensor));
-    add_count(data, COLUMN_SCAN_MEASURED, sensor->measured);
-    add_count(data, COLUMN_SCAN_TARGETS, add_targets(data, frame, sensor->name));
+    view_data_real(data, COLUMN_SCAN_X, scan.pose.position_m.x + shift.x);
+    view_data_real(data, COLUMN_SCAN_Y, scan.pose.position_m.y + shift.y);
+    view_data_real(data, COLUMN_SCAN_YAW, remainder(scan.pose.yaw_rad, 2 * acos(-1)));
+    view_data_real(data, COLUMN_SCAN_VX, scan.pose.velocity_mps.x);
+    view_data_real(data, COLUMN_SCAN_VY, scan.pose.velocity_mps.y);
+    view_data_real(data, COLUMN_SCAN_AGE, scan.age_s);
+    view_data_count(data, COLUMN_SCAN_SENSOR, sensor_of(data, sensor));
+    view_data_count(data, COLUMN_SCAN_MEASURED, sensor->measured);
+    view_data_count(data, COLUMN_SCAN_TARGETS, add_targets(data, frame, sensor->name));
     add_losses(data, frame, sensor->name);
+}
+
+void view_data_name(struct view_data *data, enum view_column column, const char *word)
+{
+    view_data_count(data, column, optional_name(data, word));
+}
+
+struct vec2 view_data_shift(struct view_data *data, const struct frame *frame)
+{
+    const struct view_scene *scene = &data->scenes.items[scene_of(data, frame)];
+    return (struct vec2){frame->origin_x_m - scene->anchor_x_m,
+                         frame->origin_y_m - scene->anchor_y_m};
 }
 
 void view_data_add(struct view_data *data, const struct frame *frame)
 {
     uint32_t number = scene_of(data, frame);
     const struct view_scene *scene = &data->scenes.items[number];
-    struct vec2 shift = {frame->origin_x_m - scene->anchor_x_m,
-                         frame->origin_y_m - scene->anchor_y_m};
-    add_real(data, COLUMN_FRAME_TIME, frame->time_s - scene->start_s);
-    add_count(data, COLUMN_FRAME_SCENE, number);
-    add_count(data, COLUMN_FRAME_NUMBER, (uint32_t)(frame->frame - scene->first_frame));
-    add_count(data, COLUMN_FRAME_OBJECTS, (uint32_t)frame->objects.count);
-    add_count(data, COLUMN_FRAME_SCANS, (uint32_t)frame->sensors.list.count);
+    struct vec2 shift = view_data_shift(data, frame);
+    view_data_real(data, COLUMN_FRAME_TIME, frame->time_s - scene->start_s);
+    view_data_count(data, COLUMN_FRAME_SCENE, number);
+    view_data_count(data, COLUMN_FRAME_NUMBER, (uint32_t)(frame->frame - scene->first_frame));
+    view_data_count(data, COLUMN_FRAME_OBJECTS, (uint32_t)frame->objects.count);
+    view_data_count(data, COLUMN_FRAME_SCANS, (uint32_t)frame->sensors.list.count);
     for (size_t i = 0; i < frame->objects.count; i++)
         add_object(data, &frame->objects.items[i], shift);
     for (size_t i = 0; i < frame->sensors.list.count; i++)

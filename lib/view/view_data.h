@@ -36,6 +36,14 @@ struct view_data {
 /* Begins without frames; all memory is the arena's. */
 void view_data_begin(struct view_data *data, struct arena *arena);
 
+/* Appends a number to a column; of a name its number plus 1, and 0 for NULL. */
+void view_data_real(struct view_data *data, enum view_column column, double value);
+void view_data_count(struct view_data *data, enum view_column column, uint32_t value);
+void view_data_name(struct view_data *data, enum view_column column, const char *word);
+
+/* From the frame's coordinates to those of its scene in the columns. */
+struct vec2 view_data_shift(struct view_data *data, const struct frame *frame);
+
 /* Adds a frame of any scene, in canonical order. Memory that it does not keep comes from the
  * frame's arena. */
 void view_data_add(struct view_data *data, const struct frame *frame);

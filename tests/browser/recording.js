@@ -210,6 +210,61 @@ module.exports = ({stream, view, withPage, targetOnMap, clickMap, panelText, clo
             });
         },
 
+        async 'plots over time have every target of the chosen object, and reasons in the gaps'() {
+            const object = leadingObject(busy.targets[0]);
+            const has = frame => frame.targets.filter(target =>
+                target.contributors.some(part => part.object === object));
+            const lost = frame => frame.lost.filter(group => group.echoes.some(echo => echo.object === object));
+            const gap = intersection.find(frame => has(frame).length === 0 && lost(frame).length > 0);
+            await withPage(view(intersection), async page => {
+                await page.evaluate(id => chooseObject(names.indexOf(id)), object);
+                await page.click('[aria-controls=recording]');
+                const shown = await page.evaluate(() => series.points.map(({row, target}) =>
+                    [row, column('target_range_m')[target].toFixed(2)].join()).sort());
+                assert.deepStrictEqual(shown, intersection.flatMap((frame, row) =>
+                    has(frame).map(one => [row, one.range_m.toFixed(2)].join())).sort());
+                const box = await page.locator('#series').boundingBox();
+                const x = await page.evaluate(row => timePlace(recordingPanel(
+                    {width: recordingCanvas.clientWidth, height: recordingCanvas.clientHeight}, 0), row),
+                intersection.indexOf(gap));
+                await page.mouse.move(box.x + x, box.y + 40);
+                const words = await page.innerText('#tip');
+                assert.ok(lost(gap).some(group => words.includes(group.reason.replace(/_/g, ' '))), words);
+                await page.mouse.click(box.x + x, box.y + 40);
+                assert.match(await clock(page), new RegExp(`^frame ${gap.frame} `));
+            });
+        },
+
+        async 'plots over time follow a reflector, and a sensor'() {
+            const part = busy.targets.find(one => one.sensor === 'left').contributors[0];
+            await withPage(view(intersection), async page => {
+                await page.evaluate(({object, reflector}) =>
+                    chooseReflector(reflector, names.indexOf(object)), part);
+                await page.click('[aria-controls=recording]');
+                await page.selectOption('#recorded', 'left');
+                const count = test => intersection.flatMap(one => one.targets)
+                    .filter(one => one.sensor === 'left' && test(one)).length;
+                assert.strictEqual(await page.evaluate(() => series.points.length),
+                    count(one => one.contributors.some(other =>
+                        other.object === part.object && other.reflector === part.reflector)));
+                await page.evaluate(() => chooseObject(-1));
+                assert.strictEqual(await page.evaluate(() => series.points.length), count(() => true));
+            });
+        },
+
+        async 'a side plot grows over the map and goes back'() {
+            await withPage(view(intersection), async page => {
+                const width = async id => (await page.locator(id).boundingBox())?.width || 0;
+                assert.ok(await width('#azimuths') < 250);
+                await page.click('#large-azimuth');
+                assert.ok(await width('#azimuths') > 800);
+                await page.keyboard.press('m');
+                assert.ok(await width('#speeds') > 800);
+                await page.keyboard.press('Escape');
+                assert.ok(await width('#speeds') < 250 && await width('#azimuths') < 250);
+            });
+        },
+
         async 'a link restores scene, frame, object and colour, and so does loading again'() {
             const other = intersection.map(frame => ({...frame, scene: 'second & last'}));
             const file = view([...intersection, ...other]);

@@ -551,7 +551,8 @@ const tests = {
 };
 
 Object.assign(tests, require('./recording.js')(
-    {stream, view, withPage, targetOnMap, clickMap, panelText, clock}));
+    {stream, view, withPage, targetOnMap, clickMap, panelText, clock}),
+require('./comparison.js')({work, write, view, withPage}));
 
 async function main() {
     browser = await launch();

@@ -94,5 +94,5 @@ function showLegend() {
         legendLine(lineMark(1.2, [[1, 8, 5, 8], [7, 8, 11, 8], [13, 8, 17, 8]]), 'field of view'),
         legendLine(dotMark(ink.edge), 'reflection centre'),
         legendLine(markCanvas(drawing => drawLostMark(drawing, {x: 9, y: 8}, 5)), 'echo that is in no target'),
-        switchesBelow());
+        ...comparisonLines(), switchesBelow());
 }

@@ -11,6 +11,7 @@ const state = {
     hover: -1, // target under the pointer; -1: none
     pane: 'panel', // what is shown beside the map
     loop: false,
+    large: '', // side plot over the map: azimuth or rate
     colour: 'sensor',
     effect: -1, // effect whose targets are coloured; -1: colour by `colour`
     rates: 'raw',
@@ -39,6 +40,7 @@ function redraw() {
 function draw() {
     drawn = true;
     drawMap();
+    drawComparison();
     drawHover();
     if (!control('plots').hidden) {
         drawPlots();
@@ -353,7 +355,9 @@ const keyActions = {
     'PageDown': () => stepScene(1),
     'PageUp': () => stepScene(-1),
     '?': () => control('keys').showModal(),
-    'Escape': chooseNone,
+    'm': enlargeNextPlot,
+    'u': goToDifference,
+    'Escape': () => (state.large ? enlargePlot('') : chooseNone()),
 };
 
 // True if the control with the focus uses this key itself.
@@ -412,6 +416,8 @@ function start() {
     connectTable();
     connectHover();
     connectTimeline();
+    connectRecording();
+    connectComparison();
     connectLinks();
     document.addEventListener('keydown', onKey);
     new ResizeObserver(redraw).observe(canvas);

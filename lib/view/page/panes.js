@@ -14,8 +14,30 @@ function showPane(id) {
         tab.tabIndex = name === id ? 0 : -1;
         control(name).hidden = name !== id;
     }
-    control('plots').hidden = id === 'recording';
+    showPlots();
     refresh();
+}
+
+// The side plots lie below the panes, but for that over time, which needs the room; or one of them,
+// large, over the map.
+function showPlots() {
+    control('plots').hidden = state.pane === 'recording' && !state.large;
+    control('plots').classList.toggle('large', state.large !== '');
+    for (const kind of Object.keys(plots)) {
+        plots[kind].canvas.parentElement.hidden = state.large !== '' && state.large !== kind;
+        control('large-' + kind).setAttribute('aria-pressed', String(state.large === kind));
+    }
+    redraw();
+}
+
+function enlargePlot(kind) {
+    state.large = kind;
+    showPlots();
+}
+
+function enlargeNextPlot() {
+    const kinds = ['', ...Object.keys(plots)];
+    enlargePlot(kinds[(kinds.indexOf(state.large) + 1) % kinds.length]);
 }
 
 function showNextPane() {
@@ -27,6 +49,9 @@ function connectPanes() {
     panes.get('panel').fill = showPanel;
     for (const [name, {tab}] of panes) {
         tab.addEventListener('click', () => showPane(name));
+    }
+    for (const kind of Object.keys(plots)) {
+        control('large-' + kind).addEventListener('click', () => enlargePlot(state.large === kind ? '' : kind));
     }
     control('panes').addEventListener('keydown', event => {
         if (event.key === 'ArrowRight' || event.key === 'ArrowLeft') {

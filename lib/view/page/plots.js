@@ -130,6 +130,9 @@ function plotEchoes(kind, drawing, size, axes, scan, target) {
 
 function drawPlot(kind) {
     const plot = plots[kind];
+    if (plot.canvas.parentElement.hidden) {
+        return;
+    }
     const drawing = plot.canvas.getContext('2d');
     const size = fitCanvas(plot.canvas, drawing);
     const axes = plotAxes(kind);

@@ -101,16 +101,16 @@ static void a_switch_is_another_track_than_last_in_its_scene(void **state)
     (void)state;
     struct arena arena = {0};
     struct track_memory memory = {0};
-    assert_false(track_score_switches(&memory, "s", "a", "1", &arena));
-    assert_false(track_score_switches(&memory, "s", "b", "2", &arena));
-    assert_false(track_score_switches(&memory, "s", "a", "1", &arena));
-    assert_false(track_score_switches(&memory, "t", "a", "2", &arena));
-    assert_true(track_score_switches(&memory, "s", "a", "2", &arena));
-    assert_true(track_score_switches(&memory, "s", "b", "1", &arena));
-    assert_true(track_score_switches(&memory, "s", "a", "1", &arena));
+    assert_null(track_score_replaced(&memory, "s", "a", "1", &arena));
+    assert_null(track_score_replaced(&memory, "s", "b", "2", &arena));
+    assert_null(track_score_replaced(&memory, "s", "a", "1", &arena));
+    assert_null(track_score_replaced(&memory, "t", "a", "2", &arena));
+    assert_non_null(track_score_replaced(&memory, "s", "a", "2", &arena));
+    assert_non_null(track_score_replaced(&memory, "s", "b", "1", &arena));
+    assert_non_null(track_score_replaced(&memory, "s", "a", "1", &arena));
     track_score_forget(&memory, "s");
-    assert_false(track_score_switches(&memory, "s", "a", "3", &arena));
-    assert_true(track_score_switches(&memory, "t", "a", "3", &arena));
+    assert_null(track_score_replaced(&memory, "s", "a", "3", &arena));
+    assert_non_null(track_score_replaced(&memory, "t", "a", "3", &arena));
     arena_free(&arena);
 }
 

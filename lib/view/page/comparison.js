@@ -1,0 +1,307 @@
+// Another stream's targets over those of this one, and a tracker's tracks over the objects, as
+// glint-view --truth and --tracks put them into the page.
+
+const hasTruth = column('frame_compared').length > 0;
+const hasTracks = column('frame_tracked').length > 0;
+const comparedParts = [
+    {title: 'range m', name: 'range_m', digits: 2, factor: 1},
+    {title: 'azim. °', name: 'azimuth_rad', digits: 2, factor: degrees},
+    {title: 'rate m/s', name: 'range_rate_mps', digits: 2, factor: 1},
+    {title: 'level dB', name: 'amplitude_db', digits: 1, factor: 1},
+];
+
+function truthsOf(scan) {
+    const begin = starts('scan_truths');
+    return {begin: begin[scan], end: begin[scan + 1]};
+}
+
+// The pairs of a scan: each has the row of a true and of a listed target, or -1 for none.
+function pairsOf(scan) {
+    const truths = truthsOf(scan);
+    const targets = targetsOf(scan);
+    const pairs = [];
+    const paired = new Set();
+    for (let truth = truths.begin; truth < truths.end; truth++) {
+        const number = column('truth_listed')[truth];
+        const target = number === 0 ? -1 : targets.begin + number - 1;
+        paired.add(target);
+        pairs.push({scan, truth, target});
+    }
+    for (let target = targets.begin; target < targets.end; target++) {
+        if (!paired.has(target)) {
+            pairs.push({scan, truth: -1, target});
+        }
+    }
+    return pairs;
+}
+
+function isCompared(frame) {
+    return hasTruth && column('frame_compared')[frame] === 1;
+}
+
+// The pairs of all scans of a frame whose sensors are switched on.
+function pairsOfFrame(frame) {
+    const {begin, end} = scansOf(frame);
+    const pairs = [];
+    for (let scan = begin; scan < end && isCompared(frame); scan++) {
+        if (isSensorShown(scan)) {
+            pairs.push(...pairsOf(scan));
+        }
+    }
+    return pairs;
+}
+
+function kindOfPair({truth, target}) {
+    return truth < 0 ? 'false' : target < 0 ? 'missed' : 'matched';
+}
+
+function countKinds(pairs) {
+    const counts = {matched: 0, missed: 0, false: 0};
+    pairs.forEach(pair => { counts[kindOfPair(pair)]++; });
+    return counts;
+}
+
+function truePlace(scan, truth) {
+    return scanPlace(scan, column('truth_range_m')[truth], column('truth_azimuth_rad')[truth]);
+}
+
+// The listed value less the true one; azimuths the short way round.
+function differenceOf({truth, target}, {name, factor}) {
+    const apart = column('target_' + name)[target] - column('truth_' + name)[truth];
+    return factor * (name === 'azimuth_rad' ? Math.atan2(Math.sin(apart), Math.cos(apart)) : apart);
+}
+
+// Drawing.
+
+// A missed target is hollow and stands in a diamond, a false one stands in a square.
+function drawAlone(drawing, at, corners, turn) {
+    drawing.beginPath();
+    tracePolygon(drawing, at.x, at.y, 14, corners, 0, turn);
+    drawing.strokeStyle = ink.lost;
+    drawing.lineWidth = 1.8;
+    drawing.stroke();
+}
+
+function drawPair(pair) {
+    const {scan, truth, target} = pair;
+    if (truth >= 0) {
+        const at = toScreen(truePlace(scan, truth));
+        if (target >= 0) {
+            context.strokeStyle = ink.soft;
+            context.lineWidth = 1.5;
+            line(at, toScreen(targetPlace(scan, target)));
+        } else {
+            drawAlone(context, at, 4, 0);
+        }
+        traceTargetShape(context, sensorStyle(scan), at.x, at.y, 6);
+        context.strokeStyle = ink.ink;
+        context.lineWidth = 1.2;
+        context.stroke();
+    } else {
+        drawAlone(context, toScreen(targetPlace(scan, target)), 4, Math.PI / 4);
+    }
+}
+
+function tracksOf(frame) {
+    const begin = starts('frame_tracks');
+    return {begin: begin[frame], end: begin[frame + 1]};
+}
+
+function nameOrNone(name, i) {
+    const number = column(name)[i];
+    return number === 0 ? null : names[number - 1];
+}
+
+function trackPlace(i, seconds) {
+    return {x: column('track_x_m')[i] + seconds * column('track_vx_mps')[i],
+        y: column('track_y_m')[i] + seconds * column('track_vy_mps')[i]};
+}
+
+function drawTrack(i) {
+    const at = toScreen(trackPlace(i, 0));
+    const id = nameOrNone('track_id', i);
+    const before = nameOrNone('track_before', i);
+    context.strokeStyle = id && nameOrNone('track_object', i) && !before ? ink.ink : ink.lost;
+    context.lineWidth = 2;
+    if (!id) {
+        context.setLineDash([3, 3]);
+        context.strokeRect(at.x - 11, at.y - 11, 22, 22);
+        context.setLineDash([]);
+        return;
+    }
+    line({x: at.x - 7, y: at.y}, {x: at.x + 7, y: at.y});
+    line({x: at.x, y: at.y - 7}, {x: at.x, y: at.y + 7});
+    context.lineWidth = 1.2;
+    line(at, toScreen(trackPlace(i, 0.5)));
+    putLabel(before ? `${id}, before ${before}` : id, at, context.strokeStyle);
+}
+
+function drawComparison() {
+    if (state.frame < 0) {
+        return;
+    }
+    if (hasTruth) {
+        pairsOfFrame(state.frame).forEach(drawPair);
+    }
+    if (hasTracks) {
+        const {begin, end} = tracksOf(state.frame);
+        for (let i = begin; i < end; i++) {
+            drawTrack(i);
+        }
+    }
+}
+
+function comparisonLines() {
+    const mark = paint => markCanvas(drawing => {
+        drawing.scale(0.55, 0.55);
+        paint(drawing);
+    });
+    const cross = lineMark(2, [[3, 8, 15, 8], [9, 2, 9, 14]]);
+    return [
+        ...hasTruth ? [
+            legendLine(markCanvas(drawing => {
+                traceTargetShape(drawing, 0, 9, 8, 6);
+                drawing.strokeStyle = ink.ink;
+                drawing.stroke();
+            }), 'true target, tied to its pair'),
+            legendLine(mark(drawing => drawAlone(drawing, {x: 16, y: 14}, 4, 0)), 'missed target'),
+            legendLine(mark(drawing => drawAlone(drawing, {x: 16, y: 14}, 4, Math.PI / 4)), 'false target'),
+        ] : [],
+        ...hasTracks ? [legendLine(cross, 'track, with its id')] : [],
+    ];
+}
+
+// The pane.
+
+function pairRow(pair) {
+    const kind = kindOfPair(pair);
+    const {scan, truth, target} = pair;
+    const row = make('tr', null, kind);
+    const mark = make('td');
+    const symbol = target >= 0 ? targetSymbol(scan, target)
+        : symbolCanvas(sensorStyle(scan), ink.soft, 18, true);
+    mark.append(symbol, target >= 0 ? ` ${target - targetsOf(scan).begin + 1}` : '');
+    const object = truth >= 0 ? nameOrNone('truth_object', truth) : names[objectOfTarget(target)];
+    row.append(mark, make('td', kind === 'matched' ? object : `${kind}: ${object}`));
+    for (const part of comparedParts) {
+        const value = kind === 'matched' ? signed(differenceOf(pair, part), part.digits)
+            : round(part.factor * (truth >= 0 ? column('truth_' + part.name)[truth]
+                : column('target_' + part.name)[target]), part.digits);
+        row.append(make('td', value, 'number'));
+    }
+    if (target >= 0) {
+        row.dataset.target = String(target);
+        row.addEventListener('click', () => chooseTarget(target));
+        row.addEventListener('pointerenter', () => setHover(target));
+        row.addEventListener('pointerleave', () => setHover(-1));
+    }
+    return row;
+}
+
+function signed(value, digits) {
+    const text = round(value, digits);
+    return value > 0 && Number(text) !== 0 ? '+' + text : text;
+}
+
+function pairsTable(pairs) {
+    const table = make('table');
+    table.append(tableRow(['', '', ...comparedParts.map(part => part.title)], 'th'));
+    const order = ['missed', 'false', 'matched'];
+    const sorted = [...pairs].sort((a, b) => order.indexOf(kindOfPair(a)) - order.indexOf(kindOfPair(b)));
+    table.append(...sorted.slice(0, 120).map(pairRow));
+    return [table, ...moreLine(sorted.length - 120)];
+}
+
+let totals = {scene: -1};
+
+// Counts over all frames of the scene, and the root mean squares of the differences.
+function comparisonTotals() {
+    if (totals.scene !== state.scene) {
+        totals = {scene: state.scene, counts: {matched: 0, missed: 0, false: 0}, squares: [0, 0, 0, 0], switches: 0};
+        for (const frame of sceneFrames[state.scene]) {
+            addToTotals(frame);
+        }
+    }
+    return totals;
+}
+
+function addToTotals(frame) {
+    for (const pair of pairsOfFrame(frame)) {
+        const kind = kindOfPair(pair);
+        totals.counts[kind]++;
+        if (kind === 'matched') {
+            comparedParts.forEach((part, i) => { totals.squares[i] += differenceOf(pair, part) ** 2; });
+        }
+    }
+    const {begin, end} = hasTracks ? tracksOf(frame) : {begin: 0, end: 0};
+    for (let i = begin; i < end; i++) {
+        totals.switches += column('track_before')[i] > 0 ? 1 : 0;
+    }
+}
+
+function kindsText({matched, missed, false: wrong}) {
+    return `${matched} matched, ${missed} missed, ${wrong} false`;
+}
+
+function comparedTargets() {
+    if (!isCompared(state.frame)) {
+        return [make('p', 'The other stream has no such frame.', 'soft')];
+    }
+    const pairs = pairsOfFrame(state.frame);
+    const {counts, squares} = comparisonTotals();
+    const errors = comparedParts.map((part, i) =>
+        `${round(Math.sqrt(squares[i] / Math.max(1, counts.matched)), 2)} ${part.title.split(' ')[1]}`);
+    return [
+        make('p', `In this frame ${kindsText(countKinds(pairs))}.`),
+        make('p', `In the whole scene ${kindsText(counts)}; matched ones differ by ${errors.join(', ')} (RMS).`, 'soft'),
+        ...pairsTable(pairs)];
+}
+
+function trackRow(i) {
+    const id = nameOrNone('track_id', i);
+    const object = nameOrNone('track_object', i);
+    const before = nameOrNone('track_before', i);
+    const row = make('tr');
+    row.append(make('td', id || 'missed'), make('td', object || 'of no object'),
+        make('td', id && object ? `${round(column('track_apart_m')[i], 2)} m` : '', 'number'),
+        make('td', before ? `before ${before}` : '', 'switch'));
+    return row;
+}
+
+function comparedTracks() {
+    if (!column('frame_tracked')[state.frame]) {
+        return [make('p', 'The tracks have no such frame.', 'soft')];
+    }
+    const {begin, end} = tracksOf(state.frame);
+    const table = make('table');
+    table.append(tableRow(['track', 'object', 'apart', 'switched'], 'th'));
+    for (let i = begin; i < end; i++) {
+        table.append(trackRow(i));
+    }
+    return [make('p', `Identity switches in the whole scene: ${comparisonTotals().switches}.`), table];
+}
+
+function fillComparison() {
+    control('comparison').replaceChildren(
+        ...hasTruth ? [make('h2', 'Beside the other stream'), ...comparedTargets()] : [],
+        ...hasTracks ? [make('h2', 'Tracks'), ...comparedTracks()] : []);
+}
+
+// Goes to the next frame with something missed, false or switched.
+function goToDifference() {
+    const frames = sceneFrames[state.scene];
+    const differs = frame => pairsOfFrame(frame).some(pair => kindOfPair(pair) !== 'matched') ||
+        (hasTracks && column('track_before').slice(tracksOf(frame).begin, tracksOf(frame).end).some(Boolean));
+    for (let step = 1; step <= frames.length; step++) {
+        const row = (state.row + step) % frames.length;
+        if (differs(frames[row])) {
+            stepBy(row - state.row);
+            return;
+        }
+    }
+}
+
+function connectComparison() {
+    panes.get('comparison').fill = fillComparison;
+    panes.get('comparison').tab.hidden = !hasTruth && !hasTracks;
+}

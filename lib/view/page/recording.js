@@ -1,0 +1,306 @@
+// What the chosen object, reflector or sensor did over the whole recording: plots over time of
+// range, range rate, azimuth, level and count, with the reasons of the losses in their gaps.
+
+const recordingPlots = [
+    {title: 'range m', value: target => column('target_range_m')[target]},
+    {title: 'rate m/s', value: (target, scan) => rateOf(scan, target, state.rates === 'compensated')},
+    {title: 'azimuth °', value: target => column('target_azimuth_rad')[target] * degrees},
+    {title: 'level dB', value: target => column('target_amplitude_db')[target]},
+    {title: 'count'},
+];
+const recordingMargin = {left: 38, right: 14, top: 14, bottom: 18, between: 16};
+
+const recordingCanvas = document.getElementById('series');
+const recordingContext = recordingCanvas.getContext('2d');
+
+let series = {key: '', points: [], counts: [], gaps: []};
+let seriesDrawn = '';
+
+function recordedSensor() {
+    return control('recorded').value;
+}
+
+function isRecorded(scan) {
+    return isSensorShown(scan) && (recordedSensor() === '' || sensorOf(scan).name === recordedSensor());
+}
+
+// True if the subject has a part in the target.
+function isOfSubject(target, subject) {
+    if (subject.object < 0) {
+        return true;
+    }
+    const objects = column('contributor_object');
+    const reflectors = column('contributor_reflector');
+    const {begin, end} = contributorsOf(target);
+    for (let i = begin; i < end; i++) {
+        if (objects[i] === subject.object && (subject.reflector < 0 || reflectors[i] === subject.reflector)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The reason that says best why a pattern has no target of the subject: that of most losses among
+// the notable ones, or else among all.
+function mainReason(pattern, subject) {
+    const begin = starts('pattern_items');
+    const counts = new Map();
+    for (let i = begin[pattern]; i < begin[pattern + 1]; i++) {
+        if (subject.reflector < 0 || column('item_reflector')[i] === subject.reflector) {
+            const reason = column('item_reason')[i];
+            const weight = head.reasons[reason].notable ? 1000 : 1;
+            counts.set(reason, (counts.get(reason) || 0) + weight);
+        }
+    }
+    const [most] = [...counts].sort((a, b) => b[1] - a[1]);
+    return most ? words(head.reasons[most[0]].name) : '';
+}
+
+// Why a scan has no target of the subject.
+function reasonOfGap(frame, scan, subject) {
+    if (!column('scan_measured')[scan]) {
+        return 'not measured';
+    }
+    if (subject.object < 0) {
+        return 'no target';
+    }
+    if (objectRow(frame, subject.object) < 0) {
+        return 'not in the scene';
+    }
+    if (!head.scenes[state.scene].account) {
+        return 'lost: no account';
+    }
+    const begin = starts('scan_fates');
+    const objects = column('fate_object');
+    for (let i = begin[scan]; i < begin[scan + 1]; i++) {
+        if (objects[i] === subject.object) {
+            const pattern = column('fate_pattern')[i];
+            if (!subject.reasons.has(pattern)) {
+                subject.reasons.set(pattern, mainReason(pattern, subject));
+            }
+            return subject.reasons.get(pattern) || 'not looked for';
+        }
+    }
+    return 'not looked for';
+}
+
+function addScanToSeries(built, row, scan, subject) {
+    const {begin, end} = targetsOf(scan);
+    let count = 0;
+    for (let target = begin; target < end; target++) {
+        if (isOfSubject(target, subject)) {
+            built.points.push({row, scan, target});
+            count++;
+        }
+    }
+    return count;
+}
+
+// Adds a frame without targets to the gap before it, if that has the same reason, or begins one.
+function addToGaps(gaps, row, reason) {
+    const last = gaps[gaps.length - 1];
+    if (last && last.to === row - 1 && last.reason === reason) {
+        last.to = row;
+    } else {
+        gaps.push({from: row, to: row, reason});
+    }
+}
+
+function buildSeries(key) {
+    const subject = {object: state.object, reflector: state.reflector ? names.indexOf(state.reflector) : -1,
+        reasons: new Map()};
+    const built = {key, points: [], counts: [], gaps: []};
+    sceneFrames[state.scene].forEach((frame, row) => {
+        const {begin, end} = scansOf(frame);
+        const reasons = new Set();
+        let count = 0;
+        for (let scan = begin; scan < end; scan++) {
+            if (isRecorded(scan)) {
+                const more = addScanToSeries(built, row, scan, subject);
+                count += more;
+                reasons.add(more > 0 ? '' : reasonOfGap(frame, scan, subject));
+            }
+        }
+        built.counts.push(count);
+        if (count === 0) {
+            addToGaps(built.gaps, row, [...reasons].join(' / ') || 'no sensor');
+        }
+    });
+    return built;
+}
+
+function seriesOfSubject() {
+    const key = [state.scene, state.object, state.reflector, recordedSensor(),
+        ...switchedOff.sensor].join('|');
+    if (series.key !== key) {
+        series = buildSeries(key);
+    }
+    return series;
+}
+
+// The panel of one plot, and its scale.
+function recordingPanel(size, i) {
+    const height = (size.height - recordingMargin.top - recordingMargin.bottom -
+        recordingMargin.between * (recordingPlots.length - 1)) / recordingPlots.length;
+    const top = recordingMargin.top + i * (height + recordingMargin.between);
+    return {top, height, left: recordingMargin.left, right: size.width - recordingMargin.right};
+}
+
+function timeSpan() {
+    const frames = sceneFrames[state.scene];
+    const times = column('frame_time_s');
+    const from = times[frames[0]];
+    return {from, span: Math.max(1e-6, times[frames[frames.length - 1]] - from)};
+}
+
+function timePlace(panelOf, row) {
+    const {from, span} = timeSpan();
+    const time = column('frame_time_s')[sceneFrames[state.scene][row]];
+    return panelOf.left + (panelOf.right - panelOf.left) * (time - from) / span;
+}
+
+function scaleOf(values) {
+    let low = Infinity;
+    let high = -Infinity;
+    for (const value of values) {
+        low = Math.min(low, value);
+        high = Math.max(high, value);
+    }
+    const room = high > low ? 0.06 * (high - low) : 1;
+    return high >= low ? {low: low - room, high: high + room} : {low: 0, high: 1};
+}
+
+function drawScale(drawing, panelOf, title, scale) {
+    const step = roundStep(scale.high - scale.low, 3);
+    for (let value = Math.ceil(scale.low / step) * step; value <= scale.high; value += step) {
+        const y = panelOf.top + panelOf.height * (scale.high - value) / (scale.high - scale.low);
+        plotRule(drawing, {x: panelOf.left, y}, {x: panelOf.right, y}, false);
+        plotText(drawing, String(Number(value.toPrecision(4))), panelOf.left - 4, y, 'right');
+    }
+    plotText(drawing, title, panelOf.left, panelOf.top - 7, 'left');
+}
+
+function drawGap(drawing, size, gap) {
+    const panelOf = recordingPanel(size, 0);
+    const from = timePlace(panelOf, Math.max(0, gap.from - 0.5 | 0));
+    const to = Math.max(from + 1, timePlace(panelOf, Math.min(series.counts.length - 1, gap.to + 1)));
+    drawing.fillStyle = ink.grid;
+    drawing.fillRect(from, panelOf.top, to - from, size.height - recordingMargin.bottom - panelOf.top);
+    drawing.fillStyle = ink.soft;
+    drawing.font = '11px system-ui, "DejaVu Sans", sans-serif';
+    const width = drawing.measureText(gap.reason).width;
+    drawing.textAlign = 'center';
+    drawing.textBaseline = 'middle';
+    const middle = {x: (from + to) / 2, y: panelOf.top + panelOf.height / 2};
+    if (width < to - from - 4) {
+        drawing.fillText(gap.reason, middle.x, middle.y);
+    } else if (to - from >= 12) {
+        drawUpright(drawing, gap.reason, {x: middle.x, y: size.height - recordingMargin.bottom - 6});
+    }
+}
+
+// Writes a text from a place upward.
+function drawUpright(drawing, text, at) {
+    drawing.save();
+    drawing.translate(at.x, at.y);
+    drawing.rotate(-Math.PI / 2);
+    drawing.textAlign = 'left';
+    drawing.fillText(text, 0, 0);
+    drawing.restore();
+}
+
+// Draws the points of one plot, none twice at one place.
+function drawSeries(drawing, size, i) {
+    const panelOf = recordingPanel(size, i);
+    const {value, title} = recordingPlots[i];
+    const values = value ? series.points.map(({target, scan}) => value(target, scan)) : [0, ...series.counts];
+    const scale = scaleOf(values);
+    const place = number => panelOf.top + panelOf.height * (scale.high - number) / (scale.high - scale.low);
+    drawScale(drawing, panelOf, title, scale);
+    const used = new Set();
+    const dot = (x, y, colour) => {
+        const pixel = Math.round(x) * 4096 + Math.round(y);
+        if (!used.has(pixel)) {
+            used.add(pixel);
+            drawing.fillStyle = colour;
+            drawing.fillRect(x - 1.25, y - 1.25, 2.5, 2.5);
+        }
+    };
+    if (value) {
+        series.points.forEach(({row, scan, target}, at) =>
+            dot(timePlace(panelOf, row), place(values[at]), colourOf(scan, target)));
+    } else {
+        series.counts.forEach((count, row) => dot(timePlace(panelOf, row), place(count), ink.soft));
+    }
+}
+
+function drawTimeAxis(drawing, size) {
+    const {from, span} = timeSpan();
+    const panelOf = recordingPanel(size, recordingPlots.length - 1);
+    const step = roundStep(span, 5);
+    const start = head.scenes[state.scene].start_s + from;
+    for (let time = Math.ceil(start / step) * step; time <= start + span; time += step) {
+        const x = panelOf.left + (panelOf.right - panelOf.left) * (time - start) / span;
+        plotText(drawing, `${Number(time.toPrecision(4))} s`, x, size.height - 8, 'center');
+    }
+}
+
+function drawRecording() {
+    seriesOfSubject();
+    const look = [series.key, recordingCanvas.clientWidth, recordingCanvas.clientHeight, isDark(), state.colour,
+        state.effect, state.rates].join('|');
+    if (seriesDrawn !== look) {
+        seriesDrawn = look;
+        const size = fitCanvas(recordingCanvas, recordingContext);
+        series.gaps.forEach(gap => drawGap(recordingContext, size, gap));
+        recordingPlots.forEach((_, i) => drawSeries(recordingContext, size, i));
+        drawTimeAxis(recordingContext, size);
+    }
+    const panelOf = recordingPanel({width: recordingCanvas.clientWidth, height: recordingCanvas.clientHeight}, 0);
+    control('cursor').style.left = timePlace(panelOf, state.row) + 'px';
+}
+
+function subjectTitle() {
+    return state.object < 0 ? recordedSensor() || 'all targets'
+        : state.reflector ? `${state.reflector} of ${names[state.object]}` : names[state.object];
+}
+
+function fillRecording() {
+    setText(control('subject'), subjectTitle());
+    drawRecording();
+}
+
+// The row whose time lies nearest to a place in the plots.
+function rowOfPlace(x) {
+    const panelOf = recordingPanel({width: recordingCanvas.clientWidth, height: recordingCanvas.clientHeight}, 0);
+    const {from, span} = timeSpan();
+    const part = (x - panelOf.left) / (panelOf.right - panelOf.left);
+    const frames = sceneFrames[state.scene];
+    const row = rowAt(frames, from + part * span);
+    const next = Math.min(row + 1, frames.length - 1);
+    return x - timePlace(panelOf, row) < timePlace(panelOf, next) - x ? row : next;
+}
+
+function recordingWords(row) {
+    const frame = sceneFrames[state.scene][row];
+    const gap = series.gaps.find(one => one.from <= row && row <= one.to);
+    return `frame ${frameNumber(frame)}: ` + (gap ? gap.reason : plural(series.counts[row], 'target'));
+}
+
+function connectRecording() {
+    panes.get('recording').fill = fillRecording;
+    for (const name of ['', ...sensorNames]) {
+        const option = make('option', name || 'all sensors');
+        option.value = name;
+        control('recorded').append(option);
+    }
+    control('recorded').addEventListener('change', refresh);
+    recordingCanvas.addEventListener('click', event => {
+        setPlaying(false);
+        showRow(rowOfPlace(event.offsetX));
+    });
+    recordingCanvas.addEventListener('pointermove', event =>
+        showTip(recordingWords(rowOfPlace(event.offsetX)), event.clientX, event.clientY));
+    recordingCanvas.addEventListener('pointerleave', hideTip);
+    new ResizeObserver(() => state.pane === 'recording' && drawRecording()).observe(recordingCanvas);
+}
