@@ -107,6 +107,18 @@ static int first_frame(struct chain *chain)
     return more;
 }
 
+/* A source knows how many frames there will be, and a file has a size; whoever reads a pipe leaves
+ * it to the other side. What a terminal already shows of the output tells enough. */
+static void show_progress(struct chain *chain)
+{
+    const struct runner *first = &chain->runners[0], *end = last(chain);
+    if (end->outputs.count > 0 && output_prints(end->outputs.items[0]))
+        return;
+    double expected = (double)first->expected_frames, count = (double)chain->progress.count;
+    progress_show(&chain->progress,
+                  expected > 0 ? count / expected : frame_stream_share(&chain->input));
+}
+
 /* One frame through all stages: 1, 0 if there was none, -1 if one of them failed. */
 static int run_frame(struct chain *chain)
 {
@@ -130,7 +142,8 @@ static int run_frame(struct chain *chain)
         add_time(chain, &chain->times->write_ns, begin);
         chain->times->frames++;
     }
-    progress_step(&chain->progress);
+    if (progress_step(&chain->progress))
+        show_progress(chain);
     return result == 0 ? 1 : -1;
 }
 
@@ -150,6 +163,8 @@ static int next_frame(void *from, struct frame **frame)
         add_time(chain, &chain->times->step_ns[chain->stages], chain->tool_begin_ns);
     *frame = &chain->frame;
     int more = any_failed(chain) ? 0 : run_frame(chain);
+    if (more <= 0)
+        progress_end(&chain->progress);
     if (more < 0 && !failed(last(chain)))
         more = 0;
     chain->tool_has_frame = more > 0;
@@ -191,7 +206,7 @@ static void start(struct chain *chain)
 
 static void run(struct chain *chain)
 {
-    progress_begin(&chain->progress, chain->runners[0].expected_frames);
+    progress_begin(&chain->progress, "frames");
     if (chain->stages == chain->count)
         while (!any_failed(chain) && run_frame(chain) > 0)
             continue;

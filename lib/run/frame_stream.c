@@ -55,6 +55,13 @@ struct frame_place frame_stream_place(const struct frame_stream *stream)
     return (struct frame_place){input_name(stream->input), stream->line};
 }
 
+double frame_stream_share(const struct frame_stream *stream)
+{
+    double share = stream->input != NULL ? input_share(stream->input) : 0;
+    size_t count = stream->count > 0 ? stream->count : 1;
+    return share > 0 ? ((double)(stream->path - 1) + share) / (double)count : 0;
+}
+
 void frame_stream_name_line(const struct frame_stream *stream, struct diag *diag)
 {
     if (stream->input == NULL)

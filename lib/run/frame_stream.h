@@ -24,6 +24,9 @@ int frame_stream_parse(const char *line, size_t length, struct frame *frame, str
 /* File and line of the last frame. */
 struct frame_place frame_stream_place(const struct frame_stream *stream);
 
+/* The part of all input that has been read, as if all files were of one size; 0: not known. */
+double frame_stream_share(const struct frame_stream *stream);
+
 /* Puts file and line of the last frame in front of a message. Nothing at the end of the stream. */
 void frame_stream_name_line(const struct frame_stream *stream, struct diag *diag);
 

@@ -1,32 +1,60 @@
 #include "run/progress.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <time.h>
 #include <unistd.h>
 
-enum { BAR_WIDTH = 40 };
+enum { BAR_WIDTH = 24, LINE_WIDTH = 72 };
 
-void progress_begin(struct progress *progress, int64_t expected)
+static const double QUIET_S = 1, PAUSE_S = 0.2;
+
+static double clock_s(void)
 {
-    bool shown = expected > 0 && isatty(STDERR_FILENO) && !isatty(STDOUT_FILENO);
-    *progress = (struct progress){.shown = shown, .expected = expected, .percent = -1};
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-void progress_step(struct progress *progress)
+void progress_begin(struct progress *progress, const char *unit)
 {
-    if (!progress->shown)
+    double now_s = clock_s();
+    *progress = (struct progress){.unit = unit, .begin_s = now_s};
+    progress->next_s = isatty(STDERR_FILENO) ? now_s + QUIET_S : (double)INFINITY;
+}
+
+bool progress_step(struct progress *progress)
+{
+    progress->count++;
+    return progress->next_s < (double)INFINITY && clock_s() >= progress->next_s;
+}
+
+void progress_write(const struct progress *progress, double elapsed_s, double share, char *line,
+                    size_t size)
+{
+    share = share < 1 ? share : 1;
+    double rate = (double)progress->count / elapsed_s;
+    long left_s = lrint(elapsed_s / share - elapsed_s);
+    snprintf(line, size, "[%-*.*s] %3.0f %%, %.*f %s/s, %ld:%02ld:%02ld left", BAR_WIDTH,
+             (int)(BAR_WIDTH * share), "########################", floor(100 * share),
+             rate < 10 ? 1 : 0, rate, progress->unit, left_s / 3600, left_s / 60 % 60, left_s % 60);
+}
+
+void progress_show(struct progress *progress, double share)
+{
+    char line[LINE_WIDTH + 1];
+    double now_s = clock_s();
+    progress->next_s = now_s + PAUSE_S;
+    if (!(share > 0))
         return;
-    progress->done++;
-    int percent = (int)(100 * progress->done / progress->expected);
-    if (percent == progress->percent)
-        return;
-    progress->percent = percent;
-    int filled = BAR_WIDTH * percent / 100;
-    fprintf(stderr, "\r[%.*s%*s] %3d %%", filled, "########################################",
-            BAR_WIDTH - filled, "", percent);
+    progress_write(progress, now_s - progress->begin_s, share, line, sizeof line);
+    fprintf(stderr, "\r%-*s", LINE_WIDTH, line);
+    progress->shown = true;
 }
 
 void progress_end(struct progress *progress)
 {
     if (progress->shown)
-        fprintf(stderr, "\r%*s\r", BAR_WIDTH + 8, "");
+        fprintf(stderr, "\r%*s\r", LINE_WIDTH, "");
+    progress->shown = false;
 }

@@ -85,7 +85,7 @@ struct reference_stream *runner_reference_stream(struct runner *runner, const ch
 /* Where the frame was read that the stage has now (frame/frame_sequence.h). */
 struct frame_place runner_place(const struct runner *runner);
 
-/* How many frames a source will make, for the progress bar. */
+/* How many frames a source will make, for the time left. */
 void runner_expect(struct runner *runner, int64_t frames);
 
 #endif

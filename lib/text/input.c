@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <zlib.h>
@@ -62,6 +63,14 @@ void input_close(struct input *input)
 const char *input_name(const struct input *input)
 {
     return input->name;
+}
+
+double input_share(const struct input *input)
+{
+    struct stat file;
+    if (fstat(input->fd, &file) != 0 || !S_ISREG(file.st_mode) || file.st_size == 0)
+        return 0;
+    return (double)lseek(input->fd, 0, SEEK_CUR) / (double)file.st_size;
 }
 
 void input_before_waiting(struct input *input, struct input_pause pause)

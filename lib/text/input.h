@@ -38,6 +38,9 @@ void input_before_waiting(struct input *input, struct input_pause pause);
 /* "stdin" or the path, for messages. */
 const char *input_name(const struct input *input);
 
+/* The part of a regular file that has been read; of all others 0. */
+double input_share(const struct input *input);
+
 /* Reads up to size bytes; returns their number, 0 at the end, -1 after a message. */
 long input_read(struct input *input, char *bytes, size_t size, struct diag *diag);
 

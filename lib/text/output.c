@@ -200,6 +200,11 @@ struct text *output_text(struct output *output)
     return &output->held;
 }
 
+bool output_prints(const struct output *output)
+{
+    return output->held.length > 0 && isatty(output->fd);
+}
+
 int output_send(struct output *output, struct diag *diag)
 {
     size_t whole = output->held.length / PIECE_SIZE * PIECE_SIZE;

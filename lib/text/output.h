@@ -25,6 +25,9 @@ struct output *output_open(const char *path, struct diag *diag);
 struct text *output_text(struct output *output);
 int output_send(struct output *output, struct diag *diag);
 
+/* True if a terminal shows what is written, and there is something. */
+bool output_prints(const struct output *output);
+
 /* Writes all that is held where somebody may wait for it: to standard output, a pipe or a device. A
  * file and compressed output keep it until there is more, or the end. */
 int output_flush(struct output *output, struct diag *diag);

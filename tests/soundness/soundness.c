@@ -361,10 +361,11 @@ static int prove(struct bench *bench)
     struct progress progress;
     int64_t frames = bench->wanted->frames, violations = 0;
     int more = start(bench) == 0 ? 1 : -1;
-    progress_begin(&progress, frames);
+    progress_begin(&progress, "scenes");
     for (int64_t i = 0; i < frames && more == 1; i++) {
         more = visit(bench, bench->wanted->first + i);
-        progress_step(&progress);
+        if (progress_step(&progress))
+            progress_show(&progress, (double)progress.count / (double)frames);
     }
     progress_end(&progress);
     if (more < 0)

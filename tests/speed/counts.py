@@ -14,6 +14,7 @@ import sys
 import tempfile
 
 import scenes
+from progress import Progress
 
 SAME_HEAP = os.path.join("build", "tests", "speed", "same_heap.so")
 ENVIRONMENT = {
@@ -103,7 +104,7 @@ def instructions(binary, job):
 def side_by_side(count, jobs_):
     """count(job) of every job, run side by side on all processors."""
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        return list(pool.map(count, jobs_))
+        return list(Progress("jobs").over(pool.map(count, jobs_), len(jobs_)))
 
 
 def allocations(binary, job):

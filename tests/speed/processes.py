@@ -7,6 +7,7 @@ import time
 
 import scenes
 import timing
+from progress import Progress
 
 SUITE = "--sensors lrr77-every-frame"
 # What each executable gets to do with one frame: options, and the stage whose output it reads.
@@ -126,15 +127,16 @@ def seen(processes):
     return cpu_ns, resident_kB
 
 
-def follow(title, processes, frames):
+def follow(processes, frames):
     """Reads the output of the last process; (CPU, memory) at the end of every tenth but the last, after which
     there may be no process to ask."""
-    found, done = [(0, 0)], 0
+    found, done, progress = [(0, 0)], 0, Progress("frames", frames)
     while chunk := os.read(processes[-1].stdout.fileno(), 1 << 20):
         done += chunk.count(b"\n")
-        timing.show(title, done, frames)
+        progress.step(chunk.count(b"\n"))
         if len(found) < TENTHS and done >= len(found) * frames // TENTHS:
             found.append(seen(processes))
+    progress.end()
     if done != frames or any(process.wait() != 0 for process in processes):
         raise SystemExit(f"bench: {done} frames came out of {frames}")
     return found

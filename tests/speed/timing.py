@@ -34,14 +34,6 @@ def spent(command, stdout=subprocess.DEVNULL):
     return {line["part"]: line for line in map(json.loads, done.stderr.splitlines())}
 
 
-def show(title, done, expected):
-    """Progress, for people only."""
-    if sys.stderr.isatty() and not sys.stdout.isatty():
-        filled = 40 * done // expected
-        sys.stderr.write(f"\r{title:6} [{'#' * filled:40}] {100 * done // expected:3} %")
-        sys.stderr.write("\n" if done >= expected else "")
-
-
 def write_text(text, folder, name="chain.sh"):
     path = os.path.join(folder, name)
     with open(path, "w") as out:

@@ -10,7 +10,7 @@
  *   - a line feed is white space to jansson, the end of a line to us
  * Both refuse U+0000 in strings, a byte order mark and numbers beyond the doubles, as they may.
  *
- *     build/tests/test_frame_oracle LINES     mutates so many lines, not 10^5, with a progress bar
+ *     build/tests/test_frame_oracle LINES     mutates so many lines, not 10^5, with the time left
  */
 #define _GNU_SOURCE
 #include "check.h"
@@ -571,7 +571,7 @@ static void mutated_lines_are_judged_as_jansson_judges_them(void **state)
 {
     int64_t lines = *(const int64_t *)*state, taken = 0;
     struct progress progress;
-    progress_begin(&progress, lines);
+    progress_begin(&progress, "lines");
     uint64_t random = 5;
     for (int64_t i = 0; i < lines; i++) {
         char line[LINE_SIZE + 1] = "";
@@ -581,7 +581,8 @@ static void mutated_lines_are_judged_as_jansson_judges_them(void **state)
         for (size_t changes = 1 + pick(&random, 2); changes > 0 && length > 0; changes--)
             length = change(line, length, &random);
         taken += check_line(line, length);
-        progress_step(&progress);
+        if (progress_step(&progress))
+            progress_show(&progress, (double)progress.count / (double)lines);
     }
     progress_end(&progress);
     print_message("%lld of %lld lines were taken\n", (long long)taken, (long long)lines);

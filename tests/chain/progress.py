@@ -1,0 +1,180 @@
+"""Rate and time left stand on stderr where it is a terminal and work takes over a second, and nowhere else.
+
+Usage: python3 tests/chain/progress.py BIN_DIR
+
+No test depends on the speed of the machine: a run takes over a second because nobody reads what it writes, or
+because it has work for hours and is ended; and a run that must be silent as it is short is measured.
+"""
+import os
+import pty
+import re
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+PATIENCE_S = 120
+LINE = rb"\r\[#* *\] +\d+ %, \d+(\.\d)? UNIT/s, \d+:\d\d:\d\d left *"
+FRAMES = re.compile(LINE.replace(b"UNIT", b"frames"))
+ERASED = re.compile(rb"\r *\r\Z")
+ENDLESS = "glint-traffic-random --frames 1000000000"
+LIST = "glint-extract | glint-ideal --sensors corner77 | glint-sensor | glint-noise"
+BLOCKED_S = 1.1
+
+
+class Terminal:
+    """What a program writes to a terminal of its own."""
+
+    def __init__(self, idle_s=0):
+        self.idle_s = idle_s  # nobody looks at it for so long
+        self.ours, self.theirs = pty.openpty()
+        self.text, self.changed = b"", threading.Condition()
+        self.reader = threading.Thread(target=self.read, daemon=True)
+
+    def start(self, command, **streams):
+        process = subprocess.Popen(["bash", "-c", "exec " + command], stderr=self.theirs, **streams)
+        os.close(self.theirs)
+        self.reader.start()
+        return process
+
+    def read(self):
+        time.sleep(self.idle_s)
+        while True:
+            try:
+                piece = os.read(self.ours, 65536)
+            except OSError:
+                piece = b""
+            with self.changed:
+                self.text += piece
+                self.changed.notify()
+            if not piece:
+                return
+
+    def wait_for(self, pattern):
+        with self.changed:
+            return self.changed.wait_for(lambda: pattern.search(self.text), PATIENCE_S)
+
+    def all(self):
+        self.reader.join(PATIENCE_S)
+        os.close(self.ours)
+        return self.text
+
+
+def on_terminal(command, stdin=subprocess.DEVNULL):
+    """stderr of a run of over a second, and stdout, which nobody reads in the first."""
+    terminal = Terminal()
+    process = terminal.start(command, stdin=stdin, stdout=subprocess.PIPE)
+    time.sleep(BLOCKED_S)
+    written = process.stdout.read()
+    process.wait(PATIENCE_S)
+    return terminal.all(), written
+
+
+def endless_work_tells_how_long_it_takes(folder):
+    for command in (f"{ENDLESS} -o {folder}/list.jsonl", f"{ENDLESS} > /dev/null", f"{ENDLESS} | cat > /dev/null",
+                    f"{ENDLESS} -o {folder}/list.jsonl.gz",
+                    f"glint -c '{ENDLESS} | {LIST} -o {folder}/list.jsonl'",
+                    f"glint -c '{ENDLESS} | {LIST} | glint-summary'"):
+        terminal = Terminal()
+        words = command if "|" not in command or "-c" in command else f"bash -c '{command}'"
+        process = terminal.start(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, start_new_session=True)
+        if not terminal.wait_for(FRAMES):
+            return f"no rate of: {command}"
+        os.killpg(process.pid, 15)
+        process.wait(PATIENCE_S)
+        terminal.all()
+    return None
+
+
+def a_stage_that_reads_a_file_tells_it_too(folder):
+    for command in (f"glint-extract {folder}/frames.jsonl", f"glint-extract {folder}/frames.jsonl.gz",
+                    f"glint-extract {folder}/frames.jsonl {folder}/frames.jsonl.gz",
+                    f"glint-extract < {folder}/frames.jsonl", f"glint-score --truth {folder}/lists.jsonl {folder}/lists.jsonl",
+                    f"glint -c 'glint-extract {folder}/frames.jsonl | glint-ideal --sensors corner77'"):
+        text, _ = on_terminal(command)
+        if not FRAMES.match(text):
+            return f"no rate of: {command}: {text[:100]}"
+        if not ERASED.search(text):
+            return f"the line stays after: {command}: {text[-100:]}"
+    return None
+
+
+def who_reads_a_pipe_leaves_it_to_the_other_side(folder):
+    with subprocess.Popen(["cat", f"{folder}/frames.jsonl"], stdout=subprocess.PIPE) as other:
+        text, _ = on_terminal("glint-extract", other.stdout)
+        return text and f"a second line: {text[:100]}"
+
+
+def nothing_is_printed_where_stderr_is_no_terminal(folder):
+    command = f"glint-extract {folder}/frames.jsonl"
+    with subprocess.Popen(command.split(), stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        time.sleep(BLOCKED_S)
+        process.stdout.read()
+        text = process.stderr.read()
+    return text and f"{text[:100]} from: {command}"
+
+
+def short_work_is_silent(_):
+    for _ in range(100):
+        begin, terminal = time.monotonic(), Terminal()
+        process = terminal.start("glint-traffic-random --frames 2", stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+        process.wait(PATIENCE_S)
+        ended, found = time.monotonic(), terminal.all()
+        if ended - begin < 1:
+            return found and f"{found[:100]} from a run of under a second"
+    return "no run takes under a second"
+
+
+def frames_on_a_terminal_stay_whole(folder):
+    """Frames that a terminal shows are no place for a line between them."""
+    terminal = Terminal(BLOCKED_S)
+    expected = subprocess.run(["glint-extract", f"{folder}/frames.jsonl"], check=True, stdout=subprocess.PIPE).stdout
+    process = terminal.start(f"glint-extract {folder}/frames.jsonl >&2", stdin=subprocess.DEVNULL)
+    process.wait(PATIENCE_S)
+    found = terminal.all().replace(b"\r\n", b"\n")
+    return found != expected and "a terminal shows other bytes than the frames"
+
+
+def scripts_show_the_same_line(_):
+    """The two helpers of scripts; a script that uses one is tried with work that takes over a second."""
+    support = os.path.join(ROOT, "tests", "support")
+    python = f"import sys, time; sys.path.insert(0, '{support}'); from progress import Progress\n" \
+             f"for n in Progress('runs').over(range(4)): time.sleep({BLOCKED_S} if n < 2 else 0.3)"
+    shell = f". {support}/progress.sh; sleep {BLOCKED_S}; progress 1 4 runs; progress_end"
+    for words in (f"python3 -c \"{python}\"", f"sh -c '{shell}'", f"bash -c '{shell}'"):
+        text, _ = on_terminal(words)
+        if not re.match(LINE.replace(b"UNIT", b"runs"), text) or not ERASED.search(text):
+            return f"no rate, or it stays: {words}: {text[:100]}"
+        if not re.search(rb"\r\[######                  \]  25 %, \d\.\d runs/s, 0:00:\d\d left", text):
+            return f"another line: {words}: {text[:100]}"
+        done = subprocess.run(words, shell=True, check=True, capture_output=True)
+        if done.stderr:
+            return f"{done.stderr[:100]} without a terminal: {words}"
+    return None
+
+
+TESTS = [endless_work_tells_how_long_it_takes, a_stage_that_reads_a_file_tells_it_too,
+         who_reads_a_pipe_leaves_it_to_the_other_side, nothing_is_printed_where_stderr_is_no_terminal,
+         short_work_is_silent, frames_on_a_terminal_stay_whole, scripts_show_the_same_line]
+
+
+def main(words):
+    if len(words) != 1:
+        sys.exit(__doc__)
+    os.environ["PATH"] = os.path.abspath(words[0]) + os.pathsep + os.environ["PATH"]
+    failed = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for made in ("frames.jsonl", "frames.jsonl.gz"):
+            subprocess.run(["glint-traffic-random", "--density", "medium", "--frames", "500", "-o", f"{folder}/{made}"],
+                           check=True)
+        subprocess.run(["glint", "-c", f"glint-traffic-random --density dense --frames 500 | {LIST} -o {folder}/lists.jsonl"], check=True)
+        for test in TESTS:
+            fault = test(folder)
+            failed += bool(fault)
+            print(f"{'FAILED' if fault else 'ok':8} {test.__name__.replace('_', ' ')}{': ' + fault if fault else ''}")
+    sys.exit(failed > 0)
+
+
+main(sys.argv[1:])
