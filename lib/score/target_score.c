@@ -159,7 +159,7 @@ struct target_pairs target_score_pairs(const char *sensor, const struct frame *t
         size_t item = pairing.item_of[i];
         struct target_pair *added = list_add(&pairs.list, arena);
         added->truth = pairing.truths.list.items[i];
-        if (item == ASSIGNMENT_NONE)
+        if (item >= pairing.listed.list.count) /* ASSIGNMENT_NONE is above all numbers */
             continue;
         added->listed = pairing.listed.list.items[item];
         paired[item] = true;
@@ -179,7 +179,7 @@ void target_score_scan(struct score_tally *tally, const struct frame *truth,
     double squares = 0;
     for (size_t i = 0; i < rows; i++) {
         size_t item = pairing.item_of[i];
-        if (item == ASSIGNMENT_NONE)
+        if (item >= columns) /* ASSIGNMENT_NONE is above all columns */
             continue;
         double error = pairing.distance[i * columns + item];
         squares += error * error;

@@ -16,6 +16,7 @@ const table = {
     descending: false,
     rows: [],
     elements: [],
+    laid: '', // which rows of how many are in the page
     body: document.querySelector('#targets tbody'),
     scroll: document.querySelector('#targets .scroll'),
 };
@@ -114,8 +115,11 @@ function showRowsInView() {
     }
     const shown = table.elements.slice(0, count);
     shown.forEach((element, i) => fillRow(element, table.rows[first + i]));
-    const after = table.rows.length - first - count;
-    table.body.replaceChildren(...spacer(first), ...shown, ...spacer(after));
+    const laid = [first, count, table.rows.length].join();
+    if (table.laid !== laid) { // else the rows stand where they are
+        table.laid = laid;
+        table.body.replaceChildren(...spacer(first), ...shown, ...spacer(table.rows.length - first - count));
+    }
 }
 
 function markHoveredRow() {
