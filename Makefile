@@ -84,10 +84,9 @@ $(BUILD)/lib/%.cc.o: lib/%.cc
 # The page of glint-view: its parts joined, where page.html names them, and embedded as bytes.
 page = lib/view/page
 view_parts = $(addprefix $(page)/,$(shell sed -n 's/^@\(.*\.[a-z]*\)@$$/\1/p' $(page)/page.html))
-$(BUILD)/view_page.html: $(page)/page.html $(view_parts)
+$(BUILD)/view_page.html: $(page)/page.html $(view_parts) scripts/join-page
 	@mkdir -p $(@D)
-	$(Q)awk '/^@.*\.(css|js)@$$/ { part = "$(page)/" substr($$0, 2, length($$0) - 2); \
-	    while ((getline line < part) > 0) print line; close(part); next } { print }' $< >$@
+	$(Q)scripts/join-page $< >$@
 
 $(BUILD)/view_page.c: $(BUILD)/view_page.html
 	$(Q){ echo '#include "view/view_page.h"'; echo 'const char view_page[] = {'; \

@@ -1,7 +1,17 @@
 // The frames: columns of typed arrays, decoded from base64 when they are first used. A row of one
 // table owns rows of another by count; starts(name) adds the counts up to row numbers.
 
-const head = JSON.parse(document.getElementById('head').textContent);
+const rightToLeft = /[\u0590-\u08ff\ufb1d-\ufdff\ufe70-\ufefc]/;
+
+// A name as the page shows it: marks that turn the direction of writing are made visible, and a name
+// in letters that run from right to left turns nothing around it.
+function shownName(name) {
+    const plain = name.replace(/[\u200e\u200f\u061c\u202a-\u202e\u2066-\u2069]/g, '\ufffd');
+    return rightToLeft.test(plain) ? `\u2068${plain}\u2069` : plain;
+}
+
+const head = JSON.parse(document.getElementById('head').textContent,
+    (_, value) => typeof value === 'string' ? shownName(value) : value);
 const base64 = document.getElementById('columns').firstChild.data;
 const base64Begin = base64.search(/[^\s]/);
 const names = head.names;

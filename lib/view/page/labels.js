@@ -27,7 +27,8 @@ function freeBox(at, width, height) {
 }
 
 function shorten(text) {
-    return text.length > 72 ? text.slice(0, 70) + '…' : text;
+    const room = Math.min(72, Math.floor(canvas.clientWidth / 9));
+    return text.length > room ? text.slice(0, room - 2) + '…' : text;
 }
 
 function putLabel(text, at, colour, bold) {

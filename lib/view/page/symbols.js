@@ -1,10 +1,11 @@
 // Colours and marks, in light and dark: a target's symbol by its sensor, a ghost's, and the cross
 // of a lost echo.
 
-// Colours that people with any colour vision can tell apart, in a light and a dark tone each.
+// Colours that people with any colour vision can tell apart: by at least 10 in CIEDE2000, also where
+// one kind of cones is missing (tests/browser).
 const palettes = {
-    light: ['#0072b2', '#c74e00', '#00805e', '#a8478a', '#8a6d00', '#3a6fd8', '#7a4a2b', '#4d4d4d'],
-    dark: ['#56b4e9', '#f0a030', '#2fc79a', '#e79ac6', '#e6d94c', '#9db8ff', '#d2a07c', '#c8c8c8'],
+    light: ['#0072b2', '#c74e00', '#00675b', '#ac4481', '#8e3900', '#3590d8', '#724a38', '#4c344e'],
+    dark: ['#56b4e9', '#f0a030', '#2c9b9a', '#b75ec2', '#de6e4e', '#a3daff', '#cfb37c', '#caccc8'],
 };
 // Shapes of targets, by sensor.
 const targetShapes = ['star', 'circle', 'diamond', 'triangle', 'square', 'four-point star'];

@@ -161,7 +161,7 @@ function tableText() {
     const headings = ['sensor', 'target', 'range_m', 'azimuth_deg', 'range_rate_mps', 'amplitude_db', 'object'];
     const lines = tableRows().map(row => [sensorOf(row.scan).name, row.target - targetsOf(row.scan).begin + 1,
         ...tableColumns.slice(1).map((_, i) => cellText(row, i + 1))]);
-    return [headings, ...lines].map(cells => cells.map(cell => String(cell).replace(/\s+/g, ' ')).join('\t') + '\n')
+    return [headings, ...lines].map(cells => cells.map(cell => String(cell).replace(/[\u2068\u2069]/g, '').replace(/\s+/g, ' ')).join('\t') + '\n')
         .join('');
 }
 
