@@ -63,7 +63,7 @@ function switchLine(kind, value, mark, text) {
 }
 
 function switchGroup(title, lines) {
-    return lines.length < 2 ? [] : [make('h3', title), ...lines];
+    return lines.length < 2 ? [] : [make('b', title), ...lines];
 }
 
 // The switches of paths and classes, folded away until they are wanted.
