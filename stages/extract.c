@@ -4,8 +4,7 @@
 
 static int extract_step(void *state, struct frame *frame, struct runner *runner)
 {
-    (void)state;
-    return extraction_step(frame, runner, NULL, NULL);
+    return extraction_step(state, frame, runner, NULL);
 }
 
 const struct stage stage_extract = {
@@ -13,8 +12,9 @@ const struct stage stage_extract = {
     .summary = "Write the reflection centres of every object's class.",
     .details = "The class of an object names a document in data/vehicles/. An object of size zero\n"
                "takes the default size of its class. The ego does not reflect.",
-    .options = &no_options_record,
+    .options = &extraction_record,
     .reads = SECTION_OBJECTS,
-    .writes = SECTION_REFLECTORS,
+    .writes = SECTION_REFLECTORS | SECTION_VEHICLES,
+    .start = extraction_start,
     .step = extract_step,
 };

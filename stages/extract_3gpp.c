@@ -12,7 +12,7 @@ static void describe(const void *state, const struct vehicle *vehicle, struct re
 
 static int extract_3gpp_step(void *state, struct frame *frame, struct runner *runner)
 {
-    return extraction_step(frame, runner, describe, state);
+    return extraction_step(state, frame, runner, describe);
 }
 
 const struct stage stage_extract_3gpp = {
@@ -27,8 +27,9 @@ const struct stage stage_extract_3gpp = {
         "is behind it, are the document's for every class. Elevation counts for sensors with\n"
         "mount_z_m; for all others everything is level. The report's fluctuation is a\n"
         "property of the sensor: fluctuation log_normal, 3.41 dB for vehicles.",
-    .options = &no_options_record,
+    .options = &extraction_record,
     .reads = SECTION_OBJECTS,
-    .writes = SECTION_REFLECTORS,
+    .writes = SECTION_REFLECTORS | SECTION_VEHICLES,
+    .start = extraction_start,
     .step = extract_3gpp_step,
 };

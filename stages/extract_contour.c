@@ -3,6 +3,7 @@
 #include "run/extraction.h"
 
 struct extract_contour {
+    struct extraction extraction; /* first: its options are the stage's */
     double spacing_m;
 };
 
@@ -17,10 +18,11 @@ static void describe(const void *state, const struct vehicle *vehicle, struct re
 
 static int extract_contour_step(void *state, struct frame *frame, struct runner *runner)
 {
-    return extraction_step(frame, runner, describe, state);
+    return extraction_step(state, frame, runner, describe);
 }
 
 static const struct field extract_contour_options[] = {
+    EXTRACTION_OPTIONS,
     {FIELD_REAL_IN(struct extract_contour, spacing_m, 0.02, 100,
                    "distance from one scatterer to the next, at most; absent: 0.1 m"),
      FIELD_OPTIONAL, .absent = 0.1},
@@ -48,6 +50,7 @@ const struct stage stage_extract_contour = {
         "switched off no scatterer is seen.",
     .options = &extract_contour_record,
     .reads = SECTION_OBJECTS,
-    .writes = SECTION_REFLECTORS,
+    .writes = SECTION_REFLECTORS | SECTION_VEHICLES,
+    .start = extraction_start,
     .step = extract_contour_step,
 };

@@ -47,7 +47,7 @@ static int check_classes(struct score_tracks *own, struct runner *runner)
         const char *class = arena_text(arena, at, length);
         struct diag unused = {0};
         if (intern_word(&own->seen, class, arena) >= seen &&
-            vehicle_load(class, arena, &unused) == NULL)
+            vehicle_load(class, NULL, arena, &unused) == NULL)
             return diag_fail(runner_diag(runner), DIAG_DATA,
                              "--classes: no object of the stream is of the class \"%s\", and no "
                              "vehicle document describes it",

@@ -28,7 +28,8 @@ static int traffic_random_start(void *state, struct runner *runner)
                          "--density adversarial and --sensors SUITE need each other");
     scene->density = traffic->density;
     for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
-        const struct vehicle *vehicle = runner_vehicle(runner, random_traffic_class_name(class));
+        const struct vehicle *vehicle =
+            runner_vehicle(runner, NULL, random_traffic_class_name(class));
         if (vehicle == NULL)
             return -1;
         scene->models[class] = (struct random_traffic_model){vehicle->length_m, vehicle->width_m,

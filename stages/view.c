@@ -4,6 +4,7 @@
 
 #include "frame/frame_sequence.h"
 #include "run/stage.h"
+#include "text/document.h"
 #include "view/view_comparison.h"
 #include "view/view_head.h"
 #include "view/view_page.h"
@@ -13,7 +14,8 @@ struct view {
     bool svg;
     int64_t frame;
     const char *scene, *truth, *tracks;
-    bool found; /* a frame that was asked for */
+    const char *vehicles; /* as in extraction.h */
+    bool found;           /* a frame that was asked for */
     struct view_comparison comparison;
     struct view_data data;
     struct frame_sequence sequence;
@@ -32,6 +34,10 @@ static int view_start(void *state, struct runner *runner)
 {
     struct view *view = state;
     view_data_begin(&view->data, runner_arena(runner));
+    view->data.models.folder = view->vehicles;
+    if (view->vehicles != NULL &&
+        document_check_folder("--vehicles", view->vehicles, runner_diag(runner)) != 0)
+        return -1;
     if (view->svg && (view->truth != NULL || view->tracks != NULL))
         return diag_fail(runner_diag(runner), DIAG_USAGE,
                          "--svg: the still shows neither --truth nor --tracks");
@@ -67,7 +73,8 @@ static int view_step(void *state, struct frame *frame, struct runner *runner)
     struct view *view = state;
     if (view->scene != NULL && strcmp(view->scene, frame->scene) != 0)
         return 0;
-    if (check_order(view, frame, runner) != 0)
+    if (check_order(view, frame, runner) != 0 ||
+        view_frame_check_vehicles(&view->data.models, frame, runner_diag(runner)) != 0)
         return -1;
     view->found = view->found || view->frame < 0 || view->frame == frame->frame;
     if (!view->svg) {
@@ -134,6 +141,8 @@ static const struct field view_fields[] = {
                       "the page opens at this frame, the still shows it"),
      FIELD_OPTIONAL, .absent = -1},
     {FIELD_NAME_OF(struct view, scene, "only this scene"), FIELD_OPTIONAL},
+    {FIELD_NAME_OF(struct view, vehicles, "the folder given to glint-extract, if one was"),
+     FIELD_OPTIONAL, .word = "DIR"},
     {FIELD_NAME_OF(struct view, truth, "frames to compare with: what is missed and false in them"),
      FIELD_OPTIONAL, .word = "FILE"},
     {FIELD_NAME_OF(struct view, tracks, "what a tracker says, as for glint-score-tracks"),

@@ -86,7 +86,8 @@ struct suite {
     const char *origin;
     const char *effects;            /* a selection of effects (effects.h); NULL: auto */
     LIST_OF(struct sensor) sensors; /* in the document's order */
-    const char *name;               /* the name or path that the user gave */
+    const char *given;              /* the name or path that the user gave */
+    const char *name;               /* of it the last part, without .json and what follows */
     char digest[17];
 };
 

@@ -134,9 +134,18 @@ static int complete_suite(struct suite *suite, const char *path, const struct te
     return 0;
 }
 
+/* "my-radar" of "./my-radar.json": frames carry no paths. */
+static const char *plain_name(const char *given, struct arena *arena)
+{
+    const char *slash = strrchr(given, '/'), *begin = slash != NULL ? slash + 1 : given;
+    const char *ending = strstr(begin, ".json");
+    return arena_text(arena, begin,
+                      ending != NULL && ending > begin ? (size_t)(ending - begin) : strlen(begin));
+}
+
 const struct suite *suite_file_load(const char *name, struct arena *arena, struct diag *diag)
 {
-    const char *path = document_find_file("sensors", name, ".json", arena, diag);
+    const char *path = document_find_file(NULL, "sensors", name, ".json", arena, diag);
     if (path == NULL)
         return NULL;
     struct suite *suite = arena_get(arena, sizeof *suite);
@@ -147,7 +156,8 @@ const struct suite *suite_file_load(const char *name, struct arena *arena, struc
     if (result == 0)
         result = complete_suite(suite, path, &bytes, arena, diag);
     text_free(&bytes);
-    suite->name = arena_text(arena, name, strlen(name));
+    suite->given = arena_text(arena, name, strlen(name));
+    suite->name = plain_name(name, arena);
     if (result != 0)
         diag->code = DIAG_CONFIG;
     return result == 0 ? suite : NULL;

@@ -1,7 +1,9 @@
 #include "documents/vehicle.h"
 
+#include <stdio.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "text/document.h"
 
 static const struct field vehicle_fields[] = {
@@ -54,11 +56,29 @@ static int check_reflectors(const struct reflector_set *set, struct arena *arena
     return 0;
 }
 
-const struct vehicle *vehicle_load(const char *class, struct arena *arena, struct diag *diag)
+static int read_vehicle(const char *path, struct vehicle *vehicle, struct arena *arena,
+                        struct diag *diag)
 {
-    const char *path = document_find_file("vehicles", class, ".json", arena, diag);
+    struct text bytes = {0};
+    int result = document_bytes(path, &bytes, diag);
+    if (result == 0)
+        result = document_parse(path, &bytes, &vehicle_record, vehicle, arena, diag);
+    uint64_t digest = hash_bytes(HASH_START, bytes.bytes, bytes.length);
+    snprintf(vehicle->digest, sizeof vehicle->digest, "%016llx", (unsigned long long)digest);
+    text_free(&bytes);
+    return result;
+}
+
+const struct vehicle *vehicle_load(const char *class, const char *folder, struct arena *arena,
+                                   struct diag *diag)
+{
+    if (!document_is_plain(class)) {
+        diag_fail(diag, DIAG_DATA, "\"%s\" is a path; expected a plain name", class);
+        return NULL;
+    }
+    const char *path = document_find_file(folder, "vehicles", class, ".json", arena, diag);
     struct vehicle *vehicle = arena_get(arena, sizeof *vehicle);
-    if (path == NULL || document_read(path, &vehicle_record, vehicle, arena, diag) != 0)
+    if (path == NULL || read_vehicle(path, vehicle, arena, diag) != 0)
         return NULL;
     vehicle->reflectors.model = arena_text(arena, class, strlen(class));
     if (check_reflectors(&vehicle->reflectors, arena, diag) != 0) {
@@ -72,4 +92,18 @@ const struct vehicle *vehicle_load(const char *class, struct arena *arena, struc
     vehicle->reflectors.document = &vehicle->reflectors;
     vehicle->reflectors.shape = reflectors_shape(&vehicle->reflectors, arena);
     return vehicle;
+}
+
+int vehicle_check_frame(const struct vehicle *vehicle, const struct frame *frame, struct diag *diag)
+{
+    for (size_t i = 0; i < frame->vehicles.count; i++) {
+        const struct class_document *used = &frame->vehicles.items[i];
+        if (frame_same_name(used->class, vehicle->reflectors.model) &&
+            strcmp(used->digest, vehicle->digest) != 0)
+            return diag_fail(diag, DIAG_CONFIG,
+                             "vehicles[%zu].digest: the class \"%s\" was extracted from a document "
+                             "%s, the one found now is %s; name its folder with --vehicles",
+                             i, used->class, used->digest, vehicle->digest);
+    }
+    return 0;
 }

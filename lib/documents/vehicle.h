@@ -5,7 +5,7 @@
 
 #include "documents/contour.h"
 #include "documents/sensing_target_3gpp.h"
-#include "frame/reflectors.h"
+#include "frame/frame.h"
 
 struct vehicle {
     const char *origin;
@@ -13,12 +13,18 @@ struct vehicle {
     struct reflector_set reflectors;         /* belongs to no object yet */
     enum sensing_target_3gpp sensing_target; /* for glint-extract-3gpp */
     struct contour contour;                  /* for glint-extract-contour */
+    char digest[17];                         /* of the document */
 };
 
 extern const struct record vehicle_record;
 
-/* Finds, reads and checks the document of a class. All it holds lies in the arena; NULL after a
- * message (DIAG_CONFIG). */
-const struct vehicle *vehicle_load(const char *class, struct arena *arena, struct diag *diag);
+/* Finds, reads and checks the document of a class: in folder, if that is not NULL, before all other
+ * places (text/document.h). All it holds lies in the arena; NULL after a message (DIAG_CONFIG). */
+const struct vehicle *vehicle_load(const char *class, const char *folder, struct arena *arena,
+                                   struct diag *diag);
+
+/* Refuses the vehicle (DIAG_CONFIG) if the frame names another document of its class. */
+int vehicle_check_frame(const struct vehicle *vehicle, const struct frame *frame,
+                        struct diag *diag);
 
 #endif

@@ -118,6 +118,16 @@ static const struct field object_fields[] = {
 const struct record object_record = {
     FIELD_TABLE(struct object, object_fields, "object", "A road user or thing: truth.")};
 
+static const struct field class_document_fields[] = {
+    {NAME(struct class_document, class, "name of the vehicle document")},
+    {NAME(struct class_document, digest, "digest of the document")},
+    {0},
+};
+
+static const struct record class_document_record = {
+    FIELD_TABLE(struct class_document, class_document_fields, "class document",
+                "The vehicle document that described a class.")};
+
 static const struct field sensor_view_fields[] = {
     {NAME(struct sensor_view, name, "unique in the suite")},
     {PLACE(struct sensor_view, mount_x_m, "from the centre of the ego's box")},
@@ -141,7 +151,7 @@ const struct record sensor_view_record = {
     FIELD_TABLE(struct sensor_view, sensor_view_fields, "sensor", "A sensor of the suite.")};
 
 static const struct field sensors_fields[] = {
-    {NAME(struct sensors, suite, "name of the suite document")},
+    {NAME(struct sensors, suite, "name of the suite document, without folder and .json")},
     {NAME(struct sensors, digest, "digest of the suite's document and the tables it names")},
     {FIELD_NAME_OF(struct sensors, effects, "selection given to glint-ideal; absent: auto"),
      FIELD_OPTIONAL},
@@ -314,6 +324,9 @@ static const struct field frame_fields[] = {
      FIELD_OPTIONAL},
     {FIELD_LIST_OF(struct frame, objects, &object_record, "objects, the ego among them: truth"),
      SECTION(SECTION_OBJECTS)},
+    {FIELD_LIST_OF(struct frame, vehicles, &class_document_record,
+                   "documents that described the classes of the objects, by class"),
+     SECTION(SECTION_VEHICLES), FIELD_STEADY},
     {FIELD_LIST_OF(struct frame, reflectors, &reflector_set_record, "reflector sets by model"),
      SECTION(SECTION_REFLECTORS)},
     {FIELD_RECORD_OF(struct frame, sensors, &sensors_record, "suite of sensors"),
@@ -337,7 +350,8 @@ static const struct field frame_fields[] = {
 const struct record frame_record = {
     FIELD_TABLE(struct frame, frame_fields, "frame",
                 "All that is known about one scene in one interval of time."),
-    .present_offset = offsetof(struct frame, present)};
+    .present_offset = offsetof(struct frame, present),
+    .document_offset = offsetof(struct frame, document)};
 
 void frame_clear(struct frame *frame)
 {

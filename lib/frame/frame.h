@@ -34,6 +34,7 @@ enum section {
     SECTION_TARGETS = 1 << 5,
     SECTION_LOST = 1 << 6,
     SECTION_COUNTS = 1 << 7,
+    SECTION_VEHICLES = 1 << 8,
 };
 
 /* Sections that a stage drops after it has read them, unless it is given --keep. */
@@ -59,6 +60,12 @@ struct object {
     const char *extra;  /* the user's own member, passed on byte for byte; in all structs below */
 };
 
+/* The document that described a class to the stage which wrote the reflectors. */
+struct class_document {
+    const char *class;
+    const char *digest; /* 16 hexadecimal digits */
+};
+
 /* What a reader of targets needs to know of a sensor. */
 struct sensor_view {
     const char *name;
@@ -72,7 +79,7 @@ struct sensor_view {
 };
 
 struct sensors {
-    const char *suite;   /* name of the suite's document, as it was given to glint-ideal */
+    const char *suite;   /* plain name of the suite's document, without folder and ending */
     const char *digest;  /* of that document and the tables it names, 16 hexadecimal digits */
     const char *effects; /* the selection as it was given to glint-ideal; NULL: auto */
     LIST_OF(struct sensor_view) list;
@@ -215,6 +222,7 @@ struct frame {
     bool margins; /* do entries have margins? If not, no stage computes any. */
     struct conditions conditions;
     LIST_OF(struct object) objects;
+    LIST_OF(struct class_document) vehicles; /* by class; empty before extraction */
     LIST_OF(struct reflector_set) reflectors;
     struct sensors sensors;
     LIST_OF(struct echo) echoes;
@@ -223,7 +231,8 @@ struct frame {
     LIST_OF(struct lost_group) lost;
     LIST_OF(struct count) counts;
     const char *extra;
-    unsigned present; /* enum section: the sections that the frame has, even if empty */
+    const struct frame *document; /* NULL: no frame is copied from a document */
+    unsigned present;             /* enum section: the sections that the frame has, even if empty */
     struct arena *arena;
     struct list_cache *list_cache;  /* lists that many lines repeat; NULL: none are kept */
     LIST_OF(struct object *) by_id; /* the cache of frame_order_objects; empty: not sorted yet */

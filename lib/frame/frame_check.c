@@ -4,7 +4,14 @@
 #include <string.h>
 
 #include "frame/frame_order.h"
+#include "text/document.h"
 #include "text/field_check.h"
+
+/* Names of documents lead into the folders of documents, and nowhere else. */
+static int refuse_path(const char *name, struct diag *diag)
+{
+    return diag_fail(diag, DIAG_DATA, "\"%s\" is a path; expected a plain name", name);
+}
 
 static int check_objects(struct frame *frame, struct diag *diag)
 {
@@ -14,6 +21,11 @@ static int check_objects(struct frame *frame, struct diag *diag)
             return diag_fail(diag, DIAG_DATA, "objects: the id \"%s\" stands twice", object[i]->id);
     if (frame_object(frame, frame->ego) == NULL)
         return diag_fail(diag, DIAG_DATA, "ego: \"%s\" is not among the objects", frame->ego);
+    for (size_t i = 0; i < frame->objects.count; i++)
+        if (!document_is_plain(frame->objects.items[i].class)) {
+            refuse_path(frame->objects.items[i].class, diag);
+            return diag_prefix(diag, "objects[%zu].class: ", i);
+        }
     return 0;
 }
 
@@ -48,6 +60,10 @@ static int check_sets(const struct frame *frame, struct diag *diag)
 static int check_views(const struct frame *frame, struct diag *diag)
 {
     const struct sensor_view *view = frame->sensors.list.items;
+    if (frame->sensors.suite != NULL && !document_is_plain(frame->sensors.suite)) {
+        refuse_path(frame->sensors.suite, diag);
+        return diag_prefix(diag, "sensors.suite: ");
+    }
     for (size_t i = 1; i < frame->sensors.list.count; i++)
         if (frame_same_name(view[i - 1].name, view[i].name))
             return diag_fail(diag, DIAG_DATA, "sensors.list: \"%s\" stands twice", view[i].name);
@@ -148,7 +164,7 @@ int frame_check_part(struct frame *frame, struct frame_part part, struct diag *d
     return check_sections(frame, part.sections, diag);
 }
 
-/* An entry's own values. An amplitude beyond the doubles is told before the angle that it spoils. */
+/* An entry's own values. An amplitude beyond the doubles is told before the angle it spoils. */
 static int check_entry(const struct record *record, const void *entry, double amplitude,
                        struct diag *diag)
 {

@@ -38,7 +38,8 @@ static int compare_contributors(const void *left, const void *right)
     return compare_echo_ids(a->id, b->id);
 }
 
-_Static_assert(offsetof(struct reflector_set, model) == 0 &&
+_Static_assert(offsetof(struct class_document, class) == 0 &&
+                   offsetof(struct reflector_set, model) == 0 &&
                    offsetof(struct sensor_view, name) == 0 &&
                    offsetof(struct target, sensor) == 0 && offsetof(struct count, sensor) == 0,
                "structs that are sorted by frame_order_names begin with a name");
@@ -143,6 +144,8 @@ void frame_order_part(struct frame *frame, struct frame_part part)
 {
     if ((part.sections & SECTION_OBJECTS) != 0)
         frame->by_id.count = 0;
+    if ((part.sections & SECTION_VEHICLES) != 0)
+        sort_list(&frame->vehicles, frame_order_names, frame->arena);
     if ((part.sections & SECTION_REFLECTORS) != 0)
         order_sets(frame);
     if ((part.sections & SECTION_SENSORS) != 0)

@@ -238,6 +238,7 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
     chain.input.pause = (struct input_pause){send_on, &chain};
     for (size_t i = 0; i < count; i++) {
         runners[i].pause = chain.input.pause;
+        runners[i].before = i > 0 ? &runners[i - 1] : NULL;
         runners[i].input = runners[0].program.kind == PROGRAM_SOURCE ? NULL : &chain.input;
     }
     if (times != NULL)

@@ -11,11 +11,27 @@
 typedef void extraction_describe(const void *state, const struct vehicle *vehicle,
                                  struct reflector_set *set, struct arena *arena);
 
-/* The whole step of a stage that extracts: completes the sizes of all objects, and lists every
- * object but the ego in its class's set of reflectors. The sets are those of the documents
- * (describe NULL), or as describe, called with the state, makes them. Sizes come from documents
- * that were checked, so objects are not among what the stage writes. 0, or -1 after a message. */
-int extraction_step(struct frame *frame, struct runner *runner, extraction_describe *describe,
-                    const void *state);
+/* With what the state of every stage that extracts begins, and for its table of options. */
+struct extraction {
+    const char *vehicles; /* a folder of documents, before all others; NULL: none */
+};
+#define EXTRACTION_OPTIONS                                                                         \
+    {                                                                                              \
+        FIELD_NAME_OF(struct extraction, vehicles,                                                 \
+                      "folder of your own vehicle documents, before the shipped ones"),            \
+            FIELD_OPTIONAL, .word = "DIR"                                                          \
+    }
+extern const struct record extraction_record;
+
+/* Refuses a folder that is not there; state begins with a struct extraction. */
+int extraction_start(void *state, struct runner *runner);
+
+/* The whole step of a stage that extracts: completes the sizes of all objects, notes the documents
+ * of their classes in the frame, and lists every object but the ego in its class's set of
+ * reflectors. The sets are those of the documents (describe NULL), or as describe, called with the
+ * extraction, makes them. Sizes come from documents that were checked, so objects are not among
+ * what the stage writes. 0, or -1 after a message. */
+int extraction_step(const struct extraction *extraction, struct frame *frame, struct runner *runner,
+                    extraction_describe *describe);
 
 #endif

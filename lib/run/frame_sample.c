@@ -56,7 +56,7 @@ int frame_sample_add(struct frame_sample *sample, const struct frame *frame, str
         return 0;
     struct frame bare = *frame;
     struct text line = {0};
-    frame_drop(&bare, ~(unsigned)(SECTION_OBJECTS | SECTION_REFLECTORS));
+    frame_drop(&bare, ~(unsigned)(SECTION_OBJECTS | SECTION_VEHICLES | SECTION_REFLECTORS));
     bare.account = bare.margins = false;
     int result = frame_text_write(&bare, &line, diag);
     if (result == 0)

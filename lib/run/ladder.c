@@ -86,8 +86,13 @@ static int run_program(struct pass *pass)
 {
     const struct frame_sample *sample = pass->ladder->sample;
     struct diag *diag = runner_diag(pass->ladder->runner);
-    struct text made = {0};
-    int result = side_program_run(pass->program, &pass->written, &made, &pass->spent_ns, diag);
+    struct text made = {0}, sensors = {0};
+    text_format(&sensors, "--sensors=%s", pass->ladder->sensors);
+    text_add(&sensors, "", 1);
+    char *words[] = {(char[]){"glint"}, sensors.bytes, NULL};
+    int result =
+        side_program_run(pass->program, words, &pass->written, &made, &pass->spent_ns, diag);
+    text_free(&sensors);
     const char *line = made.bytes, *end = made.bytes + made.length;
     for (size_t i = 0; result == 0 && i < sample->list.count; i++) {
         const char *stop =

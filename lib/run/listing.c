@@ -53,7 +53,7 @@ static void add_size(const char *name, const char *path, struct text *text, stru
 {
     (void)path;
     struct diag diag = {0};
-    const struct vehicle *vehicle = vehicle_load(name, arena, &diag);
+    const struct vehicle *vehicle = vehicle_load(name, NULL, arena, &diag);
     if (vehicle == NULL)
         text_add_word(text, diag.text);
     else
@@ -116,19 +116,21 @@ enum {
     BUILT_KINDS = sizeof built_kinds / sizeof built_kinds[0],
 };
 
-static void add_files(const struct file_kind *kind, struct text *text, struct arena *arena)
+static int add_files(const struct file_kind *kind, struct text *text, struct arena *arena,
+                     struct diag *diag)
 {
     struct document_names list;
-    struct diag diag = {0};
-    document_list(kind->name, kind->ending, &list, arena);
+    if (document_list(kind->name, kind->ending, &list, arena, diag) != 0)
+        return -1;
     for (size_t i = 0; i < list.names.count; i++) {
         const char *name = list.names.items[i];
-        const char *path = document_find(kind->name, name, kind->ending, arena, &diag);
+        const char *path = document_find(kind->name, name, kind->ending, arena, diag);
         text_format(text, "%-22s ", name);
         if (path != NULL)
             kind->describe(name, path, text, arena);
         text_add_word(text, "\n");
     }
+    return 0;
 }
 
 int listing_add(const char *kind, struct text *text, struct arena *arena, struct diag *diag)
@@ -143,10 +145,8 @@ int listing_add(const char *kind, struct text *text, struct arena *arena, struct
     }
     for (size_t i = 0; i < FILE_KINDS; i++) {
         suggestion_offer(&meant, file_kinds[i].name);
-        if (strcmp(kind, file_kinds[i].name) == 0) {
-            add_files(&file_kinds[i], text, arena);
-            return 0;
-        }
+        if (strcmp(kind, file_kinds[i].name) == 0)
+            return add_files(&file_kinds[i], text, arena, diag);
     }
     return diag_fail(diag, DIAG_USAGE,
                      "--list %s is unknown%s; expected sensors, scenarios, vehicles, pipelines, "

@@ -314,7 +314,7 @@ static void help_sections(const char *verb, unsigned sections, struct text *text
 {
     text_format(text, "%s", verb);
     const char *separator = " ";
-    for (unsigned bit = 1; bit <= SECTION_COUNTS; bit <<= 1)
+    for (unsigned bit = 1; bit <= SECTION_VEHICLES; bit <<= 1)
         if ((sections & bit) != 0) {
             text_format(text, "%s%s", separator, frame_section_name(bit));
             separator = ", ";
@@ -353,6 +353,9 @@ void options_help(const struct program *program, struct text *text)
     for (const struct field *field = common_fields; field->name != NULL; field++)
         if (applies(program, field))
             help_option(field, text);
+    text_add_word(text,
+                  "\nEnvironment:\n  GLINT_DATA                  folder of your own documents, "
+                  "before the shipped ones\n");
     text_add_word(text, "\nExit status: 0, or as in sysexits: 64 usage, 65 bad data, 66 no input, "
                         "70 internal,\n71 memory, 73 cannot create, 74 input/output, 78 "
                         "configuration.\n");

@@ -5,6 +5,7 @@
 
 #include "effects/effect.h"
 #include "frame/frame_text.h"
+#include "text/document.h"
 
 const char *plan_request(uint64_t allowed, struct arena *arena)
 {
@@ -156,8 +157,13 @@ void plan_write_pipeline(const char *sensors, const char *effects, const char *c
     text_add_word(text, "set -o pipefail\nglint-extract \\\n  | glint-ideal --sensors ");
     write_word(sensors, text);
     text_format(text, " --effects %s", effects);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
         text_format(text, " \\\n  | %s", programs[i]);
+        if (!document_is_plain(sensors)) {
+            text_add_word(text, " --sensors ");
+            write_word(sensors, text);
+        }
+    }
     text_add_word(text, "\n");
 }
 

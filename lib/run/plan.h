@@ -55,7 +55,8 @@ const char *plan_program(const char *stage, struct arena *arena);
  * which reads frames of any source. Writes nothing if there were no frames. */
 void plan_write(const struct plan *plan, bool all, struct arena *arena, struct text *text);
 
-/* Writes the pipeline alone: extract, ideal with these effects, and the other programs. */
+/* Writes the pipeline alone: extract, ideal with these effects, and the other programs, which get
+ * a suite that is a path as well. */
 void plan_write_pipeline(const char *sensors, const char *effects, const char *const *programs,
                          size_t count, struct text *text);
 

@@ -53,17 +53,9 @@ int runner_write_record(struct runner *runner, const struct record *record, cons
     return result;
 }
 
-static const struct suite *loaded_suite(const struct runner *runner, const char *name)
+static const struct suite *load_suite(struct runner *runner, const char *name, struct diag *diag)
 {
-    for (size_t i = 0; i < runner->suites.count; i++)
-        if (strcmp(runner->suites.items[i]->name, name) == 0)
-            return runner->suites.items[i];
-    return NULL;
-}
-
-static const struct suite *load_suite(struct runner *runner, const char *name)
-{
-    const struct suite *suite = suite_file_load(name, &runner->arena, &runner->diag);
+    const struct suite *suite = suite_file_load(name, &runner->arena, diag);
     if (suite != NULL)
         *list_add(&runner->suites, &runner->arena) = suite;
     return suite;
@@ -71,29 +63,68 @@ static const struct suite *load_suite(struct runner *runner, const char *name)
 
 const struct suite *runner_suite(struct runner *runner, const char *name)
 {
-    const struct suite *suite = loaded_suite(runner, name);
-    return suite != NULL ? suite : load_suite(runner, name);
+    for (size_t i = 0; i < runner->suites.count; i++)
+        if (strcmp(runner->suites.items[i]->given, name) == 0)
+            return runner->suites.items[i];
+    return load_suite(runner, name, &runner->diag);
 }
 
-const struct suite *runner_suite_of_frame(struct runner *runner, const char *name)
+static bool is_suite_of(const struct suite *suite, const struct frame *frame)
 {
-    const struct suite *suite = loaded_suite(runner, name);
-    if (suite != NULL || document_is_regular(name))
-        return suite != NULL ? suite : load_suite(runner, name);
-    diag_fail(&runner->diag, DIAG_DATA, "sensors.suite: %s: not a regular file", name);
+    return suite != NULL && strcmp(suite->name, frame->sensors.suite) == 0 &&
+           strcmp(suite->digest, frame->sensors.digest) == 0;
+}
+
+static const struct suite *loaded_suite_of(const struct runner *runner, const struct frame *frame)
+{
+    for (; runner != NULL; runner = runner->before)
+        for (size_t i = 0; i < runner->suites.count; i++)
+            if (is_suite_of(runner->suites.items[i], frame))
+                return runner->suites.items[i];
     return NULL;
 }
 
-const struct vehicle *runner_vehicle(struct runner *runner, const char *class)
+/* The document of the frame's suite at that place, or NULL. */
+static const struct suite *suite_at(struct runner *runner, const char *place,
+                                    const struct frame *frame)
+{
+    struct diag unused = {0};
+    const struct suite *suite =
+        document_is_regular(place) ? load_suite(runner, place, &unused) : NULL;
+    return is_suite_of(suite, frame) ? suite : NULL;
+}
+
+static const struct suite *find_suite_of(struct runner *runner, const struct frame *frame)
+{
+    const char *name = frame->sensors.suite;
+    const struct suite *suite = suite_at(runner, name, frame);
+    struct text here = {0};
+    text_format(&here, "./%s.json", name);
+    text_add(&here, "", 1);
+    if (suite == NULL)
+        suite = suite_at(runner, here.bytes, frame);
+    text_free(&here);
+    if (suite == NULL)
+        diag_fail(
+            &runner->diag, DIAG_CONFIG,
+            "sensors.suite: no \"%s\" among the documents or in the working folder is the one "
+            "that the frame was seen with, %s; give that one: --sensors PATH",
+            name, frame->sensors.digest);
+    return suite;
+}
+
+const struct suite *runner_suite_of_frame(struct runner *runner, const struct frame *frame)
+{
+    const struct suite *suite = loaded_suite_of(runner, frame);
+    return suite != NULL ? suite : find_suite_of(runner, frame);
+}
+
+const struct vehicle *runner_vehicle(struct runner *runner, const char *folder, const char *class)
 {
     for (size_t i = 0; i < runner->vehicles.count; i++)
         if (frame_same_name(runner->vehicles.items[i]->reflectors.model, class))
             return runner->vehicles.items[i];
-    const struct vehicle *vehicle = NULL;
-    if (!document_is_plain(class))
-        diag_fail(&runner->diag, DIAG_DATA, "\"%s\" is a path; expected a plain name", class);
-    else
-        vehicle = vehicle_load(class, &runner->arena, &runner->diag);
+    const struct vehicle *vehicle = vehicle_load(class, folder, &runner->arena, &runner->diag);
     if (vehicle != NULL)
         *list_add(&runner->vehicles, &runner->arena) = vehicle;
     return vehicle;
@@ -165,7 +196,7 @@ static int check_sections(struct runner *runner, const struct frame *frame)
         return diag_fail(&runner->diag, DIAG_DATA,
                          "%s: missing; the stage that writes it must stand before this one",
                          frame_section_name(missing & -missing));
-    unsigned added = SECTION_LOST | SECTION_COUNTS;
+    unsigned added = SECTION_LOST | SECTION_COUNTS | SECTION_VEHICLES;
     unsigned doubled = runner->program.writes & ~runner->program.reads & frame->present & ~added;
     if (doubled != 0)
         return diag_fail(&runner->diag, DIAG_DATA, "%s: already there; this stage would write it",
@@ -273,7 +304,8 @@ struct runner *runner_trial(struct runner *runner, const struct stage *stage,
 {
     struct runner *trial = arena_get(&runner->arena, sizeof *trial);
     *list_add(&runner->tried, &runner->arena) = trial;
-    *trial = (struct runner){.program = program_of_stage(stage), .stage = stage, .log = log};
+    *trial = (struct runner){
+        .program = program_of_stage(stage), .stage = stage, .log = log, .before = runner};
     trial->state = arena_get(&trial->arena, stage->options->size);
     field_clear(stage->options, trial->state);
     if (choice != NULL)

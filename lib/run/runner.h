@@ -30,6 +30,7 @@ struct runner {
     struct frame_source frames;       /* of a tool; set by the chain */
     struct input_pause pause;         /* before a wait for input; set by the chain */
     const struct frame_stream *input; /* what the chain reads; NULL: it begins with a source */
+    const struct runner *before; /* runs before this one in the same process; NULL: none does */
     LIST_OF(const struct suite *) suites;
     LIST_OF(const struct vehicle *) vehicles;
     struct frame_sequence sequence; /* of the frames so far, under --complete */

@@ -38,9 +38,8 @@ static int64_t children_ns(void)
 
 /* Starts it between two files and waits for its end. Returns what waitpid tells of it, or
  * NOT_STARTED. */
-static int run_between(const char *path, FILE *in, FILE *out)
+static int run_between(const char *path, char *const *words, FILE *in, FILE *out)
 {
-    char *words[] = {(char[]){"glint"}, NULL};
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, fileno(in), STDIN_FILENO);
@@ -78,8 +77,8 @@ static int tell_end(const char *path, int status, struct diag *diag)
 }
 
 /* Files instead of pipes: neither side ever waits for the other. */
-int side_program_run(const char *path, const struct text *input, struct text *output,
-                     int64_t *cpu_ns, struct diag *diag)
+int side_program_run(const char *path, char *const *words, const struct text *input,
+                     struct text *output, int64_t *cpu_ns, struct diag *diag)
 {
     FILE *in = tmpfile(), *out = tmpfile();
     int64_t before_ns = children_ns();
@@ -88,7 +87,7 @@ int side_program_run(const char *path, const struct text *input, struct text *ou
                  fwrite(input->bytes, 1, input->length, in) == input->length && fflush(in) == 0;
     if (whole) {
         rewind(in);
-        status = run_between(path, in, out);
+        status = run_between(path, words, in, out);
         whole = read_all(out, output) == 0;
     }
     *cpu_ns += children_ns() - before_ns;

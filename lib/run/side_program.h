@@ -12,10 +12,10 @@
 /* Its path, in the arena; NULL if there is no such program beside this one. */
 const char *side_program_find(const char *name, struct arena *arena);
 
-/* Runs it with input as its standard input, appends its standard output, and adds its CPU time.
- * Fails with its exit code, if that is one of diag.h, else with DIAG_INTERNAL; its own message has
- * gone to stderr. */
-int side_program_run(const char *path, const struct text *input, struct text *output,
-                     int64_t *cpu_ns, struct diag *diag);
+/* Runs it with these words, of which the first is its name and the last is NULL, and with input as
+ * its standard input; appends its standard output, and adds its CPU time. Fails with its exit
+ * code, if that is one of diag.h, else with DIAG_INTERNAL; its own message has gone to stderr. */
+int side_program_run(const char *path, char *const *words, const struct text *input,
+                     struct text *output, int64_t *cpu_ns, struct diag *diag);
 
 #endif

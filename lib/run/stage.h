@@ -35,7 +35,7 @@ struct stage {
     const char *operand;
     bool sink;
     /* Sets of enum section. A frame must have the sections that the stage reads. It must not yet
-     * have those that the stage writes, except lost and counts, which the stage adds to, and
+     * have those that the stage writes, except lost, counts and vehicles, which it adds to, and
      * sections that it reads as well, which it changes in place. The runner orders and checks only
      * the sections in writes after a step, so a stage must change no other (test_runner). */
     unsigned reads, writes;
@@ -64,13 +64,15 @@ struct diag *runner_diag(struct runner *runner);
 /* Where the stage notes which effects it simulates and leaves out; NULL without --explain. */
 struct effect_log *runner_log(struct runner *runner);
 
-/* The suite of that name (documents/suite_file.h), which the command line or a frame gives, and the
- * vehicle document of a frame's class. Each is loaded once. A frame, whoever wrote it, names a
- * class by a plain name, never by a path, and only regular files are read for it. Stages after
- * ideal ask for the frame's suite by suite_choice.h. */
+/* The suite that the command line gives by name or path (documents/suite_file.h), the one that a
+ * frame names, and the vehicle document of a class (documents/vehicle.h; folder may be NULL). Each
+ * is loaded once. A frame's suite is one that a stage before this one in the process has loaded, or
+ * else it lies among the documents, or else in the working folder; it has the frame's digest.
+ * Frames, whoever wrote them, give plain names, and only regular files are read for them. Stages
+ * after ideal ask for the frame's suite by suite_choice.h. */
 const struct suite *runner_suite(struct runner *runner, const char *name);
-const struct suite *runner_suite_of_frame(struct runner *runner, const char *name);
-const struct vehicle *runner_vehicle(struct runner *runner, const char *class);
+const struct suite *runner_suite_of_frame(struct runner *runner, const struct frame *frame);
+const struct vehicle *runner_vehicle(struct runner *runner, const char *folder, const char *class);
 
 /* What a sink writes: bytes, or a record as a line of JSON. */
 int runner_write(struct runner *runner, const char *bytes, size_t length);

@@ -41,24 +41,27 @@ static int check_sensors(const struct suite *suite, const struct frame *frame, s
     return 0;
 }
 
+/* A suite that the command line gives must be the frame's. */
+static const struct suite *given_suite(const char *given, const struct frame *frame,
+                                       struct runner *runner)
+{
+    const struct suite *suite = runner_suite(runner, given);
+    if (suite == NULL || strcmp(suite->digest, frame->sensors.digest) == 0)
+        return suite;
+    diag_fail(runner_diag(runner), DIAG_CONFIG,
+              "sensors.digest: the frame was seen with %s, \"%s\" is now %s; run the whole chain "
+              "with one suite",
+              frame->sensors.digest, given, suite->digest);
+    return NULL;
+}
+
 const struct suite *suite_choice_suite(const struct suite_choice *choice, const struct frame *frame,
                                        struct runner *runner)
 {
-    bool given = choice->sensors != NULL;
-    const char *name = given ? choice->sensors : frame->sensors.suite;
-    struct diag *diag = runner_diag(runner);
-    const struct suite *suite =
-        given ? runner_suite(runner, name) : runner_suite_of_frame(runner, name);
-    if (suite == NULL)
-        return NULL;
-    if (strcmp(suite->digest, frame->sensors.digest) != 0) {
-        diag_fail(diag, DIAG_CONFIG,
-                  "sensors.digest: the frame was seen with %s, \"%s\" is now %s; run the whole "
-                  "chain with one suite",
-                  frame->sensors.digest, name, suite->digest);
-        return NULL;
-    }
-    return check_sensors(suite, frame, diag) == 0 ? suite : NULL;
+    const struct suite *suite = choice->sensors != NULL
+                                    ? given_suite(choice->sensors, frame, runner)
+                                    : runner_suite_of_frame(runner, frame);
+    return suite != NULL && check_sensors(suite, frame, runner_diag(runner)) == 0 ? suite : NULL;
 }
 
 int suite_choice_effects(const struct suite_choice *choice, const struct frame *frame,

@@ -25,7 +25,7 @@ extern const struct record suite_choice_record;
         SUITE_CHOICE_EFFECTS
 #define SUITE_CHOICE_AFTER_IDEAL                                                                   \
     {FIELD_NAME_OF(struct suite_choice, sensors,                                                   \
-                   "name or path where the frame's suite lies now; content unchanged"),            \
+                   "path of the suite given to glint-ideal, if it is not found by its name"),      \
      FIELD_OPTIONAL},                                                                              \
         SUITE_CHOICE_EFFECTS
 #define SUITE_CHOICE_EFFECTS                                                                       \

@@ -41,25 +41,40 @@ const char *document_own_folder(struct arena *arena)
     return path;
 }
 
+int document_check_folder(const char *named_by, const char *folder, struct diag *diag)
+{
+    struct stat status;
+    if (stat(folder, &status) == 0 && S_ISDIR(status.st_mode))
+        return 0;
+    return diag_fail(diag, DIAG_CONFIG, "%s: \"%s\" is no folder", named_by, folder);
+}
+
 /* Where documents of a kind may lie, the first place first; all end with a slash. */
 struct folders {
-    const char *paths[4];
+    const char *paths[5];
     size_t count;
 };
 
-static struct folders folders_of(const char *kind, struct arena *arena)
+/* own is the user's folder of this kind of documents, or NULL. */
+static int find_folders(const char *kind, const char *own, struct folders *folders,
+                        struct arena *arena, struct diag *diag)
 {
-    const char *given = getenv("GLINT_DATA"), *own = document_own_folder(arena);
+    const char *given = getenv("GLINT_DATA"), *beside = document_own_folder(arena);
     const char *checkout = strcmp(kind, "pipelines") == 0 ? "../../" : "../../data/";
-    struct folders folders = {0};
-    if (given != NULL && *given != '\0')
-        folders.paths[folders.count++] = join(arena, given, "/", "", "");
-    if (*own != '\0') {
-        folders.paths[folders.count++] = join(arena, own, "../share/glint/", "", "");
-        folders.paths[folders.count++] = join(arena, own, checkout, "", "");
+    *folders = (struct folders){0};
+    if (own != NULL)
+        folders->paths[folders->count++] = join(arena, own, "/", "", "");
+    if (given != NULL && *given != '\0') {
+        if (document_check_folder("GLINT_DATA", given, diag) != 0)
+            return -1;
+        folders->paths[folders->count++] = join(arena, given, "/", kind, "/");
     }
-    folders.paths[folders.count++] = "data/";
-    return folders;
+    if (*beside != '\0') {
+        folders->paths[folders->count++] = join(arena, beside, "../share/glint/", kind, "/");
+        folders->paths[folders->count++] = join(arena, beside, checkout, kind, "/");
+    }
+    folders->paths[folders->count++] = join(arena, "data/", kind, "/", "");
+    return 0;
 }
 
 static void list_folder(const char *folder, const char *ending, struct document_names *list,
@@ -82,19 +97,28 @@ static int compare_names(const void *a, const void *b)
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-void document_list(const char *kind, const char *ending, struct document_names *list,
-                   struct arena *arena)
+static void list_names(const struct folders *folders, const char *ending,
+                       struct document_names *list, struct arena *arena)
 {
     *list = (struct document_names){0};
-    struct folders folders = folders_of(kind, arena);
-    for (size_t i = 0; i < folders.count; i++)
-        list_folder(join(arena, folders.paths[i], kind, "", ""), ending, list, arena);
+    for (size_t i = 0; i < folders->count; i++)
+        list_folder(folders->paths[i], ending, list, arena);
     sort_list(&list->names, compare_names, arena);
     size_t kept = 0;
     for (size_t i = 0; i < list->names.count; i++)
         if (kept == 0 || strcmp(list->names.items[kept - 1], list->names.items[i]) != 0)
             list->names.items[kept++] = list->names.items[i];
     list->names.count = kept;
+}
+
+int document_list(const char *kind, const char *ending, struct document_names *list,
+                  struct arena *arena, struct diag *diag)
+{
+    struct folders folders;
+    if (find_folders(kind, NULL, &folders, arena, diag) != 0)
+        return -1;
+    list_names(&folders, ending, list, arena);
+    return 0;
 }
 
 const char *document_origin(const char *path, struct arena *arena)
@@ -118,7 +142,7 @@ static void refuse_name(const char *kind, const char *name, const char *ending,
                         const struct folders *folders, struct arena *arena, struct diag *diag)
 {
     struct document_names there;
-    document_list(kind, ending, &there, arena);
+    list_names(folders, ending, &there, arena);
     struct suggestion meant = suggestion_begin(name, strlen(name));
     for (size_t i = 0; i < there.names.count; i++)
         suggestion_offer(&meant, there.names.items[i]);
@@ -130,15 +154,16 @@ static void refuse_name(const char *kind, const char *name, const char *ending,
         append(diag, i == 0 ? "; there are " : ", ", there.names.items[i]);
 }
 
-const char *document_find(const char *kind, const char *name, const char *ending,
-                          struct arena *arena, struct diag *diag)
+static const char *find_in(const char *own, const char *kind, const char *name, const char *ending,
+                           struct arena *arena, struct diag *diag)
 {
+    struct folders folders;
     if (strpbrk(name, "/.") != NULL || strcmp(name, "-") == 0)
         return arena_text(arena, name, strlen(name));
-    struct folders folders = folders_of(kind, arena);
+    if (find_folders(kind, own, &folders, arena, diag) != 0)
+        return NULL;
     for (size_t i = 0; i < folders.count; i++) {
-        const char *path =
-            join(arena, join(arena, folders.paths[i], kind, "/", ""), name, ending, "");
+        const char *path = join(arena, folders.paths[i], name, ending, "");
         if (access(path, F_OK) == 0)
             return path;
     }
@@ -146,9 +171,10 @@ const char *document_find(const char *kind, const char *name, const char *ending
     return NULL;
 }
 
-bool document_is_plain(const char *name)
+const char *document_find(const char *kind, const char *name, const char *ending,
+                          struct arena *arena, struct diag *diag)
 {
-    return strchr(name, '/') == NULL;
+    return find_in(NULL, kind, name, ending, arena, diag);
 }
 
 bool document_is_regular(const char *path)
@@ -157,15 +183,15 @@ bool document_is_regular(const char *path)
     return stat(path, &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode);
 }
 
-const char *document_find_file(const char *kind, const char *name, const char *ending,
-                               struct arena *arena, struct diag *diag)
+const char *document_find_file(const char *own, const char *kind, const char *name,
+                               const char *ending, struct arena *arena, struct diag *diag)
 {
     if (strcmp(name, "-") == 0) {
         diag_fail(diag, DIAG_CONFIG, "\"-\" is standard input; expected a name in %s/, or a path",
                   kind);
         return NULL;
     }
-    const char *path = document_find(kind, name, ending, arena, diag);
+    const char *path = find_in(own, kind, name, ending, arena, diag);
     if (path == NULL || !document_is_plain(name) || document_is_regular(path))
         return path;
     diag_fail(diag, DIAG_CONFIG, "%s: not a regular file", path);

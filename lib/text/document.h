@@ -3,7 +3,7 @@
  *
  * A bare name (no slash, no dot) is <kind>/<name>.json in $GLINT_DATA, then in ../share/glint and
  * in ../../data beside the executable, then in ./data; anything else is a path. Every fault of a
- * document is DIAG_CONFIG. */
+ * document is DIAG_CONFIG, and so is a GLINT_DATA that is no folder. */
 #ifndef DOCUMENT_H
 #define DOCUMENT_H
 
@@ -26,13 +26,22 @@ const char *document_own_folder(struct arena *arena);
 const char *document_find(const char *kind, const char *name, const char *ending,
                           struct arena *arena, struct diag *diag);
 
-/* The same, but refuses "-", and a name without a slash of what is no regular file (DIAG_CONFIG):
- * for programs whose standard input is the stream of frames, and for names that frames give. */
-const char *document_find_file(const char *kind, const char *name, const char *ending,
-                               struct arena *arena, struct diag *diag);
+/* The same, but own, if not NULL, is a folder of the user's that comes first and holds documents of
+ * this kind alone. Refuses "-", and a plain name of what is no regular file: for programs whose
+ * standard input is the stream of frames, and for names that frames give. */
+const char *document_find_file(const char *own, const char *kind, const char *name,
+                               const char *ending, struct arena *arena, struct diag *diag);
 
-/* Is the name no path, but one without a slash? */
-bool document_is_plain(const char *name);
+/* Refuses what is no folder, in the name of the option or variable that gives it. */
+int document_check_folder(const char *named_by, const char *folder, struct diag *diag);
+
+/* Is the name no path: neither "." nor "..", and without a slash? */
+static inline bool document_is_plain(const char *name)
+{
+    if (name[0] == '.' && (name[1] == '\0' || (name[1] == '.' && name[2] == '\0')))
+        return false;
+    return strchr(name, '/') == NULL;
+}
 
 /* False for a pipe, a device and the like, which may never end. True for a file that is not there.
  */
@@ -42,8 +51,8 @@ bool document_is_regular(const char *path);
 struct document_names {
     LIST_OF(const char *) names;
 };
-void document_list(const char *kind, const char *ending, struct document_names *list,
-                   struct arena *arena);
+int document_list(const char *kind, const char *ending, struct document_names *list,
+                  struct arena *arena, struct diag *diag);
 
 /* What a document says under "origin"; NULL if it is no document, or says nothing there. */
 const char *document_origin(const char *path, struct arena *arena);

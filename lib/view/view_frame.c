@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "radar/scan_timing.h"
-#include "text/document.h"
 
 /* The label of a target has the exact instant; a scan without targets takes that of the sensor's
  * cycle. */
@@ -59,7 +58,17 @@ const struct vehicle *view_frame_vehicle(struct view_models *models, const char 
     struct diag unused = {0};
     struct view_model *model = list_add(&models->list, models->arena);
     model->class = arena_text(models->arena, class, strlen(class));
-    if (document_is_plain(class))
-        model->vehicle = vehicle_load(class, models->arena, &unused);
+    model->vehicle = vehicle_load(class, models->folder, models->arena, &unused);
     return model->vehicle;
+}
+
+int view_frame_check_vehicles(struct view_models *models, const struct frame *frame,
+                              struct diag *diag)
+{
+    for (size_t i = 0; i < frame->vehicles.count; i++) {
+        const struct vehicle *vehicle = view_frame_vehicle(models, frame->vehicles.items[i].class);
+        if (vehicle != NULL && vehicle_check_frame(vehicle, frame, diag) != 0)
+            return -1;
+    }
+    return 0;
 }

@@ -35,9 +35,15 @@ struct view_model {
 
 struct view_models {
     struct arena *arena;
+    const char *folder; /* of vehicle documents, before all others; NULL: none */
     LIST_OF(struct view_model) list;
 };
 
 const struct vehicle *view_frame_vehicle(struct view_models *models, const char *class);
+
+/* Refuses a frame whose reflectors are those of other vehicle documents (DIAG_CONFIG): they would
+ * be drawn where they are not. */
+int view_frame_check_vehicles(struct view_models *models, const struct frame *frame,
+                              struct diag *diag);
 
 #endif

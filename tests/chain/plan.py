@@ -62,7 +62,7 @@ def same(bench, what, scenes, suite, options=(), expected=()):
         if words not in plan:
             sys.exit(f"plan: {what}: \"{words}\" is not in\n{plan}")
     whole = bench.chain(f"glint-extract | glint-ideal --sensors '{suite}' --effects all | "
-                        "glint-sensor | glint-noise", scenes)
+                        f"glint-sensor --sensors '{suite}' | glint-noise --sensors '{suite}'", scenes)
     for shell in ["bash", "-c"], ["glint", "-c"]:
         planned = bench.run([*shell, plan], scenes)
         if lines_without_request(planned) != lines_without_request(whole):

@@ -67,7 +67,8 @@ def fused(text, data=b""):
 
 def chain(suite, account=True, sensor="glint-sensor", noise="glint-noise"):
     ideal = f"glint-ideal --sensors {suite}" + (" --account" if account else "")
-    return f"glint-extract | {ideal} | {sensor} | {noise}"
+    again = f" --sensors {suite}" if "/" in suite else ""
+    return f"glint-extract | {ideal} | {sensor}{again} | {noise}{again}"
 
 
 def stages_of(path):

@@ -37,7 +37,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     struct arena arena = {0};
     struct diag diag = {0};
     write_document(bytes, size);
-    bool taken = vehicle_load("fuzzed", &arena, &diag) != NULL;
+    bool taken = vehicle_load("fuzzed", NULL, &arena, &diag) != NULL;
     fuzz_judge(&diag);
     for (int number = 0; taken && number < 3; number++)
         look(number);

@@ -136,7 +136,7 @@ static int make_bench(void **state)
     struct diag diag = {0};
     for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
         const struct vehicle *vehicle =
-            vehicle_load(random_traffic_class_name(class), &bench->documents, &diag);
+            vehicle_load(random_traffic_class_name(class), NULL, &bench->documents, &diag);
         if (vehicle == NULL)
             fail_msg("%s", diag.text);
         bench->scene.models[class] = (struct random_traffic_model){

@@ -46,7 +46,8 @@ class Bench:
         return done.stdout
 
     def write_suite(self, suite):
-        path = self.scratch / "suite.json"
+        path = self.scratch / "data/sensors/suite.json"
+        path.parent.mkdir(exist_ok=True)
         path.write_text(json.dumps(suite))
         return str(path)
 

@@ -206,7 +206,8 @@ class Program:
 
     def run(self, text, data):
         done = subprocess.run([str(self.bin / "glint"), "-c", text], input=data, text=True, capture_output=True,
-                              check=False, env={"GLINT_DATA": str(ROOT / "data"), "PATH": str(self.bin)})
+                              check=False, cwd=self.scratch,
+                              env={"GLINT_DATA": str(ROOT / "data"), "PATH": str(self.bin)})
         if done.returncode:
             raise SystemExit(f"{text}: exit status {done.returncode}\n{done.stderr}")
         return [json.loads(line) for line in done.stdout.splitlines()]

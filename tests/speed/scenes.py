@@ -115,6 +115,7 @@ def suite_of(kind, sensors):
 def commands(kind, count, sensors, frames, labels):
     """The five stages of the chain. labels: "default" or "account"."""
     account = " --account" if labels == "account" else ""
+    suite = suite_of(kind, sensors)
+    again = f" --sensors {suite}" if "/" in suite else ""
     return [f"glint-traffic {write_scene(kind, count, frames)}", "glint-extract",
-            f"glint-ideal --sensors {suite_of(kind, sensors)}{account}", "glint-sensor",
-            "glint-noise"]
+            f"glint-ideal --sensors {suite}{account}", f"glint-sensor{again}", f"glint-noise{again}"]

@@ -79,7 +79,7 @@ static size_t load_all(const char *kind, void (*load)(const char *name, struct a
 static void load_vehicle(const char *name, struct arena *arena)
 {
     struct diag diag = {0};
-    const struct vehicle *vehicle = vehicle_load(name, arena, &diag);
+    const struct vehicle *vehicle = vehicle_load(name, NULL, arena, &diag);
     if (vehicle == NULL)
         fail_msg("%s", diag.text);
     assert_string_equal(vehicle->reflectors.model, name);
@@ -292,7 +292,7 @@ static void vehicles_with_contradictory_members_are_refused(void **state)
                     faults[i]);
         text_add(&text, "", 1);
         write_file(scratch->suite, text.bytes);
-        assert_null(vehicle_load(scratch->suite, &scratch->arena, &diag));
+        assert_null(vehicle_load("suite", scratch->directory, &scratch->arena, &diag));
         assert_non_null(strstr(diag.text, "[0].zero_rad: "));
         assert_int_equal(diag.code, DIAG_CONFIG);
         text_free(&text);
@@ -309,7 +309,7 @@ static void scenarios_are_checked_and_named(void **state)
     assert_memory_equal(diag.text, scratch->suite, strlen(scratch->suite));
     assert_int_equal(diag.code, DIAG_CONFIG);
     diag = (struct diag){0};
-    assert_null(vehicle_load("no_such_class", &scratch->arena, &diag));
+    assert_null(vehicle_load("no_such_class", NULL, &scratch->arena, &diag));
     assert_non_null(strstr(diag.text, "there is no vehicles/no_such_class.json"));
     assert_int_equal(diag.code, DIAG_CONFIG);
 }

@@ -216,7 +216,7 @@ static void describe_negative_ercs(const void *state, const struct vehicle *vehi
 
 static int extract_negative_ercs(void *state, struct frame *frame, struct runner *runner)
 {
-    return extraction_step(frame, runner, describe_negative_ercs, state);
+    return extraction_step(state, frame, runner, describe_negative_ercs);
 }
 
 /* A document's reflectors were checked when it was read; others in their place were not. */
@@ -226,7 +226,7 @@ static void a_list_in_place_of_the_documents_is_checked(void **state)
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
     const struct stage stage = {.name = "invalid",
-                                .options = &no_options_record,
+                                .options = &extraction_record,
                                 .reads = SECTION_OBJECTS,
                                 .writes = SECTION_OBJECTS | SECTION_REFLECTORS,
                                 .step = extract_negative_ercs};

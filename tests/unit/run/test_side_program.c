@@ -17,7 +17,8 @@ static struct run run_shell(const char *path, const char *script)
     struct run run = {0};
     struct text input = {0};
     text_add_word(&input, script);
-    run.result = side_program_run(path, &input, &run.output, &run.cpu_ns, &run.diag);
+    run.result = side_program_run(path, (char *[]){(char[]){"glint"}, NULL}, &input, &run.output,
+                                  &run.cpu_ns, &run.diag);
     text_free(&input);
     return run;
 }

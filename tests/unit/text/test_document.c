@@ -95,11 +95,12 @@ static void for_an_unknown_name_the_message_lists_the_places(void **state)
     assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
     assert_null(document_find("sensors", "nowhere", ".csv", &scratch->arena, &diag));
     char begin[160];
-    int length = snprintf(begin, sizeof begin, "there is no sensors/nowhere.csv; looked in %s/, /",
-                          scratch->directory);
+    int length =
+        snprintf(begin, sizeof begin, "there is no sensors/nowhere.csv; looked in %s/sensors/, /",
+                 scratch->directory);
     assert_memory_equal(diag.text, begin, (size_t)length);
-    assert_non_null(strstr(diag.text, "../share/glint/, /"));
-    assert_non_null(strstr(diag.text, "../../data/, data/"));
+    assert_non_null(strstr(diag.text, "../share/glint/sensors/, /"));
+    assert_non_null(strstr(diag.text, "../../data/sensors/, data/sensors/"));
     assert_int_equal(diag.code, DIAG_CONFIG);
 }
 
@@ -107,13 +108,27 @@ static void names_are_listed_in_order_and_each_once(void **state)
 {
     struct scratch *scratch = *state;
     struct document_names list;
+    struct diag diag = {0};
     assert_int_equal(setenv("GLINT_DATA", "data", 1), 0); /* the same place twice */
-    document_list("vehicles", ".json", &list, &scratch->arena);
+    assert_int_equal(document_list("vehicles", ".json", &list, &scratch->arena, &diag), 0);
     assert_true(list.names.count > 5);
     for (size_t i = 1; i < list.names.count; i++)
         assert_true(strcmp(list.names.items[i - 1], list.names.items[i]) < 0);
-    document_list("vehicles", ".none", &list, &scratch->arena);
+    assert_int_equal(document_list("vehicles", ".none", &list, &scratch->arena, &diag), 0);
     assert_int_equal(list.names.count, 0);
+    assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
+}
+
+static void folders_that_are_not_there_are_refused(void **state)
+{
+    struct scratch *scratch = *state;
+    struct document_names list;
+    struct diag diag = {0};
+    assert_int_equal(setenv("GLINT_DATA", scratch->path, 1), 0);
+    assert_null(document_find("vehicles", "car", ".json", &scratch->arena, &diag));
+    assert_non_null(strstr(diag.text, "GLINT_DATA: \""));
+    assert_int_equal(diag.code, DIAG_CONFIG);
+    assert_int_equal(document_list("vehicles", ".json", &list, &scratch->arena, &diag), -1);
     assert_int_equal(setenv("GLINT_DATA", scratch->directory, 1), 0);
 }
 
@@ -258,6 +273,7 @@ int main(void)
         cmocka_unit_test(a_name_with_a_slash_or_a_dot_is_a_path),
         cmocka_unit_test(for_an_unknown_name_the_message_lists_the_places),
         cmocka_unit_test(names_are_listed_in_order_and_each_once),
+        cmocka_unit_test(folders_that_are_not_there_are_refused),
         cmocka_unit_test(a_name_that_is_nearly_right_is_guessed),
         cmocka_unit_test(a_document_fills_its_struct),
         cmocka_unit_test(faults_are_named_with_path_member_and_expectation),
