@@ -4,7 +4,6 @@ All axes are scaled here, so that the place of every point is known and labels c
 """
 import math
 import os
-import re
 import subprocess
 
 import labels
@@ -12,29 +11,40 @@ from labels import Box
 from written import RADARS, changes, measured, pick, spent_more
 
 BLUE, ORANGE, GREY = "#0072b2", "#d55e00", "#888888"
-SIZE = 11  # of the font, in pixels
+SIZE, WIDTH = 13, 880  # of the font and of a picture, in pixels
 
 
 def power(value):
     return f"{value:,.10g}"
 
 
+def steps(low, high):
+    """1, 2 and 5 times powers of ten, from the last that is at most low to the first that is at least high."""
+    marks = [lead * 10.0 ** k for k in range(-20, 20) for lead in (1, 2, 5)]
+    return ([mark for mark in marks if mark <= low * (1 + 1e-9)][-1:] + [mark for mark in marks if low < mark < high]
+            + [mark for mark in marks if mark >= high * (1 - 1e-9)][:1])
+
+
 class Logarithmic:
-    """Decades. Values below the least decade, zero and negative ones stand beyond a break."""
+    """An axis from step to step. Values below the least decade, zero and negative ones stand beyond a break."""
 
     def __init__(self, values, least=None):
         above = [value for value in values if value > 0]
-        self.low = math.floor(math.log10(max(min(above), least or 0)))
-        self.high = max(math.ceil(math.log10(max(above))), self.low + 1)
-        self.broken = any(value < 10 ** self.low for value in values)
-        self.gap = 0.08 * (self.high - self.low)
-        self.range = (self.low - (1.5 * self.gap if self.broken else 0), self.high)
+        decade = 10.0 ** math.floor(math.log10(max(min(above), least or 0)))
+        self.broken = any(value < decade for value in values)
+        marks = steps(decade if self.broken else min(above), max(above))
+        self.low, self.high = math.log10(marks[0]), math.log10(marks[-1])
+        sparse = [mark for mark in marks if f"{mark:e}"[0] == "1"]
+        self.marks = marks if self.high - self.low < 2.2 else sparse
+        self.gap = 0.11 * (self.high - self.low)
+        room = 0.03 * (self.high - self.low)
+        self.range = (self.low - (1.5 * self.gap if self.broken else room), self.high + room)
 
     def at(self, value):
-        return math.log10(value) if value >= 10 ** self.low else self.low - self.gap
+        return math.log10(value) if value > 0 and math.log10(value) >= self.low else self.low - self.gap
 
     def tics(self, suffix=""):
-        marks = [f'"{power(10.0 ** k)}{suffix}" {k}' for k in range(self.low, self.high + 1)]
+        marks = [f'"{power(mark)}{suffix}" {math.log10(mark):.6g}' for mark in self.marks]
         if self.broken:
             marks.insert(0, f'"<{power(10.0 ** self.low)}{suffix}" {self.low - self.gap:g}')
         return "(" + ", ".join(marks) + ")"
@@ -134,11 +144,11 @@ class Panel:
     def heading(self):
         """Above the frame: the title, the vertical axis below it, and the legend to the right in its colours."""
         title, _, ylabel = self.texts
-        left, right, high = self.frame.left - 40, self.frame.right, self.frame.high
-        self.write(title, left, high + 36)
-        self.write(ylabel, left, high + 19)
+        left, right, high = self.frame.left - 60, self.frame.right, self.frame.high
+        self.write(title, left, high + 42)
+        self.write(ylabel, left, high + 22)
         for row, (text, colour) in enumerate(self.legend):
-            self.write(text, right, high + 36 - 17 * row, "right", colour)
+            self.write(text, right, high + 42 - 20 * row, "right", colour)
 
     def write(self, text, x, y, side="left", colour="black"):
         width, height = self.page
@@ -154,7 +164,7 @@ class Panel:
         text = f"""unset label; unset arrow
 set lmargin at screen {frame.left / width:.6f}; set rmargin at screen {frame.right / width:.6f}
 set bmargin at screen {frame.low / height:.6f}; set tmargin at screen {frame.high / height:.6f}
-set xlabel "{self.texts[1]}"
+set xlabel "{self.texts[1]}" offset 0,0.4
 set xrange [{self.x.range[0]:.6g}:{self.x.range[1]:.6g}]; set yrange [{self.y.range[0]:.6g}:{self.y.range[1]:.6g}]
 set xtics {self.x.tics(self.suffixes[0])}; set ytics {self.y.tics(self.suffixes[1])}
 """ + "\n".join([*self.breaks(), *self.more]) + "\nplot " + ", ".join(self.plots) + "\n"
@@ -164,7 +174,8 @@ set xtics {self.x.tics(self.suffixes[0])}; set ytics {self.y.tics(self.suffixes[
 def page(path, size, panels):
     """Writes the panels as one picture."""
     parts = [panel.commands(number) for number, panel in enumerate(panels)]
-    text = (f'set terminal svg size {size[0]},{size[1]} fixed noenhanced font "sans-serif,{SIZE}"\n'
+    text = (f'set terminal svg size {size[0]},{size[1]} fixed noenhanced font "sans-serif,{SIZE}"'
+            + ' background "#ffffff"\n'
             + f'set output "{path}"\n' + "".join(blocks for blocks, _ in parts)
             + "set multiplot\nset border 3; set tics nomirror out\n"
             + "".join(commands for _, commands in parts) + "unset multiplot\n")
@@ -230,10 +241,10 @@ def effect_panels(rows, radar, size, frames):
 
 def cost_page(rows, radar, path):
     shown = {row["chain"] for row in pick(rows, radar=radar) if row["group"] in ("added", "left out") and changes(row)}
-    middle = 80 + 17 * len(shown)
-    size = (1000, middle + 480)
-    frames = [Box(130, 620, 60, middle), Box(690, 960, 60, middle)]
-    page(path, size, [models_panel(rows, radar, size, Box(70, 960, middle + 100, size[1] - 45)),
+    middle = 80 + 18 * len(shown)
+    size = (WIDTH, middle + 500)
+    frames = [Box(150, 550, 60, middle), Box(600, 830, 60, middle)]
+    page(path, size, [models_panel(rows, radar, size, Box(80, 830, middle + 130, size[1] - 65)),
                       *effect_panels(rows, radar, size, frames)])
 
 
@@ -256,8 +267,8 @@ FRAME, ANGLE = "CPU time of a frame, µs", "CPU time of an angle, µs"
 
 
 def knobs_page(rows, path):
-    size = (1100, 860)
-    frames = [Box(80, 520, 490, 815), Box(630, 1070, 490, 815), Box(80, 520, 60, 385), Box(630, 1070, 60, 385)]
+    size = (WIDTH, 960)
+    frames = [Box(80, 415, 560, 895), Box(515, 845, 560, 895), Box(80, 415, 60, 395), Box(515, 845, 60, 395)]
     panels = [("table", "us", "off", 0, ("Angle by a table of so many entries", ANGLE, "greatest error, rad")),
               ("spacing", "us", "off", 1e-6, ("Spacing of a contour", FRAME, "error against 0.05 m, %")),
               ("digits", "bytes", "off", 1e-6, ("Digits from stage to stage", "bytes of a frame",
@@ -271,32 +282,3 @@ def draw(cost, settings, folder):
     for radar in filter(lambda radar: measured(cost, radar), RADARS):
         cost_page(cost, radar, os.path.join(folder, f"cost-{radar}.svg"))
     knobs_page(settings, os.path.join(folder, "knobs.svg"))
-
-
-# --- what a picture shows --------------------------------------------------------------------------
-
-TEXT = re.compile(r'<g transform="translate\(([-\d.]+),([-\d.]+)\)( rotate\([-\d.]+\))?".*?text-anchor="(\w+)">\s*'
-                  r"<text>(.*?)</text>", re.DOTALL)
-
-
-def texts_of(path):
-    """The texts of a picture with their boxes, read from its SVG."""
-    with open(path) as file:
-        picture = file.read()
-    found = []
-    for x, y, turned, anchor, inside in TEXT.findall(picture):
-        text = re.sub(r"<[^>]*>", "", inside).replace("&lt;", "<").strip()
-        box = labels.text_box(text, 0, 0, anchor, SIZE)
-        x, y = float(x), float(y) - 0.35 * SIZE
-        if turned:
-            box = Box(box.low, box.high, -box.right, -box.left)
-        found.append((text, Box(x + box.left, x + box.right, y + box.low, y + box.high)))
-    return [(text, box) for text, box in found if text]
-
-
-def collisions(path):
-    """Pairs of texts that cover each other, or a text and the edge of the picture."""
-    found = texts_of(path)
-    width, height = map(int, re.search(r'width="(\d+)" height="(\d+)"', open(path).read()).groups())
-    beyond = [(text, "the edge") for text, box in found if not box.within(Box(0, width, 0, height))]
-    return beyond + [(a, b) for i, (a, one) in enumerate(found) for b, other in found[:i] if one.meets(other)]

@@ -1,7 +1,12 @@
 """Labels of points of a diagram, placed so that none covers another label, a point or a bar."""
 import math
 
-WIDE, TALL = 0.56, 1.25  # of a letter in parts of the size of its font, generously
+TALL = 1.25  # of a line of text, in parts of the size of its font
+# Letters by their width in DejaVu Sans, one of the widest fonts that a browser may take; in hundredths.
+WIDTHS = {28: "Iijl'", 32: " .,", 34: ":;/|\\", 36: "f-", 39: "()[]t\"", 42: "r", 50: "_°*", 53: "sz", 55: "c", 58: "Lk",
+          60: "FPTYvxy", 62: "Eaeo", 70: "ABCKRSVXZ", 75: "HNU", 79: "DGOQ", 82: "w", 84: "<>=+−±~^#", 87: "M", 95: "%&",
+          99: "Wm@"}
+WIDTH_OF = {letter: width / 100 for width, letters in WIDTHS.items() for letter in letters}
 
 
 class Box:
@@ -21,7 +26,7 @@ class Box:
 
 def text_box(text, x, y, anchor, size):
     """Of a text whose middle height is y, and whose start, middle or end is x."""
-    width = WIDE * size * max(len(text), 1)
+    width = size * sum(WIDTH_OF.get(letter, 0.64) for letter in text)
     left = x - {"start": 0, "middle": width / 2, "end": width}[anchor]
     return Box(left, left + width, y - TALL * size / 2, y + TALL * size / 2)
 

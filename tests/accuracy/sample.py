@@ -1,12 +1,10 @@
 """What scripts/test checks of scripts/accuracy-cost with few frames and seeds."""
-import os
 import random
 import statistics
 import sys
 import tempfile
 
 import chains
-import drawn
 import errors
 import knobs
 import scenes
@@ -97,17 +95,6 @@ def no_ratio(checks):
     checks.hold(written.markdown(rows, []).count("not told from the reference") == len(RADARS), "no word of that")
 
 
-def pictures(checks, tables):
-    """No text covers another one in the pictures as they are drawn."""
-    with tempfile.TemporaryDirectory() as folder:
-        drawn.draw(tables.cost, tables.knobs, folder)
-        for name in sorted(os.listdir(folder)):
-            path = os.path.join(folder, name)
-            checks.hold(len(drawn.texts_of(path)) > 20, f"{name}: has no texts")
-            for one, other in drawn.collisions(path):
-                checks.hold(False, f'{name}: "{one}" covers "{other}"')
-
-
 def settings(checks, radar, cache):
     """More digits are nearer, and plumbing changes nothing."""
     with tempfile.TemporaryDirectory() as folder:
@@ -130,5 +117,4 @@ def check(tables):
     checks.hold(angles["closed form"] <= angles["65536"] <= 1e-6 * angles["16"], f"tables of angles: {angles}")
     coverage(checks)
     no_ratio(checks)
-    pictures(checks, tables)
     return 1 if checks.failed else 0

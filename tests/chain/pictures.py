@@ -1,0 +1,109 @@
+"""Pictures of the pages: all drawn by scripts/figures, readable, and no text over another.
+
+Usage: python3 tests/chain/pictures.py [PICTURE.svg ...]        exit status 1 if any check fails
+
+The texts of an SVG are boxes here, as wide as DejaVu Sans makes them. At the width that a page gives a picture,
+letters must have 11 pixels. A picture brings its own ground, as pages may be dark.
+"""
+import os
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as xml
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(ROOT, "tests", "accuracy"))
+from labels import Box, text_box  # noqa: E402
+
+PAGE, HALF = 830, 415  # pixels of a picture by itself, and of one of two in a table
+SMALLEST = 11  # pixels of a font, where it is shown
+BOLD = 1.12  # times as wide as plain letters
+failed = False
+
+
+def check(good, text):
+    global failed
+    if not good:
+        failed = True
+        print(f"pictures: {text}")
+
+
+def pictures_of_pages():
+    """{picture: page}, paths from the root."""
+    found = {}
+    pages = subprocess.run(["git", "ls-files", "*.md"], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True)
+    for page in pages.stdout.splitlines():
+        with open(os.path.join(ROOT, page), encoding="utf-8") as file:
+            for path in re.findall(r"!\[[^]]*\]\(([^)]+)\)|<img[^>]*src=\"([^\"]+)\"", file.read()):
+                found[os.path.normpath(os.path.join(os.path.dirname(page), "".join(path)))] = page
+    return found
+
+
+def moved(transform, place):
+    """A place after the translation of a transform, and whether the transform turns."""
+    for x, y in re.findall(r"translate\(([-\d.]+),([-\d.]+)\)", transform):
+        place = place[0] + float(x), place[1] + float(y)
+    return place, "rotate" in transform
+
+
+def texts(root):
+    """(text, box, size of the font) of every text; y grows downwards."""
+    def walk(node, place, turned, style):
+        style = style | {key: node.get(key) for key in ("font-size", "text-anchor", "font-weight") if node.get(key)}
+        place, turns = moved(node.get("transform", ""), place)
+        turned = turned or turns
+        if node.tag.endswith("}text"):
+            words = "".join(node.itertext()).strip()
+            size = float(style["font-size"].removesuffix("px"))
+            bold = style.get("font-weight") == "bold" or {"strong", "title"} & set(node.get("class", "").split())
+            middle = {"inside", "name"} & set(node.get("class", "").split())
+            anchor = "middle" if middle else style.get("text-anchor", "start")
+            box = text_box(words, 0, 0, anchor, size * (BOLD if bold else 1))
+            box.low, box.high = -0.5 * size, 0.5 * size
+            if turned:
+                box = Box(box.low, box.high, -box.right, -box.left)
+            x = place[0] + float(node.get("x", 0))
+            y = place[1] + float(node.get("y", 0)) - (0 if turned else 0.35 * size)
+            if words:
+                yield words, Box(x + box.left, x + box.right, y + box.low, y + box.high), size
+        for child in node:
+            yield from walk(child, place, turned, style)
+    return list(walk(root, (0.0, 0.0), False, {"font-size": "16"}))
+
+
+def check_picture(path, shown):
+    """shown: how wide a page makes the picture."""
+    name = os.path.basename(path)
+    root = xml.parse(path).getroot()
+    width, height = (float(root.get(side)) for side in ("width", "height"))
+    ground = [node for node in root.iter() if node.tag.endswith("}rect") or node.tag.endswith("}polygon")]
+    check(ground and "#fff" in ground[0].get("fill", "").lower(), f"{name} has no ground of its own")
+    found = texts(root)
+    check(len(found) > 0, f"{name} has no text")
+    for number, (text, box, size) in enumerate(found):
+        check(box.within(Box(2, width - 2, 2, height - 2)), f'{name}: "{text}" reaches over the edge')
+        check(size * min(1, shown / width) >= SMALLEST, f'{name}: "{text}" has letters of {size:g} px in {width:g}')
+        for other, its, _ in found[:number]:
+            check(not box.meets(its), f'{name}: "{text}" lies over "{other}"')
+
+
+def main(paths):
+    for path in paths:
+        check_picture(path, PAGE)
+    if not paths:
+        drawn = subprocess.run([os.path.join(ROOT, "scripts", "figures"), "--list"], stdout=subprocess.PIPE, text=True,
+                               check=True).stdout.split()
+        shown = pictures_of_pages()
+        for path in sorted(shown.keys() - set(drawn)):
+            check(False, f"{shown[path]} shows {path}, which scripts/figures does not draw")
+        for path in sorted(set(drawn) - shown.keys()):
+            check(False, f"no page shows {path}")
+        for path in drawn:
+            in_table = path.startswith("data/figures/fig") and "fig14" not in path
+            check_picture(os.path.join(ROOT, path), HALF if in_table else PAGE)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
