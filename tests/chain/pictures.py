@@ -53,6 +53,8 @@ def texts(root):
         style = style | {key: node.get(key) for key in ("font-size", "text-anchor", "font-weight") if node.get(key)}
         place, turns = moved(node.get("transform", ""), place)
         turned = turned or turns
+        if node is not root and node.tag.endswith("}svg"):
+            place = place[0] + float(node.get("x")), place[1] + float(node.get("y"))
         if node.tag.endswith("}text"):
             words = "".join(node.itertext()).strip()
             size = float(style["font-size"].removesuffix("px"))

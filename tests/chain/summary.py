@@ -20,6 +20,15 @@ SENSORS, CLASSES, APART, LOOKED = (
     "targets that show no object at their place", "reflectors that a sensor looked for, by what became of them")
 
 
+def weakest_first(lines):
+    """The frames as another model might write them, whose labels have the leader last."""
+    frames = [json.loads(line) for line in lines.splitlines()]
+    for frame in frames:
+        for target in frame["targets"]:
+            target["contributors"].reverse()
+    return "".join(json.dumps(frame) + "\n" for frame in frames)
+
+
 def run(text, bin_dir, data=None):
     environment = dict(os.environ, PATH=bin_dir + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
     done = subprocess.run(["bash", "-o", "pipefail", "-c", text], env=environment, cwd=ROOT, input=data, text=True,
@@ -78,8 +87,9 @@ def main(bin_dir):
     sources += ["bash pipelines/mud.sh", "true",
                 "glint-traffic empty-road | glint-extract | glint-ideal --sensors srr24-pair-every-frame | glint-sensor | glint-noise",
                 "glint-traffic two-vehicles | glint-extract | glint-ideal --sensors corner77 | glint-sensor | glint-noise"]
-    for source in sources:
-        lines = run(source, bin_dir)
+    streams = [(source, run(source, bin_dir)) for source in sources]
+    streams.append(("labels with the leader last", weakest_first(streams[0][1] + streams[3][1])))
+    for source, lines in streams:
         shown = run("glint-summary", bin_dir, lines).splitlines()
         of = list(expected([json.loads(line) for line in lines.splitlines()]))
         seen |= {re.sub(r"^[\s\d.]+%\s+", "", line) for line in shown}
