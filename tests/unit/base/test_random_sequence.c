@@ -34,6 +34,20 @@ static void whole_numbers_come_equally_often(void **state)
     assert_int_equal(random_sequence_whole(&draws, 7, 7), 7);
 }
 
+static void numbers_between_two_come_equally_often_from_each_quarter(void **state)
+{
+    (void)state;
+    struct random_sequence draws = random_sequence_at(ADDRESS, RANDOM_TRAFFIC);
+    double hits[4] = {0};
+    for (int i = 0; i < DRAWS; i++) {
+        double number = random_sequence_between(&draws, -3, 5);
+        assert_true(number >= -3 && number <= 5);
+        hits[(int)fmin((number + 3) / 2, 3)]++;
+    }
+    for (int i = 0; i < 4; i++)
+        assert_close(hits[i], DRAWS / 4.0, 5 * sqrt(DRAWS * 3 / 16.0));
+}
+
 static void chances_are_as_given(void **state)
 {
     (void)state;
@@ -67,13 +81,27 @@ static void margins_reach_down_six_decades_on_both_sides(void **state)
         assert_close(decade[i], DRAWS * 7 / 48.0, 5 * sqrt(DRAWS * 7 / 48.0));
 }
 
+/* To a thousandth. */
+static void one_margin_in_eight_is_0(void **state)
+{
+    (void)state;
+    enum { MANY = 4000000 };
+    struct random_sequence draws = random_sequence_at(ADDRESS, RANDOM_TRAFFIC);
+    double zeros = 0;
+    for (int i = 0; i < MANY; i++)
+        zeros += random_sequence_margin(&draws, 1) == 0;
+    assert_close(zeros / MANY, 1 / 8.0, 1e-3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(draws_are_the_blocks_of_their_address_in_order),
         cmocka_unit_test(whole_numbers_come_equally_often),
+        cmocka_unit_test(numbers_between_two_come_equally_often_from_each_quarter),
         cmocka_unit_test(chances_are_as_given),
         cmocka_unit_test(margins_reach_down_six_decades_on_both_sides),
+        cmocka_unit_test(one_margin_in_eight_is_0),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

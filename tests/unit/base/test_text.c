@@ -35,6 +35,28 @@ static void plain_bytes_end_at_the_first_other_byte(void **state)
     }
 }
 
+/* The first and the last character of each length, around the surrogates, and what lies beside. */
+static void characters_of_utf8_have_their_lengths_and_nothing_else_has_one(void **state)
+{
+    (void)state;
+    static const char *const characters[] = {
+        "\x01",         "\x7f",         "\xc2\x80",     "\xdf\xbf",         "\xe0\xa0\x80",
+        "\xed\x9f\xbf", "\xee\x80\x80", "\xef\xbf\xbf", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf",
+    };
+    static const char *const others[] = {
+        "\x80\x80\x80\x80", "\xc1\xbf\x80\x80", "\xc2\x7f\x80\x80", "\xe0\x9f\xbf\x80",
+        "\xe1\x80\x7f\x80", "\xed\xa0\x80\x80", "\xf0\x8f\xbf\xbf", "\xf1\x80\x80\x7f",
+        "\xf1\x80\xc0\x80", "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xff\x80\x80\x80",
+    };
+    for (size_t i = 0; i < sizeof characters / sizeof *characters; i++)
+        for (size_t room = 0; room <= 4; room++) {
+            size_t length = strlen(characters[i]);
+            assert_int_equal(text_utf8(characters[i], room), room < length ? 0 : length);
+        }
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        assert_int_equal(text_utf8(others[i], 4), 0);
+}
+
 static void a_word_has_its_first_byte_lowest(void **state)
 {
     (void)state;
@@ -81,6 +103,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plain_bytes_end_at_the_first_other_byte),
+        cmocka_unit_test(characters_of_utf8_have_their_lengths_and_nothing_else_has_one),
         cmocka_unit_test(a_word_has_its_first_byte_lowest),
         cmocka_unit_test(strings_are_escaped_no_more_than_json_requires),
         cmocka_unit_test(room_for_a_string_is_room_for_its_escapes),

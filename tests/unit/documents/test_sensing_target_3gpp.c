@@ -44,6 +44,21 @@ static void a_vehicle_has_the_published_cross_sections(void **state)
     }
 }
 
+static void only_a_human_moves_its_limbs(void **state)
+{
+    (void)state;
+    for (int target = SENSING_TARGET_3GPP_VEHICLE; target <= SENSING_TARGET_3GPP_HUMAN; target++) {
+        struct arena arena = {0};
+        struct reflector_set set = {.model = "m"};
+        bool human = target == SENSING_TARGET_3GPP_HUMAN;
+        sensing_target_3gpp_describe((enum sensing_target_3gpp)target, &set, &arena);
+        assert_int_equal(set.points.count, human ? 1 : 5);
+        for (size_t i = 0; i < set.points.count; i++)
+            assert_int_equal(set.points.items[i].moving_part, human ? MOVING_LIMBS : MOVING_NONE);
+        arena_free(&arena);
+    }
+}
+
 /* Seen from straight above, the roof dominates; the other faces are at their floors. */
 static void from_above_the_roof_dominates(void **state)
 {
@@ -88,6 +103,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_vehicle_has_the_published_cross_sections),
+        cmocka_unit_test(only_a_human_moves_its_limbs),
         cmocka_unit_test(from_above_the_roof_dominates),
         cmocka_unit_test(a_human_is_the_same_from_everywhere),
         cmocka_unit_test(the_points_replace_the_reflectors_of_the_document),

@@ -174,6 +174,13 @@ static void one_echo_is_found_exactly_where_it_is(void **state)
     assert_close(point_response_hann_offset(0.2, 1, 1), 0.5, 0);
 }
 
+static void a_wide_peak_with_equal_sides_has_no_offset(void **state)
+{
+    (void)state;
+    for (double side = 0.5; side <= 1; side += 0.1)
+        assert_true(point_response_hann_offset(side, 1, side) == 0);
+}
+
 static void a_peak_narrower_than_one_echo_is_left_on_its_bin(void **state)
 {
     (void)state;
@@ -370,6 +377,7 @@ int main(void)
         cmocka_unit_test(the_hann_response_is_smooth_at_0_and_1),
         cmocka_unit_test(its_highest_side_lobe_is_31_db_down),
         cmocka_unit_test(one_echo_is_found_exactly_where_it_is),
+        cmocka_unit_test(a_wide_peak_with_equal_sides_has_no_offset),
         cmocka_unit_test(a_peak_narrower_than_one_echo_is_left_on_its_bin),
         cmocka_unit_test(equal_echoes_a_bin_apart_read_as_one_between_them),
         cmocka_unit_test(two_echoes_a_bin_apart_merge_or_flee_by_their_phase),

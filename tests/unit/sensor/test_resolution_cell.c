@@ -57,6 +57,22 @@ static void strength_is_reference_amplitude_times_ercs_and_amplitude_has_the_pat
     assert_near(received_echo_in_free_space(&sensor, &echo, 0).strength, 2.5 * 3600, 1e-12);
 }
 
+static void without_superposition_a_cell_is_one_echo_of_the_summed_strength(void **state)
+{
+    (void)state;
+    struct sensor sensor = paper_sensor(PHASE_CENTRE);
+    struct arena arena = {0};
+    struct received_echo echoes[4];
+    struct cell cell;
+    for (int i = 0; i < 4; i++) {
+        struct echo echo = echo_at(15, 0, 0, 0.1 * (4 - i));
+        echoes[i] = received_echo_in_free_space(&sensor, &echo, i);
+    }
+    assert_true(resolution_cell_of(&sensor, echoes, 4, false, &arena, &cell));
+    assert_near(hypot(cell.sum_re, cell.sum_im), 2.5 * 4 * (0.4 + 0.3 + 0.2 + 0.1), 1e-14);
+    arena_free(&arena);
+}
+
 static void a_ghost_has_the_root_of_the_pattern_each_way(void **state)
 {
     (void)state;
@@ -324,6 +340,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(strength_is_reference_amplitude_times_ercs_and_amplitude_has_the_pattern),
+        cmocka_unit_test(without_superposition_a_cell_is_one_echo_of_the_summed_strength),
         cmocka_unit_test(a_ghost_has_the_root_of_the_pattern_each_way),
         cmocka_unit_test(a_single_echo_is_its_cell),
         cmocka_unit_test(two_echoes_are_weighted_by_amplitude),

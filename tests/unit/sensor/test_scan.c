@@ -119,6 +119,15 @@ static void echoes_without_amplitude_are_silent_and_in_no_cell(void **state)
     assert_string_equal(scan.silent[1].echo.id.object, "d");
 }
 
+static void where_all_echoes_are_silent_there_is_no_cell(void **state)
+{
+    struct bench *bench = *state;
+    add_echo(bench, "radar", "a", 20, 0, 0);
+    struct scan scan = scan_of(bench);
+    assert_int_equal(scan.cells, 0);
+    assert_int_equal(scan.silent_count, 1);
+}
+
 static void silent_echoes_are_lost_with_their_margins(void **state)
 {
     struct bench *bench = *state;
@@ -191,6 +200,8 @@ int main(void)
                                         make_bench, remove_bench),
         cmocka_unit_test_setup_teardown(echoes_without_amplitude_are_silent_and_in_no_cell,
                                         make_bench, remove_bench),
+        cmocka_unit_test_setup_teardown(where_all_echoes_are_silent_there_is_no_cell, make_bench,
+                                        remove_bench),
         cmocka_unit_test_setup_teardown(silent_echoes_are_lost_with_their_margins, make_bench,
                                         remove_bench),
         cmocka_unit_test_setup_teardown(a_scan_of_nothing_has_no_cells, make_bench, remove_bench),

@@ -143,6 +143,9 @@ static void no_hypothesis_puts_a_target_where_the_sensor_does_not_measure(void *
     /* 4 m/s are a quarter of a fold, and a quarter of a bin. */
     assert_true(unfolding_choose(&bench.signal, &peak, 5, 0, &reading));
     assert_close(reading.range_m, 24.15, 1e-9);
+    /* Half a cell beyond its ranges a sensor still measures. */
+    peak.range = 24.7;
+    assert_true(unfolding_choose(&bench.signal, &peak, 5, 0, &reading));
     peak.range = 24.8;
     assert_false(unfolding_choose(&bench.signal, &peak, 5, 0, &reading));
     peak.range = 0.7;

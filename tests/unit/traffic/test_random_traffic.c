@@ -64,6 +64,18 @@ static enum random_traffic_class class_of(const struct object *object)
     return class;
 }
 
+static void the_ego_stands_within_500_m_of_the_origin(void **state)
+{
+    struct bench *bench = *state;
+    double most_m = 0;
+    for (int64_t number = 0; number < 20000; number++) {
+        const struct object *ego = snapshot(bench, TRAFFIC_SPARSE, 1, number)->objects.items;
+        assert_true(fabs(ego->x_m) <= 500 && fabs(ego->y_m) <= 500);
+        most_m = fmax(most_m, fmax(fabs(ego->x_m), fabs(ego->y_m)));
+    }
+    assert_close(most_m, 500, 1);
+}
+
 static void every_vehicle_document_has_a_share(void **state)
 {
     (void)state;
@@ -320,6 +332,7 @@ static void conditions_are_drawn_by_number_and_change_no_object(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_ego_stands_within_500_m_of_the_origin),
         cmocka_unit_test(every_vehicle_document_has_a_share),
         cmocka_unit_test(classes_come_in_their_shares),
         cmocka_unit_test(densities_keep_to_their_numbers_and_radii),

@@ -8,16 +8,22 @@
 #include "frame/frame_text.h"
 #include "view/view_svg.h"
 
-#define OBJECT(id, x)                                                                              \
-    "{\"id\":\"" id "\",\"class\":\"thing\",\"x_m\":" x ",\"y_m\":0,\"yaw_rad\":0,\"vx_mps\":0,"   \
-    "\"vy_mps\":0,\"yaw_rate_radps\":0,\"length_m\":4,\"width_m\":2,\"height_m\":1,"               \
-    "\"travelled_m\":0}"
-#define TARGET(range)                                                                              \
+#define OBJECT(id, x) OBJECT_OF("thing", id, x)
+#define OBJECT_OF(class, id, x) "{\"id\":\"" id "\",\"class\":\"" class "\",\"x_m\":" x AT_REST
+#define AT_REST                                                                                    \
+    ",\"y_m\":0,\"yaw_rad\":0,\"vx_mps\":0,\"vy_mps\":0,\"yaw_rate_radps\":0,\"length_m\":4,"      \
+    "\"width_m\":2,\"height_m\":1,\"travelled_m\":0}"
+#define CONTRIBUTOR(reflector, range, weight)                                                      \
+    "{\"object\":\"o\",\"reflector\":\"" reflector "\",\"path\":\"direct\",\"range_m\":" range     \
+    ",\"azimuth_rad\":0,\"range_rate_mps\":0,\"ercs\":1,\"time_s\":4,\"weight\":" weight "}"
+#define ECHOES                                                                                     \
+    CONTRIBUTOR("a", "7", "0.5")                                                                   \
+    "," CONTRIBUTOR("b", "8", "0.25") "," CONTRIBUTOR("c", "9", "0.25")
+#define TARGET(range) TARGET_OF(range, CONTRIBUTOR("a", "8", "1"))
+#define TARGET_OF(range, contributors)                                                             \
     "{\"sensor\":\"f\",\"range_m\":" range ",\"azimuth_rad\":0,\"range_rate_mps\":0,"              \
     "\"amplitude_db\":12,\"cell_range_m\":8,\"cell_azimuth_rad\":0,\"cell_range_rate_mps\":0,"     \
-    "\"cell_amplitude\":4,\"contributors\":[{\"object\":\"o\",\"reflector\":\"a\","                \
-    "\"path\":\"direct\",\"range_m\":8,\"azimuth_rad\":0,\"range_rate_mps\":0,\"ercs\":1,"         \
-    "\"time_s\":4,\"weight\":1}]}"
+    "\"cell_amplitude\":4,\"contributors\":[" contributors "]}"
 #define FRAME(scene, objects, rest)                                                                \
     "{\"version\":0,\"scene\":\"" scene "\",\"frame\":0,\"time_s\":4,\"interval_s\":0.04,"         \
     "\"seed\":\"1\",\"ego\":\"e\",\"objects\":[" OBJECT("e", "0") objects "]" rest "}"
@@ -25,6 +31,13 @@
     ",\"sensors\":{\"suite\":\"s\",\"digest\":\"0123456789abcdef\",\"list\":[{\"name\":\"" name    \
     "\",\"mount_x_m\":2,\"mount_y_m\":0,\"mount_yaw_rad\":0,\"field_of_view_rad\":3,"              \
     "\"range_max_m\":30,\"cell_range_m\":0.3,\"cell_range_rate_mps\":0.5,\"measured\":true}]}"
+
+#define ENTRY(reflector) "{\"object\":\"o\",\"reflector\":\"" reflector "\",\"path\":\"direct\"}"
+#define LOST(reason, entries)                                                                      \
+    "{\"stage\":\"ideal\",\"sensor\":\"f\",\"reason\":\"" reason "\",\"echoes\":[" entries "]}"
+
+#define BLOCKED LOST("blocked", ENTRY("corner_fl") "," ENTRY("wheel_rr") "," ENTRY("nothing"))
+#define FACING_AWAY LOST("facing_away", ENTRY("corner_rl"))
 
 /* The drawing of a frame's line, NUL-terminated; the caller frees it. */
 static char *draw(const char *line)
@@ -149,12 +162,86 @@ static void drawings_have_the_scale_of_their_bar(void **state)
     free(xml);
 }
 
+static int count_of(const char *xml, const char *word)
+{
+    int count = 0;
+    for (const char *at = strstr(xml, word); at != NULL; at = strstr(at + 1, word))
+        count++;
+    return count;
+}
+
+/* From 80 to 200 pixels, whatever the size of the scene. */
+static void the_bar_is_a_round_length(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {
+        FRAME("x", "", ""),
+        FRAME("x", "," OBJECT("o", "30"), ""),
+        FRAME("x", "," OBJECT("o", "70"), ""),
+        FRAME("x", "," OBJECT("o", "200"), ""),
+        FRAME("x", "," OBJECT("o", "500"), ""),
+        FRAME("x", "," OBJECT("o", "900"), ""),
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        double bar, metres;
+        char *xml = draw(lines[i]);
+        assert_int_equal(sscanf(strstr(xml, "d=\"M20 774v6h"), "d=\"M20 774v6h%lfv", &bar), 1);
+        assert_int_equal(sscanf(strstr(xml, "y=\"770\">"), "y=\"770\">%lf m<", &metres), 1);
+        assert_in_range(bar, 80, 200);
+        double digit = metres / pow(10, floor(log10(metres)));
+        assert_true(digit == 1 || digit == 2 || digit == 5);
+        free(xml);
+    }
+}
+
+static void every_echo_of_a_target_is_lit_and_tied_to_it(void **state)
+{
+    (void)state;
+    char *xml = draw(FRAME("x", "," OBJECT("o", "12"),
+                           SENSORS("f") ",\"targets\":[" TARGET_OF("8", ECHOES) "]"));
+    assert_int_equal(count_of(xml, "<circle class=\"lit\""), 3);
+    assert_int_equal(count_of(xml, "<path class=\"tie\""), 3);
+    free(xml);
+}
+
+static void targets_of_the_first_sensor_are_stars_of_five_points(void **state)
+{
+    (void)state;
+    char *xml = draw(FRAME("x", "", SENSORS("f")));
+    const char *star = strstr(xml, "<path class=\"target f0\"");
+    assert_non_null(star);
+    *strchr(star, '>') = '\0';
+    assert_int_equal(count_of(star, "L"), 9);
+    free(xml);
+}
+
+/* Two points of the car are hidden; one that it has not is not marked, nor one that faces away. */
+static void points_and_notable_losses_are_marked(void **state)
+{
+    (void)state;
+    char *xml = draw(FRAME("x", "," OBJECT_OF("car", "o", "12"),
+                           SENSORS("f") ",\"lost\":[" BLOCKED "," FACING_AWAY "]"));
+    struct arena arena = {0};
+    struct diag diag = {0};
+    const struct vehicle *car = vehicle_load("car", &arena, &diag);
+    assert_non_null(car);
+    /* One more stands in the legend. */
+    assert_int_equal(count_of(xml, "<circle class=\"centre\""), car->reflectors.points.count + 1);
+    assert_int_equal(count_of(xml, "<path class=\"lost\""), 2);
+    arena_free(&arena);
+    free(xml);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(drawings_are_well_formed_xml),
         cmocka_unit_test(names_are_escaped),
         cmocka_unit_test(drawings_have_the_scale_of_their_bar),
+        cmocka_unit_test(the_bar_is_a_round_length),
+        cmocka_unit_test(every_echo_of_a_target_is_lit_and_tied_to_it),
+        cmocka_unit_test(targets_of_the_first_sensor_are_stars_of_five_points),
+        cmocka_unit_test(points_and_notable_losses_are_marked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
