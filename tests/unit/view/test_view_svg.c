@@ -222,8 +222,8 @@ static void points_and_notable_losses_are_marked(void **state)
     char *xml = draw(FRAME("x", "," OBJECT_OF("car", "o", "12"),
                            SENSORS("f") ",\"lost\":[" BLOCKED "," FACING_AWAY "]"));
     struct arena arena = {0};
-    struct diag diag = {0};
-    const struct vehicle *car = vehicle_load("car", &arena, &diag);
+    struct view_models models = {.arena = &arena};
+    const struct vehicle *car = view_frame_vehicle(&models, "car");
     assert_non_null(car);
     /* One more stands in the legend. */
     assert_int_equal(count_of(xml, "<circle class=\"centre\""), car->reflectors.points.count + 1);
