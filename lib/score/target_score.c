@@ -5,7 +5,6 @@
 
 #include "base/sort.h"
 #include "base/units.h"
-#include "score/assignment.h"
 
 enum { COMPONENTS = SCORE_AMPLITUDE + 1 };
 
@@ -103,70 +102,51 @@ static double component(const struct target *target, int which)
     }
 }
 
-static void add_values(struct score_values *values, const struct target_list *targets,
+static void add_values(struct score_values *values, const struct target *target,
                        struct arena *arena)
 {
-    for (int which = 0; which < COMPONENTS; which++)
-        for (size_t i = 0; i < targets->list.count; i++)
-            score_add_value(&values[which], component(targets->list.items[i], which), arena);
+    for (int which = 0; which < COMPONENTS && target != NULL; which++)
+        score_add_value(&values[which], component(target, which), arena);
 }
 
-static void add_pair(struct score_tally *tally, const struct target *truth,
-                     const struct target *listed, struct arena *arena)
+static void add_errors(struct score_values *values, const struct target_pair *pair,
+                       struct arena *arena)
 {
     for (int which = 0; which < COMPONENTS; which++) {
-        double error = component(listed, which) - component(truth, which);
+        double error = component(pair->listed, which) - component(pair->truth, which);
         if (which == SCORE_AZIMUTH)
             error = units_wrap_rad(error);
-        score_add_value(&tally->values[SCORE_ERROR][which], error, arena);
+        score_add_value(&values[which], error, arena);
     }
-}
-
-/* The targets of a sensor in both frames, and for each true one the index of its pair in listed, or
- * ASSIGNMENT_NONE. */
-struct pairing {
-    struct target_list truths, listed;
-    double *distance; /* distance[truth * listed + item] in cells */
-    size_t *item_of, pairs;
-};
-
-static struct pairing pair(const char *sensor, const struct frame *truth,
-                           const struct frame *listed, const struct target_cell *cell,
-                           struct arena *arena)
-{
-    struct pairing pairing = {.truths = targets_of(truth, sensor, arena),
-                              .listed = targets_of(listed, sensor, arena)};
-    size_t rows = pairing.truths.list.count, columns = pairing.listed.list.count;
-    pairing.distance = arena_get(arena, rows * columns * sizeof *pairing.distance);
-    pairing.item_of = arena_get(arena, rows * sizeof *pairing.item_of);
-    for (size_t i = 0; i < rows; i++)
-        for (size_t j = 0; j < columns; j++)
-            pairing.distance[i * columns + j] = target_score_distance(
-                pairing.truths.list.items[i], pairing.listed.list.items[j], cell);
-    pairing.pairs =
-        gospa_pair(pairing.distance, rows, columns, cell->cutoff, pairing.item_of, arena);
-    return pairing;
 }
 
 struct target_pairs target_score_pairs(const char *sensor, const struct frame *truth,
                                        const struct frame *listed, const struct target_cell *cell,
                                        struct arena *arena)
 {
-    struct pairing pairing = pair(sensor, truth, listed, cell, arena);
+    struct target_list truths = targets_of(truth, sensor, arena);
+    struct target_list list = targets_of(listed, sensor, arena);
+    size_t rows = truths.list.count, columns = list.list.count;
+    double *distance = arena_get(arena, rows * columns * sizeof *distance);
+    size_t *item_of = arena_get(arena, rows * sizeof *item_of);
+    bool *paired = arena_get(arena, columns * sizeof *paired);
     struct target_pairs pairs = {0};
-    bool *paired = arena_get(arena, pairing.listed.list.count * sizeof *paired);
-    for (size_t i = 0; i < pairing.truths.list.count; i++) {
-        size_t item = pairing.item_of[i];
-        struct target_pair *added = list_add(&pairs.list, arena);
-        added->truth = pairing.truths.list.items[i];
-        if (item >= pairing.listed.list.count) /* ASSIGNMENT_NONE is above all numbers */
+    for (size_t i = 0; i < rows; i++)
+        for (size_t j = 0; j < columns; j++)
+            distance[i * columns + j] =
+                target_score_distance(truths.list.items[i], list.list.items[j], cell);
+    gospa_pair(distance, rows, columns, cell->cutoff, item_of, arena);
+    for (size_t i = 0; i < rows; i++) {
+        struct target_pair *pair = list_add(&pairs.list, arena);
+        pair->truth = truths.list.items[i];
+        if (item_of[i] >= columns) /* ASSIGNMENT_NONE is above all columns */
             continue;
-        added->listed = pairing.listed.list.items[item];
-        paired[item] = true;
+        pair->listed = list.list.items[item_of[i]];
+        paired[item_of[i]] = true;
     }
-    for (size_t j = 0; j < pairing.listed.list.count; j++)
+    for (size_t j = 0; j < columns; j++)
         if (!paired[j])
-            list_add(&pairs.list, arena)->listed = pairing.listed.list.items[j];
+            list_add(&pairs.list, arena)->listed = list.list.items[j];
     return pairs;
 }
 
@@ -174,18 +154,21 @@ void target_score_scan(struct score_tally *tally, const struct frame *truth,
                        const struct frame *listed, const struct target_cell *cell,
                        struct arena *arena)
 {
-    struct pairing pairing = pair(tally->sensor, truth, listed, cell, arena);
-    size_t rows = pairing.truths.list.count, columns = pairing.listed.list.count;
+    struct target_pairs found = target_score_pairs(tally->sensor, truth, listed, cell, arena);
     double squares = 0;
-    for (size_t i = 0; i < rows; i++) {
-        size_t item = pairing.item_of[i];
-        if (item >= columns) /* ASSIGNMENT_NONE is above all columns */
+    size_t pairs = 0, truths = 0, items = 0;
+    for (size_t i = 0; i < found.list.count; i++) {
+        const struct target_pair *pair = &found.list.items[i];
+        add_values(tally->values[SCORE_TRUTH], pair->truth, arena);
+        add_values(tally->values[SCORE_LISTED], pair->listed, arena);
+        truths += pair->truth != NULL;
+        items += pair->listed != NULL;
+        if (pair->truth == NULL || pair->listed == NULL)
             continue;
-        double error = pairing.distance[i * columns + item];
+        double error = target_score_distance(pair->truth, pair->listed, cell);
         squares += error * error;
-        add_pair(tally, pairing.truths.list.items[i], pairing.listed.list.items[item], arena);
+        pairs++;
+        add_errors(tally->values[SCORE_ERROR], pair, arena);
     }
-    score_add_scan(tally, squares, pairing.pairs, rows, columns, cell->cutoff);
-    add_values(tally->values[SCORE_TRUTH], &pairing.truths, arena);
-    add_values(tally->values[SCORE_LISTED], &pairing.listed, arena);
+    score_add_scan(tally, squares, pairs, truths, items, cell->cutoff);
 }

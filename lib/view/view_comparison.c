@@ -57,23 +57,16 @@ static int compare_targets(struct view_comparison *comparison, struct view_data 
 static void add_track(struct view_data *data, const struct frame *frame,
                       const struct track_pair *pair, const char *before)
 {
-    const struct track *track = pair->track;
-    const struct object *object = pair->object;
-    struct vec2 at = view_data_shift(data, frame), velocity = {0, 0};
-    if (track != NULL) {
-        at = vec2_add(at, (struct vec2){track->x_m, track->y_m});
-        velocity = (struct vec2){track->vx_mps, track->vy_mps};
-    } else if (object != NULL) {
-        at = vec2_add(at, (struct vec2){object->x_m, object->y_m});
-        velocity = (struct vec2){object->vx_mps, object->vy_mps};
-    }
-    view_data_real(data, COLUMN_TRACK_X, at.x);
-    view_data_real(data, COLUMN_TRACK_Y, at.y);
-    view_data_real(data, COLUMN_TRACK_VX, velocity.x);
-    view_data_real(data, COLUMN_TRACK_VY, velocity.y);
+    static const struct track missed = {0};
+    const struct track *track = pair->track != NULL ? pair->track : &missed;
+    struct vec2 shift = view_data_shift(data, frame);
+    view_data_real(data, COLUMN_TRACK_X, track->x_m + shift.x);
+    view_data_real(data, COLUMN_TRACK_Y, track->y_m + shift.y);
+    view_data_real(data, COLUMN_TRACK_VX, track->vx_mps);
+    view_data_real(data, COLUMN_TRACK_VY, track->vy_mps);
     view_data_real(data, COLUMN_TRACK_APART, pair->apart_m);
-    view_data_name(data, COLUMN_TRACK_ID, track != NULL ? track->id : NULL);
-    view_data_name(data, COLUMN_TRACK_OBJECT, object != NULL ? object->id : NULL);
+    view_data_name(data, COLUMN_TRACK_ID, track->id);
+    view_data_name(data, COLUMN_TRACK_OBJECT, pair->object != NULL ? pair->object->id : NULL);
     view_data_name(data, COLUMN_TRACK_BEFORE, before);
 }
 

@@ -1,8 +1,8 @@
 /* Another stream's targets and a tracker's tracks, beside the frames.
  *
  * Truths are the targets of the other stream, each with the number of the listed target that
- * glint-score pairs it with. Tracks include missed objects, as tracks without an id. Frames that
- * the other stream lacks have neither, and say so. */
+ * glint-score pairs it with. Missed objects are tracks without an id and a place. Frames that the
+ * other stream lacks have neither, and say so. */
 #ifndef VIEW_COMPARISON_H
 #define VIEW_COMPARISON_H
 

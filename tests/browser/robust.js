@@ -2,7 +2,9 @@
 // size, colours, access, and a policy that lets nothing else run.
 
 const assert = require('node:assert');
+const {execSync} = require('node:child_process');
 const fs = require('node:fs');
+const path = require('node:path');
 const {contrast, leastApart, ciede2000} = require('./colours.js');
 
 const axe = fs.readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
@@ -49,7 +51,7 @@ function sticksOut() {
 
 const panes = ['panel', 'targets', 'recording'];
 
-module.exports = ({stream, view, withPage}) => {
+module.exports = ({work, stream, view, withPage}) => {
     const frames = stream('intersection');
     const busy = frames.reduce((most, one) => one.targets.length > most.targets.length ? one : most);
 
@@ -106,6 +108,41 @@ module.exports = ({stream, view, withPage}) => {
                     await page.click('#more');
                 }, {viewport: {width, height}});
             }
+        },
+
+        async 'what is not shown is not decoded'() {
+            await withPage(view(frames), async page => {
+                const has = name => page.evaluate(one => decoded.has(one), name);
+                await page.evaluate(() => { chooseObject(-1); showPane('recording'); });
+                await page.evaluate(() => { location.hash = ''; location.reload(); });
+                await page.waitForFunction(() => state.frame >= 0);
+                await page.evaluate(() => draw());
+                assert.ok(await has('target_range_m'));
+                assert.ok(!await has('target_cell_range_m'));
+                await page.keyboard.press('n');
+                assert.ok(await has('target_cell_range_m'));
+            });
+        },
+
+        async '50,000 frames open, are gone through and plotted'() {
+            const scene = path.join(work, 'long.json');
+            const file = path.join(work, 'long.html');
+            fs.writeFileSync(scene, JSON.stringify({
+                origin: 'a test', ego: 'ego', rate_hz: 100, duration_s: 499.99, objects: [
+                    {id: 'ego', class: 'car', x_m: 0, y_m: 0, speed_mps: 10},
+                    {id: 'leader', class: 'car', x_m: 12, y_m: 0, speed_mps: 10.01}]}));
+            execSync(`glint-traffic ${scene} | glint-extract | glint-ideal --sensors srr24-pair-every-frame | ` +
+                `glint-sensor | glint-noise | glint-view -o ${file}`);
+            await withPage(file, async page => {
+                await page.keyboard.press('End');
+                assert.match(await page.innerText('#clock'), /^frame 49999 \(50000\/50000\)/);
+                await page.click('[aria-controls=recording]');
+                assert.strictEqual(await page.evaluate(() => series.counts.length), 50000);
+                await page.keyboard.press('g');
+                await page.keyboard.type('123.45 s');
+                await page.keyboard.press('Enter');
+                assert.match(await page.innerText('#clock'), /^frame 12345 /);
+            });
         },
 
         async 'axe finds nothing in any pane, light or dark, wide or narrow'() {

@@ -552,7 +552,7 @@ const tests = {
 
 Object.assign(tests, require('./recording.js')(
     {stream, view, withPage, targetOnMap, clickMap, panelText, clock}),
-require('./comparison.js')({work, write, view, withPage}), require('./robust.js')({stream, view, withPage}));
+require('./comparison.js')({work, write, view, withPage}), require('./robust.js')({work, stream, view, withPage}));
 
 async function main() {
     browser = await launch();

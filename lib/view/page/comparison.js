@@ -117,18 +117,27 @@ function trackPlace(i, seconds) {
         y: column('track_y_m')[i] + seconds * column('track_vy_mps')[i]};
 }
 
-function drawTrack(i) {
-    const at = toScreen(trackPlace(i, 0));
-    const id = nameOrNone('track_id', i);
-    const before = nameOrNone('track_before', i);
-    context.strokeStyle = id && nameOrNone('track_object', i) && !before ? ink.ink : ink.lost;
+// Marks an object without a track.
+function drawMissedObject(i) {
+    const row = objectRow(state.frame, column('track_object')[i] - 1);
+    const at = toScreen(boxOf(row));
+    context.strokeStyle = ink.lost;
     context.lineWidth = 2;
+    context.setLineDash([3, 3]);
+    context.strokeRect(at.x - 11, at.y - 11, 22, 22);
+    context.setLineDash([]);
+}
+
+function drawTrack(i) {
+    const id = nameOrNone('track_id', i);
     if (!id) {
-        context.setLineDash([3, 3]);
-        context.strokeRect(at.x - 11, at.y - 11, 22, 22);
-        context.setLineDash([]);
+        drawMissedObject(i);
         return;
     }
+    const at = toScreen(trackPlace(i, 0));
+    const before = nameOrNone('track_before', i);
+    context.strokeStyle = nameOrNone('track_object', i) && !before ? ink.ink : ink.lost;
+    context.lineWidth = 2;
     line({x: at.x - 7, y: at.y}, {x: at.x + 7, y: at.y});
     line({x: at.x, y: at.y - 7}, {x: at.x, y: at.y + 7});
     context.lineWidth = 1.2;

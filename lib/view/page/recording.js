@@ -171,7 +171,7 @@ function scaleOf(values) {
 }
 
 function drawScale(drawing, panelOf, title, scale) {
-    const step = roundStep(scale.high - scale.low, 3);
+    const step = Math.max(title === 'count' ? 1 : 0, roundStep(scale.high - scale.low, 3));
     for (let value = Math.ceil(scale.low / step) * step; value <= scale.high; value += step) {
         const y = panelOf.top + panelOf.height * (scale.high - value) / (scale.high - scale.low);
         plotRule(drawing, {x: panelOf.left, y}, {x: panelOf.right, y}, false);
@@ -182,10 +182,10 @@ function drawScale(drawing, panelOf, title, scale) {
 
 function drawGap(drawing, size, gap) {
     const panelOf = recordingPanel(size, 0);
-    const from = timePlace(panelOf, Math.max(0, gap.from - 0.5 | 0));
+    const from = timePlace(panelOf, gap.from);
     const to = Math.max(from + 1, timePlace(panelOf, Math.min(series.counts.length - 1, gap.to + 1)));
     drawing.fillStyle = ink.grid;
-    drawing.fillRect(from, panelOf.top, to - from, size.height - recordingMargin.bottom - panelOf.top);
+    drawing.fillRect(from, panelOf.top, Math.max(1, to - from - 1), size.height - recordingMargin.bottom - panelOf.top);
     drawing.fillStyle = ink.soft;
     drawing.font = '11px system-ui, "DejaVu Sans", sans-serif';
     const width = drawing.measureText(gap.reason).width;
@@ -195,7 +195,7 @@ function drawGap(drawing, size, gap) {
     if (width < to - from - 4) {
         drawing.fillText(gap.reason, middle.x, middle.y);
     } else if (to - from >= 12) {
-        drawUpright(drawing, gap.reason, {x: middle.x, y: size.height - recordingMargin.bottom - 6});
+        drawUpright(drawing, gap.reason, {x: middle.x, y: size.height - recordingMargin.bottom - 14});
     }
 }
 

@@ -37,7 +37,7 @@ function drawBand() {
     bandContext.fillStyle = ink.edge;
     tallest.forEach((count, x) => {
         const tall = (height - 2) * count / most;
-        bandContext.fillRect(x - step / 2, height - tall, step, tall);
+        bandContext.fillRect(x - step / 2 - 0.5, height - tall, step + 1, tall);
     });
     control('most').textContent = `${most} targets`;
 }
