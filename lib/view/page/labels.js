@@ -27,13 +27,14 @@ function freeBox(at, width, height) {
 }
 
 function shorten(text) {
-    const room = Math.min(72, Math.floor(canvas.clientWidth / 9));
-    return text.length > room ? text.slice(0, room - 2) + '…' : text;
+    const room = Math.min(480, 0.6 * canvas.clientWidth);
+    const {width} = context.measureText(text);
+    return width > room ? text.slice(0, Math.floor(text.length * room / width) - 1) + '…' : text;
 }
 
 function putLabel(text, at, colour, bold) {
-    const shown = shorten(text);
     context.font = (bold ? '700 14px' : '12.5px') + ' system-ui, "DejaVu Sans", sans-serif';
+    const shown = shorten(text);
     const box = onScreen(at, 0) ? freeBox(at, context.measureText(shown).width + 8, 18) : null;
     if (!box) {
         return;
