@@ -46,6 +46,16 @@ static void fading_is_as_published(void **state)
                      rows[i].factor_db, 1e-6);
 }
 
+/* Both ends on the road at one place: the waves add as they are. */
+static void without_a_way_the_bounced_wave_loses_nothing_by_spreading(void **state)
+{
+    (void)state;
+    struct road_mirror_ends ends = {0, 0, 0, 0};
+    struct road_mirror_paths paths = road_mirror_paths(&ends);
+    assert_close(road_mirror_point_factor(&paths, -0.5, 0.004), 0.25, 1e-15);
+    assert_close(road_mirror_point_factor(&paths, 0.5, 0.004), 2.25, 1e-15);
+}
+
 static void path_difference_is_as_published(void **state)
 {
     (void)state;
@@ -269,6 +279,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fading_is_as_published),
+        cmocka_unit_test(without_a_way_the_bounced_wave_loses_nothing_by_spreading),
         cmocka_unit_test(path_difference_is_as_published),
         cmocka_unit_test(path_difference_keeps_its_digits_far_away),
         cmocka_unit_test(echoes_fade_where_the_paths_differ_by_whole_waves),

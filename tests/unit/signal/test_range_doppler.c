@@ -160,6 +160,31 @@ static void a_peak_must_exceed_the_rates_of_its_range(void **state)
     }
 }
 
+static void a_peak_is_that_of_its_strongest_beam(void **state)
+{
+    (void)state;
+    enum { BEAMS = 3 };
+    static const double amplitudes[BEAMS] = {5, 9, 7};
+    static double power[BEAMS * WIDTH * HEIGHT];
+    struct sky sky;
+    struct range_doppler_peak *peaks;
+    for (int beam = 0; beam < BEAMS; beam++) {
+        begin(&sky, POINT_RESPONSE_HANN, POINT_RESPONSE_HANN);
+        add(&sky, 5, 20, amplitudes[beam], 0);
+        assert_int_equal(search(&sky, &quiet, 3, &peaks), 1);
+        memcpy(power + beam * WIDTH * HEIGHT, sky.power, sizeof sky.power);
+        arena_free(&sky.arena);
+    }
+    begin(&sky, POINT_RESPONSE_HANN, POINT_RESPONSE_HANN);
+    memcpy(sky.power, power + WIDTH * HEIGHT, sizeof sky.power);
+    sky.spectrum.beams = BEAMS;
+    sky.spectrum.power = power;
+    assert_int_equal(range_doppler_peaks(&sky.spectrum, &quiet, 3, &sky.arena, &peaks), 1);
+    assert_int_equal(peaks[0].beam, 1);
+    assert_near(peaks[0].amplitude, 9., 1e-9);
+    arena_free(&sky.arena);
+}
+
 /* In its strongest beam the peak stands in a clutter of rates, in the other one alone. */
 static void a_peak_may_exceed_the_threshold_in_another_than_its_strongest_beam(void **state)
 {
@@ -215,6 +240,7 @@ int main(void)
         cmocka_unit_test(a_close_pair_has_its_peak_at_the_published_place),
         cmocka_unit_test(a_weak_echo_is_found_outside_the_side_lobes_of_a_strong_one_only),
         cmocka_unit_test(a_peak_must_exceed_the_rates_of_its_range),
+        cmocka_unit_test(a_peak_is_that_of_its_strongest_beam),
         cmocka_unit_test(a_peak_may_exceed_the_threshold_in_another_than_its_strongest_beam),
         cmocka_unit_test(rings_close_at_both_ends),
     };

@@ -280,10 +280,38 @@ static void every_case_is_as_hard_as_it_says(void **state)
     }
 }
 
+static double off_bearing(const struct view *view)
+{
+    return azimuth_of(view, 1) - azimuth_of(view, 0);
+}
+
+/* Points of a chain merge by range or range rate, and an angle must then be estimated from both. */
+static void points_of_a_chain_are_seen_side_by_side(void **state)
+{
+    struct bench *bench = *state;
+    double made = 0, in_line = 0;
+    for (int64_t number = 0; number < SNAPSHOTS / 4; number++) {
+        frame_clear(&bench->frame);
+        bench->frame.seed = 1;
+        random_traffic_fill(&bench->scene, number, &bench->frame);
+        adversarial_traffic_add(&bench->scene, bench->suite, number, &bench->frame);
+        for (size_t i = 1; i < bench->frame.objects.count; i++) {
+            const struct object *object = &bench->frame.objects.items[i];
+            if (!starts_case(object, "range") && !starts_case(object, "rate"))
+                continue;
+            made++;
+            in_line += hardest(bench, i, off_bearing) < 1e-6;
+        }
+    }
+    assert_true(made > SNAPSHOTS / 16.0);
+    assert_true(in_line < 0.05 * made);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_case_is_as_hard_as_it_says),
+        cmocka_unit_test(points_of_a_chain_are_seen_side_by_side),
     };
     return cmocka_run_group_tests(tests, make_bench, remove_bench);
 }

@@ -191,6 +191,18 @@ static void the_columns_hold_what_the_frames_held(void **state)
     release(&packed);
 }
 
+static void a_sensor_that_stays_the_same_is_listed_once(void **state)
+{
+    (void)state;
+    struct packed packed;
+    begin(&packed);
+    add_line(&packed, FRAME("x", "100", "4", "false", RICH));
+    add_line(&packed, FRAME("x", "101", "4.04", "true", RICH));
+    finish(&packed);
+    assert_int_equal(packed.data.sensors.count, 1);
+    release(&packed);
+}
+
 static void a_sensor_stands_and_moves_with_its_mount(void **state)
 {
     (void)state;
@@ -355,6 +367,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_columns_hold_what_the_frames_held),
+        cmocka_unit_test(a_sensor_that_stays_the_same_is_listed_once),
         cmocka_unit_test(a_sensor_stands_and_moves_with_its_mount),
         cmocka_unit_test(a_sensor_stands_where_it_was_when_it_measured),
         cmocka_unit_test(no_name_can_end_the_script_element),
