@@ -63,7 +63,8 @@ stage_libs := $(foreach n,$(names),$(call libs_of,$(n)))
 lib_objects := $(patsubst lib/%,$(BUILD)/lib/%.o,$(wildcard lib/*.c lib/*/*.c lib/*/*.cc lib/*.cc)) $(BUILD)/lib/view_page.o
 stage_objects := $(patsubst %,$(BUILD)/stages/%.o,$(names))
 programs_of = $(foreach n,$(1),$(BUILD)/bin/glint-$(subst _,-,$(n)))
-plain_names := $(foreach n,$(names),$(if $(call needs,$(n)),,$(n)))
+# glint-plan tries stages of all kinds, so it lies in the file that has all.
+plain_names := $(filter-out plan,$(foreach n,$(names),$(if $(call needs,$(n)),,$(n))))
 plain_programs := $(call programs_of,$(plain_names))
 full_programs := $(BUILD)/bin/glint $(call programs_of,$(filter-out $(plain_names),$(names)))
 programs := $(plain_programs) $(full_programs)

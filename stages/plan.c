@@ -4,22 +4,20 @@
 #include <string.h>
 
 #include "run/cost_text.h"
+#include "run/fused.h"
 #include "run/plan.h"
 #include "run/suite_choice.h"
 #include "run/tool.h"
 #include "text/output.h"
 #include "text/record_text.h"
 
-extern const struct stage stage_extract, stage_ideal, stage_sensor, stage_sensor_perfect,
-    stage_sensor_smear, stage_noise, stage_noise_none;
-
 static const struct {
-    const struct stage *stage, *stand_in;
+    const char *program, *stand_in;
     enum section section;
 } chain[PLAN_POSITIONS] = {
-    [PLAN_IDEAL] = {&stage_ideal, NULL, SECTION_ECHOES},
-    [PLAN_SENSOR] = {&stage_sensor, &stage_sensor_perfect, SECTION_CELLS},
-    [PLAN_NOISE] = {&stage_noise, &stage_noise_none, SECTION_TARGETS},
+    [PLAN_IDEAL] = {"glint-ideal", NULL, SECTION_ECHOES},
+    [PLAN_SENSOR] = {"glint-sensor", "glint-sensor-perfect", SECTION_CELLS},
+    [PLAN_NOISE] = {"glint-noise", "glint-noise-none", SECTION_TARGETS},
 };
 
 struct plan_state {
@@ -33,12 +31,8 @@ struct plan_state {
     struct runner *extract, *tried[PLAN_POSITIONS], *stand_in[PLAN_POSITIONS];
     struct cost measured;
     double bound; /* of the error, or in microseconds */
-    const struct cost_chain *chosen;
+    const struct ladder_chain *chosen;
 };
-
-static const struct cost_stages stages = {
-    &stage_extract,        &stage_ideal,      &stage_sensor,      &stage_noise,
-    &stage_sensor_perfect, &stage_noise_none, &stage_sensor_smear};
 
 static int64_t no_clock(void)
 {
@@ -61,17 +55,19 @@ static int begin(struct plan_state *own, struct runner *runner)
     plan->allowed = selection.allowed;
     for (int i = 0; i < PLAN_POSITIONS; i++)
         plan->positions[i] = (struct plan_position){
-            .stage = chain[i].stage->name,
-            .stand_in = chain[i].stand_in != NULL ? chain[i].stand_in->name : NULL,
+            .program = chain[i].program,
+            .stand_in = chain[i].stand_in,
             .section = chain[i].section,
             .log.clock_ns = no_clock,
         };
-    own->extract = runner_trial(runner, &stage_extract, NULL, NULL);
+    own->extract = runner_trial(runner, fused_stage("extract"), NULL, NULL);
     for (int i = 0; i < PLAN_POSITIONS; i++) {
-        own->tried[i] = runner_trial(runner, chain[i].stage, i == PLAN_IDEAL ? &own->choice : NULL,
-                                     &plan->positions[i].log);
+        own->tried[i] =
+            runner_trial(runner, fused_stage(fused_name(chain[i].program)),
+                         i == PLAN_IDEAL ? &own->choice : NULL, &plan->positions[i].log);
         if (chain[i].stand_in != NULL)
-            own->stand_in[i] = runner_trial(runner, chain[i].stand_in, NULL, NULL);
+            own->stand_in[i] =
+                runner_trial(runner, fused_stage(fused_name(chain[i].stand_in)), NULL, NULL);
     }
     return 0;
 }
@@ -137,7 +133,6 @@ static int begin_cost(struct plan_state *own, struct runner *runner)
     own->measured = (struct cost){
         .runner = runner,
         .suite = own->choice.sensors,
-        .stages = stages,
         .reference = (enum cost_reference)own->reference,
         .brief = own->brief,
     };

@@ -32,6 +32,10 @@ void *arena_room(struct arena *arena, size_t size);
 /* A NUL-terminated copy of the first length bytes of text. */
 char *arena_text(struct arena *arena, const char *text, size_t length);
 
+/* A text as printf would print it. */
+char *arena_format(struct arena *arena, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
 /* Forgets everything in the arena but keeps its memory, joined into one block with half as much
  * again, so that a loop that clears its arena each round soon allocates nothing. */
 void arena_clear(struct arena *arena);

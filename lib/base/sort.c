@@ -98,3 +98,14 @@ void sort_items(void *items, size_t count, size_t size, int (*compare)(const voi
         merge_neighbours(&sorting);
     move_items(items, count, size, sorting.from, arena);
 }
+
+static int ascending(const void *left, const void *right)
+{
+    double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+void sort_numbers(double *numbers, size_t count, struct arena *arena)
+{
+    sort_items(numbers, count, sizeof *numbers, ascending, arena);
+}

@@ -11,6 +11,9 @@
 void sort_items(void *items, size_t count, size_t size, int (*compare)(const void *, const void *),
                 struct arena *arena);
 
+/* Sorts numbers in ascending order; none is NaN. */
+void sort_numbers(double *numbers, size_t count, struct arena *arena);
+
 /* Sorts a LIST_OF. */
 #define sort_list(list, compare, arena)                                                            \
     sort_items((list)->items, (list)->count, sizeof *(list)->items, (compare), (arena))

@@ -6,8 +6,8 @@
 #include "base/elementary.h"
 #include "base/sort.h"
 #include "effects/effect.h"
+#include "run/fused.h"
 #include "run/plan.h"
-#include "run/side_program.h"
 
 enum { FRAMES = 250, FEWEST_FRAMES = 16, SIGNAL_SAMPLES = 32000000 };
 
@@ -22,7 +22,8 @@ static const uint64_t PAPER = EFFECT_BIT(EFFECT_VISIBILITY) | EFFECT_BIT(EFFECT_
                               EFFECT_BIT(EFFECT_ANGLE_NOISE) | EFFECT_BIT(EFFECT_RANGE_NOISE) |
                               EFFECT_BIT(EFFECT_FINAL_THRESHOLD) | EFFECT_BIT(EFFECT_LIST_LIMIT);
 
-static const char SIGNAL[] = "glint-sensor-signal";
+static const char SENSOR[] = "glint-sensor", NOISE[] = "glint-noise",
+                  SIGNAL[] = "glint-sensor-signal";
 
 /* The effects of the reference. */
 static const char REFERENCE[] = "auto";
@@ -40,24 +41,24 @@ static const struct record interval_record = {FIELD_TABLE(
     struct relative_error, interval_fields, "interval", "A figure with its 95 % interval.")};
 
 static const struct field chain_fields[] = {
-    {FIELD_NAME_OF(struct cost_chain, chain, "its name in the table")},
-    {FIELD_NAME_OF(struct cost_chain, effects, "for glint-ideal --effects")},
-    {FIELD_NAMES_OF(struct cost_chain, programs, "those after glint-ideal")},
-    {FIELD_REAL_IN(struct cost_chain, us_per_frame, 0, 1e300,
+    {FIELD_NAME_OF(struct ladder_chain, chain, "its name in the table")},
+    {FIELD_NAME_OF(struct ladder_chain, effects, "for glint-ideal --effects")},
+    {FIELD_NAMES_OF(struct ladder_chain, programs, "those after glint-ideal")},
+    {FIELD_REAL_IN(struct ladder_chain, us_per_frame, 0, 1e300,
                    "CPU time of a frame here, with reading and writing its line")},
-    {FIELD_REAL_IN(struct cost_chain, targets_per_scan, 0, 1e300, "mean number in a list")},
-    {FIELD_RECORD_OF(struct cost_chain, energy, &interval_record,
+    {FIELD_REAL_IN(struct ladder_chain, targets_per_scan, 0, 1e300, "mean number in a list")},
+    {FIELD_RECORD_OF(struct ladder_chain, energy, &interval_record,
                      "energy distance from the reference, absent for itself"),
-     FIELD_OPTIONAL, .section = COST_ENERGY},
-    {FIELD_RECORD_OF(struct cost_chain, error, &interval_record,
+     FIELD_OPTIONAL, .section = LADDER_ENERGY},
+    {FIELD_RECORD_OF(struct ladder_chain, error, &interval_record,
                      "energy over that of ideal echoes, absent where that may be 0"),
-     FIELD_OPTIONAL, .section = COST_ERROR},
+     FIELD_OPTIONAL, .section = LADDER_ERROR},
     {0},
 };
 
 static const struct record chain_record = {
-    FIELD_TABLE(struct cost_chain, chain_fields, "cost_chain", "A chain, as it was measured."),
-    .present_offset = offsetof(struct cost_chain, present)};
+    FIELD_TABLE(struct ladder_chain, chain_fields, "cost_chain", "A chain, as it was measured."),
+    .present_offset = offsetof(struct ladder_chain, present)};
 
 static const struct field cost_fields[] = {
     {FIELD_NAME_OF(struct cost, suite, "as --sensors names it")},
@@ -97,10 +98,10 @@ int cost_begin(struct cost *cost, int64_t frames)
     if (suite == NULL)
         return -1;
     int64_t samples = signal_samples(suite), most = FRAMES;
-    cost->signal = side_program_find(SIGNAL, arena);
+    bool built = fused_stage(fused_name(SIGNAL)) != NULL;
     cost->no_signal = cost->reference == COST_ALL ? "it was not asked for"
                       : samples == 0              ? "the suite has no waveform"
-                      : cost->signal == NULL      ? "it is not installed beside this program"
+                      : !built                    ? "it is not installed beside this program"
                                                   : NULL;
     if (cost->no_signal != NULL)
         cost->reference = COST_ALL;
@@ -110,75 +111,61 @@ int cost_begin(struct cost *cost, int64_t frames)
     return 0;
 }
 
-static const struct cost_chain *ideal(const struct cost *cost)
+static const struct ladder_chain *ideal(const struct cost *cost)
 {
     return &cost->chains.items[0];
 }
 
 /* The chain with all effects that were asked for: the third. */
-static const struct cost_chain *whole(const struct cost *cost)
+static const struct ladder_chain *whole(const struct cost *cost)
 {
     return &cost->chains.items[2];
 }
 
-static struct cost_chain *add_chain(struct cost *cost, const char *name,
-                                    const struct ladder_chain *measured)
+/* A chain that ends with these programs; other is NULL where the first stands in for both. */
+static struct ladder_chain chain_of(const struct cost *cost, const char *name, const char *effects,
+                                    const char *program, const char *other)
 {
     struct arena *arena = runner_arena(cost->runner);
-    struct cost_chain *chain = list_add(&cost->chains, arena);
-    *chain = (struct cost_chain){
-        .chain = name,
-        .effects = measured->effects,
-        .us_per_frame = measured->us_per_frame,
-        .targets_per_scan = measured->targets_per_scan,
-        .blocks = measured->blocks,
-    };
-    if (measured->program != NULL) {
-        *list_add(&chain->programs, arena) = SIGNAL;
-        return chain;
-    }
-    *list_add(&chain->programs, arena) = plan_program(measured->sensor->name, arena);
-    *list_add(&chain->programs, arena) = plan_program(measured->noise->name, arena);
-    chain->energy = relative_error_energy(&chain->blocks, arena);
-    chain->present = COST_ENERGY;
-    if (ideal(cost)->energy.low > 0) {
-        chain->error = relative_error_of(&chain->blocks, &ideal(cost)->blocks, arena);
-        chain->present |= COST_ERROR;
-    }
+    struct ladder_chain chain = {.chain = name, .effects = effects};
+    *list_add(&chain.programs, arena) = program;
+    if (other != NULL)
+        *list_add(&chain.programs, arena) = other;
     return chain;
 }
 
-/* Measures one more chain; NULL after a message. */
-static struct cost_chain *climb(struct cost *cost, const char *name, const char *effects,
-                                uint64_t left_out, const struct stage *sensor,
-                                const struct stage *noise)
+/* Measures one more chain, which leaves out these effects; NULL after a message. */
+static struct ladder_chain *climb(struct cost *cost, struct ladder_chain chain, uint64_t left_out)
 {
-    struct ladder_chain chain = {.effects = effects, .sensor = sensor, .noise = noise};
+    struct arena *arena = runner_arena(cost->runner);
     if (ladder_climb(&cost->ladder, &chain) != 0)
         return NULL;
-    struct cost_chain *added = add_chain(cost, name, &chain);
+    struct ladder_chain *added = list_add(&cost->chains, arena);
+    *added = chain;
     added->left_out = left_out;
+    added->energy = relative_error_energy(&added->blocks, arena);
+    added->present = LADDER_ENERGY;
+    if (ideal(cost)->energy.low > 0) {
+        added->error = relative_error_of(&added->blocks, &ideal(cost)->blocks, arena);
+        added->present |= LADDER_ERROR;
+    }
     return added;
 }
 
 /* The whole chain but for these effects, measured unless it already is. NULL after a message. */
-static const struct cost_chain *climb_without(struct cost *cost, uint64_t left_out)
+static const struct ladder_chain *climb_without(struct cost *cost, uint64_t left_out)
 {
     for (size_t i = 0; i < cost->chains.count; i++)
         if (cost->chains.items[i].automatic && cost->chains.items[i].left_out == left_out)
             return &cost->chains.items[i];
     struct arena *arena = runner_arena(cost->runner);
-    struct text text = {0};
-    text_add_word(&text, cost->whole);
-    if (left_out != 0)
-        text_format(&text, ", no %s", plan_names(left_out, arena));
-    const char *name = arena_text(arena, text.bytes, text.length);
-    text_free(&text);
-    struct cost_chain *chain = climb(cost, name, plan_request(cost->allowed & ~left_out, arena),
-                                     left_out, cost->stages.sensor, cost->stages.noise);
-    if (chain != NULL)
-        chain->automatic = true;
-    return chain;
+    const char *name =
+        left_out == 0 ? cost->whole
+                      : arena_format(arena, "%s, no %s", cost->whole, plan_names(left_out, arena));
+    const char *effects = plan_request(cost->allowed & ~left_out, arena);
+    struct ladder_chain chain = chain_of(cost, name, effects, SENSOR, NOISE);
+    chain.automatic = true;
+    return climb(cost, chain, left_out);
 }
 
 /* The effects at home in ideal, the only ones of which ideal echoes know. */
@@ -194,38 +181,31 @@ static uint64_t of_ideal(void)
 /* The chains that every ladder has, and those that leave out one effect. */
 static int climb_all(struct cost *cost)
 {
-    const struct cost_stages *use = &cost->stages;
     struct arena *arena = runner_arena(cost->runner);
-    const char *paper = plan_request(PAPER, arena);
-    if (climb(cost, "perfect", paper, cost->needed & ~(PAPER & of_ideal()), use->perfect,
-              use->none) == NULL ||
-        climb(cost, "paper", paper, cost->needed & ~PAPER, use->sensor, use->noise) == NULL ||
+    const char *paper = plan_request(PAPER, arena), *all = plan_request(cost->allowed, arena);
+    if (climb(cost, chain_of(cost, "perfect", paper, "glint-sensor-perfect", "glint-noise-none"),
+              cost->needed & ~(PAPER & of_ideal())) == NULL ||
+        climb(cost, chain_of(cost, "paper", paper, SENSOR, NOISE), cost->needed & ~PAPER) == NULL ||
         climb_without(cost, 0) == NULL)
         return -1;
     for (int i = 0; i < EFFECT_COUNT && !cost->brief; i++)
         if ((cost->needed & EFFECT_BIT(i)) != 0 && climb_without(cost, EFFECT_BIT(i)) == NULL)
             return -1;
-    const char *all = plan_request(cost->allowed, arena);
-    return climb(cost, "smear", all, 0, use->smear, use->noise) != NULL ? 0 : -1;
+    return climb(cost, chain_of(cost, "smear", all, "glint-sensor-smear", NOISE), 0) != NULL ? 0
+                                                                                             : -1;
 }
 
 int cost_measure(struct cost *cost)
 {
-    const struct cost_stages *use = &cost->stages;
     bool signal = cost->reference == COST_SIGNAL;
-    struct ladder_chain reference = {.effects = REFERENCE,
-                                     .sensor = use->sensor,
-                                     .noise = use->noise,
-                                     .program = signal ? cost->signal : NULL};
-    cost->ladder = (struct ladder){.runner = cost->runner,
-                                   .sample = &cost->sample,
-                                   .sensors = cost->suite,
-                                   .extract = use->extract,
-                                   .ideal = use->ideal};
+    struct ladder_chain reference =
+        chain_of(cost, "signal", REFERENCE, signal ? SIGNAL : SENSOR, signal ? NULL : NOISE);
+    cost->ladder =
+        (struct ladder){.runner = cost->runner, .sample = &cost->sample, .sensors = cost->suite};
     if (ladder_begin(&cost->ladder, &reference) != 0 || climb_all(cost) != 0)
         return -1;
     if (signal)
-        add_chain(cost, "signal", &reference);
+        *list_add(&cost->chains, runner_arena(cost->runner)) = reference;
     cost->frames = (int64_t)cost->sample.list.count;
     cost->seen_frames = cost->sample.seen;
     cost->scenes = (int64_t)cost->sample.scenes;
@@ -233,7 +213,7 @@ int cost_measure(struct cost *cost)
     return 0;
 }
 
-struct relative_error cost_added(const struct cost *cost, const struct cost_chain *chain)
+struct relative_error cost_added(const struct cost *cost, const struct ladder_chain *chain)
 {
     return relative_error_added(&chain->blocks, &whole(cost)->blocks, &ideal(cost)->blocks,
                                 runner_arena(cost->runner));
@@ -261,7 +241,7 @@ static struct savings savings_of(const struct cost *cost)
     struct arena *arena = runner_arena(cost->runner);
     struct savings savings = {0};
     for (size_t i = 0; i < cost->chains.count; i++) {
-        const struct cost_chain *chain = &cost->chains.items[i];
+        const struct ladder_chain *chain = &cost->chains.items[i];
         double saved_us = whole(cost)->us_per_frame - chain->us_per_frame;
         if (chain->automatic && saved_us > SCATTER * whole(cost)->us_per_frame)
             *list_add(&savings.list, arena) = (struct saving){
@@ -272,21 +252,22 @@ static struct savings savings_of(const struct cost *cost)
 }
 
 /* Draws its lists from the law of the reference. */
-static bool is_reference(const struct cost *cost, const struct cost_chain *chain)
+static bool is_reference(const struct cost *cost, const struct ladder_chain *chain)
 {
     if (cost->reference == COST_SIGNAL)
-        return (chain->present & COST_ENERGY) == 0;
+        return (chain->present & LADDER_ENERGY) == 0;
     return chain == whole(cost) && strcmp(chain->effects, REFERENCE) == 0;
 }
 
 /* What the bound is on, and what is to be least among the chains that hold it. Estimates of errors
  * may be negative, and yet no chain is more accurate than the reference. */
-static double bounded(const struct cost_chain *chain, enum cost_bound bound)
+static double bounded(const struct ladder_chain *chain, enum cost_bound bound)
 {
     return bound == COST_BOUND_US ? chain->us_per_frame : chain->error.high;
 }
 
-static double rival(const struct cost *cost, const struct cost_chain *chain, enum cost_bound bound)
+static double rival(const struct cost *cost, const struct ladder_chain *chain,
+                    enum cost_bound bound)
 {
     if (bound == COST_BOUND_ERROR)
         return chain->us_per_frame;
@@ -300,7 +281,7 @@ static int climb_down(struct cost *cost, enum cost_bound bound, double most)
     struct savings savings = savings_of(cost);
     uint64_t left_out = 0;
     for (size_t i = 0; i < savings.list.count; i++) {
-        const struct cost_chain *chain =
+        const struct ladder_chain *chain =
             climb_without(cost, left_out | savings.list.items[i].effect);
         if (chain == NULL)
             return -1;
@@ -313,10 +294,10 @@ static int climb_down(struct cost *cost, enum cost_bound bound, double most)
     return 0;
 }
 
-const struct cost_chain *cost_find(struct cost *cost, enum cost_bound bound, double most)
+const struct ladder_chain *cost_find(struct cost *cost, enum cost_bound bound, double most)
 {
     struct diag *diag = runner_diag(cost->runner);
-    if ((ideal(cost)->present & COST_ERROR) == 0) {
+    if ((ideal(cost)->present & LADDER_ERROR) == 0) {
         diag_fail(diag, DIAG_DATA,
                   "ideal echoes are not told from the reference in these frames (D %.3g, 95 %% "
                   "interval %.3g to %.3g), so chains have no errors",
@@ -326,9 +307,9 @@ const struct cost_chain *cost_find(struct cost *cost, enum cost_bound bound, dou
     if (bounded(whole(cost), bound) > most || bound == COST_BOUND_ERROR)
         if (climb_down(cost, bound, most) != 0)
             return NULL;
-    const struct cost_chain *best = NULL, *nearest = ideal(cost);
+    const struct ladder_chain *best = NULL, *nearest = ideal(cost);
     for (size_t i = 0; i < cost->chains.count; i++) {
-        const struct cost_chain *chain = &cost->chains.items[i];
+        const struct ladder_chain *chain = &cost->chains.items[i];
         if (bounded(chain, bound) < bounded(nearest, bound))
             nearest = chain;
         if (bounded(chain, bound) <= most &&

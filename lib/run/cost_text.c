@@ -36,23 +36,24 @@ static void write_error(struct relative_error error, struct text *text)
                 percent(error.high));
 }
 
-static void write_chain(const struct cost_chain *chain, int width, struct text *text)
+static void write_chain(const struct ladder_chain *chain, int width, struct text *text)
 {
     text_format(text, "%-*s %11.1f", width, chain->chain, chain->us_per_frame);
-    if ((chain->present & COST_ERROR) != 0)
+    if ((chain->present & LADDER_ERROR) != 0)
         text_format(text, " %7.1f %% %8.1f to %5.1f", percent(chain->error.value),
                     percent(chain->error.low), percent(chain->error.high));
     else
-        text_format(text, " %9s %17s", (chain->present & COST_ENERGY) != 0 ? "-" : "reference", "");
+        text_format(text, " %9s %17s", (chain->present & LADDER_ENERGY) != 0 ? "-" : "reference",
+                    "");
     text_format(text, " %8.2f\n", chain->targets_per_scan);
 }
 
 void cost_text_table(const struct cost *cost, struct text *text)
 {
-    const struct cost_chain *ideal = &cost->chains.items[0];
+    const struct ladder_chain *ideal = &cost->chains.items[0];
     write_sample(cost, "", text);
     write_reference(cost, "", text);
-    if ((ideal->present & COST_ERROR) == 0)
+    if ((ideal->present & LADDER_ERROR) == 0)
         text_format(text,
                     "There are none: ideal echoes are not told from the reference (D %.3g, %.3g to "
                     "%.3g).\n",
@@ -70,7 +71,7 @@ void cost_text_table(const struct cost *cost, struct text *text)
 }
 
 /* The chain that leaves out this effect alone. */
-static const struct cost_chain *single(const struct cost *cost, uint64_t effect)
+static const struct ladder_chain *single(const struct cost *cost, uint64_t effect)
 {
     for (size_t i = 0; i < cost->chains.count; i++)
         if (cost->chains.items[i].automatic && cost->chains.items[i].left_out == effect)
@@ -80,7 +81,7 @@ static const struct cost_chain *single(const struct cost *cost, uint64_t effect)
 
 static void write_left_out(const struct cost *cost, int effect, double whole_us, struct text *text)
 {
-    const struct cost_chain *chain = single(cost, EFFECT_BIT(effect));
+    const struct ladder_chain *chain = single(cost, EFFECT_BIT(effect));
     if (chain == NULL)
         return;
     text_format(text, "# %-17s off: saves %.1f us, adds ", effects_names[effect],
@@ -89,14 +90,15 @@ static void write_left_out(const struct cost *cost, int effect, double whole_us,
     text_add_word(text, "\n");
 }
 
-void cost_text_pipeline(const struct cost *cost, const struct cost_chain *chain, struct text *text)
+void cost_text_pipeline(const struct cost *cost, const struct ladder_chain *chain,
+                        struct text *text)
 {
     write_sample(cost, "# ", text);
     write_reference(cost, "# ", text);
-    const struct cost_chain *whole = single(cost, 0);
+    const struct ladder_chain *whole = single(cost, 0);
     text_format(text, "# This takes %.1f us a frame instead of %.1f, with an error of ",
                 chain->us_per_frame, whole->us_per_frame);
-    if ((chain->present & COST_ERROR) != 0)
+    if ((chain->present & LADDER_ERROR) != 0)
         write_error(chain->error, text);
     else
         text_add_word(text, "0 by definition");

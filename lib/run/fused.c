@@ -11,7 +11,6 @@
 #include "run/chain.h"
 #include "run/listing.h"
 #include "run/pipeline.h"
-#include "run/side_program.h"
 #include "text/document.h"
 #include "text/input.h"
 #include "text/output.h"
@@ -80,8 +79,8 @@ static bool is_own(const char *program, struct arena *arena)
     const char *slash = strrchr(program, '/');
     if (slash == NULL)
         return true;
-    const char *own = side_program_find(slash + 1, arena);
-    return own != NULL && same_file(program, own);
+    const char *own = arena_format(arena, "%s%s", document_own_folder(arena), slash + 1);
+    return access(own, X_OK) == 0 && same_file(program, own);
 }
 
 /* False if this build has no such stage or tool. A runner whose command line is refused is prepared

@@ -4,22 +4,19 @@
 
 #include "base/sort.h"
 #include "frame/frame_text.h"
-#include "run/frame_stream.h"
-#include "run/side_program.h"
+#include "run/fused.h"
 #include "run/suite_choice.h"
 #include "run/tool.h"
 #include "score/ensemble.h"
 #include "score/target_score.h"
 #include "text/list_cache.h"
 
-enum { SEEDS = LADDER_SEEDS, ALL = 2 * SEEDS, STAGES = 4 };
+enum { SEEDS = LADDER_SEEDS, ALL = 2 * SEEDS };
 
 /* One run of a chain over the sample. */
 struct pass {
     struct ladder *ladder;
-    const char *program; /* after the stages; NULL: none */
-    struct runner *trials[STAGES];
-    int stages;
+    LIST_OF(struct runner *) stages;
     uint64_t seed; /* number k of the seed */
     struct frame frame;
     struct arena arena; /* the frame's */
@@ -47,12 +44,11 @@ static int run_frame(struct pass *pass, const struct sampled_frame *sampled)
     if (frame_sample_read(sampled, frame, diag) != 0)
         return -1;
     frame->seed = sampled->seed + (pass->seed << 32);
-    for (int i = (frame->present & SECTION_REFLECTORS) != 0; i < pass->stages; i++)
-        if (runner_try(runner, pass->trials[i], frame) != 0)
+    for (size_t i = (frame->present & SECTION_REFLECTORS) != 0; i < pass->stages.count; i++)
+        if (runner_try(runner, pass->stages.items[i], frame) != 0)
             return diag_prefix(diag, "scene \"%s\", frame %lld: ", frame->scene,
                                (long long)frame->frame);
-    if (pass->program == NULL)
-        pass->written.length = 0;
+    pass->written.length = 0;
     if (frame_text_write(frame, &pass->written, diag) != 0)
         return -1;
     pass->spent_ns += cpu_ns() - begin_ns;
@@ -81,58 +77,20 @@ static int keep_lists(struct pass *pass, const struct sampled_frame *sampled)
     return 0;
 }
 
-/* What the program makes of the frames with echoes that were written: a line for each. */
-static int run_program(struct pass *pass)
-{
-    const struct frame_sample *sample = pass->ladder->sample;
-    struct diag *diag = runner_diag(pass->ladder->runner);
-    struct text made = {0}, sensors = {0};
-    text_format(&sensors, "--sensors=%s", pass->ladder->sensors);
-    text_add(&sensors, "", 1);
-    char *words[] = {(char[]){"glint"}, sensors.bytes, NULL};
-    int result =
-        side_program_run(pass->program, words, &pass->written, &made, &pass->spent_ns, diag);
-    text_free(&sensors);
-    const char *line = made.bytes, *end = made.bytes + made.length;
-    for (size_t i = 0; result == 0 && i < sample->list.count; i++) {
-        const char *stop =
-            line != NULL && line < end ? memchr(line, '\n', (size_t)(end - line)) : NULL;
-        if (stop == NULL)
-            result = diag_fail(diag, DIAG_INTERNAL, "%s wrote %zu of %zu frames", pass->program, i,
-                               sample->list.count);
-        else if (frame_stream_parse(line, (size_t)(stop - line), &pass->frame, diag) != 0)
-            result = diag_prefix(diag, "%s: line %zu: ", pass->program, i + 1);
-        else
-            result = keep_lists(pass, &sample->list.items[i]);
-        line = result == 0 ? stop + 1 : end;
-    }
-    text_free(&made);
-    return result;
-}
-
 static int run_pass(struct pass *pass)
 {
     const struct frame_sample *sample = pass->ladder->sample;
     pass->frame.arena = &pass->arena;
     pass->frame.list_cache = &pass->cache;
     int result = 0;
-    for (size_t i = 0; result == 0 && i < sample->list.count; i++) {
-        result = run_frame(pass, &sample->list.items[i]);
-        if (result == 0 && pass->program == NULL)
-            result = keep_lists(pass, &sample->list.items[i]);
-    }
-    if (result == 0 && pass->program != NULL)
-        result = run_program(pass);
+    for (size_t i = 0; result == 0 && i < sample->list.count; i++)
+        if (run_frame(pass, &sample->list.items[i]) != 0 ||
+            keep_lists(pass, &sample->list.items[i]) != 0)
+            result = -1;
     text_free(&pass->written);
     arena_free(&pass->arena);
     list_cache_free(&pass->cache);
     return result;
-}
-
-static int ascending(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
 }
 
 static double mean_targets(const struct ladder_lists *lists)
@@ -144,18 +102,18 @@ static double mean_targets(const struct ladder_lists *lists)
     return targets / scans;
 }
 
-/* A pass with stages of its own: all four, or those before the program. */
+/* A pass with stages of its own. */
 static struct pass begin_pass(struct ladder *ladder, const struct ladder_chain *chain)
 {
     struct runner *runner = ladder->runner;
+    struct arena *arena = runner_arena(runner);
     const struct suite_choice choice = {ladder->sensors, chain->effects};
-    struct pass pass = {.ladder = ladder, .program = chain->program, .stages = 2};
-    pass.trials[0] = runner_trial(runner, ladder->extract, NULL, NULL);
-    pass.trials[1] = runner_trial(runner, ladder->ideal, &choice, NULL);
-    if (chain->program != NULL)
-        return pass;
-    pass.trials[pass.stages++] = runner_trial(runner, chain->sensor, NULL, NULL);
-    pass.trials[pass.stages++] = runner_trial(runner, chain->noise, NULL, NULL);
+    struct pass pass = {.ladder = ladder};
+    *list_add(&pass.stages, arena) = runner_trial(runner, fused_stage("extract"), NULL, NULL);
+    *list_add(&pass.stages, arena) = runner_trial(runner, fused_stage("ideal"), &choice, NULL);
+    for (size_t i = 0; i < chain->programs.count; i++)
+        *list_add(&pass.stages, arena) =
+            runner_trial(runner, fused_stage(fused_name(chain->programs.items[i])), NULL, NULL);
     return pass;
 }
 
@@ -174,7 +132,7 @@ static int run_chain(struct ladder *ladder, struct ladder_chain *chain, uint64_t
             return -1;
         us[i] = 1e-3 * (double)pass.spent_ns / (double)ladder->sample->list.count;
     }
-    sort_items(us, SEEDS, sizeof *us, ascending, runner_arena(ladder->runner));
+    sort_numbers(us, SEEDS, runner_arena(ladder->runner));
     chain->us_per_frame = (us[(SEEDS - 1) / 2] + us[SEEDS / 2]) / 2;
     chain->targets_per_scan = mean_targets(lists);
     return 0;
@@ -204,35 +162,6 @@ static void weigh_blocks(struct ladder *ladder)
     }
 }
 
-/* The distances between the lists of a scan, into both halves of its block's matrix. */
-static void add_distances(const struct ladder *ladder, size_t at, const struct ladder_lists *lists,
-                          double *distance)
-{
-    const struct ladder_scan *scan = &ladder->scans.items[at];
-    const struct embedded_list *list[ALL];
-    for (size_t i = 0; i < ALL; i++)
-        list[i] =
-            i < SEEDS ? &ladder->reference[i].scans.items[at] : &lists[i - SEEDS].scans.items[at];
-    for (size_t i = 0; i < ALL; i++)
-        for (size_t k = 0; k < i; k++) {
-            double d = i < SEEDS ? ladder->apart[(at * SEEDS + i) * SEEDS + k]
-                                 : list_embedding_distance(list[i], list[k]);
-            distance[i * ALL + k] += scan->share * d;
-            distance[k * ALL + i] += scan->share * d;
-        }
-}
-
-static void keep_distances(struct ladder *ladder)
-{
-    size_t count = ladder->scans.count;
-    ladder->apart = arena_get(runner_arena(ladder->runner), count * SEEDS * SEEDS * sizeof(double));
-    for (size_t at = 0; at < count; at++)
-        for (size_t i = 0; i < SEEDS; i++)
-            for (size_t k = 0; k < i; k++)
-                ladder->apart[(at * SEEDS + i) * SEEDS + k] = list_embedding_distance(
-                    &ladder->reference[i].scans.items[at], &ladder->reference[k].scans.items[at]);
-}
-
 int ladder_begin(struct ladder *ladder, struct ladder_chain *reference)
 {
     if (run_chain(ladder, reference, 1, ladder->reference, runner_arena(ladder->runner)) != 0)
@@ -241,17 +170,24 @@ int ladder_begin(struct ladder *ladder, struct ladder_chain *reference)
         return diag_fail(runner_diag(ladder->runner), DIAG_DATA,
                          "no sensor of the suite measures in these frames");
     weigh_blocks(ladder);
-    keep_distances(ladder);
     return 0;
 }
 
+/* The distances of all lists from each other, by block. */
 static void compare(const struct ladder *ladder, const struct ladder_lists *lists,
                     struct energy_blocks *blocks)
 {
     size_t size = ladder->blocks * ALL * ALL * sizeof(double);
     double *distance = arena_get(runner_arena(ladder->runner), size);
-    for (size_t at = 0; at < ladder->scans.count; at++)
-        add_distances(ladder, at, lists, distance + ladder->scans.items[at].block * ALL * ALL);
+    for (size_t at = 0; at < ladder->scans.count; at++) {
+        const struct ladder_scan *scan = &ladder->scans.items[at];
+        const struct embedded_list *list[ALL];
+        for (size_t i = 0; i < SEEDS; i++) {
+            list[i] = &ladder->reference[i].scans.items[at];
+            list[SEEDS + i] = &lists[i].scans.items[at];
+        }
+        list_embedding_add_distances(list, ALL, scan->share, distance + scan->block * ALL * ALL);
+    }
     *blocks = (struct energy_blocks){distance, ladder->block_weight, ladder->blocks, SEEDS, SEEDS};
 }
 

@@ -6,7 +6,7 @@
  * make.
  *
  * Times are CPU time of all that `glint` does with a frame: its line is read and checked, goes
- * through all stages, and is written. A program that stands in for stages adds its own. */
+ * through all stages, and is written. */
 #ifndef LADDER_H
 #define LADDER_H
 
@@ -17,14 +17,24 @@
 
 enum { LADDER_SEEDS = 4 };
 
-/* A chain, and what ladder_climb measures of it. */
+enum { LADDER_ENERGY = 1 << 0, LADDER_ERROR = 1 << 1 };
+
+/* A chain, as it was measured. The first group of members says what it is, ladder_climb measures
+ * the second, and cost.h the third. */
 struct ladder_chain {
-    const char *effects; /* for glint-ideal */
-    const struct stage *sensor, *noise;
-    const char *program;         /* path of one that stands in for both; NULL: none does */
+    const char *chain;              /* what tables call it: "auto, no ghosts" */
+    const char *effects;            /* for glint-ideal */
+    LIST_OF(const char *) programs; /* after glint-ideal: "glint-sensor", "glint-noise" */
+
     double us_per_frame;         /* the median over seeds */
     double targets_per_scan;     /* the mean */
     struct energy_blocks blocks; /* distances from the reference's lists; not of the reference */
+
+    struct relative_error energy, error; /* D from the reference; over that of ideal echoes */
+    unsigned present;                    /* LADDER_ENERGY: it is not the reference itself;
+                                          * LADDER_ERROR: ideal echoes are told from it */
+    bool automatic;                      /* the whole chain, but for some effects */
+    uint64_t left_out; /* EFFECT_BITs of the effects that the frames call for and it leaves out */
 };
 
 /* The lists of one seed, scan by scan. */
@@ -42,13 +52,11 @@ struct ladder {
     struct runner *runner; /* of the tool; its diag has the messages */
     const struct frame_sample *sample;
     const char *sensors; /* the suite */
-    const struct stage *extract, *ideal;
 
     struct ladder_lists reference[LADDER_SEEDS];
     LIST_OF(struct ladder_scan) scans;
     size_t blocks;        /* that have a scan */
     double *block_weight; /* of each: scans over those of its scene, over scenes */
-    double *apart;        /* the distances of the reference's lists, a matrix for each scan */
 };
 
 /* Runs the reference. Refuses (DIAG_DATA) frames in which no sensor measures, and cells without a

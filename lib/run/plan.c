@@ -45,7 +45,8 @@ void plan_compare(struct plan_position *position, const struct frame *made,
     position->frame = made->frame;
 }
 
-bool plan_stands_in(const struct plan_position *position)
+/* Whether the stand-in may take the stage's place: it wrote the same bytes in all frames. */
+static bool stands_in(const struct plan_position *position)
 {
     return position->stand_in != NULL && !position->differs;
 }
@@ -55,7 +56,7 @@ uint64_t plan_effects(const struct plan *plan)
     uint64_t effects = 0;
     for (int at = 0; at < PLAN_POSITIONS; at++) {
         const struct plan_position *position = &plan->positions[at];
-        for (int i = 0; i < EFFECT_COUNT && !plan_stands_in(position); i++)
+        for (int i = 0; i < EFFECT_COUNT && !stands_in(position); i++)
             if (position->log.scans_simulated[i] > 0)
                 effects |= EFFECT_BIT(i);
     }
@@ -73,16 +74,6 @@ static const struct effect_log *log_of(const struct plan *plan, int effect)
             best = log;
     }
     return best;
-}
-
-const char *plan_program(const char *stage, struct arena *arena)
-{
-    static const char prefix[] = "glint-";
-    const size_t begin = sizeof prefix - 1, length = strlen(stage);
-    char *program = arena_get(arena, begin + length + 1);
-    memcpy(program, prefix, begin);
-    memcpy(program + begin, stage, length + 1);
-    return program;
 }
 
 static void write_effect(const struct plan *plan, int effect, bool all, struct text *text)
@@ -106,13 +97,13 @@ static void write_effect(const struct plan *plan, int effect, bool all, struct t
 
 static void write_stage(const struct plan_position *position, struct text *text)
 {
-    text_format(text, "# glint-%s ", position->stage);
+    text_format(text, "# %s ", position->program);
     if (position->stand_in == NULL) {
         text_add_word(text, "stays: no simpler stage stands in for it\n");
         return;
     }
-    bool replaced = plan_stands_in(position);
-    text_format(text, "%s: glint-%s writes ", replaced ? "goes" : "stays", position->stand_in);
+    bool replaced = stands_in(position);
+    text_format(text, "%s: %s writes ", replaced ? "goes" : "stays", position->stand_in);
     if (position->differs) {
         text_format(text, "other %s, first in frame %" PRId64 " of scene ",
                     frame_section_name(position->section), position->frame);
@@ -192,8 +183,7 @@ void plan_write(const struct plan *plan, bool all, struct arena *arena, struct t
     const char *programs[PLAN_POSITIONS];
     for (int i = 0; i < PLAN_POSITIONS; i++) {
         const struct plan_position *position = &plan->positions[i];
-        programs[i] =
-            plan_program(plan_stands_in(position) ? position->stand_in : position->stage, arena);
+        programs[i] = stands_in(position) ? position->stand_in : position->program;
     }
     plan_write_pipeline(plan->sensors, plan_names(plan_effects(plan), arena),
                         programs + PLAN_SENSOR, PLAN_POSITIONS - PLAN_SENSOR, text);

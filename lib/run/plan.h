@@ -11,8 +11,8 @@
 #include "frame/frame.h"
 
 struct plan_position {
-    const char *stage;     /* "sensor" */
-    const char *stand_in;  /* "sensor-perfect"; NULL: nothing can stand in for this one */
+    const char *program;   /* "glint-sensor" */
+    const char *stand_in;  /* "glint-sensor-perfect"; NULL: nothing can stand in for it */
     unsigned section;      /* enum section: the one that both write */
     struct effect_log log; /* which effects the stage simulated */
     bool differs;          /* the stand-in wrote other bytes in some frame */
@@ -37,18 +37,12 @@ const char *plan_request(uint64_t allowed, struct arena *arena);
 void plan_compare(struct plan_position *position, const struct frame *made,
                   const struct frame *stand_in_made, struct arena *arena);
 
-/* Whether the stand-in may take the stage's place: it wrote the same bytes in all frames. */
-bool plan_stands_in(const struct plan_position *position);
-
 /* EFFECT_BITs of the effects that the pipeline must ask for: those that a stage simulated which is
  * needed. */
 uint64_t plan_effects(const struct plan *plan);
 
 /* The effects by their names, as --effects takes them; the text lies in the arena. */
 const char *plan_names(uint64_t effects, struct arena *arena);
-
-/* "glint-sensor" of the stage sensor. */
-const char *plan_program(const char *stage, struct arena *arena);
 
 /* Writes a script for bash and for glint: a comment line for each effect that is on, the number of
  * the others or, with all, a line for each of them too, a line for each stage, and the pipeline,

@@ -230,18 +230,6 @@ struct embedded_list ensemble_embed(const struct frame *frame, const struct sens
     return embed(&list, &unit, arena);
 }
 
-/* Adds a share of the distances between all lists of one frame and sensor. */
-static void add_distances(const struct embedded_list *lists, size_t count, double share,
-                          double *distance)
-{
-    for (size_t i = 0; i < count; i++)
-        for (size_t j = 0; j < i; j++) {
-            double apart = share * list_embedding_distance(&lists[i], &lists[j]);
-            distance[i * count + j] += apart;
-            distance[j * count + i] += apart;
-        }
-}
-
 static double mean_count(const struct ensemble_scene *scene)
 {
     double sum = 0, lists = 0;
@@ -259,6 +247,7 @@ static struct ensemble_scene_score score_scene(const struct ensemble_scene *trut
     size_t lists = truth->seeds.items[0].lists.count;
     double *distance = arena_get(arena, all * all * sizeof *distance);
     struct embedded_list *embedded = arena_get(arena, all * sizeof *embedded);
+    const struct embedded_list **list = arena_get(arena, all * sizeof *list);
     struct arena scratch = {0};
     for (size_t k = 0; k < lists; k++) {
         struct target_cell unit =
@@ -267,8 +256,9 @@ static struct ensemble_scene_score score_scene(const struct ensemble_scene *trut
             const struct ensemble_seed *seed =
                 i < ones ? &truth->seeds.items[i] : &listed->seeds.items[i - ones];
             embedded[i] = embed(&seed->lists.items[k], &unit, &scratch);
+            list[i] = &embedded[i];
         }
-        add_distances(embedded, all, 1 / (double)lists, distance);
+        list_embedding_add_distances(list, all, 1 / (double)lists, distance);
         arena_clear(&scratch);
     }
     arena_free(&scratch);
@@ -285,12 +275,6 @@ static struct ensemble_scene_score score_scene(const struct ensemble_scene *trut
     };
 }
 
-static int ascending(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 /* The percentile interval over resampled scenes. */
 static void bootstrap(struct ensemble_score *score, struct arena *arena)
 {
@@ -303,7 +287,7 @@ static void bootstrap(struct ensemble_score *score, struct arena *arena)
             int64_t drawn = random_sequence_whole(&draws, 0, (int64_t)count - 1);
             means[i] += score->scenes.items[drawn].energy / (double)count;
         }
-    sort_items(means, RESAMPLES, sizeof *means, ascending, arena);
+    sort_numbers(means, RESAMPLES, arena);
     score->low = means[RESAMPLES / 40];
     score->high = means[RESAMPLES - 1 - RESAMPLES / 40];
 }

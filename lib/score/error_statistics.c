@@ -6,28 +6,17 @@
 #include "base/elementary.h"
 #include "base/sort.h"
 
-static int ascending(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
-static void sort(double *values, size_t count, struct arena *arena)
-{
-    sort_items(values, count, sizeof *values, ascending, arena);
-}
-
 /* Sums over the sorted values, so that the order of the differences changes no bit. */
 struct error_statistics error_statistics_of(double *differences, size_t count, struct arena *arena)
 {
     double sum = 0, squares = 0, *size = differences;
-    sort(differences, count, arena);
+    sort_numbers(differences, count, arena);
     for (size_t i = 0; i < count; i++) {
         sum += differences[i];
         squares += differences[i] * differences[i];
         size[i] = fabs(differences[i]);
     }
-    sort(size, count, arena);
+    sort_numbers(size, count, arena);
     return (struct error_statistics){
         .mean = sum / (double)count,
         .rms = sqrt(squares / (double)count),
@@ -39,8 +28,8 @@ struct error_statistics error_statistics_of(double *differences, size_t count, s
 double error_statistics_wasserstein(double *one, size_t one_count, double *other,
                                     size_t other_count, struct arena *arena)
 {
-    sort(one, one_count, arena);
-    sort(other, other_count, arena);
+    sort_numbers(one, one_count, arena);
+    sort_numbers(other, other_count, arena);
     double area = 0, from = elementary_min(one[0], other[0]);
     size_t i = 0, j = 0; /* number of values of each that are at most `from` */
     while (i < one_count || j < other_count) {

@@ -46,3 +46,14 @@ double list_embedding_distance(const struct embedded_list *one, const struct emb
 {
     return sqrt(elementary_max(one->square + other->square - 2 * inner(one, other), 0));
 }
+
+void list_embedding_add_distances(const struct embedded_list *const *lists, size_t count,
+                                  double share, double *distance)
+{
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j < i; j++) {
+            double apart = share * list_embedding_distance(lists[i], lists[j]);
+            distance[i * count + j] += apart;
+            distance[j * count + i] += apart;
+        }
+}

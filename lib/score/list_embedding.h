@@ -32,4 +32,9 @@ void list_embedding_close(struct embedded_list *list, struct arena *arena);
  */
 double list_embedding_distance(const struct embedded_list *one, const struct embedded_list *other);
 
+/* Adds a share of the distances of count closed lists from each other to a matrix as
+ * energy_distance.h has it. */
+void list_embedding_add_distances(const struct embedded_list *const *lists, size_t count,
+                                  double share, double *distance);
+
 #endif

@@ -56,12 +56,6 @@ static double jackknife(const struct energy_sample *chain, const struct energy_s
     return (n - 1) / n * elementary_max(squares - sum * sum / n, 0);
 }
 
-static int ascending(const void *left, const void *right)
-{
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 /* Writes the ratios of sums over resampled blocks in ascending order and returns their number.
  * There is none of blocks that are all empty, whose sum below is 0. */
 static size_t resample(const double *above, const double *below, size_t blocks, double *ratios,
@@ -80,7 +74,7 @@ static size_t resample(const double *above, const double *below, size_t blocks, 
         if (other > 0)
             ratios[count++] = one / other;
     }
-    sort_items(ratios, count, sizeof *ratios, ascending, arena);
+    sort_numbers(ratios, count, arena);
     return count;
 }
 
