@@ -155,16 +155,13 @@ static int export_csv_step(void *state, struct frame *frame, struct runner *runn
     return 0;
 }
 
-static const struct record export_csv_record = {
-    .name = "stage", .size = sizeof(struct export_csv), .fields = field_none};
-
 const struct stage stage_export_csv = {
     .name = "export-csv",
     .summary = "Write targets as CSV, one row each, with the strongest contributor.",
     .details =
         "A scan without targets is one row whose cells after the sensor's name are empty, so\n"
         "that scans in which nothing was detected can be counted.",
-    .options = &export_csv_record,
+    .options = STAGE_OPTIONS(struct export_csv, field_none),
     .sink = true,
     .reads = SECTION_SENSORS | SECTION_TARGETS,
     .step = export_csv_step,

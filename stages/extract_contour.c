@@ -29,10 +29,6 @@ static const struct field extract_contour_options[] = {
     {0},
 };
 
-static const struct record extract_contour_record = {.name = "extract-contour",
-                                                     .size = sizeof(struct extract_contour),
-                                                     .fields = extract_contour_options};
-
 const struct stage stage_extract_contour = {
     .name = "extract-contour",
     .summary = "Write the outline of every object as closely spaced scatterers.",
@@ -48,7 +44,7 @@ const struct stage stage_extract_contour = {
         "as a rough surface has). With in_phase, amplitudes add up instead, and the closer the\n"
         "scatterers are, the stronger the contour gets, without end. With the effect rows\n"
         "switched off no scatterer is seen.",
-    .options = &extract_contour_record,
+    .options = STAGE_OPTIONS(struct extract_contour, extract_contour_options),
     .reads = SECTION_OBJECTS,
     .writes = SECTION_REFLECTORS | SECTION_VEHICLES,
     .start = extraction_start,

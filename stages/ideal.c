@@ -99,9 +99,6 @@ static const struct field ideal_options[] = {
     {0},
 };
 
-static const struct record ideal_record = {
-    .name = "ideal", .size = sizeof(struct ideal), .fields = ideal_options};
-
 const struct stage stage_ideal = {
     .name = "ideal",
     .summary = "Write what a perfect radar would see of every reflector.",
@@ -110,7 +107,7 @@ const struct stage stage_ideal = {
         "azimuth, range rate and cross section of all reflectors it can see: in range and\n"
         "field of view, facing it, and with no other object in the way. Sensors that say so\n"
         "see ghosts as well: what walls, guardrails and flat sides mirror.",
-    .options = &ideal_record,
+    .options = STAGE_OPTIONS(struct ideal, ideal_options),
     .reads = SECTION_OBJECTS | SECTION_REFLECTORS,
     .writes = SECTION_SENSORS | SECTION_ECHOES | SECTION_LOST | SECTION_COUNTS,
     .start = ideal_start,

@@ -48,11 +48,6 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
         target_list_round(&context, &frame->targets.items[i]);
 }
 
-static int noise_step(void *state, struct frame *frame, struct runner *runner)
-{
-    return suite_choice_visit(state, frame, runner, list_targets);
-}
-
 const struct stage stage_noise = {
     .name = "noise",
     .summary = "Add noise to every cell and write the target list.",
@@ -65,6 +60,6 @@ const struct stage stage_noise = {
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_CELLS,
     .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS,
-    .step = noise_step,
+    .visit = list_targets,
     .locate_fault = suite_choice_locate_fault,
 };

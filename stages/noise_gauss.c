@@ -34,11 +34,6 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
     target_list_make(frame, "noise-gauss", sensor, measurements, cells.count, 0);
 }
 
-static int noise_gauss_step(void *state, struct frame *frame, struct runner *runner)
-{
-    return suite_choice_visit(state, frame, runner, list_targets);
-}
-
 const struct stage stage_noise_gauss = {
     .name = "noise-gauss",
     .summary = "Add independent Gaussian noise to range, azimuth and range rate.",
@@ -51,6 +46,6 @@ const struct stage stage_noise_gauss = {
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_CELLS,
     .writes = SECTION_TARGETS | SECTION_LOST,
-    .step = noise_gauss_step,
+    .visit = list_targets,
     .locate_fault = suite_choice_locate_fault,
 };

@@ -13,11 +13,6 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
     target_list_make(frame, "noise-none", sensor, measurements, cells.count, 0);
 }
 
-static int noise_none_step(void *state, struct frame *frame, struct runner *runner)
-{
-    return suite_choice_visit(state, frame, runner, list_targets);
-}
-
 const struct stage stage_noise_none = {
     .name = "noise-none",
     .summary = "Write the cells as targets, without noise.",
@@ -28,6 +23,6 @@ const struct stage stage_noise_none = {
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_CELLS,
     .writes = SECTION_TARGETS | SECTION_LOST,
-    .step = noise_none_step,
+    .visit = list_targets,
     .locate_fault = suite_choice_locate_fault,
 };

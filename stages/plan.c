@@ -242,9 +242,6 @@ static const struct field plan_options[] = {
     {0},
 };
 
-static const struct record plan_record = {
-    .name = "plan", .size = sizeof(struct plan_state), .fields = plan_options};
-
 const struct tool tool_plan = {
     .name = "plan",
     .summary = "Print the pipeline that the scenes need, or what accuracy costs on them.",
@@ -261,7 +258,7 @@ const struct tool tool_plan = {
         "reference. The reference is the signal, if the suite has a waveform and\n"
         "glint-sensor-signal lies beside this program, or all that the suite describes.\n"
         "pipelines/README.md says how to read the table.",
-    .options = &plan_record,
+    .options = STAGE_OPTIONS(struct plan_state, plan_options),
     .reads = SECTION_OBJECTS,
     .run = plan_run,
 };

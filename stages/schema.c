@@ -35,14 +35,11 @@ static const struct field schema_options[] = {
     {0},
 };
 
-static const struct record schema_record = {
-    .name = "schema", .size = sizeof(struct schema_state), .fields = schema_options};
-
 const struct tool tool_schema = {
     .name = "schema",
     .summary = "Write the JSON Schemas of the frame and of every document.",
     .details = "They are printed from the tables that the readers use (JSON Schema 2020-12).",
-    .options = &schema_record,
+    .options = STAGE_OPTIONS(struct schema_state, schema_options),
     .operand = "DIR",
     .into_folder = true,
     .run = schema_run,

@@ -98,9 +98,7 @@ static int write_ensemble(struct score_state *own, struct runner *runner)
         return runner_write_record(runner, &ensemble_score_record, &score);
     struct text text = {0};
     score_table_ensemble(&score, &text);
-    int result = runner_write(runner, text.bytes, text.length);
-    text_free(&text);
-    return result;
+    return runner_write_text(runner, &text);
 }
 
 static int score_stop(void *state, struct runner *runner)
@@ -124,9 +122,7 @@ static int score_stop(void *state, struct runner *runner)
         return runner_write_record(runner, &score_summary_record, &summary);
     struct text text = {0};
     score_table_summary(&summary, &text, runner_arena(runner));
-    int result = runner_write(runner, text.bytes, text.length);
-    text_free(&text);
-    return result;
+    return runner_write_text(runner, &text);
 }
 
 static const struct field score_options[] = {
@@ -152,9 +148,6 @@ static const struct field score_options[] = {
     {0},
 };
 
-static const struct record score_state_record = {
-    .name = "stage", .size = sizeof(struct score_state), .fields = score_options};
-
 const struct stage stage_score = {
     .name = "score",
     .summary = "Score targets against those of another stream, frame by frame.",
@@ -175,7 +168,7 @@ const struct stage stage_score = {
         "lists: one line has the energy distance of each scene with its standard error, and the\n"
         "mean over scenes with a 95 % interval. The distance is 0 in the mean if both streams\n"
         "draw from one law. Cells are those above, levels count in steps of 3 dB.",
-    .options = &score_state_record,
+    .options = STAGE_OPTIONS(struct score_state, score_options),
     .sink = true,
     .reads = SECTION_SENSORS | SECTION_TARGETS,
     .start = score_start,

@@ -109,9 +109,7 @@ static int score_tracks_stop(void *state, struct runner *runner)
         return runner_write_record(runner, &score_track_summary_record, &summary);
     struct text text = {0};
     score_table_track_summary(&summary, &text);
-    int result = runner_write(runner, text.bytes, text.length);
-    text_free(&text);
-    return result;
+    return runner_write_text(runner, &text);
 }
 
 static const struct field score_tracks_options[] = {
@@ -136,9 +134,6 @@ static const struct field score_tracks_options[] = {
     {0},
 };
 
-static const struct record score_tracks_record = {
-    .name = "stage", .size = sizeof(struct score_tracks), .fields = score_tracks_options};
-
 const struct stage stage_score_tracks = {
     .name = "score-tracks",
     .summary = "Score a tracker's tracks against the objects of the frames.",
@@ -152,7 +147,7 @@ const struct stage stage_score_tracks = {
         "is within the range and field of view of a sensor; detected, those with an echo in a\n"
         "target of the frame; all. The ego never counts. Frames that one side lacks are errors\n"
         "unless --partial is given. Tracks have no seed, so a scene must come with one alone.",
-    .options = &score_tracks_record,
+    .options = STAGE_OPTIONS(struct score_tracks, score_tracks_options),
     .sink = true,
     .reads = SECTION_OBJECTS,
     .start = score_tracks_start,

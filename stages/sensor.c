@@ -52,11 +52,6 @@ static void sense(struct frame *frame, const struct sensor *sensor,
         report(frame, &scan, selection, number);
 }
 
-static int sensor_step(void *state, struct frame *frame, struct runner *runner)
-{
-    return suite_choice_visit(state, frame, runner, sense);
-}
-
 const struct stage stage_sensor = {
     .name = "sensor",
     .summary = "Merge echoes into resolution cells and superpose their antenna pointers.",
@@ -68,6 +63,6 @@ const struct stage stage_sensor = {
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_CELLS | SECTION_LOST | SECTION_COUNTS,
-    .step = sensor_step,
+    .visit = sense,
     .locate_fault = suite_choice_locate_fault,
 };

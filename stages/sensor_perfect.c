@@ -27,11 +27,6 @@ static void sense(struct frame *frame, const struct sensor *sensor,
         make_cell(frame, sensor, &echoes.items[i]);
 }
 
-static int sensor_perfect_step(void *state, struct frame *frame, struct runner *runner)
-{
-    return suite_choice_visit(state, frame, runner, sense);
-}
-
 const struct stage stage_sensor_perfect = {
     .name = "sensor-perfect",
     .summary = "Make one exact cell of every echo.",
@@ -42,6 +37,6 @@ const struct stage stage_sensor_perfect = {
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_CELLS | SECTION_LOST,
-    .step = sensor_perfect_step,
+    .visit = sense,
     .locate_fault = suite_choice_locate_fault,
 };

@@ -130,12 +130,6 @@ static const struct field sensor_signal_fields[] = {
     {0},
 };
 
-static const struct record sensor_signal_options = {
-    .name = "options",
-    .size = sizeof(struct sensor_signal),
-    .fields = sensor_signal_fields,
-};
-
 const struct stage stage_sensor_signal = {
     .name = "sensor-signal",
     .summary = "Simulate the signal, transform it, and list its peaks as targets.",
@@ -150,7 +144,7 @@ const struct stage stage_sensor_signal = {
         "The transforms are the FFTW library's. One build of it gives the same bytes on every\n"
         "machine, fused or piped; another version or another kind of CPU may differ in the last\n"
         "digits, which no other stage does.",
-    .options = &sensor_signal_options,
+    .options = STAGE_OPTIONS(struct sensor_signal, sensor_signal_fields),
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS,
     .step = sensor_signal_step,

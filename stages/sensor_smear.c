@@ -52,11 +52,6 @@ static void sense(struct frame *frame, const struct sensor *sensor,
     }
 }
 
-static int sensor_smear_step(void *state, struct frame *frame, struct runner *runner)
-{
-    return suite_choice_visit(state, frame, runner, sense);
-}
-
 const struct stage stage_sensor_smear = {
     .name = "sensor-smear",
     .summary = "Smear echoes over range and Doppler bins and make cells of the peaks.",
@@ -73,6 +68,6 @@ const struct stage stage_sensor_smear = {
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_CELLS | SECTION_LOST | SECTION_COUNTS,
-    .step = sensor_smear_step,
+    .visit = sense,
     .locate_fault = suite_choice_locate_fault,
 };

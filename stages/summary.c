@@ -158,13 +158,8 @@ static int summary_stop(void *state, struct runner *runner)
                   arena);
     print_tallies("reflectors that a sensor looked for, by what became of them", &summary->outcomes,
                   summary->outcomes.sum, &text, arena);
-    int result = runner_write(runner, text.bytes, text.length);
-    text_free(&text);
-    return result;
+    return runner_write_text(runner, &text);
 }
-
-static const struct record summary_record = {
-    .name = "stage", .size = sizeof(struct summary), .fields = field_none};
 
 const struct stage stage_summary = {
     .name = "summary",
@@ -175,7 +170,7 @@ const struct stage stage_summary = {
         "With --account given to glint-ideal it also prints what became of every reflector that\n"
         "a sensor looked for: how many are in a target, and how many are lost for which reason.\n"
         "Prints at the end of the stream.",
-    .options = &summary_record,
+    .options = STAGE_OPTIONS(struct summary, field_none),
     .sink = true,
     .reads = SECTION_OBJECTS | SECTION_SENSORS | SECTION_TARGETS,
     .step = summary_step,

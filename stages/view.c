@@ -130,9 +130,7 @@ static int view_stop(void *state, struct runner *runner)
         text_add_word(&text, view->still);
     else
         view_svg_write_empty(&text);
-    int result = runner_write(runner, text.bytes, text.length);
-    text_free(&text);
-    return result;
+    return runner_write_text(runner, &text);
 }
 
 static const struct field view_fields[] = {
@@ -150,9 +148,6 @@ static const struct field view_fields[] = {
     {0},
 };
 
-static const struct record view_record = {
-    .name = "stage", .size = sizeof(struct view), .fields = view_fields};
-
 const struct stage stage_view = {
     .name = "view",
     .summary = "Write an HTML page that plays the stream, or one frame as an SVG still.",
@@ -163,7 +158,7 @@ const struct stage stage_view = {
         "targets. Written at the end of the stream. With --truth the page shows the targets of\n"
         "another stream of the same scenes over those of this one, paired as glint-score pairs\n"
         "them; with --tracks a tracker's tracks, paired with the objects in view.",
-    .options = &view_record,
+    .options = STAGE_OPTIONS(struct view, view_fields),
     .sink = true,
     .reads = SECTION_OBJECTS,
     .start = view_start,

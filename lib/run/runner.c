@@ -44,13 +44,18 @@ int runner_write(struct runner *runner, const char *bytes, size_t length)
     return output_write(runner->outputs.items[0], bytes, length, &runner->diag);
 }
 
+int runner_write_text(struct runner *runner, struct text *text)
+{
+    int result = runner_write(runner, text->bytes, text->length);
+    text_free(text);
+    return result;
+}
+
 int runner_write_record(struct runner *runner, const struct record *record, const void *base)
 {
     struct text text = {0};
     record_text_write(record, base, NULL, &text);
-    int result = runner_write(runner, text.bytes, text.length);
-    text_free(&text);
-    return result;
+    return runner_write_text(runner, &text);
 }
 
 static const struct suite *load_suite(struct runner *runner, const char *name, struct diag *diag)
@@ -285,10 +290,15 @@ static int check_complete(struct runner *runner)
 
 int runner_step(struct runner *runner, struct frame *frame)
 {
-    if (take_frame(runner, frame) != 0 ||
-        ensure_message(runner, runner->stage->step(runner->state, frame, runner)) != 0)
+    const struct stage *stage = runner->stage;
+    if (take_frame(runner, frame) != 0)
         return -1;
-    return runner->stage->sink ? 0 : finish_step(runner, frame);
+    int result = stage->visit != NULL
+                     ? suite_choice_visit(runner->state, frame, runner, stage->visit)
+                     : stage->step(runner->state, frame, runner);
+    if (ensure_message(runner, result) != 0)
+        return -1;
+    return stage->sink ? 0 : finish_step(runner, frame);
 }
 
 int runner_frame(struct runner *runner, struct frame **frame)
@@ -354,12 +364,7 @@ struct output *runner_output(struct runner *runner)
 
 struct output *runner_output_in(struct runner *runner, const char *folder, const char *name)
 {
-    struct text path = {0};
-    text_format(&path, "%s/%s", folder, name);
-    text_add(&path, "", 1);
-    struct output *output = add_output(runner, path.bytes);
-    text_free(&path);
-    return output;
+    return add_output(runner, arena_format(&runner->arena, "%s/%s", folder, name));
 }
 
 int runner_close_outputs(struct runner *runner, bool whole)

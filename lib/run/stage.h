@@ -22,7 +22,9 @@
 struct frame_place;
 struct reference_stream;
 struct runner;
+struct sensor;
 struct suite;
+struct text;
 struct vehicle;
 
 struct stage {
@@ -42,6 +44,10 @@ struct stage {
     int (*start)(void *state, struct runner *runner);
     int (*next)(void *state, struct frame *frame, struct runner *runner);
     int (*step)(void *state, struct frame *frame, struct runner *runner);
+    /* In place of step, for a stage after ideal whose state is a suite_choice (suite_choice.h): the
+     * part of a step for one sensor, called for every sensor of the suite. */
+    void (*visit)(struct frame *frame, const struct sensor *sensor,
+                  const struct selection *selection);
     /* Called on a stage whose frame is refused. Returns -1 after a message that names the place in
      * what the stage read, or 0 if that is not to blame. NULL: it never is. */
     int (*locate_fault)(void *state, const struct frame *frame, struct runner *runner);
@@ -49,6 +55,10 @@ struct stage {
     /* Frees what a library made for the state, after a failure too; NULL: nothing. */
     void (*release)(void *state);
 };
+
+/* The options of a stage or tool: the members of its state that this table of fields lists. */
+#define STAGE_OPTIONS(state, table)                                                                \
+    (&(const struct record){.name = "options", .size = sizeof(state), .fields = (table)})
 
 /* For stages without options and without state (options.c). */
 extern const struct record no_options_record;
@@ -74,8 +84,9 @@ const struct suite *runner_suite(struct runner *runner, const char *name);
 const struct suite *runner_suite_of_frame(struct runner *runner, const struct frame *frame);
 const struct vehicle *runner_vehicle(struct runner *runner, const char *folder, const char *class);
 
-/* What a sink writes: bytes, or a record as a line of JSON. */
+/* What a sink writes: bytes, a text, whose memory is given back, or a record as a line of JSON. */
 int runner_write(struct runner *runner, const char *bytes, size_t length);
+int runner_write_text(struct runner *runner, struct text *text);
 int runner_write_record(struct runner *runner, const struct record *record, const void *base);
 
 /* A second stream beside the one that is read, for sinks that compare the two. "-" is standard

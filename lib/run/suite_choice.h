@@ -48,7 +48,7 @@ const struct suite *suite_choice_suite(const struct suite_choice *choice, const 
 int suite_choice_effects(const struct suite_choice *choice, const struct frame *frame,
                          struct runner *runner, struct selection *selection);
 
-/* The whole step of a stage after ideal: visits every sensor of the suite. */
+/* The step of a stage that visits every sensor of the suite (stage.h). */
 int suite_choice_visit(const struct suite_choice *choice, struct frame *frame,
                        struct runner *runner,
                        void (*visit)(struct frame *frame, const struct sensor *sensor,

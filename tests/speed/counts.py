@@ -22,9 +22,10 @@ ENVIRONMENT = {
     "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-AVX2_Usable,-AVX_Fast_Unaligned_Load,-ERMS,-FSRM,-BMI2,"
                       "-SSE4_2,-SSE4_1,-SSSE3,-Fast_Unaligned_Copy"}
 FIRST = 6
-# Functions whose inclusive counts tell the parts apart; the rest is the runner's.
+# Functions whose inclusive counts tell the parts apart, those that visit a sensor for glint-sensor and
+# glint-noise; the rest is the runner's.
 PARTS = {"traffic": "traffic_next", "extract": "extract_step", "ideal": "ideal_step",
-         "sensor": "sensor_step", "noise": "noise_step", "read": "frame_text_read",
+         "sensor": "sense", "noise": "list_targets", "read": "frame_text_read",
          "write": "frame_text_write"}
 
 
@@ -88,8 +89,7 @@ def read_dump(path):
 def instructions(binary, job):
     """Instructions per frame, from frame FIRST to the last but one: {"all": ...} and every part. Callgrind
     dumps its counts wherever a frame begins."""
-    name = job[0].split()[0][len("glint-"):].replace("-", "_")
-    begins = f"{name}_next" if job[1] == os.devnull else f"{name}_step"
+    begins = "runner_next" if job[1] == os.devnull else "runner_step"
     with tempfile.TemporaryDirectory() as folder:
         profile = os.path.join(folder, "callgrind")
         run("callgrind", binary, job, f"--callgrind-out-file={profile}", f"--dump-before={begins}")
