@@ -87,6 +87,9 @@ static int check_echoes(const struct frame *frame, struct diag *diag)
             return diag_fail(diag, DIAG_DATA,
                              "echoes: sensor \"%s\", object \"%s\", reflector \"%s\" stands twice",
                              echo[i].sensor, echo[i].id.object, echo[i].id.reflector);
+        if (echo[i].id.path == PATH_FALSE_ALARM)
+            return diag_fail(diag, DIAG_DATA,
+                             "echoes[%zu].path: false_alarm; expected the path of a wave", i);
         if (check_listed(frame, "echoes", i, echo[i].sensor, diag) != 0)
             return -1;
     }

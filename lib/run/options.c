@@ -129,7 +129,7 @@ static int set_option(const struct field *field, void *base, const char *value, 
     else if (field_read_number(value, strlen(value), &number) != 0)
         result = field_wrong_kind(field, value, diag);
     else
-        result = field_set_number(field, base, number, diag);
+        result = field_set_number(field, base, number + 0, diag); /* -0 is 0 */
     if (result == 0)
         return 0;
     use_dashes(diag->text);
