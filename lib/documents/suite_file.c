@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/hash.h"
+#include "base/intern.h"
 #include "documents/consistency.h"
 #include "text/csv_table.h"
 #include "text/document.h"
@@ -117,9 +118,10 @@ static int complete_suite(struct suite *suite, const char *path, const struct te
     uint64_t digest = hash_bytes(HASH_START, document->bytes, document->length);
     if (suite->sensors.count == 0)
         return diag_fail(diag, DIAG_CONFIG, "%s: sensors: none; expected at least one", path);
+    struct intern names = intern_begin(suite->sensors.count, arena);
     for (size_t i = 0; i < suite->sensors.count; i++) {
         struct sensor *sensor = &suite->sensors.items[i];
-        if (suite_sensor(suite, sensor->name) != sensor)
+        if (intern_word(&names, sensor->name, arena) < i)
             return diag_fail(diag, DIAG_CONFIG, "%s: sensors[%zu].name: \"%s\" stands twice", path,
                              i, sensor->name);
         if (suite_check(sensor, diag) != 0)

@@ -2,9 +2,11 @@
 
 #include <complex.h>
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/units.h"
+#include "frame/frame_order.h"
 
 static const char *const paths[] = {
     [PATH_DIRECT] = "direct",
@@ -389,6 +391,8 @@ void frame_drop(struct frame *frame, unsigned sections)
             field->kind == FIELD_RECORD ? field->record->size : sizeof(LIST_OF(struct object));
         memset((char *)frame + field->offset, 0, size);
     }
+    frame->ordered.lost *= frame->lost.count > 0;
+    frame->ordered.counts *= frame->counts.count > 0;
     frame->present &= ~sections;
 }
 
@@ -422,35 +426,42 @@ struct motion frame_motion(const struct object *object, double age_s)
     return age_s == 0 ? now : motion_after(now, -age_s);
 }
 
+/* One of the items in canonical order that begin with this name, or NULL. */
+static void *find_named(const void *items, size_t count, size_t size, const char *name)
+{
+    return count == 0 ? NULL : bsearch(&name, items, count, size, frame_order_names);
+}
+
+#define FIND_NAMED(list, name)                                                                     \
+    find_named((list)->items, (list)->count, sizeof *(list)->items, (name))
+
 const struct sensor_view *frame_view(const struct frame *frame, const char *sensor)
 {
-    for (size_t i = 0; i < frame->sensors.list.count; i++)
-        if (frame_same_name(frame->sensors.list.items[i].name, sensor))
-            return &frame->sensors.list.items[i];
-    return NULL;
+    return FIND_NAMED(&frame->sensors.list, sensor);
 }
 
 struct echo_span frame_echoes_of(const struct frame *frame, const char *sensor)
 {
-    size_t first = 0, end;
-    while (first < frame->echoes.count &&
-           !frame_same_name(frame->echoes.items[first].sensor, sensor))
-        first++;
-    for (end = first; end < frame->echoes.count; end++)
-        if (!frame_same_name(frame->echoes.items[end].sensor, sensor))
-            break;
-    return (struct echo_span){end > first ? &frame->echoes.items[first] : NULL, end - first};
+    const struct echo *first = FIND_NAMED(&frame->echoes, sensor), *end = first;
+    if (first == NULL)
+        return (struct echo_span){0};
+    while (first > frame->echoes.items && frame_same_name(first[-1].sensor, sensor))
+        first--;
+    while (end < frame->echoes.items + frame->echoes.count && frame_same_name(end->sensor, sensor))
+        end++;
+    return (struct echo_span){first, (size_t)(end - first)};
 }
 
 struct cell_span frame_cells_of(const struct frame *frame, const char *sensor)
 {
-    size_t first = 0, end;
-    while (first < frame->cells.count && !frame_same_name(frame->cells.items[first].sensor, sensor))
-        first++;
-    for (end = first; end < frame->cells.count; end++)
-        if (!frame_same_name(frame->cells.items[end].sensor, sensor))
-            break;
-    return (struct cell_span){end > first ? &frame->cells.items[first] : NULL, end - first};
+    const struct cell *first = FIND_NAMED(&frame->cells, sensor), *end = first;
+    if (first == NULL)
+        return (struct cell_span){0};
+    while (first > frame->cells.items && frame_same_name(first[-1].sensor, sensor))
+        first--;
+    while (end < frame->cells.items + frame->cells.count && frame_same_name(end->sensor, sensor))
+        end++;
+    return (struct cell_span){first, (size_t)(end - first)};
 }
 
 struct contributor frame_contributor(const struct echo *echo)
@@ -465,22 +476,30 @@ struct contributor frame_contributor(const struct echo *echo)
     };
 }
 
+/* The group of a sensor, stage and reason: one of those in order, or else of the last ones, as the
+ * losses of a sensor follow each other. NULL if there is none. */
+static struct lost_group *find_group(struct frame *frame, const struct lost_group *wanted)
+{
+    struct lost_group *first = frame->lost.items, *group = first + frame->lost.count;
+    size_t ordered = frame->ordered.lost;
+    while (group > first + ordered && frame_same_name(group[-1].sensor, wanted->sensor))
+        if (frame_order_lost_groups(--group, wanted) == 0)
+            return group;
+    return ordered == 0 ? NULL
+                        : bsearch(wanted, first, ordered, sizeof *first, frame_order_lost_groups);
+}
+
 void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum loss reason,
                 const struct lost_echo *echo)
 {
     if (!frame->account)
         return;
-    struct lost_group *group = NULL;
-    for (size_t i = 0; i < frame->lost.count && group == NULL; i++) {
-        struct lost_group *candidate = &frame->lost.items[i];
-        if (candidate->reason == reason && frame_same_name(candidate->stage, stage) &&
-            frame_same_name(candidate->sensor, sensor))
-            group = candidate;
-    }
+    const struct lost_group lost = {
+        .sensor = sensor, .stage = stage, .reason = reason, .effect = losing_effects[reason]};
+    struct lost_group *group = frame->lost.count > 0 ? find_group(frame, &lost) : NULL;
     if (group == NULL) {
         group = list_add(&frame->lost, frame->arena);
-        *group = (struct lost_group){
-            .sensor = sensor, .stage = stage, .reason = reason, .effect = losing_effects[reason]};
+        *group = lost;
         frame->present |= SECTION_LOST;
     }
     *list_add(&group->echoes, frame->arena) = *echo;
@@ -498,10 +517,12 @@ void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *
 
 static struct count *count_of(struct frame *frame, const char *sensor)
 {
-    for (size_t i = 0; i < frame->counts.count; i++)
-        if (frame_same_name(frame->counts.items[i].sensor, sensor))
-            return &frame->counts.items[i];
-    struct count *count = list_add(&frame->counts, frame->arena);
+    struct count *items = frame->counts.items, *count = items + frame->counts.count;
+    if (count > items && frame_same_name(count[-1].sensor, sensor))
+        return count - 1;
+    count = find_named(items, frame->ordered.counts, sizeof *items, sensor);
+    if (count == NULL)
+        count = list_add(&frame->counts, frame->arena);
     count->sensor = sensor;
     return count;
 }

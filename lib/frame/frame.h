@@ -236,6 +236,9 @@ struct frame {
     struct arena *arena;
     struct list_cache *list_cache;  /* lists that many lines repeat; NULL: none are kept */
     LIST_OF(struct object *) by_id; /* the cache of frame_order_objects; empty: not sorted yet */
+    struct {
+        size_t lost, counts;
+    } ordered; /* so many items were in canonical order; those behind them are new */
 };
 
 extern const struct record frame_record;
@@ -276,7 +279,8 @@ bool frame_detects(const struct frame *frame, const char *object);
  */
 struct motion frame_motion(const struct object *object, double age_s);
 
-/* The sensor with this name in the frame's suite, or NULL. */
+/* The sensor with this name in the frame's suite, or NULL. This and the functions below need the
+ * sections in canonical order. */
 const struct sensor_view *frame_view(const struct frame *frame, const char *sensor);
 
 /* The echoes and the cells of one sensor. They stand together, as sections are grouped by sensor.
@@ -298,8 +302,9 @@ struct antenna_pointers frame_cell_pointers(const struct cell *cell);
 /* An echo as a contributor, with the weight 0. */
 struct contributor frame_contributor(const struct echo *echo);
 
-/* Adds a lost echo to the group of its sensor, stage and reason. Does nothing unless the frame
- * keeps account. All text must live as long as the frame. */
+/* Adds a lost echo to the group of its sensor, stage and reason; a stage loses the echoes of one
+ * sensor after those of another. Does nothing unless the frame keeps account. All text must live as
+ * long as the frame. */
 void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum loss reason,
                 const struct lost_echo *echo);
 
@@ -308,7 +313,8 @@ void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum
 void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *cell,
                      enum loss reason, double shortfall_db, const struct margins *margins);
 
-/* Adds to the sensor's counts of echoes made along a path, and of pairs with a reflector. */
+/* Adds to the sensor's counts of echoes made along a path, and of pairs with a reflector; a stage
+ * counts those of one sensor after those of another. */
 void frame_count_echoes(struct frame *frame, const char *sensor, enum path path, int64_t echoes);
 void frame_count_pairs(struct frame *frame, const char *sensor, int64_t pairs);
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/hash_table.h"
+#include "base/intern.h"
 #include "frame/frame_order.h"
 
 /* The place of an echo that is in no target. */
@@ -25,7 +26,13 @@ struct account_check {
     struct {
         const char *text;
         uint64_t hash;
-    } object; /* cache of the last hash, as echoes of one object stand together */
+    } object;              /* cache of the last hash, as echoes of one object stand together */
+    struct intern sensors; /* those with counts first, in their order */
+    int64_t *entries;      /* of each sensor with counts; the last number is that of the others */
+    struct {
+        const char *text;
+        uint32_t number;
+    } sensor; /* cache of the last number */
 };
 
 static bool is_echo(const void *outcomes, uint32_t number, const void *wanted)
@@ -45,6 +52,16 @@ static uint64_t hash_name(uint64_t hash, const char *name)
     return hash_table_hash(hash, name, strlen(name));
 }
 
+static uint32_t sensor_number(struct account_check *check, const char *sensor, struct arena *arena)
+{
+    if (check->sensor.text != sensor) {
+        check->sensor.text = sensor;
+        check->sensor.number = intern_word(&check->sensors, sensor, arena);
+    }
+    return check->sensor.number;
+}
+
+/* The sensor is the one whose number was asked for last. */
 static uint64_t hash_of(struct account_check *check, const struct echo_id *id)
 {
     if (check->object.text != id->object) {
@@ -54,7 +71,8 @@ static uint64_t hash_of(struct account_check *check, const struct echo_id *id)
     uint64_t hash = hash_name(check->object.hash, id->reflector);
     if (id->mirror != NULL)
         hash = hash_name(hash, id->mirror);
-    return hash_table_mix(hash, (uint64_t)id->path << 48 ^ (uint64_t)id->number);
+    return hash_table_mix(hash, (uint64_t)id->path << 56 ^ (uint64_t)check->sensor.number << 32 ^
+                                    (uint64_t)id->number);
 }
 
 /* Notes an entry; all of targets, in their order, come before those of lost. Entries of one echo in
@@ -89,42 +107,42 @@ static size_t count_outcomes(const struct frame *frame)
 
 static struct account_check begin(const struct frame *frame)
 {
-    size_t count = count_outcomes(frame);
-    return (struct account_check){
+    size_t count = count_outcomes(frame), counted = frame->counts.count;
+    struct account_check check = {
         .outcomes = arena_room(frame->arena, count * sizeof(struct outcome)),
         .numbers = hash_table_begin(count, frame->arena),
+        .sensors = intern_begin(counted, frame->arena),
+        .entries = arena_get(frame->arena, (counted + 1) * sizeof(int64_t)),
     };
+    for (size_t i = 0; i < counted; i++)
+        sensor_number(&check, frame->counts.items[i].sensor, frame->arena);
+    return check;
 }
 
-/* Adds to the number of a sensor's entries. Sensors without a count share the last number. */
-static void add_entries(const struct frame *frame, const char *sensor, int64_t added,
-                        int64_t *entries)
+static int64_t *entries_of(struct account_check *check, const struct frame *frame,
+                           const char *sensor)
 {
-    size_t i = 0;
-    while (i < frame->counts.count && !frame_same_name(frame->counts.items[i].sensor, sensor))
-        i++;
-    entries[i] += added;
+    size_t number = sensor_number(check, sensor, frame->arena), counted = frame->counts.count;
+    return &check->entries[number < counted ? number : counted];
 }
 
-static void collect(const struct frame *frame, struct account_check *check, int64_t *entries)
+static void collect(const struct frame *frame, struct account_check *check)
 {
     for (size_t i = 0; i < frame->targets.count; i++) {
         const struct target *target = &frame->targets.items[i];
-        int64_t added = 0;
+        int64_t *entries = entries_of(check, frame, target->sensor);
         for (size_t j = 0; j < target->contributors.count; j++) {
             const struct contributor *from = &target->contributors.items[j];
-            added += note(check, (struct outcome){target->sensor, from->id, i});
+            *entries += note(check, (struct outcome){target->sensor, from->id, i});
         }
-        add_entries(frame, target->sensor, added, entries);
     }
     for (size_t i = 0; i < frame->lost.count; i++) {
         const struct lost_group *group = &frame->lost.items[i];
-        int64_t added = 0;
+        int64_t *entries = entries_of(check, frame, group->sensor);
         for (size_t j = 0; j < group->echoes.count; j++) {
             const struct lost_echo *from = &group->echoes.items[j];
-            added += note(check, (struct outcome){group->sensor, from->id, LOST});
+            *entries += note(check, (struct outcome){group->sensor, from->id, LOST});
         }
-        add_entries(frame, group->sensor, added, entries);
     }
 }
 
@@ -157,13 +175,12 @@ static int compare_with_counts(const struct frame *frame, const int64_t *entries
 int frame_account_check(const struct frame *frame, struct diag *diag)
 {
     struct account_check check = begin(frame);
-    int64_t *entries = arena_get(frame->arena, (frame->counts.count + 1) * sizeof *entries);
-    collect(frame, &check, entries);
+    collect(frame, &check);
     if (check.doubled != NULL)
         return diag_fail(diag, DIAG_DATA,
                          "account: sensor \"%s\", object \"%s\", reflector \"%s\" has two "
                          "entries",
                          check.doubled->sensor, check.doubled->id.object,
                          check.doubled->id.reflector);
-    return compare_with_counts(frame, entries, diag);
+    return compare_with_counts(frame, check.entries, diag);
 }

@@ -218,6 +218,7 @@ int frame_check_extremes(const struct frame *frame, struct diag *diag)
         if (field_check(&object_record, &frame->objects.items[i], diag) != 0)
             return diag_prefix(diag, "object \"%s\": ", frame->objects.items[i].id);
     bool good = check_echo_values(frame, diag) == 0 && check_cell_values(frame, diag) == 0 &&
-                check_target_values(frame, diag) == 0;
+                check_target_values(frame, diag) == 0 &&
+                field_check_sections(&frame_record, frame, SECTION_COUNTS, diag) == 0;
     return good ? 0 : -1;
 }

@@ -71,7 +71,7 @@ static int compare_lost_echoes(const void *left, const void *right)
     return compare_echo_ids(a->id, b->id);
 }
 
-static int compare_lost_groups(const void *left, const void *right)
+int frame_order_lost_groups(const void *left, const void *right)
 {
     const struct lost_group *a = left, *b = right;
     int order = compare_names(a->sensor, b->sensor);
@@ -125,12 +125,13 @@ static void order_cells(struct frame *frame)
 
 static void order_lost(struct frame *frame, const char *stage)
 {
-    sort_list(&frame->lost, compare_lost_groups, frame->arena);
+    sort_list(&frame->lost, frame_order_lost_groups, frame->arena);
     for (size_t i = 0; i < frame->lost.count; i++) {
         struct lost_group *group = &frame->lost.items[i];
         if (stage == NULL || frame_same_name(group->stage, stage))
             sort_list(&group->echoes, compare_lost_echoes, frame->arena);
     }
+    frame->ordered.lost = frame->lost.count;
 }
 
 static void order_counts(struct frame *frame)
@@ -138,6 +139,7 @@ static void order_counts(struct frame *frame)
     sort_list(&frame->counts, frame_order_names, frame->arena);
     for (size_t i = 0; i < frame->counts.count; i++)
         sort_list(&frame->counts.items[i].paths, compare_paths, frame->arena);
+    frame->ordered.counts = frame->counts.count;
 }
 
 void frame_order_part(struct frame *frame, struct frame_part part)

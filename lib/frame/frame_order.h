@@ -26,10 +26,11 @@ int frame_order_tied(const struct contributor *a, const struct contributor *b);
 /* The canonical order of one sensor's echoes: by object, reflector, path, mirror, number. */
 int frame_order_echo_ids(struct echo_id a, struct echo_id b);
 
-/* The canonical orders of names (const char *), or structs that begin with a name, of echoes and of
- * cells, for sort_items. */
+/* The canonical orders of names (const char *), or structs that begin with a name, of echoes, of
+ * cells and of lost groups, for sort_items. */
 int frame_order_names(const void *left, const void *right);
 int frame_order_echoes(const void *left, const void *right);
 int frame_order_cells(const void *left, const void *right);
+int frame_order_lost_groups(const void *left, const void *right);
 
 #endif

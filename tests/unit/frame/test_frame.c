@@ -4,6 +4,7 @@
 
 #include "accounted_frame.h"
 #include "check.h"
+#include "frame/frame_order.h"
 
 static void losses_are_grouped_by_sensor_stage_and_reason(void **state)
 {
@@ -12,13 +13,17 @@ static void losses_are_grouped_by_sensor_stage_and_reason(void **state)
     struct frame frame = {.arena = &arena, .account = true};
     static const char *const sensors[] = {"s", "t"}, *const stages[] = {"ideal", "noise"};
     for (int i = 0; i < 24; i++)
-        frame_lose(&frame, stages[i / 2 % 2], sensors[i % 2],
-                   i / 4 % 2 ? LOSS_BLOCKED : LOSS_NO_ANGLE,
+        frame_lose(&frame, stages[i % 2], sensors[i / 12],
+                   i / 2 % 2 ? LOSS_BLOCKED : LOSS_NO_ANGLE,
                    &(struct lost_echo){.id.object = "o", .id.reflector = "r"});
     assert_int_equal(frame.lost.count, 8);
     for (size_t i = 0; i < 8; i++)
         assert_int_equal(frame.lost.items[i].echoes.count, 3);
     assert_int_equal(frame.present, SECTION_LOST);
+    frame_order(&frame);
+    frame_lose(&frame, "noise", "s", LOSS_BLOCKED,
+               &(struct lost_echo){.id.object = "p", .id.reflector = "r"});
+    assert_int_equal(frame.lost.count, 8);
     struct cell cell = accounted_cell(
         &arena, "s", 2, (struct contributor[]){accounted_echo("o", "p"), accounted_echo("o", "q")});
     frame_lose_cell(&frame, "sensor", &cell, LOSS_BELOW_THRESHOLD, 4.5, &cell.margins);

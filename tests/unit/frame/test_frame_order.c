@@ -42,7 +42,7 @@ static void every_order_of_a_frame_becomes_the_canonical_one(void **state)
                                         accounted_echo("y", "3")};
         *list_add(&frame.cells, &arena) =
             accounted_cell(&arena, i % 3 ? "left" : "right", 4, members);
-        frame_lose(&frame, i % 2 ? "noise" : "ideal", i % 3 ? "left" : "right", (enum loss)(i % 4),
+        frame_lose(&frame, i % 2 ? "noise" : "ideal", i < 16 ? "left" : "right", (enum loss)(i % 4),
                    &(struct lost_echo){.id.object = names[i / 5], .id.reflector = names[i % 5]});
     }
     for (enum path path = PATH_WALL_OBJECT; path <= PATH_FALSE_ALARM; path++)
