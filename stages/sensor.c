@@ -25,15 +25,15 @@ static bool superpose(const struct scan *scan, const struct selection *selection
 
 /* Lists the cell in the frame, or loses it. */
 static void report(struct frame *frame, const struct scan *scan, const struct selection *selection,
-                   size_t number)
+                   const struct margins *margins, size_t number)
 {
     const struct sensor *sensor = scan->context.sensor;
     struct cell cell;
     size_t count;
     const struct received_echo *members = scan_members(scan, number, &count);
     bool has_angle = superpose(scan, selection, members, count, &cell);
-    if (frame->margins) {
-        cell.margins = cell_margins_of(sensor, &scan->received, number);
+    if (margins != NULL) {
+        cell.margins = margins[number];
         cell_margins_add(sensor, &cell);
     }
     resolution_cell_list(frame, "sensor", sensor, selection, &cell, has_angle);
@@ -48,8 +48,10 @@ static void sense(struct frame *frame, const struct sensor *sensor,
     effects_note(selection, EFFECT_THRESHOLD, true);
     scan_count_added(&scan, frame);
     scan_lose_silent(&scan, frame, "sensor");
+    const struct margins *margins =
+        frame->margins ? cell_margins_of(sensor, &scan.received, scan.cells, frame->arena) : NULL;
     for (size_t number = 0; number < scan.cells; number++)
-        report(frame, &scan, selection, number);
+        report(frame, &scan, selection, margins, number);
 }
 
 const struct stage stage_sensor = {

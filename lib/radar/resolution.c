@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdint.h>
-#include <string.h>
 
 #include "base/elementary.h"
 #include "base/sort.h"
@@ -26,84 +25,87 @@ static double largest_size(const struct resolution_echo *echoes, size_t count)
     return 1 + widening;
 }
 
-static int compare_ranges(const void *left, const void *right)
+static int compare_places(const void *left, const void *right)
 {
-    const struct resolution_echo *a = left, *b = right;
-    return (a->range_m > b->range_m) - (a->range_m < b->range_m);
+    const struct resolution_place *a = left, *b = right;
+    return (a->place > b->place) - (a->place < b->place);
+}
+
+/* The axis that has fewer echoes in a cell's width, if echoes lie evenly between the outermost. */
+static bool rates_spread_wider(const struct resolution_echo *echoes, size_t count,
+                               double half_range_m, double half_range_rate_mps)
+{
+    struct resolution_echo low = echoes[0], high = low;
+    for (size_t i = 1; i < count; i++) {
+        low.range_m = elementary_min(low.range_m, echoes[i].range_m);
+        high.range_m = elementary_max(high.range_m, echoes[i].range_m);
+        low.range_rate_mps = elementary_min(low.range_rate_mps, echoes[i].range_rate_mps);
+        high.range_rate_mps = elementary_max(high.range_rate_mps, echoes[i].range_rate_mps);
+    }
+    return (high.range_rate_mps - low.range_rate_mps) * half_range_m >
+           (high.range_m - low.range_m) * half_range_rate_mps;
+}
+
+struct resolution_row resolution_row_of(const struct resolution_echo *echoes, size_t count,
+                                        double half_range_m, double half_range_rate_mps,
+                                        struct arena *arena)
+{
+    struct resolution_row row = {.count = count};
+    if (count == 0)
+        return row;
+    bool by_rate = rates_spread_wider(echoes, count, half_range_m, half_range_rate_mps);
+    row.reach = (by_rate ? half_range_rate_mps : half_range_m) * largest_size(echoes, count);
+    row.items = arena_room(arena, count * sizeof *row.items);
+    row.rank = arena_room(arena, count * sizeof *row.rank);
+    for (size_t i = 0; i < count; i++)
+        row.items[i] =
+            (struct resolution_place){by_rate ? echoes[i].range_rate_mps : echoes[i].range_m, i};
+    sort_items(row.items, count, sizeof *row.items, compare_places, arena);
+    for (size_t i = 0; i < count; i++)
+        row.rank[row.items[i].echo] = i;
+    return row;
 }
 
 bool resolution_close(const struct resolution_echo *echoes, size_t count, double half_range_m,
-                      double half_range_rate_mps, struct resolution_echo *by_range,
-                      struct arena *arena)
+                      double half_range_rate_mps, struct arena *arena)
 {
-    if (count == 0)
-        return false;
     /* Echoes of one object are often neighbours in the list: most answers are found without the
      * sort, which takes most of the time. */
     for (size_t i = 1; i < count; i++)
         if (shares_cell(&echoes[i - 1], &echoes[i], half_range_m, half_range_rate_mps))
             return true;
-    memcpy(by_range, echoes, count * sizeof *echoes);
-    sort_items(by_range, count, sizeof *by_range, compare_ranges, arena);
-    double reach_m = half_range_m * largest_size(echoes, count);
+    struct resolution_row row =
+        resolution_row_of(echoes, count, half_range_m, half_range_rate_mps, arena);
+    const struct resolution_place *items = row.items;
     for (size_t i = 0; i < count; i++)
-        for (size_t j = i + 1; j < count && by_range[j].range_m - by_range[i].range_m <= reach_m;
-             j++)
-            if (shares_cell(&by_range[i], &by_range[j], half_range_m, half_range_rate_mps))
+        for (size_t j = i + 1; j < count && items[j].place - items[i].place <= row.reach; j++)
+            if (shares_cell(&echoes[items[i].echo], &echoes[items[j].echo], half_range_m,
+                            half_range_rate_mps))
                 return true;
     return false;
-}
-
-struct ranged {
-    double range_m;
-    size_t echo;
-};
-
-static int compare_ranged(const void *left, const void *right)
-{
-    const struct ranged *a = left, *b = right;
-    return (a->range_m > b->range_m) - (a->range_m < b->range_m);
-}
-
-/* The echoes in order of range; place[i] is the position of echo i in that order. */
-struct ranks {
-    struct ranged *items;
-    size_t *place;
-};
-
-static struct ranks rank(const struct resolution_echo *echoes, size_t count, struct arena *arena)
-{
-    struct ranks ranks = {arena_get(arena, count * sizeof(struct ranged)),
-                          arena_get(arena, count * sizeof(size_t))};
-    for (size_t i = 0; i < count; i++)
-        ranks.items[i] = (struct ranged){echoes[i].range_m, i};
-    sort_items(ranks.items, count, sizeof *ranks.items, compare_ranged, arena);
-    for (size_t i = 0; i < count; i++)
-        ranks.place[ranks.items[i].echo] = i;
-    return ranks;
 }
 
 size_t resolution_cluster(const struct resolution_echo *echoes, size_t count, double half_range_m,
                           double half_range_rate_mps, size_t *cell, struct arena *arena)
 {
     size_t cells = 0;
-    double reach_m = half_range_m * largest_size(echoes, count);
-    struct ranks ranks = rank(echoes, count, arena);
+    struct resolution_row row =
+        resolution_row_of(echoes, count, half_range_m, half_range_rate_mps, arena);
     for (size_t i = 0; i < count; i++)
         cell[i] = NO_CELL;
     for (size_t leader = 0; leader < count; leader++) {
         if (cell[leader] != NO_CELL)
             continue;
-        const struct resolution_echo *first = &echoes[leader];
-        size_t low = ranks.place[leader], high = low;
-        while (low > 0 && first->range_m - ranks.items[low - 1].range_m <= reach_m)
+        size_t low = row.rank[leader], high = low;
+        double place = row.items[low].place;
+        while (low > 0 && place - row.items[low - 1].place <= row.reach)
             low--;
-        while (high < count && ranks.items[high].range_m - first->range_m <= reach_m)
+        while (high < count && row.items[high].place - place <= row.reach)
             high++;
         for (size_t i = low; i < high; i++) {
-            size_t echo = ranks.items[i].echo;
+            size_t echo = row.items[i].echo;
             if (cell[echo] == NO_CELL &&
-                shares_cell(first, &echoes[echo], half_range_m, half_range_rate_mps))
+                shares_cell(&echoes[leader], &echoes[echo], half_range_m, half_range_rate_mps))
                 cell[echo] = cells;
         }
         cells++;

@@ -28,10 +28,25 @@ size_t resolution_cluster(const struct resolution_echo *echoes, size_t count, do
                           double half_range_rate_mps, size_t *cell, struct arena *arena);
 
 /* True if any two echoes are within half a cell of each other in range and in range rate, so that
- * two may share a cell. Echoes may come in any order; by_range is memory for count echoes. */
+ * two may share a cell. Echoes may come in any order. */
 bool resolution_close(const struct resolution_echo *echoes, size_t count, double half_range_m,
-                      double half_range_rate_mps, struct resolution_echo *by_range,
-                      struct arena *arena);
+                      double half_range_rate_mps, struct arena *arena);
+
+/* Echoes in a row, by range or by range rate, whichever spreads them over more cells: few of them
+ * then lie within a cell's reach of each other, also where many are at one range. */
+struct resolution_place {
+    double place;
+    size_t echo;
+};
+struct resolution_row {
+    struct resolution_place *items;
+    size_t *rank; /* rank[i] is the position of echo i in items */
+    size_t count;
+    double reach; /* half the largest echo's cell: echoes farther apart in the row share none */
+};
+struct resolution_row resolution_row_of(const struct resolution_echo *echoes, size_t count,
+                                        double half_range_m, double half_range_rate_mps,
+                                        struct arena *arena);
 
 /* The mean of count values under positive weights, as v0 + sum of w (v - v0) / sum of w with the
  * first value v0. The mean of equal values is exactly that value, and no mean leaves the interval

@@ -11,14 +11,14 @@ struct clustered_echoes {
     size_t count;
 };
 
-/* The margins of cell `number` from its members and from clustering: the least sight_m of its
+/* The margins of all cells from their members and from clustering: the least sight_m of a cell's
  * members, and what follows from pairs of a leader and an echo that was left when that leader
- * opened its cell, one of them being in cell `number`. cell_edge is how far, in half cells, the
- * echo was from the edge of the leader's cell: from the nearer edge if it is a member, else from
- * the edge that it is farthest beyond. leader_db is by how much the leader was the stronger, if the
- * two are within two half cells of each other. */
-struct margins cell_margins_of(const struct sensor *sensor, const struct clustered_echoes *all,
-                               size_t number);
+ * opened its cell, one of them being in the cell. cell_edge is how far, in half cells, the echo was
+ * from the edge of the leader's cell: from the nearer edge if it is a member, else from the edge
+ * that it is farthest beyond. leader_db is by how much the leader was the stronger, if the two are
+ * within two half cells of each other. */
+struct margins *cell_margins_of(const struct sensor *sensor, const struct clustered_echoes *all,
+                                size_t cells, struct arena *arena);
 
 /* Adds to a cell's margins those of decisions about the whole cell: the threshold on its summed
  * amplitude, and the sign of its azimuth, which only the magnitude rule decides. */

@@ -16,6 +16,12 @@ int resolution_cell_compare(const void *left, const void *right)
     return frame_order_tied(&a->echo, &b->echo);
 }
 
+struct resolution_echo resolution_cell_place(const struct received_echo *echo)
+{
+    return (struct resolution_echo){echo->range_m, echo->range_rate_mps, echo->amplitude,
+                                    echo->widening};
+}
+
 /* A sum, and what its roundings left out (Neumaier 1974; MODEL 17.3): a weak echo outlives strong
  * ones that cancel. */
 struct compensated {

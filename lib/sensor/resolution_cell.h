@@ -5,11 +5,15 @@
 #ifndef RESOLUTION_CELL_H
 #define RESOLUTION_CELL_H
 
+#include "radar/resolution.h"
 #include "sensor/received_echo.h"
 
 /* Orders received echoes by amplitude, strongest first; ties by the frame's total order
  * (frame_order_tied). For sort_items. */
 int resolution_cell_compare(const void *left, const void *right);
+
+/* Where a received echo lies, for clustering. */
+struct resolution_echo resolution_cell_place(const struct received_echo *echo);
 
 /* Makes the cell of count echoes, strongest first, which become its members in this order; the
  * members' memory comes from the arena.

@@ -51,15 +51,13 @@ static void resolve(struct scan *scan, const struct selection *selection)
     const struct received_echo *echoes = scan->received.echoes;
     size_t count = scan->received.count;
     int64_t start_ns = effects_clock_ns(selection);
-    struct resolution_echo *places = arena_get(arena, 2 * (count + 1) * sizeof *places);
+    struct resolution_echo *places = arena_get(arena, (count + 1) * sizeof *places);
     size_t *cell = arena_get(arena, (count + 1) * sizeof *cell);
     for (size_t i = 0; i < count; i++)
-        places[i] = (struct resolution_echo){echoes[i].range_m, echoes[i].range_rate_mps,
-                                             echoes[i].amplitude, echoes[i].widening};
-    bool merge =
-        effects_forced(selection, EFFECT_MERGING) ||
-        (effects_enabled(selection, EFFECT_MERGING) &&
-         resolution_close(places, count, half_range_m, half_rate_mps, places + count, arena));
+        places[i] = resolution_cell_place(&echoes[i]);
+    bool merge = effects_forced(selection, EFFECT_MERGING) ||
+                 (effects_enabled(selection, EFFECT_MERGING) &&
+                  resolution_close(places, count, half_range_m, half_rate_mps, arena));
     scan->cells = count;
     if (merge)
         scan->cells = resolution_cluster(places, count, half_range_m, half_rate_mps, cell, arena);

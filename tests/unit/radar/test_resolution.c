@@ -135,7 +135,7 @@ static void echoes_are_close_exactly_if_a_pair_is(void **state)
     size_t close_scenes = 0;
     struct arena arena = {0};
     for (uint64_t scene = 0; scene < 5000; scene++) {
-        struct resolution_echo echoes[ECHO_MAX], by_range[ECHO_MAX];
+        struct resolution_echo echoes[ECHO_MAX];
         size_t count = draw_echoes(scene, echoes);
         bool close = false;
         for (uint32_t i = 0; i < count; i++)
@@ -145,7 +145,7 @@ static void echoes_are_close_exactly_if_a_pair_is(void **state)
                 close =
                     close || (fabs(echoes[i].range_m - echoes[j].range_m) <= 0.125 &&
                               fabs(echoes[i].range_rate_mps - echoes[j].range_rate_mps) <= 0.125);
-        assert_int_equal(resolution_close(echoes, count, 0.125, 0.125, by_range, &arena), close);
+        assert_int_equal(resolution_close(echoes, count, 0.125, 0.125, &arena), close);
         close_scenes += close;
     }
     arena_free(&arena);
@@ -214,12 +214,12 @@ static void the_larger_cell_of_two_echoes_counts(void **state)
     (void)state;
     struct arena arena = {0};
     for (size_t wide = 0; wide < 3; wide++) {
-        struct resolution_echo echoes[] = {{10, 1, 5, 0}, {10.375, 0.5, 4, 0}}, by_range[2];
+        struct resolution_echo echoes[] = {{10, 1, 5, 0}, {10.375, 0.5, 4, 0}};
         size_t cell[2], shared = wide < 2;
         if (shared)
             echoes[wide].widening = 2;
         assert_int_equal(cluster(echoes, 2, 0.125, 0.25, cell), 2 - shared);
-        assert_int_equal(resolution_close(echoes, 2, 0.125, 0.25, by_range, &arena), shared);
+        assert_int_equal(resolution_close(echoes, 2, 0.125, 0.25, &arena), shared);
     }
     arena_free(&arena);
 }
