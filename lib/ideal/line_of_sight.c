@@ -83,7 +83,7 @@ bool line_of_sight_next_side_has_foot(const struct look *look, const struct side
     if (predicates_along(side->to, look->pose.position_m, side->along) != 0)
         return false;
     for (size_t i = 0; i < look->body_count; i++)
-        if (joins(&look->bodies[i], side, true, 0))
+        if (!look->bodies[i].spare && joins(&look->bodies[i], side, true, 0))
             return true;
     return false;
 }
@@ -100,7 +100,7 @@ void line_of_sight_find_blockers(struct look *look, const struct look_body *own,
     struct azimuth_index_span span = all ? azimuth_index_everywhere : wanted->span;
     size_t count = azimuth_index_find(&look->blocker_index, span);
     for (size_t i = 0; i < count; i++) {
-        const struct look_body *body = &look->bodies[look->blocker_index.found[i]];
+        const struct look_body *body = look->indexed[look->blocker_index.found[i]];
         /* No branch here: it would go either way too often to be predicted. */
         look->blockers[look->blocker_count] = body;
         look->blocker_count +=
@@ -201,7 +201,7 @@ struct line_of_sight line_of_sight_along(const struct look *look,
                                     vec2_sub(line->to, look->pose.position_m));
     size_t near = azimuth_index_find(&look->blocker_index, span);
     for (size_t i = 0; i < near; i++) {
-        const struct look_body *body = &look->bodies[look->blocker_index.found[i]];
+        const struct look_body *body = look->indexed[look->blocker_index.found[i]];
         if (is_among(body, except, count))
             continue;
         struct line_of_sight past = past_body(
@@ -224,7 +224,8 @@ double line_of_sight_margin_m(const struct look *look, const struct look_body *c
     for (size_t i = 0; i < look->body_count; i++) {
         const struct look_body *body = &look->bodies[i];
         const struct vec2 *corner = body->corner, from = line->from, to = line->to;
-        if (!body->blocks || (under && body->raised) || is_among(body, except, count))
+        if (!body->blocks || body->spare || (under && body->raised) ||
+            is_among(body, except, count))
             continue;
         if (!outline_crossing_blocks(corner, 4, from, to)) {
             nearest_m = elementary_min(nearest_m, sight_margins_outline_m(corner, 4, from, to));

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/elementary.h"
+#include "base/hash_table.h"
 #include "base/units.h"
 #include "frame/frame_order.h"
 #include "geometry/kinematics.h"
@@ -23,6 +24,10 @@
  * an azimuth whose sine is at least 1 / LIFTED of that in the plane (slant.h). */
 #define LEVEL 5
 #define LIFTED 1.02
+
+/* Bodies that block alike stand for all others that do so, too: one more than a line may except, so
+ * that one is left. */
+#define ENOUGH_TWINS 5
 
 /* Slack of bounds in metres and on sines, far more than their rounding. */
 #define SLACK 1e-6
@@ -115,15 +120,55 @@ static struct look_extent extent_around(const struct look_body *body, double sha
     return (struct look_extent){silhouette, azimuth_index_of(&silhouette)};
 }
 
+/* Do two bodies block alike? Their boxes, heights and sets are the same. */
+static bool is_twin(const void *bodies, uint32_t number, const void *wanted)
+{
+    const struct look_body *a = (const struct look_body *)bodies + number, *b = wanted;
+    return vec2_same(a->box.motion.position_m, b->box.motion.position_m) &&
+           vec2_same(a->box.heading, b->box.heading) && a->box.length_m == b->box.length_m &&
+           a->box.width_m == b->box.width_m && a->object->height_m == b->object->height_m &&
+           a->set == b->set;
+}
+
+/* Finds the bodies that others stand for, so that many at one place cost no more than many apart.
+ */
+static void find_spare_bodies(struct look *look)
+{
+    struct hash_table places = hash_table_begin(look->body_count, look->frame->arena);
+    for (size_t i = 0; i < look->body_count; i++) {
+        struct look_body *body = &look->bodies[i];
+        const struct vec2 *place_m = &body->box.motion.position_m;
+        uint32_t *first =
+            hash_table_slot(&places, hash_table_hash(0, (const char *)place_m, sizeof *place_m),
+                            is_twin, look->bodies, body);
+        if (*first == 0)
+            *first = (uint32_t)i + 1;
+        else
+            body->spare = ++look->bodies[*first - 1].twins >= ENOUGH_TWINS;
+    }
+}
+
+/* Waves that bend around several edges in turn lose at each, so that every body counts. */
+static bool is_indexed(const struct look *look, const struct look_body *body)
+{
+    return body->blocks && (!body->spare || look->wavelength_m > 0);
+}
+
 static void index_blockers(struct look *look)
 {
-    look->blocker_index = azimuth_index_begin(look->body_count, look->frame->arena);
+    struct arena *arena = look->frame->arena;
+    size_t count = 0;
+    look->indexed = arena_room(arena, look->body_count * sizeof(*look->indexed));
+    find_spare_bodies(look);
     for (size_t i = 0; i < look->body_count; i++) {
         struct look_body *body = &look->bodies[i];
         body->shadow = extent_around(body, 1, look->rim_m);
-        if (body->blocks)
-            azimuth_index_enter(&look->blocker_index, i, body->shadow.span);
+        if (is_indexed(look, body))
+            look->indexed[count++] = body;
     }
+    look->blocker_index = azimuth_index_begin(count, arena);
+    for (size_t i = 0; i < count; i++)
+        azimuth_index_enter(&look->blocker_index, i, look->indexed[i]->shadow.span);
 }
 
 static void set_view_borders(struct look *look)

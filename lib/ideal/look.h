@@ -40,6 +40,8 @@ struct look_body {
     struct vec2 sensor_m;      /* the sensor's place in the body's frame */
     struct look_extent shadow; /* where the box and its rim may change what passes */
     bool blocks;               /* does its outline stop sight lines? */
+    bool spare;                /* do enough other bodies block just as it does? */
+    size_t twins;              /* bodies after it, by id, that block just as it does */
     bool raised;               /* can a radar look under it? */
     bool moved;                /* between the measurement and the frame's time */
 };
@@ -60,7 +62,8 @@ struct look {
     struct look_body *bodies; /* all objects but the ego, by id */
     size_t body_count;
     struct look_set *sets;              /* of the frame, in its order */
-    struct azimuth_index blocker_index; /* of the bodies that block, numbered as in bodies */
+    struct azimuth_index blocker_index; /* of the bodies that block, numbered as in indexed */
+    const struct look_body **indexed;   /* by id */
     const struct look_body **blockers;  /* those that may hide the body at hand, by id */
     size_t blocker_count;
     int64_t pairs, echoes; /* reflectors tried and direct echoes made so far */
