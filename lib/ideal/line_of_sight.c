@@ -221,11 +221,10 @@ double line_of_sight_margin_m(const struct look *look, const struct look_body *c
     double nearest_m = (double)INFINITY, deepest_m = 0;
     double length_m = vec2_length(vec2_sub(line->to, line->from));
     double soft_m = 2 * knife_edge_reach_m(length_m, look->wavelength_m);
-    for (size_t i = 0; i < look->body_count; i++) {
-        const struct look_body *body = &look->bodies[i];
+    for (size_t i = 0; i < look->indexed_count; i++) {
+        const struct look_body *body = look->indexed[i];
         const struct vec2 *corner = body->corner, from = line->from, to = line->to;
-        if (!body->blocks || body->spare || (under && body->raised) ||
-            is_among(body, except, count))
+        if (body->spare || (under && body->raised) || is_among(body, except, count))
             continue;
         if (!outline_crossing_blocks(corner, 4, from, to)) {
             nearest_m = elementary_min(nearest_m, sight_margins_outline_m(corner, 4, from, to));

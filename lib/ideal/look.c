@@ -157,17 +157,16 @@ static bool is_indexed(const struct look *look, const struct look_body *body)
 static void index_blockers(struct look *look)
 {
     struct arena *arena = look->frame->arena;
-    size_t count = 0;
     look->indexed = arena_room(arena, look->body_count * sizeof(*look->indexed));
     find_spare_bodies(look);
     for (size_t i = 0; i < look->body_count; i++) {
         struct look_body *body = &look->bodies[i];
         body->shadow = extent_around(body, 1, look->rim_m);
         if (is_indexed(look, body))
-            look->indexed[count++] = body;
+            look->indexed[look->indexed_count++] = body;
     }
-    look->blocker_index = azimuth_index_begin(count, arena);
-    for (size_t i = 0; i < count; i++)
+    look->blocker_index = azimuth_index_begin(look->indexed_count, arena);
+    for (size_t i = 0; i < look->indexed_count; i++)
         azimuth_index_enter(&look->blocker_index, i, look->indexed[i]->shadow.span);
 }
 
