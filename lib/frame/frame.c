@@ -478,15 +478,16 @@ struct contributor frame_contributor(const struct echo *echo)
 
 /* The group of a sensor, stage and reason: one of those in order, or else of the last ones, as the
  * losses of a sensor follow each other. NULL if there is none. */
-static struct lost_group *find_group(struct frame *frame, const struct lost_group *wanted)
+static struct lost_group *find_group(const struct frame *frame, const struct lost_group *wanted)
 {
-    struct lost_group *first = frame->lost.items, *group = first + frame->lost.count;
-    size_t ordered = frame->ordered.lost;
-    while (group > first + ordered && frame_same_name(group[-1].sensor, wanted->sensor))
-        if (frame_order_lost_groups(--group, wanted) == 0)
-            return group;
-    return ordered == 0 ? NULL
-                        : bsearch(wanted, first, ordered, sizeof *first, frame_order_lost_groups);
+    struct lost_group *groups = frame->lost.items;
+    size_t ordered = frame->ordered.lost, at = frame->lost.count;
+    while (at > ordered && frame_same_name(groups[at - 1].sensor, wanted->sensor))
+        if (frame_order_lost_groups(&groups[--at], wanted) == 0)
+            return &groups[at];
+    return ordered == 0
+               ? NULL
+               : bsearch(wanted, groups, ordered, sizeof *groups, frame_order_lost_groups);
 }
 
 void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum loss reason,
@@ -496,7 +497,7 @@ void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum
         return;
     const struct lost_group lost = {
         .sensor = sensor, .stage = stage, .reason = reason, .effect = losing_effects[reason]};
-    struct lost_group *group = frame->lost.count > 0 ? find_group(frame, &lost) : NULL;
+    struct lost_group *group = find_group(frame, &lost);
     if (group == NULL) {
         group = list_add(&frame->lost, frame->arena);
         *group = lost;

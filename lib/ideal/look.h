@@ -65,7 +65,7 @@ struct look {
     struct azimuth_index blocker_index; /* of the bodies that block, numbered as in indexed */
     const struct look_body **indexed;   /* by id */
     size_t indexed_count;
-    const struct look_body **blockers;  /* those that may hide the body at hand, by id */
+    const struct look_body **blockers; /* those that may hide the body at hand, by id */
     size_t blocker_count;
     int64_t pairs, echoes; /* reflectors tried and direct echoes made so far */
 };

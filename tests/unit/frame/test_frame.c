@@ -13,8 +13,7 @@ static void losses_are_grouped_by_sensor_stage_and_reason(void **state)
     struct frame frame = {.arena = &arena, .account = true};
     static const char *const sensors[] = {"s", "t"}, *const stages[] = {"ideal", "noise"};
     for (int i = 0; i < 24; i++)
-        frame_lose(&frame, stages[i % 2], sensors[i / 12],
-                   i / 2 % 2 ? LOSS_BLOCKED : LOSS_NO_ANGLE,
+        frame_lose(&frame, stages[i % 2], sensors[i / 12], i / 2 % 2 ? LOSS_BLOCKED : LOSS_NO_ANGLE,
                    &(struct lost_echo){.id.object = "o", .id.reflector = "r"});
     assert_int_equal(frame.lost.count, 8);
     for (size_t i = 0; i < 8; i++)
