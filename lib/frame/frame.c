@@ -483,11 +483,11 @@ static struct lost_group *find_group(const struct frame *frame, const struct los
     struct lost_group *groups = frame->lost.items;
     size_t ordered = frame->ordered.lost, at = frame->lost.count;
     while (at > ordered && frame_same_name(groups[at - 1].sensor, wanted->sensor))
-        if (frame_order_lost_groups(&groups[--at], wanted) == 0)
+        if (groups[--at].reason == wanted->reason &&
+            frame_same_name(groups[at].stage, wanted->stage))
             return &groups[at];
-    return ordered == 0
-               ? NULL
-               : bsearch(wanted, groups, ordered, sizeof *groups, frame_order_lost_groups);
+    return ordered == 0 ? NULL
+                        : bsearch(wanted, groups, ordered, sizeof *groups, frame_order_lost_groups);
 }
 
 void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum loss reason,
