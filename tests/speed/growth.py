@@ -1,0 +1,135 @@
+"""scripts/bench --growth: what large inputs cost, and how the cost grows.
+
+A case is a pipeline and its input for any size. CPU time is that of a whole fused run, from its start to its end. Growth
+is the instructions that doubling a size adds, to those that doubling half the size adds: 2 where time is
+proportional to size, 4 where it is to the square. Growth is counted at smaller
+sizes; more than MOST is a fault.
+"""
+import json
+import os
+import re
+import subprocess
+import sys
+
+import counts
+
+MOST = 2.3
+SUITE = "srr24-pair-every-frame"
+RUNS = 3
+
+
+def first_frame(glint, *commands):
+    text = " | ".join(["glint-traffic two-vehicles", *commands])
+    done = subprocess.run([glint, "-c", text], check=True, stdout=subprocess.PIPE)
+    return json.loads(done.stdout.splitlines()[0])
+
+
+def write(folder, name, *lines):
+    path = os.path.join(folder, name)
+    with open(path, "w", encoding="utf-8") as file:
+        file.writelines(line + "\n" for line in lines)
+    return path
+
+
+def objects(glint, folder, size):
+    """Cars at one place."""
+    frame = first_frame(glint)
+    ego, car = (next(one for one in frame["objects"] if (one["id"] == frame["ego"]) == is_ego)
+                for is_ego in (True, False))
+    frame["objects"] = [ego] + [dict(car, id=f"car {i:06}") for i in range(size)]
+    path = write(folder, f"objects-{size}.jsonl", json.dumps(frame))
+    return f"glint-extract {path} | glint-ideal --sensors {SUITE} | glint-sensor | glint-noise"
+
+
+def objects_in_full(glint, folder, size):
+    """The same, with account and margins."""
+    return objects(glint, folder, size).replace(SUITE, SUITE + " --account --margins")
+
+
+def speeds(glint, folder, size):
+    """Echoes at one range, each in a cell of its own, with margins."""
+    return echoes(glint, folder, size, lambda i: {"range_m": 20, "range_rate_mps": i - size / 2})
+
+
+def cells(glint, folder, size):
+    """Cells with margins."""
+    return echoes(glint, folder, size, lambda i: {"range_m": 1 + i * 0.35, "range_rate_mps": i * 7 % 50})
+
+
+def echoes(glint, folder, size, values_of):
+    frame = first_frame(glint, "glint-extract", f"glint-ideal --sensors {SUITE} --margins")
+    frame["echoes"] = [dict(frame["echoes"][0], reflector=f"point {i:06}", **values_of(i)) for i in range(size)]
+    frame.pop("counts", None)
+    path = write(folder, f"echoes-{size}.jsonl", json.dumps(frame))
+    return f"glint-sensor {path} | glint-noise"
+
+
+def sensors(glint, folder, size):
+    """Sensors."""
+    with open(os.path.join("data", "sensors", SUITE + ".json"), encoding="utf-8") as file:
+        one = json.load(file)["sensors"][0]
+    one.pop("sources", None)
+    suite = {"origin": "For the bench.", "sensors": [dict(one, name=f"sensor {i * 7919 % size:06}")
+                                                     for i in range(size)]}
+    path = write(folder, f"sensors-{size}.json", json.dumps(suite))
+    frame = write(folder, "frame.jsonl", json.dumps(first_frame(glint)))
+    return f"glint-extract {frame} | glint-ideal --sensors {path} | glint-sensor | glint-noise"
+
+
+def ids(_, folder, size):
+    """Objects of a scenario."""
+    scene = {"origin": "For the bench.", "ego": "0", "rate_hz": 10, "duration_s": 0,
+             "objects": [{"id": str(i), "class": "car", "x_m": i} for i in range(size)]}
+    return "glint-traffic " + write(folder, f"ids-{size}.json", json.dumps(scene))
+
+
+def columns(_, folder, size):
+    """Columns of a table."""
+    more = [f"column {i}" for i in range(size)]
+    header = "track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy,psi_rad,length,width".split(",")
+    row = "1,1,0,car,0,0,10,0,0,4,2".split(",")
+    path = write(folder, f"columns-{size}.csv", ",".join(header + more), ",".join(row + ["0"] * size))
+    return f"glint-traffic {path} --ego 1"
+
+
+# Each with the size that the bench times and the size from which the guard doubles twice.
+CASES = [(objects, 16000, 1000), (objects_in_full, 4000, 500), (speeds, 8000, 1000), (cells, 8000, 1000),
+         (sensors, 10000, 100), (ids, 3000, 1000), (columns, 3000, 3000)]
+
+
+def cpu_s(glint, text):
+    times = []
+    for _ in range(RUNS):
+        process = subprocess.Popen([glint, "-c", text], stdout=subprocess.DEVNULL)
+        _, status, used = os.wait4(process.pid, 0)
+        if status != 0:
+            sys.exit(f"bench: {text} fails")
+        times.append(used.ru_utime + used.ru_stime)
+    return min(times)
+
+
+def instructions(glint, text):
+    """Those of a whole run; readers hash by a random seed, which changes less than a thousandth."""
+    done = subprocess.run(["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null",
+                           glint, "-c", text],
+                          env=dict(counts.ENVIRONMENT, GLINT_DATA=os.path.abspath("data")), check=True,
+                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    return int(re.search(r"I +refs: +([\d,]+)", done.stderr).group(1).replace(",", ""))
+
+
+def growth(glint, case, size, folder):
+    few, some, many = (instructions(glint, case(glint, folder, n)) for n in (size, 2 * size, 4 * size))
+    return (many - some) / (some - few)
+
+
+def run(glint, folder):
+    """Prints a line for each case; returns the exit status, which growth alone decides."""
+    print("    size   CPU time   growth   of")
+    faster = 0
+    for case, size, small in CASES:
+        measured = growth(glint, case, small, folder) if counts.available() else 0
+        print(f"{size:8,} {cpu_s(glint, case(glint, folder, size)):8.3f} s {measured:8.2f}   {case.__doc__}", flush=True)
+        faster += measured > MOST
+    if faster > 0:
+        print(f"bench: {faster} grow faster than {MOST}")
+    return 1 if faster > 0 else 0
