@@ -14,7 +14,7 @@ def lose(frame, echoes):
     """Group the echoes by sensor, as the frame's account wants them."""
     groups = {}
     for echo in echoes:
-        entry = {key: echo[key] for key in ("object", "reflector", "path")}
+        entry = {key: echo[key] for key in ("object", "reflector", "path", "range_m", "azimuth_rad")}
         groups.setdefault(echo["sensor"], []).append(entry)
     frame["lost"] += [
         {"sensor": sensor, "stage": "mud", "reason": "out_of_view", "echoes": entries}

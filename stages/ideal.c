@@ -1,5 +1,7 @@
 /* The ideal target list: exact range, azimuth, range rate and cross section of every reflector that
  * a sensor sees (MODEL 2.2 to 2.5, 5). */
+#include <math.h>
+
 #include "ideal/direct_echoes.h"
 #include "ideal/ghost_echoes.h"
 #include "ideal/look.h"
@@ -34,6 +36,7 @@ static struct sensor_view view_of(const struct sensor *sensor, bool measured)
         .cell_range_m = 2 * sensor->half_range_m,
         .cell_range_rate_mps = 2 * sensor->half_range_rate_mps,
         .azimuth_cell_rad = sensor->azimuth_cell_rad,
+        .carrier_hz = sensor->carrier_hz,
         .cycle_s = sensor->cycle_s,
         .measured = measured,
     };
@@ -59,12 +62,14 @@ static int add_sensor(struct frame *frame, const struct sensor *sensor,
                          "sensor \"%s\" measures every %g s, more than once in a frame of %g s; "
                          "raise the frame rate",
                          sensor->name, sensor->cycle_s, frame->interval_s);
-    *list_add(&frame->sensors.list, frame->arena) = view_of(sensor, answer == SCAN_TIMING_ONE);
+    struct sensor_view *view = list_add(&frame->sensors.list, frame->arena);
+    *view = view_of(sensor, answer == SCAN_TIMING_ONE);
     if (answer == SCAN_TIMING_NONE)
         return 0;
     struct look look;
-    if (look_begin(&look, frame, sensor, selection, instant_s - latency_s(sensor, selection),
-                   diag) != 0)
+    double seen_s = instant_s - latency_s(sensor, selection);
+    view->age_s = round((frame->time_s - seen_s) * 1e9) / 1e9;
+    if (look_begin(&look, frame, sensor, selection, seen_s, diag) != 0)
         return -1;
     direct_echoes_add(&look);
     ghost_echoes_add(&look);

@@ -1,10 +1,11 @@
 #include "frame/frame.h"
 
 #include <complex.h>
-
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/elementary.h"
 #include "base/units.h"
 #include "frame/frame_order.h"
 
@@ -142,10 +143,14 @@ static const struct field sensor_view_fields[] = {
     {FIELD_REAL_IN(struct sensor_view, azimuth_cell_rad, 0, 2 * PI,
                    "cell in azimuth of scores; absent: a twentieth of the field of view"),
      FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct sensor_view, carrier_hz, 0, 1e12, "carrier frequency"), FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct sensor_view, cycle_s, 0, 1e6,
                    "time from scan to scan; absent: a scan in every frame"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct sensor_view, measured, "does the frame have a scan of this sensor?")},
+    {FIELD_REAL_IN(struct sensor_view, age_s, 0, 1e6,
+                   "how long before the frame's time was what the scan shows"),
+     FIELD_OPTIONAL},
     {0},
 };
 
@@ -242,6 +247,8 @@ static const struct field target_fields[] = {
     {AZIMUTH(struct target, cell_azimuth_rad, "of the cell, without noise")},
     {RATE(struct target, cell_range_rate_mps, "of the cell, without noise")},
     {AMPLITUDE(struct target, cell_amplitude, "sum of the contributors' amplitudes, linear")},
+    {AMPLITUDE(struct target, cell_sum, "of the cell's sum pointer, without noise, linear"),
+     FIELD_OPTIONAL},
     {EFFECTS(struct target, "effects that changed a value of the target or of a contributor")},
     {FIELD_LIST_OF(struct target, contributors, &contributor_record, "the leader first")},
     {MARGINS(struct target)},
@@ -254,6 +261,9 @@ const struct record target_record = {
 
 static const struct field lost_echo_fields[] = {
     ECHO_NAMES(struct lost_echo),
+    {FIELD_REAL_IN(struct lost_echo, range_m, 0, 1e8, "of the echo, or of a reflector without one"),
+     FIELD_OPTIONAL},
+    {AZIMUTH(struct lost_echo, azimuth_rad, "of the same"), FIELD_OPTIONAL},
     {FIELD_NAME_OF(struct lost_echo, by, "id of the object that blocks it"), FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct lost_echo, shortfall_db, 0, 1e5, "threshold over amplitude"),
      FIELD_OPTIONAL},
@@ -503,15 +513,22 @@ void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum
         *group = lost;
         frame->present |= SECTION_LOST;
     }
-    *list_add(&group->echoes, frame->arena) = *echo;
+    struct lost_echo *added = list_add(&group->echoes, frame->arena);
+    *added = *echo;
+    added->range_m = round(echo->range_m * 1e3) / 1e3;
+    added->azimuth_rad = round(echo->azimuth_rad * 1e5) / 1e5;
 }
 
 void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *cell,
                      enum loss reason, double shortfall_db, const struct margins *margins)
 {
     for (size_t i = 0; i < cell->members.count; i++) {
-        struct lost_echo lost = {
-            .id = cell->members.items[i].id, .shortfall_db = shortfall_db, .margins = *margins};
+        const struct contributor *member = &cell->members.items[i];
+        struct lost_echo lost = {.id = member->id,
+                                 .range_m = member->range_m,
+                                 .azimuth_rad = member->azimuth_rad,
+                                 .shortfall_db = shortfall_db,
+                                 .margins = *margins};
         frame_lose(frame, stage, cell->sensor, reason, &lost);
     }
 }
@@ -558,6 +575,7 @@ struct target *frame_add_target(struct frame *frame, const struct cell *cell, do
         .cell_azimuth_rad = cell->azimuth_rad,
         .cell_range_rate_mps = cell->range_rate_mps,
         .cell_amplitude = cell->amplitude,
+        .cell_sum = elementary_hypot(cell->sum_re, cell->sum_im),
         .effects = cell->effects,
         .margins = cell->margins,
     };

@@ -74,8 +74,10 @@ struct sensor_view {
     double range_max_m;
     double cell_range_m, cell_range_rate_mps;
     double azimuth_cell_rad; /* 0: a twentieth of the field of view */
+    double carrier_hz;       /* 0: not known */
     double cycle_s;          /* 0: a scan in every frame */
     bool measured;           /* does the frame have a scan of this sensor? */
+    double age_s;            /* the frame's time less that of which the scan tells */
 };
 
 struct sensors {
@@ -156,6 +158,8 @@ struct target {
     bool sign_undecided;
     double cell_range_m, cell_azimuth_rad, cell_range_rate_mps;
     double cell_amplitude;
+    double cell_sum;  /* amplitude of the cell's sum pointer: what is reported without noise; 0: not
+                       * known */
     uint64_t effects; /* EFFECT_BITs of those that changed a value of the target or a contributor */
     LIST_OF(struct contributor) contributors;
     struct margins margins;
@@ -178,10 +182,13 @@ enum loss {
     LOSS_MASKED,          /* the echo is no peak of the spectrum beside stronger ones */
 };
 
+/* The range is to 1 mm and the azimuth to 1e-5 rad. Both are the echo's; of a reflector that sent
+ * none they are its place in the plane, for a flat side its middle. */
 struct lost_echo {
     struct echo_id id;
-    const char *by;      /* id of the object that blocks it, for LOSS_BLOCKED; else NULL */
-    double shortfall_db; /* threshold over amplitude, for losses by a threshold; else 0 */
+    double range_m, azimuth_rad; /* range 0: not known */
+    const char *by;              /* id of the object that blocks it, for LOSS_BLOCKED; else NULL */
+    double shortfall_db;         /* threshold over amplitude, for losses by a threshold; else 0 */
     struct margins margins;
 };
 

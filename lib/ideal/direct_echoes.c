@@ -19,13 +19,17 @@ static struct margins margins_of(const struct look *look, double margin_m)
 }
 
 static void lose(struct look *look, const struct look_body *body, const char *reflector,
-                 enum loss reason, const struct look_body *by, double margin_m)
+                 struct vec2 place, enum loss reason, const struct look_body *by, double margin_m)
 {
     if (!look->frame->account)
         return;
+    struct vec2 sight = vec2_sub(place, look->pose.position_m), boresight = look->pose.boresight;
     frame_lose(look->frame, stage_name, look->sensor->name, reason,
                &(struct lost_echo){.id.object = body->object->id,
                                    .id.reflector = reflector,
+                                   .range_m = vec2_length(sight),
+                                   .azimuth_rad = elementary_atan2(vec2_cross(boresight, sight),
+                                                                   vec2_dot(boresight, sight)),
                                    .by = by != NULL ? by->object->id : NULL,
                                    .margins = margins_of(look, margin_m)});
 }
@@ -112,11 +116,11 @@ static bool in_reach(struct look *look, const struct look_body *body, struct can
     double view_m = read->range_m * fabs(suite_border_rad(sensor) - azimuth);
     if (!(read->range_m > 0 && read->range_m >= sensor->range_min_m &&
           read->range_m <= sensor->range_max_m)) {
-        lose(look, body, candidate->reflector, LOSS_OUT_OF_RANGE, NULL, reach_m);
+        lose(look, body, candidate->reflector, candidate->place, LOSS_OUT_OF_RANGE, NULL, reach_m);
         return false;
     }
     if (!(azimuth < suite_border_rad(sensor))) {
-        lose(look, body, candidate->reflector, LOSS_OUT_OF_VIEW, NULL, view_m);
+        lose(look, body, candidate->reflector, candidate->place, LOSS_OUT_OF_VIEW, NULL, view_m);
         return false;
     }
     candidate->margin_m = elementary_min(candidate->margin_m, elementary_min(reach_m, view_m));
@@ -194,7 +198,8 @@ static void add_candidate(struct look *look, const struct look_body *body,
     find_line_of_sight(look, candidate);
     if (candidate->line_of_sight.by != NULL) {
         bool under = candidate->under_vehicles > 0;
-        lose(look, body, candidate->reflector, LOSS_BLOCKED, candidate->line_of_sight.by,
+        lose(look, body, candidate->reflector, candidate->place, LOSS_BLOCKED,
+             candidate->line_of_sight.by,
              margins ? line_of_sight_margin_m(look, &body, 1, &line, under, true) : 0);
         return;
     }
@@ -226,7 +231,7 @@ static void add_point(struct look *look, const struct look_body *body,
         candidate.margin_m = sight_margins_facing_m(&body->box, point->shape, point->facing_rad,
                                                     point->zero_rad, place, look->pose.position_m);
     if (visible == 0) {
-        lose(look, body, point->name, LOSS_FACING_AWAY, NULL, candidate.margin_m);
+        lose(look, body, point->name, place, LOSS_FACING_AWAY, NULL, candidate.margin_m);
         return;
     }
     candidate.ercs = visible * point->ercs;
@@ -238,11 +243,12 @@ static void add_plane(struct look *look, const struct look_body *body,
                       const struct plane_reflector *plane)
 {
     look->pairs++;
+    struct side side = line_of_sight_side(body, plane);
+    struct vec2 middle = vec2_scale(0.5, vec2_add(side.from, side.to));
     if (!effects_enabled(look->selection, EFFECT_PLANE_REFLECTION)) {
-        lose(look, body, plane->name, LOSS_SWITCHED_OFF, NULL, (double)INFINITY);
+        lose(look, body, plane->name, middle, LOSS_SWITCHED_OFF, NULL, (double)INFINITY);
         return;
     }
-    struct side side = line_of_sight_side(body, plane);
     struct vec2 foot;
     double margin_m = look->frame->margins
                           ? sight_margins_foot_m(side.from, side.to, side.along, plane->margin_m,
@@ -267,7 +273,7 @@ static void add_plane(struct look *look, const struct look_body *body,
         candidate.ercs = look_plane_ercs(look, plane, range_m, &candidate.effects);
         add_candidate(look, body, &candidate);
     } else
-        lose(look, body, plane->name, LOSS_NO_SPECULAR, NULL, margin_m);
+        lose(look, body, plane->name, middle, LOSS_NO_SPECULAR, NULL, margin_m);
 }
 
 static void add_row(struct look *look, const struct look_body *body, const struct post_row *row)

@@ -92,7 +92,10 @@ void scan_lose_silent(const struct scan *scan, struct frame *frame, const char *
 {
     for (size_t i = 0; i < scan->silent_count; i++) {
         const struct received_echo *silent = &scan->silent[i];
-        struct lost_echo lost = {.id = silent->echo.id, .margins = *silent->margins};
+        struct lost_echo lost = {.id = silent->echo.id,
+                                 .range_m = silent->echo.range_m,
+                                 .azimuth_rad = silent->echo.azimuth_rad,
+                                 .margins = *silent->margins};
         frame_lose(frame, stage, scan->context.sensor->name, LOSS_NO_AMPLITUDE, &lost);
     }
 }

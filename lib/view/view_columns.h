@@ -17,6 +17,7 @@
     COLUMN(OBJECT_YAW, "object_yaw_rad", 'f')                                                      \
     COLUMN(OBJECT_VX, "object_vx_mps", 'f')                                                        \
     COLUMN(OBJECT_VY, "object_vy_mps", 'f')                                                        \
+    COLUMN(OBJECT_YAW_RATE, "object_yaw_rate_radps", 'f')                                          \
     COLUMN(OBJECT_LENGTH, "object_length_m", 'f')                                                  \
     COLUMN(OBJECT_WIDTH, "object_width_m", 'f')                                                    \
     COLUMN(SCAN_X, "scan_x_m", 'f')                                                                \
@@ -32,13 +33,17 @@
     COLUMN(TARGET_CELL_RANGE, "target_cell_range_m", 'f')                                          \
     COLUMN(TARGET_CELL_AZIMUTH, "target_cell_azimuth_rad", 'f')                                    \
     COLUMN(TARGET_CELL_RATE, "target_cell_range_rate_mps", 'f')                                    \
-    COLUMN(TARGET_CELL_AMPLITUDE, "target_cell_amplitude", 'f')                                    \
+    COLUMN(TARGET_CELL_SUM, "target_cell_sum", 'f')                                                \
     COLUMN(CONTRIBUTOR_RANGE, "contributor_range_m", 'f')                                          \
     COLUMN(CONTRIBUTOR_AZIMUTH, "contributor_azimuth_rad", 'f')                                    \
     COLUMN(CONTRIBUTOR_RATE, "contributor_range_rate_mps", 'f')                                    \
     COLUMN(CONTRIBUTOR_ERCS, "contributor_ercs", 'f')                                              \
     COLUMN(CONTRIBUTOR_WEIGHT, "contributor_weight", 'f')                                          \
     COLUMN(DETAIL_SHORTFALL, "detail_shortfall_db", 'f')                                           \
+    COLUMN(DETAIL_RANGE, "detail_range_m", 'f')                                                    \
+    COLUMN(DETAIL_AZIMUTH, "detail_azimuth_rad", 'f')                                              \
+    COLUMN(SPOT_X, "spot_x_m", 'f')                                                                \
+    COLUMN(SPOT_Y, "spot_y_m", 'f')                                                                \
     COLUMN(FRAME_SCENE, "frame_scene", 'u')                                                        \
     COLUMN(FRAME_NUMBER, "frame_number", 'u')                                                      \
     COLUMN(FRAME_OBJECTS, "frame_objects", 'u')                                                    \
@@ -66,6 +71,9 @@
     COLUMN(DETAIL_MIRROR, "detail_mirror", 'u')                                                    \
     COLUMN(DETAIL_NUMBER, "detail_number", 'u')                                                    \
     COLUMN(DETAIL_BY, "detail_by", 'u')                                                            \
+    COLUMN(SPOT_SCENE, "spot_scene", 'u')                                                          \
+    COLUMN(SPOT_OBJECT, "spot_object", 'u')                                                        \
+    COLUMN(SPOT_REFLECTOR, "spot_reflector", 'u')                                                  \
     COLUMN(PATTERN_ITEMS, "pattern_items", 'u')                                                    \
     COLUMN(ITEM_REFLECTOR, "item_reflector", 'u')                                                  \
     COLUMN(ITEM_PATH, "item_path", 'u')                                                            \

@@ -70,7 +70,8 @@ static bool same_sensor(const struct sensor_view *a, const struct sensor_view *b
     return strcmp(a->name, b->name) == 0 && a->mount_x_m == b->mount_x_m &&
            a->mount_y_m == b->mount_y_m && a->mount_yaw_rad == b->mount_yaw_rad &&
            a->field_of_view_rad == b->field_of_view_rad && a->range_max_m == b->range_max_m &&
-           a->cell_range_m == b->cell_range_m && a->cell_range_rate_mps == b->cell_range_rate_mps;
+           a->cell_range_m == b->cell_range_m && a->carrier_hz == b->carrier_hz &&
+           a->cell_range_rate_mps == b->cell_range_rate_mps;
 }
 
 static uint32_t sensor_of(struct view_data *data, const struct sensor_view *sensor)
@@ -92,6 +93,7 @@ static void add_object(struct view_data *data, const struct object *object, stru
     view_data_real(data, COLUMN_OBJECT_YAW, remainder(object->yaw_rad, 2 * acos(-1)));
     view_data_real(data, COLUMN_OBJECT_VX, object->vx_mps);
     view_data_real(data, COLUMN_OBJECT_VY, object->vy_mps);
+    view_data_real(data, COLUMN_OBJECT_YAW_RATE, object->yaw_rate_radps);
     view_data_real(data, COLUMN_OBJECT_LENGTH, box.length_m);
     view_data_real(data, COLUMN_OBJECT_WIDTH, box.width_m);
     view_data_count(data, COLUMN_OBJECT_ID, name_of(data, object->id));
@@ -121,7 +123,7 @@ static void add_target(struct view_data *data, const struct target *target)
     view_data_real(data, COLUMN_TARGET_CELL_RANGE, target->cell_range_m);
     view_data_real(data, COLUMN_TARGET_CELL_AZIMUTH, target->cell_azimuth_rad);
     view_data_real(data, COLUMN_TARGET_CELL_RATE, target->cell_range_rate_mps);
-    view_data_real(data, COLUMN_TARGET_CELL_AMPLITUDE, target->cell_amplitude);
+    view_data_real(data, COLUMN_TARGET_CELL_SUM, target->cell_sum);
     view_data_count(data, COLUMN_TARGET_UNDECIDED, target->sign_undecided);
     view_data_count(
         data, COLUMN_TARGET_EFFECTS,
@@ -146,6 +148,8 @@ static void add_detail(struct view_data *data, const struct loss_row *row,
                        const struct lost_echo *echo)
 {
     view_data_real(data, COLUMN_DETAIL_SHORTFALL, echo->shortfall_db);
+    view_data_real(data, COLUMN_DETAIL_RANGE, echo->range_m);
+    view_data_real(data, COLUMN_DETAIL_AZIMUTH, echo->azimuth_rad);
     view_data_count(data, COLUMN_DETAIL_OBJECT, row->object);
     view_data_count(data, COLUMN_DETAIL_REFLECTOR, row->item.reflector);
     view_data_count(data, COLUMN_DETAIL_PATH, row->item.path);
@@ -170,17 +174,55 @@ static int compare_rows(const void *left, const void *right)
     return 0;
 }
 
-struct loss_rows {
-    LIST_OF(struct loss_row) list;
+/* A scan whose losses are packed. */
+struct loss_scan {
+    const struct frame *frame;
+    struct view_scan scan;
+    uint32_t scene;
+    LIST_OF(struct loss_row) rows;
 };
 
+/* The spot of a reflector. The first loss that needs no other detail says where it is. */
+static struct vec2 spot_of(struct view_data *data, uint32_t scene, const struct loss_row *row,
+                           struct vec2 place)
+{
+    const uint32_t key[] = {scene, row->object, row->item.reflector};
+    uint32_t number = intern_number(&data->spot_keys, key, sizeof key, data->arena);
+    if (number == data->spots.count) {
+        *list_add(&data->spots, data->arena) = place;
+        view_data_real(data, COLUMN_SPOT_X, place.x);
+        view_data_real(data, COLUMN_SPOT_Y, place.y);
+        view_data_count(data, COLUMN_SPOT_SCENE, scene);
+        view_data_count(data, COLUMN_SPOT_OBJECT, row->object);
+        view_data_count(data, COLUMN_SPOT_REFLECTOR, row->item.reflector);
+    }
+    return data->spots.items[number];
+}
+
+/* True if the loss was within 5 cm of its reflector's spot, or if its place is not known. */
+static bool is_at_spot(struct view_data *data, const struct loss_scan *scan,
+                       const struct loss_row *row, const struct lost_echo *echo)
+{
+    const struct object *object = frame_object(scan->frame, echo->id.object);
+    if (echo->range_m == 0)
+        return true;
+    if (object == NULL)
+        return false;
+    struct motion body = frame_motion(object, scan->scan.age_s);
+    struct vec2 place = vec2_turn_back(
+        vec2_sub(view_frame_place(&scan->scan, echo->range_m, echo->azimuth_rad), body.position_m),
+        vec2_heading(body.yaw_rad));
+    struct vec2 spot = spot_of(data, scan->scene, row, place);
+    return vec2_length(vec2_sub(place, spot)) <= 0.05;
+}
+
 static uint32_t collect_losses(struct view_data *data, const struct lost_group *group,
-                               struct loss_rows *rows, struct arena *scratch)
+                               struct loss_scan *scan)
 {
     uint32_t stage = name_of(data, group->stage), details = 0;
     for (size_t i = 0; i < group->echoes.count; i++) {
         const struct lost_echo *echo = &group->echoes.items[i];
-        struct loss_row *row = list_add(&rows->list, scratch);
+        struct loss_row *row = list_add(&scan->rows, scan->frame->arena);
         row->object = name_of(data, echo->id.object);
         row->item = (struct item){
             .reflector = name_of(data, echo->id.reflector),
@@ -191,7 +233,7 @@ static uint32_t collect_losses(struct view_data *data, const struct lost_group *
             .reason = group->reason,
             .effect = group->effect,
         };
-        if (echo->by != NULL || echo->shortfall_db != 0) {
+        if (echo->by != NULL || echo->shortfall_db != 0 || !is_at_spot(data, scan, row, echo)) {
             add_detail(data, row, echo);
             details++;
         }
@@ -223,25 +265,26 @@ static void add_fate(struct view_data *data, const struct loss_row *rows, size_t
     }
 }
 
-static void add_losses(struct view_data *data, const struct frame *frame, const char *sensor)
+static void add_losses(struct view_data *data, struct loss_scan *scan, const char *sensor)
 {
-    struct loss_rows rows = {0};
+    const struct frame *frame = scan->frame;
     uint32_t details = 0, fates = 0;
     for (size_t i = 0; i < frame->lost.count; i++)
         if (strcmp(frame->lost.items[i].sensor, sensor) == 0)
-            details += collect_losses(data, &frame->lost.items[i], &rows, frame->arena);
-    sort_list(&rows.list, compare_rows, frame->arena);
-    for (size_t begin = 0, end; begin < rows.list.count; begin = end, fates++) {
-        for (end = begin; end < rows.list.count; end++)
-            if (rows.list.items[end].object != rows.list.items[begin].object)
+            details += collect_losses(data, &frame->lost.items[i], scan);
+    sort_list(&scan->rows, compare_rows, frame->arena);
+    const struct loss_row *rows = scan->rows.items;
+    for (size_t begin = 0, end; begin < scan->rows.count; begin = end, fates++) {
+        for (end = begin; end < scan->rows.count; end++)
+            if (rows[end].object != rows[begin].object)
                 break;
-        add_fate(data, rows.list.items + begin, end - begin, frame->arena);
+        add_fate(data, rows + begin, end - begin, frame->arena);
     }
     view_data_count(data, COLUMN_SCAN_FATES, fates);
     view_data_count(data, COLUMN_SCAN_DETAILS, details);
 }
 
-static void add_scan(struct view_data *data, const struct frame *frame,
+static void add_scan(struct view_data *data, const struct frame *frame, uint32_t scene,
                      const struct sensor_view *sensor, struct vec2 shift)
 {
     struct view_scan scan = view_frame_scan(frame, sensor);
@@ -254,7 +297,8 @@ static void add_scan(struct view_data *data, const struct frame *frame,
     view_data_count(data, COLUMN_SCAN_SENSOR, sensor_of(data, sensor));
     view_data_count(data, COLUMN_SCAN_MEASURED, sensor->measured);
     view_data_count(data, COLUMN_SCAN_TARGETS, add_targets(data, frame, sensor->name));
-    add_losses(data, frame, sensor->name);
+    add_losses(data, &(struct loss_scan){.frame = frame, .scan = scan, .scene = scene},
+               sensor->name);
 }
 
 void view_data_name(struct view_data *data, enum view_column column, const char *word)
@@ -282,5 +326,5 @@ void view_data_add(struct view_data *data, const struct frame *frame)
     for (size_t i = 0; i < frame->objects.count; i++)
         add_object(data, &frame->objects.items[i], shift);
     for (size_t i = 0; i < frame->sensors.list.count; i++)
-        add_scan(data, frame, &frame->sensors.list.items[i], shift);
+        add_scan(data, frame, number, &frame->sensors.list.items[i], shift);
 }

@@ -5,8 +5,10 @@
  * each scan owns targets, fates and details, each target owns contributors. The losses of a scan
  * are grouped by object. A fate is an object and the number of its pattern, the list of its lost
  * reflectors with their reasons; most objects have the same pattern for many frames. Details are
- * what changes from frame to frame: who blocked an echo, and how many dB it lacked. Coordinates are
- * relative to the place of the scene's ego in its first frame. */
+ * what changes from frame to frame: who blocked an echo, how many dB it lacked, and where it was. A
+ * loss without a detail was at its spot: most reflectors stay where they are in their object's
+ * axes, so that one place serves all frames of the scene. Coordinates are relative to the place of
+ * the scene's ego in its first frame. */
 #ifndef VIEW_DATA_H
 #define VIEW_DATA_H
 
@@ -27,7 +29,8 @@ struct view_scene {
 struct view_data {
     struct arena *arena;
     struct view_models models;
-    struct intern names, scene_keys, patterns, effect_sets;
+    struct intern names, scene_keys, patterns, effect_sets, spot_keys;
+    LIST_OF(struct vec2) spots; /* of reflectors, in their object's axes, by number of the key */
     LIST_OF(struct view_scene) scenes;
     LIST_OF(struct sensor_view) sensors;
     struct view_columns columns;

@@ -2,26 +2,9 @@
 
 #include <string.h>
 
-#include "radar/scan_timing.h"
-
-/* The label of a target has the exact instant; a scan without targets takes that of the sensor's
- * cycle. */
-static double age_s(const struct frame *frame, const struct sensor_view *sensor)
-{
-    for (size_t i = 0; i < frame->targets.count; i++)
-        if (strcmp(frame->targets.items[i].sensor, sensor->name) == 0)
-            return frame->time_s - frame->targets.items[i].contributors.items[0].time_s;
-    double instant_s;
-    if (!sensor->measured ||
-        scan_timing_instant_s(sensor->cycle_s, frame->time_s, frame->interval_s, &instant_s) !=
-            SCAN_TIMING_ONE)
-        return 0;
-    return frame->time_s - instant_s;
-}
-
 struct view_scan view_frame_scan(const struct frame *frame, const struct sensor_view *sensor)
 {
-    struct view_scan scan = {.age_s = age_s(frame, sensor)};
+    struct view_scan scan = {.age_s = sensor->age_s};
     struct motion ego = frame_motion(frame_object(frame, frame->ego), scan.age_s);
     scan.pose = sensor_pose_on(&ego, sensor->mount_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
     return scan;

@@ -1,5 +1,6 @@
 /* Places of sensors, targets and objects in a frame's view. Sensors are placed at the instant of
- * their measurement; vehicle documents of the objects' classes complete their boxes. */
+ * their measurement. Boxes without a size, as in streams that no glint-extract has seen, take that
+ * of their class's vehicle document. */
 #ifndef VIEW_FRAME_H
 #define VIEW_FRAME_H
 

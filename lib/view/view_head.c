@@ -13,13 +13,6 @@ struct effect_set {
     uint64_t effects;
 };
 
-struct class
-{
-    const char *name;
-    bool known;
-    struct reflector_set reflectors;
-};
-
 struct head {
     int64_t open_frame;
     LIST_OF(const char *) names, paths, effects;
@@ -27,7 +20,6 @@ struct head {
     LIST_OF(struct effect_set) effect_sets;
     LIST_OF(struct view_scene) scenes;
     LIST_OF(struct sensor_view) sensors;
-    LIST_OF(struct class) classes;
     LIST_OF(struct view_column_place) columns;
 };
 
@@ -65,15 +57,6 @@ static const struct field scene_fields[] = {
 static const struct record scene_record = {
     .name = "scene", .size = sizeof(struct view_scene), .fields = scene_fields};
 
-static const struct field class_fields[] = {
-    {FIELD_NAME_OF(struct class, name, "its name in objects")},
-    {FIELD_FLAG_OF(struct class, known, "has the class a vehicle document?")},
-    {FIELD_RECORD_OF(struct class, reflectors, &reflector_model_record, "those of the document")},
-    {0},
-};
-static const struct record class_record = {
-    .name = "class", .size = sizeof(struct class), .fields = class_fields};
-
 static const struct field head_fields[] = {
     {FIELD_INTEGER_IN(struct head, open_frame, -1, 0x1p53,
                       "number of the frame to open; -1: the page's choice")},
@@ -84,24 +67,11 @@ static const struct field head_fields[] = {
     {FIELD_LIST_OF(struct head, effect_sets, &effect_set_record, "sets of effects, by number")},
     {FIELD_LIST_OF(struct head, scenes, &scene_record, "scenes, by number")},
     {FIELD_LIST_OF(struct head, sensors, &sensor_view_record, "sensors, by number")},
-    {FIELD_LIST_OF(struct head, classes, &class_record, "classes of the objects")},
     {FIELD_LIST_OF(struct head, columns, &view_column_place_record, "places of the columns")},
     {0},
 };
 static const struct record head_record = {
     .name = "head", .size = sizeof(struct head), .fields = head_fields};
-
-static void add_classes(const struct view_data *data, struct head *head)
-{
-    for (size_t i = 0; i < data->models.list.count; i++) {
-        const struct view_model *model = &data->models.list.items[i];
-        struct class *class = list_add(&head->classes, data->arena);
-        class->name = model->class;
-        class->known = model->vehicle != NULL;
-        if (class->known)
-            class->reflectors = model->vehicle->reflectors;
-    }
-}
 
 /* Adds the lists whose items the columns refer to by number. */
 static void add_numbered(const struct view_data *data, struct head *head)
@@ -133,7 +103,6 @@ void view_head_write(const struct view_data *data, int64_t open_frame, struct te
     struct text plain = {0};
     view_columns_places(&data->columns, places);
     add_numbered(data, &head);
-    add_classes(data, &head);
     record_text_write(&head_record, &head, NULL, &plain);
     for (size_t i = 0; i < plain.length; i++)
         if (plain.bytes[i] == '<')

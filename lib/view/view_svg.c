@@ -138,25 +138,6 @@ static void add_dot(struct drawing *drawing, const char *class, struct vec2 plac
                     class, at.x, at.y, radius);
 }
 
-static void draw_reflectors(struct drawing *drawing, const struct object *object)
-{
-    const struct vehicle *vehicle = view_frame_vehicle(drawing->models, object->class);
-    if (vehicle == NULL || strcmp(object->id, drawing->frame->ego) == 0)
-        return;
-    struct box box = box_of(drawing, object);
-    for (size_t i = 0; i < vehicle->reflectors.points.count; i++)
-        add_dot(drawing, "centre",
-                reflectors_point_place(&box, &vehicle->reflectors.points.items[i]), 2);
-    for (size_t i = 0; i < vehicle->reflectors.rows.count; i++) {
-        const struct post_row *row = &vehicle->reflectors.rows.items[i];
-        int64_t first, end;
-        double reach_m = WIDTH / drawing->scale;
-        reflectors_posts_within(&box, row, drawing->origin, reach_m, &first, &end);
-        for (int64_t post = first; post < end; post++)
-            add_dot(drawing, "centre", reflectors_post_place(&box, row, post), 1.5);
-    }
-}
-
 /* The field of view as a sector. It is drawn as two arcs, since an arc that returns to its start is
  * empty. */
 static void draw_beam(struct drawing *drawing, const struct sensor_view *sensor, size_t style)
@@ -228,34 +209,24 @@ static void draw_target(struct drawing *drawing, const struct target *target)
     add_symbol(drawing->text, style, to_pixels(drawing, at));
 }
 
-static bool find_point(const struct drawing *drawing, const struct lost_echo *echo,
-                       struct vec2 *place)
-{
-    const struct object *object = frame_object(drawing->frame, echo->id.object);
-    const struct vehicle *vehicle =
-        object != NULL ? view_frame_vehicle(drawing->models, object->class) : NULL;
-    for (size_t i = 0; vehicle != NULL && i < vehicle->reflectors.points.count; i++) {
-        const struct point_reflector *point = &vehicle->reflectors.points.items[i];
-        if (strcmp(point->name, echo->id.reflector) != 0)
-            continue;
-        struct box box = box_of(drawing, object);
-        *place = reflectors_point_place(&box, point);
-        return true;
-    }
-    return false;
-}
-
+/* Draws a dot where a reflector sent no echo, and a cross where an echo is in no target. A dot for
+ * the first sensor serves all. */
 static void draw_lost(struct drawing *drawing, const struct lost_group *group)
 {
-    for (size_t i = 0; i < group->echoes.count && view_frame_loss_is_notable(group->reason); i++) {
-        struct vec2 place;
-        if (group->echoes.items[i].id.path != PATH_DIRECT ||
-            !find_point(drawing, &group->echoes.items[i], &place))
-            continue;
+    struct view_scan scan =
+        view_frame_scan(drawing->frame, frame_view(drawing->frame, group->sensor));
+    bool first = strcmp(group->sensor, drawing->frame->sensors.list.items[0].name) == 0;
+    for (size_t i = 0; i < group->echoes.count; i++) {
+        const struct lost_echo *echo = &group->echoes.items[i];
+        struct vec2 place = view_frame_place(&scan, echo->range_m, echo->azimuth_rad);
         struct vec2 at = to_pixels(drawing, place);
-        if (in_picture(at, 0))
+        if (echo->range_m == 0 || !in_picture(at, 0))
+            continue;
+        if (view_frame_loss_is_notable(group->reason))
             text_format(drawing->text, "<path class=\"lost\" d=\"M%.1f %.1fl9 9m0 -9l-9 9\"/>\n",
                         at.x - 4.5, at.y - 4.5);
+        else if (first)
+            add_dot(drawing, "centre", place, 2);
     }
 }
 
@@ -325,12 +296,10 @@ static void draw_frame(struct drawing *drawing)
         draw_beam(drawing, &frame->sensors.list.items[i], i);
     for (size_t i = 0; i < frame->objects.count; i++)
         draw_object(drawing, &frame->objects.items[i]);
-    for (size_t i = 0; i < frame->objects.count; i++)
-        draw_reflectors(drawing, &frame->objects.items[i]);
-    for (size_t i = 0; i < frame->targets.count; i++)
-        draw_target(drawing, &frame->targets.items[i]);
     for (size_t i = 0; i < frame->lost.count; i++)
         draw_lost(drawing, &frame->lost.items[i]);
+    for (size_t i = 0; i < frame->targets.count; i++)
+        draw_target(drawing, &frame->targets.items[i]);
 }
 
 void view_svg_write(const struct frame *frame, struct view_models *models, struct text *text)

@@ -172,58 +172,53 @@ function effectsOf(target) {
 // Paths of ghosts, which come by way of a mirror: nothing is where they are seen.
 const ghostPaths = head.paths.map(path => /wall|ego/.test(path));
 
-function isGhost(target) {
-    return ghostPaths[column('contributor_path')[leaderOf(target)]];
+// What sent a path's echo back: "ghost", "clutter", "false_alarm", or "body".
+const pathKinds = head.paths.map((path, i) => ghostPaths[i] ? 'ghost'
+    : ['clutter', 'false_alarm'].includes(path) ? path : 'body');
+
+// What a target is an echo of, by its leader.
+function kindOf(target) {
+    return pathKinds[column('contributor_path')[leaderOf(target)]];
+}
+
+const interferenceEffect = head.effects.indexOf('interference');
+const ambiguityEffect = head.effects.indexOf('ambiguity');
+
+function isInterfered(target) {
+    return effectsOf(target).includes(interferenceEffect);
+}
+
+// The exact value of a cell: the mean of its contributors' by their weights.
+function exactValue(name, target) {
+    const values = column('contributor_' + name);
+    const weights = column('contributor_weight');
+    const {begin, end} = contributorsOf(target);
+    let sum = 0;
+    let weight = 0;
+    for (let i = begin; i < end; i++) {
+        sum += weights[i] * values[i];
+        weight += weights[i];
+    }
+    return weight > 0 ? sum / weight : values[begin];
+}
+
+// Is a value of a target folded: reported as another, because the radar cannot tell them apart?
+function isFolded(target, name, cell) {
+    return effectsOf(target).includes(ambiguityEffect) &&
+        Math.abs(column('target_' + name)[target] - exactValue(name, target)) > 2 * cell;
+}
+
+function isRateFolded(scan, target) {
+    return isFolded(target, 'range_rate_mps', sensorOf(scan).cell_range_rate_mps);
+}
+
+function isRangeFolded(scan, target) {
+    return isFolded(target, 'range_m', sensorOf(scan).cell_range_m);
 }
 
 function detailsOf(scan) {
     const begin = starts('scan_details');
     return {begin: begin[scan], end: begin[scan + 1]};
-}
-
-// The object that blocked an echo, and the dB that it lacked.
-function detailFor(scan, object, item) {
-    const objects = column('detail_object');
-    const keys = ['reflector', 'path', 'mirror', 'number'];
-    const {begin, end} = detailsOf(scan);
-    for (let i = begin; i < end; i++) {
-        if (objects[i] === object && keys.every(key => column('detail_' + key)[i] === item[key])) {
-            const by = column('detail_by')[i];
-            const shortfall = column('detail_shortfall_db')[i];
-            return {by: by > 0 ? names[by - 1] : null, shortfall};
-        }
-    }
-    return {by: null, shortfall: 0};
-}
-
-function patternItems(pattern) {
-    const begin = starts('pattern_items');
-    const items = [];
-    for (let i = begin[pattern]; i < begin[pattern + 1]; i++) {
-        items.push({
-            reflector: column('item_reflector')[i],
-            path: column('item_path')[i],
-            mirror: column('item_mirror')[i],
-            number: column('item_number')[i],
-            stage: names[column('item_stage')[i]],
-            reason: head.reasons[column('item_reason')[i]],
-            effect: head.effects[column('item_effect')[i]],
-        });
-    }
-    return items;
-}
-
-// Every echo of an object that a scan lost, with the reason.
-function lossesOf(scan, object) {
-    const begin = starts('scan_fates');
-    const objects = column('fate_object');
-    for (let i = begin[scan]; i < begin[scan + 1]; i++) {
-        if (objects[i] === object) {
-            const items = patternItems(column('fate_pattern')[i]);
-            return items.map(item => ({...item, ...detailFor(scan, object, item)}));
-        }
-    }
-    return [];
 }
 
 // The targets of a scan with contributors of an object: their rows and their numbers in the list.
@@ -255,11 +250,15 @@ function scanOfTarget(frame, target) {
     return -1;
 }
 
-// The range rate as reported, or compensated: without the sensor's own motion.
+// The range rate as reported, or compensated: without the sensor's own motion. A folded rate says
+// nothing of the speed over ground: null.
 function rateOf(scan, target, compensated) {
     const rate = column('target_range_rate_mps')[target];
     if (!compensated) {
         return rate;
+    }
+    if (isRateFolded(scan, target)) {
+        return null;
     }
     const angle = column('scan_yaw_rad')[scan] + column('target_azimuth_rad')[target];
     return rate + column('scan_vx_mps')[scan] * Math.cos(angle) +
@@ -272,7 +271,7 @@ function fastestRate(compensated) {
     for (let scan = 0; scan < column('scan_targets').length; scan++) {
         const {begin, end} = targetsOf(scan);
         for (let target = begin; target < end; target++) {
-            fastest = Math.max(fastest, Math.abs(rateOf(scan, target, compensated)));
+            fastest = Math.max(fastest, Math.abs(rateOf(scan, target, compensated) || 0));
         }
     }
     return fastest;

@@ -1,19 +1,5 @@
 // Places in the scene's coordinates: metres, x and y as in the stream, relative to the ego's start.
 
-const classIndex = new Map(head.classes.map(kind => [kind.name, indexOfClass(kind)]));
-
-function indexOfClass(kind) {
-    const {points = [], planes = [], rows = []} = kind.reflectors;
-    const reflectors = new Map();
-    points.forEach(point => reflectors.set(point.name, {...point, kind: 'point'}));
-    planes.forEach(plane => reflectors.set(plane.name, {...plane, kind: 'plane'}));
-    return {known: kind.known, points, planes, rows, reflectors};
-}
-
-function classOf(row) {
-    return classIndex.get(names[column('object_class')[row]]);
-}
-
 function boxOf(row) {
     const yaw = column('object_yaw_rad')[row];
     return {
@@ -24,6 +10,9 @@ function boxOf(row) {
         sin: Math.sin(yaw),
         length: column('object_length_m')[row],
         width: column('object_width_m')[row],
+        vx: column('object_vx_mps')[row],
+        vy: column('object_vy_mps')[row],
+        yawRate: column('object_yaw_rate_radps')[row],
     };
 }
 
@@ -41,50 +30,22 @@ function outlineOf(box) {
     return [[0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5], [0.5, -0.5]].map(([x, y]) => placeIn(box, x, y));
 }
 
-function pointPlace(box, point) {
-    const place = placeIn(box, point.x, point.y);
-    const angle = box.yaw + point.facing_rad;
-    const inset = point.inset_m || 0;
-    place.x -= inset * Math.cos(angle);
-    place.y -= inset * Math.sin(angle);
-    return place;
-}
-
-function segmentOf(box, line) {
-    return [placeIn(box, line.from_x, line.from_y), placeIn(box, line.to_x, line.to_y)];
-}
-
-function between(from, to, part) {
-    return {x: from.x + part * (to.x - from.x), y: from.y + part * (to.y - from.y)};
-}
-
-function postPlace(box, row, post) {
-    const [from, to] = segmentOf(box, row);
-    const length = Math.hypot(to.x - from.x, to.y - from.y);
-    return length === 0 ? from : between(from, to, post * row.spacing_m / length);
-}
-
-function postCount(box, row) {
-    const [from, to] = segmentOf(box, row);
-    return 1 + Math.floor(Math.hypot(to.x - from.x, to.y - from.y) / row.spacing_m + 1e-9);
-}
-
-// The place of an object's reflector, and for a flat side its segment. Null if the class has no
-// document or the document no such reflector.
-function reflectorPlace(row, name) {
-    const kind = classOf(row);
-    const box = boxOf(row);
-    const known = kind.reflectors.get(name);
-    if (known !== undefined && known.kind === 'point') {
-        return {place: pointPlace(box, known)};
+// A box as it was some time before: at constant speed and turn rate.
+function boxBefore(box, age) {
+    if (age === 0) {
+        return box;
     }
-    if (known !== undefined) {
-        const segment = segmentOf(box, known);
-        return {place: between(segment[0], segment[1], 0.5), segment};
-    }
-    const post = /^(.*)_(\d+)$/.exec(name);
-    const found = post && kind.rows.find(one => one.name === post[1]);
-    return found ? {place: postPlace(box, found, Number(post[2]))} : null;
+    const yaw = box.yaw - box.yawRate * age;
+    const half = -box.yawRate * age / 2;
+    const chord = -age * (Math.abs(half) < 1e-9 ? 1 : Math.sin(half) / half);
+    return {
+        ...box,
+        x: box.x + chord * (box.vx * Math.cos(half) - box.vy * Math.sin(half)),
+        y: box.y + chord * (box.vx * Math.sin(half) + box.vy * Math.cos(half)),
+        yaw,
+        cos: Math.cos(yaw),
+        sin: Math.sin(yaw),
+    };
 }
 
 function scanPlace(scan, range, azimuth) {

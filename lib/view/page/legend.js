@@ -86,13 +86,51 @@ function colourLines() {
 function showLegend() {
     const lines = sensorNames.map((name, i) => switchLine('sensor', i,
         symbolCanvas(i, sensorColour(i), 18), `target of ${name}`));
-    const ghosts = pathsSeen.some(path => ghostPaths[path])
-        ? [legendLine(symbolCanvas(0, ink.soft, 18, true), 'ghost: seen by way of a mirror')] : [];
-    control('legend').replaceChildren(...lines, ...ghosts, ...colourLines(),
+    control('legend').replaceChildren(...lines, ...kindLines(), ...colourLines(),
         legendLine(lineMark(1.6, [[1, 8, 17, 8]]),
             state.rates === 'raw' ? 'its radial speed, 0.5 s long' : 'its radial speed over ground, 0.5 s long'),
+        ...foldedLines(), ...latencyLines(),
         legendLine(lineMark(1.2, [[1, 8, 5, 8], [7, 8, 11, 8], [13, 8, 17, 8]]), 'field of view'),
         legendLine(dotMark(ink.edge), 'reflection centre'),
-        legendLine(markCanvas(drawing => drawLostMark(drawing, {x: 9, y: 8}, 5)), 'echo that is in no target'),
+        ...lossLines(),
         ...comparisonLines(), switchesBelow());
+}
+
+const kindWords = {
+    ghost: 'ghost: seen by way of a mirror',
+    clutter: 'clutter: an echo of the ground',
+    false_alarm: 'false alarm: nothing but noise',
+};
+
+// Lines for the kinds of targets besides bodies that the stream has, and for interference.
+function kindLines() {
+    const kinds = new Set(pathsSeen.map(path => pathKinds[path]));
+    const lines = Object.keys(kindWords).filter(kind => kinds.has(kind))
+        .map(kind => legendLine(symbolCanvas(0, ink.soft, 18, kind), kindWords[kind]));
+    if (effectSets.some(set => set.includes(interferenceEffect))) {
+        lines.push(legendLine(markCanvas(drawing => drawBolt(drawing, 2, 13, 6)), 'disturbed by other radars'));
+    }
+    return lines;
+}
+
+function foldedLines() {
+    return effectSets.some(set => set.includes(ambiguityEffect))
+        ? [legendLine(markCanvas(drawing => drawFoldedRate(drawing, {x: 1, y: 8}, {x: 17, y: 8}, ink.soft)),
+            'folded rate: the true one is another')] : [];
+}
+
+function latencyLines() {
+    const mark = markCanvas(drawing => {
+        drawing.strokeStyle = ink.edge;
+        drawing.setLineDash([3, 3]);
+        drawing.strokeRect(2, 4, 14, 8);
+    });
+    return extremes('scan_age_s', false).high > 1e-6
+        ? [legendLine(mark, 'where the body was when measured')] : [];
+}
+
+function lossLines() {
+    return head.scenes.some(scene => scene.account)
+        ? [legendLine(markCanvas(drawing => drawLostMark(drawing, {x: 9, y: 8}, 5)), 'echo that is in no target')]
+        : [];
 }

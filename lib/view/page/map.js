@@ -167,22 +167,61 @@ function drawDot(at, radius, colour) {
     context.fill();
 }
 
+// Draws a dot at every reflector of an object that the stream has named anywhere in the scene.
 function drawReflectors(row) {
-    const kind = classOf(row);
-    if (!isClassShown(row) || camera.scale < 6 || column('object_id')[row] === head.scenes[state.scene].ego) {
+    if (!isClassShown(row) || camera.scale < 6) {
         return;
     }
     const box = boxOf(row);
-    for (const point of kind.points) {
-        drawDot(toScreen(pointPlace(box, point)), 2, ink.edge);
+    for (const spot of spotsOf(column('object_id')[row]).values()) {
+        const at = toScreen(spotPlace(box, spot));
+        if (onScreen(at, 2)) {
+            drawDot(at, 1.7, ink.edge);
+        }
     }
-    for (const posts of kind.rows) {
-        const count = Math.min(postCount(box, posts), 5000);
-        for (let post = 0; post < count; post++) {
-            const at = toScreen(postPlace(box, posts, post));
-            if (onScreen(at, 2)) {
-                drawDot(at, 1.5, ink.edge);
-            }
+}
+
+// Draws the echoes in targets as dots.
+function drawEchoes(scan) {
+    eachContributor(scan, i => {
+        const at = toScreen(contributorPlace(scan, i));
+        if (camera.scale >= 3 && onScreen(at, 2)) {
+            drawDot(at, 2.2, ink.ink);
+        }
+    });
+}
+
+// Draws where a scan measured the bodies that it has targets of, if they have moved since.
+function drawMeasuredBodies(scan) {
+    const age = column('scan_age_s')[scan];
+    const {begin, end} = objectsOf(state.frame);
+    if (!(age > 0) || !column('scan_measured')[scan]) {
+        return;
+    }
+    for (let row = begin; row < end; row++) {
+        const id = column('object_id')[row];
+        const way = age * Math.hypot(column('object_vx_mps')[row], column('object_vy_mps')[row]);
+        if (way * camera.scale >= 3 && id !== head.scenes[state.scene].ego &&
+            (id === state.object || targetsFrom(scan, id).length > 0)) {
+            traceOutline(measuredBox(scan, row));
+            context.setLineDash([3, 3]);
+            context.lineWidth = 1.2;
+            context.strokeStyle = id === state.object ? ink.chosen : ink.edge;
+            context.stroke();
+            context.setLineDash([]);
+        }
+    }
+}
+
+function labelAge() {
+    const row = objectRow(state.frame, state.object);
+    const {begin, end} = scansOf(state.frame);
+    for (let scan = begin; row >= 0 && scan < end; scan++) {
+        const age = column('scan_age_s')[scan];
+        const way = age * Math.hypot(column('object_vx_mps')[row], column('object_vy_mps')[row]);
+        if (way * camera.scale >= 3 && targetsFrom(scan, state.object).length > 0) {
+            putLabel(`${round(1000 * age, 0)} ms before`, toScreen(measuredBox(scan, row)), ink.soft);
+            return;
         }
     }
 }
@@ -204,14 +243,39 @@ function drawTrail() {
 // sensor if it recedes.
 function drawRate(scan, target, colour) {
     const rate = rateOf(scan, target, state.rates === 'compensated');
-    if (Math.abs(rate) < 0.02) {
+    if (rate === null || Math.abs(rate) < 0.02) {
         return;
     }
     const range = column('target_range_m')[target];
     const azimuth = column('target_azimuth_rad')[target];
+    const from = toScreen(scanPlace(scan, range, azimuth));
+    const to = toScreen(scanPlace(scan, range + rate / 2, azimuth));
+    if (isRateFolded(scan, target)) {
+        drawFoldedRate(context, from, to, colour);
+        return;
+    }
     context.strokeStyle = colour;
     context.lineWidth = 1.6;
-    line(toScreen(scanPlace(scan, range, azimuth)), toScreen(scanPlace(scan, range + rate / 2, azimuth)));
+    line(from, to);
+}
+
+// Draws a rate that stands for another as a dashed arrow.
+function drawFoldedRate(drawing, from, to, colour) {
+    const angle = Math.atan2(to.y - from.y, to.x - from.x);
+    drawing.strokeStyle = colour;
+    drawing.lineWidth = 1.6;
+    drawing.setLineDash([3, 3]);
+    drawing.beginPath();
+    drawing.moveTo(from.x, from.y);
+    drawing.lineTo(to.x, to.y);
+    drawing.stroke();
+    drawing.setLineDash([]);
+    drawing.beginPath();
+    for (const side of [2.6, 0, -2.6]) {
+        const reach = side === 0 ? 0 : 6;
+        drawing.lineTo(to.x + reach * Math.cos(angle + side), to.y + reach * Math.sin(angle + side));
+    }
+    drawing.stroke();
 }
 
 function drawTarget(scan, target) {
@@ -219,7 +283,10 @@ function drawTarget(scan, target) {
     const colour = colourOf(scan, target);
     drawRate(scan, target, colour);
     drawTargetSymbol(context, sensorStyle(scan), at.x, at.y, target === state.target ? 9.5 : 7, colour,
-        isGhost(target));
+        kindOf(target));
+    if (isInterfered(target)) {
+        drawBolt(context, at.x, at.y, 6);
+    }
     if (target === state.target) {
         context.beginPath();
         context.arc(at.x, at.y, 15, 0, 2 * Math.PI);
@@ -252,15 +319,16 @@ function drawContributors(scan, target, strong) {
 
 // Draws a line from where a ghost is seen to the reflector of which it is a ghost.
 function drawOriginal(scan, i) {
-    const row = objectRow(state.frame, column('contributor_object')[i]);
-    const found = row < 0 ? null : reflectorPlace(row, names[column('contributor_reflector')[i]]);
-    if (!found || !ghostPaths[column('contributor_path')[i]]) {
+    const object = column('contributor_object')[i];
+    const row = objectRow(state.frame, object);
+    const spot = spotsOf(object).get(column('contributor_reflector')[i]);
+    if (row < 0 || spot === undefined || !ghostPaths[column('contributor_path')[i]]) {
         return;
     }
     context.strokeStyle = ink.soft;
     context.lineWidth = 1.2;
     context.setLineDash([2, 4]);
-    line(toScreen(contributorPlace(scan, i)), toScreen(found.place));
+    line(toScreen(contributorPlace(scan, i)), toScreen(spotPlace(measuredBox(scan, row), spot)));
     context.setLineDash([]);
 }
 
@@ -279,21 +347,18 @@ function labelContributors(target) {
     }
 }
 
-// The lost direct echoes of the chosen object: by reflection centre, each sensor's reason.
-function lostReflectors() {
+// The notable losses of the chosen object: by echo, its place and each sensor's reason.
+function lostEchoes() {
     const found = new Map();
-    const {begin, end} = scansOf(state.frame);
-    for (let scan = begin; scan < end; scan++) {
-        for (const loss of lossesOf(scan, state.object)) {
-            if (!loss.reason.notable || head.paths[loss.path] !== 'direct') {
-                continue;
-            }
-            const name = names[loss.reflector];
-            const known = found.get(name) || [];
-            found.set(name, known.concat(`${shortReason(loss)} for ${sensorOf(scan).name}`));
+    eachScan(scan => {
+        for (const loss of lossesOf(scan, state.object).filter(one => one.reason.notable)) {
+            const known = found.get(echoKey(state.object, loss)) ||
+                {name: names[loss.reflector], place: lossPlace(scan, loss), reasons: []};
+            known.reasons.push(`${shortReason(loss)} for ${sensorOf(scan).name}`);
+            found.set(echoKey(state.object, loss), known);
         }
-    }
-    return found;
+    });
+    return [...found.values()].filter(one => one.place !== null);
 }
 
 // Draws what became of the chosen object's reflection centres: contributors of targets, and crosses
@@ -309,12 +374,7 @@ function drawFates() {
             drawContributors(scan, target, false);
         }
     }
-    for (const name of lostReflectors().keys()) {
-        const found = reflectorPlace(row, name);
-        if (found) {
-            drawLostMark(context, toScreen(found.place), 5);
-        }
-    }
+    lostEchoes().forEach(({place}) => drawLostMark(context, toScreen(place), 5));
 }
 
 function labelTargets() {
@@ -332,11 +392,8 @@ function labelFates() {
         return;
     }
     labelTargets();
-    for (const [name, reasons] of [...lostReflectors()].slice(0, 8)) {
-        const found = reflectorPlace(row, name);
-        if (found) {
-            putLabel(`${name}: ${reasons.join(', ')}`, toScreen(found.place), ink.lost);
-        }
+    for (const {name, place, reasons} of lostEchoes().slice(0, 8)) {
+        putLabel(`${name}: ${reasons.join(', ')}`, toScreen(place), ink.lost);
     }
 }
 
@@ -360,21 +417,32 @@ function drawCellRing(scan, target) {
     context.setLineDash([]);
 }
 
+// Draws rings where the echoes of the chosen reflector are.
 function drawChosenReflector() {
-    const row = objectRow(state.frame, state.object);
-    const found = row >= 0 && state.reflector ? reflectorPlace(row, state.reflector) : null;
-    if (!found) {
+    if (!state.reflector) {
         return;
     }
     context.strokeStyle = ink.chosen;
     context.lineWidth = 2.5;
-    if (found.segment) {
-        line(toScreen(found.segment[0]), toScreen(found.segment[1]));
+    for (const place of chosenPlaces()) {
+        const at = toScreen(place);
+        context.beginPath();
+        context.arc(at.x, at.y, 8, 0, 2 * Math.PI);
+        context.stroke();
     }
-    const at = toScreen(found.place);
-    context.beginPath();
-    context.arc(at.x, at.y, 8, 0, 2 * Math.PI);
-    context.stroke();
+}
+
+// Draws crosses on the losses of the cause that is shown, of all objects.
+function drawCause() {
+    if (state.cause === null || state.object >= 0) {
+        return;
+    }
+    for (const {scan, loss} of lossesFor(state.cause)) {
+        const place = lossPlace(scan, loss);
+        if (place) {
+            drawLostMark(context, toScreen(place), 4);
+        }
+    }
 }
 
 function drawScaleBar() {
@@ -427,6 +495,8 @@ function drawMap() {
     for (let row = objects.begin; row < objects.end; row++) {
         drawReflectors(row);
     }
+    eachScan(drawMeasuredBodies);
+    eachScan(drawEchoes);
     if (state.trail) {
         drawTrail();
     }
@@ -436,6 +506,7 @@ function drawMap() {
 
 function drawTargets() {
     drawFates();
+    drawCause();
     drawChosenReflector();
     if (state.target >= 0) {
         const scan = scanOfTarget(state.frame, state.target);
@@ -447,6 +518,7 @@ function drawTargets() {
         labelContributors(state.target);
     } else {
         labelFates();
+        labelAge();
     }
     labelObjects();
 }

@@ -57,7 +57,7 @@ function scoreOf({targets, lost, foreign, beside}, row) {
     if (row < 0) {
         return 0;
     }
-    const many = classOf(row).points.length >= 6;
+    const many = spotsOf(column('object_id')[row]).size >= 6;
     return 3 * Math.min(targets, 3) + (lost > 0 ? 4 : 0) - 0.5 * Math.max(0, lost - 2) -
         2 * foreign + (beside ? 2 : 0) + (many ? 6 : 0);
 }

@@ -7,6 +7,8 @@ const state = {
     ego: null,
     object: -1, // chosen object, by the number of its id in names; -1: none
     reflector: null,
+    echo: null, // the one echo of the chosen reflector that was clicked; null: all
+    cause: null, // stage and reason of the losses that are drawn while nothing is chosen
     target: -1,
     hover: -1, // target under the pointer; -1: none
     pane: 'panel', // what is shown beside the map
@@ -60,15 +62,17 @@ function refresh() {
 function chooseTarget(target) {
     state.target = target;
     state.reflector = null;
+    state.echo = null;
     if (target >= 0) {
         state.object = objectOfTarget(target);
     }
     refresh();
 }
 
-function chooseReflector(reflector, object) {
+function chooseReflector(reflector, object, echo) {
     state.target = -1;
     state.reflector = reflector;
+    state.echo = echo || null;
     if (object !== undefined) {
         state.object = object;
     }
@@ -78,6 +82,7 @@ function chooseReflector(reflector, object) {
 function chooseObject(object) {
     state.target = -1;
     state.reflector = null;
+    state.echo = null;
     state.object = object;
     refresh();
 }
@@ -216,6 +221,7 @@ function setScene(number, place) {
     state.scene = number;
     state.object = -1;
     state.reflector = null;
+    state.echo = null;
     state.target = -1;
     control('scrub').max = String(sceneFrames[number].length - 1);
     control('scene').value = String(number);

@@ -14,23 +14,24 @@ function make(tag, text, className) {
     return element;
 }
 
-function symbolCanvas(style, colour, size, ghost) {
+function symbolCanvas(style, colour, size, kind) {
     const small = make('canvas');
-    paintSymbol(small, style, colour, size, ghost);
+    paintSymbol(small, style, colour, size, kind);
     return small;
 }
 
-function paintSymbol(small, style, colour, size, ghost) {
+function paintSymbol(small, style, colour, size, kind) {
     const ratio = window.devicePixelRatio || 1;
     small.width = small.height = Math.round(size * ratio);
     small.style.width = small.style.height = size + 'px';
     const drawing = small.getContext('2d');
     drawing.scale(ratio, ratio);
-    drawTargetSymbol(drawing, style, size / 2, size / 2, size * 0.36, colour, ghost);
+    drawTargetSymbol(drawing, style, size / 2, size / 2, size * 0.36, colour, kind);
 }
 
+// A number with so many digits; a dash for none.
 function round(value, digits) {
-    return value.toFixed(digits).replace(/^-(0(\.0*)?)$/, '$1');
+    return value === null ? '–' : value.toFixed(digits).replace(/^-(0(\.0*)?)$/, '$1');
 }
 
 function plural(count, word) {
@@ -64,7 +65,7 @@ function contributorPath(i) {
 }
 
 function targetSymbol(scan, target) {
-    return symbolCanvas(sensorStyle(scan), colourOf(scan, target), 18, isGhost(target));
+    return symbolCanvas(sensorStyle(scan), colourOf(scan, target), 18, kindOf(target));
 }
 
 function shortReason(loss) {
@@ -146,7 +147,7 @@ function lossRow(loss) {
     const way = head.paths[loss.path] === 'direct' ? '' : `, ${pathWords(loss.path, loss.mirror, loss.number)}:`;
     const row = rowButton('✕', [make('b', name), `${way} ${shortReason(loss)}`],
         loss.effect ? words(loss.effect) : '',
-        () => chooseReflector(name));
+        () => chooseReflector(name, loss.object, loss));
     row.classList.add('lost');
     return row;
 }
@@ -209,31 +210,15 @@ function objectTitle(id) {
     return kind === names[id] ? kind : `${names[id]} (${kind})`;
 }
 
-function objectNotes(row) {
+function objectNotes() {
     if (names[state.object] === names[head.scenes[state.scene].ego]) {
         return ['The ego carries the sensors. It neither reflects nor blocks.'];
     }
     const notes = [];
-    if (row >= 0 && !classOf(row).known) {
-        notes.push('There is no vehicle document of this class here, so its reflection centres ' +
-            'are not drawn.');
-    }
-    const centres = row < 0 ? 0 : reflectorCount(row);
-    if (centres > 0 && hasSensors()) {
-        notes.push(`${plural(centres, 'reflection centre')}: which of them made a target, which got ` +
-            'lost, and why.');
-    }
     if (!head.scenes[state.scene].account && hasSensors()) {
         notes.push('The stream does not tell what was lost: give --account to glint-ideal.');
     }
     return notes;
-}
-
-function reflectorCount(row) {
-    const kind = classOf(row);
-    const box = boxOf(row);
-    return kind.points.length + kind.planes.length +
-        kind.rows.reduce((sum, posts) => sum + postCount(box, posts), 0);
 }
 
 function hasSensors() {
@@ -244,7 +229,7 @@ function hasSensors() {
 function showObject() {
     const row = objectRow(state.frame, state.object);
     const parts = [make('h2', objectTitle(state.object))];
-    parts.push(...objectNotes(row).map(note => make('p', note, 'soft')));
+    parts.push(...objectNotes().map(note => make('p', note, 'soft')));
     const {begin, end} = scansOf(state.frame);
     for (let scan = begin; scan < end && state.object !== head.scenes[state.scene].ego; scan++) {
         parts.push(...objectSections(scan));
@@ -275,7 +260,8 @@ function tableRow(cells, tag) {
 function valuesTable(scan, target) {
     const table = make('table', null, 'values');
     const value = name => column(name)[target];
-    const noiseFree = 20 * Math.log10(value('target_cell_amplitude'));
+    const sum = value('target_cell_sum');
+    const folded = 'folded: not known';
     table.append(
         tableRow(['', 'reported', 'without noise'], 'th'),
         tableRow(['range', `${round(value('target_range_m'), 3)} m`,
@@ -284,9 +270,10 @@ function valuesTable(scan, target) {
             `${round(value('target_cell_azimuth_rad') * degrees, 2)}°`]),
         tableRow(['range rate', `${round(value('target_range_rate_mps'), 3)} m/s`,
             `${round(value('target_cell_range_rate_mps'), 3)} m/s`]),
-        tableRow(['… over ground', `${round(rateOf(scan, target, true), 3)} m/s`, '']),
+        tableRow(['… over ground', isRateFolded(scan, target) ? folded
+            : `${round(rateOf(scan, target, true), 3)} m/s`, '']),
         tableRow(['amplitude', `${round(value('target_amplitude_db'), 2)} dB`,
-            `at most ${round(noiseFree, 2)} dB`]));
+            sum > 0 ? `${round(20 * Math.log10(sum), 2)} dB` : '']));
     return table;
 }
 
@@ -299,6 +286,12 @@ function weightBar(weight, colour) {
     return bar;
 }
 
+// What tells a contributor from other echoes of its reflector.
+function echoOfContributor(i) {
+    const value = name => column('contributor_' + name)[i];
+    return {path: value('path'), mirror: value('mirror'), number: value('number')};
+}
+
 function contributorRow(scan, target, i) {
     const value = name => column('contributor_' + name)[i];
     const object = value('object');
@@ -309,7 +302,7 @@ function contributorRow(scan, target, i) {
         make('span', `${round(value('range_m'), 3)} m, ${round(value('azimuth_rad') * degrees, 2)}°, ` +
             `${round(value('range_rate_mps'), 3)} m/s, ERCS ${Number(value('ercs').toPrecision(3))}`, 'soft'));
     return rowButton('●', [text], `${round(100 * value('weight'), 1)} %`,
-        () => chooseReflector(reflector, object));
+        () => chooseReflector(reflector, object, echoOfContributor(i)));
 }
 
 function backButton() {
@@ -318,13 +311,15 @@ function backButton() {
     return back;
 }
 
+const kindTitles = {ghost: ', a ghost', clutter: ', clutter', false_alarm: ', a false alarm', body: ''};
+
 function showTarget() {
     const scan = scanOfTarget(state.frame, state.target);
     const {begin, end} = contributorsOf(state.target);
     const number = state.target - targetsOf(scan).begin + 1;
     const title = make('h2');
     title.append(targetSymbol(scan, state.target),
-        ` Target ${number} of ${sensorOf(scan).name}${isGhost(state.target) ? ', a ghost' : ''}`);
+        ` Target ${number} of ${sensorOf(scan).name}${kindTitles[kindOf(state.target)]}`);
     const order = Array.from({length: end - begin}, (_, i) => begin + i);
     const weights = column('contributor_weight');
     order.sort((a, b) => weights[b] - weights[a]);
@@ -340,6 +335,10 @@ function targetNotes(scan) {
     if (effects.length > 0) {
         notes.push(make('p', `Effects that changed it: ${effects.join(', ')}.`, 'soft'));
     }
+    notes.push(...foldedNotes(scan).map(note => make('p', note)));
+    if (isInterfered(state.target)) {
+        notes.push(make('p', 'Other radars raised the noise here: interference.', 'soft'));
+    }
     if (column('target_sign_undecided')[state.target]) {
         notes.push(make('p', 'Left or right is undecided: the phase did not tell.', 'soft'));
     }
@@ -350,14 +349,35 @@ function targetNotes(scan) {
     return notes;
 }
 
+// What a folded value stands for.
+function foldedNotes(scan) {
+    const notes = [];
+    const note = (what, name, unit, digits) => notes.push(`Its ${what} is folded: reported ` +
+        `${round(column('target_' + name)[state.target], digits)} ${unit}, in truth ` +
+        `${round(exactValue(name, state.target), digits)} ${unit}, which the radar cannot tell apart.`);
+    if (isRateFolded(scan, state.target)) {
+        note('range rate', 'range_rate_mps', 'm/s', 2);
+    }
+    if (isRangeFolded(scan, state.target)) {
+        note('range', 'range_m', 'm', 2);
+    }
+    return notes;
+}
+
+// Does the panel tell of an echo? Of many that are alike, only of the one that was clicked.
+function isListedEcho(object, reflector, number) {
+    return object === state.object && names[reflector] === state.reflector &&
+        (state.echo === null || state.echo.number === 0 || state.echo.number === number);
+}
+
 // What became of the echoes of the chosen reflection centre in a scan.
 function reflectorFates(scan) {
     const fates = [];
     for (const {target, number} of targetsFrom(scan, state.object)) {
         const {begin, end} = contributorsOf(target);
         for (let i = begin; i < end; i++) {
-            if (column('contributor_object')[i] === state.object &&
-                names[column('contributor_reflector')[i]] === state.reflector) {
+            if (isListedEcho(column('contributor_object')[i], column('contributor_reflector')[i],
+                column('contributor_number')[i])) {
                 const weight = round(100 * column('contributor_weight')[i], 1);
                 fates.push(rowButton(targetSymbol(scan, target),
                     [`In target ${number}, with ${weight} % of its weight, ${contributorPath(i)}.`], '',
@@ -366,7 +386,7 @@ function reflectorFates(scan) {
         }
     }
     for (const loss of lossesOf(scan, state.object)) {
-        if (names[loss.reflector] === state.reflector) {
+        if (isListedEcho(state.object, loss.reflector, loss.number)) {
             const line = make('p');
             line.append(make('b', `Lost in ${loss.stage}, ${pathWords(loss.path, loss.mirror, loss.number)}. `),
                 longReason(loss) + effectNote(loss.effect));
@@ -392,6 +412,25 @@ function showReflector() {
     panel.replaceChildren(...parts);
 }
 
+// The losses of the frame by reason; a click draws them on the map, or no longer.
+function causeSection() {
+    const rows = frameCauses(state.frame).map(({item, count}) => {
+        const shown = state.cause === causeOf(item);
+        const row = rowButton('✕', [make('b', String(count)), ` ${silentWords(item.reason.name)}`],
+            `in ${item.stage}`, () => showCause(shown ? null : causeOf(item)));
+        row.setAttribute('aria-pressed', String(shown));
+        row.classList.toggle('chosen', shown);
+        row.classList.add(item.reason.notable ? 'lost' : 'silent');
+        return row;
+    });
+    return section('Echoes that are in no target, by reason: click to draw them', rows);
+}
+
+function showCause(cause) {
+    state.cause = cause;
+    refresh();
+}
+
 function showFrame() {
     const parts = [make('h2', 'This frame')];
     parts.push(make('p', hasSensors() ? 'Click a target, a reflection centre or an object.'
@@ -399,6 +438,7 @@ function showFrame() {
     if (hasSensors() && column('target_range_m').length === 0) {
         parts.push(make('p', 'No frame of this stream has a target: has it been through all stages?', 'soft'));
     }
+    parts.push(...causeSection());
     const {begin, end} = scansOf(state.frame);
     for (let scan = begin; scan < end; scan++) {
         const targets = targetsOf(scan);

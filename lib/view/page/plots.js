@@ -1,5 +1,5 @@
 // The side plots: the sensors' measurements in polar values. Targets are symbols, the exact echoes
-// behind them dots, resolution cells boxes.
+// behind them dots, resolution cells boxes. Azimuths are in the vehicle's frame, from its heading.
 
 const plots = {
     azimuth: {canvas: document.getElementById('azimuths'), unit: '°', hits: []},
@@ -18,13 +18,39 @@ function roundStep(span, parts) {
 // The largest range, azimuth and range rate of the whole stream, so that the axes do not change
 // from frame to frame.
 function plotLimits() {
-    const ranges = extremes('target_range_m', true);
-    const widest = head.sensors.reduce((most, one) => Math.max(most, one.field_of_view_rad), 0);
+    const range = Math.max(extremes('target_range_m', true).high, extremes('contributor_range_m', true).high);
+    const echoes = state.rates === 'compensated' ? 0 : extremes('contributor_range_rate_mps', true).high;
     return {
-        range: Math.max(5, ranges.high) * 1.08,
-        azimuth: Math.max(10, 10 * Math.ceil(widest / 2 * degrees / 10 - 0.01)),
-        rate: Math.max(2, state.fastest) * 1.1,
+        range: Math.max(5, range) * 1.08,
+        azimuth: Math.min(180, Math.max(10, 10 * Math.ceil(widestAzimuth() * degrees / 10 - 0.01))),
+        rate: Math.max(2, state.fastest, echoes) * 1.1,
     };
+}
+
+// The largest angle from the vehicle's heading that a field of view covers or a target has.
+function widestAzimuth() {
+    let widest = 0;
+    for (const sensor of head.sensors) {
+        const reach = Math.abs(wrap(sensor.mount_yaw_rad)) + sensor.field_of_view_rad / 2;
+        widest = Math.max(widest, Math.min(Math.PI, reach));
+    }
+    const azimuths = column('target_azimuth_rad');
+    for (let scan = 0; scan < column('scan_targets').length; scan++) {
+        const {begin, end} = targetsOf(scan);
+        for (let target = begin; target < end; target++) {
+            widest = Math.max(widest, Math.abs(vehicleAzimuth(scan, azimuths[target])));
+        }
+    }
+    return widest;
+}
+
+function wrap(angle) {
+    return angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
+}
+
+// An azimuth of a sensor's, from its boresight, as one from the vehicle's heading.
+function vehicleAzimuth(scan, azimuth) {
+    return wrap(azimuth + sensorOf(scan).mount_yaw_rad);
 }
 
 function plotAxes(kind) {
@@ -76,19 +102,22 @@ function drawAxes(drawing, size, axes, unit) {
         plotText(drawing, String(Number(range.toPrecision(3))), at.x - 4, at.y, 'right');
     }
     const middle = plotPlace(size, axes, (axes.left + axes.right) / 2, 0);
-    plotText(drawing, unit === '°' ? 'azimuth in °, left is left'
+    plotText(drawing, unit === '°' ? '° from the vehicle’s heading'
         : state.rates === 'raw' ? 'm/s, receding is right' : 'm/s over ground',
         middle.x, size.height - 8, 'center');
 }
 
 function plotTarget(plot, kind, drawing, size, axes, scan, target) {
     const compensated = state.rates === 'compensated';
-    const x = kind === 'azimuth' ? column('target_azimuth_rad')[target] * degrees
+    const x = kind === 'azimuth' ? vehicleAzimuth(scan, column('target_azimuth_rad')[target]) * degrees
         : rateOf(scan, target, compensated);
+    if (x === null) {
+        return;
+    }
     const at = plotPlace(size, axes, x, column('target_range_m')[target]);
     const chosen = target === state.target;
     drawTargetSymbol(drawing, sensorStyle(scan), at.x, at.y, chosen ? 7.5 : 5, colourOf(scan, target),
-        isGhost(target));
+        kindOf(target));
     if (chosen) {
         drawing.beginPath();
         drawing.arc(at.x, at.y, 11, 0, 2 * Math.PI);
@@ -120,7 +149,7 @@ function plotEchoes(kind, drawing, size, axes, scan, target) {
         if (kind === 'rate' && state.rates === 'compensated') {
             continue;
         }
-        const x = kind === 'azimuth' ? column('contributor_azimuth_rad')[i] * degrees
+        const x = kind === 'azimuth' ? vehicleAzimuth(scan, column('contributor_azimuth_rad')[i]) * degrees
             : column('contributor_range_rate_mps')[i];
         const at = plotPlace(size, axes, x, column('contributor_range_m')[i]);
         drawing.fillStyle = ink.soft;
@@ -141,11 +170,18 @@ function drawPlot(kind) {
     if (state.frame < 0) {
         return;
     }
+    const top = plotPlace(size, axes, axes.left, axes.top);
+    const end = plotPlace(size, axes, axes.right, 0);
+    drawing.save();
+    drawing.beginPath();
+    drawing.rect(top.x - 6, top.y - 6, end.x - top.x + 12, end.y - top.y + 12);
+    drawing.clip();
     eachTarget(state.frame, (scan, target) => {
         plotCell(kind, drawing, size, axes, scan, target);
         plotEchoes(kind, drawing, size, axes, scan, target);
     });
     eachTarget(state.frame, (scan, target) => plotTarget(plot, kind, drawing, size, axes, scan, target));
+    drawing.restore();
 }
 
 function drawPlots() {

@@ -86,11 +86,12 @@ function reflectorHits() {
         if (object === head.scenes[state.scene].ego || camera.scale < 6) {
             continue;
         }
-        for (const name of classOf(row).reflectors.keys()) {
-            hits.push({...toScreen(reflectorPlace(row, name).place), object, name});
+        const box = boxOf(row);
+        for (const [reflector, spot] of spotsOf(object)) {
+            hits.push({...toScreen(spotPlace(box, spot)), object, name: names[reflector]});
         }
     }
-    return hits.concat(contributorHits());
+    return hits.concat(contributorHits(), lossHits());
 }
 
 // Contributors of targets can be clicked where they were seen: a flat side reflects from its
@@ -104,10 +105,23 @@ function contributorHits() {
                 ...toScreen(contributorPlace(scan, i)),
                 object: column('contributor_object')[i],
                 name: names[column('contributor_reflector')[i]],
+                echo: echoOfContributor(i),
             });
         }
     });
     return hits;
+}
+
+// Lost echoes can be clicked where they are drawn: those of the chosen object, or, with nothing
+// chosen, those of the cause that is shown.
+function lossHits() {
+    const losses = state.object < 0 ? lossesFor(state.cause) : [];
+    eachScan(scan => losses.push(...lossesOf(scan, state.object)
+        .filter(loss => loss.reason.notable).map(loss => ({scan, loss}))));
+    return losses.map(({scan, loss}) => ({place: lossPlace(scan, loss), loss}))
+        .filter(({place}) => place !== null)
+        .map(({place, loss}) => ({...toScreen(place), object: loss.object, name: names[loss.reflector],
+            echo: loss}));
 }
 
 // The smallest object under a place on the screen, or -1.
@@ -136,7 +150,7 @@ function clickAt(at) {
     if (onTarget) {
         chooseTarget(target.target);
     } else if (reflector) {
-        chooseReflector(reflector.name, reflector.object);
+        chooseReflector(reflector.name, reflector.object, reflector.echo);
     } else {
         chooseObject(objectAt(at));
     }

@@ -1,5 +1,5 @@
-// Colours and marks, in light and dark: a target's symbol by its sensor, a ghost's, and the cross
-// of a lost echo.
+// Colours and marks, in light and dark: a target's symbol by its sensor and by what it is an echo
+// of, and the cross of a lost echo.
 
 // Colours that people with any colour vision can tell apart: by at least 10 in CIEDE2000, also where
 // one kind of cones is missing (tests/browser).
@@ -46,6 +46,9 @@ function mix(from, to, part) {
 }
 
 function rateColour(rate) {
+    if (rate === null) {
+        return ink.edge;
+    }
     const part = Math.max(-1, Math.min(1, rate / state.rateScale));
     const neutral = isDark() ? [190, 190, 190] : [120, 120, 120];
     const blue = isDark() ? [80, 170, 255] : [0, 90, 200];
@@ -153,9 +156,63 @@ function drawGhost(drawing, colour) {
     drawing.setLineDash([]);
 }
 
-function drawTargetSymbol(drawing, style, x, y, radius, colour, ghost) {
+// Draws a false alarm: an asterisk, which covers nothing.
+function drawFalseAlarm(drawing, x, y, radius, colour) {
+    for (const [width, stroke] of [[radius * 0.3 + 2.4, ink.paper], [radius * 0.3, colour]]) {
+        drawing.lineWidth = width;
+        drawing.strokeStyle = stroke;
+        drawing.beginPath();
+        for (let arm = 0; arm < 3; arm++) {
+            const dx = 1.1 * radius * Math.cos(arm * Math.PI / 3 + Math.PI / 6);
+            const dy = 1.1 * radius * Math.sin(arm * Math.PI / 3 + Math.PI / 6);
+            drawing.moveTo(x - dx, y - dy);
+            drawing.lineTo(x + dx, y + dy);
+        }
+        drawing.stroke();
+    }
+}
+
+// Draws clutter: three dots, as of gravel.
+function drawClutter(drawing, x, y, radius, colour) {
+    drawing.fillStyle = colour;
+    drawing.lineWidth = 1.2;
+    drawing.strokeStyle = ink.paper;
+    for (const [dx, dy] of [[0, -0.6], [-0.65, 0.5], [0.65, 0.5]]) {
+        drawing.beginPath();
+        drawing.arc(x + dx * radius, y + dy * radius, 0.42 * radius, 0, 2 * Math.PI);
+        drawing.fill();
+        drawing.stroke();
+    }
+}
+
+// Draws a bolt at the upper right of a symbol that interference disturbed.
+function drawBolt(drawing, x, y, radius) {
+    drawing.beginPath();
+    for (const [dx, dy] of [[1.6, -1.9], [0.9, -1.0], [1.5, -1.0], [0.9, -0.1]]) {
+        drawing.lineTo(x + dx * radius, y + dy * radius);
+    }
+    drawing.lineJoin = 'bevel';
+    drawing.lineWidth = 3.6;
+    drawing.strokeStyle = ink.paper;
+    drawing.stroke();
+    drawing.lineWidth = 1.6;
+    drawing.strokeStyle = ink.lost;
+    drawing.stroke();
+    drawing.lineJoin = 'miter';
+}
+
+// Draws a target; kind is that of kindOf.
+function drawTargetSymbol(drawing, style, x, y, radius, colour, kind) {
+    if (kind === 'false_alarm') {
+        drawFalseAlarm(drawing, x, y, radius, colour);
+        return;
+    }
+    if (kind === 'clutter') {
+        drawClutter(drawing, x, y, radius, colour);
+        return;
+    }
     traceTargetShape(drawing, style, x, y, radius);
-    if (ghost) {
+    if (kind === 'ghost') {
         drawGhost(drawing, colour);
         return;
     }

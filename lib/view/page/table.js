@@ -79,10 +79,10 @@ function setText(element, text) {
 
 // Draws the symbol anew only where it differs from the one that the row had before.
 function setSymbol(symbol, scan, target) {
-    const look = [sensorStyle(scan), colourOf(scan, target), isGhost(target), isDark()].join();
+    const look = [sensorStyle(scan), colourOf(scan, target), kindOf(target), isDark()].join();
     if (symbol.dataset.look !== look) {
         symbol.dataset.look = look;
-        paintSymbol(symbol, sensorStyle(scan), colourOf(scan, target), 18, isGhost(target));
+        paintSymbol(symbol, sensorStyle(scan), colourOf(scan, target), 18, kindOf(target));
     }
 }
 

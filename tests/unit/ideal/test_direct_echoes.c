@@ -38,6 +38,26 @@ static void the_first_blocker_by_id_is_named(void **state)
     assert_int_equal(scene->frame.counts.items[0].paths.items[0].echoes, 0);
 }
 
+/* The pole of "p", which faces along x, is 30 m ahead and 40 m left of the sensor, which is on its
+ * dark side; of the flat side from (20, -1) to (20, 1) the sensor sees the edge. */
+static void what_sends_no_echo_is_lost_where_it_is(void **state)
+{
+    struct scene *scene = *state;
+    struct reflector_set *set = add_set(scene, "p");
+    add_point(scene, set)->zero_rad = 1;
+    *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
+        .name = "rear", .from_x = 0.5, .from_y = 0.5, .to_x = 0.5, .to_y = -0.5, .ercs = 1};
+    add_object(scene, "p", 30, 40);
+    look_at(scene, 10);
+    assert_int_equal(scene->frame.lost.count, 2);
+    const struct lost_echo *pole = scene->frame.lost.items[0].echoes.items;
+    const struct lost_echo *side = scene->frame.lost.items[1].echoes.items;
+    assert_close(pole->range_m, 50, 0);
+    assert_close(pole->azimuth_rad, 0.9273, 0); /* atan(4/3), to 1e-5 */
+    assert_close(side->range_m, 51.225, 0);     /* hypot(32, 40), to 1 mm */
+    assert_close(side->azimuth_rad, 0.89606, 0);
+}
+
 static void an_object_does_not_block_itself_and_the_ego_blocks_nothing(void **state)
 {
     struct scene *scene = *state;
@@ -355,6 +375,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         SCENE_TEST(the_first_blocker_by_id_is_named),
+        SCENE_TEST(what_sends_no_echo_is_lost_where_it_is),
         SCENE_TEST(an_object_does_not_block_itself_and_the_ego_blocks_nothing),
         SCENE_TEST(wheel_houses_are_seen_under_raised_vehicles_only),
         SCENE_TEST(every_loss_has_its_reason),

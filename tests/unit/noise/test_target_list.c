@@ -132,6 +132,7 @@ static void a_target_has_its_measurement_and_the_label_of_its_cell(void **state)
     assert_close(target->cell_azimuth_rad, 0.1, 0);
     assert_close(target->cell_range_rate_mps, -3, 0);
     assert_close(target->cell_amplitude, 9, 0);
+    assert_close(target->cell_sum, 5, 0);
     assert_int_equal(list.frame.lost.count, 0);
     arena_free(&list.arena);
 }

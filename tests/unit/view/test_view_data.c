@@ -18,10 +18,11 @@
     "{\"id\":\"</script>\",\"class\":\"thing\",\"x_m\":10,\"y_m\":30,\"yaw_rad\":0,"               \
     "\"vx_mps\":1,\"vy_mps\":0,\"yaw_rate_radps\":0,\"length_m\":3,\"width_m\":1,"                 \
     "\"height_m\":1,\"travelled_m\":0}"
-#define SENSORS                                                                                    \
+#define SENSORS(age)                                                                               \
     "\"sensors\":{\"suite\":\"s\",\"digest\":\"0123456789abcdef\",\"list\":[{\"name\":\"f\","      \
     "\"mount_x_m\":2,\"mount_y_m\":1,\"mount_yaw_rad\":0.25,\"field_of_view_rad\":3,"              \
-    "\"range_max_m\":30,\"cell_range_m\":0.3,\"cell_range_rate_mps\":0.5,\"measured\":true}]},"
+    "\"range_max_m\":30,\"cell_range_m\":0.3,\"cell_range_rate_mps\":0.5,\"measured\":true,\"age_" \
+    "s\":" age "}]},"
 #define PART(name, range, weight, time)                                                            \
     "{\"object\":\"</script>\",\"reflector\":\"" name "\",\"path\":\"direct\",\"range_m\":" range  \
     ",\"azimuth_rad\":0.5,\"range_rate_mps\":-2,\"ercs\":0.5,\"time_s\":" time                     \
@@ -29,16 +30,18 @@
 #define TARGET(range, parts)                                                                       \
     "{\"sensor\":\"f\",\"range_m\":" range ",\"azimuth_rad\":0.125,\"range_rate_mps\":-1.5,"       \
     "\"amplitude_db\":12.5,\"cell_range_m\":8.25,\"cell_azimuth_rad\":0.25,"                       \
-    "\"cell_range_rate_mps\":-1.25,\"cell_amplitude\":4,\"contributors\":[" parts "]}"
+    "\"cell_range_rate_mps\":-1.25,\"cell_amplitude\":4,\"cell_sum\":3,\"contributors\":[" parts   \
+    "]}"
 #define LOST                                                                                       \
     "\"lost\":[{\"sensor\":\"f\",\"stage\":\"ideal\",\"reason\":\"facing_away\",\"echoes\":["      \
     "{\"object\":\"</script>\",\"reflector\":\"c\",\"path\":\"direct\"}]},"                        \
     "{\"sensor\":\"f\",\"stage\":\"sensor\",\"reason\":\"below_threshold\",\"echoes\":["           \
     "{\"object\":\"</script>\",\"reflector\":\"d\",\"path\":\"direct\",\"shortfall_db\":2.5}]}]"
-#define FRAME(scene, number, time, last, rest)                                                     \
+#define FRAME(scene, number, time, last, rest) AGED("0", scene, number, time, last, rest)
+#define AGED(age, scene, number, time, last, rest)                                                 \
     "{\"version\":0,\"scene\":\"" scene "\",\"frame\":" number ",\"time_s\":" time                 \
     ",\"interval_s\":0.04,\"last\":" last ",\"seed\":\"1\",\"ego\":\"e\",\"account\":true,"        \
-    "\"objects\":[" EGO "," OTHER "]," SENSORS rest "}"
+    "\"objects\":[" EGO "," OTHER "]," SENSORS(age) rest "}"
 #define RICH                                                                                       \
     "\"targets\":[" TARGET(                                                                        \
         "8", PART("a", "8.5", "0.75", "4") "," PART(                                               \
@@ -166,7 +169,7 @@ static void the_columns_hold_what_the_frames_held(void **state)
         {"target_range_rate_mps", 1, -1.5},
         {"target_amplitude_db", 0, 12.5},
         {"target_cell_range_m", 0, 8.25},
-        {"target_cell_amplitude", 0, 4},
+        {"target_cell_sum", 0, 3},
         {"target_effects", 0, 0},
         {"target_effects", 1, 0},
         {"target_contributors", 0, 2},
@@ -225,8 +228,8 @@ static void a_sensor_stands_where_it_was_when_it_measured(void **state)
     (void)state;
     struct packed packed;
     begin(&packed);
-    add_line(&packed, FRAME("x", "0", "4.02", "false",
-                            "\"targets\":[" TARGET("8", PART("a", "8.5", "1", "4")) "]"));
+    add_line(&packed, AGED("0.02", "x", "0", "4.02", "false",
+                           "\"targets\":[" TARGET("8", PART("a", "8.5", "1", "4")) "]"));
     finish(&packed);
     /* 0.02 s earlier at 5 m/s, and turned 0.002 rad less. */
     assert_close(value_of(&packed, "scan_age_s", 0), 0.02, 1e-6);
@@ -338,6 +341,32 @@ static void the_same_losses_share_a_pattern(void **state)
     release(&packed);
 }
 
+/* The sensor at (9, 22) looks north and 0.25 rad to the left of it: the other car's centre, at (10,
+ * 30), is hypot(1, 8) m away, at -atan(1/8) - 0.25 rad. Then the car is seen 0.02 s before the
+ * frame's time, 0.02 m less far ahead; then another place of it is. */
+static void a_loss_is_at_its_spot_or_has_its_place(void **state)
+{
+    (void)state;
+#define LOST_AT(range, azimuth)                                                                    \
+    "\"lost\":[{\"sensor\":\"f\",\"stage\":\"ideal\",\"reason\":\"facing_away\",\"echoes\":["      \
+    "{\"object\":\"</script>\",\"reflector\":\"c\",\"path\":\"direct\",\"range_m\":" range         \
+    ",\"azimuth_rad\":" azimuth "}]}]"
+    struct packed packed;
+    begin(&packed);
+    add_line(&packed, FRAME("x", "0", "4", "false", LOST_AT("8.062", "-0.37435")));
+    add_line(&packed, AGED("0.02", "x", "1", "4.02", "false", LOST_AT("8.157", "-0.36796")));
+    add_line(&packed, FRAME("x", "2", "4.04", "false", LOST_AT("8.5", "-0.37435")));
+    finish(&packed);
+    assert_int_equal(count_of(&packed, "spot_x_m"), 1);
+    assert_close(value_of(&packed, "spot_x_m", 0), 0, 1e-3);
+    assert_close(value_of(&packed, "spot_y_m", 0), 0, 1e-3);
+    assert_string_equal(name_at(&packed, value_of(&packed, "spot_reflector", 0)), "c");
+    assert_int_equal(count_of(&packed, "detail_range_m"), 1);
+    assert_close(value_of(&packed, "detail_range_m", 0), 8.5, 1e-6);
+    assert_close(value_of(&packed, "detail_azimuth_rad", 0), -0.37435, 1e-6);
+    release(&packed);
+}
+
 static void a_column_is_as_wide_as_its_largest_number(void **state)
 {
     (void)state;
@@ -375,6 +404,7 @@ int main(void)
         cmocka_unit_test(echoes_keep_their_mirror_and_number),
         cmocka_unit_test(every_reason_and_path_has_its_name),
         cmocka_unit_test(the_same_losses_share_a_pattern),
+        cmocka_unit_test(a_loss_is_at_its_spot_or_has_its_place),
         cmocka_unit_test(a_column_is_as_wide_as_its_largest_number),
         cmocka_unit_test(an_empty_stream_has_a_head),
     };
