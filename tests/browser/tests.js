@@ -505,11 +505,14 @@ const tests = {
         });
     },
 
-    async 'a class without a document is told'() {
+    async 'reflection centres are those of the stream, whatever documents there are'() {
         const frames = structuredClone(corner.slice(100));
         frames.forEach(frame => { frame.objects[1].class = 'hovercraft'; });
         await withPage(view(frames), async page => {
-            assert.match(await panelText(page), /no vehicle document of this class/);
+            const spots = await page.evaluate(() => [...spotsOf(state.object).keys()].map(one => names[one]));
+            assert.deepStrictEqual(spots.sort(), [...new Set(frames.flatMap(frame => frame.lost
+                .filter(group => ['facing_away', 'no_specular_point'].includes(group.reason))
+                .flatMap(group => group.echoes.map(one => one.reflector))))].sort());
         });
     },
 
@@ -552,7 +555,8 @@ const tests = {
 
 Object.assign(tests, require('./recording.js')(
     {stream, view, withPage, targetOnMap, clickMap, panelText, clock}),
-require('./comparison.js')({work, write, view, withPage}), require('./robust.js')({work, stream, view, withPage}));
+require('./comparison.js')({work, write, view, withPage}), require('./robust.js')({work, stream, view, withPage}),
+require('./truth.js')({stream, view, withPage, panelText}));
 
 async function main() {
     browser = await launch();

@@ -181,14 +181,15 @@ function drawReflectors(row) {
     }
 }
 
-// Draws the echoes in targets as dots.
-function drawEchoes(scan) {
-    eachContributor(scan, i => {
+// Draws the echoes in a target as dots.
+function drawEchoes(scan, target) {
+    const {begin, end} = contributorsOf(target);
+    for (let i = begin; i < end && camera.scale >= 3; i++) {
         const at = toScreen(contributorPlace(scan, i));
-        if (camera.scale >= 3 && onScreen(at, 2)) {
+        if (onScreen(at, 2)) {
             drawDot(at, 2.2, ink.ink);
         }
-    });
+    }
 }
 
 // Draws where a scan measured the bodies that it has targets of, if they have moved since.
@@ -496,7 +497,7 @@ function drawMap() {
         drawReflectors(row);
     }
     eachScan(drawMeasuredBodies);
-    eachScan(drawEchoes);
+    eachTarget(state.frame, drawEchoes);
     if (state.trail) {
         drawTrail();
     }

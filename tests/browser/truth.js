@@ -1,0 +1,356 @@
+// Tests of what the page says of echoes: where they were, what a target is without noise, which marks
+// they have, and how many are in no target. Places are computed here from the stream alone.
+
+const assert = require('node:assert');
+const {execFileSync} = require('node:child_process');
+const fs = require('node:fs');
+const path = require('node:path');
+
+const root = path.join(__dirname, '..', '..');
+const pipelines = fs.readdirSync(path.join(root, 'pipelines')).filter(name => name.endsWith('.sh'))
+    .map(name => name.slice(0, -3)).filter(name => !['mud', 'table'].includes(name));
+
+// A body some time before, in many small steps at constant speed and turn rate.
+function before(body, age) {
+    const steps = 200;
+    let {x_m: x, y_m: y, yaw_rad: yaw, vx_mps: vx, vy_mps: vy} = body;
+    const turn = -(body.yaw_rate_radps || 0) * age / steps;
+    for (let i = 0; i < steps; i++) {
+        [vx, vy] = [vx * Math.cos(turn) - vy * Math.sin(turn), vx * Math.sin(turn) + vy * Math.cos(turn)];
+        x -= vx * age / steps;
+        y -= vy * age / steps;
+        yaw += turn;
+    }
+    return {x, y, yaw};
+}
+
+// Where a sensor measured something, in the axes of the ego at the frame's time.
+function placeOf(frame, sensorName, range, azimuth) {
+    const sensor = frame.sensors.list.find(one => one.name === sensorName);
+    const ego = frame.objects.find(one => one.id === frame.ego);
+    const then = before(ego, sensor.age_s || 0);
+    const angle = then.yaw + sensor.mount_yaw_rad + azimuth;
+    const x = then.x + sensor.mount_x_m * Math.cos(then.yaw) - sensor.mount_y_m * Math.sin(then.yaw) +
+        range * Math.cos(angle) - ego.x_m;
+    const y = then.y + sensor.mount_x_m * Math.sin(then.yaw) + sensor.mount_y_m * Math.cos(then.yaw) +
+        range * Math.sin(angle) - ego.y_m;
+    return {
+        x: x * Math.cos(ego.yaw_rad) + y * Math.sin(ego.yaw_rad),
+        y: y * Math.cos(ego.yaw_rad) - x * Math.sin(ego.yaw_rad),
+    };
+}
+
+const keyOf = (sensor, one) =>
+    [sensor, one.object, one.reflector, one.path, one.mirror || '', one.number || 0].join('|');
+
+// All echoes that a frame names: [key, place] of contributors of listed objects and of losses.
+function contributorsIn(frame) {
+    const ids = new Set(frame.objects.map(one => one.id));
+    return frame.targets.flatMap(target => target.contributors.filter(one => ids.has(one.object))
+        .map(one => [keyOf(target.sensor, one), placeOf(frame, target.sensor, one.range_m, one.azimuth_rad)]));
+}
+
+function lossesIn(frame) {
+    return (frame.lost || []).flatMap(group => group.echoes.map(one =>
+        [keyOf(group.sensor, one), placeOf(frame, group.sensor, one.range_m || 0, one.azimuth_rad || 0)]));
+}
+
+function someOf(frames) {
+    return frames.filter((_, i) => i % Math.ceil(frames.length / 7) === 0);
+}
+
+// Goes to a frame with nothing chosen, and notes every circle and word that is drawn.
+function showFrame(page, frame) {
+    return page.evaluate(([scene, number]) => {
+        const at = head.scenes.findIndex((one, i) => names[one.name] === scene &&
+            sceneFrames[i].some(row => frameNumber(row) === number));
+        setScene(at, {row: sceneFrames[at].findIndex(row => frameNumber(row) === number), object: -1});
+        if (!window.noted) {
+            window.noted = {circles: [], words: []};
+            const {arc, fillText} = CanvasRenderingContext2D.prototype;
+            context.arc = (x, y, radius, ...rest) => {
+                window.noted.circles.push({x, y, radius});
+                arc.call(context, x, y, radius, ...rest);
+            };
+            context.fillText = (text, ...rest) => {
+                window.noted.words.push(text);
+                fillText.call(context, text, ...rest);
+            };
+        }
+    }, [frame.scene, frame.frame]);
+}
+
+// What is drawn now: circles in the ego's axes, and words.
+function drawnNow(page) {
+    return page.evaluate(() => {
+        window.noted.circles = [];
+        window.noted.words = [];
+        draw();
+        return {words: window.noted.words, scale: camera.scale,
+            circles: window.noted.circles.map(({x, y, radius}) => ({...screenToLocal(x, y), radius}))};
+    });
+}
+
+const apart = (a, b) => Math.hypot(a.x - b.x, a.y - b.y);
+
+module.exports = ({stream, view, withPage, panelText}) => {
+    const streams = new Map();
+    const streamOf = name => streams.get(name) || streams.set(name, stream(name)).get(name);
+    const withMany = frames => frames.reduce((most, one) => one.targets.length > most.targets.length ? one : most);
+
+    return {
+        async 'in every pipeline every contributor and every loss has the place that the stream gives it'() {
+            for (const name of pipelines) {
+                const frames = streamOf(name);
+                await withPage(view(frames), async page => {
+                    for (const frame of someOf(frames)) {
+                        await showFrame(page, frame);
+                        const found = new Map(await page.evaluate(() => {
+                            const all = [];
+                            const add = (scan, object, one, place) => all.push([[sensorOf(scan).name, names[object],
+                                names[one.reflector], head.paths[one.path], one.mirror > 0 ? names[one.mirror - 1] : '',
+                                one.number].join('|'), place && toLocal(place)]);
+                            const {begin, end} = scansOf(state.frame);
+                            for (let scan = begin; scan < end; scan++) {
+                                eachContributor(scan, i => add(scan, column('contributor_object')[i],
+                                    {...echoOfContributor(i), reflector: column('contributor_reflector')[i]},
+                                    contributorPlace(scan, i)));
+                                eachFate(scan, object => lossesOf(scan, object).forEach(loss =>
+                                    add(scan, object, loss, lossPlace(scan, loss))));
+                            }
+                            return all;
+                        }));
+                        for (const [key, place] of contributorsIn(frame).concat(lossesIn(frame))) {
+                            assert.ok(found.get(key), `${name}, frame ${frame.frame}: ${key} has no place`);
+                            assert.ok(apart(found.get(key), place) < 0.06,
+                                `${name}, frame ${frame.frame}: ${key} is ${apart(found.get(key), place)} m off`);
+                        }
+                    }
+                });
+            }
+        },
+
+        async 'contributors are drawn, and a clicked loss has a ring within 10 px of it'() {
+            for (const name of ['contour', '3gpp', 'ghosts', 'wheels-and-limbs', 'intersection']) {
+                const frames = streamOf(name);
+                const frame = withMany(frames.filter(one => one.lost.some(group => group.stage !== 'ideal')));
+                const group = frame.lost.find(one => one.stage !== 'ideal');
+                await withPage(view(frames), async page => {
+                    await showFrame(page, frame);
+                    const [[, middle]] = contributorsIn(frame);
+                    await page.evaluate(at => Object.assign(camera, at, {scale: 20}), middle);
+                    const {circles, scale} = await drawnNow(page);
+                    const seen = contributorsIn(frame).filter(([, at]) => apart(at, middle) * scale < 250);
+                    for (const [key, place] of seen) {
+                        assert.ok(circles.some(one => apart(one, place) * scale < 2), `${name}: ${key}`);
+                    }
+                    const echo = group.echoes[0];
+                    await page.evaluate(id => chooseObject(names.indexOf(id)), echo.object);
+                    const row = page.locator('#panel .row.lost', {hasText: echo.reflector}).first();
+                    await row.click();
+                    const after = await drawnNow(page);
+                    const rings = after.circles.filter(one => one.radius === 8);
+                    const losses = lossesIn(frame).filter(([key]) => key.includes(`|${echo.object}|${echo.reflector}|`));
+                    assert.ok(rings.length > 0 && rings.some(ring => losses.some(([, at]) =>
+                        apart(ring, at) * after.scale < 10)), `${name}: ${echo.reflector}`);
+                });
+            }
+        },
+
+        async 'the level without noise is what glint-noise-none reports'() {
+            for (const name of ['coherence', 'intersection', 'clutter']) {
+                const text = fs.readFileSync(path.join(root, 'pipelines', name + '.sh'), 'utf8')
+                    .replace(/\| glint-noise\s*$/, '| glint-noise-none');
+                const without = execFileSync('glint', ['-c', text], {maxBuffer: 1 << 28, cwd: root}).toString()
+                    .trim().split('\n').map(line => JSON.parse(line));
+                const frames = streamOf(name);
+                const labels = target => target.contributors.map(one => keyOf(target.sensor, one)).join();
+                await withPage(view(frames), async page => {
+                    let checked = 0;
+                    for (const frame of someOf(frames)) {
+                        await showFrame(page, frame);
+                        const others = new Map(without[frames.indexOf(frame)].targets.map(one => [labels(one), one]));
+                        const listed = frame.sensors.list.flatMap(({name: sensor}) =>
+                            frame.targets.filter(one => one.sensor === sensor));
+                        for (const [i, target] of listed.entries()) {
+                            const other = others.get(labels(target));
+                            if (!other) {
+                                continue; // a false alarm
+                            }
+                            await page.evaluate(number =>
+                                chooseTarget(targetsOf(scansOf(state.frame).begin).begin + number), i);
+                            const row = await page.locator('table.values tr', {hasText: 'amplitude'}).innerText();
+                            const [, reported, level] = /([-\d.]+) dB\s+([-\d.]+) dB/.exec(row).map(Number);
+                            assert.ok(Math.abs(level - other.amplitude_db) <= 0.01, `${name}: ${row}, ${other.amplitude_db}`);
+                            assert.ok(Math.abs(reported - target.amplitude_db) <= 0.01);
+                            checked++;
+                        }
+                    }
+                    assert.ok(checked > 5, `${name}: ${checked}`);
+                    assert.doesNotMatch(await panelText(page), /at most/);
+                });
+            }
+        },
+
+        async 'false alarms, clutter, ghosts and interference have marks and legend lines of their own'() {
+            for (const [name, words] of [['false-alarms', /false alarm: nothing but noise/],
+                ['clutter', /clutter: an echo of the ground/], ['ghosts', /ghost: seen by way of a mirror/],
+                ['interference', /disturbed by other radars/]]) {
+                await withPage(view(streamOf(name)), async page => {
+                    assert.match(await page.innerText('#legend'), words);
+                });
+            }
+            await withPage(view(streamOf('intersection')), async page => {
+                assert.doesNotMatch(await page.innerText('#legend'), /false alarm|clutter|ghost|disturbed|folded|when measured/);
+                const marks = await page.evaluate(() => ['body', 'ghost', 'clutter', 'false_alarm'].map(kind =>
+                    symbolCanvas(0, '#000', 24, kind).toDataURL()));
+                assert.strictEqual(new Set(marks).size, 4);
+            });
+            const kinds = {clutter: 'clutter', false_alarm: 'false_alarm', direct: 'body', wheel: 'body', limb: 'body'};
+            for (const name of ['clutter', 'ghosts']) {
+                const frame = withMany(streamOf(name));
+                await withPage(view(streamOf(name)), async page => {
+                    await showFrame(page, frame);
+                    const shown = await page.evaluate(() => {
+                        const all = [];
+                        eachTarget(state.frame, (scan, target) => all.push(kindOf(target)));
+                        return all;
+                    });
+                    assert.deepStrictEqual(shown, frame.targets.map(one => kinds[one.contributors[0].path] || 'ghost'));
+                });
+            }
+        },
+
+        async 'a folded rate tells the true one, has a dashed arrow and no speed over ground'() {
+            const frames = streamOf('ambiguity');
+            const isFolded = target => target.effects.includes('ambiguity');
+            const frame = frames.find(one => one.targets.some(isFolded));
+            const number = frame.targets.findIndex(isFolded);
+            const target = frame.targets[number];
+            const truth = target.contributors.reduce((sum, one) => sum + one.weight * one.range_rate_mps, 0);
+            assert.ok(Math.abs(target.range_rate_mps - truth) > 90);
+            await withPage(view(frames), async page => {
+                assert.match(await page.innerText('#legend'), /folded rate/);
+                await showFrame(page, frame);
+                await page.evaluate(at => chooseTarget(targetsOf(scansOf(state.frame).begin).begin + at), number);
+                const text = await panelText(page);
+                assert.ok(text.includes(`reported ${target.range_rate_mps.toFixed(2)} m/s, in truth ${truth.toFixed(2)} m/s`), text);
+                assert.match(text, /over ground\s+folded: not known/);
+                const arrows = () => page.evaluate(() => {
+                    const dashes = [];
+                    const {setLineDash} = context;
+                    context.setLineDash = parts => { dashes.push(parts.join()); setLineDash.call(context, parts); };
+                    let count = 0;
+                    const whole = drawFoldedRate;
+                    drawFoldedRate = (...all) => { count++; whole(...all); };
+                    draw();
+                    drawFoldedRate = whole;
+                    delete context.setLineDash;
+                    return {count, dashed: dashes.includes('3,3')};
+                });
+                assert.deepStrictEqual(await arrows(), {count: frame.targets.filter(isFolded).length, dashed: true});
+                await page.selectOption('#rates', 'compensated');
+                assert.strictEqual((await arrows()).count, 0);
+                const hits = await page.evaluate(() => plots.rate.hits.length);
+                assert.strictEqual(hits, frame.targets.filter(one => !isFolded(one)).length);
+            });
+        },
+
+        async 'late measurements are drawn where the body was, with their age'() {
+            const frames = streamOf('rain');
+            const frame = frames.find(one => one.targets.some(target => target.contributors[0].object === 'oncoming_1'));
+            const object = frame.objects.find(one => one.id === 'oncoming_1');
+            const [sensor] = frame.sensors.list;
+            assert.ok(sensor.age_s > 0.04);
+            await withPage(view(frames), async page => {
+                assert.match(await page.innerText('#legend'), /where the body was when measured/);
+                await showFrame(page, frame);
+                const box = await page.evaluate(id => {
+                    chooseObject(names.indexOf(id));
+                    fitView();
+                    zoomMiddle(8);
+                    const row = objectRow(state.frame, state.object);
+                    const {x, y} = toLocal(measuredBox(scansOf(state.frame).begin, row));
+                    Object.assign(camera, {x, y});
+                    return {x, y};
+                }, object.id);
+                const ego = frame.objects.find(one => one.id === frame.ego);
+                const then = before(object, sensor.age_s);
+                assert.ok(Math.abs(ego.yaw_rad) < 1e-9);
+                assert.ok(apart(box, {x: then.x - ego.x_m, y: then.y - ego.y_m}) < 1e-3, JSON.stringify(box));
+                const {words} = await drawnNow(page);
+                assert.ok(words.includes(`${Math.round(1000 * sensor.age_s)} ms before`), words.join());
+            });
+        },
+
+        async 'side plots have azimuths from the heading, and nothing outside their axes'() {
+            for (const name of ['smear', 'ambiguity', 'intersection']) {
+                const frames = streamOf(name);
+                await withPage(view(frames), async page => {
+                    assert.match(await page.innerText('#plots'), /azimuth from the vehicle’s heading/);
+                    for (const rates of ['raw', 'compensated']) {
+                        await page.selectOption('#rates', rates);
+                        for (const frame of someOf(frames)) {
+                            await showFrame(page, frame);
+                            const outside = await page.evaluate(() => {
+                                draw();
+                                return Object.values(plots).flatMap(({canvas: one, hits}) => hits.filter(({x, y}) =>
+                                    x < plotMargin.left || x > one.clientWidth - plotMargin.right ||
+                                    y < plotMargin.top || y > one.clientHeight - plotMargin.bottom)).length;
+                            });
+                            assert.strictEqual(outside, 0, `${name}, frame ${frame.frame}, ${rates}`);
+                        }
+                    }
+                });
+            }
+            const frame = withMany(streamOf('smear'));
+            await withPage(view(streamOf('smear')), async page => {
+                await showFrame(page, frame);
+                const shown = await page.evaluate(() => {
+                    draw();
+                    const axes = plotAxes('azimuth');
+                    const {canvas: one, hits} = plots.azimuth;
+                    const wide = one.clientWidth - plotMargin.left - plotMargin.right;
+                    return hits.map(({x}) => axes.left + (x - plotMargin.left) / wide * (axes.right - axes.left));
+                });
+                const mounts = new Map(frame.sensors.list.map(one => [one.name, one.mount_yaw_rad]));
+                frame.sensors.list.flatMap(({name}) => frame.targets.filter(one => one.sensor === name))
+                    .forEach((target, i) => {
+                        const heading = (target.azimuth_rad + mounts.get(target.sensor)) * 180 / Math.PI;
+                        assert.ok(Math.abs(shown[i] - heading) < 0.01, `${shown[i]}, expected ${heading}`);
+                    });
+            });
+        },
+
+        async 'with nothing chosen losses are counted by reason, and drawn on demand'() {
+            for (const name of ['intersection', 'clutter', 'snow']) {
+                const frames = streamOf(name);
+                const frame = withMany(frames);
+                await withPage(view(frames), async page => {
+                    await showFrame(page, frame);
+                    const counts = new Map();
+                    for (const group of frame.lost) {
+                        const key = `${group.stage}/${group.reason}`;
+                        counts.set(key, (counts.get(key) || 0) + group.echoes.length);
+                    }
+                    const rows = page.locator('#panel .row.lost, #panel .row.silent');
+                    const listed = await rows.locator('b').allInnerTexts();
+                    assert.deepStrictEqual(listed.map(Number).sort((a, b) => a - b),
+                        [...counts.values()].sort((a, b) => a - b));
+                    for (let i = 0; i < listed.length; i++) {
+                        await page.evaluate(() => {
+                            window.marks = 0;
+                            const whole = window.wholeMark = window.wholeMark || drawLostMark;
+                            drawLostMark = (...all) => { window.marks++; whole(...all); };
+                        });
+                        await rows.nth(i).click();
+                        const marks = await page.evaluate(() => { window.marks = 0; draw(); return window.marks; });
+                        assert.strictEqual(marks, Number(listed[i]), `${name}, row ${i}`);
+                    }
+                    await rows.nth(listed.length - 1).click();
+                    assert.strictEqual(await page.evaluate(() => state.cause), null);
+                });
+            }
+        },
+    };
+};
