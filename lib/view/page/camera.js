@@ -22,7 +22,7 @@ function panBy(dx, dy) {
 }
 
 // Places that must be in view when the page fits the map: the sensors, the chosen object and its
-// targets; without a chosen object all objects and targets.
+// targets, those that the scene is about; without a chosen object all objects and targets.
 function placesToFit() {
     const places = [];
     const scans = scansOf(state.frame);
@@ -36,11 +36,27 @@ function placesToFit() {
         }
     }
     eachTarget(state.frame, (scan, target) => {
-        if (state.object < 0 || objectOfTarget(target) === state.object) {
+        if (state.object < 0 || objectOfTarget(target) === state.object || state.focus.includes(target)) {
             places.push(targetPlace(scan, target));
         }
     });
-    return places.map(toLocal);
+    return places.concat(state.ego ? outlineOf(state.ego) : []).map(toLocal);
+}
+
+// Low and high end of places along an axis, seen from the ego if the view follows it.
+function spreadOf(places, axis) {
+    const values = places.map(place => place[axis]);
+    return {low: Math.min(...values), high: Math.max(...values)};
+}
+
+// Fits what lies before and behind the ego into a length of so many pixels, the ego in its lower third:
+// the scale, and the place in the middle.
+function fitAhead({low, high}, pixels) {
+    const behind = Math.max(2, -low) + 1;
+    const ahead = Math.max(5, high) + 1;
+    const share = Math.max(0.2, Math.min(0.3, behind / (behind + ahead)));
+    const scale = 0.92 * Math.min(share * pixels / behind, (1 - share) * pixels / ahead);
+    return {scale, middle: (0.5 - share) * pixels};
 }
 
 function fitView() {
@@ -48,18 +64,23 @@ function fitView() {
         return;
     }
     const places = placesToFit();
-    const spread = axis => {
-        const values = places.map(place => place[axis]);
-        return {low: Math.min(...values), high: Math.max(...values)};
-    };
-    const x = spread('x');
-    const y = spread('y');
-    camera.x = (x.low + x.high) / 2;
-    camera.y = (y.low + y.high) / 2;
-    const across = state.up === 'right' ? x.high - x.low : y.high - y.low;
-    const down = state.up === 'right' ? y.high - y.low : x.high - x.low;
-    camera.scale = Math.max(0.5, Math.min(90, canvas.clientWidth / (1.25 * across + 4),
-        canvas.clientHeight / (1.4 * down + 5)));
+    const x = spreadOf(places, 'x');
+    const y = spreadOf(places, 'y');
+    const upright = state.up === 'up';
+    const [along, whole] = upright ? [canvas.clientHeight, canvas.clientWidth]
+        : [canvas.clientWidth, canvas.clientHeight];
+    const beside = upright ? Math.min(control('legend').offsetWidth, 0.36 * whole) : 0;
+    const across = whole - beside;
+    const limit = Math.min(60, across / (1.3 * (y.high - y.low) + 5));
+    if (state.follow && state.ego) {
+        const {scale, middle} = fitAhead(x, along);
+        camera.scale = Math.max(0.5, Math.min(limit, scale));
+        camera.x = middle / camera.scale;
+    } else {
+        camera.scale = Math.max(0.5, Math.min(limit, along / (1.25 * (x.high - x.low) + 4)));
+        camera.x = (x.low + x.high) / 2;
+    }
+    camera.y = (y.low + y.high) / 2 + beside / 2 / camera.scale;
     redraw();
 }
 

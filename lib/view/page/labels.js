@@ -62,17 +62,43 @@ function objectLabel(row) {
 }
 
 function isWorthLabel(row, box) {
+    if (hasTarget(column('object_id')[row])) {
+        return onScreen(toScreen(box), 0);
+    }
     const size = Math.max(box.length, box.width) * camera.scale;
     const slim = Math.min(box.length, box.width) * camera.scale < 7;
     return column('object_id')[row] === state.object ||
         (size > 26 && !slim && onScreen(toScreen(box), 0));
 }
 
-function labelObjects() {
+// The rows of a frame's objects as they are labelled: the chosen one and the ego, then those with
+// targets, then others.
+function rowsToLabel(ego) {
     const {begin, end} = objectsOf(state.frame);
+    const listed = new Set();
+    eachTarget(state.frame, (scan, target) => listed.add(objectOfTarget(target)));
+    const rank = row => {
+        const id = column('object_id')[row];
+        return id === state.object ? 0 : id === ego ? 1 : listed.has(id) ? 2 : 3;
+    };
+    return Array.from({length: end - begin}, (_, i) => begin + i).sort((a, b) => rank(a) - rank(b) || a - b);
+}
+
+function hasTarget(id) {
+    const {begin, end} = scansOf(state.frame);
+    const first = starts('scan_targets');
+    for (let target = first[begin]; target < first[end]; target++) {
+        if (objectOfTarget(target) === id) {
+            return true;
+        }
+    }
+    return false;
+}
+
+function labelObjects() {
     const ego = head.scenes[state.scene].ego;
     let room = 24;
-    for (let row = begin; row < end; row++) {
+    for (const row of rowsToLabel(ego)) {
         const box = boxOf(row);
         if (isWorthLabel(row, box) && room-- > 0) {
             const isEgo = column('object_id')[row] === ego;

@@ -64,29 +64,6 @@ function line(from, to) {
     context.stroke();
 }
 
-// The distance of grid lines that are at least some pixels apart: a round number of metres.
-function gridStep(pixels) {
-    const wanted = pixels / camera.scale;
-    const power = Math.pow(10, Math.floor(Math.log10(wanted)));
-    return [1, 2, 5, 10].map(factor => factor * power).find(step => step >= wanted);
-}
-
-function drawGrid() {
-    const step = gridStep(70);
-    const corner = screenToLocal(0, 0);
-    const other = screenToLocal(canvas.clientWidth, canvas.clientHeight);
-    context.strokeStyle = ink.grid;
-    context.lineWidth = 1;
-    const low = {x: Math.min(corner.x, other.x), y: Math.min(corner.y, other.y)};
-    const high = {x: Math.max(corner.x, other.x), y: Math.max(corner.y, other.y)};
-    for (let x = Math.ceil(low.x / step) * step; x <= high.x; x += step) {
-        line(localToScreen({x, y: low.y}), localToScreen({x, y: high.y}));
-    }
-    for (let y = Math.ceil(low.y / step) * step; y <= high.y; y += step) {
-        line(localToScreen({x: low.x, y}), localToScreen({x: high.x, y}));
-    }
-}
-
 function drawBeam(scan) {
     const sensor = sensorOf(scan);
     const at = toScreen(scanPlace(scan, 0, 0));
@@ -446,33 +423,11 @@ function drawCause() {
     }
 }
 
-function drawScaleBar() {
-    const step = gridStep(70);
-    const width = step * camera.scale;
-    const x = 16;
-    const y = canvas.clientHeight - 16;
-    context.fillStyle = ink.halo;
-    context.fillRect(x - 6, y - 24, width + 12, 31);
-    context.strokeStyle = ink.ink;
-    context.lineWidth = 1.5;
-    context.beginPath();
-    context.moveTo(x, y - 5);
-    context.lineTo(x, y);
-    context.lineTo(x + width, y);
-    context.lineTo(x + width, y - 5);
-    context.stroke();
-    context.fillStyle = ink.ink;
-    context.font = '12px system-ui, "DejaVu Sans", sans-serif';
-    context.textBaseline = 'alphabetic';
-    context.fillText(`${Number(step.toPrecision(2))} m`, x + 4, y - 7);
-}
-
 function reserveRoom() {
     taken = [];
     const legend = document.getElementById('legend');
     taken.push({x: legend.offsetLeft, y: legend.offsetTop, width: legend.offsetWidth,
         height: legend.offsetHeight});
-    taken.push({x: 10, y: canvas.clientHeight - 40, width: 190, height: 40});
     eachTarget(state.frame, (scan, target) => takeAround(toScreen(targetPlace(scan, target)), 7));
 }
 
@@ -483,6 +438,8 @@ function drawMap() {
     }
     reserveRoom();
     drawGrid();
+    drawRings();
+    drawGridNumbers();
     const objects = objectsOf(state.frame);
     const scans = scansOf(state.frame);
     for (let scan = scans.begin; scan < scans.end; scan++) {
@@ -502,7 +459,6 @@ function drawMap() {
         drawTrail();
     }
     drawTargets();
-    drawScaleBar();
 }
 
 function drawTargets() {

@@ -1,5 +1,42 @@
-// The frame and object with which a scene opens: those that show glint's account of targets and
-// losses best.
+// The frame and object with which a scene opens: those that show what the scene is about, and glint's
+// account of targets and losses.
+
+// Effects that nearly every scene has.
+const commonEffects = ['visibility', 'plane_reflection', 'rows', 'merging', 'superposition', 'angle_noise',
+    'range_noise', 'quantisation', 'latency', 'elevation', 'accuracy']
+    .map(name => head.effects.indexOf(name));
+
+// The effects that a scene is about: those of some of its targets, as far as they are not common.
+function effectsOfScene(frames) {
+    const counts = new Map();
+    let all = 0;
+    const first = starts('scan_targets');
+    for (const frame of frames) {
+        const {begin, end} = scansOf(frame);
+        for (let target = first[begin]; target < first[end]; target++, all++) {
+            effectsOf(target).forEach(effect => counts.set(effect, (counts.get(effect) || 0) + 1));
+        }
+    }
+    const found = new Set([...counts].filter(([effect, count]) => !commonEffects.includes(effect) &&
+        count >= 0.002 * all).map(([effect]) => effect));
+    if (found.size > 1) {
+        found.delete(head.effects.indexOf('false_alarms')); // they come with every radar that has others
+    }
+    return found;
+}
+
+// The targets of a frame that have an effect which the scene is about.
+function targetsAbout(frame, effects) {
+    const found = [];
+    const {begin, end} = scansOf(frame);
+    const first = starts('scan_targets');
+    for (let target = first[begin]; target < first[end]; target++) {
+        if (effectsOf(target).some(effect => effects.has(effect))) {
+            found.push(target);
+        }
+    }
+    return found;
+}
 
 // Counts, for each object of a frame with targets, the most targets of one sensor, lost echoes, and
 // targets merged with other objects (foreign); beside is true if a sensor has at least three
@@ -62,20 +99,53 @@ function scoreOf({targets, lost, foreign, beside}, row) {
         2 * foreign + (beside ? 2 : 0) + (many ? 6 : 0);
 }
 
+// The best object of a frame, and its score with that of the effects that the frame shows.
+function bestOf(frame, row, effects) {
+    let best = {score: 0, object: -1, row};
+    const shown = targetsAbout(frame, effects);
+    const seen = object => new Set(shown.filter(target => object === undefined || objectOfTarget(target) === object)
+        .flatMap(effectsOf).filter(effect => effects.has(effect)));
+    for (const [object, counts] of countsByObject(frame)) {
+        const score = scoreOf(counts, objectRow(frame, object)) + 2 * seen(object).size;
+        if (score > best.score) {
+            best = {score, object, row};
+        }
+    }
+    best.score += 8 * seen().size;
+    return best;
+}
+
 function openingOf(number) {
     const frames = sceneFrames[number];
     const wanted = head.open_frame < 0 ? -1
         : frames.findIndex(frame => frameNumber(frame) === head.open_frame);
     const rows = wanted >= 0 ? [wanted] : frames.map((_, row) => row);
     const stride = Math.ceil(rows.length / 3000);
-    let best = {score: 0, object: -1, row: rows[0]};
-    for (let i = 0; i < rows.length; i += stride) {
-        for (const [object, counts] of countsByObject(frames[rows[i]])) {
-            const score = scoreOf(counts, objectRow(frames[rows[i]], object));
-            if (score > best.score) {
-                best = {score, object, row: rows[i]};
-            }
-        }
+    const sample = rows.filter((_, i) => i % stride === 0);
+    const effects = effectsOfScene(sample.map(row => frames[row]));
+    let best = {score: -1, object: -1, row: rows[0]};
+    for (const row of sample) {
+        const found = bestOf(frames[row], row, effects);
+        best = found.score > best.score ? found : best;
     }
-    return best;
+    const frame = frames[best.row];
+    return {...best, focus: frame === undefined ? [] : rareTargets(frame, effects).concat(nearTargets(frame))};
+}
+
+// The nearer half of a frame's targets.
+function nearTargets(frame) {
+    const {begin, end} = scansOf(frame);
+    const first = starts('scan_targets');
+    const ranges = column('target_range_m');
+    const all = Array.from({length: first[end] - first[begin]}, (_, i) => first[begin] + i)
+        .filter(target => kindOf(target) === 'body').sort((a, b) => ranges[a] - ranges[b]);
+    return all.slice(0, Math.ceil(all.length / 2));
+}
+
+// Of the targets that the scene is about, those that are few beside the others.
+function rareTargets(frame, effects) {
+    const about = targetsAbout(frame, effects);
+    const share = effect => about.filter(target => effectsOf(target).includes(effect)).length;
+    const rare = [...effects].filter(effect => share(effect) <= Math.max(2, about.length / 3));
+    return about.filter(target => effectsOf(target).some(effect => rare.includes(effect)));
 }

@@ -17,7 +17,8 @@ const state = {
     colour: 'sensor',
     effect: -1, // effect whose targets are coloured; -1: colour by `colour`
     rates: 'raw',
-    up: 'right',
+    up: 'up',
+    focus: [], // targets that the scene is about, which the map shows when it opens
     follow: true,
     trail: true,
     playing: false,
@@ -52,6 +53,7 @@ function draw() {
 function refresh() {
     if (state.frame >= 0) {
         fillPane();
+        showSentence();
         rememberPlace();
     }
     redraw();
@@ -230,7 +232,9 @@ function setScene(number, place) {
     state.frame = -1;
     state.object = open.object;
     showRow(open.row);
+    state.focus = open.focus || [];
     fitView();
+    state.focus = [];
     showTimeline();
     refresh();
 }

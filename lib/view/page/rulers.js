@@ -1,0 +1,102 @@
+// The map's rulers: a grid with numbers in metres, and rings of equal range.
+
+const rulerFont = '11px system-ui, "DejaVu Sans", sans-serif';
+
+// The distance of grid lines that are at least some pixels apart: a round number of metres.
+function gridStep(pixels) {
+    const wanted = pixels / camera.scale;
+    const power = Math.pow(10, Math.floor(Math.log10(wanted)));
+    return [1, 2, 5, 10].map(factor => factor * power).find(step => step >= wanted);
+}
+
+// What of the local plane is in view.
+function viewedArea() {
+    const corner = screenToLocal(0, 0);
+    const other = screenToLocal(canvas.clientWidth, canvas.clientHeight);
+    return {
+        low: {x: Math.min(corner.x, other.x), y: Math.min(corner.y, other.y)},
+        high: {x: Math.max(corner.x, other.x), y: Math.max(corner.y, other.y)},
+    };
+}
+
+function metres(value) {
+    return String(Number(value.toPrecision(3))).replace('-', '−');
+}
+
+// Writes a number on the map where no other one is, and keeps labels away from it.
+function rulerText(text, x, y) {
+    context.font = rulerFont;
+    const width = context.measureText(text).width;
+    const box = {x: x - width / 2 - 3, y: y - 7, width: width + 6, height: 14};
+    if (!isFree(box)) {
+        return;
+    }
+    taken.push(box);
+    context.fillStyle = ink.halo;
+    context.fillRect(box.x, box.y, box.width, box.height);
+    context.fillStyle = ink.soft;
+    context.textBaseline = 'middle';
+    context.fillText(text, box.x + 3, y + 0.5);
+}
+
+function drawGrid() {
+    const step = gridStep(70);
+    const {low, high} = viewedArea();
+    context.strokeStyle = ink.grid;
+    context.lineWidth = 1;
+    for (let x = Math.ceil(low.x / step) * step; x <= high.x; x += step) {
+        line(localToScreen({x, y: low.y}), localToScreen({x, y: high.y}));
+    }
+    for (let y = Math.ceil(low.y / step) * step; y <= high.y; y += step) {
+        line(localToScreen({x: low.x, y}), localToScreen({x: high.x, y}));
+    }
+}
+
+// Writes how far ahead each line across lies along one edge of the map, how far left each line along
+// lies along the other.
+function drawGridNumbers() {
+    const step = gridStep(70);
+    const {low, high} = viewedArea();
+    const bottom = canvas.clientHeight - 11;
+    const upright = state.up === 'up';
+    rulerText(state.follow ? 'm ahead and left of the ego' : 'm from the ego’s start', 92, bottom);
+    for (let x = Math.ceil(low.x / step) * step; x <= high.x; x += step) {
+        const at = localToScreen({x, y: 0});
+        rulerText(metres(x), ...(upright ? [20, at.y] : [at.x, bottom]));
+    }
+    for (let y = Math.ceil(low.y / step) * step; y <= high.y; y += step) {
+        const at = localToScreen({x: 0, y});
+        rulerText(metres(y), ...(upright ? [at.x, bottom] : [20, at.y]));
+    }
+}
+
+// The place from which ranges count: the sensor if there is one, else the middle of the ego.
+function ringCentre() {
+    const {begin, end} = scansOf(state.frame);
+    return end - begin === 1 ? scanPlace(begin, 0, 0) : state.ego;
+}
+
+function drawRings() {
+    const centre = ringCentre();
+    const {begin, end} = scansOf(state.frame);
+    if (end === begin || !centre) {
+        return;
+    }
+    let farthest = 0;
+    for (let scan = begin; scan < end; scan++) {
+        farthest = Math.max(farthest, sensorOf(scan).range_max_m);
+    }
+    const at = toScreen(centre);
+    const step = gridStep(110);
+    const ahead = screenAngle(state.ego ? state.ego.yaw : 0);
+    context.strokeStyle = ink.faint;
+    context.lineWidth = 1;
+    for (let range = step; range <= farthest && range < 40 * step; range += step) {
+        context.beginPath();
+        context.arc(at.x, at.y, range * camera.scale, 0, 2 * Math.PI);
+        context.stroke();
+        const angle = ahead + 0.3;
+        rulerText(`${metres(range)} m`, at.x + range * camera.scale * Math.cos(angle),
+            at.y + range * camera.scale * Math.sin(angle));
+    }
+}
