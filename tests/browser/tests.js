@@ -54,10 +54,13 @@ function targetOnMap(page, frame, target) {
     const sensor = frame.sensors.list.find(one => one.name === target.sensor);
     const ahead = sensor.mount_x_m + target.range_m * Math.cos(target.azimuth_rad + sensor.mount_yaw_rad);
     const left = sensor.mount_y_m + target.range_m * Math.sin(target.azimuth_rad + sensor.mount_yaw_rad);
-    return page.evaluate(([x, y]) => ({
-        x: canvas.clientWidth / 2 + (x - camera.x) * camera.scale,
-        y: canvas.clientHeight / 2 - (y - camera.y) * camera.scale,
-    }), [ahead, left]);
+    return page.evaluate(([x, y]) => {
+        const along = (x - camera.x) * camera.scale;
+        const across = (y - camera.y) * camera.scale;
+        const middle = {x: canvas.clientWidth / 2, y: canvas.clientHeight / 2};
+        return state.up === 'up' ? {x: middle.x - across, y: middle.y - along}
+            : {x: middle.x + along, y: middle.y - across};
+    }, [ahead, left]);
 }
 
 async function pixelAt(page, at) {
@@ -184,7 +187,7 @@ const tests = {
             await press('End', 'state.row === 130');
             await press('n', 'state.target >= 0 || scansOf(state.frame).end === 0');
             await press('Home', 'state.row === 0 && state.target === -1');
-            await press('x', 'state.up === "up"');
+            await press('x', 'state.up === "right"');
             await press('f', 'state.follow === false');
             await press('v', 'state.rates === "compensated"');
             await press('t', 'state.trail === false');

@@ -287,7 +287,7 @@ module.exports = ({stream, view, withPage, panelText}) => {
             for (const name of ['smear', 'ambiguity', 'intersection']) {
                 const frames = streamOf(name);
                 await withPage(view(frames), async page => {
-                    assert.match(await page.innerText('#plots'), /azimuth from the vehicle’s heading/);
+                    assert.match(await page.getAttribute('#azimuths', 'title'), /azimuth from the vehicle’s heading/);
                     for (const rates of ['raw', 'compensated']) {
                         await page.selectOption('#rates', rates);
                         for (const frame of someOf(frames)) {
@@ -319,6 +319,100 @@ module.exports = ({stream, view, withPage, panelText}) => {
                         const heading = (target.azimuth_rad + mounts.get(target.sensor)) * 180 / Math.PI;
                         assert.ok(Math.abs(shown[i] - heading) < 0.01, `${shown[i]}, expected ${heading}`);
                     });
+            });
+        },
+
+        async 'a sentence says what the frame shows'() {
+            const numbers = ['No', 'One', 'Two', 'Three', 'Four'];
+            for (const name of ['intersection', 'two-vehicles', 'clutter', 'ghosts', 'snow']) {
+                const frames = streamOf(name);
+                await withPage(view(frames), async page => {
+                    for (const frame of someOf(frames)) {
+                        await showFrame(page, frame);
+                        const kindOf = one => one.contributors[0].path;
+                        const bodies = frame.targets.filter(one => !['clutter', 'false_alarm'].includes(kindOf(one)));
+                        const objects = new Set(bodies.map(one => one.contributors[0].object)).size;
+                        const merged = bodies.filter(one => new Set(one.contributors.map(part => part.object)).size > 1);
+                        const ghosts = bodies.filter(one => /wall/.test(kindOf(one))).length;
+                        const count = kind => frame.targets.filter(one => kindOf(one) === kind).length;
+                        const silent = ['facing_away', 'no_specular_point', 'out_of_range', 'out_of_view', 'switched_off'];
+                        const lost = frame.lost.filter(group => !silent.includes(group.reason))
+                            .reduce((sum, group) => sum + group.echoes.length, 0);
+                        const radars = frame.sensors.list.length;
+                        const band = Math.round(frame.sensors.list[0].carrier_hz / 1e9);
+                        const s = (number, one, many) => `${number} ${number === 1 ? one : many}`;
+                        const parts = [s(bodies.length, 'target', 'targets') +
+                            (objects > 0 ? ` of ${s(objects, 'object', 'objects')}` : '')];
+                        parts.push(...(merged.length ? [`${merged.length} merged`] : []),
+                            ...(ghosts ? [s(ghosts, 'a ghost', 'ghosts')] : []),
+                            ...(count('clutter') ? [`${count('clutter')} of clutter`] : []),
+                            ...(count('false_alarm') ? [s(count('false_alarm'), 'false alarm', 'false alarms')] : []),
+                            ...(lost ? [`${s(lost, 'echo', 'echoes')} lost`] : []));
+                        assert.strictEqual(await page.innerText('#sentence'),
+                            `${numbers[radars]} ${band} GHz radar${radars === 1 ? '' : 's'}, ` +
+                            `${frame.scene.replace('/' + frame.ego, '')}, frame ${frame.frame} of ${frames.length}: ` +
+                            (frame.sensors.list.some(one => one.measured) ? parts.join(', ')
+                                : 'no radar measured in this frame'));
+                    }
+                });
+            }
+        },
+
+        async 'effect scenes open with a target of that effect on screen, and the ego in the lower third'() {
+            const about = {
+                accuracy: 'accuracy', ambiguity: 'ambiguity', clutter: 'clutter', coherence: 'coherence',
+                'false-alarms': 'false_alarms', fluctuation: 'fluctuation', ghosts: 'ghosts',
+                interference: 'interference', misalignment: 'misalignment', rain: 'rain',
+                'range-migration': 'range_migration', 'road-mirror': 'two_ray', shadows: 'height', snow: 'snow',
+                'wheels-and-limbs': 'wheels', 'two-vehicles': 'merging', contour: 'coherence',
+            };
+            for (const name of pipelines) {
+                const frames = streamOf(name);
+                for (const viewport of [{width: 1280, height: 800}, {width: 400, height: 800}]) {
+                    await withPage(view(frames), async page => {
+                        const {number, area, camera, scene} = await page.evaluate(() => ({
+                            number: frameNumber(state.frame), scene: names[head.scenes[state.scene].name],
+                            area: {x: canvas.clientWidth, y: canvas.clientHeight}, camera: {...camera},
+                        }));
+                        const frame = frames.find(one => one.frame === number && one.scene === scene);
+                        const ego = area.y / 2 + camera.x * camera.scale;
+                        assert.ok(ego > 2 / 3 * area.y && ego < area.y, `${name}: the ego is ${ego} of ${area.y} px down`);
+                        const shown = frame.targets.filter(target => {
+                            const at = placeOf(frame, target.sensor, target.range_m, target.azimuth_rad);
+                            const x = area.x / 2 - (at.y - camera.y) * camera.scale;
+                            const y = area.y / 2 - (at.x - camera.x) * camera.scale;
+                            return x > 0 && x < area.x && y > 0 && y < area.y;
+                        });
+                        assert.ok(shown.length >= frame.targets.length / 3 && shown.length > 0,
+                            `${name}: ${shown.length} of ${frame.targets.length}`);
+                        if (about[name]) {
+                            assert.ok(shown.some(one => one.effects.includes(about[name])), `${name}: ${about[name]}`);
+                        }
+                    }, {viewport});
+                }
+            }
+        },
+
+        async 'objects with targets are labelled before others, and rulers have numbers'() {
+            const frames = streamOf('intersection');
+            const frame = withMany(frames);
+            await withPage(view(frames), async page => {
+                await showFrame(page, frame);
+                const {words, circles} = await drawnNow(page);
+                const listed = new Set(frame.targets.flatMap(one => one.contributors.map(part => part.object)));
+                const last = Math.max(...[...listed].map(id => words.findIndex(word => word.startsWith(id)))
+                    .filter(at => at >= 0));
+                const others = frame.objects.filter(one => !listed.has(one.id) && one.id !== frame.ego)
+                    .map(one => words.findIndex(word => word.startsWith(one.id))).filter(at => at >= 0);
+                assert.ok(last > 0 && others.length > 0);
+                assert.ok(others.every(at => at > last), words.join());
+                const rings = words.filter(word => /^\d+ m$/.test(word)).map(word => parseFloat(word));
+                assert.ok(rings.length >= 2, words.join());
+                for (const range of rings) {
+                    assert.ok(circles.some(one => apart(one, {x: 0, y: 0}) < 0.1), String(range));
+                }
+                assert.ok(words.filter(word => /^[−\d]+$/.test(word)).length >= 6, words.join());
+                assert.ok(words.includes('m ahead and left of the ego'));
             });
         },
 
