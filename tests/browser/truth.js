@@ -399,7 +399,7 @@ module.exports = ({stream, view, withPage, panelText}) => {
             await withPage(view(frames), async page => {
                 await showFrame(page, frame);
                 const {words, circles} = await drawnNow(page);
-                const listed = new Set(frame.targets.flatMap(one => one.contributors.map(part => part.object)));
+                const listed = new Set(frame.targets.map(one => one.contributors[0].object));
                 const last = Math.max(...[...listed].map(id => words.findIndex(word => word.startsWith(id)))
                     .filter(at => at >= 0));
                 const others = frame.objects.filter(one => !listed.has(one.id) && one.id !== frame.ego)
