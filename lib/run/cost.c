@@ -195,13 +195,24 @@ static int climb_all(struct cost *cost)
                                                                                              : -1;
 }
 
+/* The reference, those that every ladder has, and those that leave out one effect. */
+static size_t expected_chains(const struct cost *cost)
+{
+    size_t count = 5;
+    for (uint64_t left = cost->brief ? 0 : cost->needed; left != 0; left &= left - 1)
+        count++;
+    return count;
+}
+
 int cost_measure(struct cost *cost)
 {
     bool signal = cost->reference == COST_SIGNAL;
     struct ladder_chain reference =
         chain_of(cost, "signal", REFERENCE, signal ? SIGNAL : SENSOR, signal ? NULL : NOISE);
-    cost->ladder =
-        (struct ladder){.runner = cost->runner, .sample = &cost->sample, .sensors = cost->suite};
+    cost->ladder = (struct ladder){.runner = cost->runner,
+                                   .sample = &cost->sample,
+                                   .sensors = cost->suite,
+                                   .expected = expected_chains(cost)};
     if (ladder_begin(&cost->ladder, &reference) != 0 || climb_all(cost) != 0)
         return -1;
     if (signal)
@@ -280,6 +291,7 @@ static int climb_down(struct cost *cost, enum cost_bound bound, double most)
 {
     struct savings savings = savings_of(cost);
     uint64_t left_out = 0;
+    cost->ladder.expected += savings.list.count;
     for (size_t i = 0; i < savings.list.count; i++) {
         const struct ladder_chain *chain =
             climb_without(cost, left_out | savings.list.items[i].effect);

@@ -77,16 +77,26 @@ static int keep_lists(struct pass *pass, const struct sampled_frame *sampled)
     return 0;
 }
 
+static void show_progress(struct ladder *ladder)
+{
+    size_t frames = ladder->expected * SEEDS * ladder->sample->list.count;
+    if (progress_step(&ladder->progress))
+        progress_show(&ladder->progress, (double)ladder->progress.count / (double)frames);
+}
+
 static int run_pass(struct pass *pass)
 {
     const struct frame_sample *sample = pass->ladder->sample;
     pass->frame.arena = &pass->arena;
     pass->frame.list_cache = &pass->cache;
     int result = 0;
-    for (size_t i = 0; result == 0 && i < sample->list.count; i++)
+    for (size_t i = 0; result == 0 && i < sample->list.count; i++) {
         if (run_frame(pass, &sample->list.items[i]) != 0 ||
             keep_lists(pass, &sample->list.items[i]) != 0)
             result = -1;
+        show_progress(pass->ladder);
+    }
+    progress_end(&pass->ladder->progress);
     text_free(&pass->written);
     arena_free(&pass->arena);
     list_cache_free(&pass->cache);
@@ -164,6 +174,7 @@ static void weigh_blocks(struct ladder *ladder)
 
 int ladder_begin(struct ladder *ladder, struct ladder_chain *reference)
 {
+    progress_begin(&ladder->progress, "frames");
     if (run_chain(ladder, reference, 1, ladder->reference, runner_arena(ladder->runner)) != 0)
         return -1;
     if (ladder->scans.count == 0)

@@ -11,6 +11,7 @@
 #define LADDER_H
 
 #include "run/frame_sample.h"
+#include "run/progress.h"
 #include "run/stage.h"
 #include "score/list_embedding.h"
 #include "score/relative_error.h"
@@ -52,7 +53,9 @@ struct ladder {
     struct runner *runner; /* of the tool; its diag has the messages */
     const struct frame_sample *sample;
     const char *sensors; /* the suite */
+    size_t expected;     /* chains, for the time left */
 
+    struct progress progress; /* in frames of all chains and seeds */
     struct ladder_lists reference[LADDER_SEEDS];
     LIST_OF(struct ladder_scan) scans;
     size_t blocks;        /* that have a scan */

@@ -8,6 +8,7 @@ because it has work for hours and is ended; and a run that must be silent as it 
 import os
 import pty
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -101,6 +102,22 @@ def a_stage_that_reads_a_file_tells_it_too(folder):
     return None
 
 
+def a_ladder_of_chains_tells_when_it_is_done(folder):
+    """The stream comes by a pipe, of which nothing is told; then the signal takes some 10 ms a frame and seed."""
+    if not shutil.which("glint-sensor-signal"):
+        print("skipped  a ladder of chains tells when it is done: there is no glint-sensor-signal")
+        return None
+    terminal = Terminal()
+    with subprocess.Popen(["cat", f"{folder}/frames.jsonl"], stdout=subprocess.PIPE) as other:
+        process = terminal.start("glint-plan --cost --frames 500 --sensors srr24-signal", stdin=other.stdout,
+                                 stdout=subprocess.DEVNULL)
+        shown = terminal.wait_for(FRAMES)
+        process.terminate()
+        process.wait(PATIENCE_S)
+    terminal.all()
+    return not shown and "no rate of glint-plan --cost"
+
+
 def who_reads_a_pipe_leaves_it_to_the_other_side(folder):
     with subprocess.Popen(["cat", f"{folder}/frames.jsonl"], stdout=subprocess.PIPE) as other:
         text, _ = on_terminal("glint-extract", other.stdout)
@@ -156,7 +173,7 @@ def scripts_show_the_same_line(_):
 
 
 TESTS = [endless_work_tells_how_long_it_takes, a_stage_that_reads_a_file_tells_it_too,
-         who_reads_a_pipe_leaves_it_to_the_other_side, nothing_is_printed_where_stderr_is_no_terminal,
+         a_ladder_of_chains_tells_when_it_is_done, who_reads_a_pipe_leaves_it_to_the_other_side, nothing_is_printed_where_stderr_is_no_terminal,
          short_work_is_silent, frames_on_a_terminal_stay_whole, scripts_show_the_same_line]
 
 
