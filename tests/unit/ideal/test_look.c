@@ -73,11 +73,35 @@ static void a_set_that_lists_an_unknown_object_is_refused(void **state)
                                    "or is the ego");
 }
 
+/* Eight at one place, of which five stay; a taller one, and one of another set, block otherwise. */
+static void bodies_that_block_alike_stand_for_each_other(void **state)
+{
+    struct scene *scene = *state;
+    static const char *const ids[] = {"a", "b", "c", "d", "f", "g", "h", "i", "tall", "other"};
+    struct reflector_set *set = add_set(scene, "a");
+    for (size_t i = 0; i < 10; i++)
+        add_object(scene, ids[i], 30, 0);
+    for (size_t i = 1; i < 9; i++)
+        *list_add(&set->objects, &scene->arena) = ids[i];
+    scene->frame.objects.items[9].height_m = 9;
+    add_set(scene, "other");
+    struct look look = look_at(scene, 10);
+    assert_int_equal(look.body_count, 10);
+    assert_int_equal(look.indexed_count, 7);
+    assert_string_equal(look.indexed[4]->object->id, "f");
+    assert_string_equal(look.indexed[5]->object->id, "other");
+    assert_string_equal(look.indexed[6]->object->id, "tall");
+    scene->sensor.diffraction = true;
+    scene->sensor.carrier_hz = 77e9;
+    assert_int_equal(look_at(scene, 10).indexed_count, 10);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         SCENE_TEST(the_sensor_moves_with_the_lever_arm_of_a_turning_ego),
         SCENE_TEST(a_late_measurement_shows_where_everything_was),
+        SCENE_TEST(bodies_that_block_alike_stand_for_each_other),
         SCENE_TEST(a_set_that_lists_an_unknown_object_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

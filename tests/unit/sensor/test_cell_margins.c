@@ -5,6 +5,7 @@
 #include "noise/target_list.h"
 
 #include "radar/resolution.h"
+#include "sample.h"
 #include "sensor/cell_margins.h"
 
 enum { ALL = 4 };
@@ -123,6 +124,74 @@ static void a_cell_has_the_least_margins_of_its_pairs(void **state)
     }
 }
 
+/* By how many half cells b is beyond the edge of a's cell. */
+static double beyond(const struct received_echo *a, const struct received_echo *b)
+{
+    double size = 1 + fmax(a->widening, b->widening);
+    return fmax(fabs(a->range_m - b->range_m) / size,
+                fabs(a->range_rate_mps - b->range_rate_mps) / (2 * size)) -
+           1;
+}
+
+/* The margins of one cell from all pairs, as the header defines them. */
+static struct margins margins_from_all_pairs(const struct clustered_echoes *all, size_t number)
+{
+    struct margins margins = {0};
+    size_t opened = 0;
+    for (size_t i = 0; i < all->count; i++) {
+        if (all->cell[i] != opened)
+            continue;
+        opened++;
+        for (size_t j = i + 1; j < all->count; j++) {
+            bool left = all->cell[j] >= all->cell[i];
+            if (!left || (all->cell[i] != number && all->cell[j] != number))
+                continue;
+            double edge = beyond(&all->echoes[i], &all->echoes[j]);
+            margins_note(&margins, MARGIN_CELL_EDGE, fabs(edge));
+            if (edge <= 1)
+                margins_note(&margins, MARGIN_LEADER,
+                             20 * log10(all->echoes[i].amplitude / all->echoes[j].amplitude));
+        }
+    }
+    return margins;
+}
+
+/* Echoes along range, along range rate, in a crowd and few, some with larger cells than others. */
+static void margins_are_those_of_all_pairs(void **state)
+{
+    (void)state;
+    enum { ECHOES = 60 };
+    static const struct margins no_margins = {0};
+    uint64_t random = 5;
+    for (int round = 0; round < 400; round++) {
+        struct received_echo echoes[ECHOES];
+        struct resolution_echo places[ECHOES];
+        size_t cell[ECHOES], count = 1 + sample_bits(&random) % ECHOES;
+        double range_m = pow(10, sample_between(&random, -1, 3));
+        double rate_mps = pow(10, sample_between(&random, -1, 3));
+        for (size_t i = 0; i < count; i++) {
+            echoes[i] =
+                (struct received_echo){.range_m = sample_between(&random, 0, range_m),
+                                       .range_rate_mps = sample_between(&random, 0, rate_mps),
+                                       .amplitude = (double)(ECHOES - i),
+                                       .widening = i % 7 == 0 ? sample_between(&random, 0, 2) : 0,
+                                       .margins = &no_margins};
+            places[i] = resolution_cell_place(&echoes[i]);
+        }
+        struct arena arena = {0};
+        size_t cells = resolution_cluster(places, count, 1, 2, cell, &arena);
+        const struct clustered_echoes all = {echoes, cell, count};
+        const struct margins *margins = cell_margins_of(&sensor, &all, cells, &arena);
+        for (size_t i = 0; i < cells; i++) {
+            struct margins expected = margins_from_all_pairs(&all, i);
+            assert_int_equal(margins[i].present, expected.present);
+            assert_close(margins[i].cell_edge, expected.cell_edge, 1e-9);
+            assert_close(margins[i].leader_db, expected.leader_db, 1e-9);
+        }
+        arena_free(&arena);
+    }
+}
+
 /* One of the cells reaches 2 m, of which 1.5 m are a quarter from the edge. */
 static void the_edge_is_that_of_the_larger_cell(void **state)
 {
@@ -184,6 +253,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cell_has_the_least_margins_of_its_pairs),
+        cmocka_unit_test(margins_are_those_of_all_pairs),
         cmocka_unit_test(the_edge_is_that_of_the_larger_cell),
         cmocka_unit_test(a_cell_has_margins_of_threshold_and_sign),
         cmocka_unit_test(the_noisy_cell_has_the_lesser_margins),
