@@ -169,47 +169,13 @@ int frame_check_part(struct frame *frame, struct frame_part part, struct diag *d
 
 /* An entry's own values. An amplitude beyond the doubles is told before the angle it spoils. */
 static int check_entry(const struct record *record, const void *entry, double amplitude,
-                       struct diag *diag)
+                       const char *sensor, const char *object, struct diag *diag)
 {
-    if (isfinite(amplitude))
-        return field_check(record, entry, diag);
-    return diag_fail(diag, DIAG_DATA, "amplitude: %g; expected a finite number", amplitude);
-}
-
-static int name_entry(const char *object, const char *sensor, struct diag *diag)
-{
-    return diag_prefix(diag, "object \"%s\", seen by \"%s\": ", object, sensor);
-}
-
-static int check_echo_values(const struct frame *frame, struct diag *diag)
-{
-    for (size_t i = 0; i < frame->echoes.count; i++) {
-        const struct echo *echo = &frame->echoes.items[i];
-        if (check_entry(&echo_record, echo, 0, diag) != 0)
-            return name_entry(echo->id.object, echo->sensor, diag);
-    }
-    return 0;
-}
-
-static int check_cell_values(const struct frame *frame, struct diag *diag)
-{
-    for (size_t i = 0; i < frame->cells.count; i++) {
-        const struct cell *cell = &frame->cells.items[i];
-        if (cell->members.count > 0 && check_entry(&cell_record, cell, cell->amplitude, diag) != 0)
-            return name_entry(cell->members.items[0].id.object, cell->sensor, diag);
-    }
-    return 0;
-}
-
-static int check_target_values(const struct frame *frame, struct diag *diag)
-{
-    for (size_t i = 0; i < frame->targets.count; i++) {
-        const struct target *target = &frame->targets.items[i];
-        if (target->contributors.count > 0 &&
-            check_entry(&target_record, target, target->cell_amplitude, diag) != 0)
-            return name_entry(target->contributors.items[0].id.object, target->sensor, diag);
-    }
-    return 0;
+    int result =
+        isfinite(amplitude)
+            ? field_check(record, entry, diag)
+            : diag_fail(diag, DIAG_DATA, "amplitude: %g; expected a finite number", amplitude);
+    return result == 0 ? 0 : diag_prefix(diag, "object \"%s\", seen by \"%s\": ", object, sensor);
 }
 
 int frame_check_extremes(const struct frame *frame, struct diag *diag)
@@ -217,8 +183,22 @@ int frame_check_extremes(const struct frame *frame, struct diag *diag)
     for (size_t i = 0; i < frame->objects.count; i++)
         if (field_check(&object_record, &frame->objects.items[i], diag) != 0)
             return diag_prefix(diag, "object \"%s\": ", frame->objects.items[i].id);
-    bool good = check_echo_values(frame, diag) == 0 && check_cell_values(frame, diag) == 0 &&
-                check_target_values(frame, diag) == 0 &&
-                field_check_sections(&frame_record, frame, SECTION_COUNTS, diag) == 0;
-    return good ? 0 : -1;
+    int result = 0;
+    for (size_t i = 0; i < frame->echoes.count && result == 0; i++) {
+        const struct echo *echo = &frame->echoes.items[i];
+        result = check_entry(&echo_record, echo, 0, echo->sensor, echo->id.object, diag);
+    }
+    for (size_t i = 0; i < frame->cells.count && result == 0; i++) {
+        const struct cell *cell = &frame->cells.items[i];
+        if (cell->members.count > 0)
+            result = check_entry(&cell_record, cell, cell->amplitude, cell->sensor,
+                                 cell->members.items[0].id.object, diag);
+    }
+    for (size_t i = 0; i < frame->targets.count && result == 0; i++) {
+        const struct target *target = &frame->targets.items[i];
+        if (target->contributors.count > 0)
+            result = check_entry(&target_record, target, target->cell_amplitude, target->sensor,
+                                 target->contributors.items[0].id.object, diag);
+    }
+    return result != 0 ? -1 : field_check_sections(&frame_record, frame, SECTION_COUNTS, diag);
 }
