@@ -63,8 +63,8 @@ static void write_type(const struct field *field, int depth, struct text *text)
         text_add_word(text, ", \"type\": \"boolean\"");
         break;
     case FIELD_NAME:
-        text_format(text, ", \"type\": \"string\", \"minLength\": 1, \"maxLength\": %d",
-                    FIELD_NAME_SIZE);
+        text_format(text, ", \"type\": %s, \"minLength\": 1, \"maxLength\": %d",
+                    field->or_number ? "[\"string\", \"integer\"]" : "\"string\"", FIELD_NAME_SIZE);
         break;
     case FIELD_CHOICE:
         text_add_word(text, ", ");

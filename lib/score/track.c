@@ -4,7 +4,9 @@
 #include "frame/frame_order.h"
 
 static const struct field track_fields[] = {
-    {FIELD_NAME_OF(struct track, id, "unique in the line; constant for an object")},
+    {FIELD_NAME_OF(struct track, id,
+                   "unique in the line; constant for an object; a number is its digits"),
+     .or_number = true},
     {FIELD_REAL_IN(struct track, x_m, -1e7, 1e7,
                    "centre of the object's box, in the frame's coordinates")},
     {FIELD_REAL_IN(struct track, y_m, -1e7, 1e7,

@@ -46,8 +46,9 @@ struct field {
     const char *name;
     char key[FIELD_KEY_SIZE]; /* ,"range_m": as in a line, behind another member */
     unsigned char key_length;
-    bool optional; /* may be absent; it is not written if it has the value of an absent one */
-    bool steady;   /* a list that frames repeat (list_cache.h) */
+    bool optional;  /* may be absent; it is not written if it has the value of an absent one */
+    bool steady;    /* a list that frames repeat (list_cache.h) */
+    bool or_number; /* a name that may be a whole number in text: its digits are the name */
     enum field_kind kind;
     size_t offset;
     double low, high;

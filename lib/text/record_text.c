@@ -61,6 +61,22 @@ static bool take_name(struct reader *reader, const struct field *field, void *ba
     return true;
 }
 
+/* Reads a whole number as a name: 7 is the name "7". */
+static int read_numbered(struct reader *reader, const struct field *field, void *base)
+{
+    struct json_scan *scan = &reader->scan;
+    const char *text = scan->at;
+    double value;
+    if (json_scan_number(scan, &value) != 0)
+        return diag_prefix(scan->diag, "%s: ", field->name);
+    size_t length = (size_t)(scan->at - text);
+    if (memchr(text, '.', length) || memchr(text, 'e', length) || memchr(text, 'E', length))
+        return diag_fail(scan->diag, DIAG_DATA, "%s: %.*s is no whole number", field->name,
+                         (int)length, text);
+    keep_name(reader, field, text, length, base);
+    return 0;
+}
+
 static int read_choice(struct json_scan *scan, const struct field *field, void *base, size_t index)
 {
     struct json_string name;
@@ -221,6 +237,9 @@ static int read_value(struct reader *reader, const struct field *field, void *ba
             return read_flag(scan, field, base);
         break;
     case FIELD_NAME:
+        if (field->or_number && (first == '-' || (first >= '0' && first <= '9')))
+            return read_numbered(reader, field, base);
+        /* fall through */
     case FIELD_CHOICE:
     case FIELD_SEED:
         if (first == '"')
