@@ -166,6 +166,27 @@ static void the_interval_spans_the_scenes(void **state)
     end(&truth), end(&listed);
 }
 
+/* A target is shifted by a cell in one scene and by two in the other: one resample in four has the
+ * nearer scene alone, one the farther. */
+static void the_interval_of_two_scenes_ends_at_their_energies(void **state)
+{
+    (void)state;
+    struct stream truth, listed;
+    begin(&truth, 0), begin(&listed, 100);
+    for (int scene = 0; scene < 2; scene++)
+        for (int seed = 0; seed < 3; seed++) {
+            truth.frame.scene = listed.frame.scene = scene == 0 ? "s" : "t";
+            add(&truth, (double[]){20}, 1);
+            add(&listed, (double[]){22 + 2 * scene}, 1);
+        }
+    struct ensemble_score score = compare(&truth, &listed);
+    assert_true(score.scenes.items[0].energy > 0.1);
+    assert_true(score.scenes.items[1].energy > score.scenes.items[0].energy);
+    assert_near(score.low, score.scenes.items[0].energy, 1e-12);
+    assert_near(score.high, score.scenes.items[1].energy, 1e-12);
+    end(&truth), end(&listed);
+}
+
 static void streams_that_do_not_match_are_refused(void **state)
 {
     (void)state;
@@ -205,6 +226,7 @@ int main(void)
         cmocka_unit_test(a_target_listed_less_often_gives_the_distance_by_hand),
         cmocka_unit_test(gospa_favours_lists_without_scatter_and_energy_does_not),
         cmocka_unit_test(the_interval_spans_the_scenes),
+        cmocka_unit_test(the_interval_of_two_scenes_ends_at_their_energies),
         cmocka_unit_test(streams_that_do_not_match_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
