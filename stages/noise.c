@@ -2,20 +2,19 @@
  * range rate (9), misalignment, false alarms (14), the final threshold, the order and the limit of
  * the list (10, 11), and the rounding of what is reported. */
 #include "base/units.h"
-#include "effects/effect.h"
 #include "noise/false_alarm_cells.h"
 #include "noise/measurement_noise.h"
 #include "run/suite_choice.h"
 
 /* Measures all cells and keeps those that are still a target after noise. Returns their number. */
 static size_t measure_cells(struct frame *frame, const struct effect_scan *context,
-                            struct cell_span cells, struct measurement *measurements)
+                            struct cell_span cells, struct effect_measurement *measurements)
 {
     bool tested = effect_simulates(context, EFFECT_FINAL_THRESHOLD);
     size_t count = 0;
     for (size_t i = 0; i < cells.count; i++) {
         const struct cell *cell = &cells.items[i];
-        struct measurement *measurement = &measurements[count];
+        struct effect_measurement *measurement = &measurements[count];
         bool has_angle = measurement_noise_read(context, cell, measurement);
         double threshold = suite_threshold(context->sensor, cell->interference);
         if (tested && measurement->amplitude < threshold)
@@ -36,16 +35,12 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
     struct effect_scan context = effect_begin(frame, sensor, selection, EFFECT_HOME_NOISE);
     struct cell_span alarms = false_alarm_cells_of(frame, &context);
     struct cell_span cells = frame_cells_of(frame, sensor->name);
-    struct measurement *measurements =
+    struct effect_measurement *measurements =
         arena_get(frame->arena, (cells.count + alarms.count + 1) * sizeof *measurements);
     size_t count = measure_cells(frame, &context, cells, measurements);
     for (size_t i = 0; i < alarms.count; i++)
-        measurements[count++] = target_list_measure(&alarms.items[i]);
-    size_t first = frame->targets.count;
-    bool limited = effect_simulates(&context, EFFECT_LIST_LIMIT);
-    target_list_make(frame, "noise", sensor, measurements, count, limited ? sensor->list_limit : 0);
-    for (size_t i = first; i < frame->targets.count; i++)
-        target_list_round(&context, &frame->targets.items[i]);
+        measurements[count++] = effect_measurement_of(NULL, &alarms.items[i]);
+    target_list_make(frame, "noise", sensor, measurements, count, &context);
 }
 
 const struct stage stage_noise = {

@@ -7,14 +7,14 @@
 #include "noise/target_list.h"
 #include "run/suite_choice.h"
 
-static struct measurement measure(const struct frame *frame, const struct sensor *sensor,
-                                  const struct cell *cell)
+static struct effect_measurement measure(const struct frame *frame, const struct sensor *sensor,
+                                         const struct cell *cell)
 {
     struct random_address address = draw_address_of(frame, sensor->name, cell->members.items[0].id);
     double range_and_rate[2], azimuth[2];
     random_gaussian_pair(&address, RANDOM_RANGE_RATE, 0, range_and_rate);
     random_gaussian_pair(&address, RANDOM_AZIMUTH, 0, azimuth);
-    struct measurement measurement = target_list_measure(cell);
+    struct effect_measurement measurement = effect_measurement_of(NULL, cell);
     measurement.range_m =
         elementary_max(measurement.range_m + sensor->range_sigma_m * range_and_rate[0], 0);
     measurement.range_rate_mps += sensor->range_rate_sigma_mps * range_and_rate[1];
@@ -28,10 +28,11 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
 {
     (void)selection;
     struct cell_span cells = frame_cells_of(frame, sensor->name);
-    struct measurement *measurements = arena_get(frame->arena, cells.count * sizeof *measurements);
+    struct effect_measurement *measurements =
+        arena_get(frame->arena, cells.count * sizeof *measurements);
     for (size_t i = 0; i < cells.count; i++)
         measurements[i] = measure(frame, sensor, &cells.items[i]);
-    target_list_make(frame, "noise-gauss", sensor, measurements, cells.count, 0);
+    target_list_make(frame, "noise-gauss", sensor, measurements, cells.count, NULL);
 }
 
 const struct stage stage_noise_gauss = {

@@ -7,10 +7,11 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
 {
     (void)selection;
     struct cell_span cells = frame_cells_of(frame, sensor->name);
-    struct measurement *measurements = arena_get(frame->arena, cells.count * sizeof *measurements);
+    struct effect_measurement *measurements =
+        arena_get(frame->arena, cells.count * sizeof *measurements);
     for (size_t i = 0; i < cells.count; i++)
-        measurements[i] = target_list_measure(&cells.items[i]);
-    target_list_make(frame, "noise-none", sensor, measurements, cells.count, 0);
+        measurements[i] = effect_measurement_of(NULL, &cells.items[i]);
+    target_list_make(frame, "noise-none", sensor, measurements, cells.count, NULL);
 }
 
 const struct stage stage_noise_none = {

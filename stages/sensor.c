@@ -46,8 +46,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
     struct scan scan = scan_make(&context, selection);
     effects_note(selection, EFFECT_SUPERPOSITION, false);
     effects_note(selection, EFFECT_THRESHOLD, true);
-    scan_count_added(&scan, frame);
-    scan_lose_silent(&scan, frame, "sensor");
+    scan_account(&scan, frame, "sensor");
     const struct margins *margins =
         frame->margins ? cell_margins_of(sensor, &scan.received, scan.cells, frame->arena) : NULL;
     for (size_t number = 0; number < scan.cells; number++)

@@ -84,8 +84,7 @@ static void sense(struct frame *frame, const struct transform *transform,
     struct effect_scan noise = effect_begin(frame, sensor, selection, EFFECT_HOME_NOISE);
     context.receiving &= ~EFFECT_BIT(EFFECT_RANGE_MIGRATION); /* the samples have it */
     struct scan scan = scan_receive(&context);
-    scan_count_added(&scan, frame);
-    scan_lose_silent(&scan, frame, "sensor-signal");
+    scan_account(&scan, frame, "sensor-signal");
     struct signal_input input =
         signal_cube_input(signal, &scan, effect_simulates(&noise, EFFECT_ANGLE_NOISE));
     receive(transform, &input);

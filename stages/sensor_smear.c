@@ -40,8 +40,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
     effects_note(selection, EFFECT_MERGING, merge);
     effects_note(selection, EFFECT_SUPERPOSITION, merge);
     effects_note(selection, EFFECT_THRESHOLD, true);
-    scan_count_added(&scan, frame);
-    scan_lose_silent(&scan, frame, "sensor-smear");
+    scan_account(&scan, frame, "sensor-smear");
     for (size_t first = 0; first < count; first += together) {
         int64_t start_ns = effects_clock_ns(selection);
         struct smear smear =

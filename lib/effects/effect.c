@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/elementary.h"
 #include "frame/draw_address.h"
 
 #define EFFECT(id, name) extern const struct effect effect_##name;
@@ -111,17 +112,23 @@ uint64_t effect_receive(const struct effect_scan *scan, struct effect_reception 
 struct effect_measurement effect_measurement_of(const struct effect_scan *scan,
                                                 const struct cell *cell)
 {
-    return (struct effect_measurement){
+    struct effect_measurement measurement = {
         .cell = cell,
-        .address = draw_address_in(scan->address, cell->members.items[0].id),
         .pointers = frame_cell_pointers(cell),
         .range_m = cell->range_m,
         .azimuth_rad = cell->azimuth_rad,
         .range_rate_mps = cell->range_rate_mps,
-        .range_sigma_m = scan->sensor->range_sigma_m,
-        .range_rate_sigma_mps = scan->sensor->range_rate_sigma_mps,
+        .amplitude = elementary_hypot(cell->sum_re, cell->sum_im),
+        .sign_undecided = cell->sign_undecided,
         .effects = cell->effects,
+        .margins = cell->margins,
     };
+    if (scan == NULL)
+        return measurement;
+    measurement.address = draw_address_in(scan->address, cell->members.items[0].id);
+    measurement.range_sigma_m = scan->sensor->range_sigma_m;
+    measurement.range_rate_sigma_mps = scan->sensor->range_rate_sigma_mps;
+    return measurement;
 }
 
 void effect_measure(const struct effect_scan *scan, enum effect_step step,

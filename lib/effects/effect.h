@@ -61,14 +61,17 @@ struct effect_echoes {
     LIST_OF(struct echo) list;
 };
 
-/* One cell on its way to a measurement. */
+/* What a sensor measures of one cell, which may become a target. */
 struct effect_measurement {
     const struct cell *cell;
     struct random_address address; /* of the cell's draws */
     struct antenna_pointers pointers;
     double range_m, azimuth_rad, range_rate_mps;
     double range_sigma_m, range_rate_sigma_mps; /* standard deviations */
-    uint64_t effects;                           /* the effects that changed one of the values */
+    double amplitude;                           /* linear */
+    bool sign_undecided;
+    uint64_t effects; /* the effects that changed one of the values */
+    struct margins margins;
 };
 
 struct effect {
@@ -124,7 +127,8 @@ bool effect_scale(struct effect_reception *reception, double factor);
 /* Calls the hooks receive on one echo. Returns the set of effects that changed it. */
 uint64_t effect_receive(const struct effect_scan *scan, struct effect_reception *reception);
 
-/* A cell before any step, with its noise-free values. */
+/* A cell's own values and margins; the amplitude is that of its sum pointer. Without a scan (NULL)
+ * it has no address and no standard deviations, which the steps need. */
 struct effect_measurement effect_measurement_of(const struct effect_scan *scan,
                                                 const struct cell *cell);
 

@@ -27,8 +27,9 @@ static struct contributor draw_contributor(const struct sensor *sensor, int64_t 
     return contributor;
 }
 
-static struct cell cell_of(struct frame *frame, const struct sensor *sensor,
-                           const struct contributor *contributor, double amplitude)
+struct cell false_alarm_cells_cell(const struct sensor *sensor,
+                                   const struct contributor *contributor, double amplitude,
+                                   struct arena *arena)
 {
     struct cell cell = {
         .sensor = sensor->name,
@@ -39,7 +40,7 @@ static struct cell cell_of(struct frame *frame, const struct sensor *sensor,
         .sum_re = amplitude,
         .effects = EFFECT_BIT(EFFECT_FALSE_ALARMS),
     };
-    *list_add(&cell.members, frame->arena) = *contributor;
+    *list_add(&cell.members, arena) = *contributor;
     return cell;
 }
 
@@ -64,9 +65,9 @@ struct cell_span false_alarm_cells_of(struct frame *frame, const struct effect_s
         random_uniform(&address, RANDOM_FALSE_ALARMS, (uint32_t)i + 1, uniform);
         struct contributor contributor = draw_contributor(sensor, (int64_t)i + 1, uniform);
         contributor.time_s = context->time_s;
-        cells[i] = cell_of(
-            frame, sensor, &contributor,
-            false_alarm_cells_amplitude(sensor->threshold, sensor->pointer_sigma, uniform[3]));
+        double amplitude =
+            false_alarm_cells_amplitude(sensor->threshold, sensor->pointer_sigma, uniform[3]);
+        cells[i] = false_alarm_cells_cell(sensor, &contributor, amplitude, frame->arena);
     }
     if (count > 0)
         frame_count_echoes(frame, sensor->name, PATH_FALSE_ALARM, (int64_t)count);

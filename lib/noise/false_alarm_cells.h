@@ -10,10 +10,16 @@
 #include "frame/frame.h"
 
 struct effect_scan;
+struct sensor;
 
 /* The contributor of false alarm `number` of a scan, from 1, without values. All draws of the scan
  * are addressed by that of number 0. */
 struct contributor false_alarm_cells_contributor(int64_t number);
+
+/* The cell of a false alarm with this contributor. */
+struct cell false_alarm_cells_cell(const struct sensor *sensor,
+                                   const struct contributor *contributor, double amplitude,
+                                   struct arena *arena);
 
 /* The amplitude of noise that has passed the threshold, by a uniform draw in (0, 1). Its power is
  * threshold^2 + sigma^2 Exp(1), because an exponential distribution has no memory; without noise

@@ -8,9 +8,6 @@
  * off them, noise is added to range and range rate, and misalignment and radome turn the azimuth.
  * False if both noisy pointers are zero, so that there is no azimuth. */
 bool measurement_noise_read(const struct effect_scan *context, const struct cell *cell,
-                            struct measurement *measurement);
-
-/* Turns the azimuth of a measurement by misalignment and radome, and changes nothing else. */
-void measurement_noise_turn(const struct effect_scan *context, struct measurement *measurement);
+                            struct effect_measurement *measurement);
 
 #endif

@@ -3,8 +3,6 @@
 #include "base/elementary.h"
 #include "base/units.h"
 
-#define LN_2 0.693147180559945309417
-
 /* A curve over the logarithm of the frequency in GHz: a sum of Gaussian bells and a straight line.
  */
 struct curve {

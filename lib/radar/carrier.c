@@ -2,35 +2,16 @@
 
 #include <math.h>
 
-#define LIGHT_MPS 299792458.0
+#include "base/units.h"
+#include "base/vec2.h"
 
-/* A rounded product and its rounding error; their sum is the exact product. */
-struct product {
-    double rounded, error;
-};
-
-/* The leading 26 bits of x (Veltkamp). */
-static double leading(double x)
-{
-    double shifted = 0x8000001p0 * x;
-    return shifted - (shifted - x);
-}
-
-/* The exact product by Dekker's algorithm. */
-static struct product multiply(double a, double b)
-{
-    double a_high = leading(a), b_high = leading(b);
-    double a_low = a - a_high, b_low = b - b_high;
-    double rounded = a * b;
-    double error = a_high * b_high - rounded + a_high * b_low + a_low * b_high + a_low * b_low;
-    return (struct product){rounded, error};
-}
-
+/* The products are exact: each is a rounded one and its rest. */
 double carrier_phase_turns(double range_m, double carrier_hz)
 {
-    struct product path = multiply(2 * range_m, carrier_hz);
-    struct product whole = multiply(round(path.rounded / LIGHT_MPS), LIGHT_MPS);
-    double rest = path.rounded - whole.rounded - whole.error + path.error;
-    double turns = rest / LIGHT_MPS;
+    const double light_mps = SPEED_OF_LIGHT_MPS;
+    double path = 2 * range_m * carrier_hz, whole = round(path / light_mps);
+    double path_rest = vec2_product_rest(2 * range_m, carrier_hz, path);
+    double whole_rest = vec2_product_rest(whole, light_mps, whole * light_mps);
+    double turns = (path - whole * light_mps - whole_rest + path_rest) / light_mps;
     return turns - round(turns);
 }

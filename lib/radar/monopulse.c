@@ -89,10 +89,3 @@ double monopulse_sign_margin(struct antenna_pointers pointers)
     double sine = fabs(cross_of(&sum, &delta)) / (sum.size * delta.size);
     return sine > 1 ? 1 : sine;
 }
-
-double monopulse_asr(struct antenna_pointers pointers)
-{
-    double sum = elementary_hypot(creal(pointers.sum), cimag(pointers.sum));
-    double delta = elementary_hypot(creal(pointers.delta), cimag(pointers.delta));
-    return (delta - sum) / (delta + sum);
-}

@@ -43,9 +43,4 @@ double monopulse_sigma_rad(const struct antenna *antenna, enum monopulse_estimat
  * 0, undecided, to 1. NaN if a pointer is zero. */
 double monopulse_sign_margin(struct antenna_pointers pointers);
 
-/* The additive sensing ratio (|delta| - |sum|) / (|delta| + |sum|) of equation (7), in [-1, 1], for
- * figures and tests; monopulse_angle keeps more digits without it. Not both pointers may be zero.
- */
-double monopulse_asr(struct antenna_pointers pointers);
-
 #endif

@@ -82,20 +82,17 @@ const struct received_echo *scan_members(const struct scan *scan, size_t number,
     return scan->by_cell + scan->first[number];
 }
 
-void scan_count_added(const struct scan *scan, struct frame *frame)
+void scan_account(const struct scan *scan, struct frame *frame, const char *stage)
 {
+    const char *sensor = scan->context.sensor->name;
     for (size_t i = 0; i < scan->added.count; i++)
-        frame_count_echoes(frame, scan->context.sensor->name, scan->added.items[i].id.path, 1);
-}
-
-void scan_lose_silent(const struct scan *scan, struct frame *frame, const char *stage)
-{
+        frame_count_echoes(frame, sensor, scan->added.items[i].id.path, 1);
     for (size_t i = 0; i < scan->silent_count; i++) {
         const struct received_echo *silent = &scan->silent[i];
         struct lost_echo lost = {.id = silent->echo.id,
                                  .range_m = silent->echo.range_m,
                                  .azimuth_rad = silent->echo.azimuth_rad,
                                  .margins = *silent->margins};
-        frame_lose(frame, stage, scan->context.sensor->name, LOSS_NO_AMPLITUDE, &lost);
+        frame_lose(frame, stage, sensor, LOSS_NO_AMPLITUDE, &lost);
     }
 }

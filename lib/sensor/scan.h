@@ -28,10 +28,8 @@ struct scan scan_make(const struct effect_scan *context, const struct selection 
 /* The members of cell `number`, the leader first; sets count. */
 const struct received_echo *scan_members(const struct scan *scan, size_t number, size_t *count);
 
-/* Counts the added echoes in the frame, by their paths. */
-void scan_count_added(const struct scan *scan, struct frame *frame);
-
-/* Writes the loss of every silent echo, with its margins, into the frame. */
-void scan_lose_silent(const struct scan *scan, struct frame *frame, const char *stage);
+/* Counts the added echoes in the frame, by their paths, and writes the loss of every silent echo,
+ * with its margins. */
+void scan_account(const struct scan *scan, struct frame *frame, const char *stage);
 
 #endif

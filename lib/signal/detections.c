@@ -4,8 +4,8 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
-#include "effects/effect.h"
 #include "noise/false_alarm_cells.h"
+#include "noise/target_list.h"
 #include "radar/folding.h"
 #include "sensor/cell_margins.h"
 #include "signal/unfolding.h"
@@ -159,15 +159,7 @@ static void label_false_alarm(const struct sensor *sensor, struct detection *det
     noise.azimuth_rad = detection->azimuth_rad;
     noise.range_rate_mps = detection->range_rate_mps;
     noise.time_s = time_s;
-    detection->cell = (struct cell){
-        .sensor = sensor->name,
-        .range_m = noise.range_m,
-        .azimuth_rad = noise.azimuth_rad,
-        .range_rate_mps = noise.range_rate_mps,
-        .amplitude = detection->amplitude,
-        .effects = EFFECT_BIT(EFFECT_FALSE_ALARMS),
-    };
-    *list_add(&detection->cell.members, arena) = noise;
+    detection->cell = false_alarm_cells_cell(sensor, &noise, detection->amplitude, arena);
 }
 
 /* Records a received echo as lost: below the threshold alone, below it among others, or, beside
@@ -231,9 +223,9 @@ void detections_label(struct detections *detections, struct frame *frame, const 
         frame_count_echoes(frame, sensor->name, PATH_FALSE_ALARM, alarms);
 }
 
-static struct measurement measurement_of(const struct detection *detection)
+static struct effect_measurement measurement_of(const struct detection *detection)
 {
-    struct measurement measurement = target_list_measure(&detection->cell);
+    struct effect_measurement measurement = effect_measurement_of(NULL, &detection->cell);
     if (detection->range_m != measurement.range_m ||
         detection->range_rate_mps != measurement.range_rate_mps)
         measurement.effects |= EFFECT_BIT(EFFECT_RANGE_NOISE);
@@ -250,15 +242,12 @@ static struct measurement measurement_of(const struct detection *detection)
 void detections_list(const struct detections *detections, struct frame *frame, const char *stage,
                      const struct effect_scan *noise)
 {
-    size_t first = frame->targets.count, count = detections->list.count;
-    struct measurement *measurements = arena_get(frame->arena, (count + 1) * sizeof *measurements);
+    size_t count = detections->list.count;
+    struct effect_measurement *measurements =
+        arena_get(frame->arena, (count + 1) * sizeof *measurements);
     for (size_t i = 0; i < count; i++) {
         measurements[i] = measurement_of(&detections->list.items[i]);
-        measurement_noise_turn(noise, &measurements[i]);
+        effect_measure(noise, EFFECT_STEP_AZIMUTH, &measurements[i]);
     }
-    bool limited = effect_simulates(noise, EFFECT_LIST_LIMIT);
-    target_list_make(frame, stage, noise->sensor, measurements, count,
-                     limited ? noise->sensor->list_limit : 0);
-    for (size_t i = first; i < frame->targets.count; i++)
-        target_list_round(noise, &frame->targets.items[i]);
+    target_list_make(frame, stage, noise->sensor, measurements, count, noise);
 }

@@ -8,7 +8,7 @@
 #ifndef DETECTIONS_H
 #define DETECTIONS_H
 
-#include "noise/measurement_noise.h"
+#include "effects/effect.h"
 #include "signal/signal_cube.h"
 
 struct clustered_echoes;

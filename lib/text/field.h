@@ -36,7 +36,6 @@ enum field_kind {
 enum {
     FIELD_NAME_SIZE = 1024,
     FIELD_RAW_SIZE = 64 * 1024,
-    FIELD_PATH_SIZE = 128,
     FIELD_KEY_SIZE = 32
 };
 

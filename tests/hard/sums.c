@@ -391,14 +391,14 @@ static void list_readings(struct frame *frame, const double *amplitudes, size_t 
 {
     const struct sensor sensor = {.name = "s"};
     struct cell *cells = arena_get(frame->arena, count * sizeof *cells);
-    struct measurement *measurements = arena_get(frame->arena, count * sizeof *measurements);
+    struct effect_measurement *measurements = arena_get(frame->arena, count * sizeof *measurements);
     for (size_t i = 0; i < count; i++) {
         cells[i] = (struct cell){.sensor = "s", .sum_re = amplitudes[i]};
         *list_add(&cells[i].members, frame->arena) =
             (struct contributor){.id.object = "o", .id.reflector = "r", .weight = 1};
-        measurements[i] = target_list_measure(&cells[i]);
+        measurements[i] = effect_measurement_of(NULL, &cells[i]);
     }
-    target_list_make(frame, "noise", &sensor, measurements, count, 0);
+    target_list_make(frame, "noise", &sensor, measurements, count, NULL);
 }
 
 static void no_amplitude_makes_infinite_decibels(void **state)

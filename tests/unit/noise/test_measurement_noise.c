@@ -30,7 +30,7 @@ static void without_noise_a_measurement_has_the_values_of_its_cell(void **state)
     struct effect_bench *bench = *state;
     struct effect_scan context = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
     struct cell cell = cell_of(bench);
-    struct measurement read;
+    struct effect_measurement read;
     assert_true(measurement_noise_read(&context, &cell, &read));
     assert_true(read.cell == &cell && read.range_m == 30 && read.range_rate_mps == -3);
     assert_close(read.azimuth_rad, 0.1, 1e-12);
@@ -46,7 +46,7 @@ static void angle_and_amplitude_are_those_of_the_noisy_pointers(void **state)
     sensor->misalignment_rad = 0.02;
     struct effect_scan context = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
     struct cell cell = cell_of(bench);
-    struct measurement read;
+    struct effect_measurement read;
     struct effect_measurement noisy = effect_measurement_of(&context, &cell);
     effect_measure(&context, EFFECT_STEP_POINTERS, &noisy);
     struct monopulse_angle angle =
@@ -64,21 +64,8 @@ static void pointers_of_zero_have_no_angle(void **state)
     struct effect_bench *bench = *state;
     struct effect_scan context = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
     const struct cell cell = {.members = {&leader, 1, 1}};
-    struct measurement read;
+    struct effect_measurement read;
     assert_false(measurement_noise_read(&context, &cell, &read));
-}
-
-static void misalignment_turns_the_azimuth_alone(void **state)
-{
-    struct effect_bench *bench = *state;
-    bench->sensor.misalignment_rad = 0.02;
-    bench->sensor.range_sigma_m = bench->sensor.pointer_sigma = 1;
-    struct effect_scan context = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
-    struct measurement measurement = {.range_m = 30, .azimuth_rad = 0.1, .amplitude = 4};
-    measurement_noise_turn(&context, &measurement);
-    assert_close(measurement.azimuth_rad, 0.12, 1e-15);
-    assert_true(measurement.range_m == 30 && measurement.amplitude == 4);
-    assert_true(measurement.effects == EFFECT_BIT(EFFECT_MISALIGNMENT));
 }
 
 int main(void)
@@ -87,7 +74,6 @@ int main(void)
         EFFECT_TEST(without_noise_a_measurement_has_the_values_of_its_cell),
         EFFECT_TEST(angle_and_amplitude_are_those_of_the_noisy_pointers),
         EFFECT_TEST(pointers_of_zero_have_no_angle),
-        EFFECT_TEST(misalignment_turns_the_azimuth_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

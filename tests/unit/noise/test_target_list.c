@@ -14,7 +14,7 @@ struct list {
     struct frame frame;
     struct sensor sensor;
     struct cell cells[8];
-    struct measurement measurements[8];
+    struct effect_measurement measurements[8];
     size_t count;
 };
 
@@ -31,13 +31,21 @@ static void add_measurement(struct list *list, const char *object, double range_
     *cell = (struct cell){.sensor = "s", .range_m = range_m, .sum_re = amplitude};
     *list_add(&cell->members, &list->arena) = (struct contributor){
         .id.object = object, .id.reflector = "r", .range_m = range_m, .weight = 1};
-    list->measurements[list->count++] = target_list_measure(cell);
+    list->measurements[list->count++] = effect_measurement_of(NULL, cell);
+}
+
+/* Makes the list with at most limit targets; 0: all. */
+static void make(struct list *list, int64_t limit)
+{
+    const struct effect_scan scan = {.effects = EFFECT_BIT(EFFECT_LIST_LIMIT)};
+    list->sensor.list_limit = limit;
+    target_list_make(&list->frame, "noise", &list->sensor, list->measurements, list->count, &scan);
 }
 
 /* Makes the list and compares its targets with objects, one letter each. */
 static void assert_listed(struct list *list, int64_t limit, const char *objects)
 {
-    target_list_make(&list->frame, "noise", &list->sensor, list->measurements, list->count, limit);
+    make(list, limit);
     assert_int_equal(list->frame.targets.count, strlen(objects));
     for (size_t i = 0; i < list->frame.targets.count; i++)
         assert_int_equal(list->frame.targets.items[i].contributors.items[0].id.object[0],
@@ -93,7 +101,7 @@ static void the_order_of_the_measurements_does_not_matter(void **state)
         add_all(&list);
         for (size_t i = list.count; i > 1; i--) {
             size_t j = sample_bits(&random) % i;
-            struct measurement kept = list.measurements[j];
+            struct effect_measurement kept = list.measurements[j];
             list.measurements[j] = list.measurements[i - 1];
             list.measurements[i - 1] = kept;
         }
@@ -113,7 +121,7 @@ static void a_target_has_its_measurement_and_the_label_of_its_cell(void **state)
     list.cells[0].range_rate_mps = -3;
     list.cells[0].amplitude = 9;
     list.cells[0].sign_undecided = true;
-    list.measurements[0] = target_list_measure(&list.cells[0]);
+    list.measurements[0] = effect_measurement_of(NULL, &list.cells[0]);
     assert_close(list.measurements[0].amplitude, 5, 0);
     assert_true(list.measurements[0].sign_undecided);
     list.measurements[0].range_m = 10.25;
@@ -162,8 +170,7 @@ static void a_limit_gives_margins_to_both_sides_of_the_cut(void **state)
         begin_list(&list, cases[i].order);
         list.frame.margins = true;
         add_all(&list);
-        target_list_make(&list.frame, "noise", &list.sensor, list.measurements, list.count,
-                         cases[i].limit);
+        make(&list, cases[i].limit);
         bool in_db = cases[i].present == MARGIN_LIMIT_DB;
         for (size_t j = 0; j < list.frame.targets.count; j++) {
             const struct margins *margins = &list.frame.targets.items[j].margins;
@@ -197,34 +204,48 @@ static void an_amplitude_that_is_no_number_makes_no_target(void **state)
     arena_free(&list.arena);
 }
 
+/* The target of a sensor with steps that lists this measurement alone. */
+static struct target round_target(struct list *list, const struct effect_measurement *measurement)
+{
+    static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
+    begin_list(list, LIST_STRONGEST);
+    list->frame.scene = "s";
+    list->sensor.range_step_m = 0.5;
+    list->sensor.range_rate_step_mps = 0.25;
+    list->sensor.azimuth_step_rad = 1.1;
+    add_measurement(list, "a", 10.3, 2);
+    list->measurements[0].range_m = measurement->range_m;
+    list->measurements[0].azimuth_rad = measurement->azimuth_rad;
+    list->measurements[0].range_rate_mps = measurement->range_rate_mps;
+    struct effect_scan scan =
+        effect_begin(&list->frame, &list->sensor, &everything, EFFECT_HOME_NOISE);
+    target_list_make(&list->frame, "noise", &list->sensor, list->measurements, 1, &scan);
+    assert_int_equal(list->frame.targets.count, 1);
+    struct target target = list->frame.targets.items[0];
+    arena_free(&list->arena);
+    return target;
+}
+
 static void a_listed_target_is_rounded_and_its_label_is_not(void **state)
 {
     (void)state;
-    const struct sensor sensor = {
-        .name = "s", .range_step_m = 0.5, .range_rate_step_mps = 0.25, .azimuth_step_rad = 1.1};
-    static const struct selection everything = {.allowed = EFFECT_BIT(EFFECT_COUNT) - 1};
-    const struct frame frame = {.scene = "s"};
-    struct effect_scan context = effect_begin(&frame, &sensor, &everything, EFFECT_HOME_NOISE);
+    struct list list;
     static const struct {
         double azimuth_rad, reported_rad;
     } cases[] = {{0.4, 0}, {-1, -1.1}, {3.1, 3.3 - 2 * PI}};
     for (size_t i = 0; i < COUNT(cases); i++) {
-        struct target target = {.range_m = 10.3,
-                                .azimuth_rad = cases[i].azimuth_rad,
-                                .range_rate_mps = -3.2,
-                                .cell_range_m = 10.3,
-                                .amplitude_db = 7.7};
-        target_list_round(&context, &target);
+        const struct effect_measurement measurement = {
+            .range_m = 10.3, .azimuth_rad = cases[i].azimuth_rad, .range_rate_mps = -3.2};
+        struct target target = round_target(&list, &measurement);
         assert_close(target.range_m, 10.5, 0);
         assert_close(target.azimuth_rad, cases[i].reported_rad, 1e-15);
         assert_close(target.range_rate_mps, -3.25, 0);
         assert_close(target.cell_range_m, 10.3, 0);
-        assert_close(target.amplitude_db, 7.7, 0);
+        assert_close(target.amplitude_db, 20 * log10(2), 1e-13);
         assert_int_equal(target.effects, EFFECT_BIT(EFFECT_QUANTISATION));
     }
-    struct target even = {.range_m = 10.5, .range_rate_mps = -3.25};
-    target_list_round(&context, &even);
-    assert_int_equal(even.effects, 0);
+    const struct effect_measurement even = {.range_m = 10.5, .range_rate_mps = -3.25};
+    assert_int_equal(round_target(&list, &even).effects, 0);
 }
 
 int main(void)

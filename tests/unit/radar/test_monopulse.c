@@ -26,6 +26,13 @@ static struct antenna_pointers weigh(struct antenna_pointers pointers, double _C
     return (struct antenna_pointers){weight * pointers.sum, weight * pointers.delta};
 }
 
+/* The additive sensing ratio of equation (7). */
+static double sensing_ratio(struct antenna_pointers pointers)
+{
+    double sum = cabs(pointers.sum), delta = cabs(pointers.delta);
+    return (delta - sum) / (delta + sum);
+}
+
 /* Equation (8) without noise. */
 static struct antenna_pointers superpose(const struct antenna *antenna, double first_rad,
                                          double _Complex first, double second_rad,
@@ -64,9 +71,9 @@ static void the_sensing_ratio_has_the_published_values(void **state)
                                      {60, 0.647976, 5.01e-7},
                                      {80, 0.95338, 5.01e-6}};
     for (size_t i = 0; i < COUNT(rows); i++) {
-        assert_close(monopulse_asr(antenna_pointers(&ELEMENT, rows[i][0] * DEGREE)), rows[i][1],
+        assert_close(sensing_ratio(antenna_pointers(&ELEMENT, rows[i][0] * DEGREE)), rows[i][1],
                      rows[i][2]);
-        assert_close(monopulse_asr(antenna_pointers(&CENTRE, -rows[i][0] * DEGREE)), rows[i][1],
+        assert_close(sensing_ratio(antenna_pointers(&CENTRE, -rows[i][0] * DEGREE)), rows[i][1],
                      rows[i][2]);
     }
 }
@@ -78,7 +85,7 @@ static void the_sensing_ratio_and_its_inverse_are_closed_forms(void **state)
     for (int i = -890; i <= 890; i++) {
         double azimuth_rad = 0.1 * i * DEGREE;
         struct antenna_pointers pointers = antenna_pointers(&ELEMENT, azimuth_rad);
-        double asr = monopulse_asr(pointers);
+        double asr = sensing_ratio(pointers);
         assert_close(asr, tan(PI / 2 * fabs(sin(azimuth_rad)) - PI / 4), 1e-15);
         assert_close(monopulse_angle(&ELEMENT, MONOPULSE_MAGNITUDE, pointers).azimuth_rad,
                      copysign(asin(0.5 + 2 / PI * atan(asr)), azimuth_rad), 2e-14);
@@ -96,8 +103,8 @@ static void the_sensing_ratio_is_as_well_conditioned_as_published(void **state)
     for (size_t i = 0; i < COUNT(rows); i++) {
         double below = fmax(rows[i][0] - 1e-4, 0);
         double above = rows[i][0] + 1e-4;
-        double change = monopulse_asr(antenna_pointers(&CENTRE, above * DEGREE)) -
-                        monopulse_asr(antenna_pointers(&CENTRE, below * DEGREE));
+        double change = sensing_ratio(antenna_pointers(&CENTRE, above * DEGREE)) -
+                        sensing_ratio(antenna_pointers(&CENTRE, below * DEGREE));
         assert_close((above - below) / change, rows[i][1], rows[i][2]);
     }
 }
@@ -135,7 +142,7 @@ static void the_common_phase_and_size_of_the_pointers_do_not_matter(void **state
                     assert_close(angle.azimuth_rad, azimuth_deg * DEGREE, 2e-15);
                 }
                 if (sizes[i] < 1e100)
-                    assert_close(monopulse_asr(pointers),
+                    assert_close(sensing_ratio(pointers),
                                  tan(PI / 2 * sin(abs(azimuth_deg) * DEGREE) - PI / 4), 2e-15);
             }
 }

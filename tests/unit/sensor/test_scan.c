@@ -136,7 +136,7 @@ static void silent_echoes_are_lost_with_their_margins(void **state)
     add_echo(bench, "radar", "b", 20, 0, 0);
     margins_note(&bench->frame.echoes.items[1].margins, MARGIN_SIGHT, 0.25);
     struct scan scan = scan_of(bench);
-    scan_lose_silent(&scan, &bench->frame, "sensor");
+    scan_account(&scan, &bench->frame, "sensor");
     assert_int_equal(bench->frame.lost.count, 1);
     const struct lost_group *group = bench->frame.lost.items;
     assert_string_equal(group->sensor, "radar");
