@@ -103,12 +103,8 @@ static const struct suite *find_suite_of(struct runner *runner, const struct fra
 {
     const char *name = frame->sensors.suite;
     const struct suite *suite = suite_at(runner, name, frame);
-    struct text here = {0};
-    text_format(&here, "./%s.json", name);
-    text_add(&here, "", 1);
     if (suite == NULL)
-        suite = suite_at(runner, here.bytes, frame);
-    text_free(&here);
+        suite = suite_at(runner, arena_format(&runner->arena, "./%s.json", name), frame);
     if (suite == NULL)
         diag_fail(
             &runner->diag, DIAG_CONFIG,

@@ -26,19 +26,17 @@ static struct place place_of(double value, double bin_width)
     return (struct place){(int64_t)whole, (samples - whole) / SAMPLES_PER_BIN};
 }
 
-/* The slot of a sample, or the empty slot where it belongs. */
+static inline bool is_sample(const void *samples, uint32_t number, const void *wanted)
+{
+    const struct smear_sample *a = (const struct smear_sample *)samples + number, *b = wanted;
+    return a->range == b->range && a->rate == b->rate;
+}
+
 static uint32_t *slot_of(const struct smear *smear, int64_t range, int64_t rate)
 {
-    uint64_t mixed = (uint64_t)range * UINT64_C(0x9e3779b97f4a7c15) + (uint64_t)rate;
-    mixed *= UINT64_C(0xc2b2ae3d27d4eb4f);
-    for (size_t at = (size_t)(mixed >> 32);; at++) {
-        uint32_t *slot = &smear->slot[at & (smear->slots - 1)];
-        if (*slot == 0)
-            return slot;
-        const struct smear_sample *sample = &smear->samples[*slot - 1];
-        if (sample->range == range && sample->rate == rate)
-            return slot;
-    }
+    const struct smear_sample wanted = {.range = range, .rate = rate};
+    uint64_t hash = hash_table_mix(hash_table_mix(0, (uint64_t)range), (uint64_t)rate);
+    return hash_table_slot(&smear->numbers, hash, is_sample, smear->samples, &wanted);
 }
 
 static const struct smear_sample *find(const struct smear *smear, int64_t range, int64_t rate)
@@ -177,12 +175,10 @@ static size_t most_samples(const struct received_echo *echoes, size_t count)
 struct smear smear_make(const struct sensor *sensor, const struct received_echo *echoes,
                         size_t count, struct arena *arena)
 {
-    struct smear smear = {.sensor = sensor, .echoes = echoes, .count = count, .slots = 2};
+    struct smear smear = {.sensor = sensor, .echoes = echoes, .count = count};
     size_t most = most_samples(echoes, count);
-    while (smear.slots < 2 * most)
-        smear.slots *= 2;
     smear.samples = arena_get(arena, most * sizeof *smear.samples);
-    smear.slot = arena_get(arena, smear.slots * sizeof *smear.slot);
+    smear.numbers = hash_table_begin(most, arena);
     smear.cell = arena_get(arena, 2 * (count + 1) * sizeof *smear.cell);
     smear.peak = smear.cell + count + 1;
     for (size_t i = 0; i < count; i++)

@@ -16,6 +16,7 @@
 #ifndef SMEAR_H
 #define SMEAR_H
 
+#include "base/hash_table.h"
 #include "sensor/resolution_cell.h"
 
 struct smear_sample {
@@ -31,10 +32,9 @@ struct smear {
     size_t count;
     struct smear_sample *samples;
     size_t sample_count;
-    uint32_t *slot; /* a hash table of samples by their numbers, counted from 1; 0: empty */
-    size_t slots;   /* a power of two */
-    size_t *cell;   /* the number of each echo's cell */
-    size_t *peak;   /* each cell's sample; cells are numbered in the order of their first echoes */
+    struct hash_table numbers; /* of samples, by their range and rate */
+    size_t *cell;              /* the number of each echo's cell */
+    size_t *peak; /* each cell's sample; cells are numbered in the order of their first echoes */
     size_t cells;
 };
 

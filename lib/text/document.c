@@ -19,15 +19,6 @@ void document_guard_memory(void)
     json_set_alloc_funcs(memory_get, free);
 }
 
-static const char *join(struct arena *arena, const char *a, const char *b, const char *c,
-                        const char *d)
-{
-    size_t size = strlen(a) + strlen(b) + strlen(c) + strlen(d) + 1;
-    char *whole = arena_get(arena, size);
-    snprintf(whole, size, "%s%s%s%s", a, b, c, d);
-    return whole;
-}
-
 const char *document_own_folder(struct arena *arena)
 {
     enum { ROOM = 4096 };
@@ -63,17 +54,18 @@ static int find_folders(const char *kind, const char *own, struct folders *folde
     const char *checkout = strcmp(kind, "pipelines") == 0 ? "../../" : "../../data/";
     *folders = (struct folders){0};
     if (own != NULL)
-        folders->paths[folders->count++] = join(arena, own, "/", "", "");
+        folders->paths[folders->count++] = arena_format(arena, "%s/", own);
     if (given != NULL && *given != '\0') {
         if (document_check_folder("GLINT_DATA", given, diag) != 0)
             return -1;
-        folders->paths[folders->count++] = join(arena, given, "/", kind, "/");
+        folders->paths[folders->count++] = arena_format(arena, "%s/%s/", given, kind);
     }
     if (*beside != '\0') {
-        folders->paths[folders->count++] = join(arena, beside, "../share/glint/", kind, "/");
-        folders->paths[folders->count++] = join(arena, beside, checkout, kind, "/");
+        folders->paths[folders->count++] =
+            arena_format(arena, "%s../share/glint/%s/", beside, kind);
+        folders->paths[folders->count++] = arena_format(arena, "%s%s%s/", beside, checkout, kind);
     }
-    folders->paths[folders->count++] = join(arena, "data/", kind, "/", "");
+    folders->paths[folders->count++] = arena_format(arena, "data/%s/", kind);
     return 0;
 }
 
@@ -163,7 +155,7 @@ static const char *find_in(const char *own, const char *kind, const char *name, 
     if (find_folders(kind, own, &folders, arena, diag) != 0)
         return NULL;
     for (size_t i = 0; i < folders.count; i++) {
-        const char *path = join(arena, folders.paths[i], name, ending, "");
+        const char *path = arena_format(arena, "%s%s%s", folders.paths[i], name, ending);
         if (access(path, F_OK) == 0)
             return path;
     }
