@@ -282,13 +282,11 @@ module.exports = ({stream, view, withPage, targetOnMap, clickMap, panelText, clo
                 assert.deepStrictEqual(await look(page), expected);
                 await page.keyboard.press('ArrowRight');
                 await page.waitForFunction(frame => location.hash.includes(`frame=${frame}`), busy.frame + 1);
-                await page.evaluate(() => location.reload());
-                await page.waitForFunction(() => state.frame >= 0);
+                await page.reload();
                 assert.deepStrictEqual(await look(page), {...expected, frame: busy.frame + 1});
                 await page.keyboard.press('Escape');
                 await page.waitForFunction(() => location.hash.includes('object=&'));
-                await page.evaluate(() => location.reload());
-                await page.waitForFunction(() => state.frame >= 0);
+                await page.reload();
                 assert.strictEqual(await page.evaluate(() => state.object), -1);
             });
         },

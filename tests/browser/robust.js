@@ -114,8 +114,8 @@ module.exports = ({work, stream, view, withPage}) => {
             await withPage(view(frames), async page => {
                 const has = name => page.evaluate(one => decoded.has(one), name);
                 await page.evaluate(() => { chooseObject(-1); showPane('recording'); });
-                await page.evaluate(() => { location.hash = ''; location.reload(); });
-                await page.waitForFunction(() => state.frame >= 0);
+                await page.waitForFunction(() => location.hash.includes('object=&'));
+                await page.reload();
                 await page.evaluate(() => draw());
                 assert.ok(await has('target_range_m'));
                 assert.ok(!await has('target_cell_range_m'));
