@@ -188,7 +188,7 @@ function pairRow(pair) {
     const row = make('tr', null, kind);
     const mark = make('td');
     const symbol = target >= 0 ? targetSymbol(scan, target)
-        : symbolCanvas(sensorStyle(scan), ink.soft, 18, true);
+        : pooledSymbol(sensorStyle(scan), ink.soft, 18, 'ghost');
     mark.append(symbol, target >= 0 ? ` ${target - targetsOf(scan).begin + 1}` : '');
     const object = truth >= 0 ? nameOrNone('truth_object', truth) : names[objectOfTarget(target)];
     row.append(mark, make('td', kind === 'matched' ? object : `${kind}: ${object}`));

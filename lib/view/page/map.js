@@ -4,6 +4,8 @@
 const canvas = document.getElementById('map');
 const context = canvas.getContext('2d');
 
+let mapSize = {width: 0, height: 0}; // in CSS pixels, as drawn last; to ask the canvas takes long
+
 const camera = {x: 12, y: 0, scale: 20};
 
 function egoBox() {
@@ -35,7 +37,7 @@ function fromLocal(local) {
 function localToScreen(local) {
     const ahead = (local.x - camera.x) * camera.scale;
     const left = (local.y - camera.y) * camera.scale;
-    const middle = {x: canvas.clientWidth / 2, y: canvas.clientHeight / 2};
+    const middle = {x: mapSize.width / 2, y: mapSize.height / 2};
     return state.up === 'right' ? {x: middle.x + ahead, y: middle.y - left}
         : {x: middle.x - left, y: middle.y - ahead};
 }
@@ -96,8 +98,8 @@ function traceOutline(box) {
 }
 
 function onScreen(at, margin) {
-    return at.x > -margin && at.y > -margin && at.x < canvas.clientWidth + margin &&
-        at.y < canvas.clientHeight + margin;
+    return at.x > -margin && at.y > -margin && at.x < mapSize.width + margin &&
+        at.y < mapSize.height + margin;
 }
 
 function drawObject(row) {
@@ -432,7 +434,7 @@ function reserveRoom() {
 }
 
 function drawMap() {
-    fitCanvas(canvas, context);
+    mapSize = fitCanvas(canvas, context);
     if (state.frame < 0) {
         return;
     }

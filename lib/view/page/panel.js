@@ -65,7 +65,7 @@ function contributorPath(i) {
 }
 
 function targetSymbol(scan, target) {
-    return symbolCanvas(sensorStyle(scan), colourOf(scan, target), 18, kindOf(target));
+    return pooledSymbol(sensorStyle(scan), colourOf(scan, target), 18, kindOf(target));
 }
 
 function shortReason(loss) {
@@ -192,7 +192,7 @@ function sensorTitle(scan, text) {
     const title = make('h3');
     const style = sensorStyle(scan);
     const name = make('b', sensorOf(scan).name);
-    title.append(symbolCanvas(style, sensorColour(style), 16), ' ', name, text ? `: ${text}` : '');
+    title.append(pooledSymbol(style, sensorColour(style), 16), ' ', name, text ? `: ${text}` : '');
     return title;
 }
 

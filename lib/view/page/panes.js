@@ -3,7 +3,21 @@
 const panes = new Map([...document.querySelectorAll('#panes button')]
     .map(tab => [tab.getAttribute('aria-controls'), {tab, fill: () => {}}]));
 
+// Symbols that the pane drew before, by their look: to make a canvas takes longer than a whole row.
+const symbolPool = new Map();
+
+function pooledSymbol(style, colour, size, kind) {
+    const look = [style, colour, size, kind, isDark()].join();
+    const drawn = symbolPool.get(look) || {symbols: [], used: 0};
+    symbolPool.set(look, drawn);
+    if (drawn.used === drawn.symbols.length) {
+        drawn.symbols.push(symbolCanvas(style, colour, size, kind));
+    }
+    return drawn.symbols[drawn.used++];
+}
+
 function fillPane() {
+    symbolPool.forEach(drawn => { drawn.used = 0; });
     panes.get(state.pane).fill();
 }
 
