@@ -54,6 +54,15 @@ function enlargeNextPlot() {
     enlargePlot(kinds[(kinds.indexOf(state.large) + 1) % kinds.length]);
 }
 
+// On a narrow window the sentence about the frame stands below the map, else above it.
+function placeSentence(narrow) {
+    if (narrow) {
+        document.querySelector('aside').prepend(control('sentence'));
+    } else {
+        document.querySelector('main').before(control('sentence'));
+    }
+}
+
 function showNextPane() {
     const offered = [...panes.keys()].filter(name => !panes.get(name).tab.hidden);
     showPane(offered[(offered.indexOf(state.pane) + 1) % offered.length]);
@@ -61,6 +70,9 @@ function showNextPane() {
 
 function connectPanes() {
     panes.get('panel').fill = showPanel;
+    const narrow = window.matchMedia('(max-width: 800px)');
+    narrow.addEventListener('change', event => placeSentence(event.matches));
+    placeSentence(narrow.matches);
     for (const [name, {tab}] of panes) {
         tab.addEventListener('click', () => showPane(name));
     }
