@@ -87,7 +87,7 @@ function drawRings() {
         farthest = Math.max(farthest, sensorOf(scan).range_max_m);
     }
     const at = toScreen(centre);
-    const step = gridStep(110);
+    const step = Math.min(gridStep(110), roundStep(farthest, 4)); // at least two rings
     const ahead = screenAngle(state.ego ? state.ego.yaw : 0);
     context.strokeStyle = ink.faint;
     context.lineWidth = 1;
