@@ -535,10 +535,11 @@ void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *
 
 static struct count *count_of(struct frame *frame, const char *sensor)
 {
-    struct count *items = frame->counts.items, *count = items + frame->counts.count;
-    if (count > items && frame_same_name(count[-1].sensor, sensor))
-        return count - 1;
-    count = find_named(items, frame->ordered.counts, sizeof *items, sensor);
+    struct count *items = frame->counts.items;
+    size_t known = frame->counts.count;
+    if (known > 0 && frame_same_name(items[known - 1].sensor, sensor))
+        return &items[known - 1];
+    struct count *count = find_named(items, frame->ordered.counts, sizeof *items, sensor);
     if (count == NULL)
         count = list_add(&frame->counts, frame->arena);
     count->sensor = sensor;
