@@ -145,24 +145,23 @@ static int start_scenes(struct bench *bench)
                : -1;
 }
 
-/* Starts glint-ideal with its options; the stages after it read theirs off the frame. */
-static int start_ideal(struct planner *planner, const struct soundness *wanted)
+/* Starts glint-ideal with its options. The stages after it read theirs off the frame, but for the
+ * place of the suite. */
+static int start_step(struct planner *planner, int step, const struct soundness *wanted)
 {
-    const char *const words[] = {"--sensors", wanted->sensors,
-                                 "--effects", planner->effects,
-                                 "--account", wanted->margins ? "--margins" : NULL,
-                                 NULL};
-    return start_stage(&planner->runners[0], steps[0], words);
+    const char *const of_ideal[] = {"--sensors", wanted->sensors,
+                                    "--effects", planner->effects,
+                                    "--account", wanted->margins ? "--margins" : NULL,
+                                    NULL};
+    const char *const of_others[] = {"--sensors", wanted->sensors, NULL};
+    return start_stage(&planner->runners[step], steps[step], step == 0 ? of_ideal : of_others);
 }
 
 static int start_planner(struct planner *planner, const struct bench *bench, const char *effects)
 {
-    static const char *const no_words[] = {NULL};
     *planner = (struct planner){.effects = effects};
     for (int i = 0; i < STEPS; i++) {
-        int result = i == 0 ? start_ideal(planner, bench->wanted)
-                            : start_stage(&planner->runners[i], steps[i], no_words);
-        if (result != 0)
+        if (start_step(planner, i, bench->wanted) != 0)
             return -1;
         planner->logs[i].clock_ns = no_clock_ns;
         planner->runners[i].log = &planner->logs[i];
