@@ -74,13 +74,20 @@ def texts(root):
     return list(walk(root, (0.0, 0.0), False, {"font-size": "16"}))
 
 
+def fill_of(node, root):
+    """The fill of a node by light: its own, or that of its class in the picture's style."""
+    styles = "".join(style.text for style in root.iter() if style.tag.endswith("}style"))
+    of_class = re.search(r"\.%s\{fill:([^;}]+)" % re.escape(node.get("class", "")), styles)
+    return node.get("fill", of_class.group(1) if of_class else "").lower()
+
+
 def check_picture(path, shown):
     """shown: how wide a page makes the picture."""
     name = os.path.basename(path)
     root = xml.parse(path).getroot()
     width, height = (float(root.get(side)) for side in ("width", "height"))
     ground = [node for node in root.iter() if node.tag.endswith("}rect") or node.tag.endswith("}polygon")]
-    check(ground and "#fff" in ground[0].get("fill", "").lower(), f"{name} has no ground of its own")
+    check(ground and fill_of(ground[0], root) in ("#fff", "#ffffff"), f"{name} has no ground of its own")
     found = texts(root)
     check(len(found) > 0, f"{name} has no text")
     for number, (text, box, size) in enumerate(found):
