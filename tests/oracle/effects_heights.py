@@ -293,8 +293,9 @@ def full_suite():
 
 
 def whole_chain(bench, text, effects):
-    ideal = ["glint-ideal", "--sensors", bench.write_suite(full_suite()), "--effects", effects, "--account"]
-    for words in (["glint-extract"], ideal, ["glint-sensor"], ["glint-noise"]):
+    sensors = ["--sensors", bench.write_suite(full_suite())]
+    ideal = ["glint-ideal", *sensors, "--effects", effects, "--account"]
+    for words in (["glint-extract"], ideal, ["glint-sensor", *sensors], ["glint-noise", *sensors]):
         text = bench.stage(words, text)
     return [json.loads(line) for line in text.splitlines()]
 
