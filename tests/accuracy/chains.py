@@ -80,7 +80,9 @@ class Chain:
                  base=None):
         self.group, self.name, self.radar, self.base = group, name, radar, base
         self.suite = radar.suites[size]
-        self.stages = [extract, f"glint-ideal --sensors {self.suite} --effects {effects}", *sensor.split(" | ")]
+        suite = f" --sensors {self.suite}"
+        self.stages = [extract, f"glint-ideal{suite} --effects {effects}"]
+        self.stages += [stage + suite for stage in sensor.split(" | ")]
         self.slow = sensor == SIGNAL
 
     def text(self, files, out):
