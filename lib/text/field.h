@@ -33,11 +33,7 @@ enum field_kind {
     FIELD_NOTES,  /* no member: an object of strings, for people; documents only */
 };
 
-enum {
-    FIELD_NAME_SIZE = 1024,
-    FIELD_RAW_SIZE = 64 * 1024,
-    FIELD_KEY_SIZE = 32
-};
+enum { FIELD_NAME_SIZE = 1024, FIELD_RAW_SIZE = 64 * 1024, FIELD_KEY_SIZE = 32 };
 
 struct record;
 
