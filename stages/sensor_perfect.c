@@ -7,10 +7,7 @@ static void make_cell(struct frame *frame, const struct sensor *sensor, const st
     struct received_echo received = received_echo_in_free_space(sensor, echo, 0);
     struct cell cell;
     if (!(received.amplitude > 0)) {
-        struct lost_echo lost = {.id = echo->id,
-                                 .range_m = echo->range_m,
-                                 .azimuth_rad = echo->azimuth_rad,
-                                 .margins = echo->margins};
+        struct lost_echo lost = frame_lost_echo(&received.echo, &echo->margins);
         frame_lose(frame, "sensor-perfect", sensor->name, LOSS_NO_AMPLITUDE, &lost);
         return;
     }

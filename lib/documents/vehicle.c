@@ -72,10 +72,8 @@ static int read_vehicle(const char *path, struct vehicle *vehicle, struct arena 
 const struct vehicle *vehicle_load(const char *class, const char *folder, struct arena *arena,
                                    struct diag *diag)
 {
-    if (!document_is_plain(class)) {
-        diag_fail(diag, DIAG_DATA, "\"%s\" is a path; expected a plain name", class);
+    if (document_check_plain(class, diag) != 0)
         return NULL;
-    }
     const char *path = document_find_file(folder, "vehicles", class, ".json", arena, diag);
     struct vehicle *vehicle = arena_get(arena, sizeof *vehicle);
     if (path == NULL || read_vehicle(path, vehicle, arena, diag) != 0)

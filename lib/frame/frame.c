@@ -445,6 +445,29 @@ static void *find_named(const void *items, size_t count, size_t size, const char
 #define FIND_NAMED(list, name)                                                                     \
     find_named((list)->items, (list)->count, sizeof *(list)->items, (name))
 
+/* All items in canonical order that begin with this name: the first of them, or NULL, and their
+ * number. */
+static const void *run_named(const void *items, size_t count, size_t size, const char *name,
+                             size_t *run)
+{
+    const char *first = find_named(items, count, size, name), *begin = items;
+    const char *end = first;
+    *run = 0;
+    if (first == NULL)
+        return NULL;
+    while (first > begin &&
+           frame_same_name(*(const char *const *)(const void *)(first - size), name))
+        first -= size;
+    while (end < begin + count * size &&
+           frame_same_name(*(const char *const *)(const void *)end, name))
+        end += size;
+    *run = (size_t)(end - first) / size;
+    return first;
+}
+
+#define RUN_NAMED(list, name, run)                                                                 \
+    run_named((list)->items, (list)->count, sizeof *(list)->items, (name), (run))
+
 const struct sensor_view *frame_view(const struct frame *frame, const char *sensor)
 {
     return FIND_NAMED(&frame->sensors.list, sensor);
@@ -452,26 +475,16 @@ const struct sensor_view *frame_view(const struct frame *frame, const char *sens
 
 struct echo_span frame_echoes_of(const struct frame *frame, const char *sensor)
 {
-    const struct echo *first = FIND_NAMED(&frame->echoes, sensor), *end = first;
-    if (first == NULL)
-        return (struct echo_span){0};
-    while (first > frame->echoes.items && frame_same_name(first[-1].sensor, sensor))
-        first--;
-    while (end < frame->echoes.items + frame->echoes.count && frame_same_name(end->sensor, sensor))
-        end++;
-    return (struct echo_span){first, (size_t)(end - first)};
+    size_t count;
+    const struct echo *first = RUN_NAMED(&frame->echoes, sensor, &count);
+    return (struct echo_span){first, count};
 }
 
 struct cell_span frame_cells_of(const struct frame *frame, const char *sensor)
 {
-    const struct cell *first = FIND_NAMED(&frame->cells, sensor), *end = first;
-    if (first == NULL)
-        return (struct cell_span){0};
-    while (first > frame->cells.items && frame_same_name(first[-1].sensor, sensor))
-        first--;
-    while (end < frame->cells.items + frame->cells.count && frame_same_name(end->sensor, sensor))
-        end++;
-    return (struct cell_span){first, (size_t)(end - first)};
+    size_t count;
+    const struct cell *first = RUN_NAMED(&frame->cells, sensor, &count);
+    return (struct cell_span){first, count};
 }
 
 struct contributor frame_contributor(const struct echo *echo)
@@ -519,16 +532,20 @@ void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum
     added->azimuth_rad = round(echo->azimuth_rad * 1e5) / 1e5;
 }
 
+struct lost_echo frame_lost_echo(const struct contributor *echo, const struct margins *margins)
+{
+    return (struct lost_echo){.id = echo->id,
+                              .range_m = echo->range_m,
+                              .azimuth_rad = echo->azimuth_rad,
+                              .margins = *margins};
+}
+
 void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *cell,
                      enum loss reason, double shortfall_db, const struct margins *margins)
 {
     for (size_t i = 0; i < cell->members.count; i++) {
-        const struct contributor *member = &cell->members.items[i];
-        struct lost_echo lost = {.id = member->id,
-                                 .range_m = member->range_m,
-                                 .azimuth_rad = member->azimuth_rad,
-                                 .shortfall_db = shortfall_db,
-                                 .margins = *margins};
+        struct lost_echo lost = frame_lost_echo(&cell->members.items[i], margins);
+        lost.shortfall_db = shortfall_db;
         frame_lose(frame, stage, cell->sensor, reason, &lost);
     }
 }

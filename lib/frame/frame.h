@@ -309,6 +309,9 @@ struct antenna_pointers frame_cell_pointers(const struct cell *cell);
 /* An echo as a contributor, with the weight 0. */
 struct contributor frame_contributor(const struct echo *echo);
 
+/* An echo, or a member of a cell, as it is lost. */
+struct lost_echo frame_lost_echo(const struct contributor *echo, const struct margins *margins);
+
 /* Adds a lost echo to the group of its sensor, stage and reason; a stage loses the echoes of one
  * sensor after those of another. Does nothing unless the frame keeps account. All text must live as
  * long as the frame. */

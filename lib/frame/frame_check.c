@@ -7,12 +7,6 @@
 #include "text/document.h"
 #include "text/field_check.h"
 
-/* Names of documents lead into the folders of documents, and nowhere else. */
-static int refuse_path(const char *name, struct diag *diag)
-{
-    return diag_fail(diag, DIAG_DATA, "\"%s\" is a path; expected a plain name", name);
-}
-
 static int check_objects(struct frame *frame, struct diag *diag)
 {
     struct object *const *object = frame_order_objects(frame);
@@ -22,10 +16,8 @@ static int check_objects(struct frame *frame, struct diag *diag)
     if (frame_object(frame, frame->ego) == NULL)
         return diag_fail(diag, DIAG_DATA, "ego: \"%s\" is not among the objects", frame->ego);
     for (size_t i = 0; i < frame->objects.count; i++)
-        if (!document_is_plain(frame->objects.items[i].class)) {
-            refuse_path(frame->objects.items[i].class, diag);
+        if (document_check_plain(frame->objects.items[i].class, diag) != 0)
             return diag_prefix(diag, "objects[%zu].class: ", i);
-        }
     return 0;
 }
 
@@ -60,10 +52,8 @@ static int check_sets(const struct frame *frame, struct diag *diag)
 static int check_views(const struct frame *frame, struct diag *diag)
 {
     const struct sensor_view *view = frame->sensors.list.items;
-    if (frame->sensors.suite != NULL && !document_is_plain(frame->sensors.suite)) {
-        refuse_path(frame->sensors.suite, diag);
+    if (frame->sensors.suite != NULL && document_check_plain(frame->sensors.suite, diag) != 0)
         return diag_prefix(diag, "sensors.suite: ");
-    }
     for (size_t i = 1; i < frame->sensors.list.count; i++)
         if (frame_same_name(view[i - 1].name, view[i].name))
             return diag_fail(diag, DIAG_DATA, "sensors.list: \"%s\" stands twice", view[i].name);

@@ -89,10 +89,7 @@ void scan_account(const struct scan *scan, struct frame *frame, const char *stag
         frame_count_echoes(frame, sensor, scan->added.items[i].id.path, 1);
     for (size_t i = 0; i < scan->silent_count; i++) {
         const struct received_echo *silent = &scan->silent[i];
-        struct lost_echo lost = {.id = silent->echo.id,
-                                 .range_m = silent->echo.range_m,
-                                 .azimuth_rad = silent->echo.azimuth_rad,
-                                 .margins = *silent->margins};
+        struct lost_echo lost = frame_lost_echo(&silent->echo, silent->margins);
         frame_lose(frame, stage, sensor, LOSS_NO_AMPLITUDE, &lost);
     }
 }

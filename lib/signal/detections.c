@@ -173,10 +173,7 @@ static void lose_echo(const struct detections *detections, struct frame *frame, 
     struct range_doppler_peak shown =
         range_doppler_at(detections->spectrum, &detections->cfar, range, rate);
     double threshold = elementary_max(shown.threshold, detections->least);
-    struct lost_echo lost = {.id = received->echo.id,
-                             .range_m = received->echo.range_m,
-                             .azimuth_rad = received->echo.azimuth_rad,
-                             .margins = *received->margins};
+    struct lost_echo lost = frame_lost_echo(&received->echo, received->margins);
     enum loss reason = LOSS_MASKED;
     if (received->amplitude < threshold || (shown.amplitude < threshold && shown.amplitude > 0)) {
         bool alone = received->amplitude < threshold;

@@ -43,6 +43,15 @@ static inline bool document_is_plain(const char *name)
     return strchr(name, '/') == NULL;
 }
 
+/* Refuses a name that is a path (DIAG_DATA), where a name leads into the folders of documents and
+ * nowhere else. */
+static inline int document_check_plain(const char *name, struct diag *diag)
+{
+    return document_is_plain(name)
+               ? 0
+               : diag_fail(diag, DIAG_DATA, "\"%s\" is a path; expected a plain name", name);
+}
+
 /* False for a pipe, a device and the like, which may never end. True for a file that is not there.
  */
 bool document_is_regular(const char *path);

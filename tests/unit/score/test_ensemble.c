@@ -144,18 +144,26 @@ static void gospa_favours_lists_without_scatter_and_energy_does_not(void **state
         end(&streams[i]);
 }
 
+/* Three seeds of two scenes: a true target at 20 m, and in each scene `count` listed ones at
+ * range_m. */
+static void begin_two_scenes(struct stream *truth, struct stream *listed, const double *range_m,
+                             const size_t *count)
+{
+    begin(truth, 0), begin(listed, 100);
+    for (int scene = 0; scene < 2; scene++)
+        for (int seed = 0; seed < 3; seed++) {
+            truth->frame.scene = listed->frame.scene = scene == 0 ? "s" : "t";
+            add(truth, (double[]){20}, 1);
+            add(listed, &range_m[scene], count[scene]);
+        }
+}
+
 /* With several scenes the mean is over scenes, and resampling spreads from one to the other. */
 static void the_interval_spans_the_scenes(void **state)
 {
     (void)state;
     struct stream truth, listed;
-    begin(&truth, 0), begin(&listed, 100);
-    for (int scene = 0; scene < 2; scene++)
-        for (int seed = 0; seed < 3; seed++) {
-            truth.frame.scene = listed.frame.scene = scene == 0 ? "s" : "t";
-            add(&truth, (double[]){20}, 1);
-            add(&listed, (double[]){20}, scene == 0);
-        }
+    begin_two_scenes(&truth, &listed, (double[]){20, 20}, (size_t[]){1, 0});
     struct ensemble_score score = compare(&truth, &listed);
     assert_int_equal(score.scenes.count, 2);
     assert_close(score.scenes.items[0].energy, 0, 0);
@@ -172,13 +180,7 @@ static void the_interval_of_two_scenes_ends_at_their_energies(void **state)
 {
     (void)state;
     struct stream truth, listed;
-    begin(&truth, 0), begin(&listed, 100);
-    for (int scene = 0; scene < 2; scene++)
-        for (int seed = 0; seed < 3; seed++) {
-            truth.frame.scene = listed.frame.scene = scene == 0 ? "s" : "t";
-            add(&truth, (double[]){20}, 1);
-            add(&listed, (double[]){22 + 2 * scene}, 1);
-        }
+    begin_two_scenes(&truth, &listed, (double[]){22, 24}, (size_t[]){1, 1});
     struct ensemble_score score = compare(&truth, &listed);
     assert_true(score.scenes.items[0].energy > 0.1);
     assert_true(score.scenes.items[1].energy > score.scenes.items[0].energy);
