@@ -17,7 +17,7 @@ def lose(frame, echoes):
         entry = {key: echo[key] for key in ("object", "reflector", "path", "range_m", "azimuth_rad")}
         groups.setdefault(echo["sensor"], []).append(entry)
     frame["lost"] += [
-        {"sensor": sensor, "stage": "mud", "reason": "out_of_view", "echoes": entries}
+        {"sensor": sensor, "stage": "mud", "reason": "covered", "echoes": entries}
         for sensor, entries in groups.items()
     ]
 

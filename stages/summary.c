@@ -103,7 +103,7 @@ static int summary_step(void *state, struct frame *frame, struct runner *runner)
     for (size_t i = 0; i < frame->targets.count; i++)
         count_target(summary, frame, &frame->targets.items[i], arena);
     for (size_t i = 0; i < frame->lost.count; i++)
-        count(&summary->outcomes, frame_loss_name(frame->lost.items[i].reason),
+        count(&summary->outcomes, frame_loss_words(&frame->lost.items[i], frame->arena),
               (int64_t)frame->lost.items[i].echoes.count, arena);
     return 0;
 }

@@ -2,6 +2,7 @@
 
 #include <complex.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -34,7 +35,7 @@ static const char *const losses[] = {
     [LOSS_LIST_LIMIT] = "list_limit",
     [LOSS_SWITCHED_OFF] = "switched_off",
     [LOSS_MASKED] = "masked",
-    NULL,
+    [LOSS_OWN] = NULL,
 };
 
 /* The effect to which each reason belongs. */
@@ -277,7 +278,9 @@ static const struct record lost_echo_record = {FIELD_TABLE(
 static const struct field lost_group_fields[] = {
     {NAME(struct lost_group, sensor, "name in the suite")},
     {NAME(struct lost_group, stage, "stage that lost them")},
-    {FIELD_CHOICE_OF(struct lost_group, reason, losses, "why they are part of no target")},
+    {NAME(struct lost_group, reason,
+          "why they are part of no target, or a word of the stage's own"),
+     .choices = losses},
     {FIELD_CHOICE_OF(struct lost_group, effect, effects_names,
                      "effect to which the reason belongs"),
      FIELD_OPTIONAL, .absent = EFFECT_NONE},
@@ -390,6 +393,24 @@ const char *frame_path_name(enum path path)
 const char *frame_loss_name(enum loss loss)
 {
     return losses[loss];
+}
+
+enum loss frame_loss_of(const char *reason)
+{
+    enum loss loss = 0;
+    while (losses[loss] != NULL && !frame_same_name(losses[loss], reason))
+        loss++;
+    return loss;
+}
+
+const char *frame_loss_words(const struct lost_group *group, struct arena *arena)
+{
+    if (frame_loss_of(group->reason) != LOSS_OWN)
+        return group->reason;
+    size_t size = strlen(group->stage) + strlen(": ") + strlen(group->reason) + 1;
+    char *words = arena_get(arena, size);
+    snprintf(words, size, "%s: %s", group->stage, group->reason);
+    return words;
 }
 
 void frame_drop(struct frame *frame, unsigned sections)
@@ -506,30 +527,47 @@ static struct lost_group *find_group(const struct frame *frame, const struct los
     struct lost_group *groups = frame->lost.items;
     size_t ordered = frame->ordered.lost, at = frame->lost.count;
     while (at > ordered && frame_same_name(groups[at - 1].sensor, wanted->sensor))
-        if (groups[--at].reason == wanted->reason &&
+        if (frame_same_name(groups[--at].reason, wanted->reason) &&
             frame_same_name(groups[at].stage, wanted->stage))
             return &groups[at];
     return ordered == 0 ? NULL
                         : bsearch(wanted, groups, ordered, sizeof *groups, frame_order_lost_groups);
 }
 
-void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum loss reason,
-                const struct lost_echo *echo)
+static void lose(struct frame *frame, const struct lost_group *kind, const struct lost_echo *echo)
 {
     if (!frame->account)
         return;
-    const struct lost_group lost = {
-        .sensor = sensor, .stage = stage, .reason = reason, .effect = losing_effects[reason]};
-    struct lost_group *group = find_group(frame, &lost);
+    struct lost_group *group = find_group(frame, kind);
     if (group == NULL) {
         group = list_add(&frame->lost, frame->arena);
-        *group = lost;
+        *group = *kind;
         frame->present |= SECTION_LOST;
     }
     struct lost_echo *added = list_add(&group->echoes, frame->arena);
     *added = *echo;
     added->range_m = round(echo->range_m * 1e3) / 1e3;
     added->azimuth_rad = round(echo->azimuth_rad * 1e5) / 1e5;
+}
+
+void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum loss reason,
+                const struct lost_echo *echo)
+{
+    lose(frame,
+         &(struct lost_group){.sensor = sensor,
+                              .stage = stage,
+                              .reason = losses[reason],
+                              .effect = losing_effects[reason]},
+         echo);
+}
+
+void frame_lose_own(struct frame *frame, const char *stage, const char *sensor, const char *reason,
+                    const struct lost_echo *echo)
+{
+    lose(frame,
+         &(struct lost_group){
+             .sensor = sensor, .stage = stage, .reason = reason, .effect = EFFECT_NONE},
+         echo);
 }
 
 struct lost_echo frame_lost_echo(const struct contributor *echo, const struct margins *margins)

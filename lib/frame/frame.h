@@ -180,6 +180,7 @@ enum loss {
     LOSS_LIST_LIMIT,      /* the list is full of targets that come first */
     LOSS_SWITCHED_OFF,    /* the effect that would have made the echo is not selected */
     LOSS_MASKED,          /* the echo is no peak of the spectrum beside stronger ones */
+    LOSS_OWN,             /* a reason that only its stage knows */
 };
 
 /* The range is to 1 mm and the azimuth to 1e-5 rad. Both are the echo's; of a reflector that sent
@@ -196,7 +197,7 @@ struct lost_echo {
 struct lost_group {
     const char *sensor;
     const char *stage;
-    enum loss reason;
+    const char *reason;    /* the name of an enum loss, or the stage's own: of a to z and _ */
     enum effect_id effect; /* to which the reason belongs, or EFFECT_NONE */
     LIST_OF(struct lost_echo) echoes;
 };
@@ -273,6 +274,13 @@ const char *frame_section_name(enum section section);
 const char *frame_path_name(enum path path);
 const char *frame_loss_name(enum loss loss);
 
+/* The reason of that name; LOSS_OWN for any other. */
+enum loss frame_loss_of(const char *reason);
+
+/* The reason of a group for people, in the arena: "blocked", or "mud: covered" if it is the own
+ * reason of the stage mud. */
+const char *frame_loss_words(const struct lost_group *group, struct arena *arena);
+
 /* Removes sections from the frame. */
 void frame_drop(struct frame *frame, unsigned sections);
 
@@ -317,6 +325,10 @@ struct lost_echo frame_lost_echo(const struct contributor *echo, const struct ma
  * long as the frame. */
 void frame_lose(struct frame *frame, const char *stage, const char *sensor, enum loss reason,
                 const struct lost_echo *echo);
+
+/* The same for a reason of the stage's own, of letters a to z and underscores. */
+void frame_lose_own(struct frame *frame, const char *stage, const char *sensor, const char *reason,
+                    const struct lost_echo *echo);
 
 /* Adds every member of a cell as a lost echo, each with these margins. shortfall_db is 0 for
  * reasons without a threshold. */

@@ -9,7 +9,7 @@
 /* The place of an echo that is in no target. */
 #define LOST SIZE_MAX
 
-/* One entry of an echo: in the target of this number, or LOST. */
+/* One entry of an echo: in the target, cell or list of echoes of this number, or LOST. */
 struct outcome {
     const char *sensor;
     struct echo_id id;
@@ -19,6 +19,7 @@ struct outcome {
 /* A hash table finds the entries of an echo, so that the time of the check is linear in the size of
  * the frame. */
 struct account_check {
+    const struct frame *frame;
     struct outcome *outcomes; /* of each echo the entry that was noted last */
     uint32_t count;
     struct hash_table numbers;     /* of outcomes */
@@ -75,9 +76,9 @@ static uint64_t hash_of(struct account_check *check, const struct echo_id *id)
                                     (uint64_t)id->number);
 }
 
-/* Notes an entry; all of targets, in their order, come before those of lost. Entries of one echo in
- * several targets are one; a second entry in one target, or in lost, is a fault. Returns true for
- * an echo that had no entry before. */
+/* Notes an entry; those of targets, in their order, come before those of lost. Entries of one echo
+ * in several targets are one; a second entry in one target, or in lost, is a fault. Returns true
+ * for an echo that had no entry before. */
 static bool note(struct account_check *check, struct outcome outcome)
 {
     uint32_t *slot = hash_table_slot(&check->numbers, hash_of(check, &outcome.id), is_echo,
@@ -95,20 +96,35 @@ static bool note(struct account_check *check, struct outcome outcome)
     return false;
 }
 
-static size_t count_outcomes(const struct frame *frame)
+/* The section that says which echoes are not lost. */
+static enum section kept_in(const struct frame *frame)
+{
+    return (frame->present & SECTION_TARGETS) != 0 ? SECTION_TARGETS
+           : (frame->present & SECTION_CELLS) != 0 ? SECTION_CELLS
+                                                   : SECTION_ECHOES;
+}
+
+static size_t count_kept(const struct frame *frame)
 {
     size_t count = 0;
-    for (size_t i = 0; i < frame->targets.count; i++)
-        count += frame->targets.items[i].contributors.count;
-    for (size_t i = 0; i < frame->lost.count; i++)
-        count += frame->lost.items[i].echoes.count;
+    if (kept_in(frame) == SECTION_TARGETS)
+        for (size_t i = 0; i < frame->targets.count; i++)
+            count += frame->targets.items[i].contributors.count;
+    else if (kept_in(frame) == SECTION_CELLS)
+        for (size_t i = 0; i < frame->cells.count; i++)
+            count += frame->cells.items[i].members.count;
+    else
+        count = frame->echoes.count;
     return count;
 }
 
 static struct account_check begin(const struct frame *frame)
 {
-    size_t count = count_outcomes(frame), counted = frame->counts.count;
+    size_t count = count_kept(frame), counted = frame->counts.count;
+    for (size_t i = 0; i < frame->lost.count; i++)
+        count += frame->lost.items[i].echoes.count;
     struct account_check check = {
+        .frame = frame,
         .outcomes = arena_room(frame->arena, count * sizeof(struct outcome)),
         .numbers = hash_table_begin(count, frame->arena),
         .sensors = intern_begin(counted, frame->arena),
@@ -119,30 +135,51 @@ static struct account_check begin(const struct frame *frame)
     return check;
 }
 
-static int64_t *entries_of(struct account_check *check, const struct frame *frame,
-                           const char *sensor)
+/* The number of entries of a sensor with a count, or of all others together. */
+static int64_t *entries_of(struct account_check *check, const char *sensor)
 {
+    const struct frame *frame = check->frame;
     size_t number = sensor_number(check, sensor, frame->arena), counted = frame->counts.count;
     return &check->entries[number < counted ? number : counted];
 }
 
-static void collect(const struct frame *frame, struct account_check *check)
+static void collect_members(struct account_check *check, const char *sensor, size_t place,
+                            const struct contributor *members, size_t count)
 {
-    for (size_t i = 0; i < frame->targets.count; i++) {
-        const struct target *target = &frame->targets.items[i];
-        int64_t *entries = entries_of(check, frame, target->sensor);
-        for (size_t j = 0; j < target->contributors.count; j++) {
-            const struct contributor *from = &target->contributors.items[j];
-            *entries += note(check, (struct outcome){target->sensor, from->id, i});
+    int64_t *entries = entries_of(check, sensor);
+    for (size_t i = 0; i < count; i++)
+        *entries += note(check, (struct outcome){sensor, members[i].id, place});
+}
+
+static void collect_kept(struct account_check *check)
+{
+    const struct frame *frame = check->frame;
+    const struct target *target = frame->targets.items;
+    const struct cell *cell = frame->cells.items;
+    const struct echo *echo = frame->echoes.items;
+    if (kept_in(frame) == SECTION_TARGETS)
+        for (size_t i = 0; i < frame->targets.count; i++)
+            collect_members(check, target[i].sensor, i, target[i].contributors.items,
+                            target[i].contributors.count);
+    else if (kept_in(frame) == SECTION_CELLS)
+        for (size_t i = 0; i < frame->cells.count; i++)
+            collect_members(check, cell[i].sensor, i, cell[i].members.items, cell[i].members.count);
+    else
+        for (size_t i = 0; i < frame->echoes.count; i++) {
+            int64_t *entries = entries_of(check, echo[i].sensor);
+            *entries += note(check, (struct outcome){echo[i].sensor, echo[i].id, 0});
         }
-    }
+}
+
+static void collect_lost(struct account_check *check)
+{
+    const struct frame *frame = check->frame;
     for (size_t i = 0; i < frame->lost.count; i++) {
         const struct lost_group *group = &frame->lost.items[i];
-        int64_t *entries = entries_of(check, frame, group->sensor);
-        for (size_t j = 0; j < group->echoes.count; j++) {
-            const struct lost_echo *from = &group->echoes.items[j];
-            *entries += note(check, (struct outcome){group->sensor, from->id, LOST});
-        }
+        int64_t *entries = entries_of(check, group->sensor);
+        for (size_t j = 0; j < group->echoes.count; j++)
+            *entries +=
+                note(check, (struct outcome){group->sensor, group->echoes.items[j].id, LOST});
     }
 }
 
@@ -156,31 +193,33 @@ static int64_t made_indirectly(const struct count *count)
     return made;
 }
 
-static int compare_with_counts(const struct frame *frame, const int64_t *entries, struct diag *diag)
+static int compare_with_counts(const struct account_check *check, struct diag *diag)
 {
+    const struct frame *frame = check->frame;
     for (size_t i = 0; i < frame->counts.count; i++) {
         const struct count *counted = &frame->counts.items[i];
         int64_t due = counted->pairs + made_indirectly(counted);
-        if (entries[i] != due)
+        if (check->entries[i] != due)
             return diag_fail(diag, DIAG_DATA,
                              "account: sensor \"%s\" has %lld entries; %lld are due",
-                             counted->sensor, (long long)entries[i], (long long)due);
+                             counted->sensor, (long long)check->entries[i], (long long)due);
     }
-    if (entries[frame->counts.count] != 0)
+    if (check->entries[frame->counts.count] != 0)
         return diag_fail(diag, DIAG_DATA, "account: %lld entries of sensors without a count",
-                         (long long)entries[frame->counts.count]);
+                         (long long)check->entries[frame->counts.count]);
     return 0;
 }
 
 int frame_account_check(const struct frame *frame, struct diag *diag)
 {
     struct account_check check = begin(frame);
-    collect(frame, &check);
+    collect_kept(&check);
+    collect_lost(&check);
     if (check.doubled != NULL)
         return diag_fail(diag, DIAG_DATA,
                          "account: sensor \"%s\", object \"%s\", reflector \"%s\" has two "
                          "entries",
                          check.doubled->sensor, check.doubled->id.object,
                          check.doubled->id.reflector);
-    return compare_with_counts(frame, check.entries, diag);
+    return compare_with_counts(&check, diag);
 }

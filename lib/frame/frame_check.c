@@ -116,6 +116,18 @@ static int check_targets(const struct frame *frame, struct diag *diag)
     return 0;
 }
 
+static int check_lost(const struct frame *frame, struct diag *diag)
+{
+    for (size_t i = 0; i < frame->lost.count; i++) {
+        const char *reason = frame->lost.items[i].reason;
+        if (reason[strspn(reason, "abcdefghijklmnopqrstuvwxyz_")] != '\0')
+            return diag_fail(diag, DIAG_DATA,
+                             "lost[%zu].reason: \"%s\" is no reason; expected letters a to z and _",
+                             i, reason);
+    }
+    return 0;
+}
+
 /* Echoes, cells and targets name sensors, so that new sensors need a check of these sections too.
  */
 static int check_sections(struct frame *frame, unsigned sections, struct diag *diag)
@@ -126,6 +138,7 @@ static int check_sections(struct frame *frame, unsigned sections, struct diag *d
         return -1;
     bool good = ((sections & SECTION_REFLECTORS) == 0 || check_sets(frame, diag) == 0) &&
                 ((sections & SECTION_SENSORS) == 0 || check_views(frame, diag) == 0) &&
+                ((sections & SECTION_LOST) == 0 || check_lost(frame, diag) == 0) &&
                 ((sections & SECTION_ECHOES) == 0 || check_echoes(frame, diag) == 0) &&
                 ((sections & SECTION_CELLS) == 0 || check_cells(frame, diag) == 0) &&
                 ((sections & SECTION_TARGETS) == 0 || check_targets(frame, diag) == 0);

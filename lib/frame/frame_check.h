@@ -7,9 +7,9 @@
 #include "frame/frame.h"
 
 /* Checks a frame in canonical order (frame_order.h). Ids of objects, names of sensors, names and
- * objects of a reflector set, echoes and leaders of cells must be unique; the ego must be among the
- * objects; echoes, cells and targets must be of listed sensors; cells must have members and targets
- * contributors. Fails with DIAG_DATA. */
+ * objects of a reflector set, echoes and leaders of cells must be unique; reasons of losses are
+ * words of a to z and _; the ego must be among the objects; echoes, cells and targets must be of
+ * listed sensors; cells must have members and targets contributors. Fails with DIAG_DATA. */
 int frame_check(struct frame *frame, struct diag *diag);
 
 /* Checks a part of a frame as a reader of its line would: its members against their bounds, and

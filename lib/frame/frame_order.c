@@ -77,7 +77,9 @@ int frame_order_lost_groups(const void *left, const void *right)
     int order = compare_names(a->sensor, b->sensor);
     if (order == 0)
         order = compare_names(a->stage, b->stage);
-    return order != 0 ? order : (a->reason > b->reason) - (a->reason < b->reason);
+    if (order == 0)
+        order = (int)frame_loss_of(a->reason) - (int)frame_loss_of(b->reason);
+    return order != 0 ? order : compare_names(a->reason, b->reason);
 }
 
 static int compare_paths(const void *left, const void *right)

@@ -265,13 +265,24 @@ int runner_next(struct runner *runner, struct frame *frame)
     return more == 1 && finish_step(runner, frame) != 0 ? -1 : more;
 }
 
+/* A frame from another process may have passed filters that dropped echoes without a word. Where
+ * no stage follows that would find out, it is told here. */
+static int check_account(const struct runner *runner, const struct frame *frame, struct diag *diag)
+{
+    bool ends = runner->program.kind == PROGRAM_SINK || runner->program.kind == PROGRAM_TOOL;
+    bool whole = (frame->present & (SECTION_TARGETS | SECTION_CELLS | SECTION_ECHOES)) != 0;
+    if (!ends || !whole || !frame->account || runner->before != NULL || runner->input == NULL)
+        return 0;
+    return frame_account_check(frame, diag);
+}
+
 /* Before every step: the frame takes the seed of the command line, must have the sections that the
  * program reads, and must follow the frames before it (--complete). */
 static int take_frame(struct runner *runner, struct frame *frame)
 {
     if (runner->common.seed_given)
         frame->seed = runner->common.seed;
-    if (check_sections(runner, frame) != 0)
+    if (check_sections(runner, frame) != 0 || check_account(runner, frame, &runner->diag) != 0)
         return -1;
     return runner->common.complete
                ? frame_sequence_follow(&runner->sequence, frame, runner_place(runner),

@@ -43,12 +43,22 @@ static void write_text_member(const char *key, const char *value, struct text *t
     text_add_json(text, value, strlen(value));
 }
 
-static void write_choices(const struct field *field, struct text *text)
+static void write_choices(const char *keyword, const struct field *field, struct text *text)
 {
-    text_add_word(text, "\"enum\": [");
+    text_format(text, "\"%s\": [", keyword);
     for (int i = 0; field->choices[i] != NULL; i++)
         text_format(text, "%s\"%s\"", i > 0 ? ", " : "", field->choices[i]);
     text_add_word(text, "]");
+}
+
+static void write_name(const struct field *field, struct text *text)
+{
+    text_format(text, ", \"type\": %s, \"minLength\": 1, \"maxLength\": %d",
+                field->or_number ? "[\"string\", \"integer\"]" : "\"string\"", FIELD_NAME_SIZE);
+    if (field->choices == NULL)
+        return;
+    text_add_word(text, ", \"pattern\": \"^[a-z_]+$\", ");
+    write_choices("examples", field, text);
 }
 
 static void write_type(const struct field *field, int depth, struct text *text)
@@ -63,16 +73,15 @@ static void write_type(const struct field *field, int depth, struct text *text)
         text_add_word(text, ", \"type\": \"boolean\"");
         break;
     case FIELD_NAME:
-        text_format(text, ", \"type\": %s, \"minLength\": 1, \"maxLength\": %d",
-                    field->or_number ? "[\"string\", \"integer\"]" : "\"string\"", FIELD_NAME_SIZE);
+        write_name(field, text);
         break;
     case FIELD_CHOICE:
         text_add_word(text, ", ");
-        write_choices(field, text);
+        write_choices("enum", field, text);
         break;
     case FIELD_SET:
         text_add_word(text, ", \"type\": \"array\", \"uniqueItems\": true, \"items\": {");
-        write_choices(field, text);
+        write_choices("enum", field, text);
         text_add_word(text, "}");
         break;
     case FIELD_SEED:

@@ -21,7 +21,8 @@ enum field_kind {
     FIELD_REAL,    /* double: finite, in [low, high] */
     FIELD_INTEGER, /* int64_t: in [low, high], at most 2^53 in size */
     FIELD_FLAG,    /* bool; where optional, absent means false */
-    FIELD_NAME,    /* const char *: 1 to FIELD_NAME_SIZE bytes of UTF-8, NULL where absent */
+    FIELD_NAME,    /* const char *: 1 to FIELD_NAME_SIZE bytes of UTF-8, NULL where absent. With
+                    * choices they are well-known values among words of a to z and _ */
     FIELD_CHOICE,  /* an enum: the index of one of choices */
     FIELD_SEED, /* uint64_t, in text a string of decimal digits: JSON readers lose 64-bit numbers */
     FIELD_SET,  /* uint64_t: bit i stands for choices[i]; in text an array of their names */

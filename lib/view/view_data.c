@@ -216,10 +216,21 @@ static bool is_at_spot(struct view_data *data, const struct loss_scan *scan,
     return vec2_length(vec2_sub(place, spot)) <= 0.05;
 }
 
+static uint32_t reason_of(struct view_data *data, const struct lost_group *group,
+                          struct arena *scratch)
+{
+    enum loss loss = frame_loss_of(group->reason);
+    if (loss != LOSS_OWN)
+        return loss;
+    return LOSS_OWN +
+           intern_word(&data->own_reasons, frame_loss_words(group, scratch), data->arena);
+}
+
 static uint32_t collect_losses(struct view_data *data, const struct lost_group *group,
                                struct loss_scan *scan)
 {
     uint32_t stage = name_of(data, group->stage), details = 0;
+    uint32_t reason = reason_of(data, group, scan->frame->arena);
     for (size_t i = 0; i < group->echoes.count; i++) {
         const struct lost_echo *echo = &group->echoes.items[i];
         struct loss_row *row = list_add(&scan->rows, scan->frame->arena);
@@ -230,7 +241,7 @@ static uint32_t collect_losses(struct view_data *data, const struct lost_group *
             .mirror = optional_name(data, echo->id.mirror),
             .number = (uint32_t)echo->id.number,
             .stage = stage,
-            .reason = group->reason,
+            .reason = reason,
             .effect = group->effect,
         };
         if (echo->by != NULL || echo->shortfall_db != 0 || !is_at_spot(data, scan, row, echo)) {

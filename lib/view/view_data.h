@@ -31,6 +31,7 @@ struct view_data {
     struct view_models models;
     struct intern names, scene_keys, patterns, effect_sets, spot_keys;
     LIST_OF(struct vec2) spots; /* of reflectors, in their object's axes, by number of the key */
+    struct intern own_reasons;  /* of losses, numbered behind those of enum loss */
     LIST_OF(struct view_scene) scenes;
     LIST_OF(struct sensor_view) sensors;
     struct view_columns columns;

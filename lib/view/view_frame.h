@@ -25,7 +25,7 @@ struct vec2 view_frame_place(const struct view_scan *scan, double range_m, doubl
 struct box view_frame_box(const struct object *object, const struct vehicle *vehicle);
 
 /* False for losses by geometry, which are the rule and need no mark: facing away, no specular
- * point, out of range or view, switched off. True for the others. */
+ * point, out of range or view, switched off. True for the others and for LOSS_OWN. */
 bool view_frame_loss_is_notable(enum loss reason);
 
 /* Vehicle documents by class, each looked up once; all memory is the arena's. */

@@ -86,6 +86,9 @@ static void add_numbered(const struct view_data *data, struct head *head)
     for (enum loss loss = 0; frame_loss_name(loss) != NULL; loss++)
         *list_add(&head->reasons, arena) =
             (struct reason){frame_loss_name(loss), view_frame_loss_is_notable(loss)};
+    for (size_t i = 0; i < data->own_reasons.list.count; i++)
+        *list_add(&head->reasons, arena) =
+            (struct reason){data->own_reasons.list.items[i].text, true};
     for (size_t i = 0; i < data->effect_sets.list.count; i++)
         memcpy(list_add(&head->effect_sets, arena), data->effect_sets.list.items[i].text,
                sizeof(uint64_t));

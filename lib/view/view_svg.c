@@ -222,7 +222,7 @@ static void draw_lost(struct drawing *drawing, const struct lost_group *group)
         struct vec2 at = to_pixels(drawing, place);
         if (echo->range_m == 0 || !in_picture(at, 0))
             continue;
-        if (view_frame_loss_is_notable(group->reason))
+        if (view_frame_loss_is_notable(frame_loss_of(group->reason)))
             text_format(drawing->text, "<path class=\"lost\" d=\"M%.1f %.1fl9 9m0 -9l-9 9\"/>\n",
                         at.x - 4.5, at.y - 4.5);
         else if (first)

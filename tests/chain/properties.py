@@ -27,7 +27,7 @@ PIPELINES = sorted(glob.glob(ROOT + "/pipelines/*.sh"))
 SCHEMA = json.load(open(ROOT + "/schemas/frame.json"))
 SECTIONS = list(SCHEMA["properties"])
 PATHS = SCHEMA["properties"]["echoes"]["items"]["properties"]["path"]["enum"]
-REASONS = SCHEMA["properties"]["lost"]["items"]["properties"]["reason"]["enum"]
+REASONS = SCHEMA["properties"]["lost"]["items"]["properties"]["reason"]["examples"]
 SCENARIOS = sorted(name[:-5] for name in os.listdir(ROOT + "/data/scenarios"))
 TABLE = "highway --ego 1 --radius-m 250"
 SUITES = ["srr24-pair-every-frame", "corner77-every-frame", "lrr77-every-frame"]
@@ -726,7 +726,7 @@ def check_order(frame):
         check(abs(sum(one["weight"] for one in parts) - 1) < 1e-12, f"{where}: weights")
         strongest = max(one["weight"] for one in parts)
         check(parts[0]["weight"] == strongest, f"{where}: the leader is not the strongest")
-    ascending([text_key(one["sensor"], one["stage"]) + (REASONS.index(one["reason"]),)
+    ascending([text_key(one["sensor"], one["stage"]) + ((REASONS + [one["reason"]]).index(one["reason"]), one["reason"])
                for one in frame.get("lost", [])], f"{where}: lost")
     for group in frame.get("lost", []):
         ascending([echo_key(one) for one in group["echoes"]], f"{where}: lost echoes")

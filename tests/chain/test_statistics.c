@@ -474,7 +474,7 @@ static void what_is_beyond_the_list_limit_is_lost(void **state)
     bench_step(&bench);
     assert_int_equal(bench.frame.targets.count, 6);
     const struct lost_group *group = only_loss(&bench.frame);
-    assert_int_equal(group->reason, LOSS_LIST_LIMIT);
+    assert_int_equal(frame_loss_of(group->reason), LOSS_LIST_LIMIT);
     assert_int_equal(group->echoes.count, 2);
     assert_string_equal(group->echoes.items[0].id.object, "f");
     assert_string_equal(group->echoes.items[1].id.object, "g");
@@ -500,7 +500,7 @@ static void the_final_threshold_takes_what_cancels(void **state)
     assert_int_equal(bench.frame.targets.count, 1);
     assert_string_equal(bench.frame.targets.items[0].contributors.items[0].id.object, "at");
     const struct lost_group *group = only_loss(&bench.frame);
-    assert_int_equal(group->reason, LOSS_BELOW_FINAL);
+    assert_int_equal(frame_loss_of(group->reason), LOSS_BELOW_FINAL);
     assert_int_equal(group->echoes.count, 2);
     assert_string_equal(group->echoes.items[0].id.object, "below");
     assert_string_equal(group->echoes.items[1].id.object, "second");
@@ -519,7 +519,7 @@ static void without_a_final_threshold_all_that_has_an_angle_stays(void **state)
     bench_step(&bench);
     assert_int_equal(bench.frame.targets.count, 1);
     assert_close(bench.frame.targets.items[0].amplitude_db, -60, 1e-12);
-    assert_int_equal(only_loss(&bench.frame)->reason, LOSS_NO_ANGLE);
+    assert_int_equal(frame_loss_of(only_loss(&bench.frame)->reason), LOSS_NO_ANGLE);
     bench_close(&bench);
 }
 

@@ -343,7 +343,7 @@ static size_t lost_for(const struct scene *scene, enum loss reason)
 {
     size_t count = 0;
     for (size_t i = 0; i < scene->frame.lost.count; i++)
-        if (scene->frame.lost.items[i].reason == reason)
+        if (frame_loss_of(scene->frame.lost.items[i].reason) == reason)
             count += scene->frame.lost.items[i].echoes.count;
     return count;
 }

@@ -177,7 +177,7 @@ static void a_target_on_the_sensor_is_told(void **state)
         naive += !isfinite(20 / range_m * (20 / range_m) * ((pole.x - ego.x) / range_m));
         struct look look = look_at_pole(&bench, ego, pole);
         const struct frame *frame = &bench.frame;
-        bool lost = frame->lost.count == 1 && frame->lost.items[0].reason == LOSS_OUT_OF_RANGE;
+        bool lost = frame->lost.count == 1 && frame_loss_of(frame->lost.items[0].reason) == LOSS_OUT_OF_RANGE;
         bool good = look.pairs == 1 && lost == on && bench_step(&bench) &&
                     frame->targets.count == (on ? 0 : 1);
         ours += !good;

@@ -21,7 +21,7 @@ static void make_sample(struct sample *sample)
         .target = {.sensor = "front", .range_m = 21, .amplitude_db = 20},
         .members = {{.id.object = "a", .id.reflector = "rear", .weight = 0.75},
                     {.id.object = "b", .id.reflector = "rear", .weight = 0.25}},
-        .group = {.sensor = "front", .stage = "ideal", .reason = LOSS_BLOCKED},
+        .group = {.sensor = "front", .stage = "ideal", .reason = "blocked"},
         .lost = {.id.object = "c", .id.reflector = "rear", .by = "a"},
     };
     sample->target.contributors.items = sample->members;
@@ -69,7 +69,7 @@ static void change(struct sample *sample, enum change change)
         sample->target.effects = EFFECT_BIT(EFFECT_MERGING);
         break;
     case REASON:
-        sample->group.reason = LOSS_OUT_OF_VIEW;
+        sample->group.reason = "out_of_view";
         break;
     case BLOCKER:
         sample->lost.by = NULL;

@@ -6,6 +6,8 @@
 #include "check.h"
 #include "frame/frame_order.h"
 
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
 static void losses_are_grouped_by_sensor_stage_and_reason(void **state)
 {
     (void)state;
@@ -30,6 +32,39 @@ static void losses_are_grouped_by_sensor_stage_and_reason(void **state)
     assert_int_equal(group->echoes.count, 2);
     assert_string_equal(group->echoes.items[1].id.reflector, "q");
     assert_close(group->echoes.items[1].shortfall_db, 4.5, 0);
+    arena_free(&arena);
+}
+
+static void a_stage_may_have_reasons_of_its_own(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena, .account = true};
+    const struct lost_echo echo = {.id.object = "o", .id.reflector = "r"};
+    char word[] = "covered", known[] = "blocked"; /* as a line that was read has them */
+    frame_lose_own(&frame, "mud", "s", "covered", &echo);
+    frame_lose_own(&frame, "mud", "s", word, &echo);
+    frame_lose_own(&frame, "mud", "s", "blurred", &echo);
+    frame_lose(&frame, "mud", "s", LOSS_MASKED, &echo);
+    frame_lose(&frame, "mud", "s", LOSS_BLOCKED, &echo);
+    frame_lose_own(&frame, "mud", "s", known, &echo);
+    frame_order_part(&frame, (struct frame_part){SECTION_LOST, NULL});
+    static const struct {
+        const char *words;
+        size_t echoes;
+        enum loss loss;
+    } groups[] = {{"blocked", 2, LOSS_BLOCKED},
+                  {"masked", 1, LOSS_MASKED},
+                  {"mud: blurred", 1, LOSS_OWN},
+                  {"mud: covered", 2, LOSS_OWN}};
+    assert_int_equal(frame.lost.count, COUNT(groups));
+    for (size_t i = 0; i < COUNT(groups); i++) {
+        const struct lost_group *group = &frame.lost.items[i];
+        assert_string_equal(frame_loss_words(group, &arena), groups[i].words);
+        assert_int_equal(frame_loss_of(group->reason), groups[i].loss);
+        assert_int_equal(group->echoes.count, groups[i].echoes);
+        assert_int_equal(group->effect == EFFECT_NONE, groups[i].loss == LOSS_OWN);
+    }
     arena_free(&arena);
 }
 
@@ -85,6 +120,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(losses_are_grouped_by_sensor_stage_and_reason),
+        cmocka_unit_test(a_stage_may_have_reasons_of_its_own),
         cmocka_unit_test(a_frame_without_account_forgets_its_losses),
         cmocka_unit_test(spans_are_the_sensors_own),
         cmocka_unit_test(dropped_sections_are_as_if_they_had_never_been),

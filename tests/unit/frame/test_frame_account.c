@@ -32,6 +32,36 @@ static void an_echo_may_feed_several_targets(void **state)
     arena_free(&arena);
 }
 
+/* A frame on its way to targets: its cells, or its echoes, are what is not lost. */
+static void before_there_are_targets_cells_or_echoes_stand_for_them(void **state)
+{
+    (void)state;
+    for (int early = 0; early < 2; early++) {
+        struct arena arena = {0};
+        struct frame frame = accounted_frame(&arena);
+        struct diag diag = {0};
+        for (size_t i = 0; i < 2; i++) {
+            const struct target *target = &frame.targets.items[i];
+            struct cell cell =
+                accounted_cell(&arena, target->sensor, 2, target->contributors.items);
+            *list_add(&frame.cells, &arena) = cell;
+            for (size_t j = 0; j < 2; j++)
+                *list_add(&frame.echoes, &arena) =
+                    (struct echo){.sensor = cell.sensor, .id = cell.members.items[j].id};
+        }
+        frame_drop(&frame, SECTION_TARGETS);
+        frame.present |= early ? SECTION_ECHOES : SECTION_CELLS | SECTION_ECHOES;
+        assert_int_equal(frame_account_check(&frame, &diag), 0);
+        if (early)
+            frame.echoes.count--;
+        else
+            frame.cells.items[1].members.count--;
+        assert_int_equal(frame_account_check(&frame, &diag), -1);
+        assert_string_equal(diag.text, "account: sensor \"left\" has 2 entries; 3 are due");
+        arena_free(&arena);
+    }
+}
+
 static void forget_one(struct frame *frame)
 {
     frame->targets.items[0].contributors.count = 1;
@@ -203,6 +233,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_whole_account_passes_in_any_order),
         cmocka_unit_test(an_echo_may_feed_several_targets),
+        cmocka_unit_test(before_there_are_targets_cells_or_echoes_stand_for_them),
         cmocka_unit_test(planted_faults_in_the_account_are_caught),
         cmocka_unit_test(echoes_of_other_paths_are_due_beyond_the_pairs),
         cmocka_unit_test(echoes_that_differ_in_one_member_are_two_entries),

@@ -28,7 +28,7 @@ static void the_first_blocker_by_id_is_named(void **state)
     add_object(scene, "w", 30, 0);
     struct look look = look_at(scene, 10);
     const struct lost_group *lost = only_loss(scene);
-    assert_int_equal(lost->reason, LOSS_BLOCKED);
+    assert_int_equal(frame_loss_of(lost->reason), LOSS_BLOCKED);
     assert_string_equal(lost->stage, "ideal");
     assert_string_equal(lost->sensor, "front");
     assert_string_equal(lost->echoes.items[0].id.object, "far");
@@ -121,7 +121,7 @@ static void every_loss_has_its_reason(void **state)
         point->zero_rad = 1;
         add_object(scene, "a", cases[i].x_m, cases[i].y_m);
         look_at(scene, 10);
-        assert_int_equal(only_loss(scene)->reason, cases[i].reason);
+        assert_int_equal(frame_loss_of(only_loss(scene)->reason), cases[i].reason);
         remove_scene(&place);
     }
 }
@@ -141,7 +141,7 @@ static void planes_mirror_from_the_foot_of_the_perpendicular(void **state)
     car = &scene->frame.objects.items[1];
     car->y_m = 1.1;
     look_at(scene, 10);
-    assert_int_equal(only_loss(scene)->reason, LOSS_NO_SPECULAR);
+    assert_int_equal(frame_loss_of(only_loss(scene)->reason), LOSS_NO_SPECULAR);
 }
 
 /* A lobe 60 degrees wide across and 40 upright, with its middle level, at most 20 dB deep. */
@@ -264,7 +264,7 @@ static void a_margin_is_the_distance_from_another_answer(void **state)
         else if (cases[i].y_m == 3) /* the sight line passes the near left corner (28, 1) */
             margin_m = (28 * 3 - 60) / range_m;
         if (cases[i].reason >= 0)
-            assert_int_equal(only_loss(scene)->reason, cases[i].reason);
+            assert_int_equal(frame_loss_of(only_loss(scene)->reason), cases[i].reason);
         struct margins margins = only_margins(scene);
         assert_int_equal(margins.present, MARGIN_SIGHT);
         assert_close(margins.sight_m, margin_m, 1e-12);
@@ -313,7 +313,7 @@ static void the_margin_of_a_plane_is_the_distance_of_its_foot_from_an_end(void *
     scene->frame.echoes.count = 0;
     car->y_m = 1.5;
     look_at(scene, 10);
-    assert_int_equal(only_loss(scene)->reason, LOSS_NO_SPECULAR);
+    assert_int_equal(frame_loss_of(only_loss(scene)->reason), LOSS_NO_SPECULAR);
     assert_close(only_margins(scene).sight_m, 0.5, 1e-12);
 }
 

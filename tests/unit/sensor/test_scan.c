@@ -141,7 +141,7 @@ static void silent_echoes_are_lost_with_their_margins(void **state)
     const struct lost_group *group = bench->frame.lost.items;
     assert_string_equal(group->sensor, "radar");
     assert_string_equal(group->stage, "sensor");
-    assert_int_equal(group->reason, LOSS_NO_AMPLITUDE);
+    assert_int_equal(frame_loss_of(group->reason), LOSS_NO_AMPLITUDE);
     assert_int_equal(group->echoes.count, 1);
     assert_string_equal(group->echoes.items[0].id.object, "b");
     assert_int_equal(group->echoes.items[0].margins.present, MARGIN_SIGHT);

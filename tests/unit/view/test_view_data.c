@@ -313,6 +313,24 @@ static void echoes_keep_their_mirror_and_number(void **state)
     release(&packed);
 }
 
+static void a_stages_own_reason_is_shown_with_the_stage(void **state)
+{
+    (void)state;
+    struct packed packed;
+    begin(&packed);
+    add_line(&packed,
+             FRAME("x", "0", "4", "false",
+                   "\"targets\":[],\"lost\":["
+                   "{\"sensor\":\"f\",\"stage\":\"mud\",\"reason\":\"covered\",\"echoes\":["
+                   "{\"object\":\"</script>\",\"reflector\":\"r\",\"path\":\"direct\"}]}]"));
+    finish(&packed);
+    json_t *own = json_array_get(json_object_get(packed.json, "reasons"), LOSS_OWN);
+    assert_string_equal(json_string_value(json_object_get(own, "name")), "mud: covered");
+    assert_true(json_is_true(json_object_get(own, "notable")));
+    assert_close(value_of(&packed, "item_reason", 0), LOSS_OWN, 0);
+    release(&packed);
+}
+
 static void every_reason_and_path_has_its_name(void **state)
 {
     (void)state;
@@ -402,6 +420,7 @@ int main(void)
         cmocka_unit_test(no_name_can_end_the_script_element),
         cmocka_unit_test(scenes_may_interleave_and_those_cut_short_are_marked),
         cmocka_unit_test(echoes_keep_their_mirror_and_number),
+        cmocka_unit_test(a_stages_own_reason_is_shown_with_the_stage),
         cmocka_unit_test(every_reason_and_path_has_its_name),
         cmocka_unit_test(the_same_losses_share_a_pattern),
         cmocka_unit_test(a_loss_is_at_its_spot_or_has_its_place),
