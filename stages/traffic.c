@@ -1,31 +1,120 @@
-/* Traffic: plays a scenario document or a recorded trajectory table, frame by frame. */
-#include <math.h>
-
+/* Traffic: plays a scenario document or a recorded table, frame by frame. */
 #include "base/elementary.h"
 #include "run/stage.h"
+#include "text/document.h"
 #include "traffic/playback.h"
+#include "traffic/recorded_table.h"
+#include "traffic/recording.h"
 
 struct traffic {
     const char *source;
-    const char *ego;
-    const char *scene;
-    double radius_m;
-    struct conditions conditions;
+    struct recording_options options;
+    struct recording recording; /* of a table */
+    bool recorded;              /* is it one? */
+    const char *scene;          /* of a scenario */
     struct playback playback;
-    int64_t frame;
+    struct conditions conditions;
+    int64_t frame; /* of the scenario */
 };
 
+static int start_scenario(struct traffic *traffic, struct runner *runner)
+{
+    const struct recording_options *options = &traffic->options;
+    struct playback *playback = &traffic->playback;
+    struct arena *arena = runner_arena(runner);
+    struct diag *diag = runner_diag(runner);
+    if (options->rate_hz > 0 || options->from_s > -9e9 || options->to_s < 9e9 ||
+        options->class_map != NULL || options->class_default != NULL)
+        return diag_fail(diag, DIAG_USAGE,
+                         "%s: a scenario has rate, times and classes of its own; --rate-hz, "
+                         "--from-s, --to-s, --class-map and --class-default are for recordings",
+                         traffic->source);
+    if (playback_open(playback, traffic->source, options->ego, arena, diag) != 0 ||
+        recording_conditions(options, &traffic->conditions, arena, diag) != 0)
+        return -1;
+    struct text name = {0};
+    text_format(&name, "%s/%s", recording_name(traffic->source, arena), playback->ego);
+    traffic->scene =
+        options->scene != NULL ? options->scene : arena_text(arena, name.bytes, name.length);
+    text_free(&name);
+    runner_expect(runner, playback->frames);
+    return 0;
+}
+
+/* Opens the reader of a table, or refuses a file of another program. */
+static int start_table(struct traffic *traffic, const char *path, struct runner *runner)
+{
+    struct diag *diag = runner_diag(runner);
+    struct input *input = runner_input(runner, path);
+    if (input == NULL)
+        return diag_prefix(diag, "%s: ", path);
+    traffic->recorded = true;
+    struct recorded_reader reader = recorded_table_open(input, runner_arena(runner), diag);
+    return recording_open(&traffic->recording, reader, path, &traffic->options, false,
+                          runner_arena(runner), diag);
+}
+
+/* What a file of traffic begins with, if it is for another program. */
+static const struct {
+    const char *sign, *reader;
+} foreign[] = {
+    {"<fcd-export", "floating car data of SUMO, which glint-traffic-sumo reads"},
+    {"<commonRoad", "a scenario of CommonRoad, which glint-traffic-commonroad reads"},
+    {"<OpenSCENARIO", "input of esmini; glint-traffic reads what esmini --csv_logger writes"},
+    {"<routes", "input of SUMO; glint-traffic-sumo reads what sumo --fcd-output writes"},
+    {"{\"version\":", "a stream of frames, which glint-extract reads"},
+    {"\n", "an OSI trace, which glint-traffic-osi reads"}, /* behind the message's length */
+};
+
+static const char *foreign_reader(const char *bytes, size_t length)
+{
+    size_t osi = sizeof foreign / sizeof foreign[0] - 1;
+    if (length > 5 && bytes[3] == '\0' && bytes[4] == *foreign[osi].sign)
+        return foreign[osi].reader;
+    for (size_t i = 0; i < osi; i++)
+        for (size_t at = 0; at + strlen(foreign[i].sign) <= length; at++)
+            if (memcmp(bytes + at, foreign[i].sign, strlen(foreign[i].sign)) == 0)
+                return foreign[i].reader;
+    return NULL;
+}
+
+/* A table, unless it begins as JSON; another format is refused with the program that reads it.
+ * Pipes, which cannot be opened twice, are scenarios. */
+static int is_table(const char *source, struct runner *runner)
+{
+    enum { ENOUGH = 4096 };
+    struct diag *diag = runner_diag(runner);
+    if (strcmp(source, "-") == 0 || !document_is_regular(source))
+        return 0;
+    struct input *input = runner_input(runner, source);
+    char *bytes = arena_get(runner_arena(runner), ENOUGH + 1);
+    long length = input != NULL ? input_read(input, bytes, ENOUGH, diag) : -1;
+    input_close(input);
+    const char *reader = length > 0 ? foreign_reader(bytes, (size_t)length) : NULL;
+    if (reader != NULL)
+        diag_fail(diag, DIAG_DATA, "%s", reader);
+    if (length < 0 || reader != NULL)
+        return diag_prefix(diag, "%s: ", source);
+    return bytes[strspn(bytes, " \t\r\n\xef\xbb\xbf")] != '{';
+}
+
+/* A bare name is a scenario's, or else a table's. */
 static int traffic_start(void *state, struct runner *runner)
 {
     struct traffic *traffic = state;
-    struct arena *arena = runner_arena(runner);
-    if (playback_open(&traffic->playback, traffic->source, traffic->ego, arena,
-                      runner_diag(runner)) != 0)
+    const char *path = traffic->source;
+    struct diag unknown = {0};
+    int table = strpbrk(path, "./") != NULL ? is_table(path, runner) : 0;
+    if (strpbrk(path, "./") == NULL &&
+        document_find("scenarios", path, ".json", runner_arena(runner), &unknown) == NULL) {
+        const char *found =
+            document_find("trajectories", path, ".csv", runner_arena(runner), &unknown);
+        table = found != NULL;
+        path = table ? found : path;
+    }
+    if (table < 0)
         return -1;
-    if (traffic->scene == NULL)
-        traffic->scene = playback_name(traffic->source, traffic->playback.ego, arena);
-    runner_expect(runner, traffic->playback.frames);
-    return 0;
+    return table ? start_table(traffic, path, runner) : start_scenario(traffic, runner);
 }
 
 /* Removes objects farther than radius_m from the ego. */
@@ -43,8 +132,9 @@ static void limit_radius(struct frame *frame, double radius_m)
 
 static int traffic_next(void *state, struct frame *frame, struct runner *runner)
 {
-    (void)runner;
     struct traffic *traffic = state;
+    if (traffic->recorded)
+        return recording_next(&traffic->recording, frame, runner_diag(runner));
     if (traffic->frame == traffic->playback.frames)
         return 0;
     playback_frame(&traffic->playback, traffic->frame, frame);
@@ -53,49 +143,59 @@ static int traffic_next(void *state, struct frame *frame, struct runner *runner)
     frame->ego = traffic->playback.ego;
     frame->frame = traffic->frame++;
     frame->last = traffic->frame == traffic->playback.frames;
-    if (traffic->radius_m >= 0)
-        limit_radius(frame, traffic->radius_m);
+    if (traffic->options.radius_m >= 0)
+        limit_radius(frame, traffic->options.radius_m);
     return 1;
 }
 
 static int traffic_locate_fault(void *state, const struct frame *frame, struct runner *runner)
 {
     const struct traffic *traffic = state;
-    if (playback_check(&traffic->playback, frame->frame, frame, runner_diag(runner)) != 0)
+    if (traffic->recorded)
+        return recording_check(&traffic->recording, frame, runner_diag(runner));
+    if (playback_check(frame, runner_diag(runner)) != 0)
         return diag_prefix(runner_diag(runner), "%s: ", traffic->source);
     return 0;
 }
 
+static void traffic_release(void *state)
+{
+    struct traffic *traffic = state;
+    recording_close(&traffic->recording);
+}
+
 static const struct field traffic_options[] = {
     {FIELD_NAME_OF(struct traffic, source,
-                   "a scenario (a name in data/scenarios/, or a path), or a trajectory table")},
-    {FIELD_NAME_OF(struct traffic, ego,
-                   "the object that carries the sensors; a scenario names one, a table does not"),
-     FIELD_OPTIONAL},
-    {FIELD_NAME_OF(struct traffic, scene, "name of the scene; absent: SOURCE/EGO"), FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct traffic, radius_m, 0, 1e6,
-                   "leave out objects farther than this from the ego"),
-     FIELD_OPTIONAL, .absent = -1},
-    {FIELD_RECORD_OF(struct traffic, conditions, &conditions_changes_record,
-                     "over what the scenario says"),
-     FIELD_OPTIONAL},
+                   "a scenario (a name in data/scenarios/, or a path), or a recorded table")},
+    {FIELD_RECORD_OF(struct traffic, options, &recording_options_record, ""), FIELD_OPTIONAL},
     {0},
 };
 
 static const struct record traffic_record = {
     .name = "traffic", .size = sizeof(struct traffic), .fields = traffic_options};
 
+#define INTERACTION(word, class) "\n    " word " = " class
+#define SUMO(word, class, length_m, width_m, height_m) "\n    " word " = " class
+
 const struct stage stage_traffic = {
     .name = "traffic",
-    .summary = "Play a scenario or a recorded trajectory table, frame by frame.",
+    .summary = "Play a scenario or a recorded table, frame by frame.",
     .details =
-        "A scenario is a JSON document; a table is CSV in the columns of the INTERACTION\n"
-        "data set (.csv or .csv.gz) and needs --ego. Coordinates beyond a kilometre are made\n"
-        "relative to an origin near the ego, which every frame names.",
+        "A scenario is a JSON document; a table is CSV, plain or gzip, in the columns of the\n"
+        "INTERACTION data set or of SUMO, and needs --ego. Coordinates beyond a kilometre are\n"
+        "made relative to an origin near the ego, which every frame names.\n"
+        "\n"
+        "Velocities and yaw rates that a table lacks are centred differences, which wait for\n"
+        "the next step. --rate-hz takes cubic curves between steps.\n"
+        "\n"
+        "What words of tables mean:"
+#include "traffic/recorded_classes.def"
+    ,
     .options = &traffic_record,
     .operand = "SOURCE",
     .writes = SECTION_OBJECTS,
     .start = traffic_start,
     .next = traffic_next,
     .locate_fault = traffic_locate_fault,
+    .release = traffic_release,
 };

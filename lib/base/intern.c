@@ -52,6 +52,16 @@ uint32_t intern_number(struct intern *names, const void *text, size_t length, st
     return *slot - 1;
 }
 
+bool intern_find(const struct intern *names, const void *text, size_t length, uint32_t *number)
+{
+    if (names->list.count == 0)
+        return false;
+    struct intern_name name = name_of(text, length);
+    uint32_t slot = *slot_of(names, &name);
+    *number = slot - 1;
+    return slot != 0;
+}
+
 uint32_t intern_word(struct intern *names, const char *word, struct arena *arena)
 {
     return intern_number(names, word, strlen(word), arena);

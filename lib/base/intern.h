@@ -27,6 +27,9 @@ struct intern intern_begin(size_t expected, struct arena *arena);
 uint32_t intern_number(struct intern *names, const void *text, size_t length, struct arena *arena);
 uint32_t intern_word(struct intern *names, const char *word, struct arena *arena);
 
+/* The number of a name that is there; false if it is not. */
+bool intern_find(const struct intern *names, const void *text, size_t length, uint32_t *number);
+
 /* The name of that number: equal names are one pointer. */
 static inline const char *intern_text(const struct intern *names, uint32_t number)
 {

@@ -155,6 +155,14 @@ struct reference_stream *runner_reference_stream(struct runner *runner, const ch
     return stream;
 }
 
+struct input *runner_input(struct runner *runner, const char *path)
+{
+    struct input *input = input_open(path, &runner->diag);
+    if (input != NULL)
+        input_before_waiting(input, runner->pause);
+    return input;
+}
+
 static int prepare(struct runner *runner, size_t count, const char *const *words)
 {
     runner->state = arena_get(&runner->arena, runner->program.options->size);

@@ -20,6 +20,7 @@
 #include "frame/frame.h"
 
 struct frame_place;
+struct input;
 struct reference_stream;
 struct runner;
 struct sensor;
@@ -97,6 +98,10 @@ struct reference_stream *runner_reference_stream(struct runner *runner, const ch
 
 /* Where the frame was read that the stage has now (frame/frame_sequence.h). */
 struct frame_place runner_place(const struct runner *runner);
+
+/* Opens what a source reads, which closes it in release. What the chain has made goes out before a
+ * wait for more. The message does not name the file. */
+struct input *runner_input(struct runner *runner, const char *path);
 
 /* How many frames a source will make, for the time left. */
 void runner_expect(struct runner *runner, int64_t frames);

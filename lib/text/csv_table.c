@@ -6,6 +6,7 @@
 #include <csv.h>
 
 #include "base/intern.h"
+#include "base/number.h"
 #include "text/field.h"
 #include "text/input.h"
 #include "text/json_scan.h"
@@ -19,6 +20,7 @@ struct reader {
     size_t row_begin; /* the current row's first cell */
     size_t row;       /* number of the current row */
     int last_end;     /* character that ended the row before */
+    bool semicolons;  /* separate the cells */
 };
 
 static void refuse_semicolons(const struct csv_table *table, struct diag *diag)
@@ -48,17 +50,19 @@ static void take_header(struct reader *reader)
     table->header = header;
     table->columns = columns;
     reader->cells.count = 0;
-    refuse_semicolons(table, reader->diag);
+    if (!reader->semicolons)
+        refuse_semicolons(table, reader->diag);
     refuse_repeated_names(table, reader->arena, reader->diag);
 }
 
 static void take_row(struct reader *reader)
 {
     size_t cells = reader->cells.count - reader->row_begin;
-    if (cells != reader->table->columns)
+    if (cells == reader->table->columns)
+        *list_add(&reader->numbers, reader->arena) = reader->row;
+    else
         diag_fail(reader->diag, DIAG_DATA, "row %zu: %zu cell%s; expected %zu as in the header",
                   reader->row, cells, cells == 1 ? "" : "s", reader->table->columns);
-    *list_add(&reader->numbers, reader->arena) = reader->row;
 }
 
 static void on_cell(void *text, size_t length, void *context)
@@ -97,6 +101,11 @@ static int parse(struct csv_parser *parser, struct reader *reader, const char *b
     if (nul != NULL)
         return diag_fail(reader->diag, DIAG_DATA, "row %zu: a NUL byte; expected text",
                          reader->row);
+    return reader->diag->code == DIAG_OK ? 0 : -1;
+}
+
+static int finish(struct csv_parser *parser, struct reader *reader)
+{
     if (csv_fini(parser, on_cell, on_row, reader) != 0)
         return diag_fail(reader->diag, DIAG_DATA,
                          "row %zu: a quote opens a cell and nothing closes it", reader->row);
@@ -105,28 +114,39 @@ static int parse(struct csv_parser *parser, struct reader *reader, const char *b
     return reader->diag->code == DIAG_OK ? 0 : -1;
 }
 
-static int read_bytes(const char *path, struct text *text, struct diag *diag)
+static int begin(struct csv_parser *parser, struct reader *reader)
 {
-    struct input *input = input_open(path, diag);
-    if (input == NULL)
-        return -1;
-    int done = input_all(input, CSV_TABLE_SIZE, text, diag);
-    input_close(input);
-    return done;
+    if (csv_init(parser, CSV_STRICT | CSV_STRICT_FINI | CSV_APPEND_NULL | CSV_REPALL_NL) != 0)
+        return diag_fail(reader->diag, DIAG_INTERNAL, "libcsv refuses to start");
+    csv_set_realloc_func(parser, memory_resize);
+    csv_set_free_func(parser, free);
+    return 0;
+}
+
+/* The length of a byte order mark. */
+static size_t mark_length(const char *bytes, size_t length)
+{
+    return length >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
 }
 
 static int read_text(const struct text *text, struct reader *reader)
 {
-    static const char mark[] = "\xef\xbb\xbf";
-    size_t skipped = text->length >= 3 && memcmp(text->bytes, mark, 3) == 0 ? 3 : 0;
+    size_t skipped = mark_length(text->bytes, text->length);
     struct csv_parser parser;
-    if (csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI | CSV_APPEND_NULL | CSV_REPALL_NL) != 0)
-        return diag_fail(reader->diag, DIAG_INTERNAL, "libcsv refuses to start");
-    csv_set_realloc_func(&parser, memory_resize);
-    csv_set_free_func(&parser, free);
+    if (begin(&parser, reader) != 0)
+        return -1;
     int done = parse(&parser, reader, text->bytes + skipped, text->length - skipped);
+    if (done == 0)
+        done = finish(&parser, reader);
     csv_free(&parser);
     return done;
+}
+
+static void show_rows(const struct reader *reader)
+{
+    reader->table->rows = reader->numbers.count;
+    reader->table->cells = reader->cells.items;
+    reader->table->numbers = reader->numbers.items;
 }
 
 int csv_table_parse(const struct text *text, struct csv_table *table, struct arena *arena,
@@ -135,22 +155,90 @@ int csv_table_parse(const struct text *text, struct csv_table *table, struct are
     *table = (struct csv_table){0};
     struct reader reader = {.table = table, .arena = arena, .diag = diag, .row = 1};
     int done = read_text(text, &reader);
-    table->rows = reader.numbers.count;
-    table->cells = reader.cells.items;
-    table->numbers = reader.numbers.items;
+    show_rows(&reader);
     return done;
 }
 
-int csv_table_read(const char *path, struct csv_table *table, struct arena *arena,
-                   struct diag *diag)
+/* ---- row by row ---- */
+
+struct csv_table_rows {
+    struct csv_table table; /* the rows of one line */
+    struct csv_parser parser;
+    struct reader reader;
+    struct input *input;
+    struct arena names, cells;
+    struct diag fault; /* that ended the table, after the rows before it */
+    bool begun, ended;
+};
+
+/* Parses a line more, and the end after the last. */
+static void parse_line(struct csv_table_rows *rows)
 {
-    *table = (struct csv_table){0};
-    struct text text = {0};
-    int done = read_bytes(path, &text, diag);
-    if (done == 0)
-        done = csv_table_parse(&text, table, arena, diag);
-    text_free(&text);
-    return done;
+    const char *line;
+    size_t length;
+    int more = input_line(rows->input, CSV_TABLE_SIZE, &line, &length, &rows->fault);
+    size_t skipped = more > 0 && !rows->begun ? mark_length(line, length) : 0;
+    if (more > 0 && !rows->begun && memchr(line, ',', length) == NULL &&
+        memchr(line, ';', length) != NULL) {
+        rows->reader.semicolons = true;
+        csv_set_delim(&rows->parser, ';');
+    }
+    rows->begun = true;
+    if (more > 0)
+        more = parse(&rows->parser, &rows->reader, line + skipped, length - skipped) == 0 &&
+               parse(&rows->parser, &rows->reader, "\n", 1) == 0;
+    else if (more == 0)
+        finish(&rows->parser, &rows->reader);
+    rows->ended = more <= 0;
+}
+
+const struct csv_table *csv_table_next(struct csv_table_rows *rows, struct diag *diag)
+{
+    struct reader *reader = &rows->reader;
+    arena_clear(&rows->cells);
+    memset(&reader->cells, 0, sizeof reader->cells);
+    memset(&reader->numbers, 0, sizeof reader->numbers);
+    reader->row_begin = 0;
+    while (!rows->ended && reader->numbers.count == 0)
+        parse_line(rows);
+    show_rows(reader);
+    if (rows->table.rows > 0)
+        return &rows->table;
+    if (rows->fault.code != DIAG_OK)
+        *diag = rows->fault;
+    return NULL;
+}
+
+struct csv_table_rows *csv_table_open(struct input *input, struct diag *diag)
+{
+    struct csv_table_rows *rows = memory_get(sizeof *rows);
+    *rows = (struct csv_table_rows){.input = input};
+    rows->reader = (struct reader){
+        .table = &rows->table, .arena = &rows->names, .diag = &rows->fault, .row = 1};
+    rows->ended = begin(&rows->parser, &rows->reader) != 0;
+    while (!rows->ended && rows->table.header == NULL)
+        parse_line(rows);
+    rows->reader.arena = &rows->cells;
+    if (rows->fault.code == DIAG_OK)
+        return rows;
+    *diag = rows->fault;
+    csv_table_close(rows);
+    return NULL;
+}
+
+const struct csv_table *csv_table_names(const struct csv_table_rows *rows)
+{
+    return &rows->table;
+}
+
+void csv_table_close(struct csv_table_rows *rows)
+{
+    if (rows == NULL)
+        return;
+    csv_free(&rows->parser);
+    arena_free(&rows->names);
+    arena_free(&rows->cells);
+    free(rows);
 }
 
 int csv_table_column(const struct csv_table *table, const char *name, size_t *column,
@@ -177,11 +265,14 @@ const char *csv_table_cell(const struct csv_table *table, size_t row, size_t col
 
 static bool number_of(const char *text, double *value)
 {
+    const char *end = text + strlen(text);
+    if (number_take(text, end, value) == end)
+        return true;
     if (*text != '-' && (*text < '0' || *text > '9'))
         return false;
     struct diag ignored;
     ignored.code = DIAG_OK;
-    struct json_scan scan = {.at = text, .end = text + strlen(text), .diag = &ignored};
+    struct json_scan scan = {.at = text, .end = end, .diag = &ignored};
     return json_scan_number(&scan, value) == 0 && scan.at == scan.end;
 }
 

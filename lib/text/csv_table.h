@@ -13,7 +13,7 @@
 
 #include "base/arena.h"
 #include "base/diag.h"
-#include "base/text.h"
+#include "text/input.h"
 
 /* The largest table, in bytes; recordings are tens of megabytes. */
 #define CSV_TABLE_SIZE ((size_t)(SIZE_MAX < UINT64_C(4) << 30 ? SIZE_MAX / 2 : UINT64_C(4) << 30))
@@ -26,13 +26,22 @@ struct csv_table {
     const size_t *numbers;    /* numbers of the rows, for messages */
 };
 
-/* Reads the whole table into the arena. Messages do not name the file. */
-int csv_table_read(const char *path, struct csv_table *table, struct arena *arena,
-                   struct diag *diag);
-
-/* Reads a table from its bytes, of which it keeps nothing. */
+/* Reads a whole table from its bytes into the arena. Messages do not name the file. */
 int csv_table_parse(const struct text *text, struct csv_table *table, struct arena *arena,
                     struct diag *diag);
+
+/* The same row by row, in constant memory; cells may be separated by semicolons, where the header
+ * has those and no comma. Opening reads the header; the input stays the caller's. NULL after a
+ * message. */
+struct csv_table_rows;
+struct csv_table_rows *csv_table_open(struct input *input, struct diag *diag);
+void csv_table_close(struct csv_table_rows *rows);
+
+/* A table of the columns alone. */
+const struct csv_table *csv_table_names(const struct csv_table_rows *rows);
+
+/* The rows that end in the next line, most often one; NULL at the end, or after a message. */
+const struct csv_table *csv_table_next(struct csv_table_rows *rows, struct diag *diag);
 
 /* Writes one cell, quoted (by libcsv) where it must be; returns its length. The room must be twice
  * the text's length and two. */

@@ -1,5 +1,6 @@
 /* Places, speeds and headings: hard cases 23, 24 and 35 to 38. */
 #define SCRATCH_FILE "tracks.csv"
+#include "support/recorded_file.h"
 #include "support/scratch.h"
 
 #include "hard.h"
@@ -7,7 +8,6 @@
 #include "base/units.h"
 #include "geometry/kinematics.h"
 #include "geometry/motion.h"
-#include "traffic/playback.h"
 #include "traffic/scenario.h"
 
 /* |actual - exact|; the exact value is used up. */
@@ -51,7 +51,7 @@ static int write_tracks(const char *path, struct utm *places, int steps)
     fputs("track_id,timestamp_ms,agent_type,x,y,vx,vy,psi_rad,length,width\n", file);
     for (int i = 0; i < steps * TRACKS; i++) {
         places[i] = draw_utm(&random);
-        fprintf(file, "%03d,%d,car,%lld.%06d,%lld.%06d,1,0,0,4,2\n", i % TRACKS, i / TRACKS * 100,
+        fprintf(file, "%03d,%d,car,%lld.%06d,%lld.%06d,1,0,0,4,2\n", i % TRACKS, i / TRACKS * 10000,
                 (long long)(places[i].x_um / 1000000), (int)(places[i].x_um % 1000000),
                 (long long)(places[i].y_um / 1000000), (int)(places[i].y_um % 1000000));
     }
@@ -103,17 +103,15 @@ static void utm_places_keep_a_nanometre(void **state)
     int steps = hard_points(100000) / TRACKS;
     struct utm *places = arena_get(&scratch->arena, (size_t)(steps * TRACKS) * sizeof *places);
     assert_int_equal(write_tracks(scratch->path, places, steps), 0);
-    struct playback scene;
-    struct diag diag = {0};
-    if (playback_open(&scene, scratch->path, "000", &scratch->arena, &diag) != 0)
-        fail_msg("%s", diag.text);
+    struct recorded_file scene;
+    recorded_file_open(&scene, scratch->path, "000", &scratch->arena);
     double naive = 0, ours = 0;
     mpfr_t work[2];
     mpfr_inits2(320, work[0], work[1], (mpfr_ptr)NULL);
-    struct frame frame = {.arena = &scratch->arena};
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena};
     for (int step = 0; step < steps; step++) {
-        frame.objects.count = 0;
-        playback_frame(&scene, step, &frame);
+        recorded_file_next(&scene, &frame);
         assert_int_equal(frame.objects.count, TRACKS);
         assert_true(frame.origin_x_m == round((double)places[0].x_um / 1e6) &&
                     frame.origin_y_m == round((double)places[0].y_um / 1e6));
@@ -132,6 +130,8 @@ static void utm_places_keep_a_nanometre(void **state)
         }
     }
     mpfr_clears(work[0], work[1], (mpfr_ptr)NULL);
+    recording_close(&scene.recording);
+    arena_free(&arena);
     hard_case("23", "UTM places of a table, and ranges", "m", naive, ours, 1e-9);
 }
 

@@ -1,6 +1,7 @@
 /* Time, binning and order: hard cases 40 to 47, and 24, straight motion over a million frames. */
 #define SCRATCH_FILE "hard"
 #include "chain.h"
+#include "support/recorded_file.h"
 #include "support/scratch.h"
 
 #include "base/number.h"
@@ -143,24 +144,19 @@ static void unix_times_keep_their_intervals(void **state)
     for (int i = 0; i < steps; i++)
         fprintf(file, "1,%lld,car,%d,0,50,0\n", (long long)(epoch_ms + 40 * (int64_t)i), 2 * i);
     assert_int_equal(fclose(file), 0);
-    char path[128];
-    snprintf(path, sizeof path, "%s.csv", scratch->path);
-    assert_int_equal(rename(scratch->path, path), 0);
-    struct playback scene;
-    struct diag diag = {0};
-    if (playback_open(&scene, path, "1", &scratch->arena, &diag) != 0)
-        fail_msg("%s", diag.text);
-    unlink(path);
+    struct recorded_file scene;
+    recorded_file_open(&scene, scratch->path, "1", &scratch->arena);
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
     double naive = 0, ours = 0, before_s = 0;
     for (int i = 0; i < steps; i++, before_s = frame.time_s) {
-        frame_of(&scene, i, &frame);
+        recorded_file_next(&scene, &frame);
         ours = fmax(ours, fabs(frame.interval_s - 0.04));
         if (i > 0)
             naive = fmax(naive, fabs((frame.time_s - before_s) - 0.04));
         ours += frame.time_s != (double)(epoch_ms + 40 * i) / 1000;
     }
+    recording_close(&scene.recording);
     arena_free(&arena);
     hard_case("42", "interval of frames in UNIX time", "s", naive, ours, 0);
 }

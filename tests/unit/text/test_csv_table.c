@@ -13,12 +13,9 @@
 static int read_bytes(struct scratch *scratch, const char *bytes, size_t length,
                       struct csv_table *table, struct diag *diag)
 {
-    FILE *file = fopen(scratch->path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, length, file), length);
-    assert_int_equal(fclose(file), 0);
+    struct text text = {.bytes = (char *)bytes, .length = length};
     *diag = (struct diag){0};
-    return csv_table_read(scratch->path, table, &scratch->arena, diag);
+    return csv_table_parse(&text, table, &scratch->arena, diag);
 }
 
 static struct csv_table table_of(struct scratch *scratch, const char *text)
@@ -74,27 +71,63 @@ static void a_header_alone_is_a_table_without_rows(void **state)
     assert_int_equal(table.rows, 0);
 }
 
-static void a_table_in_gzip_is_read_like_a_plain_one(void **state)
+/* The rows one after the other are those of the whole table, whatever the pieces of the file. */
+static void rows_come_one_after_the_other(void **state)
 {
     struct scratch *scratch = *state;
     gzFile file = gzopen(scratch->path, "wb");
     assert_non_null(file);
-    assert_true(gzputs(file, "\xef\xbb\xbfx,y\n") > 0);
+    assert_true(gzputs(file, "\xef\xbb\xbfx;\"a\nb\"\r\n") > 0);
     for (int i = 0; i < 50000; i++)
-        assert_true(gzprintf(file, "%d,%d\n", i, -i) > 0);
+        assert_true(gzprintf(file, "%d;\"%d\n,\"\n\n", i, -i) > 0);
     assert_int_equal(gzclose(file), Z_OK);
-    struct csv_table table;
     struct diag diag = {0};
-    assert_int_equal(csv_table_read(scratch->path, &table, &scratch->arena, &diag), 0);
-    assert_int_equal(table.rows, 50000);
-    for (size_t i = 0; i < table.rows; i++) {
-        double x, y;
-        assert_int_equal(csv_table_number(&table, i, 0, -1e6, 1e6, &x, &diag), 0);
-        assert_int_equal(csv_table_number(&table, i, 1, -1e6, 1e6, &y, &diag), 0);
-        assert_close(x, (double)i, 0);
-        assert_close(y, -(double)i, 0);
-        assert_int_equal(table.numbers[i], i + 2);
+    struct input *input = input_open(scratch->path, &diag);
+    struct csv_table_rows *rows = csv_table_open(input, &diag);
+    assert_non_null(rows);
+    assert_string_equal(csv_table_names(rows)->header[1], "a\nb");
+    for (size_t i = 0; i < 50000; i++) {
+        const struct csv_table *row = csv_table_next(rows, &diag);
+        char cell[32];
+        snprintf(cell, sizeof cell, "%d\n,", -(int)i);
+        assert_non_null(row);
+        assert_int_equal(row->rows, 1);
+        assert_string_equal(csv_table_cell(row, 0, 1), cell);
+        assert_int_equal(row->numbers[0], 2 + 2 * i);
     }
+    assert_null(csv_table_next(rows, &diag));
+    assert_int_equal(diag.code, DIAG_OK);
+    csv_table_close(rows);
+    input_close(input);
+}
+
+/* A fault comes after the rows before it. */
+static void rows_before_a_fault_come_first(void **state)
+{
+    struct scratch *scratch = *state;
+    FILE *file = fopen(scratch->path, "wb");
+    assert_non_null(file);
+    fputs("a,b\r1,2\r3\r5,6\r", file);
+    assert_int_equal(fclose(file), 0);
+    struct diag diag = {0};
+    struct input *input = input_open(scratch->path, &diag);
+    assert_null(csv_table_open(input, &diag));
+    assert_string_equal(diag.text, "row 3: 1 cell; expected 2 as in the header");
+    input_close(input);
+    file = fopen(scratch->path, "wb");
+    assert_non_null(file);
+    fputs("a,b\n1,2\n3\n5,6\n", file);
+    assert_int_equal(fclose(file), 0);
+    diag = (struct diag){0};
+    input = input_open(scratch->path, &diag);
+    struct csv_table_rows *rows = csv_table_open(input, &diag);
+    assert_non_null(rows);
+    assert_non_null(csv_table_next(rows, &diag));
+    assert_int_equal(diag.code, DIAG_OK);
+    assert_null(csv_table_next(rows, &diag));
+    assert_string_equal(diag.text, "row 3: 1 cell; expected 2 as in the header");
+    csv_table_close(rows);
+    input_close(input);
 }
 
 static void long_cells_are_read_whole(void **state)
@@ -186,17 +219,6 @@ static void a_nul_byte_is_refused_wherever_it_is(void **state)
     }
 }
 
-static void a_missing_file_is_no_input(void **state)
-{
-    (void)state;
-    struct arena arena = {0};
-    struct csv_table table;
-    struct diag diag = {0};
-    assert_int_equal(csv_table_read("/nonexistent/table.csv", &table, &arena, &diag), -1);
-    assert_int_equal(diag.code, DIAG_NO_INPUT);
-    arena_free(&arena);
-}
-
 static void columns_are_found_by_their_whole_name(void **state)
 {
     struct csv_table table = table_of(*state, "x,xx,vx,X\n1,2,3,4\n");
@@ -265,12 +287,12 @@ int main(void)
         cmocka_unit_test(every_spelling_of_a_table_is_the_same_table),
         cmocka_unit_test(quotes_keep_commas_line_breaks_blanks_and_quotes),
         cmocka_unit_test(a_header_alone_is_a_table_without_rows),
-        cmocka_unit_test(a_table_in_gzip_is_read_like_a_plain_one),
+        cmocka_unit_test(rows_come_one_after_the_other),
+        cmocka_unit_test(rows_before_a_fault_come_first),
         cmocka_unit_test(long_cells_are_read_whole),
         cmocka_unit_test(rows_have_the_numbers_that_a_spreadsheet_shows),
         cmocka_unit_test(damaged_tables_are_refused),
         cmocka_unit_test(a_nul_byte_is_refused_wherever_it_is),
-        cmocka_unit_test(a_missing_file_is_no_input),
         cmocka_unit_test(columns_are_found_by_their_whole_name),
         cmocka_unit_test(numbers_are_read_to_the_last_digit),
         cmocka_unit_test(cells_that_are_not_numbers_are_refused),

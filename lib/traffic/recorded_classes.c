@@ -1,0 +1,114 @@
+#include "traffic/recorded_classes.h"
+
+static const char *after_pair(const char *pair)
+{
+    size_t length = strcspn(pair, ",");
+    return pair[length] == ',' ? pair + length + 1 : NULL;
+}
+
+int recorded_classes_begin(struct recorded_classes *classes, const struct recorded_format *format,
+                           const char *map, const char *otherwise, struct arena *arena,
+                           struct diag *diag)
+{
+    *classes = (struct recorded_classes){.map = map, .otherwise = otherwise, .arena = arena};
+    if (document_list("vehicles", ".json", &classes->vehicles, arena, diag) != 0)
+        return -1;
+    for (const struct recorded_word *word = format->words; word->word != NULL; word++)
+        *list_add(&classes->words, arena) = *word;
+    for (const char *pair = map; pair != NULL; pair = after_pair(pair)) {
+        size_t word = strcspn(pair, "=,"), length = strcspn(pair, ",");
+        if (word == 0 || word + 1 >= length)
+            return diag_fail(diag, DIAG_USAGE, "--class-map: \"%.*s\"; expected WORD=CLASS",
+                             (int)length, pair);
+    }
+    return 0;
+}
+
+/* The latest of that name; NULL if there is none. */
+static const struct recorded_word *known(const struct recorded_classes *classes, const char *word,
+                                         size_t length)
+{
+    for (size_t i = classes->words.count; i-- > 0;) {
+        const struct recorded_word *each = &classes->words.items[i];
+        if (strncmp(each->word, word, length) == 0 && each->word[length] == '\0')
+            return each;
+    }
+    return NULL;
+}
+
+static const char *class_of(const struct recorded_classes *classes,
+                            const struct recorded_word *found, const char *word, size_t length)
+{
+    for (const char *pair = classes->map; pair != NULL; pair = after_pair(pair))
+        if (strncmp(pair, word, length) == 0 && pair[length] == '=')
+            return arena_text(classes->arena, pair + length + 1, strcspn(pair + length + 1, ","));
+    if (found != NULL)
+        return found->class;
+    for (size_t i = 0; i < classes->vehicles.names.count; i++)
+        if (strncmp(classes->vehicles.names.items[i], word, length) == 0 &&
+            classes->vehicles.names.items[i][length] == '\0')
+            return classes->vehicles.names.items[i];
+    return NULL;
+}
+
+static struct recorded_word answer_to(const struct recorded_classes *classes, const char *word)
+{
+    size_t length = strlen(word);
+    const struct recorded_word *found = known(classes, word, length);
+    const char *class = class_of(classes, found, word, length);
+    if (class == NULL && word[strcspn(word, "@")] == '@') {
+        length = strcspn(word, "@");
+        found = known(classes, word, length);
+        class = class_of(classes, found, word, length);
+    }
+    struct recorded_word answer = {.class = class != NULL ? class : classes->otherwise};
+    for (size_t i = 0; i < classes->words.count && found == NULL && answer.class != NULL; i++)
+        if (strcmp(classes->words.items[i].class, answer.class) == 0)
+            found = &classes->words.items[i];
+    if (found != NULL) {
+        answer.length_m = found->length_m;
+        answer.width_m = found->width_m;
+        answer.height_m = found->height_m;
+    }
+    return answer;
+}
+
+const struct recorded_word *recorded_classes_find(struct recorded_classes *classes,
+                                                  const char *word)
+{
+    uint32_t number = intern_word(&classes->asked, word, classes->arena);
+    if (number == classes->answers.count)
+        *list_add(&classes->answers, classes->arena) = answer_to(classes, word);
+    const struct recorded_word *answer = &classes->answers.items[number];
+    return answer->class != NULL ? answer : NULL;
+}
+
+void recorded_classes_add(struct recorded_classes *classes, const char *word, const char *like,
+                          double length_m, double width_m, double height_m)
+{
+    struct recorded_word added = answer_to(classes, like);
+    if (added.class == NULL)
+        return;
+    added.word = word;
+    added.length_m = length_m != 0 ? length_m : added.length_m;
+    added.width_m = width_m != 0 ? width_m : added.width_m;
+    added.height_m = height_m != 0 ? height_m : added.height_m;
+    *list_add(&classes->words, classes->arena) = added;
+}
+
+int recorded_classes_refuse(const struct recorded_classes *classes, const char *word,
+                            struct diag *diag)
+{
+    struct text list = {0};
+    for (size_t i = 0; i < classes->words.count; i++)
+        text_format(&list, "%s, ", classes->words.items[i].word);
+    text_format(&list, "or a class:");
+    for (size_t i = 0; i < classes->vehicles.names.count; i++)
+        text_format(&list, " %s", classes->vehicles.names.items[i]);
+    diag_fail(diag, DIAG_DATA,
+              "unknown class \"%.80s\"; expected one of %.*s; --class-map %.80s=CLASS or "
+              "--class-default CLASS names one",
+              word, (int)(list.length < 1200 ? list.length : 1200), list.bytes, word);
+    text_free(&list);
+    return -1;
+}

@@ -1,0 +1,39 @@
+/* Our classes by a recording's words for road users. */
+#ifndef RECORDED_CLASSES_H
+#define RECORDED_CLASSES_H
+
+#include "base/intern.h"
+#include "text/document.h"
+#include "traffic/recorded_row.h"
+
+struct recorded_classes {
+    const char *map, *otherwise;           /* --class-map, --class-default, or NULL */
+    LIST_OF(struct recorded_word) words;   /* that the source adds, then those of the format */
+    struct document_names vehicles;        /* the classes that there are */
+    struct intern asked;                   /* words */
+    LIST_OF(struct recorded_word) answers; /* by the number of the word; class NULL: none */
+    struct arena *arena;
+};
+
+/* map is "word=class,word=class" or NULL, otherwise a class or NULL. Refuses a pair without "="
+ * (DIAG_USAGE). All of it lies in the arena. */
+int recorded_classes_begin(struct recorded_classes *classes, const struct recorded_format *format,
+                           const char *map, const char *otherwise, struct arena *arena,
+                           struct diag *diag);
+
+/* Adds a word that means the same as one of the format's, with sizes of its own where they are not
+ * 0. It goes before words of that name. */
+void recorded_classes_add(struct recorded_classes *classes, const char *word, const char *like,
+                          double length_m, double width_m, double height_m);
+
+/* The class of a word: by the map, else the words, else the class of this name in data/vehicles/,
+ * else otherwise; NULL if none knows it. Nor are the words known, what stands before an "@" is
+ * asked for. The sizes are those of the word, or of the first word with this class. */
+const struct recorded_word *recorded_classes_find(struct recorded_classes *classes,
+                                                  const char *word);
+
+/* Refuses the word with the words and the classes that there are; returns -1. */
+int recorded_classes_refuse(const struct recorded_classes *classes, const char *word,
+                            struct diag *diag);
+
+#endif

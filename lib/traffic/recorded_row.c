@@ -1,0 +1,32 @@
+#include "traffic/recorded_row.h"
+
+#include <math.h>
+
+#include "text/field.h"
+
+const struct recorded_row recorded_row_unsaid = {
+    .yaw_rad = NAN, .vx_mps = NAN, .vy_mps = NAN, .yaw_rate_radps = NAN, .speed_mps = NAN};
+
+int64_t recorded_row_time_ns(double time, double unit_s)
+{
+    const double per_unit = unit_s * 1e9;
+    double whole = floor(time);
+    return (int64_t)whole * (int64_t)per_unit + (int64_t)round((time - whole) * per_unit);
+}
+
+/* Divides in the largest unit of which the time is a whole number, so that the numerator is exact:
+ * milliseconds since 1970 have 41 bits. */
+double recorded_row_seconds(int64_t time_ns)
+{
+    int64_t unit = time_ns % 1000000 == 0 ? 1000000 : time_ns % 1000 == 0 ? 1000 : 1;
+    int64_t whole = time_ns / unit;
+    return (double)whole / (1e9 / (double)unit);
+}
+
+bool recorded_row_name_fits(const char *name)
+{
+    size_t length = 0;
+    for (; name[length] >= ' ' && name[length] <= '~'; length++)
+        continue;
+    return length > 0 && length <= FIELD_NAME_SIZE && name[length] == '\0';
+}

@@ -1,0 +1,75 @@
+/* A row of a recording, and what its reader is.
+ *
+ * A reader gives a recording row by row, as it stands in the file; recorded_steps.h makes steps of
+ * the rows: it maps classes, finds centres, velocities and yaw rates. A new format is a file beside
+ * this one that fills a struct recorded_format. */
+#ifndef RECORDED_ROW_H
+#define RECORDED_ROW_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/arena.h"
+#include "base/diag.h"
+
+/* A road user at one instant. NAN stands for what the source does not say. Names are valid until
+ * the reader is called again. */
+struct recorded_row {
+    int64_t time_ns;
+    const char *id;
+    const char *class;     /* the format's own word, of its vocabulary or not */
+    double x_m, y_m;       /* y counter-clockwise of x; any size, UTM too */
+    double ahead;          /* how many lengths the place lies ahead of the box's centre */
+    double yaw_rad;        /* NAN: along the velocity */
+    double vx_mps, vy_mps; /* of the centre over ground; NAN: from the places */
+    double yaw_rate_radps; /* NAN: from the yaws */
+    double speed_mps;      /* along the yaw, for the step in which the places tell no velocity */
+    double length_m, width_m, height_m; /* 0: that of the word, or of the class */
+    size_t place;                       /* row, line or byte in the file, for messages */
+};
+
+/* A row of which nothing is said. */
+extern const struct recorded_row recorded_row_unsaid;
+
+/* What a call of a reader gives; -1 after a message. */
+enum recorded_event {
+    RECORDED_END,
+    RECORDED_ROW,
+    RECORDED_STEP, /* the step of row.time_ns is whole; it may have no rows */
+};
+
+/* A word of a format's vocabulary, the class of data/vehicles/ that it stands for, and the sizes
+ * that the format gives to bodies of this class that have none of their own; 0: our class's. */
+struct recorded_word {
+    const char *word, *class;
+    double length_m, width_m, height_m;
+};
+
+struct recorded_format {
+    const char *name;    /* "a table of INTERACTION" */
+    const char *id_name; /* what the format calls an id, for messages: "track_id" */
+    const char *place;   /* what recorded_row.place counts: "row", "byte" */
+    bool by_time;        /* rows come in ascending time; if not, the recording is stored whole */
+    bool marks_steps;    /* gives RECORDED_STEP; if not, a step ends where the time changes */
+    const struct recorded_word *words; /* ends with a word NULL */
+    int (*next)(void *state, struct recorded_row *row, struct diag *diag);
+    void (*close)(void *state); /* NULL: nothing to free */
+};
+
+struct recorded_reader {
+    const struct recorded_format *format; /* NULL: none was opened */
+    void *state;
+};
+
+/* A time in a file, in seconds times 1 / unit_s (1e-3 for milliseconds), as whole nanoseconds. */
+int64_t recorded_row_time_ns(double time, double unit_s);
+
+/* Nanoseconds as the nearest double in seconds. */
+double recorded_row_seconds(int64_t time_ns);
+
+/* Refuses an id or class that is empty, longer than FIELD_NAME_SIZE or not printable ASCII: names
+ * go into frames, which are UTF-8, and tables do not say how they are encoded. */
+bool recorded_row_name_fits(const char *name);
+
+#endif

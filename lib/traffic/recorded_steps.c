@@ -1,0 +1,303 @@
+#include "traffic/recorded_steps.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/sort.h"
+#include "base/units.h"
+#include "frame/frame_order.h"
+
+static const size_t NONE = SIZE_MAX;
+
+_Static_assert(offsetof(struct recorded_state, object.id) == 0, "frame_order_names compares it");
+
+static struct recorded_step *step_at(struct recorded_steps *steps, size_t number)
+{
+    return &steps->ring[number % RECORDED_STEPS_RING];
+}
+
+static double seconds_between(const struct recorded_step *from, const struct recorded_step *to)
+{
+    return (double)(to->time_ns - from->time_ns) * 1e-9;
+}
+
+/* ---- rows become states ---- */
+
+static int take_row(struct recorded_steps *steps, struct recorded_step *step, struct diag *diag)
+{
+    const struct recorded_row *row = &steps->row;
+    const struct recorded_word *word = recorded_classes_find(&steps->classes, row->class);
+    if (word == NULL) {
+        recorded_classes_refuse(&steps->classes, row->class, diag);
+        return diag_prefix(diag, "%s %zu: ", steps->reader.format->place, row->place);
+    }
+    double length_m = row->length_m != 0 ? row->length_m : word->length_m;
+    *list_add(&step->states, &step->arena) = (struct recorded_state){
+        .object = {.id = arena_text(&step->arena, row->id, strlen(row->id)),
+                   .class = word->class,
+                   .x_m = row->x_m,
+                   .y_m = row->y_m,
+                   .yaw_rad = row->yaw_rad,
+                   .vx_mps = row->vx_mps,
+                   .vy_mps = row->vy_mps,
+                   .yaw_rate_radps = row->yaw_rate_radps,
+                   .length_m = length_m,
+                   .width_m = row->width_m != 0 ? row->width_m : word->width_m,
+                   .height_m = row->height_m != 0 ? row->height_m : word->height_m},
+        .since_ns = step->time_ns,
+        .place = row->place,
+        .at_m = {row->x_m, row->y_m},
+        .ahead_m = row->ahead * length_m,
+        .speed_mps = row->speed_mps,
+        .before = NONE,
+        .after = NONE,
+    };
+    return 0;
+}
+
+/* Turns the object to its yaw, which is NAN where it is that of the velocity; at rest it is that of
+ * the step before. Then moves the object to the centre of its box. */
+static void place_object(struct recorded_state *state, const struct recorded_state *before)
+{
+    struct object *object = &state->object;
+    bool moves = object->vx_mps != 0 || object->vy_mps != 0;
+    if (isnan(object->yaw_rad) && moves)
+        object->yaw_rad = elementary_atan2(object->vy_mps, object->vx_mps);
+    else if (isnan(object->yaw_rad))
+        object->yaw_rad =
+            before != NULL && !isnan(before->object.yaw_rad) ? before->object.yaw_rad : 0;
+    object->yaw_rad = units_wrap_rad(object->yaw_rad);
+    if (state->ahead_m == 0)
+        return;
+    struct vec2 heading = vec2_heading(object->yaw_rad);
+    object->x_m -= state->ahead_m * heading.x;
+    object->y_m -= state->ahead_m * heading.y;
+}
+
+static int refuse_second(const struct recorded_steps *steps, const struct recorded_step *step,
+                         const struct recorded_state *states, struct diag *diag)
+{
+    const struct recorded_format *format = steps->reader.format;
+    size_t one = states[0].place, other = states[1].place;
+    return diag_fail(diag, DIAG_DATA, "%s %zu: %s %s at %.12g s is in %s %zu already",
+                     format->place, one > other ? one : other, format->id_name, states->object.id,
+                     recorded_row_seconds(step->time_ns), format->place, one > other ? other : one);
+}
+
+/* Sorts the states, ties them to those of the step before, and places the objects whose yaw or
+ * velocity the rows say. */
+static int link_states(struct recorded_steps *steps, struct recorded_step *step, struct diag *diag)
+{
+    struct recorded_step *last = steps->read > 0 ? step_at(steps, steps->read - 1) : NULL;
+    sort_list(&step->states, frame_order_names, &step->arena);
+    for (size_t i = 0, j = 0; i < step->states.count; i++) {
+        struct recorded_state *state = &step->states.items[i], *before = NULL;
+        const char *id = state->object.id;
+        if (i > 0 && strcmp(state[-1].object.id, id) == 0)
+            return refuse_second(steps, step, state - 1, diag);
+        while (last != NULL && j < last->states.count &&
+               strcmp(last->states.items[j].object.id, id) < 0)
+            j++;
+        if (last != NULL && j < last->states.count &&
+            strcmp(last->states.items[j].object.id, id) == 0)
+            before = &last->states.items[j];
+        if (!isnan(state->object.yaw_rad) || !isnan(state->object.vx_mps)) {
+            place_object(state, before);
+            state->at_m = (struct vec2){state->object.x_m, state->object.y_m};
+        }
+        if (before == NULL || vec2_length(vec2_sub(state->at_m, before->at_m)) >
+                                  RECORDED_STEPS_FASTEST_MPS * seconds_between(last, step))
+            continue;
+        state->before = j;
+        before->after = i;
+        state->since_ns = before->since_ns;
+    }
+    return 0;
+}
+
+/* ---- reading a step ---- */
+
+static int begin_step(struct recorded_steps *steps, struct recorded_step *step, struct diag *diag)
+{
+    step->time_ns = steps->row.time_ns;
+    if (steps->read == 0)
+        return 0;
+    struct recorded_step *last = step_at(steps, steps->read - 1);
+    step->interval_ns = step->time_ns - last->time_ns;
+    if (step->interval_ns <= 0 || step->interval_ns > INT64_C(1000000) * 1000000000)
+        return diag_fail(diag, DIAG_DATA,
+                         "%s %zu: %.12g s after a step of %.12g s; expected a later time, by at "
+                         "most 1e6 s",
+                         steps->reader.format->place, steps->row.place,
+                         recorded_row_seconds(step->time_ns), recorded_row_seconds(last->time_ns));
+    if (steps->read == 1)
+        last->interval_ns = step->interval_ns;
+    return 0;
+}
+
+/* Takes one event; 1 while the step goes on, 0 when it is whole or the source at its end, -1 after
+ * a message. */
+static int take_event(struct recorded_steps *steps, struct recorded_step *step, bool *begun,
+                      struct diag *diag)
+{
+    struct recorded_row *row = &steps->row;
+    const struct recorded_reader *reader = &steps->reader;
+    int event = steps->row_waits ? RECORDED_ROW : reader->format->next(reader->state, row, diag);
+    if (event < 0)
+        return -1;
+    steps->row_waits = event == RECORDED_ROW && *begun && row->time_ns != step->time_ns;
+    steps->ended = event == RECORDED_END;
+    if (steps->ended || steps->row_waits)
+        return 0;
+    if (!*begun && begin_step(steps, step, diag) != 0)
+        return -1;
+    *begun = true;
+    if (event == RECORDED_STEP)
+        return 0;
+    return take_row(steps, step, diag) == 0 ? 1 : -1;
+}
+
+/* Reads a step into the ring, if there is one. A step with a fault is none, and the fault ends the
+ * recording. */
+static void read_step(struct recorded_steps *steps)
+{
+    struct recorded_step *step = step_at(steps, steps->read);
+    struct arena arena = step->arena;
+    arena_clear(&arena);
+    *step = (struct recorded_step){.arena = arena};
+    bool begun = false;
+    int more;
+    do
+        more = take_event(steps, step, &begun, &steps->fault);
+    while (more > 0);
+    if (more == 0 && begun)
+        more = link_states(steps, step, &steps->fault);
+    if (more == 0 && begun)
+        steps->read++;
+    if (more < 0 || step->time_ns > steps->to_ns)
+        steps->ended = true;
+}
+
+/* ---- what the rows leave open ---- */
+
+/* The slope, at the middle of three places, of the parabola through them: before and after are the
+ * rises to and from it, over times that are 0 where there is no such place. NAN without any. */
+static double slope(double before, double before_s, double after, double after_s)
+{
+    if (before_s > 0 && after_s > 0)
+        return (before * after_s * after_s + after * before_s * before_s) /
+               (before_s * after_s * (before_s + after_s));
+    if (before_s > 0)
+        return before / before_s;
+    return after_s > 0 ? after / after_s : (double)NAN;
+}
+
+/* Without a step beside it a road user has the speed that the source says, or none. */
+static void find_velocity(struct recorded_state *state, const struct recorded_state *before,
+                          double before_s, const struct recorded_state *after, double after_s)
+{
+    struct object *object = &state->object;
+    struct vec2 at_m = state->at_m, from_m = before != NULL ? before->at_m : at_m;
+    struct vec2 to_m = after != NULL ? after->at_m : at_m;
+    object->vx_mps = slope(at_m.x - from_m.x, before_s, to_m.x - at_m.x, after_s);
+    object->vy_mps = slope(at_m.y - from_m.y, before_s, to_m.y - at_m.y, after_s);
+    if (before != NULL || after != NULL)
+        return;
+    bool known = !isnan(state->speed_mps) && !isnan(object->yaw_rad);
+    struct vec2 heading = vec2_heading(known ? object->yaw_rad : 0);
+    object->vx_mps = known ? state->speed_mps * heading.x : 0;
+    object->vy_mps = known ? state->speed_mps * heading.y : 0;
+}
+
+static void find_yaw_rate(struct object *object, const struct recorded_state *before,
+                          double before_s, const struct recorded_state *after, double after_s)
+{
+    double left_rad = 0, right_rad = 0;
+    if (before != NULL)
+        left_rad = units_wrap_rad(object->yaw_rad - before->object.yaw_rad);
+    if (after != NULL && !isnan(after->object.yaw_rad))
+        right_rad = units_wrap_rad(after->object.yaw_rad - object->yaw_rad);
+    else
+        after_s = 0;
+    double rate_radps = slope(left_rad, before_s, right_rad, after_s);
+    object->yaw_rate_radps = isnan(rate_radps) ? 0 : rate_radps;
+}
+
+/* The sum is compensated (Neumaier), because a track may have very many very short steps. */
+static void travel(struct recorded_state *state, const struct recorded_state *before)
+{
+    struct vec2 way_m = {state->object.x_m - before->object.x_m,
+                         state->object.y_m - before->object.y_m};
+    double sum_m = before->way_m, step_m = vec2_length(way_m);
+    state->way_m = sum_m + step_m;
+    state->way_rest_m = before->way_rest_m + (sum_m >= step_m ? (sum_m - state->way_m) + step_m
+                                                              : (step_m - state->way_m) + sum_m);
+    state->object.travelled_m = state->way_m + state->way_rest_m;
+}
+
+static void complete_step(struct recorded_steps *steps, size_t number)
+{
+    struct recorded_step *step = step_at(steps, number), *last = NULL, *next = NULL;
+    if (number > 0)
+        last = step_at(steps, number - 1);
+    if (number + 1 < steps->read)
+        next = step_at(steps, number + 1);
+    bool open = steps->live || (next == NULL && steps->fault.code != DIAG_OK);
+    bool closes = next != NULL && next->time_ns > steps->to_ns;
+    for (size_t i = 0; i < step->states.count; i++) {
+        struct recorded_state *state = &step->states.items[i], *before = NULL, *after = NULL;
+        if (last != NULL && state->before != NONE)
+            before = &last->states.items[state->before];
+        if (next != NULL && state->after != NONE)
+            after = &next->states.items[state->after];
+        double before_s = before != NULL ? seconds_between(last, step) : 0;
+        double after_s = after != NULL ? seconds_between(step, next) : 0;
+        if (isnan(state->object.vx_mps))
+            find_velocity(state, before, before_s, after, after_s);
+        if (isnan(state->object.yaw_rad))
+            place_object(state, before);
+        if (isnan(state->object.yaw_rate_radps))
+            find_yaw_rate(&state->object, before, before_s, after, after_s);
+        if (before != NULL)
+            travel(state, before);
+        state->leaves = !open && (after == NULL || closes);
+    }
+}
+
+int recorded_steps_next(struct recorded_steps *steps, const struct recorded_step **step,
+                        struct diag *diag)
+{
+    size_t wanted = steps->given + (steps->live ? 1 : 2);
+    while (!steps->ended && steps->read < wanted)
+        read_step(steps);
+    if (steps->read > steps->given && step_at(steps, steps->given)->time_ns <= steps->to_ns) {
+        complete_step(steps, steps->given);
+        *step = step_at(steps, steps->given++);
+        return 1;
+    }
+    if (steps->fault.code == DIAG_OK)
+        return 0;
+    *diag = steps->fault;
+    return -1;
+}
+
+static int compare_id(const void *id, const void *state)
+{
+    return strcmp(id, ((const struct recorded_state *)state)->object.id);
+}
+
+const struct recorded_state *recorded_steps_find(const struct recorded_step *step, const char *id)
+{
+    return step->states.count == 0 ? NULL
+                                   : bsearch(id, step->states.items, step->states.count,
+                                             sizeof *step->states.items, compare_id);
+}
+
+void recorded_steps_close(struct recorded_steps *steps)
+{
+    const struct recorded_reader *reader = &steps->reader;
+    if (reader->format != NULL && reader->format->close != NULL)
+        reader->format->close(reader->state);
+    for (size_t i = 0; i < RECORDED_STEPS_RING; i++)
+        arena_free(&steps->ring[i].arena);
+}

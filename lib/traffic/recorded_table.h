@@ -1,0 +1,81 @@
+/* CSV tables of recorded traffic, of every layout.
+ *
+ * A layout is a file beside this one, which says what the columns are; their order and other
+ * columns do not matter. The first layout whose mark is among the columns is taken, the last one
+ * where none is. */
+#ifndef RECORDED_TABLE_H
+#define RECORDED_TABLE_H
+
+#include "text/csv_table.h"
+#include "traffic/recorded_row.h"
+
+/* Cells of columns that are not needed may be empty. */
+enum recorded_need {
+    RECORDED_NEEDED,
+    RECORDED_OPTIONAL,
+    RECORDED_TOGETHER, /* all of these columns or none */
+};
+
+/* A column of text (an id or a class), of times, or of numbers that become scale * (number + shift)
+ * in a member of struct recorded_row. */
+struct recorded_column {
+    const char *name; /* NULL after the last */
+    enum { RECORDED_TEXT, RECORDED_TIME, RECORDED_NUMBER } kind;
+    enum recorded_need need; /* of several columns of times, one is needed */
+    size_t offset;           /* of the member */
+    double low, high;        /* of a number in the file */
+    double scale, shift;     /* of a time: seconds for 1, which is whole unless it is a second */
+};
+
+#define RECORDED_ID(name_)                                                                         \
+    {                                                                                              \
+        .name = (name_), .kind = RECORDED_TEXT, .offset = offsetof(struct recorded_row, id)        \
+    }
+#define RECORDED_CLASS(name_, need_)                                                               \
+    {                                                                                              \
+        .name = (name_), .kind = RECORDED_TEXT, .need = (need_),                                   \
+        .offset = offsetof(struct recorded_row, class)                                             \
+    }
+#define RECORDED_TIME_IN(name_, unit_s)                                                            \
+    {                                                                                              \
+        .name = (name_), .kind = RECORDED_TIME, .need = RECORDED_OPTIONAL, .scale = (unit_s)       \
+    }
+#define RECORDED_VALUE(name_, member, need_, low_, high_, scale_, shift_)                          \
+    {                                                                                              \
+        .name = (name_), .kind = RECORDED_NUMBER, .need = (need_),                                 \
+        .offset = offsetof(struct recorded_row, member), .low = (low_), .high = (high_),           \
+        .scale = (scale_), .shift = (shift_)                                                       \
+    }
+
+/* One kind of road user in a table. Its first column is the id; a row is of the first kind whose id
+ * it has, and has the kind's class if no column says another. */
+struct recorded_kind {
+    const struct recorded_column *columns;
+    const char *class;
+    double ahead; /* recorded_row.ahead */
+};
+
+enum { RECORDED_KINDS = 3, RECORDED_COLUMNS = 16 };
+
+struct recorded_layout {
+    struct recorded_format format;              /* next and close are those of all tables */
+    const char *mark;                           /* name of a column that no other layout has */
+    struct recorded_kind kinds[RECORDED_KINDS]; /* columns NULL: no more */
+};
+
+extern const struct recorded_layout interaction_table_layout, sumo_table_layout,
+    sumo_table_plain_layout;
+
+/* Words and sizes of SUMO's classes and default types, for its XML too. */
+extern const struct recorded_word sumo_table_words[];
+
+/* Reads the header, and takes over the input. The reader's format is NULL after a message. */
+struct recorded_reader recorded_table_open(struct input *input, struct arena *arena,
+                                           struct diag *diag);
+
+/* What the formats of all tables have: next and close take their struct recorded_table. */
+#define RECORDED_TABLE .place = "row", .next = recorded_table_next, .close = recorded_table_close
+int recorded_table_next(void *table, struct recorded_row *row, struct diag *diag);
+void recorded_table_close(void *table);
+
+#endif

@@ -1,0 +1,307 @@
+#include "traffic/recording.h"
+
+#include "text/field_check.h"
+#include "traffic/recorded_store.h"
+
+/* ---- opening ---- */
+
+static const struct field recording_fields[] = {
+    {FIELD_NAME_OF(struct recording_options, ego,
+                   "the object that carries the sensors, or ID,ID,... or all, for a scene of each; "
+                   "a scenario names one"),
+     FIELD_OPTIONAL},
+    {FIELD_NAME_OF(struct recording_options, scene, "name of the scene; absent: SOURCE/EGO"),
+     FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct recording_options, radius_m, 0, 1e6,
+                   "leave out objects farther than this from the ego"),
+     FIELD_OPTIONAL, .absent = -1},
+    {FIELD_REAL_IN(struct recording_options, rate_hz, 1e-3, 1e6,
+                   "resample to this rate; absent: the source's own steps"),
+     FIELD_OPTIONAL, .absent = -1},
+    {FIELD_REAL_IN(struct recording_options, from_s, -9e9, 9e9, "begin at this time of the source"),
+     FIELD_OPTIONAL, .absent = -9e9},
+    {FIELD_REAL_IN(struct recording_options, to_s, -9e9, 9e9, "end at this time of the source"),
+     FIELD_OPTIONAL, .absent = 9e9},
+    {FIELD_NAME_OF(struct recording_options, class_map,
+                   "what words of the source mean: WORD=CLASS,WORD=CLASS,..."),
+     FIELD_OPTIONAL, .word = "MAP"},
+    {FIELD_NAME_OF(struct recording_options, class_default,
+                   "the class of all words that nothing knows; absent: they are refused"),
+     FIELD_OPTIONAL, .word = "CLASS"},
+    {FIELD_NAME_OF(struct recording_options, conditions,
+                   "road and weather over what the scenario says, as its member of that name: "
+                   "'{\"rain_mmph\": 20}'"),
+     FIELD_OPTIONAL, .word = "JSON"},
+    {0},
+};
+
+const struct record recording_options_record = {
+    .name = "recording", .size = sizeof(struct recording_options), .fields = recording_fields};
+
+static int choose_egos(struct recording *recording, const char *egos, struct diag *diag)
+{
+    if (egos == NULL)
+        return diag_fail(diag, DIAG_USAGE,
+                         "a recording has no ego of its own; expected --ego ID, ID,ID,... or all");
+    recording->all = strcmp(egos, "all") == 0;
+    for (size_t at = 0, length; !recording->all; at += length + 1) {
+        length = strcspn(egos + at, ",");
+        if (length == 0)
+            return diag_fail(diag, DIAG_USAGE, "--ego: \"%s\" has an empty id", egos);
+        intern_number(&recording->wanted, egos + at, length, recording->arena);
+        if (egos[at + length] == '\0')
+            break;
+    }
+    return 0;
+}
+
+static int check_options(const struct recording *recording, struct diag *diag)
+{
+    const struct recording_options *options = recording->options;
+    const struct recorded_steps *steps = &recording->steps;
+    if (steps->live && !steps->reader.format->marks_steps)
+        return diag_fail(diag, DIAG_USAGE, "--live: %s does not say where a step ends",
+                         steps->reader.format->name);
+    if (steps->live && options->rate_hz > 0)
+        return diag_fail(diag, DIAG_USAGE, "--live: --rate-hz would wait for the next step");
+    return options->from_s <= options->to_s
+               ? 0
+               : diag_fail(diag, DIAG_USAGE, "--to-s: %g is before --from-s, which is %g",
+                           options->to_s, options->from_s);
+}
+
+static int prepare(struct recording *recording, struct diag *diag)
+{
+    const struct recording_options *options = recording->options;
+    struct recorded_steps *steps = &recording->steps;
+    if (choose_egos(recording, options->ego, diag) != 0 || check_options(recording, diag) != 0 ||
+        recording_conditions(options, &recording->conditions, recording->arena, diag) != 0)
+        return -1;
+    if (!steps->reader.format->by_time)
+        steps->reader = recorded_store_read(steps->reader, recording->arena, diag);
+    return steps->reader.format == NULL
+               ? -1
+               : recorded_classes_begin(&steps->classes, steps->reader.format, options->class_map,
+                                        options->class_default, recording->arena, diag);
+}
+
+int recording_conditions(const struct recording_options *options, struct conditions *changes,
+                         struct arena *arena, struct diag *diag)
+{
+    struct text text = {0};
+    text_add_word(&text, options->conditions != NULL ? options->conditions : "{}");
+    int done =
+        document_parse("--conditions", &text, &conditions_changes_record, changes, arena, diag);
+    text_free(&text);
+    if (done != 0)
+        diag->code = DIAG_USAGE;
+    return done;
+}
+
+const char *recording_name(const char *source, struct arena *arena)
+{
+    const char *slash = strrchr(source, '/');
+    const char *base = slash != NULL ? slash + 1 : source;
+    size_t length = strcmp(base, "-") == 0 ? 0 : strcspn(base, ".");
+    return length == 0 ? "scene" : arena_text(arena, base, length);
+}
+
+int recording_open(struct recording *recording, struct recorded_reader reader, const char *source,
+                   const struct recording_options *options, bool live, struct arena *arena,
+                   struct diag *diag)
+{
+    *recording = (struct recording){.source = source, .options = options, .arena = arena};
+    recording->name = recording_name(source, arena);
+    recording->from_ns = recorded_row_time_ns(options->from_s, 1);
+    recording->steps.reader = reader;
+    recording->steps.live = live;
+    recording->steps.to_ns = recorded_row_time_ns(options->to_s, 1);
+    recording->resampling = (struct resampling){
+        .steps = &recording->steps, .rate_hz = options->rate_hz, .from_ns = recording->from_ns};
+    bool ready = reader.format != NULL && prepare(recording, diag) == 0;
+    return ready ? 0 : diag_prefix(diag, "%s: ", source);
+}
+
+/* ---- steps ---- */
+
+static bool is_ego(const struct recording *recording, const struct recorded_state *state)
+{
+    uint32_t number;
+    const struct object *object = &state->object;
+    return recording->all
+               ? strcmp(object->class, "pedestrian") != 0
+               : intern_find(&recording->wanted, object->id, strlen(object->id), &number);
+}
+
+static void fill_grid(struct recording *recording)
+{
+    const struct recorded_step *step = recording->step;
+    size_t count = step->states.count;
+    struct vec2 *places = arena_room(&recording->step_arena, count * sizeof *places);
+    for (size_t i = 0; i < count; i++) {
+        const struct object *object = &step->states.items[i].object;
+        places[i] = (struct vec2){object->x_m, object->y_m};
+    }
+    recording->grid =
+        neighbour_grid_of(places, count, recording->options->radius_m, &recording->step_arena);
+}
+
+/* Reads the next step that has egos. */
+static int take_step(struct recording *recording, struct diag *diag)
+{
+    bool resampled = recording->options->rate_hz > 0;
+    do {
+        int more = resampled ? resampling_next(&recording->resampling, &recording->step, diag)
+                             : recorded_steps_next(&recording->steps, &recording->step, diag);
+        if (more <= 0)
+            return more;
+        arena_clear(&recording->step_arena);
+        recording->step_egos.items = NULL;
+        recording->step_egos.count = recording->step_egos.room = recording->ego = 0;
+        if (recording->step->time_ns < recording->from_ns)
+            continue;
+        for (uint32_t i = 0; i < recording->step->states.count; i++)
+            if (is_ego(recording, &recording->step->states.items[i]))
+                *list_add(&recording->step_egos, &recording->step_arena) = i;
+    } while (recording->step_egos.count == 0);
+    if (recording->options->radius_m >= 0)
+        fill_grid(recording);
+    return 1;
+}
+
+/* ---- frames ---- */
+
+/* The origin of the frames' coordinates: in whole metres near the ego if it is more than a
+ * kilometre away (as in UTM), else that of the source. */
+static struct vec2 local_origin(const struct object *ego)
+{
+    bool near = fabs(ego->x_m) <= 1000 && fabs(ego->y_m) <= 1000;
+    return near ? (struct vec2){0, 0} : (struct vec2){round(ego->x_m), round(ego->y_m)};
+}
+
+static const char *scene_name(const struct recording *recording, const struct recorded_ego *ego)
+{
+    const char *given = recording->options->scene;
+    bool several = recording->all || recording->wanted.list.count > 1;
+    struct text name = {0};
+    text_add_word(&name, given != NULL ? given : recording->name);
+    if (given == NULL || several)
+        text_format(&name, "/%s", ego->id);
+    if (ego->visits > 1)
+        text_format(&name, "/%lld", (long long)ego->visits);
+    const char *copy = arena_text(recording->arena, name.bytes, name.length);
+    text_free(&name);
+    return copy;
+}
+
+static struct recorded_ego *ego_of(struct recording *recording, const struct recorded_state *state)
+{
+    const struct object *object = &state->object;
+    uint32_t number = intern_word(&recording->ids, object->id, recording->arena);
+    if (number == recording->egos.count)
+        *list_add(&recording->egos, recording->arena) =
+            (struct recorded_ego){.id = intern_text(&recording->ids, number)};
+    struct recorded_ego *ego = &recording->egos.items[number];
+    if (ego->visits > 0 && ego->since_ns == state->since_ns)
+        return ego;
+    ego->visits++;
+    ego->since_ns = state->since_ns;
+    ego->frames = 0;
+    ego->origin_m = local_origin(object);
+    ego->scene = scene_name(recording, ego);
+    return ego;
+}
+
+static void add_object(struct frame *frame, const struct recorded_state *state)
+{
+    struct object *object = list_add(&frame->objects, frame->arena);
+    *object = state->object;
+    object->x_m -= frame->origin_x_m;
+    object->y_m -= frame->origin_y_m;
+}
+
+static void add_objects(struct recording *recording, const struct recorded_state *ego,
+                        struct frame *frame)
+{
+    const struct recorded_step *step = recording->step;
+    if (recording->options->radius_m < 0) {
+        for (size_t i = 0; i < step->states.count; i++)
+            add_object(frame, &step->states.items[i]);
+        return;
+    }
+    struct vec2 place = {ego->object.x_m, ego->object.y_m};
+    uint32_t *found = arena_room(frame->arena, step->states.count * sizeof *found);
+    size_t count = neighbour_grid_find(&recording->grid, place, found, frame->arena);
+    for (size_t i = 0; i < count; i++)
+        add_object(frame, &step->states.items[found[i]]);
+}
+
+static void fill(struct recording *recording, const struct recorded_state *state,
+                 struct frame *frame)
+{
+    const struct recorded_step *step = recording->step;
+    struct recorded_ego *ego = ego_of(recording, state);
+    frame->scene = ego->scene;
+    frame->ego = ego->id;
+    frame->frame = ego->frames++;
+    frame->last = state->leaves;
+    frame->time_s = recorded_row_seconds(step->time_ns);
+    /* A recording of a single step has no interval; any value will do, so it is 1 s. */
+    frame->interval_s = step->interval_ns > 0 ? recorded_row_seconds(step->interval_ns) : 1;
+    frame->origin_x_m = ego->origin_m.x;
+    frame->origin_y_m = ego->origin_m.y;
+    conditions_change(&frame->conditions, &recording->conditions);
+    add_objects(recording, state, frame);
+}
+
+/* An ego that never came is an error, for its id may be misspelt. */
+static int check_egos(const struct recording *recording, struct diag *diag)
+{
+    const struct recorded_format *format = recording->steps.reader.format;
+    for (uint32_t i = 0; i < recording->wanted.list.count; i++) {
+        uint32_t number;
+        const struct intern_name *name = &recording->wanted.list.items[i];
+        if (!intern_find(&recording->ids, name->text, name->length, &number))
+            return diag_fail(diag, DIAG_DATA, "--ego: \"%s\" is no %s", name->text,
+                             format->id_name);
+    }
+    if (recording->all && recording->egos.count == 0)
+        return diag_fail(diag, DIAG_DATA, "--ego: there are no vehicles");
+    return 0;
+}
+
+int recording_next(struct recording *recording, struct frame *frame, struct diag *diag)
+{
+    int more = 1;
+    if (recording->ego == recording->step_egos.count)
+        more = take_step(recording, diag);
+    if (more == 0)
+        more = check_egos(recording, diag);
+    if (more < 0)
+        return diag_prefix(diag, "%s: ", recording->source);
+    if (more > 0) {
+        size_t place = recording->step_egos.items[recording->ego++];
+        fill(recording, &recording->step->states.items[place], frame);
+    }
+    return more;
+}
+
+int recording_check(const struct recording *recording, const struct frame *frame, struct diag *diag)
+{
+    for (size_t i = 0; i < frame->objects.count; i++) {
+        const struct object *object = &frame->objects.items[i];
+        if (field_check(&object_record, object, diag) == 0)
+            continue;
+        const struct recorded_state *state = recorded_steps_find(recording->step, object->id);
+        return diag_prefix(diag, "%s: %s %zu: ", recording->source,
+                           recording->steps.reader.format->place, state->place);
+    }
+    return 0;
+}
+
+void recording_close(struct recording *recording)
+{
+    recorded_steps_close(&recording->steps);
+    resampling_close(&recording->resampling);
+    arena_free(&recording->step_arena);
+}

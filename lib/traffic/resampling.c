@@ -1,0 +1,109 @@
+#include "traffic/resampling.h"
+
+#include "base/units.h"
+
+static int64_t instant_ns(const struct resampling *resampling)
+{
+    double since_begin = (double)resampling->made_count * 1e9 / resampling->rate_hz;
+    return resampling->begin_ns + (int64_t)round(since_begin);
+}
+
+/* The place on the cubic from 0 to rise with these slopes at its ends, share of length_s along. */
+static double curve(double rise, double from, double to, double length_s, double share)
+{
+    double rest = 1 - share;
+    return share * share * (3 - 2 * share) * rise +
+           length_s * share * rest * (rest * from - share * to);
+}
+
+static double curve_slope(double rise, double from, double to, double length_s, double share)
+{
+    double rest = 1 - share;
+    return 6 * share * rest * rise / length_s + rest * (1 - 3 * share) * from +
+           share * (3 * share - 2) * to;
+}
+
+static struct object object_between(const struct object *a, const struct object *b, double length_s,
+                                    double share)
+{
+    struct object object = *a;
+    struct vec2 rise = {b->x_m - a->x_m, b->y_m - a->y_m};
+    object.x_m += curve(rise.x, a->vx_mps, b->vx_mps, length_s, share);
+    object.y_m += curve(rise.y, a->vy_mps, b->vy_mps, length_s, share);
+    object.vx_mps = curve_slope(rise.x, a->vx_mps, b->vx_mps, length_s, share);
+    object.vy_mps = curve_slope(rise.y, a->vy_mps, b->vy_mps, length_s, share);
+    object.yaw_rad = units_wrap_rad(a->yaw_rad + share * units_wrap_rad(b->yaw_rad - a->yaw_rad));
+    object.yaw_rate_radps += share * (b->yaw_rate_radps - a->yaw_rate_radps);
+    object.travelled_m += share * (b->travelled_m - a->travelled_m);
+    return object;
+}
+
+/* Fills the states at an instant after the step before, at the latest at this step. */
+static void interpolate(const struct resampling *resampling, struct recorded_step *made)
+{
+    const struct recorded_step *from = resampling->from, *to = resampling->to;
+    double length_s = (double)to->interval_ns * 1e-9;
+    double share = 1 - (double)(to->time_ns - made->time_ns) * 1e-9 / length_s;
+    for (size_t i = 0; i < to->states.count; i++) {
+        struct recorded_state state = to->states.items[i];
+        if (made->time_ns < to->time_ns && state.before == SIZE_MAX)
+            continue;
+        if (made->time_ns < to->time_ns)
+            state.object = object_between(&from->states.items[state.before].object, &state.object,
+                                          length_s, share);
+        state.object.id = arena_text(&made->arena, state.object.id, strlen(state.object.id));
+        *list_add(&made->states, &made->arena) = state;
+    }
+}
+
+static int make_instant(struct resampling *resampling)
+{
+    const struct recorded_step **to = &resampling->to;
+    while (*to == NULL || (*to)->time_ns < resampling->from_ns ||
+           instant_ns(resampling) > (*to)->time_ns) {
+        resampling->from = *to;
+        int more = recorded_steps_next(resampling->steps, to, &resampling->fault);
+        if (more <= 0)
+            return more;
+        if (resampling->made_count == 0)
+            resampling->begin_ns = (*to)->time_ns;
+    }
+    struct recorded_step *made = &resampling->made[resampling->made_count % 2];
+    struct arena arena = made->arena;
+    arena_clear(&arena);
+    *made = (struct recorded_step){.arena = arena, .time_ns = instant_ns(resampling)};
+    made->interval_ns = (int64_t)round(1e9 / resampling->rate_hz);
+    interpolate(resampling, made);
+    resampling->made_count++;
+    return 1;
+}
+
+int resampling_next(struct resampling *resampling, const struct recorded_step **step,
+                    struct diag *diag)
+{
+    while (!resampling->ended && resampling->made_count < resampling->given + 2)
+        resampling->ended = make_instant(resampling) <= 0;
+    bool whole = resampling->fault.code == DIAG_OK;
+    if (resampling->given == resampling->made_count) {
+        if (!whole)
+            *diag = resampling->fault;
+        return whole ? 0 : -1;
+    }
+    struct recorded_step *made = &resampling->made[resampling->given++ % 2];
+    bool last = resampling->given == resampling->made_count;
+    for (size_t i = 0; i < made->states.count; i++) {
+        struct recorded_state *state = &made->states.items[i];
+        const struct recorded_state *same =
+            last ? NULL
+                 : recorded_steps_find(&resampling->made[resampling->given % 2], state->object.id);
+        state->leaves = same == NULL ? whole || !last : same->since_ns != state->since_ns;
+    }
+    *step = made;
+    return 1;
+}
+
+void resampling_close(struct resampling *resampling)
+{
+    arena_free(&resampling->made[0].arena);
+    arena_free(&resampling->made[1].arena);
+}

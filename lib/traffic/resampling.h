@@ -1,0 +1,29 @@
+/* A recording at another rate than its own.
+ *
+ * Places and velocities follow the cubic Hermite curve between two steps, yaws the shorter arc,
+ * yaw rates and ways travelled the straight line; class and sizes are held. A road user is there
+ * from its first step to its last. Instant 0 is the first step that is not before from_ns. */
+#ifndef RESAMPLING_H
+#define RESAMPLING_H
+
+#include "traffic/recorded_steps.h"
+
+struct resampling {
+    struct recorded_steps *steps;
+    double rate_hz;
+    int64_t from_ns, begin_ns;             /* begin_ns: of instant 0 */
+    const struct recorded_step *from, *to; /* around the next instant; NULL: not read yet */
+    struct recorded_step made[2];          /* instants */
+    size_t made_count, given;
+    bool ended;
+    struct diag fault; /* that ended it */
+};
+
+/* The next instant as a step: 1; 0 at the end; -1 after a message. It is valid until the next
+ * call. */
+int resampling_next(struct resampling *resampling, const struct recorded_step **step,
+                    struct diag *diag);
+
+void resampling_close(struct resampling *resampling);
+
+#endif

@@ -1,0 +1,388 @@
+/* Traffic of SUMO: floating car data as XML, also from a pipe while SUMO runs, or as a table. */
+/* needs: expat */
+#include <expat.h>
+#include <stdio.h>
+
+#include "base/number.h"
+#include "base/units.h"
+#include "run/stage.h"
+#include "traffic/recorded_table.h"
+#include "traffic/recording.h"
+
+enum { READ_SIZE = 64 * 1024 };
+
+/* A row, or the end of a step. */
+struct event {
+    enum recorded_event kind;
+    struct recorded_row row;
+};
+
+/* A document of SUMO that is being read: floating car data, or types. */
+struct document {
+    XML_Parser parser;
+    struct input *input;
+    struct diag fault;                /* that ends it, after the events before it */
+    struct recorded_classes *classes; /* to which types are added */
+    LIST_OF(struct event) events;     /* of the bytes that were parsed last */
+    size_t taken;
+    struct arena arena; /* of events */
+    int64_t time_ns;    /* of the step that is open */
+    int64_t whole_ns;   /* of the last step that is whole */
+    bool in_export, in_step, has_step, in_vehicle, ended;
+};
+
+struct traffic_sumo {
+    const char *source;
+    struct recording_options options;
+    const char *types;
+    bool live;
+    struct document document, types_document;
+    struct recording recording;
+};
+
+/* ---- attributes ---- */
+
+static void fail(struct document *document, const char *what, const char *value,
+                 const char *expectation)
+{
+    const char *quote = value != NULL ? "\"" : "";
+    diag_fail(&document->fault, DIAG_DATA, "line %zu: %s is %s%.80s%s; expected %s",
+              (size_t)XML_GetCurrentLineNumber(document->parser), what, quote,
+              value != NULL ? value : "missing", quote, expectation);
+    XML_StopParser(document->parser, XML_FALSE);
+}
+
+static const char *attribute(const char **attributes, const char *name)
+{
+    for (; *attributes != NULL; attributes += 2)
+        if (strcmp(attributes[0], name) == 0)
+            return attributes[1];
+    return NULL;
+}
+
+static bool read_number(struct document *document, const char **attributes, const char *name,
+                        double low, double high, double *value)
+{
+    char expectation[80];
+    const char *text = attribute(attributes, name);
+    size_t length = text != NULL ? strlen(text) : 0;
+    bool good = text != NULL && (number_take(text, text + length, value) == text + length ||
+                                 field_read_number(text, length, value) == 0);
+    if (good && *value >= low && *value <= high)
+        return true;
+    snprintf(expectation, sizeof expectation, "a number in [%g, %g]", low, high);
+    fail(document, name, text, expectation);
+    return false;
+}
+
+/* A name in the arena, or NULL after a message. */
+static const char *read_name(struct document *document, const char **attributes, const char *name,
+                             struct arena *arena)
+{
+    const char *text = attribute(attributes, name);
+    size_t length = 0;
+    while (text != NULL && (unsigned char)text[length] >= ' ' && text[length] != '\x7f')
+        length++;
+    if (text != NULL && text[length] == '\0' && length > 0 && length <= FIELD_NAME_SIZE)
+        return arena_text(arena, text, length);
+    fail(document, name, text, "a name of 1 to 1024 bytes");
+    return NULL;
+}
+
+/* ---- floating car data ---- */
+
+static void begin_step(struct document *document, const char **attributes)
+{
+    double time_s;
+    if (document->in_step)
+        fail(document, "<timestep>", NULL, "none within another");
+    else if (read_number(document, attributes, "time", -9e9, 9e9, &time_s)) {
+        document->time_ns = recorded_row_time_ns(time_s, 1);
+        document->in_step = true;
+    }
+}
+
+static void add_row(struct document *document, const char **attributes, const char *type)
+{
+    struct recorded_row row = recorded_row_unsaid;
+    double angle_deg;
+    row.class = type;
+    row.ahead = 0.5; /* the place is the middle of the front bumper */
+    if (!document->in_step) {
+        fail(document, "<timestep>", NULL, "one around road users");
+        return;
+    }
+    row.time_ns = document->time_ns;
+    row.place = (size_t)XML_GetCurrentByteIndex(document->parser);
+    row.id = read_name(document, attributes, "id", &document->arena);
+    if (row.id == NULL || !read_number(document, attributes, "x", -1e9, 1e9, &row.x_m) ||
+        !read_number(document, attributes, "y", -1e9, 1e9, &row.y_m) ||
+        !read_number(document, attributes, "angle", -1e3, 1e3, &angle_deg))
+        return;
+    if (attribute(attributes, "speed") != NULL &&
+        !read_number(document, attributes, "speed", -1e4, 1e4, &row.speed_mps))
+        return;
+    if (attribute(attributes, "type") != NULL)
+        row.class = read_name(document, attributes, "type", &document->arena);
+    if (row.class == NULL)
+        return;
+    row.yaw_rad = (90 - angle_deg) * (PI / 180);
+    *list_add(&document->events, &document->arena) = (struct event){RECORDED_ROW, row};
+}
+
+/* Who rides in a vehicle is hidden by it. */
+static void on_begin(void *context, const char *name, const char **attributes)
+{
+    struct document *document = context;
+    if (!document->in_export && strcmp(name, "fcd-export") != 0)
+        fail(document, "<fcd-export>", NULL, "floating car data (sumo --fcd-output)");
+    document->in_export = true;
+    if (strcmp(name, "vehicle") == 0) {
+        document->in_vehicle = true;
+        add_row(document, attributes, "DEFAULT_VEHTYPE");
+    } else if (strcmp(name, "timestep") == 0) {
+        begin_step(document, attributes);
+    } else if (strcmp(name, "person") == 0 && !document->in_vehicle) {
+        add_row(document, attributes, "DEFAULT_PEDTYPE");
+    } else if (strcmp(name, "container") == 0 && !document->in_vehicle) {
+        add_row(document, attributes, "DEFAULT_CONTAINERTYPE");
+    }
+}
+
+static void on_end(void *context, const char *name)
+{
+    struct document *document = context;
+    if (strcmp(name, "vehicle") == 0)
+        document->in_vehicle = false;
+    if (strcmp(name, "timestep") != 0)
+        return;
+    struct event *event = list_add(&document->events, &document->arena);
+    event->kind = RECORDED_STEP;
+    event->row.time_ns = document->time_ns;
+    event->row.place = (size_t)XML_GetCurrentByteIndex(document->parser);
+    document->in_step = false;
+    document->has_step = true;
+    document->whole_ns = document->time_ns;
+}
+
+/* SUMO writes its configuration into a comment before everything else. */
+static void on_comment(void *context, const char *text)
+{
+    const char *geo = strstr(text, "<fcd-output.geo value=\"");
+    if (geo != NULL && strchr("tTyY1", geo[strlen("<fcd-output.geo value=\"")]) != NULL)
+        fail(context, "--fcd-output.geo", "true",
+             "coordinates in metres: run sumo without that option");
+}
+
+/* ---- types ---- */
+
+static bool read_size(struct document *document, const char **attributes, const char *name,
+                      double *size_m)
+{
+    return attribute(attributes, name) == NULL ||
+           read_number(document, attributes, name, 0, 1e6, size_m);
+}
+
+static void on_type(void *context, const char *name, const char **attributes)
+{
+    struct document *document = context;
+    double length_m = 0, width_m = 0, height_m = 0;
+    if (strcmp(name, "vType") != 0)
+        return;
+    const char *id = read_name(document, attributes, "id", document->classes->arena);
+    const char *class = attribute(attributes, "vClass");
+    if (id != NULL && read_size(document, attributes, "length", &length_m) &&
+        read_size(document, attributes, "width", &width_m) &&
+        read_size(document, attributes, "height", &height_m))
+        recorded_classes_add(document->classes, id, class != NULL ? class : "passenger", length_m,
+                             width_m, height_m);
+}
+
+/* ---- parsing ---- */
+
+static void *granted(void *memory)
+{
+    return memory != NULL ? memory : memory_get((size_t)-1);
+}
+
+static void begin(struct document *document, struct input *input)
+{
+    document->input = input;
+    document->parser = granted(XML_ParserCreate(NULL));
+    XML_SetUserData(document->parser, document);
+#ifdef XML_HAS_REPARSE_DEFERRAL
+    XML_SetReparseDeferralEnabled(document->parser, XML_FALSE);
+#endif
+}
+
+/* A document that ends early: what SUMO leaves behind when it is killed. */
+static void fail_at_end(struct document *document)
+{
+    char last[80] = "no step is whole";
+    if (document->has_step)
+        snprintf(last, sizeof last, "the last whole step is that of %.12g s",
+                 recorded_row_seconds(document->whole_ns));
+    diag_fail(&document->fault, DIAG_DATA, "line %zu: the file ends %s; %s",
+              (size_t)XML_GetCurrentLineNumber(document->parser),
+              document->in_step ? "inside a step" : "before </fcd-export>", last);
+}
+
+/* Parses a piece more; false at the end and after a fault. */
+static bool parse_more(struct document *document)
+{
+    void *buffer = granted(XML_GetBuffer(document->parser, READ_SIZE));
+    struct diag damage = {0};
+    long got = input_read(document->input, buffer, READ_SIZE, &damage);
+    bool done =
+        XML_ParseBuffer(document->parser, got > 0 ? (int)got : 0, got <= 0) == XML_STATUS_OK;
+    enum XML_Error error = XML_GetErrorCode(document->parser);
+    if (error == XML_ERROR_NO_MEMORY)
+        granted(NULL);
+    if (!done && got <= 0 && document->in_export)
+        fail_at_end(document);
+    else if (!done)
+        diag_fail(&document->fault, DIAG_DATA, "line %zu: %s",
+                  (size_t)XML_GetCurrentLineNumber(document->parser), XML_ErrorString(error));
+    if (got < 0) {
+        document->fault.code = damage.code;
+        diag_prefix(&document->fault, "%s: ", damage.text);
+    }
+    return done && got > 0;
+}
+
+static int next_event(void *state, struct recorded_row *row, struct diag *diag)
+{
+    struct document *document = state;
+    while (document->taken == document->events.count && !document->ended) {
+        arena_clear(&document->arena);
+        document->events.items = NULL;
+        document->events.count = document->events.room = document->taken = 0;
+        document->ended = !parse_more(document);
+    }
+    if (document->taken < document->events.count) {
+        const struct event *event = &document->events.items[document->taken++];
+        *row = event->row;
+        return (int)event->kind;
+    }
+    if (document->fault.code == DIAG_OK)
+        return RECORDED_END;
+    *diag = document->fault;
+    return -1;
+}
+
+static void close_document(void *state)
+{
+    struct document *document = state;
+    if (document->parser != NULL)
+        XML_ParserFree(document->parser);
+    input_close(document->input);
+    arena_free(&document->arena);
+}
+
+static const struct recorded_format format = {
+    .name = "floating car data",
+    .id_name = "id",
+    .place = "byte",
+    .by_time = true,
+    .marks_steps = true,
+    .words = sumo_table_words,
+    .next = next_event,
+    .close = close_document,
+};
+
+/* ---- the stage ---- */
+
+static int read_types(struct traffic_sumo *own, struct runner *runner)
+{
+    struct document *document = &own->types_document;
+    struct diag *diag = runner_diag(runner);
+    struct input *input = runner_input(runner, own->types);
+    if (input == NULL)
+        return diag_prefix(diag, "--types: %s: ", own->types);
+    document->classes = &own->recording.steps.classes;
+    begin(document, input);
+    XML_SetStartElementHandler(document->parser, on_type);
+    while (parse_more(document))
+        continue;
+    if (document->fault.code == DIAG_OK)
+        return 0;
+    *diag = document->fault;
+    return diag_prefix(diag, "--types: %s: ", own->types);
+}
+
+static int traffic_sumo_start(void *state, struct runner *runner)
+{
+    struct traffic_sumo *own = state;
+    struct diag *diag = runner_diag(runner);
+    struct input *input = runner_input(runner, own->source);
+    if (input == NULL)
+        return diag_prefix(diag, "%s: ", own->source);
+    begin(&own->document, input);
+    XML_SetElementHandler(own->document.parser, on_begin, on_end);
+    XML_SetCommentHandler(own->document.parser, on_comment);
+    struct recorded_reader reader = {&format, &own->document};
+    if (recording_open(&own->recording, reader, own->source, &own->options, own->live,
+                       runner_arena(runner), diag) != 0)
+        return -1;
+    return own->types != NULL ? read_types(own, runner) : 0;
+}
+
+static int traffic_sumo_next(void *state, struct frame *frame, struct runner *runner)
+{
+    struct traffic_sumo *own = state;
+    return recording_next(&own->recording, frame, runner_diag(runner));
+}
+
+static int traffic_sumo_locate_fault(void *state, const struct frame *frame, struct runner *runner)
+{
+    const struct traffic_sumo *own = state;
+    return recording_check(&own->recording, frame, runner_diag(runner));
+}
+
+static void traffic_sumo_release(void *state)
+{
+    struct traffic_sumo *own = state;
+    close_document(&own->types_document);
+    recording_close(&own->recording);
+}
+
+static const struct field traffic_sumo_fields[] = {
+    {FIELD_NAME_OF(struct traffic_sumo, source,
+                   "the XML that sumo --fcd-output writes, plain or gzip; - is standard input")},
+    {FIELD_RECORD_OF(struct traffic_sumo, options, &recording_options_record, ""), FIELD_OPTIONAL},
+    {FIELD_NAME_OF(struct traffic_sumo, types,
+                   "a file of routes with the vTypes; absent: SUMO's own sizes of classes"),
+     FIELD_OPTIONAL, .word = "FILE"},
+    {FIELD_FLAG_OF(struct traffic_sumo, live,
+                   "write the frame of a step before the next step is there"),
+     FIELD_OPTIONAL},
+    {0},
+};
+
+static const struct record traffic_sumo_options = {
+    .name = "options", .size = sizeof(struct traffic_sumo), .fields = traffic_sumo_fields};
+
+#define SUMO(word, class, length_m, width_m, height_m) "\n    " word " = " class
+
+const struct stage stage_traffic_sumo = {
+    .name = "traffic-sumo",
+    .summary = "Play the floating car data of SUMO, frame by frame.",
+    .details =
+        "Velocities and yaw rates come from the places, not from SUMO's speeds: while a vehicle\n"
+        "changes lanes it does not move along its heading. They are centred differences, which\n"
+        "wait for the next step; with --live they are differences to the step before, a frame\n"
+        "comes before the next step is there, and no frame is marked as the last of its scene.\n"
+        "Give sumo --precision 6: with its two decimals velocities are coarse.\n"
+        "\n"
+        "Classes and sizes are those of the types (--types). Without them the name of a type must\n"
+        "be one of these words, which --class-map adds to:"
+#include "traffic/recorded_classes.def"
+    ,
+    .options = &traffic_sumo_options,
+    .operand = "SOURCE",
+    .writes = SECTION_OBJECTS,
+    .start = traffic_sumo_start,
+    .next = traffic_sumo_next,
+    .locate_fault = traffic_sumo_locate_fault,
+    .release = traffic_sumo_release,
+};

@@ -1,0 +1,388 @@
+"""Recorded traffic: SUMO's floating car data against an independent computation, and what all recordings share.
+
+Usage: python3 tests/chain/recorded.py BIN_DIR [--sumo]
+
+With --sumo it runs SUMO itself on a net of its own into the whole chain, through a pipe.
+"""
+import gzip
+import json
+import math
+import os
+import re
+import select
+import subprocess
+import sys
+import tempfile
+
+BIN = os.path.abspath(sys.argv[1])
+DATA = os.environ.get("GLINT_TEST_DATA")
+PATIENCE_S = 60
+checks = 0
+
+
+def check(good, what):
+    global checks
+    checks += 1
+    if not good:
+        sys.exit(f"recorded: {what}")
+
+
+def run(program, *words, data=None, fails=None):
+    done = subprocess.run([os.path.join(BIN, program), *words], input=data, capture_output=True, check=False,
+                          timeout=PATIENCE_S)
+    if fails is None:
+        check(done.returncode == 0, f"{program} {words}: {done.stderr.decode()}")
+        return [json.loads(line) for line in done.stdout.splitlines()]
+    check(done.returncode == fails, f"{program} {words}: exit {done.returncode}, not {fails}: {done.stderr.decode()}")
+    return done.stderr.decode(), done.stdout.count(b"\n")
+
+
+# ---- a drive of our own: exact positions at any time ------------------------------------------------
+
+
+def smooth(share):
+    """From 0 to 1 with three derivatives that begin and end at 0."""
+    share = min(max(share, 0), 1)
+    return share**4 * (35 - 84 * share + 70 * share**2 - 20 * share**3)
+
+
+def drive(kind, rate_hz, seconds):
+    """Place and heading of a lane change, a turn or a stop, rate_hz times a second; integrated by midpoints."""
+    if kind == "change":
+        for i in range(round(seconds * rate_hz) + 1):
+            share = (i / rate_hz - 1) / 4
+            yield 25 * i / rate_hz, 3.5 * smooth(share), math.atan2(
+                3.5 * (smooth(share + 1e-6) - smooth(share - 1e-6)) / 8e-6, 25)
+        return
+    x = y = yaw = 0.0
+    speed, length = (8.0 if kind == "turn" else 10.0), 1 / 2000
+    for i in range(seconds * 2000 + 1):
+        if i % (2000 // rate_hz) == 0:
+            yield x, y, yaw
+        middle = (i + 0.5) * length
+        # The turn rate rises to 0.5 rad/s within a second, and falls again; the deceleration to 3 m/s^2 in half of one.
+        turn = 0.5 * (smooth(middle - 1) - smooth(middle - 4)) * length if kind == "turn" else 0
+        brake = 0 if kind == "turn" else 3 * (smooth((middle - 1) / 0.5) - smooth((middle - 1 - 10 / 3) / 0.5)) * length
+        x += max(speed - brake / 2, 0) * math.cos(yaw + turn / 2) * length
+        y += max(speed - brake / 2, 0) * math.sin(yaw + turn / 2) * length
+        yaw += turn
+        speed -= brake
+
+
+def table_of(kind, rate_hz, seconds=6):
+    lines = ["time;id;x;y;angle;type"]
+    for i, (x, y, yaw) in enumerate(drive(kind, rate_hz, seconds)):
+        front = x + 2.5 * math.cos(yaw), y + 2.5 * math.sin(yaw)
+        lines.append(f"{i / rate_hz:.3f};{kind};{front[0]:.9f};{front[1]:.9f};{90 - math.degrees(yaw):.9f};passenger")
+    return "\n".join(lines) + "\n"
+
+
+def resampling_error(folder):
+    """10 Hz in, 20 Hz out, against the original at 200 Hz."""
+    for kind in ("change", "turn", "stop"):
+        frames = {}
+        for rate in (10, 200):
+            path = os.path.join(folder, f"{kind}{rate}.csv")
+            with open(path, "w", encoding="ascii") as file:
+                file.write(table_of(kind, rate))
+            words = ("--rate-hz", "20") if rate == 10 else ()
+            frames[rate] = {round(frame["time_s"] * 1000): frame["objects"][0]
+                            for frame in run("glint-traffic", path, "--ego", kind, *words)}
+        times = [time for time in frames[10] if 100 < time < 5900]
+        check(len(frames[10]) == 121 and len(times) == 115, f"{kind}: {len(frames[10])} frames at 20 Hz")
+        pairs = [(frames[10][time], frames[200][time]) for time in times]
+        place = max(math.dist((a["x_m"], a["y_m"]), (b["x_m"], b["y_m"])) for a, b in pairs)
+        speed = max(math.dist((a["vx_mps"], a["vy_mps"]), (b["vx_mps"], b["vy_mps"])) for a, b in pairs)
+        turn = max(abs(math.remainder(a["yaw_rad"] - b["yaw_rad"], 2 * math.pi)) for a, b in pairs)
+        print(f"resampled {kind:7} {100 * place:6.3f} cm {speed:7.4f} m/s {math.degrees(turn):7.4f} degrees")
+        check(place <= 0.02 and speed <= 0.1 and math.degrees(turn) <= 0.2, f"{kind}: resampled too coarsely")
+
+
+# ---- floating car data against a computation of its own ---------------------------------------------
+
+SIZES = {"passenger": ("car", 5, 1.8, 1.5), "truck": ("truck", 7.1, 2.4, 2.4), "bus": ("bus", 12, 2.5, 3.4),
+         "bicycle": ("bicycle", 1.6, 0.65, 1.7), "DEFAULT_VEHTYPE": ("car", 5, 1.8, 1.5),
+         "DEFAULT_PEDTYPE": ("pedestrian", 0.215, 0.478, 1.719), "DEFAULT_CONTAINERTYPE": ("truck", 6.1, 2.4, 2.6)}
+
+FCD = """<?xml version="1.0" encoding="UTF-8"?>
+<!-- <configuration><fcd-output value="x"/><vehicle id="none"/></configuration> -->
+<fcd-export>
+    <timestep time="0.00"/>
+    <timestep time="0.50">
+        <vehicle id="ego" x="10.00" y="0.00" angle="90.00" type="passenger" speed="20.00" lane="a_0">
+            <person id="rider" x="10.00" y="0.00" angle="90.00" speed="20.00"/>
+        </vehicle>
+        <person id="walker" x="30.00" y="5.00" angle="0.00" speed="1.00" edge="a"/>
+    </timestep>
+    <timestep time="1.00">
+        <vehicle id="ego" x="20.00" y="0.00" angle="90.00" type="passenger" speed="20.00"/>
+        <person id="walker" x="30.00" y="5.50" angle="10.00" speed="1.00" edge="a"/>
+        <container id="box &amp; co" x="50.00" y="-5.00" angle="180.00" speed="0.00"/>
+    </timestep>
+    <timestep time="2.00">
+        <vehicle id="ego" x="42.00" y="0.50" angle="80.00" type="passenger" speed="22.00"/>
+        <vehicle id="late" x="0.00" y="0.00" angle="45.00" type="bus@late" speed="4.00"/>
+        <container id="box &amp; co" x="50.00" y="-5.00" angle="180.00" speed="0.00"/>
+    </timestep>
+</fcd-export>
+"""
+
+
+def users_of(text):
+    """(time, id, x, y, angle, type, speed) by a plain search, without XML's comments and riders."""
+    text = re.sub(r"<!--.*?-->", "", text, flags=re.S)
+    text = re.sub(r"(<vehicle[^>]*[^/])>.*?</vehicle>", r"\1/>", text, flags=re.S)
+    for step in re.finditer(r'<timestep time="([^"]*)">(.*?)</timestep>', text, flags=re.S):
+        for kind, attributes in re.findall(r"<(vehicle|person|container) ([^>]*)/>", step[2]):
+            value = dict(re.findall(r'([\w]+)="([^"]*)"', attributes))
+            default = {"vehicle": "DEFAULT_VEHTYPE", "person": "DEFAULT_PEDTYPE",
+                       "container": "DEFAULT_CONTAINERTYPE"}[kind]
+            yield (float(step[1]), value["id"].replace("&amp;", "&"), float(value["x"]), float(value["y"]),
+                   float(value["angle"]), value.get("type", default).split("@")[0], float(value["speed"]))
+
+
+def states_of(text, sizes):
+    """What the frames have to say: {time: {id: object}}, by differences over the steps."""
+    steps, times = {}, []
+    for time, name, x, y, angle, kind, speed in users_of(text):
+        yaw = math.radians(90 - angle)
+        class_, length, width, height = sizes[kind]
+        if time not in steps:
+            steps[time] = {}
+            times.append(time)
+        steps[time][name] = {"x": x - length / 2 * math.cos(yaw), "y": y - length / 2 * math.sin(yaw), "yaw": yaw,
+                             "class": class_, "size": (length, width, height), "speed": speed}
+    every = [float(time) for time in re.findall(r'<timestep time="([^"]*)"', re.sub(r"<!--.*?-->", "", text, flags=re.S))]
+    for time in times:
+        at = every.index(time)
+        for name, state in steps[time].items():
+            before = steps.get(every[at - 1], {}).get(name) if at > 0 else None
+            after = steps.get(every[at + 1], {}).get(name) if at + 1 < len(every) else None
+            left = time - every[at - 1] if before else 0
+            right = every[at + 1] - time if after else 0
+
+            def slope(key, turn=lambda x: x, state=state, before=before, after=after, left=left, right=right):
+                if before and after:
+                    back, ahead = turn(state[key] - before[key]) / left, turn(after[key] - state[key]) / right
+                    return (back * right + ahead * left) / (left + right)
+                if before:
+                    return turn(state[key] - before[key]) / left
+                return turn(after[key] - state[key]) / right if after else None
+
+            state["vx"] = slope("x") if before or after else state["speed"] * math.cos(state["yaw"])
+            state["vy"] = slope("y") if before or after else state["speed"] * math.sin(state["yaw"])
+            state["rate"] = slope("yaw", lambda angle: math.remainder(angle, 2 * math.pi)) or 0
+    return steps
+
+
+def compare(frames, text, sizes, ego):
+    expected = {time: users for time, users in states_of(text, sizes).items() if ego in users}
+    check([frame["time_s"] for frame in frames] == sorted(expected), f"times of {ego}")
+    for frame in frames:
+        users, origin = expected[frame["time_s"]], (frame.get("origin_x_m", 0), frame.get("origin_y_m", 0))
+        check([part["id"] for part in frame["objects"]] == sorted(users), f"who is there at {frame['time_s']} s")
+        for part in frame["objects"]:
+            state = users[part["id"]]
+            check(part["class"] == state["class"], f"class of {part['id']}")
+            close = (math.dist((part["x_m"] + origin[0], part["y_m"] + origin[1]), (state["x"], state["y"])) < 1e-8 and
+                     abs(math.remainder(part["yaw_rad"] - state["yaw"], 2 * math.pi)) < 1e-12 and
+                     math.dist((part["vx_mps"], part["vy_mps"]), (state["vx"], state["vy"])) < 1e-8 and
+                     abs(part["yaw_rate_radps"] - state["rate"]) < 1e-8 and
+                     (part["length_m"], part["width_m"], part["height_m"]) == state["size"])
+            check(close, f"{part['id']} at {frame['time_s']} s: {part}, expected {state}")
+
+
+def exactness(folder):
+    path = os.path.join(folder, "own.xml")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(FCD)
+    compare(run("glint-traffic-sumo", path, "--ego", "ego"), FCD, SIZES, "ego")
+    check(run("glint-traffic-sumo", "-", "--ego", "late", data=FCD.encode())[0]["ego"] == "late", "standard input")
+    with gzip.open(path + ".gz", "wb") as file:
+        file.write(FCD.encode())
+    compare(run("glint-traffic-sumo", path + ".gz", "--ego", "ego"), FCD, SIZES, "ego")
+    types = os.path.join(folder, "types.rou.xml")
+    with open(types, "w", encoding="utf-8") as file:
+        file.write('<routes><vTypeDistribution id="d"><vType id="bus" vClass="coach" length="13"/></vTypeDistribution>'
+                   '<vType id="passenger" width="2" height="1.4"/></routes>')
+    sizes = dict(SIZES, bus=("bus", 13, 2.6, 4), passenger=("car", 5, 2, 1.4))
+    compare(run("glint-traffic-sumo", path, "--ego", "ego", "--types", types), FCD, sizes, "ego")
+    mapped = run("glint-traffic-sumo", path, "--ego", "late", "--class-map", "bus=truck")
+    check(mapped[0]["objects"][-1]["class"] == "truck", "--class-map")
+    if DATA is None:
+        print("GLINT_TEST_DATA is not set: no files of SUMO to read")
+        return
+    with gzip.open(f"{DATA}/sumo/grid.fcd.xml.gz", "rt", encoding="utf-8") as file:
+        text = file.read()
+    frames = run("glint-traffic-sumo", f"{DATA}/sumo/grid.fcd.xml.gz", "--ego", "3")
+    compare(frames, text, SIZES, "3")
+    check(frames == run("glint-traffic", f"{DATA}/sumo/grid.fcd.csv", "--ego", "3", "--scene", "grid/3"), "XML and table")
+    with open(f"{DATA}/sumo/ped.fcd.xml", encoding="utf-8") as file:
+        text = file.read()
+    compare(run("glint-traffic-sumo", f"{DATA}/sumo/ped.fcd.xml", "--ego", "b1"), text, SIZES, "b1")
+
+
+# ---- what all recordings share ----------------------------------------------------------------------
+
+
+def every_ego_is_as_if_alone(folder):
+    path = os.path.join(folder, "own.xml")
+    for words in ((), ("--radius-m", "20"), ("--rate-hz", "8"), ("--from-s", "0.7", "--to-s", "1.9")):
+        together = {}
+        for frame in run("glint-traffic-sumo", path, "--ego", "all", *words):
+            together.setdefault(frame["ego"], []).append(frame)
+        check("walker" not in together and "ego" in together, "egos are all but pedestrians")
+        for ego, frames in together.items():
+            check(frames == run("glint-traffic-sumo", path, "--ego", ego, *words), f"{ego} alone, {words}")
+            check([frame.get("last", False) for frame in frames] == [False] * (len(frames) - 1) + [True], "last frames")
+
+
+def a_mirrored_world_is_mirrored(folder):
+    path = os.path.join(folder, "mirrored.xml")
+    def flip(match):
+        return f'y="{-float(match[1]):.2f}" angle="{(180 - float(match[2])) % 360:.2f}"'
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(re.sub(r'y="([^"]*)" angle="([^"]*)"', flip, FCD))
+    plain = run("glint-traffic-sumo", os.path.join(folder, "own.xml"), "--ego", "ego", "--rate-hz", "7")
+    for a, b in zip(plain, run("glint-traffic-sumo", path, "--ego", "ego", "--rate-hz", "7"), strict=True):
+        for one, other in zip(a["objects"], b["objects"], strict=True):
+            for key in ("y_m", "vy_mps", "yaw_rate_radps"):
+                check(abs(one[key] + other[key]) < 1e-9, f"mirrored {key}")
+            check(abs(math.remainder(one["yaw_rad"] + other["yaw_rad"], 2 * math.pi)) < 1e-9, "mirrored yaw")
+            for key in ("x_m", "vx_mps", "travelled_m"):
+                check(abs(one[key] - other[key]) < 1e-9, f"mirrored {key}")
+
+
+def a_loop_in_lock_step_never_waits():
+    """SUMO's stand-in writes a step, and waits for its frame before it writes the next."""
+    words = [os.path.join(BIN, "glint-traffic-sumo"), "-", "--ego", "a", "--live"]
+    with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as loop:
+        into, out = loop.stdin.fileno(), loop.stdout.fileno()
+        os.write(into, b"<fcd-export>\n")
+        for i in range(200):
+            os.write(into, b'<timestep time="%.2f"><vehicle id="a" x="%d" y="0" angle="90" speed="8"/></timestep>\n'
+                     % (i / 4, 2 * i))
+            check(bool(select.select([out], [], [], PATIENCE_S)[0]), f"no frame of step {i} before the next")
+            frame = json.loads(os.read(out, 1 << 16))
+            check(frame["frame"] == i and abs(frame["objects"][0]["vx_mps"] - 8) < 1e-9, f"live frame {i}: {frame}")
+            check("last" not in frame, "nobody knows which frame is the last one")
+        os.write(into, b"</fcd-export>\n")
+        loop.stdin.close()
+        check(loop.wait(PATIENCE_S) == 0, "the loop ends well")
+
+
+def early_ends(folder):
+    """Wherever a file is cut, the whole steps come out, and the message names the last of them."""
+    path = os.path.join(folder, "cut.xml")
+    steps = [(match.end(), match[1]) for match in re.finditer(r'<timestep time="([^"]*)"(?:/>|>.*?</timestep>)', FCD, re.S)]
+    for cut in range(FCD.index("<fcd-export>") + 12, FCD.index("</fcd-export>") + 12, 23):
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(FCD[:cut])
+        whole = [time for end, time in steps if end <= cut]
+        text, frames = run("glint-traffic-sumo", path, "--ego", "ego", fails=65)
+        said = f"the last whole step is that of {float(whole[-1]):g} s" if whole else "no step is whole"
+        check(said in text, f"cut at {cut}: {text}")
+        check(frames == max(0, len(whole) - 1), f"cut at {cut}: {frames} frames")
+
+
+def bad_input(folder):
+    path = os.path.join(folder, "bad.xml")
+    cases = [
+        ('x="20.00"', 'x="wide"', 'line 12: x is "wide"; expected a number in [-1e+09, 1e+09]'),
+        ('x="20.00"', 'x="nan"', 'line 12: x is "nan"; expected a number'),
+        ('x="20.00"', 'x="2e9"', 'line 12: x is "2e9"; expected a number in [-1e+09, 1e+09]'),
+        ('x="20.00"', "", "line 12: x is missing; expected a number"),
+        ('y="0.50"', 'y=""', 'line 17: y is ""; expected a number'),
+        ('angle="80.00"', "", "line 17: angle is missing; expected a number in [-1000, 1000]"),
+        ('speed="22.00"', 'speed="fast"', 'line 17: speed is "fast"; expected a number'),
+        ('id="late"', "", "line 18: id is missing; expected a name of 1 to 1024 bytes"),
+        ('id="late"', 'id=""', 'line 18: id is ""; expected a name of 1 to 1024 bytes'),
+        ('id="late"', 'id="ego"', " 2 s is in byte "),
+        ('"bus@late"', '"hovercraft"', 'unknown class "hovercraft"; expected one of passenger, '),
+        ('time="2.00"', 'time="0.75"', "0.75 s after a step of 1 s; expected a later time"),
+        ('time="2.00"', 'time="noon"', 'line 16: time is "noon"; expected a number'),
+        ('time="2.00"', "", "line 16: time is missing; expected a number"),
+        ("</timestep>", "</step>", "line 10: mismatched tag"),
+        ("<fcd-export>", "<fcd>", "line 3: <fcd-export> is missing; expected floating car data"),
+        ('<fcd-output value="x"/>', '<fcd-output.geo value="true"/>',
+         'line 2: --fcd-output.geo is "true"; expected coordinates in metres'),
+        ('<timestep time="0.00"/>', '<vehicle id="a" x="0" y="0" angle="0"/>',
+         "line 4: <timestep> is missing; expected one around road users"),
+        ("<fcd-export>", "\x01", "line 3: not well-formed (invalid token)"),
+    ]
+    for old, new, message in cases:
+        check(old in FCD, f"{old} is in the data")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(FCD.replace(old, new, 1))
+        text, _ = run("glint-traffic-sumo", path, "--ego", "ego", fails=65)
+        check(f"glint-traffic-sumo: {path}: " in text and message in text, f"{old} -> {new}: {text}")
+    for words, code, message in (
+            (("--ego", "nobody"), 65, '--ego: "nobody" is no id'),
+            ((), 64, "a recording has no ego of its own"),
+            (("--ego", "ego", "--live", "--rate-hz", "5"), 64, "--live: --rate-hz would wait for the next step"),
+            (("--ego", "ego", "--from-s", "2", "--to-s", "1"), 64, "--to-s: 1 is before --from-s, which is 2"),
+            (("--ego", "ego", "--class-map", "bus"), 64, '--class-map: "bus"; expected WORD=CLASS'),
+            (("--ego", "ego,,late"), 64, 'has an empty id'),
+            (("--ego", "ego", "--types", "none.xml"), 66, "--types: none.xml: No such file or directory")):
+        text, _ = run("glint-traffic-sumo", os.path.join(folder, "own.xml"), *words, fails=code)
+        check(message in text, f"{words}: {text}")
+    text, _ = run("glint-traffic", os.path.join(folder, "own.xml"), "--ego", "ego", fails=65)
+    check("floating car data of SUMO, which glint-traffic-sumo reads" in text, text)
+
+
+# ---- SUMO itself --------------------------------------------------------------------------------------
+
+NODES = '<nodes><node id="a" x="0" y="0"/><node id="b" x="300" y="0"/><node id="c" x="600" y="30"/></nodes>'
+EDGES = ('<edges><edge id="ab" from="a" to="b" numLanes="3" speed="25"/>'
+         '<edge id="bc" from="b" to="c" numLanes="3" speed="25"/></edges>')
+ROUTES = """<routes><vType id="lorry" vClass="truck" length="12" width="2.5" height="3.8" maxSpeed="22"/>
+<vType id="hasty" vClass="passenger" length="4.4" lcSpeedGain="5"/><route id="r" edges="ab bc"/>
+<flow id="l" type="lorry" route="r" begin="0" end="60" period="2" departLane="0" departSpeed="max"/>
+<flow id="m" type="hasty" route="r" begin="0" end="60" period="2" departLane="1" departSpeed="max"/>
+<flow id="h" type="hasty" route="r" begin="0" end="60" period="2" departLane="2" departSpeed="max"/>
+<vehicle id="ego" type="hasty" route="r" depart="5" departLane="1" departSpeed="20"/></routes>
+"""
+
+
+def beside_sumo(folder):
+    for name, text in (("n.nod.xml", NODES), ("n.edg.xml", EDGES), ("n.rou.xml", ROUTES)):
+        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+            file.write(text)
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "cwd": folder, "check": True}
+    subprocess.run(["netconvert", "-n", "n.nod.xml", "-e", "n.edg.xml", "-o", "n.net.xml"], **quiet)
+    sumo = ("sumo -n n.net.xml -r n.rou.xml --end 60 --step-length 0.05 --precision 6 --seed 7 --no-step-log true "
+            "--lateral-resolution 0.8")
+    subprocess.run([*sumo.split(), "--fcd-output", "file.xml"], **quiet)
+    with open(os.path.join(folder, "file.xml"), encoding="utf-8") as file:
+        text = file.read()
+    check(len(set(re.findall(r'<vehicle id="([^"]*)"', text))) >= 60, "vehicles of SUMO")
+    sizes = {"lorry": ("truck", 12, 2.5, 3.8), "hasty": ("car", 4.4, 1.8, 1.5)}
+    words = ("--types", os.path.join(folder, "n.rou.xml"), "--ego", "ego")
+    compare(run("glint-traffic-sumo", os.path.join(folder, "file.xml"), *words), text, sizes, "ego")
+    chain = (f"set -o pipefail; {sumo} --fcd-output /dev/stdout 2>/dev/null | glint-traffic-sumo - --types n.rou.xml "
+             "--ego all --radius-m 150 | glint-extract | glint-ideal --sensors lrr77-every-frame --account "
+             "| glint-sensor | glint-noise --complete")
+    done = subprocess.run(["bash", "-c", chain], cwd=folder, capture_output=True, check=False,
+                          env=dict(os.environ, PATH=f"{BIN}:{os.environ['PATH']}"))
+    check(done.returncode == 0, f"SUMO through the chain: {done.stderr.decode()}")
+    lines = done.stdout.splitlines()
+    scenes = {json.loads(line)["scene"] for line in lines[::50]}
+    print(f"SUMO through the chain: {len(lines)} frames, at least {len(scenes)} scenes")
+    check(len(lines) > 20000 and len(scenes) >= 60, "frames of all vehicles")
+
+
+with tempfile.TemporaryDirectory() as place:
+    if "--sumo" in sys.argv[2:]:
+        beside_sumo(place)
+    elif os.path.exists(os.path.join(BIN, "glint-traffic-sumo")):
+        exactness(place)
+        every_ego_is_as_if_alone(place)
+        a_mirrored_world_is_mirrored(place)
+        a_loop_in_lock_step_never_waits()
+        early_ends(place)
+        bad_input(place)
+    else:
+        print("glint-traffic-sumo is not there: it needs expat")
+    if "--sumo" not in sys.argv[2:]:
+        resampling_error(place)
+print(f"recorded: {checks} checks hold")

@@ -1,0 +1,415 @@
+#define SCRATCH_FILE "tracks.csv"
+#include "scratch.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/units.h"
+#include "recorded_file.h"
+
+#define HEADER "track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy,psi_rad,length,width\n"
+#define WALKERS "track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy\n"
+#define SUMO                                                                                       \
+    "timestep_time;vehicle_id;vehicle_x;vehicle_y;vehicle_angle;vehicle_type;vehicle_speed\n"
+
+enum { MOST_FRAMES = 4096 };
+
+/* All frames of a recording. Their names and objects lie in the scratch arena. */
+struct played {
+    struct frame frames[MOST_FRAMES];
+    size_t count;
+    struct diag diag;
+};
+
+static void keep(struct played *played, const struct frame *frame, struct arena *arena)
+{
+    assert_true(played->count < MOST_FRAMES);
+    struct frame *kept = &played->frames[played->count++];
+    *kept = *frame;
+    kept->scene = arena_text(arena, frame->scene, strlen(frame->scene));
+    kept->ego = arena_text(arena, frame->ego, strlen(frame->ego));
+    kept->objects.items = arena_get(arena, frame->objects.count * sizeof(struct object));
+    for (size_t i = 0; i < frame->objects.count; i++) {
+        struct object *object = &kept->objects.items[i];
+        *object = frame->objects.items[i];
+        object->id = arena_text(arena, object->id, strlen(object->id));
+        object->class = arena_text(arena, object->class, strlen(object->class));
+    }
+}
+
+static const struct recording_options *options_for(struct recording_options *options,
+                                                   const char *ego)
+{
+    field_clear(&recording_options_record, options);
+    options->ego = ego;
+    return options;
+}
+
+/* Plays a text; the message of a failure is in the answer's diag. */
+static struct played *play(struct scratch *scratch, const char *text,
+                           const struct recording_options *options)
+{
+    FILE *file = fopen(scratch->path, "wb");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+    struct played *played = arena_get(&scratch->arena, sizeof *played);
+    struct recorded_file table = {.options = *options};
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena};
+    int more = recorded_file_try(&table, scratch->path, &scratch->arena, &played->diag);
+    for (more = more == 0 ? 1 : -1; more > 0;) {
+        frame_clear(&frame);
+        more = recording_next(&table.recording, &frame, &played->diag);
+        if (more > 0)
+            keep(played, &frame, &scratch->arena);
+    }
+    recording_close(&table.recording);
+    arena_free(&arena);
+    return played;
+}
+
+static struct played *play_all(struct scratch *scratch, const char *text)
+{
+    struct recording_options options;
+    struct played *played = play(scratch, text, options_for(&options, "all"));
+    if (played->diag.code != DIAG_OK)
+        fail_msg("%s", played->diag.text);
+    return played;
+}
+
+/* An object at a time, whoever the ego. */
+static const struct object *object_at(const struct played *played, double time_s, const char *id)
+{
+    for (size_t i = 0; i < played->count; i++)
+        for (size_t j = 0; j < played->frames[i].objects.count; j++)
+            if (played->frames[i].time_s == time_s &&
+                strcmp(played->frames[i].objects.items[j].id, id) == 0)
+                return &played->frames[i].objects.items[j];
+    fail_msg("no %s at %g s", id, time_s);
+    return NULL;
+}
+
+static void a_row_becomes_an_object(void **state)
+{
+    struct played *played = play_all(*state, HEADER "7,1,100,truck,1.5,-2.5,3,4,0.75,8.5,2.25\n");
+    const struct object *only = object_at(played, 0.1, "7");
+    assert_string_equal(only->class, "truck");
+    assert_close(only->x_m, 1.5, 0);
+    assert_close(only->y_m, -2.5, 0);
+    assert_close(only->vx_mps, 3, 0);
+    assert_close(only->vy_mps, 4, 0);
+    assert_close(only->yaw_rad, 0.75, 0);
+    assert_close(only->yaw_rate_radps, 0, 0);
+    assert_close(only->length_m, 8.5, 0);
+    assert_close(only->width_m, 2.25, 0);
+    assert_close(only->travelled_m, 0, 0);
+    assert_int_equal(played->count, 1);
+    assert_close(played->frames[0].interval_s, 1, 0);
+    assert_true(played->frames[0].last);
+    assert_string_equal(played->frames[0].scene, "tracks/7");
+}
+
+static void frames_ascend_in_time_and_their_objects_in_id(void **state)
+{
+    struct recording_options options;
+    struct played *played = play(*state,
+                                 HEADER "9,3,350,car,0,0,0,0,0,4,2\n"
+                                        "10,3,350,car,0,0,0,0,0,4,2\n"
+                                        "9,1,100,car,0,0,0,0,0,4,2\n"
+                                        "b,2,200,car,0,0,0,0,0,4,2\n"
+                                        "2,3,350,car,0,0,0,0,0,4,2\n"
+                                        "9,2,200,car,0,0,0,0,0,4,2\n",
+                                 options_for(&options, "9"));
+    static const struct {
+        double time_s, interval_s;
+        const char *ids[4];
+    } steps[] = {
+        {0.1, 0.1, {"9", NULL}},
+        {0.2, 0.1, {"9", "b", NULL}},
+        {0.35, 0.15, {"10", "2", "9", NULL}},
+    };
+    assert_int_equal(played->count, 3);
+    for (size_t i = 0; i < 3; i++) {
+        const struct frame *frame = &played->frames[i];
+        assert_close(frame->time_s, steps[i].time_s, 0);
+        assert_close(frame->interval_s, steps[i].interval_s, 0);
+        assert_int_equal(frame->frame, i);
+        assert_int_equal(frame->last, i == 2);
+        size_t count = 0;
+        for (; steps[i].ids[count] != NULL; count++)
+            assert_string_equal(frame->objects.items[count].id, steps[i].ids[count]);
+        assert_int_equal(frame->objects.count, count);
+    }
+}
+
+static void stamps_are_in_the_unit_of_their_column(void **state)
+{
+    static const char *const texts[] = {
+        "track_id,timestamp_us,agent_type,x,y,vx,vy\n1,1700000000050000,car,0,0,0,0\n",
+        "track_id,timestamp_ms,agent_type,x,y,vx,vy\n1,1700000000050,car,0,0,0,0\n",
+        "track_id,timestamp_s,agent_type,x,y,vx,vy\n1,1700000000.05,car,0,0,0,0\n",
+    };
+    for (size_t i = 0; i < 3; i++)
+        assert_close(play_all(*state, texts[i])->frames[0].time_s, 1700000000.05, 3e-7);
+    assert_close(play_all(*state, texts[1])->frames[0].time_s, 1700000000.05, 0);
+}
+
+static void without_a_box_the_yaw_is_that_of_the_velocity_and_held_at_rest(void **state)
+{
+    struct recording_options options;
+    struct played *played = play(*state,
+                                 HEADER "P1,1,100,pedestrian/bicycle,0,0,-1,1,,,\n"
+                                        "P2,1,100,pedestrian/bicycle,0,0,0,0,,,\n"
+                                        "P1,1,200,pedestrian/bicycle,0,0,-0.0,0,,,\n",
+                                 options_for(&options, "P1"));
+    assert_int_equal(played->count, 2);
+    assert_close(object_at(played, 0.1, "P1")->yaw_rad, 3 * PI / 4, 1e-15);
+    assert_close(object_at(played, 0.2, "P1")->yaw_rad, 3 * PI / 4, 1e-15);
+    assert_close(object_at(played, 0.1, "P2")->yaw_rad, 0, 0);
+    assert_close(object_at(played, 0.1, "P1")->length_m, 0, 0);
+    assert_string_equal(object_at(played, 0.1, "P1")->class, "pedestrian");
+}
+
+/* The parabola through yaws 0, 0.02 and 0.14 at 0, 0.1 and 0.3 s has the slope 1/3 rad/s in the
+ * middle: (0.2 * 0.2 + 0.6 * 0.1) / 0.3. */
+static void yaw_rates_are_slopes_of_parabolas_and_wrap(void **state)
+{
+    struct played *played = play_all(*state, HEADER "a,1,0,car,0,0,0,0,3.13,4,2\n"
+                                                    "a,2,100,car,0,0,0,0,3.15,4,2\n"
+                                                    "a,4,300,car,0,0,0,0,-3.0131853071795863,4,2\n"
+                                                    "b,2,300,car,0,0,0,0,1,4,2\n");
+    assert_close(object_at(played, 0, "a")->yaw_rate_radps, 0.02 / 0.1, 1e-13);
+    assert_close(object_at(played, 0.1, "a")->yaw_rate_radps, 1. / 3, 1e-13);
+    assert_close(object_at(played, 0.3, "a")->yaw_rate_radps, 0.12 / 0.2, 1e-13);
+    assert_close(object_at(played, 0.3, "b")->yaw_rate_radps, 0, 0);
+}
+
+/* SUMO gives the front: a car of 5 m that drives north at (0, 10) has its centre at (0, 7.5). With
+ * constant acceleration the centred differences are exact, at unequal steps too. */
+static void places_become_centres_and_velocities(void **state)
+{
+    struct played *played = play_all(*state, SUMO "0;v;0;10;0;passenger;9\n"
+                                                  "1;v;0;20.5;0;passenger;9\n"
+                                                  "3;v;0;44.5;0;passenger;9\n"
+                                                  "3;once;100;0;270;bicycle;7\n");
+    const struct object *middle = object_at(played, 1, "v");
+    assert_close(object_at(played, 0, "v")->y_m, 7.5, 1e-12);
+    assert_close(middle->y_m, 18, 1e-12);
+    assert_close(middle->vy_mps, 11, 1e-12);
+    assert_close(middle->vx_mps, 0, 1e-12);
+    assert_close(middle->yaw_rad, PI / 2, 1e-15);
+    assert_close(object_at(played, 0, "v")->vy_mps, 10.5, 1e-12);
+    assert_close(object_at(played, 3, "v")->vy_mps, 12, 1e-12);
+    assert_close(object_at(played, 3, "once")->vx_mps, -7, 1e-12);
+    assert_close(object_at(played, 3, "once")->x_m, 100.8, 1e-12);
+    assert_close(object_at(played, 3, "once")->width_m, 0.65, 0);
+}
+
+static void the_distance_travelled_adds_up_from_place_to_place(void **state)
+{
+    struct recording_options options;
+    struct played *played = play(*state,
+                                 HEADER "a,3,300,car,503,5000000,0,0,0,4,2\n"
+                                        "a,2,200,car,503,5000004,0,0,0,4,2\n"
+                                        "a,1,100,car,500,5000000,0,0,0,4,2\n",
+                                 options_for(&options, "a"));
+    assert_close(object_at(played, 0.1, "a")->travelled_m, 0, 0);
+    assert_close(object_at(played, 0.2, "a")->travelled_m, 5, 0);
+    assert_close(object_at(played, 0.3, "a")->travelled_m, 9, 0);
+    assert_close(object_at(played, 0.2, "a")->y_m, 4, 0);
+    assert_close(played->frames[1].origin_y_m, 5000000, 0);
+}
+
+/* One long step, then many too short to change a plain sum. */
+static void many_short_steps_are_not_lost(void **state)
+{
+    enum { STEPS = 4000 };
+    char *text = malloc(STEPS * 64);
+    assert_non_null(text);
+    size_t used = (size_t)sprintf(text, WALKERS "a,0,0,car,0,1e8,0,0\na,0,900000000,car,0,0,0,0\n");
+    for (int i = 1; i <= STEPS; i++)
+        used += (size_t)sprintf(text + used, "a,0,%d,car,%de-9,0,0,0\n", 900000000 + i, i);
+    struct recording_options options;
+    struct played *played = play(*state, text, options_for(&options, "a"));
+    free(text);
+    const struct object *last = &played->frames[played->count - 1].objects.items[0];
+    assert_close(last->travelled_m - 1e8, STEPS * 1e-9, 2e-8);
+}
+
+/* Who is missing from a step, or jumps, comes again as another: another scene, no differences. */
+static void a_visit_ends_where_its_road_user_is_missing_or_jumps(void **state)
+{
+    struct recording_options options;
+    struct played *played = play(*state,
+                                 WALKERS "a,0,0,car,0,0,1,0\nb,0,0,car,0,0,0,0\n"
+                                         "b,0,100,car,0,0,0,0\n"
+                                         "a,0,200,car,5,0,1,0\nb,0,200,car,900,0,0,0\n"
+                                         "a,0,300,car,5,1,1,0\nb,0,300,car,900,0,0,0\n",
+                                 options_for(&options, "a,b"));
+    static const struct {
+        const char *scene;
+        int frame;
+        bool last;
+    } expected[] = {{"tracks/a", 0, true},    {"tracks/b", 0, false},   {"tracks/b", 1, true},
+                    {"tracks/a/2", 0, false}, {"tracks/b/2", 0, false}, {"tracks/a/2", 1, true},
+                    {"tracks/b/2", 1, true}};
+    assert_int_equal(played->count, 7);
+    for (size_t i = 0; i < 7; i++) {
+        assert_string_equal(played->frames[i].scene, expected[i].scene);
+        assert_int_equal(played->frames[i].frame, expected[i].frame);
+        assert_int_equal(played->frames[i].last, expected[i].last);
+    }
+    assert_close(object_at(played, 0.2, "a")->travelled_m, 0, 0);
+    assert_close(object_at(played, 0.3, "a")->travelled_m, 1, 0);
+}
+
+static void a_recording_begins_and_ends_at_given_times(void **state)
+{
+    struct recording_options options;
+    options_for(&options, "a");
+    options.from_s = 0.15;
+    options.to_s = 0.4;
+    struct played *played = play(*state,
+                                 WALKERS "a,0,100,car,0,0,1,0\na,0,200,car,1,0,1,0\n"
+                                         "a,0,300,car,2,0,1,0\na,0,400,car,3,0,1,0\n"
+                                         "a,0,500,car,4,0,1,0\n",
+                                 &options);
+    assert_int_equal(played->count, 3);
+    assert_close(played->frames[0].time_s, 0.2, 0);
+    assert_int_equal(played->frames[0].frame, 0);
+    assert_close(played->frames[2].time_s, 0.4, 0);
+    assert_true(played->frames[2].last && !played->frames[1].last);
+    assert_close(played->frames[0].objects.items[0].travelled_m, 1, 0);
+}
+
+/* The neighbours within a radius are those that a plain search finds, at all scales. */
+static void neighbours_are_those_within_the_radius(void **state)
+{
+    static const double radii_m[] = {0, 0.5, 3, 20, 1e3};
+    enum { CARS = 60 };
+    struct text text = {0};
+    text_add_word(&text, WALKERS);
+    uint64_t random = 1;
+    struct vec2 places[CARS];
+    for (int i = 0; i < CARS; i++) {
+        random = random * UINT64_C(6364136223846793005) + 1442695040888963407u;
+        places[i] = (struct vec2){(double)(random >> 40 & 255) / 4 - 32,
+                                  (double)(random >> 52 & 255) / 4 - 32};
+        text_format(&text, "%02d,0,0,car,%.17g,%.17g,0,0\n", i, places[i].x, places[i].y);
+    }
+    text_add(&text, "", 1);
+    for (size_t r = 0; r < sizeof radii_m / sizeof radii_m[0]; r++) {
+        struct recording_options options;
+        options_for(&options, "all");
+        options.radius_m = radii_m[r];
+        struct played *played = play(*state, text.bytes, &options);
+        assert_int_equal(played->count, CARS);
+        for (size_t ego = 0; ego < CARS; ego++) {
+            size_t found = 0;
+            for (size_t i = 0; i < CARS; i++)
+                if (hypot(places[i].x - places[ego].x, places[i].y - places[ego].y) <= radii_m[r])
+                    assert_int_equal(atoi(played->frames[ego].objects.items[found++].id), i);
+            assert_int_equal(played->frames[ego].objects.count, found);
+        }
+    }
+    text_free(&text);
+}
+
+static void damaged_recordings_are_refused(void **state)
+{
+    static const struct {
+        const char *text, *message;
+    } cases[] = {
+        {HEADER "1,1,100,car,0,0,0,0,0,4,2\n\n2,1,100,car,0,0,0,0,0,4,2\n"
+                "1,2,100,car,1,0,0,0,0,4,2\n",
+         "row 5: track_id 1 at 0.1 s is in row 2 already"},
+        {HEADER "1,1,100.5,car,0,0,0,0,0,4,2\n",
+         "row 2, column \"timestamp_ms\": 100.5 is not a whole number"},
+        {HEADER "1,1,1e16,car,0,0,0,0,0,4,2\n",
+         "row 2, column \"timestamp_ms\": 1e16 is outside [-9e+12, 9e+12]"},
+        {HEADER "1,1,,car,0,0,0,0,0,4,2\n", "row 2, column \"timestamp_ms\": \"\" is not a number"},
+        {HEADER "1,1,100,car,0,2e9,0,0,0,4,2\n",
+         "row 2, column \"y\": 2e9 is outside [-1e+09, 1e+09]"},
+        {HEADER "1,1,100,car,nan,0,0,0,0,4,2\n", "row 2, column \"x\": \"nan\" is not a number"},
+        {HEADER "1,1,100,car,0,0,0,0,0,-4,2\n",
+         "row 2, column \"length\": -4 is outside [0, 1e+06]"},
+        {HEADER "1,1,100,car,0,,0,0,0,4,2\n", "row 2, column \"y\": \"\" is not a number"},
+        {HEADER "1,1,100,\"a\nb\",0,0,0,0,0,4,2\n",
+         "row 2, column \"agent_type\": \"a\nb\"; expected 1 to 1024 printable ASCII characters"},
+        {HEADER ",1,100,car,0,0,0,0,0,4,2\n",
+         "row 2, column \"track_id\": \"\"; expected 1 to 1024 printable ASCII characters"},
+        {"track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy,psi,length,width\n",
+         "column \"psi_rad\" is missing; the header is: track_id, frame_id, timestamp_ms, "
+         "agent_type, x, y, vx, vy, psi, length, width"},
+        {"track_id,agent_type,x,y,vx,vy\n", "column \"timestamp_ms\" is missing; the header is: "
+                                            "track_id, agent_type, x, y, vx, vy"},
+        {SUMO "1;v;0;0;0;passenger;0\n0.5;v;0;0;0;passenger;0\n",
+         "row 3: 0.5 s after a step of 1 s; expected a later time, by at most 1e6 s"},
+        {SUMO "1;v;0;0;north;passenger;0\n",
+         "row 2, column \"vehicle_angle\": \"north\" is not a number"},
+        {"timestep_time;vehicle_x\n", "column \"vehicle_id\" is missing; the header is: "
+                                      "timestep_time, vehicle_x"},
+        {HEADER, "--ego: \"1\" is no track_id"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct recording_options options;
+        struct played *played = play(*state, cases[i].text, options_for(&options, "1"));
+        const char *text = strstr(played->diag.text, "tracks.csv: ");
+        assert_non_null(text);
+        assert_string_equal(text + strlen("tracks.csv: "), cases[i].message);
+        assert_int_equal(played->diag.code, DIAG_DATA);
+    }
+}
+
+static void a_recorded_motorway_is_read(void **state)
+{
+    const char *data = getenv("GLINT_TEST_DATA");
+    if (data == NULL) {
+        print_message("GLINT_TEST_DATA is not set: no recording to read\n");
+        skip();
+        return;
+    }
+    struct scratch *scratch = *state;
+    char path[4096];
+    snprintf(path, sizeof path, "%s/csv/us101_interaction.csv", data);
+    struct recorded_file table;
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena};
+    recorded_file_open(&table, path, "all", &scratch->arena);
+    size_t states = 0;
+    for (; recorded_file_next(&table, &frame); states++) {
+        const struct object *ego = frame_object(&frame, frame.ego);
+        struct vec2 heading = vec2_heading(ego->yaw_rad);
+        assert_close(frame.interval_s, 0.1, 1e-15);
+        assert_close(ego->vx_mps * heading.x + ego->vy_mps * heading.y,
+                     hypot(ego->vx_mps, ego->vy_mps), 1e-8);
+        assert_true(fabs(ego->yaw_rate_radps) < 1 && ego->length_m > 3);
+    }
+    assert_int_equal(states, 384);
+    assert_int_equal(table.recording.egos.count, 12);
+    recording_close(&table.recording);
+    arena_free(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_row_becomes_an_object),
+        cmocka_unit_test(frames_ascend_in_time_and_their_objects_in_id),
+        cmocka_unit_test(stamps_are_in_the_unit_of_their_column),
+        cmocka_unit_test(without_a_box_the_yaw_is_that_of_the_velocity_and_held_at_rest),
+        cmocka_unit_test(yaw_rates_are_slopes_of_parabolas_and_wrap),
+        cmocka_unit_test(places_become_centres_and_velocities),
+        cmocka_unit_test(the_distance_travelled_adds_up_from_place_to_place),
+        cmocka_unit_test(many_short_steps_are_not_lost),
+        cmocka_unit_test(a_visit_ends_where_its_road_user_is_missing_or_jumps),
+        cmocka_unit_test(a_recording_begins_and_ends_at_given_times),
+        cmocka_unit_test(neighbours_are_those_within_the_radius),
+        cmocka_unit_test(damaged_recordings_are_refused),
+        cmocka_unit_test(a_recorded_motorway_is_read),
+    };
+    return cmocka_run_group_tests(tests, make_scratch, remove_scratch);
+}
