@@ -69,10 +69,13 @@ plain_programs := $(call programs_of,$(plain_names))
 full_programs := $(BUILD)/bin/glint $(call programs_of,$(filter-out $(plain_names),$(names)))
 programs := $(plain_programs) $(full_programs)
 tests := $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/test_*.c tests/*/test_*.c tests/unit/*/test_*.c))
+# A stage of the tests, and glint with it: build/tests/glint.
+test_stage_objects := $(addprefix $(BUILD)/tests/soundness/,traffic_adversarial.o adversarial_traffic.o)
+test_programs := $(BUILD)/tests/glint $(BUILD)/tests/glint-traffic-adversarial
 hard_tests := $(patsubst tests/hard/%.c,$(BUILD)/tests/hard/%,$(wildcard tests/hard/*.c))
 soundness_tests := $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/soundness/planted_*.c))
 
-all: $(programs)
+all: $(programs) $(test_programs)
 
 $(BUILD)/lib/%.c.o: lib/%.c
 	@mkdir -p $(@D)
@@ -111,14 +114,17 @@ registry = for n in $(2); do echo "extern const struct $(1) $(1)_$$n;"; done; \
     echo "const struct $(1) *const $(1)s[] = {"; \
     for n in $(2); do echo "    &$(1)_$$n,"; done; echo "    NULL,"; echo "};"
 write_registry = mkdir -p $(@D); { echo '\#include "run/fused.h"'; \
-    $(call registry,stage,$(filter $(stages),$(1))); $(call registry,tool,$(filter $(tools),$(1))); } >$@.new; \
+    $(call registry,stage,$(filter-out $(tools),$(1))); $(call registry,tool,$(filter $(tools),$(1))); } >$@.new; \
     cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 $(BUILD)/registry.c: FORCE
 	@$(call write_registry,$(names))
 $(BUILD)/plain_registry.c: FORCE
 	@$(call write_registry,$(plain_names))
 
-$(BUILD)/registry.o $(BUILD)/plain_registry.o: %.o: %.c
+$(BUILD)/tests/registry.c: FORCE
+	@$(call write_registry,$(names) traffic_adversarial)
+
+$(BUILD)/registry.o $(BUILD)/plain_registry.o $(BUILD)/tests/registry.o: %.o: %.c
 	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -c -o $@ $<
 
 $(BUILD)/main.o: stages/main.c
@@ -148,14 +154,20 @@ $(BUILD)/tests/%.o: tests/%.c
 $(tests): %: %.o $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS) -lcmocka
 
-$(BUILD)/tests/hard/%: $(BUILD)/tests/hard/%.o $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
+$(BUILD)/tests/glint: $(BUILD)/main.o $(BUILD)/tests/registry.o $(test_stage_objects) $(stage_objects) $(BUILD)/libglint.a
+	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS)
+
+$(BUILD)/tests/glint-traffic-adversarial: $(BUILD)/tests/glint
+	$(Q)ln -f $< $@
+
+$(BUILD)/tests/hard/%: $(BUILD)/tests/hard/%.o $(test_stage_objects) $(stage_objects) $(BUILD)/tests/registry.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ $(stage_libs) $(LIBS) -lcmocka -lmpfr -lgmp
 
 # scripts/soundness: the planner as it is, and with faults planted in place of functions of lib/.
 soundness_objects := $(addprefix $(BUILD)/tests/soundness/,soundness.o compare.o)
 wraps = $(shell grep -o '__wrap_[a-z_]*' $(1) | sort -u | sed 's/__wrap_/-Wl,--wrap=/')
 $(BUILD)/tests/soundness/planted_%: $(BUILD)/tests/soundness/planted_%.o $(soundness_objects) \
-    $(stage_objects) $(BUILD)/registry.o $(BUILD)/libglint.a
+    $(test_stage_objects) $(stage_objects) $(BUILD)/tests/registry.o $(BUILD)/libglint.a
 	$(Q)$(LINK) $(call wraps,tests/soundness/planted_$*.c) -o $@ $^ $(stage_libs) $(LIBS)
 
 # Harnesses of libFuzzer, each with the mutator of numbers: make FUZZ=1 fuzz.
@@ -177,6 +189,7 @@ $(BUILD)/tests/speed/same_heap.so: tests/speed/same_heap.c
 	$(Q)$(CC) $(HOUSE_C) $(CFLAGS) -shared -fPIC -o $@ $< -ljansson
 
 $(filter %/test_compare,$(tests)): $(BUILD)/tests/soundness/compare.o
+$(filter %/test_adversarial_traffic,$(tests)): $(BUILD)/tests/soundness/adversarial_traffic.o
 
 # Its test sees file systems of other kinds, and random names that it knows.
 $(filter %/test_output,$(tests)): LDFLAGS += -Wl,--wrap=open,--wrap=getrandom,--wrap=rename

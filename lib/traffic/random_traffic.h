@@ -12,7 +12,8 @@
 #include "frame/frame.h"
 
 /* Number of objects beside the ego, and the radius around it: 0 to 3 in 120 m, 0 to 8 in 60 m, 4 to
- * 15 in 25 m, and 0 to 3 in 60 m around the cases of adversarial_traffic.h. */
+ * 15 in 25 m, and 0 to 3 in 60 m around the cases of
+ * tests/soundness/adversarial_traffic.h. */
 enum random_traffic_density { TRAFFIC_SPARSE, TRAFFIC_MEDIUM, TRAFFIC_DENSE, TRAFFIC_ADVERSARIAL };
 
 extern const char *const random_traffic_densities[]; /* the names of the densities, ending with

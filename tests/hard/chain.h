@@ -38,13 +38,13 @@ static inline void hard_chain_start(struct hard_chain *chain, int first, int fra
     char first_word[32], frames_word[32];
     snprintf(first_word, sizeof first_word, "%d", first);
     snprintf(frames_word, sizeof frames_word, "%d", frames);
-    const char *const scene[] = {"--density", "adversarial", "--sensors", suite,
-                                 "--first",   first_word,    "--frames",  frames_word};
+    const char *const scene[] = {"--sensors", suite,      "--first",
+                                 first_word,  "--frames", frames_word};
     *chain = (struct hard_chain){.frame = {.arena = NULL}};
     chain->frame.arena = &chain->arena;
-    hard_chain_stage(&chain->runners[0], "traffic-random", 8, scene);
+    hard_chain_stage(&chain->runners[0], "traffic-adversarial", 6, scene);
     hard_chain_stage(&chain->runners[1], "extract", 0, NULL);
-    hard_chain_stage(&chain->runners[2], "ideal", 2, scene + 2);
+    hard_chain_stage(&chain->runners[2], "ideal", 2, scene);
     hard_chain_stage(&chain->runners[3], "sensor", 0, NULL);
     hard_chain_stage(&chain->runners[4], "noise", 0, NULL);
 }

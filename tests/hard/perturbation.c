@@ -19,7 +19,7 @@
 #include "ideal/direct_echoes.h"
 #include "run/fused.h"
 #include "run/runner.h"
-#include "traffic/adversarial_traffic.h"
+#include "soundness/adversarial_traffic.h"
 
 enum { SENSORS = 2, SCENES = 6250 };
 

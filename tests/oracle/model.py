@@ -29,7 +29,7 @@ class Bench:
     def __init__(self, bin_dir, scratch):
         self.bin, self.scratch = Path(bin_dir).resolve(), Path(scratch)
         self.env = dict(os.environ, GLINT_DATA=str(self.scratch / "data"),
-                        PATH=f"{self.bin}{os.pathsep}{os.environ['PATH']}")
+                        PATH=os.pathsep.join([str(self.bin), str(self.bin.parent / "tests"), os.environ["PATH"]]))
         self.vehicles = {path.stem: json.loads(path.read_text()) for path in (ROOT / "data/vehicles").glob("*.json")}
         self.failures, self.group_failures, self.group_checks = 0, 0, 0
         (self.scratch / "data/vehicles").mkdir(parents=True)
@@ -39,8 +39,13 @@ class Bench:
         self.vehicles[name] = document
         (self.scratch / f"data/vehicles/{name}.json").write_text(json.dumps(document))
 
+    def program(self, name, pipeline):
+        """The path of a program; the tests have a glint with a source of their own."""
+        own = "glint-traffic-adversarial" in pipeline
+        return str((self.bin.parent / "tests" if own else self.bin) / name)
+
     def stage(self, words, text):
-        done = subprocess.run([str(self.bin / words[0]), *words[1:]], input=text, env=self.env, text=True,
+        done = subprocess.run([self.program(words[0], words), *words[1:]], input=text, env=self.env, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
         if done.returncode:
             raise SystemExit(f"{' '.join(words)}: exit status {done.returncode}\n{done.stderr}")

@@ -26,9 +26,10 @@ COMPARED = 300
 
 
 def source(density, suite, frames, first=0, seed=1):
-    words = ["glint-traffic-random", "--density", density, "--frames", str(frames), "--first", str(first),
-             "--seed", str(seed)]
-    return words + (["--sensors", suite] if density == "adversarial" else [])
+    kind = ["glint-traffic-random", "--density", density]
+    if density == "adversarial":
+        kind = ["glint-traffic-adversarial", "--sensors", suite]
+    return [*kind, "--frames", str(frames), "--first", str(first), "--seed", str(seed)]
 
 
 def chain(suite, keep=""):
@@ -36,7 +37,7 @@ def chain(suite, keep=""):
 
 
 def fused(bench, text):
-    done = subprocess.run([str(bench.bin / "glint"), "-c", text], env=bench.env, capture_output=True, check=False)
+    done = subprocess.run([bench.program("glint", text), "-c", text], env=bench.env, capture_output=True, check=False)
     bench.check(done.returncode == 0, f"{text}: exit status {done.returncode}: {done.stderr.decode()}")
     return done.stdout
 

@@ -2,10 +2,11 @@
  * those that a planner chose, in this process and without text. A planner is a way to choose
  * effects: auto, or auto without one of them.
  *
- * Frame number n is that of glint-traffic-random --conditions --first n --frames 1 with the same
- * options; --first n --frames 1 --print writes it, for the chain to read. The output is one JSON
- * line: per planner the violations, the first of them, how often each effect was simulated and left
- * out, and the time. Exit status 1 if there is a violation. */
+ * Frame number n is that of glint-traffic-random (or, of the tests' own, glint-traffic-adversarial)
+ * --conditions --first n --frames 1 with the same options; --first n --frames 1 --print writes it,
+ * for the chain to read. The output is one JSON line: per planner the violations, the first of
+ * them, how often each effect was simulated and left out, and the time. Exit status 1 if there is a
+ * violation. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -135,12 +136,13 @@ static int start_scenes(struct bench *bench)
     char first[24], frames[24];
     snprintf(first, sizeof first, "%" PRId64, wanted->first);
     snprintf(frames, sizeof frames, "%" PRId64, wanted->frames);
-    const char *around = wanted->density == TRAFFIC_ADVERSARIAL ? "--sensors" : NULL;
+    bool adversarial = wanted->density == TRAFFIC_ADVERSARIAL;
+    const char *around = adversarial ? wanted->sensors : random_traffic_densities[wanted->density];
     bench->scene.arena = &bench->arena;
-    return start_stage(&bench->source, "traffic-random",
-                       (const char *const[]){"--density", random_traffic_densities[wanted->density],
+    return start_stage(&bench->source, adversarial ? "traffic-adversarial" : "traffic-random",
+                       (const char *const[]){adversarial ? "--sensors" : "--density", around,
                                              "--first", first, "--frames", frames, "--conditions",
-                                             around, wanted->sensors, NULL}) == 0
+                                             NULL}) == 0
                ? start_stage(&bench->extract, "extract", (const char *const[]){NULL})
                : -1;
 }

@@ -6,7 +6,7 @@
 #include "base/units.h"
 #include "documents/suite_file.h"
 #include "documents/vehicle.h"
-#include "traffic/adversarial_traffic.h"
+#include "soundness/adversarial_traffic.h"
 #include "traffic/scenario.h"
 
 #define SNAPSHOTS 4000

@@ -1,4 +1,4 @@
-#include "traffic/adversarial_traffic.h"
+#include "adversarial_traffic.h"
 
 #include <inttypes.h>
 #include <stdio.h>
