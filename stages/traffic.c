@@ -2,25 +2,24 @@
 #include "base/elementary.h"
 #include "run/stage.h"
 #include "text/document.h"
-#include "traffic/playback.h"
 #include "traffic/recorded_table.h"
 #include "traffic/recording.h"
+#include "traffic/scenario.h"
 
 struct traffic {
     const char *source;
     struct recording_options options;
     struct recording recording; /* of a table */
     bool recorded;              /* is it one? */
-    const char *scene;          /* of a scenario */
-    struct playback playback;
+    struct scenario *scenario;
+    const char *scene; /* of the scenario */
     struct conditions conditions;
-    int64_t frame; /* of the scenario */
+    int64_t frame, frames; /* of the scenario: the next, and how many */
 };
 
 static int start_scenario(struct traffic *traffic, struct runner *runner)
 {
     const struct recording_options *options = &traffic->options;
-    struct playback *playback = &traffic->playback;
     struct arena *arena = runner_arena(runner);
     struct diag *diag = runner_diag(runner);
     if (options->rate_hz > 0 || options->from_s > -9e9 || options->to_s < 9e9 ||
@@ -29,15 +28,17 @@ static int start_scenario(struct traffic *traffic, struct runner *runner)
                          "%s: a scenario has rate, times and classes of its own; --rate-hz, "
                          "--from-s, --to-s, --class-map and --class-default are for recordings",
                          traffic->source);
-    if (playback_open(playback, traffic->source, options->ego, arena, diag) != 0 ||
+    traffic->scenario = scenario_open(traffic->source, options->ego, arena, diag);
+    if (traffic->scenario == NULL ||
         recording_conditions(options, &traffic->conditions, arena, diag) != 0)
         return -1;
     struct text name = {0};
-    text_format(&name, "%s/%s", recording_name(traffic->source, arena), playback->ego);
+    text_format(&name, "%s/%s", recording_name(traffic->source, arena), traffic->scenario->ego);
     traffic->scene =
         options->scene != NULL ? options->scene : arena_text(arena, name.bytes, name.length);
     text_free(&name);
-    runner_expect(runner, playback->frames);
+    traffic->frames = scenario_frames(traffic->scenario);
+    runner_expect(runner, traffic->frames);
     return 0;
 }
 
@@ -135,14 +136,14 @@ static int traffic_next(void *state, struct frame *frame, struct runner *runner)
     struct traffic *traffic = state;
     if (traffic->recorded)
         return recording_next(&traffic->recording, frame, runner_diag(runner));
-    if (traffic->frame == traffic->playback.frames)
+    if (traffic->frame == traffic->frames)
         return 0;
-    playback_frame(&traffic->playback, traffic->frame, frame);
+    scenario_fill(traffic->scenario, traffic->frame, frame);
     conditions_change(&frame->conditions, &traffic->conditions);
     frame->scene = traffic->scene;
-    frame->ego = traffic->playback.ego;
+    frame->ego = traffic->scenario->ego;
     frame->frame = traffic->frame++;
-    frame->last = traffic->frame == traffic->playback.frames;
+    frame->last = traffic->frame == traffic->frames;
     if (traffic->options.radius_m >= 0)
         limit_radius(frame, traffic->options.radius_m);
     return 1;
@@ -153,7 +154,7 @@ static int traffic_locate_fault(void *state, const struct frame *frame, struct r
     const struct traffic *traffic = state;
     if (traffic->recorded)
         return recording_check(&traffic->recording, frame, runner_diag(runner));
-    if (playback_check(frame, runner_diag(runner)) != 0)
+    if (scenario_check_frame(frame, runner_diag(runner)) != 0)
         return diag_prefix(runner_diag(runner), "%s: ", traffic->source);
     return 0;
 }
@@ -170,9 +171,6 @@ static const struct field traffic_options[] = {
     {FIELD_RECORD_OF(struct traffic, options, &recording_options_record, ""), FIELD_OPTIONAL},
     {0},
 };
-
-static const struct record traffic_record = {
-    .name = "traffic", .size = sizeof(struct traffic), .fields = traffic_options};
 
 #define INTERACTION(word, class) "\n    " word " = " class
 #define SUMO(word, class, length_m, width_m, height_m) "\n    " word " = " class
@@ -191,7 +189,7 @@ const struct stage stage_traffic = {
         "What words of tables mean:"
 #include "traffic/recorded_classes.def"
     ,
-    .options = &traffic_record,
+    .options = STAGE_OPTIONS(struct traffic, traffic_options),
     .operand = "SOURCE",
     .writes = SECTION_OBJECTS,
     .start = traffic_start,

@@ -359,9 +359,6 @@ static const struct field traffic_sumo_fields[] = {
     {0},
 };
 
-static const struct record traffic_sumo_options = {
-    .name = "options", .size = sizeof(struct traffic_sumo), .fields = traffic_sumo_fields};
-
 #define SUMO(word, class, length_m, width_m, height_m) "\n    " word " = " class
 
 const struct stage stage_traffic_sumo = {
@@ -378,7 +375,7 @@ const struct stage stage_traffic_sumo = {
         "be one of these words, which --class-map adds to:"
 #include "traffic/recorded_classes.def"
     ,
-    .options = &traffic_sumo_options,
+    .options = STAGE_OPTIONS(struct traffic_sumo, traffic_sumo_fields),
     .operand = "SOURCE",
     .writes = SECTION_OBJECTS,
     .start = traffic_sumo_start,

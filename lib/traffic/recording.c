@@ -2,6 +2,7 @@
 
 #include "text/field_check.h"
 #include "traffic/recorded_store.h"
+#include "traffic/scenario.h"
 
 /* ---- opening ---- */
 
@@ -171,14 +172,6 @@ static int take_step(struct recording *recording, struct diag *diag)
 
 /* ---- frames ---- */
 
-/* The origin of the frames' coordinates: in whole metres near the ego if it is more than a
- * kilometre away (as in UTM), else that of the source. */
-static struct vec2 local_origin(const struct object *ego)
-{
-    bool near = fabs(ego->x_m) <= 1000 && fabs(ego->y_m) <= 1000;
-    return near ? (struct vec2){0, 0} : (struct vec2){round(ego->x_m), round(ego->y_m)};
-}
-
 static const char *scene_name(const struct recording *recording, const struct recorded_ego *ego)
 {
     const char *given = recording->options->scene;
@@ -207,7 +200,7 @@ static struct recorded_ego *ego_of(struct recording *recording, const struct rec
     ego->visits++;
     ego->since_ns = state->since_ns;
     ego->frames = 0;
-    ego->origin_m = local_origin(object);
+    ego->origin_m = scenario_frame_origin((struct vec2){object->x_m, object->y_m});
     ego->scene = scene_name(recording, ego);
     return ego;
 }

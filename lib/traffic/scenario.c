@@ -6,6 +6,7 @@
 #include "base/intern.h"
 #include "base/units.h"
 #include "text/document.h"
+#include "text/field_check.h"
 
 #define REAL(owner, member, low, high, help) FIELD_REAL_IN(owner, member, low, high, help)
 #define OPTIONAL_REAL(owner, member, low, high, help)                                              \
@@ -326,4 +327,77 @@ struct scenario *scenario_load(const char *name, struct arena *arena, struct dia
         return NULL;
     }
     return scenario;
+}
+
+struct vec2 scenario_frame_origin(struct vec2 ego_m)
+{
+    bool near = fabs(ego_m.x) <= 1000 && fabs(ego_m.y) <= 1000;
+    return near ? (struct vec2){0, 0} : (struct vec2){round(ego_m.x), round(ego_m.y)};
+}
+
+struct scenario *scenario_open(const char *name, const char *ego, struct arena *arena,
+                               struct diag *diag)
+{
+    struct scenario *scenario = scenario_load(name, arena, diag);
+    if (scenario == NULL)
+        return NULL;
+    if (ego != NULL)
+        scenario->ego = ego;
+    size_t i = 0;
+    while (i < scenario->objects.count && strcmp(scenario->objects.items[i].id, scenario->ego) != 0)
+        i++;
+    if (i == scenario->objects.count) {
+        diag_fail(diag, DIAG_CONFIG, "%s: ego: \"%s\" is not the id of an object", name, ego);
+        return NULL;
+    }
+    double travelled_m;
+    struct motion carrier = scenario_motion(&scenario->objects.items[i], 0, &travelled_m);
+    scenario->origin_m = scenario_frame_origin(carrier.position_m);
+    scenario_shift(scenario, scenario->origin_m);
+    return scenario;
+}
+
+static struct object object_of(const struct actor *actor, double time_s)
+{
+    double travelled_m;
+    struct motion motion = scenario_motion(actor, time_s, &travelled_m);
+    return (struct object){
+        .id = actor->id,
+        .class = actor->class,
+        .x_m = motion.position_m.x,
+        .y_m = motion.position_m.y,
+        .yaw_rad = motion.yaw_rad,
+        .vx_mps = motion.velocity_mps.x,
+        .vy_mps = motion.velocity_mps.y,
+        .yaw_rate_radps = motion.yaw_rate_radps,
+        .length_m = actor->length_m,
+        .width_m = actor->width_m,
+        .height_m = actor->height_m,
+        .travelled_m = travelled_m,
+    };
+}
+
+void scenario_fill(const struct scenario *scenario, int64_t number, struct frame *frame)
+{
+    frame->origin_x_m = scenario->origin_m.x;
+    frame->origin_y_m = scenario->origin_m.y;
+    frame->time_s = (double)number / scenario->rate_hz;
+    frame->interval_s = 1 / scenario->rate_hz;
+    frame->conditions = scenario->conditions;
+    for (size_t i = 0; i < scenario->objects.count; i++)
+        *list_add(&frame->objects, frame->arena) =
+            object_of(&scenario->objects.items[i], frame->time_s);
+}
+
+int scenario_check_frame(const struct frame *frame, struct diag *diag)
+{
+    for (size_t i = 0; i < frame->objects.count; i++) {
+        const struct object *object = &frame->objects.items[i];
+        if (field_check(&object_record, object, diag) == 0)
+            continue;
+        diag->code = DIAG_CONFIG;
+        return diag_prefix(diag, "object \"%s\" in frame %lld: ", object->id,
+                           (long long)frame->frame);
+    }
+    return 0;
 }

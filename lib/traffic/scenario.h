@@ -11,9 +11,8 @@
 #ifndef SCENARIO_H
 #define SCENARIO_H
 
-#include "frame/conditions.h"
+#include "frame/frame.h"
 #include "geometry/motion.h"
-#include "text/field.h"
 
 struct segment {
     double duration_s;
@@ -43,6 +42,7 @@ struct scenario {
     double duration_s;
     struct conditions conditions;
     LIST_OF(struct actor) objects;
+    struct vec2 origin_m; /* of the frames' coordinates in those of the document */
 };
 
 extern const struct record scenario_record;
@@ -67,5 +67,21 @@ int64_t scenario_frames(const struct scenario *scenario);
 /* Finds, reads and checks the scenario of this name or path. All of it lies in the arena; NULL
  * after a message (DIAG_CONFIG). */
 struct scenario *scenario_load(const char *name, struct arena *arena, struct diag *diag);
+
+/* The same with this ego (NULL: the scenario's own), shifted to the origin of its frames. */
+struct scenario *scenario_open(const char *name, const char *ego, struct arena *arena,
+                               struct diag *diag);
+
+/* The origin of frames with an ego that begins here: in whole metres near it if it is more than a
+ * kilometre away (as in UTM), else that of the source. */
+struct vec2 scenario_frame_origin(struct vec2 ego_m);
+
+/* Fills time, interval, origin, conditions and objects of frame number 0 <= number <
+ * scenario_frames. */
+void scenario_fill(const struct scenario *scenario, int64_t number, struct frame *frame);
+
+/* Refuses a frame with an object out of the bounds of its record, for instance too far from the
+ * origin or turning too fast (DIAG_CONFIG). The message names its id and the frame. */
+int scenario_check_frame(const struct frame *frame, struct diag *diag);
 
 #endif

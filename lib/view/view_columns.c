@@ -2,12 +2,13 @@
 
 #include <string.h>
 
-#define ENTRY(name, key, kind) {key, kind},
-
 static const struct {
     const char *key;
     char kind;
-} table[] = {VIEW_COLUMNS(ENTRY)};
+} table[] = {
+#define COLUMN(name, key, kind) {key, kind},
+#include "view/view_columns.def"
+};
 
 static const struct field place_fields[] = {
     {FIELD_NAME_OF(struct view_column_place, name, "of the column")},

@@ -10,7 +10,7 @@
 #include "radar/resolution.h"
 #include "radar/scan_timing.h"
 #include "sensor/resolution_cell.h"
-#include "traffic/playback.h"
+#include "traffic/scenario.h"
 
 enum { FRAMES = 1000000, PRECISION = 320 };
 
@@ -32,7 +32,7 @@ static void write_file(const struct scratch *scratch, const char *text)
 #define YAW_RAD 0.6
 
 /* A scenario of a car at 50 m/s in UTM coordinates for a million frames. */
-static struct playback open_scene(struct scratch *scratch, double rate_hz)
+static struct scenario *open_scene(struct scratch *scratch, double rate_hz)
 {
     char text[512];
     snprintf(text, sizeof text,
@@ -41,11 +41,11 @@ static struct playback open_scene(struct scratch *scratch, double rate_hz)
              "\"speed_mps\": %.17g, \"yaw_rad\": %.17g}]}",
              rate_hz, (FRAMES - 1) / rate_hz, START_X_M, START_Y_M, SPEED_MPS, YAW_RAD);
     write_file(scratch, text);
-    struct playback scene;
     struct diag diag = {0};
-    if (playback_open(&scene, scratch->path, NULL, &scratch->arena, &diag) != 0)
+    struct scenario *scene = scenario_open(scratch->path, NULL, &scratch->arena, &diag);
+    if (scene == NULL)
         fail_msg("%s", diag.text);
-    assert_int_equal(scene.frames, FRAMES);
+    assert_int_equal(scenario_frames(scene), FRAMES);
     return scene;
 }
 
@@ -56,10 +56,10 @@ static int64_t frame_step(void)
     return FRAMES / hard_points(FRAMES);
 }
 
-static void frame_of(const struct playback *scene, int64_t number, struct frame *frame)
+static void frame_of(const struct scenario *scene, int64_t number, struct frame *frame)
 {
     frame_clear(frame);
-    playback_frame(scene, number, frame);
+    scenario_fill(scene, number, frame);
 }
 
 static void a_million_frames_stand_at_their_times(void **state)
@@ -70,12 +70,12 @@ static void a_million_frames_stand_at_their_times(void **state)
     mpfr_t exact;
     mpfr_init2(exact, PRECISION);
     for (size_t r = 0; r < COUNT(rates_hz); r++) {
-        struct playback scene = open_scene(*state, rates_hz[r]);
+        const struct scenario *scene = open_scene(*state, rates_hz[r]);
         double clock_s = 0;
         for (int64_t i = 0; i < FRAMES; i++, clock_s += 1 / rates_hz[r]) {
             if (i % frame_step() != 0)
                 continue;
-            frame_of(&scene, i, &frame);
+            frame_of(scene, i, &frame);
             mpfr_set_sj(exact, i, MPFR_RNDN);
             mpfr_div_d(exact, exact, rates_hz[r], MPFR_RNDN);
             ours = fmax(ours, hard_ulp(frame.time_s, exact));
@@ -95,9 +95,9 @@ static void a_frame_is_found_again_from_its_time(void **state)
     struct frame frame = {.arena = &arena};
     double naive = 0, ours = 0;
     for (size_t r = 0; r < COUNT(rates_hz); r++) {
-        struct playback scene = open_scene(*state, rates_hz[r]);
+        const struct scenario *scene = open_scene(*state, rates_hz[r]);
         for (int64_t i = 0; i < FRAMES; i += frame_step()) {
-            frame_of(&scene, i, &frame);
+            frame_of(scene, i, &frame);
             double interval_s = 1 / rates_hz[r];
             naive += (int64_t)((double)i * interval_s / interval_s) != i;
             ours += llround(frame.time_s * rates_hz[r]) != i;
@@ -115,11 +115,11 @@ static void scans_fall_on_their_frames(void **state)
     struct frame frame = {.arena = &arena};
     double naive = 0, ours = 0;
     for (size_t r = 0; r < COUNT(rates_hz); r++) {
-        struct playback scene = open_scene(*state, rates_hz[r]);
+        const struct scenario *scene = open_scene(*state, rates_hz[r]);
         double cycle_s = 2 / rates_hz[r];
         for (int64_t i = 0; i < FRAMES; i += frame_step()) {
             double instant_s = -1;
-            frame_of(&scene, i, &frame);
+            frame_of(scene, i, &frame);
             bool scan =
                 floor(frame.time_s / cycle_s) != floor((frame.time_s - frame.interval_s) / cycle_s);
             naive += scan != (i % 2 == 0);
@@ -191,12 +191,12 @@ static void straight_motion_does_not_drift(void **state)
     mpfr_cos(cosine, sine, MPFR_RNDN);
     mpfr_sin(sine, sine, MPFR_RNDN);
     for (size_t r = 0; r < COUNT(rates); r++) {
-        struct playback scene = open_scene(*state, rates[r]);
+        const struct scenario *scene = open_scene(*state, rates[r]);
         struct object car = {.x_m = START_X_M, .y_m = START_Y_M};
         drifting.objects.items = &car;
         for (int64_t i = 0; i < FRAMES; i++) {
             if (i % frame_step() == 0) {
-                frame_of(&scene, i, &frame);
+                frame_of(scene, i, &frame);
                 mpfr_set_sj(time_s, i, MPFR_RNDN);
                 mpfr_div_d(time_s, time_s, rates[r], MPFR_RNDN);
                 ours = fmax(ours, position_error_m(&frame, time_s, cosine, sine));
