@@ -39,44 +39,29 @@ static struct tally *count(struct tallies *tallies, const char *name, int64_t ti
     return tally;
 }
 
-/* What a target is that shows no object at its place; NULL: it shows one. */
-static const char *other_of(const struct contributor *strongest)
-{
-    switch (strongest->id.path) {
-    case PATH_WALL_OBJECT:
-    case PATH_OBJECT_WALL:
-    case PATH_WALL_OBJECT_WALL:
-        return "ghost";
-    case PATH_CLUTTER:
-        return "clutter";
-    case PATH_FALSE_ALARM:
-        return "false alarm";
-    default:
-        return NULL;
-    }
-}
-
 static void count_kind(struct summary *summary, const struct frame *frame,
                        const struct contributor *strongest, struct arena *arena)
 {
     const struct object *object = frame_object(frame, strongest->id.object);
-    const char *other = other_of(strongest);
-    if (other != NULL)
-        count(&summary->others, other, 1, arena);
-    else
+    enum path path = strongest->id.path;
+    if (frame_shows_object(path))
         count(&summary->classes, object != NULL ? object->class : strongest->id.object, 1, arena);
+    else
+        count(&summary->others,
+              path == PATH_CLUTTER       ? "clutter"
+              : path == PATH_FALSE_ALARM ? "false alarm"
+                                         : "ghost",
+              1, arena);
 }
 
 static void count_target(struct summary *summary, const struct frame *frame,
                          const struct target *target, struct arena *arena)
 {
-    const struct contributor *strongest = NULL;
+    const struct contributor *strongest = frame_strongest(target);
     bool merged = false;
     for (size_t i = 0; i < target->contributors.count; i++) {
         const struct contributor *from = &target->contributors.items[i];
         merged = merged || strcmp(from->id.object, target->contributors.items[0].id.object) != 0;
-        if (strongest == NULL || from->weight > strongest->weight)
-            strongest = from;
         if (frame->account && from->id.path != PATH_FALSE_ALARM)
             count(&summary->outcomes, "in a target", 1, arena);
     }

@@ -413,6 +413,20 @@ const char *frame_loss_words(const struct lost_group *group, struct arena *arena
     return words;
 }
 
+bool frame_shows_object(enum path path)
+{
+    return path == PATH_DIRECT || path == PATH_WHEEL || path == PATH_LIMB;
+}
+
+const struct contributor *frame_strongest(const struct target *target)
+{
+    const struct contributor *strongest = NULL;
+    for (size_t i = 0; i < target->contributors.count; i++)
+        if (strongest == NULL || target->contributors.items[i].weight > strongest->weight)
+            strongest = &target->contributors.items[i];
+    return strongest;
+}
+
 void frame_drop(struct frame *frame, unsigned sections)
 {
     for (const struct field *field = frame_fields; field->name != NULL; field++) {

@@ -287,6 +287,12 @@ void frame_drop(struct frame *frame, unsigned sections);
 /* The object with this id, or NULL. */
 struct object *frame_object(const struct frame *frame, const char *id);
 
+/* False for the paths of ghosts, clutter and false alarms, which are where no object is. */
+bool frame_shows_object(enum path path);
+
+/* The contributor of the greatest weight, the first of equals; NULL: the target has no label. */
+const struct contributor *frame_strongest(const struct target *target);
+
 /* True if an echo of the object with this id is in a target. */
 bool frame_detects(const struct frame *frame, const char *object);
 

@@ -125,9 +125,23 @@ static void draw_object(struct drawing *drawing, const struct object *object)
         text_format(drawing->text, "%s%.1f %.1f", i == 0 ? "M" : "L", at.x, at.y);
     }
     text_add_word(drawing->text, "Z\"/>\n");
-    if (drawing->scale * box.length_m > 40 && in_picture(middle, 0))
-        add_label(drawing, ego ? "inside" : "name", (struct vec2){middle.x, middle.y + 4},
-                  ego ? "ego" : object->id);
+}
+
+/* Names lie over targets: in the box if there is room, else above it. One that would reach over the
+ * edge of the picture is left out; letters are 8 pixels wide at most. */
+static void draw_name(struct drawing *drawing, const struct object *object)
+{
+    struct box box = box_of(drawing, object);
+    struct vec2 corner[4], at = to_pixels(drawing, box.motion.position_m);
+    bool ego = strcmp(object->id, drawing->frame->ego) == 0;
+    const char *name = ego ? "ego" : object->id;
+    double half_height = 0;
+    box_outline(&box, corner);
+    for (int i = 0; i < 4; i++)
+        half_height = elementary_max(half_height, at.y - to_pixels(drawing, corner[i]).y);
+    at.y += ego || half_height > 20 ? 4 : -8 - half_height;
+    if (drawing->scale * box.length_m > 40 && in_picture(at, -4.0 * (double)strlen(name)))
+        add_label(drawing, ego ? "inside" : "name", at, name);
 }
 
 static void add_dot(struct drawing *drawing, const char *class, struct vec2 place, double radius)
@@ -158,7 +172,7 @@ static void draw_beam(struct drawing *drawing, const struct sensor_view *sensor,
     text_add_word(drawing->text, "Z\"/>\n");
 }
 
-static void add_symbol(struct text *text, size_t style, struct vec2 at)
+static void add_symbol(struct text *text, size_t style, bool hollow, struct vec2 at)
 {
     static const struct {
         int corners;
@@ -169,13 +183,13 @@ static void add_symbol(struct text *text, size_t style, struct vec2 at)
     };
     size_t shape = style % STYLES;
     if (shapes[shape].corners == 0) {
-        text_format(text, "<circle class=\"ring s%zu\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n",
-                    shape, at.x, at.y, shapes[shape].size);
+        text_format(text, "<circle class=\"%s s%zu\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n",
+                    hollow ? "hollow" : "ring", shape, at.x, at.y, shapes[shape].size);
         return;
     }
     bool star = shapes[shape].inner < 1;
     int steps = shapes[shape].corners * (star ? 2 : 1);
-    text_format(text, "<path class=\"target f%zu\" d=\"", shape);
+    text_format(text, "<path class=\"%s%zu\" d=\"", hollow ? "hollow s" : "target f", shape);
     for (int i = 0; i < steps; i++) {
         double reach = shapes[shape].size * (star && i % 2 == 1 ? shapes[shape].inner : 1);
         double angle = shapes[shape].turn - PI / 2 + 2 * PI * i / steps;
@@ -206,7 +220,9 @@ static void draw_target(struct drawing *drawing, const struct target *target)
         add_line(drawing, class, at,
                  view_frame_place(&scan, target->range_m + target->range_rate_mps / 2,
                                   target->azimuth_rad));
-    add_symbol(drawing->text, style, to_pixels(drawing, at));
+    const struct contributor *strongest = frame_strongest(target);
+    add_symbol(drawing->text, style, strongest != NULL && !frame_shows_object(strongest->id.path),
+               to_pixels(drawing, at));
 }
 
 /* Draws a dot where a reflector sent no echo, and a cross where an echo is in no target. A dot for
@@ -246,25 +262,31 @@ static void draw_legend(struct drawing *drawing)
     struct text *text = drawing->text;
     double y = 26;
     text_format(text, "<rect width=\"380\" height=\"%zu\" fill=\"#fff\" opacity=\"0.85\"/>\n",
-                frame->sensors.list.count * 20 + 80);
+                frame->sensors.list.count * 20 + 120);
     text_format(text, "<text class=\"title\" x=\"20\" y=\"%.0f\">", y);
     add_escaped(text, frame->scene);
     text_format(text, ", frame %lld, %g s</text>\n", (long long)frame->frame, frame->time_s);
     for (size_t i = 0; i < frame->sensors.list.count; i++) {
         y += 20;
-        add_symbol(text, i, (struct vec2){29, y - 4});
+        add_symbol(text, i, false, (struct vec2){29, y - 4});
         text_format(text, "<text class=\"note\" x=\"46\" y=\"%.0f\">target of ", y);
         add_escaped(text, frame->sensors.list.items[i].name);
         text_add_word(text, "; its line: radial speed, 0.5 s long</text>\n");
     }
-    text_format(text, "<circle class=\"centre\" cx=\"29\" cy=\"%.0f\" r=\"2\"/>\n", y + 16);
-    text_format(text, "<text class=\"note\" x=\"46\" y=\"%.0f\">reflection centre</text>\n",
+    add_symbol(text, 0, true, (struct vec2){29, y + 16});
+    text_format(text,
+                "<text class=\"note\" x=\"46\" y=\"%.0f\">ghost, clutter or false alarm</text>\n",
                 y + 20);
+    text_format(text, "<circle class=\"lit\" cx=\"29\" cy=\"%.0f\" r=\"3\"/>\n", y + 36);
+    text_format(text, "<text class=\"note\" x=\"46\" y=\"%.0f\">echo in a target</text>\n", y + 40);
     if (!frame->account)
         return;
-    text_format(text, "<path class=\"lost\" d=\"M24.5 %.0fl9 9m0 -9l-9 9\"/>\n", y + 31);
-    text_format(text, "<text class=\"note\" x=\"46\" y=\"%.0f\">echo that is in no target</text>\n",
-                y + 40);
+    text_format(text, "<path class=\"lost\" d=\"M24.5 %.0fl9 9m0 -9l-9 9\"/>\n", y + 51);
+    text_format(text, "<text class=\"note\" x=\"46\" y=\"%.0f\">echo in no target</text>\n",
+                y + 60);
+    text_format(text, "<circle class=\"centre\" cx=\"29\" cy=\"%.0f\" r=\"2\"/>\n", y + 76);
+    text_format(text, "<text class=\"note\" x=\"46\" y=\"%.0f\">reflector without an echo</text>\n",
+                y + 80);
 }
 
 static void begin_drawing(struct text *text)
@@ -282,7 +304,8 @@ static void begin_drawing(struct text *text)
         ".title{fill:#16191d;font-weight:bold}.scale{stroke:#16191d;stroke-width:1.5}\n"
         ".scale,.speed,.lost,.beam,.ring{fill:none}.lost{stroke:#b3261e;stroke-width:2}\n"
         ".beam{stroke-dasharray:6 4;opacity:.5}.speed{stroke-width:1.6}\n"
-        ".ring{stroke-width:2.6}.target{stroke:#fff}.part{opacity:.6}\n");
+        ".ring{stroke-width:2.6}.target{stroke:#fff}.part{opacity:.6}\n"
+        ".hollow{fill:#fff;stroke-width:1.6;stroke-dasharray:3 2}\n");
     for (int i = 0; i < STYLES; i++)
         text_format(text, ".s%d{stroke:%s}.f%d{fill:%s}\n", i, colours[i], i, colours[i]);
     text_format(text, "</style>\n<rect width=\"%d\" height=\"%d\" fill=\"#fff\"/>\n", WIDTH,
@@ -300,6 +323,8 @@ static void draw_frame(struct drawing *drawing)
         draw_lost(drawing, &frame->lost.items[i]);
     for (size_t i = 0; i < frame->targets.count; i++)
         draw_target(drawing, &frame->targets.items[i]);
+    for (size_t i = 0; i < frame->objects.count; i++)
+        draw_name(drawing, &frame->objects.items[i]);
 }
 
 void view_svg_write(const struct frame *frame, struct view_models *models, struct text *text)

@@ -13,8 +13,9 @@
 #define AT_REST                                                                                    \
     ",\"y_m\":0,\"yaw_rad\":0,\"vx_mps\":0,\"vy_mps\":0,\"yaw_rate_radps\":0,\"length_m\":4,"      \
     "\"width_m\":2,\"height_m\":1,\"travelled_m\":0}"
-#define CONTRIBUTOR(reflector, range, weight)                                                      \
-    "{\"object\":\"o\",\"reflector\":\"" reflector "\",\"path\":\"direct\",\"range_m\":" range     \
+#define CONTRIBUTOR(reflector, range, weight) CONTRIBUTOR_BY("direct", reflector, range, weight)
+#define CONTRIBUTOR_BY(path, reflector, range, weight)                                             \
+    "{\"object\":\"o\",\"reflector\":\"" reflector "\",\"path\":\"" path "\",\"range_m\":" range   \
     ",\"azimuth_rad\":0,\"range_rate_mps\":0,\"ercs\":1,\"time_s\":4,\"weight\":" weight "}"
 #define ECHOES                                                                                     \
     CONTRIBUTOR("a", "7", "0.5")                                                                   \
@@ -24,6 +25,7 @@
     "{\"sensor\":\"f\",\"range_m\":" range ",\"azimuth_rad\":0,\"range_rate_mps\":0,"              \
     "\"amplitude_db\":12,\"cell_range_m\":8,\"cell_azimuth_rad\":0,\"cell_range_rate_mps\":0,"     \
     "\"cell_amplitude\":4,\"contributors\":[" contributors "]}"
+#define TARGET_BY(path, range) TARGET_OF(range, CONTRIBUTOR_BY(path, "a", "8", "1"))
 #define FRAME(scene, objects, rest)                                                                \
     "{\"version\":0,\"scene\":\"" scene "\",\"frame\":0,\"time_s\":4,\"interval_s\":0.04,"         \
     "\"seed\":\"1\",\"ego\":\"e\",\"objects\":[" OBJECT("e", "0") objects "]" rest "}"
@@ -197,6 +199,25 @@ static void the_bar_is_a_round_length(void **state)
     }
 }
 
+static void what_shows_no_object_is_hollow(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {
+        FRAME("x", "", SENSORS("f") ",\"targets\":[" TARGET_BY("clutter", "8") "]"),
+        FRAME("x", "", SENSORS("f") ",\"targets\":[" TARGET_BY("false_alarm", "8") "]"),
+        FRAME("x", "", SENSORS("f") ",\"targets\":[" TARGET_BY("wheel", "8") "]"),
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char *xml = draw(lines[i]);
+        const char *legend = strstr(xml, "<rect width=\"380\"");
+        const char *hollow = strstr(xml, "class=\"hollow s0\""),
+                   *full = strstr(xml, "\"target f0\"");
+        assert_int_equal(hollow < legend, i < 2);
+        assert_int_equal(full < legend, i == 2);
+        free(xml);
+    }
+}
+
 static void every_echo_of_a_target_is_lit_and_tied_to_it(void **state)
 {
     (void)state;
@@ -236,6 +257,18 @@ static void losses_are_marked_where_they_were(void **state)
     free(xml);
 }
 
+static void a_name_lies_over_targets_and_not_over_the_edge(void **state)
+{
+    (void)state;
+    char *xml = draw(FRAME("x", "," OBJECT("near", "12") "," OBJECT("far", "40"),
+                           SENSORS("f") ",\"targets\":[" TARGET("8") "," TARGET("13") "]"));
+    const char *name = strstr(xml, ">near<");
+    assert_non_null(name);
+    assert_true(name > strstr(xml, "class=\"target f0\""));
+    assert_null(strstr(xml, ">far<"));
+    free(xml);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -246,6 +279,8 @@ int main(void)
         cmocka_unit_test(every_echo_of_a_target_is_lit_and_tied_to_it),
         cmocka_unit_test(targets_of_the_first_sensor_are_stars_of_five_points),
         cmocka_unit_test(losses_are_marked_where_they_were),
+        cmocka_unit_test(what_shows_no_object_is_hollow),
+        cmocka_unit_test(a_name_lies_over_targets_and_not_over_the_edge),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
