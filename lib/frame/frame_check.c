@@ -181,10 +181,17 @@ static int check_entry(const struct record *record, const void *entry, double am
     return result == 0 ? 0 : diag_prefix(diag, "object \"%s\", seen by \"%s\": ", object, sensor);
 }
 
+int frame_check_object(const struct object *object, struct diag *diag)
+{
+    if (document_check_plain(object->class, diag) != 0)
+        return diag_prefix(diag, "class: ");
+    return field_check(&object_record, object, diag);
+}
+
 int frame_check_extremes(const struct frame *frame, struct diag *diag)
 {
     for (size_t i = 0; i < frame->objects.count; i++)
-        if (field_check(&object_record, &frame->objects.items[i], diag) != 0)
+        if (frame_check_object(&frame->objects.items[i], diag) != 0)
             return diag_prefix(diag, "object \"%s\": ", frame->objects.items[i].id);
     int result = 0;
     for (size_t i = 0; i < frame->echoes.count && result == 0; i++) {

@@ -16,6 +16,10 @@ int frame_check(struct frame *frame, struct diag *diag);
  * then as frame_check. */
 int frame_check_part(struct frame *frame, struct frame_part part, struct diag *diag);
 
+/* Checks the members of an object against their bounds, and that its class is no path. Fails with
+ * DIAG_DATA. */
+int frame_check_object(const struct object *object, struct diag *diag);
+
 /* For a written frame that fails frame_check_part because extreme values were read: names the
  * object of the first entry whose own values are out of bounds (DIAG_DATA). 0 if there is none. */
 int frame_check_extremes(const struct frame *frame, struct diag *diag);

@@ -1,6 +1,6 @@
 #include "traffic/recording.h"
 
-#include "text/field_check.h"
+#include "frame/frame_check.h"
 #include "traffic/recorded_store.h"
 #include "traffic/scenario.h"
 
@@ -283,7 +283,7 @@ int recording_check(const struct recording *recording, const struct frame *frame
 {
     for (size_t i = 0; i < frame->objects.count; i++) {
         const struct object *object = &frame->objects.items[i];
-        if (field_check(&object_record, object, diag) == 0)
+        if (frame_check_object(object, diag) == 0)
             continue;
         const struct recorded_state *state = recorded_steps_find(recording->step, object->id);
         return diag_prefix(diag, "%s: %s %zu: ", recording->source,

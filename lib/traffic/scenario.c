@@ -5,8 +5,8 @@
 #include "base/elementary.h"
 #include "base/intern.h"
 #include "base/units.h"
+#include "frame/frame_check.h"
 #include "text/document.h"
-#include "text/field_check.h"
 
 #define REAL(owner, member, low, high, help) FIELD_REAL_IN(owner, member, low, high, help)
 #define OPTIONAL_REAL(owner, member, low, high, help)                                              \
@@ -393,7 +393,7 @@ int scenario_check_frame(const struct frame *frame, struct diag *diag)
 {
     for (size_t i = 0; i < frame->objects.count; i++) {
         const struct object *object = &frame->objects.items[i];
-        if (field_check(&object_record, object, diag) == 0)
+        if (frame_check_object(object, diag) == 0)
             continue;
         diag->code = DIAG_CONFIG;
         return diag_prefix(diag, "object \"%s\" in frame %lld: ", object->id,
