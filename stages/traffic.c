@@ -42,7 +42,6 @@ static int start_scenario(struct traffic *traffic, struct runner *runner)
     return 0;
 }
 
-/* Opens the reader of a table, or refuses a file of another program. */
 static int start_table(struct traffic *traffic, const char *path, struct runner *runner)
 {
     struct diag *diag = runner_diag(runner);
@@ -55,32 +54,7 @@ static int start_table(struct traffic *traffic, const char *path, struct runner 
                           runner_arena(runner), diag);
 }
 
-/* What a file of traffic begins with, if it is for another program. */
-static const struct {
-    const char *sign, *reader;
-} foreign[] = {
-    {"<fcd-export", "floating car data of SUMO, which glint-traffic-sumo reads"},
-    {"<commonRoad", "a scenario of CommonRoad, which glint-traffic-commonroad reads"},
-    {"<OpenSCENARIO", "input of esmini; glint-traffic reads what esmini --csv_logger writes"},
-    {"<routes", "input of SUMO; glint-traffic-sumo reads what sumo --fcd-output writes"},
-    {"{\"version\":", "a stream of frames, which glint-extract reads"},
-    {"\n", "an OSI trace, which glint-traffic-osi reads"}, /* behind the message's length */
-};
-
-static const char *foreign_reader(const char *bytes, size_t length)
-{
-    size_t osi = sizeof foreign / sizeof foreign[0] - 1;
-    if (length > 5 && bytes[3] == '\0' && bytes[4] == *foreign[osi].sign)
-        return foreign[osi].reader;
-    for (size_t i = 0; i < osi; i++)
-        for (size_t at = 0; at + strlen(foreign[i].sign) <= length; at++)
-            if (memcmp(bytes + at, foreign[i].sign, strlen(foreign[i].sign)) == 0)
-                return foreign[i].reader;
-    return NULL;
-}
-
-/* A table, unless it begins as JSON; another format is refused with the program that reads it.
- * Pipes, which cannot be opened twice, are scenarios. */
+/* A table, unless it begins as JSON. Pipes, which cannot be opened twice, are scenarios. */
 static int is_table(const char *source, struct runner *runner)
 {
     enum { ENOUGH = 4096 };
@@ -91,10 +65,7 @@ static int is_table(const char *source, struct runner *runner)
     char *bytes = arena_get(runner_arena(runner), ENOUGH + 1);
     long length = input != NULL ? input_read(input, bytes, ENOUGH, diag) : -1;
     input_close(input);
-    const char *reader = length > 0 ? foreign_reader(bytes, (size_t)length) : NULL;
-    if (reader != NULL)
-        diag_fail(diag, DIAG_DATA, "%s", reader);
-    if (length < 0 || reader != NULL)
+    if (length < 0)
         return diag_prefix(diag, "%s: ", source);
     return bytes[strspn(bytes, " \t\r\n\xef\xbb\xbf")] != '{';
 }

@@ -6,6 +6,7 @@
 #include "base/number.h"
 #include "base/units.h"
 #include "run/stage.h"
+#include "text/file_format.h"
 #include "traffic/recorded_table.h"
 #include "traffic/recording.h"
 
@@ -21,6 +22,7 @@ struct event {
 struct document {
     XML_Parser parser;
     struct input *input;
+    const char *kind;                 /* in file_format.def */
     struct diag fault;                /* that ends it, after the events before it */
     struct recorded_classes *classes; /* to which types are added */
     LIST_OF(struct event) events;     /* of the bytes that were parsed last */
@@ -205,8 +207,9 @@ static void *granted(void *memory)
     return memory != NULL ? memory : memory_get((size_t)-1);
 }
 
-static void begin(struct document *document, struct input *input)
+static void begin(struct document *document, const char *kind, struct input *input)
 {
+    document->kind = kind;
     document->input = input;
     document->parser = granted(XML_ParserCreate(NULL));
     XML_SetUserData(document->parser, document);
@@ -250,6 +253,15 @@ static bool parse_more(struct document *document)
     return done && got > 0;
 }
 
+static int report_fault(const struct document *document, struct diag *diag)
+{
+    size_t length;
+    const char *head = input_head(document->input, &length);
+    *diag = document->fault;
+    file_format_explain(document->kind, head, length, diag);
+    return -1;
+}
+
 static int next_event(void *state, struct recorded_row *row, struct diag *diag)
 {
     struct document *document = state;
@@ -266,8 +278,7 @@ static int next_event(void *state, struct recorded_row *row, struct diag *diag)
     }
     if (document->fault.code == DIAG_OK)
         return RECORDED_END;
-    *diag = document->fault;
-    return -1;
+    return report_fault(document, diag);
 }
 
 static void close_document(void *state)
@@ -300,13 +311,13 @@ static int read_types(struct traffic_sumo *own, struct runner *runner)
     if (input == NULL)
         return diag_prefix(diag, "--types: %s: ", own->types);
     document->classes = &own->recording.steps.classes;
-    begin(document, input);
+    begin(document, "routes", input);
     XML_SetStartElementHandler(document->parser, on_type);
     while (parse_more(document))
         continue;
     if (document->fault.code == DIAG_OK)
         return 0;
-    *diag = document->fault;
+    report_fault(document, diag);
     return diag_prefix(diag, "--types: %s: ", own->types);
 }
 
@@ -317,7 +328,7 @@ static int traffic_sumo_start(void *state, struct runner *runner)
     struct input *input = runner_input(runner, own->source);
     if (input == NULL)
         return diag_prefix(diag, "%s: ", own->source);
-    begin(&own->document, input);
+    begin(&own->document, "floating car data", input);
     XML_SetElementHandler(own->document.parser, on_begin, on_end);
     XML_SetCommentHandler(own->document.parser, on_comment);
     struct recorded_reader reader = {&format, &own->document};

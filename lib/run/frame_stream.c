@@ -3,6 +3,7 @@
 #include "frame/frame_check.h"
 #include "frame/frame_order.h"
 #include "frame/frame_text.h"
+#include "text/file_format.h"
 
 static int open_next(struct frame_stream *stream, struct diag *diag)
 {
@@ -27,6 +28,15 @@ int frame_stream_parse(const char *line, size_t length, struct frame *frame, str
     return frame_check(frame, diag);
 }
 
+/* A file of another format is named instead of its first line. */
+static void name_format(struct frame_stream *stream, struct diag *diag)
+{
+    size_t length;
+    const char *head = input_head(stream->input, &length);
+    if (stream->line == 1 && file_format_explain(frame_record.name, head, length, diag))
+        stream->line = 0;
+}
+
 int frame_stream_next(struct frame_stream *stream, struct frame *frame, struct diag *diag)
 {
     for (;;) {
@@ -43,7 +53,9 @@ int frame_stream_next(struct frame_stream *stream, struct frame *frame, struct d
         if (more >= 0 || diag->code != DIAG_NO_INPUT) /* a folder has no lines */
             stream->line++;
         if (more > 0 && frame_stream_parse(line, length, frame, diag) != 0)
-            return -1;
+            more = -1;
+        if (more < 0)
+            name_format(stream, diag);
         if (more != 0)
             return more;
         frame_stream_close(stream);

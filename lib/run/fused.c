@@ -12,6 +12,7 @@
 #include "run/listing.h"
 #include "run/pipeline.h"
 #include "text/document.h"
+#include "text/file_format.h"
 #include "text/input.h"
 #include "text/output.h"
 #include "text/same_file.h"
@@ -177,7 +178,8 @@ static int run_text(const char *name, const char *text, size_t length, bool time
     struct diag diag = {0};
     struct pipeline pipeline;
     if (pipeline_parse(text, length, &pipeline, arena, &diag) != 0) {
-        diag_prefix(&diag, "%s:", name);
+        bool named = file_format_explain("pipeline", text, length, &diag);
+        diag_prefix(&diag, named ? "%s: " : "%s:", name);
         return complain(&diag);
     }
     size_t count = pipeline.commands.count;

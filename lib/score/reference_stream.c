@@ -8,6 +8,7 @@
 #include "frame/frame_check.h"
 #include "frame/frame_order.h"
 #include "frame/frame_text.h"
+#include "text/file_format.h"
 #include "text/json_scan.h"
 #include "text/record_text.h"
 
@@ -23,6 +24,7 @@ struct waiting_line {
 
 struct reference_stream {
     struct input *input;
+    const char *kind; /* of its lines: name of their record */
     bool partial, ended;
     size_t number;    /* number of the line read last */
     size_t found;     /* number of the line found last, which is: */
@@ -43,7 +45,8 @@ struct reference_stream *reference_stream_open(const char *path, bool partial, s
         return NULL;
     }
     struct reference_stream *reference = memory_get(sizeof *reference);
-    *reference = (struct reference_stream){.input = input, .partial = partial};
+    *reference =
+        (struct reference_stream){.input = input, .kind = frame_record.name, .partial = partial};
     reference->last = &reference->first;
     reference->frame.arena = &reference->arena;
     return reference;
@@ -71,7 +74,9 @@ void reference_stream_close(struct reference_stream *reference)
 
 int reference_stream_prefix(const struct reference_stream *reference, struct diag *diag)
 {
-    if (diag->code == DIAG_NO_INPUT) /* a folder has no lines */
+    size_t length;
+    const char *head = input_head(reference->input, &length);
+    if (file_format_explain(reference->kind, head, length, diag) || diag->code == DIAG_NO_INPUT)
         return diag_prefix(diag, "%s: ", input_name(reference->input));
     return diag_prefix(diag, "%s:%zu: ", input_name(reference->input), reference->found);
 }
@@ -314,6 +319,7 @@ int reference_stream_next(struct reference_stream *reference, unsigned sections,
 int reference_stream_tracks(struct reference_stream *reference, const struct frame *frame,
                             struct track_list *tracks, struct diag *diag)
 {
+    reference->kind = track_list_record.name;
     int found = find(reference, frame, diag);
     if (found <= 0)
         return found;

@@ -11,6 +11,7 @@
 
 #include "base/sort.h"
 #include "base/suggestion.h"
+#include "text/file_format.h"
 #include "text/input.h"
 #include "text/record_text.h"
 
@@ -197,8 +198,11 @@ int document_parse(const char *path, const struct text *text, const struct recor
 {
     json_error_t error;
     json_t *tree = json_loadb(text->bytes, text->length, JSON_REJECT_DUPLICATES, &error);
-    if (tree == NULL)
-        return diag_fail(diag, DIAG_CONFIG, "%s:%d: %s", path, error.line, error.text);
+    if (tree == NULL) {
+        diag_fail(diag, DIAG_CONFIG, "%d: %s", error.line, error.text);
+        bool named = file_format_explain(record->name, text->bytes, text->length, diag);
+        return diag_prefix(diag, named ? "%s: " : "%s:", path);
+    }
     char *line = json_dumps(tree, JSON_COMPACT);
     memset(base, 0, record->size);
     int result = record_text_read(line, strlen(line), record, base, arena, NULL, diag);
@@ -207,6 +211,7 @@ int document_parse(const char *path, const struct text *text, const struct recor
     if (result == 0)
         return 0;
     diag->code = DIAG_CONFIG;
+    file_format_explain(record->name, text->bytes, text->length, diag);
     return diag_prefix(diag, "%s: ", path);
 }
 

@@ -12,7 +12,7 @@
 
 #include "base/arena.h"
 
-enum { RAW_SIZE = 64 * 1024, LINE_STEP = 64 * 1024 };
+enum { RAW_SIZE = 64 * 1024, LINE_STEP = 64 * 1024, HEAD_SIZE = 4096 };
 
 struct input {
     int fd;
@@ -23,6 +23,8 @@ struct input {
     z_stream stream;
     struct text line; /* bytes that were read; those that no line has used yet lie behind line_at */
     size_t line_at;
+    size_t head_length;
+    char head[HEAD_SIZE];
     unsigned char raw[RAW_SIZE];
 };
 
@@ -42,7 +44,7 @@ struct input *input_open(const char *path, struct diag *diag)
         return NULL;
     }
     struct input *input = memory_get(sizeof *input);
-    memset(input, 0, offsetof(struct input, raw));
+    memset(input, 0, offsetof(struct input, head));
     input->fd = fd;
     input->name = standard ? "stdin" : path;
     return input;
@@ -193,7 +195,21 @@ long input_read(struct input *input, char *bytes, size_t size, struct diag *diag
 {
     if (!input->sniffed && sniff(input, diag) != 0)
         return -1;
-    return input->gzip ? read_gzip(input, bytes, size, diag) : read_plain(input, bytes, size, diag);
+    long got =
+        input->gzip ? read_gzip(input, bytes, size, diag) : read_plain(input, bytes, size, diag);
+    size_t room = HEAD_SIZE - input->head_length;
+    if (got > 0 && room > 0) {
+        size_t kept = (size_t)got < room ? (size_t)got : room;
+        memcpy(input->head + input->head_length, bytes, kept);
+        input->head_length += kept;
+    }
+    return got;
+}
+
+const char *input_head(const struct input *input, size_t *length)
+{
+    *length = input->head_length;
+    return input->head;
 }
 
 int input_line(struct input *input, size_t limit, const char **line, size_t *length,

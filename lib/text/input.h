@@ -41,6 +41,9 @@ const char *input_name(const struct input *input);
 /* The part of a regular file that has been read; of all others 0. */
 double input_share(const struct input *input);
 
+/* The first bytes that were read, unpacked, at most 4096: for file_format.h. */
+const char *input_head(const struct input *input, size_t *length);
+
 /* Reads up to size bytes; returns their number, 0 at the end, -1 after a message. */
 long input_read(struct input *input, char *bytes, size_t size, struct diag *diag);
 

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "text/field.h"
+#include "text/file_format.h"
 
 static const struct recorded_layout *const layouts[] = {
     &sumo_table_layout, &sumo_table_plain_layout, &interaction_table_layout};
@@ -86,6 +87,9 @@ struct recorded_reader recorded_table_open(struct input *input, struct arena *ar
         if (find_kinds(table, diag) == 0)
             return (struct recorded_reader){&table->layout->format, table};
     }
+    size_t length;
+    const char *head = input_head(input, &length);
+    file_format_explain("table", head, length, diag);
     recorded_table_close(table);
     return (struct recorded_reader){0};
 }

@@ -4,6 +4,7 @@ Usage: python3 tests/chain/recorded.py BIN_DIR [--sumo]
 
 With --sumo it runs SUMO itself on a net of its own into the whole chain, through a pipe.
 """
+import glob
 import gzip
 import json
 import math
@@ -327,7 +328,17 @@ def bad_input(folder):
         text, _ = run("glint-traffic-sumo", os.path.join(folder, "own.xml"), *words, fails=code)
         check(message in text, f"{words}: {text}")
     text, _ = run("glint-traffic", os.path.join(folder, "own.xml"), "--ego", "ego", fails=65)
-    check("floating car data of SUMO, which glint-traffic-sumo reads" in text, text)
+    check("SUMO's floating car data; glint-traffic-sumo reads it" in text, text)
+
+
+def files_of_other_programs_are_named():
+    """Whoever reads frames names each file of another program, and what reads that."""
+    names = [name for folder in ("sumo", "csv", "esmini", "osi", "commonroad") for name in
+             glob.glob(f"{DATA}/{folder}/*.*")]
+    check(len(names) >= 15, "files of other programs")
+    for name in names:
+        text, _ = run("glint-extract", name, fails=65)
+        check(re.search(r": [^:;]+; glint-traffic(-sumo|-commonroad|-osi)? (--types )?(reads|takes) ", text), text)
 
 
 # ---- SUMO itself --------------------------------------------------------------------------------------
@@ -385,4 +396,6 @@ with tempfile.TemporaryDirectory() as place:
         print("glint-traffic-sumo is not there: it needs expat")
     if "--sumo" not in sys.argv[2:]:
         resampling_error(place)
+        if DATA is not None:
+            files_of_other_programs_are_named()
 print(f"recorded: {checks} checks hold")
