@@ -49,7 +49,7 @@ static int start_table(struct traffic *traffic, const char *path, struct runner 
     if (input == NULL)
         return diag_prefix(diag, "%s: ", path);
     traffic->recorded = true;
-    struct recorded_reader reader = recorded_table_open(input, runner_arena(runner), diag);
+    struct recorded_reader reader = recorded_table_open(input, path, runner_arena(runner), diag);
     return recording_open(&traffic->recording, reader, path, &traffic->options, false,
                           runner_arena(runner), diag);
 }
@@ -143,16 +143,19 @@ static const struct field traffic_options[] = {
     {0},
 };
 
-#define INTERACTION(word, class) "\n    " word " = " class
-#define SUMO(word, class, length_m, width_m, height_m) "\n    " word " = " class
+#define INTERACTION(word, class) "\n    INTERACTION  " word " = " class
+#define HIGHD(word, class) "\n    highD        " word " = " class
+#define IND(word, class) "\n    inD          " word " = " class
+#define SUMO(word, class, length_m, width_m, height_m) "\n    SUMO         " word " = " class
 
 const struct stage stage_traffic = {
     .name = "traffic",
     .summary = "Play a scenario or a recorded table, frame by frame.",
     .details =
-        "A scenario is a JSON document; a table is CSV, plain or gzip, in the columns of the\n"
-        "INTERACTION data set or of SUMO, and needs --ego. Coordinates beyond a kilometre are\n"
-        "made relative to an origin near the ego, which every frame names.\n"
+        "A scenario is a JSON document; a table is CSV, plain or gzip, in the columns of highD,\n"
+        "inD, rounD, exiD, uniD, INTERACTION or SUMO, and needs --ego. Frame rate and classes\n"
+        "are in files beside it, where its maker puts them there. Coordinates beyond a kilometre\n"
+        "are made relative to an origin near the ego, which every frame names.\n"
         "\n"
         "Velocities and yaw rates that a table lacks are centred differences, which wait for\n"
         "the next step. --rate-hz takes cubic curves between steps.\n"

@@ -4,8 +4,12 @@
 
 #include "text/field.h"
 
-const struct recorded_row recorded_row_unsaid = {
-    .yaw_rad = NAN, .vx_mps = NAN, .vy_mps = NAN, .yaw_rate_radps = NAN, .speed_mps = NAN};
+const struct recorded_row recorded_row_unsaid = {.yaw_rad = (double)NAN,
+                                                 .direction_rad = (double)NAN,
+                                                 .vx_mps = (double)NAN,
+                                                 .vy_mps = (double)NAN,
+                                                 .yaw_rate_radps = (double)NAN,
+                                                 .speed_mps = (double)NAN};
 
 int64_t recorded_row_time_ns(double time, double unit_s)
 {

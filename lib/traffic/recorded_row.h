@@ -22,6 +22,7 @@ struct recorded_row {
     double x_m, y_m;       /* y counter-clockwise of x; any size, UTM too */
     double ahead;          /* how many lengths the place lies ahead of the box's centre */
     double yaw_rad;        /* NAN: along the velocity */
+    double direction_rad;  /* which is the yaw at rest; NAN: that of the step before */
     double vx_mps, vy_mps; /* of the centre over ground; NAN: from the places */
     double yaw_rate_radps; /* NAN: from the yaws */
     double speed_mps;      /* along the yaw, for the step in which the places tell no velocity */
@@ -50,6 +51,7 @@ struct recorded_format {
     const char *name;    /* "a table of INTERACTION" */
     const char *id_name; /* what the format calls an id, for messages: "track_id" */
     const char *place;   /* what recorded_row.place counts: "row", "byte" */
+    double slow_mps;     /* a velocity below it says no yaw, as one of 0 */
     bool by_time;        /* rows come in ascending time; if not, the recording is stored whole */
     bool marks_steps;    /* gives RECORDED_STEP; if not, a step ends where the time changes */
     const struct recorded_word *words; /* ends with a word NULL */

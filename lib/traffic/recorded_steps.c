@@ -47,6 +47,7 @@ static int take_row(struct recorded_steps *steps, struct recorded_step *step, st
         .since_ns = step->time_ns,
         .place = row->place,
         .at_m = {row->x_m, row->y_m},
+        .direction_rad = row->direction_rad,
         .ahead_m = row->ahead * length_m,
         .speed_mps = row->speed_mps,
         .before = NONE,
@@ -56,14 +57,17 @@ static int take_row(struct recorded_steps *steps, struct recorded_step *step, st
 }
 
 /* Turns the object to its yaw, which is NAN where it is that of the velocity; at rest it is that of
- * the step before. Then moves the object to the centre of its box. */
-static void place_object(struct recorded_state *state, const struct recorded_state *before)
+ * travel, or of the step before. Then moves the object to the centre of its box. */
+static void place_object(struct recorded_state *state, const struct recorded_state *before,
+                         double slow_mps)
 {
     struct object *object = &state->object;
-    bool moves = object->vx_mps != 0 || object->vy_mps != 0;
-    if (isnan(object->yaw_rad) && moves)
+    double speed_mps = vec2_length((struct vec2){object->vx_mps, object->vy_mps});
+    if (isnan(object->yaw_rad) && speed_mps > 0 && speed_mps >= slow_mps)
         object->yaw_rad = elementary_atan2(object->vy_mps, object->vx_mps);
-    else if (isnan(object->yaw_rad))
+    if (isnan(object->yaw_rad))
+        object->yaw_rad = state->direction_rad;
+    if (isnan(object->yaw_rad))
         object->yaw_rad =
             before != NULL && !isnan(before->object.yaw_rad) ? before->object.yaw_rad : 0;
     object->yaw_rad = units_wrap_rad(object->yaw_rad);
@@ -102,7 +106,7 @@ static int link_states(struct recorded_steps *steps, struct recorded_step *step,
             strcmp(last->states.items[j].object.id, id) == 0)
             before = &last->states.items[j];
         if (!isnan(state->object.yaw_rad) || !isnan(state->object.vx_mps)) {
-            place_object(state, before);
+            place_object(state, before, steps->reader.format->slow_mps);
             state->at_m = (struct vec2){state->object.x_m, state->object.y_m};
         }
         if (before == NULL || vec2_length(vec2_sub(state->at_m, before->at_m)) >
@@ -255,7 +259,7 @@ static void complete_step(struct recorded_steps *steps, size_t number)
         if (isnan(state->object.vx_mps))
             find_velocity(state, before, before_s, after, after_s);
         if (isnan(state->object.yaw_rad))
-            place_object(state, before);
+            place_object(state, before, steps->reader.format->slow_mps);
         if (isnan(state->object.yaw_rate_radps))
             find_yaw_rate(&state->object, before, before_s, after, after_s);
         if (before != NULL)

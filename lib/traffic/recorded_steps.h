@@ -23,6 +23,7 @@ struct recorded_state {
     bool leaves;              /* is it missing from the next step, or is this the last? */
     size_t place;             /* row, line or byte in the file */
     struct vec2 at_m;         /* of which velocities are taken */
+    double direction_rad;     /* recorded_row.direction_rad */
     double ahead_m;           /* of at_m before the centre, while the yaw is not known */
     double speed_mps;         /* recorded_row.speed_mps */
     double way_m, way_rest_m; /* since the visit began, and what rounding took off */

@@ -21,7 +21,7 @@ _Static_assert(sizeof(struct stored_row) <= 64, "a row takes 64 bytes at most");
 
 /* What many rows share: it is interned by its bytes. */
 struct body {
-    double length_m, width_m, height_m, ahead;
+    double length_m, width_m, height_m, ahead, direction_rad;
     uint64_t class;
 };
 
@@ -60,8 +60,9 @@ static void store_row(struct store *store, const struct recorded_row *row)
         *list_add(&store->chunks, arena) = arena_get(arena, CHUNK * sizeof(struct stored_row));
     uint32_t number = store->rows++;
     struct stored_step *step = step_of(store, row->time_ns);
-    struct body body = {row->length_m, row->width_m, row->height_m, row->ahead,
-                        intern_word(&store->names, row->class, arena)};
+    struct body body = {row->length_m,      row->width_m,
+                        row->height_m,      row->ahead,
+                        row->direction_rad, intern_word(&store->names, row->class, arena)};
     *row_at(store, number) = (struct stored_row){
         {row->x_m, row->y_m, row->yaw_rad, row->vx_mps, row->vy_mps},
         (float)row->yaw_rate_radps,
@@ -88,6 +89,7 @@ static void unpack(const struct store *store, const struct stored_row *stored,
     row->vy_mps = stored->values[4];
     row->yaw_rate_radps = (double)stored->yaw_rate_radps;
     row->ahead = body.ahead;
+    row->direction_rad = body.direction_rad;
     row->length_m = body.length_m;
     row->width_m = body.width_m;
     row->height_m = body.height_m;

@@ -6,7 +6,8 @@
 #include "text/file_format.h"
 
 static const struct recorded_layout *const layouts[] = {
-    &sumo_table_layout, &sumo_table_plain_layout, &interaction_table_layout};
+    &sumo_table_layout, &sumo_table_plain_layout, &ind_table_layout, &highd_table_layout,
+    &interaction_table_layout};
 
 enum { LAYOUTS = sizeof layouts / sizeof layouts[0], ABSENT = -1 };
 
@@ -18,6 +19,7 @@ struct recorded_table {
     size_t row;                                 /* of those, which is read */
     struct recorded_kind kinds[RECORDED_KINDS]; /* that the table has */
     size_t kind_count;
+    struct recorded_beside beside;
     int at[RECORDED_KINDS][RECORDED_COLUMNS]; /* the places of their columns; ABSENT */
 };
 
@@ -76,17 +78,26 @@ static int find_kinds(struct recorded_table *table, struct diag *diag)
     return find_columns(names, kinds[0].columns, table->at[0], diag);
 }
 
-struct recorded_reader recorded_table_open(struct input *input, struct arena *arena,
-                                           struct diag *diag)
+static int read_header(struct recorded_table *table, const char *path, struct arena *arena,
+                       struct diag *diag)
+{
+    table->lines = csv_table_open(table->input, diag);
+    if (table->lines == NULL)
+        return -1;
+    table->layout = layout_of(csv_table_names(table->lines));
+    const struct recorded_beside_columns *beside = &table->layout->beside;
+    if (find_kinds(table, diag) != 0)
+        return -1;
+    return beside->id == NULL ? 0 : recorded_beside_read(&table->beside, beside, path, arena, diag);
+}
+
+struct recorded_reader recorded_table_open(struct input *input, const char *path,
+                                           struct arena *arena, struct diag *diag)
 {
     struct recorded_table *table = arena_get(arena, sizeof *table);
     table->input = input;
-    table->lines = csv_table_open(input, diag);
-    if (table->lines != NULL) {
-        table->layout = layout_of(csv_table_names(table->lines));
-        if (find_kinds(table, diag) == 0)
-            return (struct recorded_reader){&table->layout->format, table};
-    }
+    if (read_header(table, path, arena, diag) == 0)
+        return (struct recorded_reader){&table->layout->format, table};
     size_t length;
     const char *head = input_head(input, &length);
     file_format_explain("table", head, length, diag);
@@ -125,12 +136,15 @@ static int read_cell(const struct recorded_table *table, const struct recorded_c
     if (csv_table_number(table->rows, table->row, place, time ? -most_s : column->low,
                          time ? most_s : column->high, &value, diag) != 0)
         return -1;
-    if (time && column->scale < 1 && value != floor(value))
+    bool frames = column->kind == RECORDED_FRAMES;
+    if ((frames || (time && column->scale < 1)) && value != floor(value))
         return refuse(table, place, " is not a whole number", diag);
     if (time)
         row->time_ns = recorded_row_time_ns(value, column->scale);
+    if (frames)
+        row->time_ns = (int64_t)round(value / table->beside.rate_hz * 1e9);
     value = column->scale * (value + column->shift) + 0.0; /* never -0 */
-    if (!time)
+    if (!time && !frames)
         memcpy((char *)row + column->offset, &value, sizeof value);
     return 0;
 }
@@ -138,6 +152,19 @@ static int read_cell(const struct recorded_table *table, const struct recorded_c
 static bool is_empty(const struct recorded_table *table, int place)
 {
     return place == ABSENT || *csv_table_cell(table->rows, table->row, (size_t)place) == '\0';
+}
+
+/* Who the track is, as the file beside the table says. */
+static int find_track(const struct recorded_table *table, struct recorded_row *row,
+                      struct diag *diag)
+{
+    uint32_t number;
+    const struct recorded_beside *beside = &table->beside;
+    if (!intern_find(&beside->ids, row->id, strlen(row->id), &number))
+        return refuse(table, (size_t)table->at[0][0], "\" is no track of tracksMeta", diag);
+    row->class = beside->tracks.items[number].class;
+    row->direction_rad = beside->tracks.items[number].direction_rad;
+    return 0;
 }
 
 /* The row is of the first kind whose id it has, else of the last. */
@@ -159,6 +186,10 @@ static int read_row(const struct recorded_table *table, struct recorded_row *row
         if (!skipped && read_cell(table, &columns[i], (size_t)at[i], row, diag) != 0)
             return -1;
     }
+    if (table->layout->beside.id != NULL && find_track(table, row, diag) != 0)
+        return -1;
+    if (table->layout->complete != NULL)
+        table->layout->complete(row);
     return RECORDED_ROW;
 }
 

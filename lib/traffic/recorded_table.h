@@ -7,6 +7,7 @@
 #define RECORDED_TABLE_H
 
 #include "text/csv_table.h"
+#include "traffic/recorded_beside.h"
 #include "traffic/recorded_row.h"
 
 /* Cells of columns that are not needed may be empty. */
@@ -16,11 +17,11 @@ enum recorded_need {
     RECORDED_TOGETHER, /* all of these columns or none */
 };
 
-/* A column of text (an id or a class), of times, or of numbers that become scale * (number + shift)
- * in a member of struct recorded_row. */
+/* A column of text (an id or a class), of times, of frames, or of numbers that become scale *
+ * (number + shift) in a member of struct recorded_row. */
 struct recorded_column {
     const char *name; /* NULL after the last */
-    enum { RECORDED_TEXT, RECORDED_TIME, RECORDED_NUMBER } kind;
+    enum { RECORDED_TEXT, RECORDED_TIME, RECORDED_FRAMES, RECORDED_NUMBER } kind;
     enum recorded_need need; /* of several columns of times, one is needed */
     size_t offset;           /* of the member */
     double low, high;        /* of a number in the file */
@@ -39,6 +40,10 @@ struct recorded_column {
 #define RECORDED_TIME_IN(name_, unit_s)                                                            \
     {                                                                                              \
         .name = (name_), .kind = RECORDED_TIME, .need = RECORDED_OPTIONAL, .scale = (unit_s)       \
+    }
+#define RECORDED_FRAME(name_)                                                                      \
+    {                                                                                              \
+        .name = (name_), .kind = RECORDED_FRAMES, .high = 1e9, .scale = 1                          \
     }
 #define RECORDED_VALUE(name_, member, need_, low_, high_, scale_, shift_)                          \
     {                                                                                              \
@@ -61,17 +66,20 @@ struct recorded_layout {
     struct recorded_format format;              /* next and close are those of all tables */
     const char *mark;                           /* name of a column that no other layout has */
     struct recorded_kind kinds[RECORDED_KINDS]; /* columns NULL: no more */
+    struct recorded_beside_columns beside;      /* id NULL: there are no files beside it */
+    void (*complete)(struct recorded_row *row); /* NULL: its columns say it all */
 };
 
-extern const struct recorded_layout interaction_table_layout, sumo_table_layout,
-    sumo_table_plain_layout;
+extern const struct recorded_layout highd_table_layout, ind_table_layout, interaction_table_layout,
+    sumo_table_layout, sumo_table_plain_layout;
 
 /* Words and sizes of SUMO's classes and default types, for its XML too. */
 extern const struct recorded_word sumo_table_words[];
 
-/* Reads the header, and takes over the input. The reader's format is NULL after a message. */
-struct recorded_reader recorded_table_open(struct input *input, struct arena *arena,
-                                           struct diag *diag);
+/* Reads the header, and takes over the input. path is that of the table, beside which other files
+ * of its recording may lie. The reader's format is NULL after a message. */
+struct recorded_reader recorded_table_open(struct input *input, const char *path,
+                                           struct arena *arena, struct diag *diag);
 
 /* What the formats of all tables have: next and close take their struct recorded_table. */
 #define RECORDED_TABLE .place = "row", .next = recorded_table_next, .close = recorded_table_close

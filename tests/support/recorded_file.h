@@ -18,7 +18,7 @@ static inline int recorded_file_try(struct recorded_file *file, const char *path
     struct input *input = input_open(path, diag);
     struct recorded_reader reader = {0};
     if (input != NULL)
-        reader = recorded_table_open(input, arena, diag);
+        reader = recorded_table_open(input, path, arena, diag);
     return recording_open(&file->recording, reader, path, &file->options, false, arena, diag);
 }
 

@@ -1,0 +1,335 @@
+"""One motion, written in every format of recorded traffic: the same frames, and mirrored a mirrored target list.
+
+Usage: python3 tests/chain/same_motion.py BIN_DIR
+
+A format is a row of FORMATS: a function that writes the motion as a file of the format, and what the format says. To
+add one, write such a function and such a row.
+"""
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass, field
+
+BIN = os.path.abspath(sys.argv[1])
+RATE_HZ = 10
+STEPS = 61
+checks = 0
+
+
+def check(good, what):
+    global checks
+    checks += 1
+    if not good:
+        sys.exit(f"same_motion: {what}")
+
+
+def glint(program, *words, data=None):
+    done = subprocess.run([os.path.join(BIN, program), *words], input=data, capture_output=True, check=False, timeout=60)
+    check(done.returncode == 0, f"{program} {words}: {done.stderr.decode()}")
+    return done.stdout
+
+
+# ---- the motion: every pose in closed form ----------------------------------------------------------
+
+
+@dataclass
+class Pose:
+    x: float
+    y: float
+    yaw: float
+    vx: float
+    vy: float
+    rate: float
+
+    def mirrored(self):
+        return Pose(self.x, -self.y, -self.yaw, self.vx, -self.vy, -self.rate)
+
+
+@dataclass
+class User:
+    id: str
+    kind: str
+    length: float
+    width: float
+    height: float
+    first: int
+    last: int
+    at: object  # the pose at a time
+
+    def pose(self, step):
+        return self.at(step / RATE_HZ)
+
+    def mirrored(self):
+        return User(self.id, self.kind, self.length, self.width, self.height, self.first, self.last,
+                    lambda time_s: self.at(time_s).mirrored())
+
+
+def straight(x, y, yaw, speed):
+    vx, vy = speed * math.cos(yaw), speed * math.sin(yaw)
+    return lambda time_s: Pose(x + vx * time_s, y + vy * time_s, yaw, vx, vy, 0)
+
+
+def circle(x, y, radius, rate):
+    """To the left, around (x, y + radius)."""
+    def at(time_s):
+        turn = rate * time_s
+        return Pose(x + radius * math.sin(turn), y + radius * (1 - math.cos(turn)), turn,
+                    radius * rate * math.cos(turn), radius * rate * math.sin(turn), rate)
+    return at
+
+
+def lane_change(x, y, speed, begin_s, end_s):
+    """3.5 m to the left on half a wave of the sine, along its velocity."""
+    wave = math.pi / (end_s - begin_s)
+    def at(time_s):
+        phase = min(max(wave * (time_s - begin_s), 0), math.pi)
+        vy, ay = 1.75 * wave * math.sin(phase), 1.75 * wave * wave * math.cos(phase) * (0 < phase < math.pi)
+        return Pose(x + speed * time_s, y + 1.75 * (1 - math.cos(phase)), math.atan2(vy, speed), speed, vy,
+                    ay * speed / (speed**2 + vy**2))
+    return at
+
+
+USERS = [
+    User("1", "car", 4.5, 1.8, 1.5, 0, STEPS - 1, straight(0, 0, 0, 20)),
+    User("2", "car", 4.2, 1.7, 1.4, 0, STEPS - 1, lane_change(40, -3.5, 22, 1, 5)),
+    User("3", "truck", 10, 2.5, 3.5, 0, STEPS - 1, straight(150, 8, math.pi, 15)),
+    User("4", "motorcycle", 2.2, 0.8, 1.5, 0, STEPS - 1, circle(60, -6, 90, 0.1)),
+    User("5", "car", 4.4, 1.8, 1.5, 20, 40, straight(30, 4, 0, 25)),
+    User("6", "pedestrian", 0.5, 0.6, 1.8, 0, STEPS - 1, straight(90, -9, 1.2, 1.4)),
+    User("7", "car", 4.6, 1.9, 1.5, 0, STEPS - 1, straight(70, 12, 0, 0)),
+]
+
+
+# ---- formats ----------------------------------------------------------------------------------------
+
+
+@dataclass
+class Format:
+    """What a format says. A unit is that of the last digit, in SI."""
+    name: str
+    write: object  # (folder, users): the path of the file
+    place_unit: float
+    program: str = "glint-traffic"
+    options: tuple = ()
+    velocity_unit: float = 0  # 0: from places
+    yaw_unit: float = 0       # 0: from velocities
+    rate_unit: float = 0      # 0: from yaws
+    size_unit: float = 0.01   # 0: sizes of its own
+    heights: bool = False
+    front: float = 0          # the share of the length by which its places lie ahead
+    classes: dict = field(default_factory=dict)  # its word for each of our classes
+    first_s: float = 0        # the time of step 0
+
+
+def rows(users):
+    """(step, user, pose) by track."""
+    for user in users:
+        for step in range(user.first, user.last + 1):
+            yield step, user, user.pose(step)
+
+
+def save(folder, name, lines):
+    path = os.path.join(folder, name)
+    with open(path, "w", encoding="ascii") as file:
+        file.writelines(line + "\n" for line in lines)
+    return path
+
+
+def turned_deg(angle_rad):
+    return math.degrees(angle_rad) % 360
+
+
+def interaction(folder, users):
+    head = "track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy,psi_rad,length,width"
+    return save(folder, "interaction.csv", [head] + [
+        f"{user.id},{step + 1},{step * 1000 // RATE_HZ},{INTERACTION[user.kind]},{at.x:.3f},{at.y:.3f},{at.vx:.3f},"
+        f"{at.vy:.3f},{at.yaw:.3f},{user.length:.2f},{user.width:.2f}" for step, user, at in rows(users)])
+
+
+def highd(folder, users):
+    save(folder, "03_recordingMeta.csv", ["id,frameRate,locationId", f"3,{RATE_HZ},1"])
+    save(folder, "03_tracksMeta.csv", ["id,width,height,class,drivingDirection"] + [
+        f"{user.id},{user.length:.2f},{user.width:.2f},{HIGHD[user.kind]},{1 if user.pose(0).vx < 0 else 2}"
+        for user in users])
+    return save(folder, "03_tracks.csv", ["frame,id,x,y,width,height,xVelocity,yVelocity,precedingId"] + [
+        f"{step + 1},{user.id},{at.x - user.length / 2:.2f},{-at.y - user.width / 2:.2f},{user.length:.2f},"
+        f"{user.width:.2f},{at.vx:.2f},{-at.vy:.2f},0" for step, user, at in rows(users)])
+
+
+def ind(folder, users):
+    save(folder, "04_recordingMeta.csv", ["recordingId,locationId,frameRate", f"4,1,{RATE_HZ}.0"])
+    save(folder, "04_tracksMeta.csv", ["recordingId,trackId,width,length,class"] + [
+        f"4,{user.id},{user.width:.5f},{user.length:.5f},{IND[user.kind]}" for user in users])
+    head = "recordingId,trackId,frame,trackLifetime,xCenter,yCenter,heading,width,length,xVelocity,yVelocity,laneletId"
+    return save(folder, "04_tracks.csv", [head] + [
+        f"4,{user.id},{step},{step - user.first},{at.x:.5f},{at.y:.5f},{turned_deg(at.yaw):.5f},{user.width:.5f},"
+        f"{user.length:.5f},{at.vx:.5f},{at.vy:.5f},3;5" for step, user, at in rows(users)])
+
+
+def sumo_rows(users):
+    """(step, user, front, angle) by time."""
+    for step, user, at in sorted(rows(users), key=lambda row: row[0]):
+        front = (at.x + user.length / 2 * math.cos(at.yaw), at.y + user.length / 2 * math.sin(at.yaw))
+        yield step, user, at, front, turned_deg(math.pi / 2 - at.yaw)
+
+
+def sumo_table(folder, users):
+    head = "timestep_time;vehicle_angle;vehicle_id;vehicle_speed;vehicle_type;vehicle_x;vehicle_y"
+    return save(folder, "fcd.csv", [head] + [
+        f"{step / RATE_HZ:.2f};{angle:.6f};{user.id};{math.hypot(at.vx, at.vy):.6f};{SUMO[user.kind]};{front[0]:.6f};"
+        f"{front[1]:.6f}" for step, user, at, front, angle in sumo_rows(users)])
+
+
+def sumo_types(users):
+    """Sizes of a table come from the classes alone, those of XML from a file of routes."""
+    return ["<routes>"] + [f'<vType id="t{user.id}" vClass="{SUMO[user.kind]}" length="{user.length}" '
+                           f'width="{user.width}" height="{user.height}"/>' for user in users] + ["</routes>"]
+
+
+def sumo_xml(folder, users):
+    save(folder, "types.rou.xml", sumo_types(users))
+    steps = {step: [] for step in range(STEPS)}
+    for step, user, at, front, angle in sumo_rows(users):
+        kind = "person" if user.kind == "pedestrian" else "vehicle"
+        steps[step].append(f'<{kind} id="{user.id}" x="{front[0]:.6f}" y="{front[1]:.6f}" angle="{angle:.6f}" '
+                           f'type="t{user.id}" speed="{math.hypot(at.vx, at.vy):.6f}"/>')
+    lines = [f'<timestep time="{step / RATE_HZ:.2f}">{"".join(there)}</timestep>' for step, there in steps.items()]
+    return save(folder, "fcd.xml", ["<fcd-export>", *lines, "</fcd-export>"])
+
+
+OWN = {kind: kind for kind in ("car", "truck", "motorcycle", "pedestrian")}
+INTERACTION = OWN
+HIGHD = {"car": "Car", "truck": "Truck"}
+IND = OWN
+SUMO = dict(OWN, car="passenger")
+SUMO_SIZES = {"car": (5, 1.8, 1.5), "truck": (7.1, 2.4, 2.4), "motorcycle": (2.2, 0.9, 1.5),
+              "pedestrian": (0.215, 0.478, 1.719)}
+
+FORMATS = [
+    Format("INTERACTION", interaction, 1e-3, velocity_unit=1e-3, yaw_unit=1e-3, classes=INTERACTION),
+    Format("highD", highd, 1e-2, velocity_unit=1e-2, classes=HIGHD, first_s=1 / RATE_HZ),
+    Format("inD", ind, 1e-5, velocity_unit=1e-5, yaw_unit=math.radians(1e-5), size_unit=1e-5, classes=IND),
+    Format("SUMO's table", sumo_table, 1e-6, yaw_unit=math.radians(1e-6), size_unit=0, classes=SUMO),
+    Format("SUMO's XML", sumo_xml, 1e-6, program="glint-traffic-sumo", options=("--types", "types.rou.xml"),
+           yaw_unit=math.radians(1e-6), heights=True, classes=SUMO),
+]
+
+
+# ---- the frames that they must give -----------------------------------------------------------------
+
+
+def slope(before, middle, after):
+    """Of values at steps beside each other; None where there is no step."""
+    if before is None and after is None:
+        return 0
+    if before is None or after is None:
+        return ((middle - before) if after is None else (after - middle)) * RATE_HZ
+    return (after - before) / 2 * RATE_HZ
+
+
+def beside(user, step, value):
+    """The value at the step before, at this one and at the next."""
+    return [value(user.pose(at)) if user.first <= at <= user.last else None for at in (step - 1, step, step + 1)]
+
+
+def expected(kind, user, step):
+    """The pose that a format can give: with differences where it has no more, as the header of the reader says."""
+    at = user.pose(step)
+    if kind.velocity_unit == 0:
+        at.vx, at.vy = (slope(*beside(user, step, value)) for value in (lambda pose: pose.x, lambda pose: pose.y))
+    if kind.rate_unit == 0:
+        at.rate = slope(*beside(user, step, lambda pose: pose.yaw))
+    return at
+
+
+def tolerances(kind, user, at):
+    """Of place, velocity, yaw and yaw rate: what rounding the last digit changes, with that of the size. A place that
+    lies ahead of the centre follows the front, whose course is not the yaw in a curve."""
+    speed = math.hypot(at.vx, at.vy)
+    ahead = kind.front * user.length
+    swing = 1.2 * ahead * abs(at.rate) + (0.04 if kind.front and at.rate else 0)
+    place = 1.5 * kind.place_unit + kind.size_unit / 2
+    velocity = kind.velocity_unit or 2 * RATE_HZ * kind.place_unit + swing
+    yaw = kind.yaw_unit or (velocity / speed if speed > 0 else 0)
+    rate = kind.rate_unit or 2 * RATE_HZ * yaw
+    return place + ahead * yaw + 1e-9, velocity + 1e-9, yaw + 1e-9, rate + 1e-9
+
+
+def compare(kind, users, frames):
+    ego = users[0]
+    check(len(frames) == ego.last - ego.first + 1, f"{kind.name}: {len(frames)} frames")
+    for step, frame in enumerate(frames):
+        check(abs(frame["time_s"] - kind.first_s - step / RATE_HZ) < 1e-9, f"{kind.name}: time {frame['time_s']}")
+        there = [user for user in users if user.first <= step <= user.last]
+        check([part["id"] for part in frame["objects"]] == [user.id for user in there], f"{kind.name}: who is there")
+        for user, part in zip(there, frame["objects"]):
+            compare_body(kind, user, step, part)
+
+
+def compare_body(kind, user, step, part):
+    at = expected(kind, user, step)
+    place, velocity, yaw, rate = tolerances(kind, user, at)
+    size = (user.length, user.width) if kind.size_unit else SUMO_SIZES[user.kind][:2]
+    if not kind.size_unit:  # whose places are of the front bumper, whatever the length is
+        shift = (user.length - size[0]) / 2
+        at.x, at.y = at.x + shift * math.cos(at.yaw), at.y + shift * math.sin(at.yaw)
+        at.vx, at.vy = (at.vx - shift * at.rate * math.sin(at.yaw), at.vy + shift * at.rate * math.cos(at.yaw))
+        velocity += abs(shift * at.rate) * 0.2
+    what = f"{kind.name}: {user.id} in step {step}: {part}, expected {at}"
+    check(part["class"] == user.kind, what)
+    check(math.dist((part["x_m"], part["y_m"]), (at.x, at.y)) <= place, "place, " + what)
+    check(math.dist((part["vx_mps"], part["vy_mps"]), (at.vx, at.vy)) <= velocity, "velocity, " + what)
+    check(abs(math.remainder(part["yaw_rad"] - at.yaw, 2 * math.pi)) <= yaw, "yaw, " + what)
+    check(abs(part["yaw_rate_radps"] - at.rate) <= rate, "yaw rate, " + what)
+    check(math.dist((part["length_m"], part["width_m"]), size) <= kind.size_unit, "size, " + what)
+    check(not kind.heights or part["height_m"] == user.height, "height, " + what)
+
+
+# ---- mirrors ----------------------------------------------------------------------------------------
+
+
+def targets_of(frames):
+    chain = "glint-extract | glint-ideal --sensors lrr77-every-frame | glint-sensor | glint-noise-none"
+    lists = glint("glint", "-c", chain, data=frames)
+    return [json.loads(line)["targets"] for line in lists.splitlines()]
+
+
+def mirrors(kind, folder, frames, mirrored_frames):
+    """Decisions may fall otherwise where rounding is not symmetric, so a list in a hundred may differ."""
+    def key(target, sign):
+        return (round(target["range_m"], 2), round(sign * target["azimuth_rad"] + 1e-9, 3), round(target["range_rate_mps"], 1))
+    pairs = list(zip(targets_of(frames), targets_of(mirrored_frames), strict=True))
+    check(sum(len(plain) for plain, _ in pairs) > 2 * len(pairs), f"{kind.name}: {sum(len(plain) for plain, _ in pairs)} targets")
+    for step, (plain, mirrored) in enumerate(pairs):
+        check(len(plain) == len(mirrored), f"{kind.name}: mirrored, {len(plain)} and {len(mirrored)} targets at {step}")
+        for one, other in zip(sorted(plain, key=lambda t: key(t, 1)), sorted(mirrored, key=lambda t: key(t, -1))):
+            close = (abs(one["range_m"] - other["range_m"]) < 5 * kind.place_unit + 1e-6 and
+                     abs(one["azimuth_rad"] + other["azimuth_rad"]) < kind.place_unit + 1e-5 and
+                     abs(one["range_rate_mps"] - other["range_rate_mps"]) < 5 * max(kind.velocity_unit, kind.place_unit) + 1e-5)
+            check(close, f"{kind.name}: mirrored, {one} and {other} at {step}")
+
+
+def main():
+    written = 0
+    for kind in FORMATS:
+        if not os.path.exists(os.path.join(BIN, kind.program)):
+            print(f"same_motion: {kind.program} is not there")
+            continue
+        users = [user for user in USERS if user.kind in kind.classes]
+        streams = []
+        for world in (users, [user.mirrored() for user in users]):
+            with tempfile.TemporaryDirectory() as folder:
+                path = kind.write(folder, world)
+                words = [os.path.join(folder, word) if os.path.exists(os.path.join(folder, word)) else word
+                         for word in kind.options]
+                streams.append(glint(kind.program, path, "--ego", "1", *words))
+                compare(kind, world, [json.loads(line) for line in streams[-1].splitlines()])
+        mirrors(kind, None, *streams)
+        written += 1
+    print(f"same_motion: {checks} checks of {written} formats hold")
+
+
+main()

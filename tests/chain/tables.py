@@ -1,0 +1,324 @@
+"""Tables of recorded traffic: real files against an independent computation, what files lack, and bad input.
+
+Usage: python3 tests/chain/tables.py BIN_DIR
+
+tests/chain/same_motion.py compares the formats with each other.
+"""
+import csv
+import gzip
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+BIN = os.path.abspath(sys.argv[1])
+DATA = os.environ.get("GLINT_TEST_DATA")
+checks = 0
+
+
+def check(good, what):
+    global checks
+    checks += 1
+    if not good:
+        sys.exit(f"tables: {what}")
+
+
+def play(path, *words, fails=None):
+    """The frames; of a failure the message."""
+    done = subprocess.run([os.path.join(BIN, "glint-traffic"), path, *words], capture_output=True, check=False,
+                          timeout=60)
+    said = done.stderr.decode(errors="replace")
+    if fails is None:
+        check(done.returncode == 0, f"{path} {words}: {said}")
+        return [json.loads(line) for line in done.stdout.splitlines()]
+    check(done.returncode == fails, f"{path} {words}: exit {done.returncode}, not {fails}: {said}")
+    return said
+
+
+def save(folder, files):
+    """Writes files, gzip where the name says so; returns the path of the first."""
+    for name, text in files.items():
+        bytes_ = text if isinstance(text, bytes) else text.encode("latin-1")
+        with open(os.path.join(folder, name), "wb") as file:
+            file.write(gzip.compress(bytes_) if name.endswith(".gz") else bytes_)
+    return os.path.join(folder, next(iter(files)))
+
+
+# ---- real files against a computation of their own ----------------------------------------------------
+
+
+def read(path):
+    with (gzip.open if path.endswith(".gz") else open)(path, "rt", encoding="ascii") as file:
+        return list(csv.DictReader(file, skipinitialspace=True))
+
+
+def highd_states(folder, name):
+    rate = float(read(f"{folder}/{name}_recordingMeta.csv")[0]["frameRate"])
+    tracks = {row["id"]: row for row in read(f"{folder}/{name}_tracksMeta.csv")}
+    for row in read(f"{folder}/{name}_tracks.csv"):
+        length, width, vx, vy = (float(row[key]) for key in ("width", "height", "xVelocity", "yVelocity"))
+        yield (int(row["frame"]) / rate, row["id"], tracks[row["id"]]["class"].lower(), float(row["x"]) + length / 2,
+               -float(row["y"]) - width / 2, math.atan2(-vy + 0.0, vx), vx, -vy, length, width)
+
+
+def ind_states(folder, name):
+    rate = float(read(f"{folder}/{name}_recordingMeta.csv")[0]["frameRate"])
+    classes = {row["trackId"]: row["class"] for row in read(f"{folder}/{name}_tracksMeta.csv")}
+    for row in read(f"{folder}/{name}_tracks.csv.gz"):
+        x, y, heading, vx, vy, length, width = (float(row[key]) for key in (
+            "xCenter", "yCenter", "heading", "xVelocity", "yVelocity", "length", "width"))
+        yield (int(row["frame"]) / rate, row["trackId"], classes[row["trackId"]].replace("truck_bus", "truck"), x, y,
+               math.radians(heading), vx, vy, length, width)
+
+
+def compare(frames, states, ego):
+    steps = {}
+    for time, name, *state in states:
+        steps.setdefault(round(time, 6), {})[name] = state
+    wanted = sorted(time for time, users in steps.items() if ego in users)
+    check([round(frame["time_s"], 6) for frame in frames] == wanted, f"times of {ego}")
+    for frame in frames:
+        users = steps[round(frame["time_s"], 6)]
+        origin = frame.get("origin_x_m", 0), frame.get("origin_y_m", 0)
+        check([part["id"] for part in frame["objects"]] == sorted(users), f"who is there at {frame['time_s']} s")
+        for part in frame["objects"]:
+            kind, x, y, yaw, vx, vy, length, width = users[part["id"]]
+            same = (part["class"] == kind and (part["length_m"], part["width_m"]) == (length, width) and
+                    math.dist((part["x_m"] + origin[0], part["y_m"] + origin[1]), (x, y)) < 1e-9 and
+                    math.dist((part["vx_mps"], part["vy_mps"]), (vx, vy)) < 1e-12 and
+                    abs(math.remainder(part["yaw_rad"] - yaw, 2 * math.pi)) < 1e-12)
+            check(same, f"{part} at {frame['time_s']} s, expected {users[part['id']]}")
+
+
+def real_files():
+    if DATA is None:
+        print("tables: GLINT_TEST_DATA is not set: no recorded tables to read")
+        return
+    compare(play(f"{DATA}/csv/01_tracks.csv", "--ego", "5"), highd_states(f"{DATA}/csv", "01"), "5")
+    compare(play(f"{DATA}/csv/00_tracks.csv.gz", "--ego", "5"), ind_states(f"{DATA}/csv", "00"), "5")
+
+
+# ---- small files of our own -----------------------------------------------------------------------------
+
+HIGHD = {
+    "07_tracks.csv": """frame,id,x,y,width,height,xVelocity,yVelocity,precedingId
+10,1,100.5,8.0,4.5,2.0,20.0,0.5,0
+11,1,101.3,8.02,4.5,2.0,20.0,0.5,0
+10,2,50.0,30.0,12.0,2.5,-0.3,0.4,1
+11,2,50.0,30.0,12.0,2.5,0.0,0.0,1
+""",
+    "07_tracksMeta.csv": "id,width,height,class,drivingDirection\n1,4.5,2.0,Car,2\n2,12.0,2.5,Truck,1\n",
+    "07_recordingMeta.csv": "id,frameRate,locationId,upperLaneMarkings\n7,25,2,1.0;4.5\n",
+}
+IND = {
+    "18_tracks.csv": """recordingId,trackId,frame,trackLifetime,xCenter,yCenter,heading,width,length,xVelocity,yVelocity,laneletId
+18,4,0,0,10.5,-8.25,350.0,1.8,4.5,10.0,0.0,1;2
+18,4,1,1,10.9,-8.25,10.0,1.8,4.5,10.0,0.0,1;2
+18,5,0,0,5.25,-8.25,0.0,2.2,3.0,10.0,0.0,1
+18,5,1,1,5.65,-8.25,0.0,2.2,3.0,10.0,0.0,1
+18,6,1,0,30.0,0.0,90.0,0.0,0.0,0.0,1.5,
+""",
+    "18_tracksMeta.csv": """recordingId,trackId,initialFrame,finalFrame,numFrames,width,length,class
+18,4,0,1,2,1.8,4.5,car
+18,5,0,1,2,2.2,3.0,trailer
+18,6,1,1,1,0.0,0.0,pedestrian
+""",
+    "18_recordingMeta.csv": "recordingId,locationId,frameRate\n18,1,25\n",
+}
+INTERACTION = {
+    "vehicle_tracks_000.csv": """track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy,psi_rad,length,width
+1,1,100,car,20.5,-18.5,7.5,-7.5,-0.75,4.1,1.9
+1,2,200,car,21.25,-19.25,7.5,-7.5,-0.75,4.1,1.9
+2,1,100,car,0.5,-1.5,7.5,0,0.0,4.1,1.9
+""",
+}
+SUMO = {
+    "fcd.csv": """timestep_time;vehicle_angle;vehicle_id;vehicle_speed;vehicle_type;vehicle_x;vehicle_y
+0.00;90.00;1;20.00;passenger;10.00;0.00
+0.00;270.00;2;10.00;truck;90.00;4.00
+0.50;90.00;1;20.00;passenger;20.00;0.00
+""",
+}
+
+
+def by_id(frame):
+    return {part["id"]: part for part in frame["objects"]}
+
+
+def near(part, **values):
+    return all(abs(part[key] - value) < 1e-9 for key, value in values.items())
+
+
+def highd_says(folder):
+    """The corner becomes the centre, y points up, and a lorry that creeps keeps to its direction of travel."""
+    first, second = play(save(folder, HIGHD), "--ego", "1")
+    check(near(first, time_s=0.4, interval_s=0.04) and near(second, time_s=0.44), "25 frames a second")
+    car, lorry = by_id(first)["1"], by_id(first)["2"]
+    check(near(car, x_m=102.75, y_m=-9, vx_mps=20, vy_mps=-0.5, yaw_rad=math.atan2(-0.5, 20), length_m=4.5, width_m=2),
+          f"the car: {car}")
+    check(lorry["class"] == "truck" and near(lorry, x_m=56, y_m=-31.25, yaw_rad=math.pi, vx_mps=-0.3, vy_mps=-0.4),
+          f"the lorry creeps: {lorry}")
+    check(near(by_id(second)["2"], yaw_rad=math.pi, yaw_rate_radps=0), "the lorry stands")
+
+
+def ind_says(folder):
+    """Headings are degrees, sizes of 0 remain for the class, and a trailer is a body of its own behind its car."""
+    first, second = play(save(folder, IND), "--ego", "4")
+    car, trailer = by_id(first)["4"], by_id(first)["5"]
+    check(near(car, x_m=10.5, y_m=-8.25, yaw_rad=math.radians(-10), vx_mps=10), f"the car: {car}")
+    check(near(car, yaw_rate_radps=math.radians(20) * 25), "the shorter arc from 350 to 10 degrees")
+    check(trailer["class"] == "truck" and near(trailer, length_m=3, width_m=2.2, x_m=5.25), f"the trailer: {trailer}")
+    check(list(by_id(second)) == ["4", "5", "6"], "a second body, and a pedestrian")
+    check(near(by_id(second)["6"], length_m=0, width_m=0, yaw_rad=math.pi / 2, vy_mps=1.5), "the pedestrian")
+
+
+def files_beside(folder):
+    """Plain or gzip, whatever the table is."""
+    plain = play(save(folder, IND), "--ego", "4")
+    for packed in (("18_tracks.csv",), ("18_tracksMeta.csv", "18_recordingMeta.csv"), tuple(IND)):
+        with tempfile.TemporaryDirectory() as place:
+            files = {name + ".gz" * (name in packed): text for name, text in IND.items()}
+            check(play(save(place, files), "--ego", "4") == plain, f"{packed} as gzip")
+
+
+def columns_by_name(folder):
+    """The order of columns and rows, quotes, and columns that nothing needs change nothing."""
+    for files in (HIGHD, IND, INTERACTION, SUMO):
+        path = save(folder, files)
+        plain = play(path, "--ego", "all")
+        lines = open(path, encoding="ascii").read().splitlines()
+        sign = ";" if files is SUMO else ","
+        table = [line.split(sign)[::-1] + ["\"a, b\"" if i else "more"] for i, line in enumerate(lines)]
+        body = table[1:] if files is SUMO else table[:0:-1]
+        text = "\r\n".join(sign.join(row) for row in [table[0], *body])
+        save(folder, {os.path.basename(path): "\ufeff".encode() + text.encode()})
+        check(play(path, "--ego", "all") == plain, f"columns of {path} in another order")
+
+
+# ---- bad input ------------------------------------------------------------------------------------------
+
+
+def broken(folder, files, name, old, new):
+    """The files, one of them changed; new None: without that file."""
+    changed = dict(files)
+    if new is None:
+        del changed[name]
+    else:
+        check(old in changed[name], f"{old} is in {name}")
+        changed[name] = changed[name].replace(old, new, 1)
+    for left in os.listdir(folder):
+        os.remove(os.path.join(folder, left))
+    return save(folder, changed)
+
+
+def shared_cases(row, x, x_name, id_name, sign=","):
+    """What every table refuses. row is its first row as text, x the value of x_name in it."""
+    first = row.split(sign)
+    empty = sign.join("" if cell == x else cell for cell in first)
+    return [
+        (row, row.replace(x, "wide"), f'row 2, column "{x_name}": "wide" is not a number'),
+        (row, row.replace(x, "nan"), f'row 2, column "{x_name}": "nan" is not a number'),
+        (row, row.replace(x, "0x10"), f'row 2, column "{x_name}": "0x10" is not a number'),
+        (row, row.replace(x, "2e9"), f'row 2, column "{x_name}": 2e9 is outside [-1e+09, 1e+09]'),
+        (row, empty, f'row 2, column "{x_name}": "" is not a number'),
+        (row, sign.join(first[:-1]), f"row 2: {len(first) - 1} cells; expected {len(first)} as in the header"),
+        (row, row + sign + "1", f"row 2: {len(first) + 1} cells; expected {len(first)} as in the header"),
+        (row, row + "\n" + row, f"row 3: {id_name} "),
+        (row, row.replace(x, 'a"b'), "row 2: a misplaced quote"),
+        (row, row.replace(x, '"' + x), "quote opens a cell and nothing closes it"),
+        (row, row.replace(x, "\0"), "row 2: a NUL byte; expected text"),
+        (x_name, "z", f'column "{x_name}" is missing; the header is: '),
+    ]
+
+
+def beside_cases(stem, id_name, track):
+    tracks, recording, table = f"{stem}_tracksMeta.csv", f"{stem}_recordingMeta.csv", f"{stem}_tracks.csv"
+    return [
+        (tracks, "", None, f"{tracks}: No such file or directory"),
+        (recording, "", None, f"{recording}: No such file or directory"),
+        (recording, "frameRate", "rate", f'{recording}: column "frameRate" is missing; the header is: '),
+        (recording, "25", "fast", f'{recording}: row 2, column "frameRate": "fast" is not a number'),
+        (recording, "25", "0", f'{recording}: row 2, column "frameRate": 0 is outside [0.001, 1e+06]'),
+        (recording, "\n", "\n" + "1,25,25\n" if stem == "18" else "\n7,25,2,x\n",
+         f"{recording}: row 3: a second recording; expected one"),
+        (tracks, "class", "kind", f'{tracks}: column "class" is missing'),
+        (tracks, id_name, "number", f'{tracks}: column "{id_name}" is missing'),
+        (tracks, track, track + "\n" + track, f"{tracks}: row 3: {id_name} "),
+        (tracks, track + "\n", "", f'row 2, column "{id_name}": "'),
+        (table, "frame,", "frames,", 'column "frame" is missing'),
+    ]
+
+
+def refused(folder, files, cases, ego):
+    """Every case has file or path, row, column or value, and what was expected; the exit code is that of bad data."""
+    table = next(iter(files))
+    for case in cases:
+        name, old, new, message = case if len(case) == 4 else (table, *case)
+        path = broken(folder, files, name, old, new)
+        code = 66 if "No such file" in message else 65
+        text = play(path, "--ego", ego, fails=code)
+        check(f"glint-traffic: {folder}" in text and message in text, f"{name}: {old!r} -> {new!r}: {text}")
+    return len(cases)
+
+
+def bad_input(folder):
+    row = HIGHD["07_tracks.csv"].splitlines()[1]
+    counts = {"highD": refused(folder, HIGHD, [
+        *shared_cases(row, "100.5", "x", "id"), *beside_cases("07", "id", "1,4.5,2.0,Car,2"),
+        (row, row.replace("10,1", "10.5,1"), 'row 2, column "frame": 10.5 is not a whole number'),
+        (row, row.replace("10,1", "-1,1"), 'row 2, column "frame": -1 is outside [0, 1e+09]'),
+        (row, row.replace("10,1", "10,"), 'row 2, column "id": ""; expected 1 to 1024 printable ASCII characters'),
+        (row, row.replace("4.5", "-4.5"), 'row 2, column "width": -4.5 is outside [0, 1e+06]'),
+        ("07_tracksMeta.csv", "Car,2", "Car,3", '07_tracksMeta.csv: row 2, column "drivingDirection": 3 is outside [1, 2]'),
+        ("07_tracksMeta.csv", "Car", "Ship", 'row 2: unknown class "Ship"; expected one of Car, Truck, '),
+        ("yVelocity", "yVelocity,x", 'columns 3 and 9 are both named "x"'),
+    ], "1")}
+    row = IND["18_tracks.csv"].splitlines()[1]
+    counts["inD"] = refused(folder, IND, [
+        *shared_cases(row, "10.5", "xCenter", "trackId")[:-1],
+        *beside_cases("18", "trackId", "18,4,0,1,2,1.8,4.5,car"),
+        (row, row.replace("18,4,0", "18,4,0.5"), 'row 2, column "frame": 0.5 is not a whole number'),
+        (row, row.replace("350.0", "3500"), 'row 2, column "heading": 3500 is outside [-1000, 1000]'),
+        (row, row.replace("18,4,0", "18,\u00e9,0"), "expected 1 to 1024 printable ASCII characters"),
+        ("18_tracksMeta.csv", "pedestrian", "drone", 'row 6: unknown class "drone"; expected one of car, van, '),
+        ("heading", "direction", 'column "heading" is missing'),
+    ], "4")
+    row = INTERACTION["vehicle_tracks_000.csv"].splitlines()[1]
+    counts["INTERACTION"] = refused(folder, INTERACTION, [
+        *shared_cases(row, "20.5", "x", "track_id"),
+        (row, row.replace(",100,", ",100.5,"), 'row 2, column "timestamp_ms": 100.5 is not a whole number'),
+        (row, row.replace("car", ""), 'row 2, column "agent_type": ""; expected 1 to 1024 printable'),
+        (row, row.replace("car", "ship"), 'row 2: unknown class "ship"; expected one of pedestrian/bicycle, car, '),
+        (row, row.replace("1,1,", ",1,"), 'row 2, column "track_id": ""; expected 1 to 1024 printable'),
+        (row, row.replace(",100,", ",,"), 'row 2, column "timestamp_ms": "" is not a number'),
+        ("timestamp_ms", "stamp", 'column "timestamp_ms" is missing'),
+        ("psi_rad", "yaw", 'column "psi_rad" is missing'),
+    ], "1")
+    row = SUMO["fcd.csv"].splitlines()[1]
+    counts["SUMO"] = refused(folder, SUMO, [
+        *shared_cases(row, "10.00", "vehicle_x", "id", ";"),
+        (row, row.replace("90.00", "9e3"), 'row 2, column "vehicle_angle": 9e3 is outside [-1000, 1000]'),
+        (row, row.replace("passenger", "ship"), 'row 2: unknown class "ship"; expected one of passenger, '),
+        (row, row.replace(";1;", ";;"), 'row 2, column "vehicle_id": ""; expected 1 to 1024 printable'),
+        (row, "1.00;90;9;2;truck;1;1", "row 3: 0 s after a step of 1 s; expected a later time"),
+        ("vehicle_angle", "angle", 'column "vehicle_angle" is missing'),
+    ], "1")
+    path = save(folder, {"whatever.csv": HIGHD["07_tracks.csv"]})
+    check("expected a table named NN_tracks.csv" in play(path, "--ego", "1", fails=65), "a table of another name")
+    save(folder, {"empty.csv": ""})
+    check("the table is empty" in play(os.path.join(folder, "empty.csv"), "--ego", "1", fails=65), "an empty table")
+    print("tables: refused", ", ".join(f"{count} of {name}" for name, count in counts.items()))
+    check(min(counts.values()) >= 15, "at least 15 bad files of each format")
+
+
+def main():
+    real_files()
+    for test in (highd_says, ind_says, files_beside, columns_by_name, bad_input):
+        with tempfile.TemporaryDirectory() as folder:
+            test(folder)
+    print(f"tables: {checks} checks hold")
+
+
+main()
