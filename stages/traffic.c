@@ -4,17 +4,16 @@
 #include "text/document.h"
 #include "traffic/recorded_table.h"
 #include "traffic/recording.h"
-#include "traffic/scenario.h"
+#include "traffic/scenario_scenes.h"
 
 struct traffic {
     const char *source;
     struct recording_options options;
     struct recording recording; /* of a table */
     bool recorded;              /* is it one? */
-    struct scenario *scenario;
-    const char *scene; /* of the scenario */
-    struct conditions conditions;
-    int64_t frame, frames; /* of the scenario: the next, and how many */
+    const char *scenes;
+    struct scenario_scenes scenario;
+    struct conditions conditions; /* that the options change, of a scenario */
 };
 
 static int start_scenario(struct traffic *traffic, struct runner *runner)
@@ -28,23 +27,22 @@ static int start_scenario(struct traffic *traffic, struct runner *runner)
                          "%s: a scenario has rate, times and classes of its own; --rate-hz, "
                          "--from-s, --to-s, --class-map and --class-default are for recordings",
                          traffic->source);
-    traffic->scenario = scenario_open(traffic->source, options->ego, arena, diag);
-    if (traffic->scenario == NULL ||
-        recording_conditions(options, &traffic->conditions, arena, diag) != 0)
+    struct scenario_scenes *scenes = &traffic->scenario;
+    scenes->ego = options->ego;
+    scenes->title = options->scene;
+    scenes->name = recording_name(traffic->source, arena);
+    if (scenario_scenes_choose(scenes, traffic->scenes, diag) != 0 ||
+        scenario_read(traffic->source, &scenes->document, arena, diag) != 0)
         return -1;
-    struct text name = {0};
-    text_format(&name, "%s/%s", recording_name(traffic->source, arena), traffic->scenario->ego);
-    traffic->scene =
-        options->scene != NULL ? options->scene : arena_text(arena, name.bytes, name.length);
-    text_free(&name);
-    traffic->frames = scenario_frames(traffic->scenario);
-    runner_expect(runner, traffic->frames);
-    return 0;
+    return recording_conditions(options, &traffic->conditions, arena, diag);
 }
 
 static int start_table(struct traffic *traffic, const char *path, struct runner *runner)
 {
     struct diag *diag = runner_diag(runner);
+    if (traffic->scenes != NULL)
+        return diag_fail(diag, DIAG_USAGE, "%s: --scenes is for scenarios; a recording has none",
+                         path);
     struct input *input = runner_input(runner, path);
     if (input == NULL)
         return diag_prefix(diag, "%s: ", path);
@@ -107,14 +105,11 @@ static int traffic_next(void *state, struct frame *frame, struct runner *runner)
     struct traffic *traffic = state;
     if (traffic->recorded)
         return recording_next(&traffic->recording, frame, runner_diag(runner));
-    if (traffic->frame == traffic->frames)
-        return 0;
-    scenario_fill(traffic->scenario, traffic->frame, frame);
+    int more = scenario_scenes_next(&traffic->scenario, frame, runner_diag(runner));
+    if (more != 1)
+        return more;
+    runner_expect(runner, scenario_scenes_frames(&traffic->scenario));
     conditions_change(&frame->conditions, &traffic->conditions);
-    frame->scene = traffic->scene;
-    frame->ego = traffic->scenario->ego;
-    frame->frame = traffic->frame++;
-    frame->last = traffic->frame == traffic->frames;
     if (traffic->options.radius_m >= 0)
         limit_radius(frame, traffic->options.radius_m);
     return 1;
@@ -134,11 +129,15 @@ static void traffic_release(void *state)
 {
     struct traffic *traffic = state;
     recording_close(&traffic->recording);
+    scenario_scenes_close(&traffic->scenario);
 }
 
 static const struct field traffic_options[] = {
     {FIELD_NAME_OF(struct traffic, source,
                    "a scenario (a name in data/scenarios/, or a path), or a recorded table")},
+    {FIELD_NAME_OF(struct traffic, scenes,
+                   "A:B plays scenes A to B - 1 of a scenario, each with draws of its own"),
+     FIELD_OPTIONAL},
     {FIELD_RECORD_OF(struct traffic, options, &recording_options_record, ""), FIELD_OPTIONAL},
     {0},
 };

@@ -30,6 +30,7 @@ enum random_purpose {
     RANDOM_BOOTSTRAP = 15,   /* which scenes or blocks a resample has (glint-score --ensemble,
                               * glint-plan --cost) */
     RANDOM_SAMPLE = 16,      /* which frame of a stretch is in a sample (glint-plan --cost) */
+    RANDOM_VARIATION = 17,   /* values of a scenario that are distributions */
     RANDOM_OWN = 1 << 16,    /* any number from here to 2^31 - 1, one for each purpose of the
                               * stages that run together */
 };

@@ -191,28 +191,40 @@ const char *document_find_file(const char *own, const char *kind, const char *na
     return NULL;
 }
 
-/* jansson checks the text and says in which line it is wrong. What it read is written as one line,
- * for the reader of records. */
-int document_parse(const char *path, const struct text *text, const struct record *record,
-                   void *base, struct arena *arena, struct diag *diag)
+const char *document_line(const char *path, const struct text *bytes, const char *kind,
+                          struct arena *arena, struct diag *diag)
 {
     json_error_t error;
-    json_t *tree = json_loadb(text->bytes, text->length, JSON_REJECT_DUPLICATES, &error);
+    json_t *tree = json_loadb(bytes->bytes, bytes->length, JSON_REJECT_DUPLICATES, &error);
     if (tree == NULL) {
         diag_fail(diag, DIAG_CONFIG, "%d: %s", error.line, error.text);
-        bool named = file_format_explain(record->name, text->bytes, text->length, diag);
-        return diag_prefix(diag, named ? "%s: " : "%s:", path);
+        bool named = file_format_explain(kind, bytes->bytes, bytes->length, diag);
+        diag_prefix(diag, named ? "%s: " : "%s:", path);
+        return NULL;
     }
-    char *line = json_dumps(tree, JSON_COMPACT);
-    memset(base, 0, record->size);
-    int result = record_text_read(line, strlen(line), record, base, arena, NULL, diag);
-    free(line);
+    char *printed = json_dumps(tree, JSON_COMPACT);
+    const char *line = arena_text(arena, printed, strlen(printed));
+    free(printed);
     json_decref(tree);
-    if (result == 0)
+    return line;
+}
+
+int document_take(const char *path, const char *line, const struct record *record, void *base,
+                  struct arena *arena, struct diag *diag)
+{
+    memset(base, 0, record->size);
+    if (record_text_read(line, strlen(line), record, base, arena, NULL, diag) == 0)
         return 0;
     diag->code = DIAG_CONFIG;
-    file_format_explain(record->name, text->bytes, text->length, diag);
+    file_format_explain(record->name, line, strlen(line), diag);
     return diag_prefix(diag, "%s: ", path);
+}
+
+int document_parse(const char *path, const struct text *bytes, const struct record *record,
+                   void *base, struct arena *arena, struct diag *diag)
+{
+    const char *line = document_line(path, bytes, record->name, arena, diag);
+    return line != NULL ? document_take(path, line, record, base, arena, diag) : -1;
 }
 
 int document_bytes(const char *path, struct text *text, struct diag *diag)

@@ -76,4 +76,12 @@ int document_bytes(const char *path, struct text *bytes, struct diag *diag);
 int document_parse(const char *path, const struct text *bytes, const struct record *record,
                    void *base, struct arena *arena, struct diag *diag);
 
+/* The two halves of document_parse. jansson checks the bytes and says in which line they are wrong,
+ * unless they are of another format than this kind (file_format.h); what it read is one line in the
+ * arena, NULL after a message, for the reader of records. */
+const char *document_line(const char *path, const struct text *bytes, const char *kind,
+                          struct arena *arena, struct diag *diag);
+int document_take(const char *path, const char *line, const struct record *record, void *base,
+                  struct arena *arena, struct diag *diag);
+
 #endif

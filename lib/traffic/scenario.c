@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "frame/frame_check.h"
 #include "text/document.h"
+#include "text/variation.h"
 
 #define REAL(owner, member, low, high, help) FIELD_REAL_IN(owner, member, low, high, help)
 #define OPTIONAL_REAL(owner, member, low, high, help)                                              \
@@ -315,18 +316,16 @@ int64_t scenario_frames(const struct scenario *scenario)
     return (int64_t)floor(scenario->duration_s * scenario->rate_hz * (1 + 1e-15)) + 1;
 }
 
-struct scenario *scenario_load(const char *name, struct arena *arena, struct diag *diag)
+int scenario_read(const char *name, struct scenario_document *document, struct arena *arena,
+                  struct diag *diag)
 {
-    const char *path = document_find("scenarios", name, ".json", arena, diag);
-    struct scenario *scenario = arena_get(arena, sizeof *scenario);
-    if (path == NULL || document_read(path, &scenario_record, scenario, arena, diag) != 0)
-        return NULL;
-    if (scenario_check(scenario, diag) != 0) {
-        diag->code = DIAG_CONFIG;
-        diag_prefix(diag, "%s: ", path);
-        return NULL;
-    }
-    return scenario;
+    struct text bytes = {0};
+    document->path = document_find("scenarios", name, ".json", arena, diag);
+    document->line = NULL;
+    if (document->path != NULL && document_bytes(document->path, &bytes, diag) == 0)
+        document->line = document_line(document->path, &bytes, "scenario", arena, diag);
+    text_free(&bytes);
+    return document->line != NULL ? 0 : -1;
 }
 
 struct vec2 scenario_frame_origin(struct vec2 ego_m)
@@ -335,25 +334,38 @@ struct vec2 scenario_frame_origin(struct vec2 ego_m)
     return near ? (struct vec2){0, 0} : (struct vec2){round(ego_m.x), round(ego_m.y)};
 }
 
-struct scenario *scenario_open(const char *name, const char *ego, struct arena *arena,
+/* Shifts the scenario to the origin of frames with its ego. */
+static void shift_to_ego(struct scenario *scenario)
+{
+    const struct actor *actor = scenario->objects.items;
+    while (strcmp(actor->id, scenario->ego) != 0)
+        actor++;
+    double travelled_m;
+    struct motion carrier = scenario_motion(actor, 0, &travelled_m);
+    scenario->origin_m = scenario_frame_origin(carrier.position_m);
+    scenario_shift(scenario, scenario->origin_m);
+}
+
+struct scenario *scenario_draw(const struct scenario_document *document, uint64_t seed,
+                               int64_t number, const char *ego, struct arena *arena,
                                struct diag *diag)
 {
-    struct scenario *scenario = scenario_load(name, arena, diag);
-    if (scenario == NULL)
+    struct random_address address = {.seed = seed, .scene = (uint64_t)number};
+    struct scenario *scenario = arena_get(arena, sizeof *scenario);
+    const char *line = variation_draw(document->line, address, arena, diag);
+    int result = line != NULL
+                     ? document_take(document->path, line, &scenario_record, scenario, arena, diag)
+                     : diag_prefix(diag, "%s: ", document->path);
+    if (result != 0)
         return NULL;
     if (ego != NULL)
         scenario->ego = ego;
-    size_t i = 0;
-    while (i < scenario->objects.count && strcmp(scenario->objects.items[i].id, scenario->ego) != 0)
-        i++;
-    if (i == scenario->objects.count) {
-        diag_fail(diag, DIAG_CONFIG, "%s: ego: \"%s\" is not the id of an object", name, ego);
+    if (scenario_check(scenario, diag) != 0) {
+        diag->code = DIAG_CONFIG;
+        diag_prefix(diag, "%s: ", document->path);
         return NULL;
     }
-    double travelled_m;
-    struct motion carrier = scenario_motion(&scenario->objects.items[i], 0, &travelled_m);
-    scenario->origin_m = scenario_frame_origin(carrier.position_m);
-    scenario_shift(scenario, scenario->origin_m);
+    shift_to_ego(scenario);
     return scenario;
 }
 

@@ -64,12 +64,21 @@ struct motion scenario_motion(const struct actor *actor, double time_s, double *
  * the last is not after duration_s. */
 int64_t scenario_frames(const struct scenario *scenario);
 
-/* Finds, reads and checks the scenario of this name or path. All of it lies in the arena; NULL
- * after a message (DIAG_CONFIG). */
-struct scenario *scenario_load(const char *name, struct arena *arena, struct diag *diag);
+/* The document of a scenario, whose values may be distributions (text/variation.h). */
+struct scenario_document {
+    const char *path;
+    const char *line;
+};
 
-/* The same with this ego (NULL: the scenario's own), shifted to the origin of its frames. */
-struct scenario *scenario_open(const char *name, const char *ego, struct arena *arena,
+/* Finds and reads the document of this name or path; it lies in the arena. */
+int scenario_read(const char *name, struct scenario_document *document, struct arena *arena,
+                  struct diag *diag);
+
+/* Scene number >= 0 of the document, whose values are drawn with this seed, checked and shifted to
+ * the origin of its frames. ego: in place of the scenario's own, unless NULL. All of it lies in the
+ * arena; NULL after a message (DIAG_CONFIG). */
+struct scenario *scenario_draw(const struct scenario_document *document, uint64_t seed,
+                               int64_t number, const char *ego, struct arena *arena,
                                struct diag *diag);
 
 /* The origin of frames with an ego that begins here: in whole metres near it if it is more than a

@@ -18,7 +18,12 @@ import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 PATIENCE_S = 60
-SCHEMAS = {name: json.load(open(f"{ROOT}/schemas/{name}.json"))
+def without_distributions(member):
+    """Where a distribution may stand for a value, the first alternative is the value's schema."""
+    return member["anyOf"][0] if "anyOf" in member else member
+
+
+SCHEMAS = {name: json.load(open(f"{ROOT}/schemas/{name}.json"), object_hook=without_distributions)
            for name in ("frame", "scenario", "sensors", "vehicle")}
 CHAIN = ["glint-extract", "glint-ideal --sensors {sensors}", "{sensor}", "{noise}"]
 SENSORS = ["glint-sensor", "glint-sensor", "glint-sensor-perfect", "glint-sensor-smear"]

@@ -42,7 +42,10 @@ static struct scenario *open_scene(struct scratch *scratch, double rate_hz)
              rate_hz, (FRAMES - 1) / rate_hz, START_X_M, START_Y_M, SPEED_MPS, YAW_RAD);
     write_file(scratch, text);
     struct diag diag = {0};
-    struct scenario *scene = scenario_open(scratch->path, NULL, &scratch->arena, &diag);
+    struct scenario_document document;
+    struct scenario *scene = NULL;
+    if (scenario_read(scratch->path, &document, &scratch->arena, &diag) == 0)
+        scene = scenario_draw(&document, 1, 0, NULL, &scratch->arena, &diag);
     if (scene == NULL)
         fail_msg("%s", diag.text);
     assert_int_equal(scenario_frames(scene), FRAMES);

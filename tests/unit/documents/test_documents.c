@@ -89,10 +89,18 @@ static void load_vehicle(const char *name, struct arena *arena)
                 0);
 }
 
+static struct scenario *scene_of(const char *name, struct arena *arena, struct diag *diag)
+{
+    struct scenario_document document;
+    return scenario_read(name, &document, arena, diag) == 0
+               ? scenario_draw(&document, 1, 0, NULL, arena, diag)
+               : NULL;
+}
+
 static void load_scenario(const char *name, struct arena *arena)
 {
     struct diag diag = {0};
-    const struct scenario *scenario = scenario_load(name, arena, &diag);
+    const struct scenario *scenario = scene_of(name, arena, &diag);
     if (scenario == NULL)
         fail_msg("%s", diag.text);
     for (size_t i = 0; i < scenario->objects.count; i++)
@@ -305,7 +313,7 @@ static void scenarios_are_checked_and_named(void **state)
     struct diag diag = {0};
     write_file(scratch->suite, "{\"origin\":\"a test\",\"ego\":\"e\",\"rate_hz\":10,"
                                "\"duration_s\":1,\"objects\":[]}");
-    assert_null(scenario_load(scratch->suite, &scratch->arena, &diag));
+    assert_null(scene_of(scratch->suite, &scratch->arena, &diag));
     assert_memory_equal(diag.text, scratch->suite, strlen(scratch->suite));
     assert_int_equal(diag.code, DIAG_CONFIG);
     diag = (struct diag){0};

@@ -41,8 +41,22 @@ static double bound(const json_t *tree, const char *key)
 
 static void assert_describes(const json_t *schema, const struct record *record);
 
-static void assert_describes_member(const json_t *property, const struct field *field)
+/* Where a distribution may stand for a value, the first alternative describes the value. */
+static const json_t *value_of(const json_t *property, const struct field *field)
 {
+    const json_t *anyof = json_object_get(property, "anyOf");
+    if (anyof == NULL)
+        return property;
+    bool number = field->kind == FIELD_REAL || field->kind == FIELD_INTEGER;
+    assert_int_equal(json_array_size(anyof), 2);
+    assert_string_equal(word(json_array_get(anyof, 1), "$ref"),
+                        number ? "#/$defs/drawn_number" : "#/$defs/drawn");
+    return json_array_get(anyof, 0);
+}
+
+static void assert_describes_member(const json_t *described, const struct field *field)
+{
+    const json_t *property = value_of(described, field);
     static const char *const types[] = {
         [FIELD_REAL] = "number", [FIELD_INTEGER] = "integer", [FIELD_FLAG] = "boolean",
         [FIELD_NAME] = "string", [FIELD_CHOICE] = "",         [FIELD_SEED] = "string",
@@ -50,7 +64,7 @@ static void assert_describes_member(const json_t *property, const struct field *
         [FIELD_RAW] = "",        [FIELD_NOTES] = "object",    [FIELD_SET] = "array",
     };
     assert_string_equal(word(property, "type"), types[field->kind]);
-    assert_string_equal(word(property, field->kind == FIELD_RECORD ? "$comment" : "description"),
+    assert_string_equal(word(described, field->kind == FIELD_RECORD ? "$comment" : "description"),
                         field->help);
     json_t *choices = json_object_get(property, "enum");
     switch (field->kind) {
@@ -79,7 +93,9 @@ static void assert_describes_member(const json_t *property, const struct field *
         assert_describes(property, field->record);
         break;
     case FIELD_LIST:
-        assert_describes(json_object_get(property, "items"), field->record);
+        assert_describes(
+            value_of(json_object_get(property, "items"), &(struct field){.kind = FIELD_RECORD}),
+            field->record);
         break;
     case FIELD_NAMES:
         assert_string_equal(word(json_object_get(property, "items"), "type"), "string");
