@@ -167,11 +167,16 @@ static void on_end(void *context, const char *name)
     document->whole_ns = document->time_ns;
 }
 
-/* SUMO writes its configuration into a comment before everything else. */
+/* SUMO writes its configuration into a comment before everything else, its options as they were
+ * given: a switch is off by 0, no, false, off, f or -. */
 static void on_comment(void *context, const char *text)
 {
-    const char *geo = strstr(text, "<fcd-output.geo value=\"");
-    if (geo != NULL && strchr("tTyY1", geo[strlen("<fcd-output.geo value=\"")]) != NULL)
+    static const char option[] = "<fcd-output.geo value=\"";
+    const char *geo = strstr(text, option);
+    if (geo == NULL)
+        return;
+    const char *value = geo + strlen(option);
+    if (strchr("0nNfF-", value[0]) == NULL && strchr("fF", value[1]) == NULL)
         fail(context, "--fcd-output.geo", "true",
              "coordinates in metres: run sumo without that option");
 }

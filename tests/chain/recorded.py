@@ -11,9 +11,12 @@ import math
 import os
 import re
 import select
+import socket
+import struct
 import subprocess
 import sys
 import tempfile
+import time
 
 BIN = os.path.abspath(sys.argv[1])
 DATA = os.environ.get("GLINT_TEST_DATA")
@@ -79,22 +82,23 @@ def table_of(kind, rate_hz, seconds=6):
 
 
 def resampling_error(folder):
-    """10 Hz in, 20 Hz out, against the original at 200 Hz."""
+    """10 Hz in, 20 Hz out, against the original at 200 Hz, whose velocities are differences over 10 ms."""
     for kind in ("change", "turn", "stop"):
-        frames = {}
-        for rate in (10, 200):
-            path = os.path.join(folder, f"{kind}{rate}.csv")
-            with open(path, "w", encoding="ascii") as file:
-                file.write(table_of(kind, rate))
-            words = ("--rate-hz", "20") if rate == 10 else ()
-            frames[rate] = {round(frame["time_s"] * 1000): frame["objects"][0]
-                            for frame in run("glint-traffic", path, "--ego", kind, *words)}
-        times = [time for time in frames[10] if 100 < time < 5900]
-        check(len(frames[10]) == 121 and len(times) == 115, f"{kind}: {len(frames[10])} frames at 20 Hz")
-        pairs = [(frames[10][time], frames[200][time]) for time in times]
-        place = max(math.dist((a["x_m"], a["y_m"]), (b["x_m"], b["y_m"])) for a, b in pairs)
-        speed = max(math.dist((a["vx_mps"], a["vy_mps"]), (b["vx_mps"], b["vy_mps"])) for a, b in pairs)
-        turn = max(abs(math.remainder(a["yaw_rad"] - b["yaw_rad"], 2 * math.pi)) for a, b in pairs)
+        path = os.path.join(folder, f"{kind}.csv")
+        with open(path, "w", encoding="ascii") as file:
+            file.write(table_of(kind, 10))
+        frames = run("glint-traffic", path, "--ego", kind, "--rate-hz", "20")
+        check(len(frames) == 121, f"{kind}: {len(frames)} frames at 20 Hz")
+        original = list(drive(kind, 200, 6))
+        place = speed = turn = 0
+        for i, frame in enumerate(frames):
+            part, (x, y, yaw) = frame["objects"][0], original[10 * i]
+            before, after = original[max(10 * i - 1, 0)], original[min(10 * i + 1, 1200)]
+            length_s = 0.01 if 0 < i < 120 else 0.005
+            place = max(place, math.dist((part["x_m"], part["y_m"]), (x, y)))
+            speed = max(speed, math.hypot(part["vx_mps"] - (after[0] - before[0]) / length_s,
+                                          part["vy_mps"] - (after[1] - before[1]) / length_s))
+            turn = max(turn, abs(math.remainder(part["yaw_rad"] - yaw, 2 * math.pi)))
         print(f"resampled {kind:7} {100 * place:6.3f} cm {speed:7.4f} m/s {math.degrees(turn):7.4f} degrees")
         check(place <= 0.02 and speed <= 0.1 and math.degrees(turn) <= 0.2, f"{kind}: resampled too coarsely")
 
@@ -272,6 +276,81 @@ def a_loop_in_lock_step_never_waits():
         check(loop.wait(PATIENCE_S) == 0, "the loop ends well")
 
 
+def step_of(time, users):
+    """A step of floating car data: users are (id, place of the front bumper along the road, speed)."""
+    rows = "".join(f'<vehicle id="{name}" x="{x:.6f}" y="0" angle="90" speed="{speed:.6f}" type="passenger"/>'
+                   for name, x, speed in users)
+    return f'<timestep time="{time:.2f}">{rows}</timestep>\n'.encode()
+
+
+def brake(chain):
+    """A stand-in of SUMO brakes by the targets of each step, for which it waits; returns where it stops, and the lists."""
+    x, speed, lists = 0.0, 20.0, []
+    with subprocess.Popen(chain, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                          env=dict(os.environ, PATH=f"{BIN}:{os.environ['PATH']}")) as loop:
+        loop.stdin.write(b"<fcd-export>\n")
+        for i in range(200):
+            loop.stdin.write(step_of(i * 0.05, (("ego", x, speed), ("other", 105, 0))))
+            loop.stdin.flush()
+            check(bool(select.select([loop.stdout], [], [], PATIENCE_S)[0]), f"no targets of step {i} before the next")
+            lists.append(loop.stdout.readline())
+            ranges = [target["range_m"] for target in json.loads(lists[-1])["targets"]]
+            speed = max(0, speed - 0.05 * (5 if min(ranges, default=1e3) < 50 else 0))
+            x += 0.05 * speed
+        loop.stdin.write(b"</fcd-export>\n")
+        loop.stdin.close()
+        check(loop.wait(PATIENCE_S) == 0, "the loop ends well")
+    return x, lists
+
+
+def a_loop_closes_through_the_whole_chain():
+    text = ("glint-traffic-sumo - --ego ego --live | glint-extract | glint-ideal --sensors lrr77-every-frame "
+            "| glint-sensor | glint-noise")
+    piped, fused = brake(["bash", "-c", text]), brake(["glint", "-c", text])
+    check(70 < piped[0] < 98, f"the stand-in stops at {piped[0]} m, before the standing car at 100 m")
+    check(piped == fused, "piped and fused")
+
+
+def memory_is_constant():
+    """Ten times the steps take no more memory: the peak, by what the kernel counts."""
+    peaks = []
+    for steps in (2000, 20000):
+        with subprocess.Popen([os.path.join(BIN, "glint-traffic-sumo"), "-", "--ego", "ego"], stdin=subprocess.PIPE,
+                              stdout=subprocess.DEVNULL) as reader:
+            reader.stdin.write(b"<fcd-export>\n")
+            for i in range(steps):
+                reader.stdin.write(step_of(i * 0.05, (("ego", i, 20), (f"passer {i // 10}", i, 20))))
+            reader.stdin.write(b"</fcd-export>\n")
+            reader.stdin.close()
+            _, status, used = os.wait4(reader.pid, 0)
+            reader.returncode = status
+        check(status == 0, "a long stream")
+        peaks.append(used.ru_maxrss)
+    check(peaks[1] <= peaks[0] + 512, f"peaks of {peaks} kB")
+
+
+def tables_of_sumo(folder):
+    """Both spellings of the columns, and both separators, in any order."""
+    names = {"timestep_time": "time", "vehicle_id": "id", "vehicle_x": "x", "vehicle_y": "y", "vehicle_angle": "angle",
+             "vehicle_type": "type", "vehicle_speed": "speed", "vehicle_lane": "lane"}
+    rows = [(time, name, x, y, angle, kind, speed) for time, name, x, y, angle, kind, speed in users_of(FCD)
+            if kind in ("passenger", "bus")]
+    expected = None
+    for separator in (";", ","):
+        for spelled in (lambda name: name, names.get):
+            for order in ((0, 1, 2, 3, 4, 5, 6), (4, 5, 1, 6, 0, 3, 2)):
+                path = os.path.join(folder, "own.csv")
+                with open(path, "w", encoding="ascii") as file:
+                    for row in [[spelled(name) for name in list(names)[:7]], *rows]:
+                        file.write(separator.join(str(row[i]) for i in order) + "\n")
+                frames = run("glint-traffic", path, "--ego", "ego")
+                expected = expected or frames
+                check(frames == expected and len(frames) == 3, f"a table with {separator}")
+    xml = re.sub(r"<(person|container)[^>]*/>", "", FCD)
+    for one, other in zip(expected, run("glint-traffic-sumo", "-", "--ego", "ego", data=xml.encode()), strict=True):
+        check(one["objects"] == other["objects"], "a table and XML")
+
+
 def early_ends(folder):
     """Wherever a file is cut, the whole steps come out, and the message names the last of them."""
     path = os.path.join(folder, "cut.xml")
@@ -355,31 +434,112 @@ ROUTES = """<routes><vType id="lorry" vClass="truck" length="12" width="2.5" hei
 """
 
 
+QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "check": True}
+
+
 def beside_sumo(folder):
     for name, text in (("n.nod.xml", NODES), ("n.edg.xml", EDGES), ("n.rou.xml", ROUTES)):
         with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
             file.write(text)
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "cwd": folder, "check": True}
-    subprocess.run(["netconvert", "-n", "n.nod.xml", "-e", "n.edg.xml", "-o", "n.net.xml"], **quiet)
+    subprocess.run(["netconvert", "-n", "n.nod.xml", "-e", "n.edg.xml", "-o", "n.net.xml"], cwd=folder, **QUIET)
     sumo = ("sumo -n n.net.xml -r n.rou.xml --end 60 --step-length 0.05 --precision 6 --seed 7 --no-step-log true "
             "--lateral-resolution 0.8")
-    subprocess.run([*sumo.split(), "--fcd-output", "file.xml"], **quiet)
-    with open(os.path.join(folder, "file.xml"), encoding="utf-8") as file:
+    subprocess.run([*sumo.split(), "--fcd-output", "file.xml"], cwd=folder, **QUIET)
+    path = os.path.join(folder, "file.xml")
+    with open(path, encoding="utf-8") as file:
         text = file.read()
     check(len(set(re.findall(r'<vehicle id="([^"]*)"', text))) >= 60, "vehicles of SUMO")
     sizes = {"lorry": ("truck", 12, 2.5, 3.8), "hasty": ("car", 4.4, 1.8, 1.5)}
     words = ("--types", os.path.join(folder, "n.rou.xml"), "--ego", "ego")
-    compare(run("glint-traffic-sumo", os.path.join(folder, "file.xml"), *words), text, sizes, "ego")
+    compare(run("glint-traffic-sumo", path, *words), text, sizes, "ego")
+    subprocess.run([*sumo.split(), "--fcd-output", "file.xml.gz"], cwd=folder, **QUIET)
+    check(run("glint-traffic-sumo", path, *words) == run("glint-traffic-sumo", path + ".gz", *words), "gzip by SUMO")
+    through_a_pipe(folder, sumo)
+    sizes_are_those_of_sumo(folder)
+    degrees_are_refused(folder)
+
+
+def through_a_pipe(folder, sumo):
     chain = (f"set -o pipefail; {sumo} --fcd-output /dev/stdout 2>/dev/null | glint-traffic-sumo - --types n.rou.xml "
              "--ego all --radius-m 150 | glint-extract | glint-ideal --sensors lrr77-every-frame --account "
-             "| glint-sensor | glint-noise --complete")
-    done = subprocess.run(["bash", "-c", chain], cwd=folder, capture_output=True, check=False,
-                          env=dict(os.environ, PATH=f"{BIN}:{os.environ['PATH']}"))
-    check(done.returncode == 0, f"SUMO through the chain: {done.stderr.decode()}")
-    lines = done.stdout.splitlines()
-    scenes = {json.loads(line)["scene"] for line in lines[::50]}
-    print(f"SUMO through the chain: {len(lines)} frames, at least {len(scenes)} scenes")
-    check(len(lines) > 20000 and len(scenes) >= 60, "frames of all vehicles")
+             "| glint-sensor | glint-noise")
+    lines = {}
+    for mode, text in (("", f"{chain} --complete"), ("live", chain.replace("--ego all", "--ego ego --live"))):
+        done = subprocess.run(["bash", "-c", text], cwd=folder, capture_output=True, check=False,
+                              env=dict(os.environ, PATH=f"{BIN}:{os.environ['PATH']}"))
+        check(done.returncode == 0, f"SUMO through the chain: {done.stderr.decode()}")
+        lines[mode] = done.stdout.splitlines()
+    scenes = {json.loads(line)["scene"] for line in lines[""][::50]}
+    print(f"SUMO through the chain: {len(lines[''])} frames, at least {len(scenes)} scenes")
+    check(len(lines[""]) > 20000 and len(scenes) >= 60, "frames of all vehicles")
+    check(sum(json.loads(line)["ego"] == "ego" for line in lines[""]) == len(lines["live"]), "live frames of the ego")
+
+
+def sizes_are_those_of_sumo(folder):
+    """Asks a running SUMO (TraCI) for length, width and height of every class and default type that --help names."""
+    page = subprocess.run([os.path.join(BIN, "glint-traffic-sumo"), "--help"], capture_output=True, check=True).stdout
+    words = re.findall(r"^    (\w+) = (\w+)$", page.decode(), re.M)
+    words = [(word, class_) for word, class_ in words if word not in ("container", "DEFAULT_RAILTYPE")]  # 1.15 has neither
+    check(len(words) >= 28, f"words of --help: {words}")
+    with open(os.path.join(folder, "t.rou.xml"), "w", encoding="utf-8") as file:
+        types = "".join(f'<vType id="{word}" vClass="{word}"/>' for word, _ in words if not word.startswith("DEFAULT"))
+        file.write(f"<routes>{types}</routes>")
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    users = "".join(f'<vehicle id="{i}" x="{100 * i}" y="0" angle="90" type="{word}"/>'
+                    for i, (word, _) in enumerate(words))
+    frames = run("glint-traffic-sumo", "-", "--ego", "0",
+                 data=f'<fcd-export><timestep time="0">{users}</timestep></fcd-export>'.encode())
+    ours = {part["id"]: part for part in frames[0]["objects"]}
+    with subprocess.Popen(["sumo", "-n", "n.net.xml", "-r", "t.rou.xml", "--remote-port", str(port)], cwd=folder,
+                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as sumo:
+        with connection(port) as link:
+            for i, (word, class_) in enumerate(words):
+                theirs = [ask(link, variable, word) for variable in (0x44, 0x4D, 0xBC)]
+                mine = [ours[str(i)][f"{size}_m"] for size in ("length", "width", "height")]
+                check(mine == theirs, f"{word}: {mine}, in SUMO {theirs}")
+                check(ours[str(i)]["class"] == class_, f"{word}: {ours[str(i)]['class']}")
+            link.sendall(struct.pack("!iBB", 6, 2, 0x7F))
+        sumo.wait(PATIENCE_S)
+    print(f"sizes of {len(words)} classes and types are those of SUMO")
+
+
+def connection(port):
+    for _ in range(PATIENCE_S * 20):
+        try:
+            return socket.create_connection(("127.0.0.1", port), timeout=PATIENCE_S)
+        except OSError:
+            time.sleep(0.05)
+    return sys.exit("recorded: SUMO does not listen")
+
+
+def ask(link, variable, name):
+    """A number that SUMO knows of a type: the last eight bytes of its answer."""
+    text = name.encode()
+    link.sendall(struct.pack("!iBBBi", 11 + len(text), 7 + len(text), 0xA5, variable, len(text)) + text)
+    answer = link.recv(4, socket.MSG_WAITALL)
+    answer = link.recv(struct.unpack("!i", answer)[0] - 4, socket.MSG_WAITALL)
+    return struct.unpack("!d", answer[-8:])[0]
+
+
+def degrees_are_refused(folder):
+    """A net with a projection; SUMO has several words for a switch that is on."""
+    nodes = re.sub(r'x="(\d+)" y="(\d+)"', lambda at: f'x="{11 + int(at[1]) / 75000}" y="{48 + int(at[2]) / 111000}"', NODES)
+    with open(os.path.join(folder, "geo.nod.xml"), "w", encoding="utf-8") as file:
+        file.write(nodes)
+    subprocess.run(["netconvert", "-n", "geo.nod.xml", "-e", "n.edg.xml", "-o", "geo.net.xml", "--proj.utm", "true"],
+                   cwd=folder, **QUIET)
+    path = os.path.join(folder, "geo.xml")
+    for word, on in (("true", True), ("1", True), ("ON", True), ("yes", True), ("x", True), ("off", False), ("no", False)):
+        subprocess.run(["sumo", "-n", "geo.net.xml", "-r", "n.rou.xml", "--end", "6", "--fcd-output", path,
+                        "--fcd-output.geo", word], cwd=folder, **QUIET)
+        words = (path, "--ego", "ego", "--types", os.path.join(folder, "n.rou.xml"))
+        if on:
+            text, frames = run("glint-traffic-sumo", *words, fails=65)
+            check("expected coordinates in metres: run sumo without that option" in text and frames == 0, text)
+        else:
+            check(len(run("glint-traffic-sumo", *words)) > 0, f"--fcd-output.geo {word}")
 
 
 with tempfile.TemporaryDirectory() as place:
@@ -390,6 +550,9 @@ with tempfile.TemporaryDirectory() as place:
         every_ego_is_as_if_alone(place)
         a_mirrored_world_is_mirrored(place)
         a_loop_in_lock_step_never_waits()
+        a_loop_closes_through_the_whole_chain()
+        memory_is_constant()
+        tables_of_sumo(place)
         early_ends(place)
         bad_input(place)
     else:
