@@ -179,7 +179,8 @@ $(harnesses): %: %.o $(addprefix $(BUILD)/tests/fuzz/,fuzz.o numbers_mutated.o) 
 # For scripts/bench: our functions beside libm's, the machine's floors, what a command spends. For
 # scripts/accuracy-cost: angles by table.
 $(BUILD)/tests/speed/%: $(BUILD)/tests/speed/%.o $(BUILD)/libglint.a
-	$(Q)$(LINK) -o $@ $^ -lz -lm
+	$(Q)$(LINK) -o $@ $^ $(SPEED_LIBS) -lz -lm
+$(BUILD)/tests/speed/parse_xml: SPEED_LIBS = -lexpat
 $(BUILD)/tests/speed/floors: $(BUILD)/tests/speed/plain.o $(BUILD)/tests/speed/digits.o
 $(BUILD)/tests/speed/digits.o: tests/speed/digits.cc
 	@mkdir -p $(@D)

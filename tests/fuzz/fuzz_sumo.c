@@ -1,6 +1,6 @@
-/* Floating car data of SUMO, played by glint-traffic-sumo with everybody as an ego. By the length of
- * the text it is played live, resampled, cut or with a radius too, and is its own file of types. The
- * first frame goes through the chain, and all of them are written and read back. */
+/* Floating car data of SUMO, played by glint-traffic-sumo with everybody as an ego. By the length
+ * of the text it is played live, resampled, cut or with a radius too, and is its own file of types.
+ * The first frame goes through the chain, and all of them are written and read back. */
 #include "fuzz/fuzz.h"
 
 enum { FRAMES = 50, WORDS = 8 };
