@@ -1,0 +1,93 @@
+"""Files that are whole and on the disk, or not there."""
+import contextlib
+import hashlib
+import json
+import os
+import socket
+
+TEMPORARY = ".tmp"
+CHUNK = 1 << 20
+
+
+def sync_folder(folder):
+    """Brings the names of a folder to the disk."""
+    descriptor = os.open(folder or ".", os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def make_folder(folder):
+    """The folder and those above it, each with its name on the disk."""
+    if not os.path.isdir(folder):
+        above = os.path.dirname(os.path.abspath(folder))
+        make_folder(above)
+        with contextlib.suppress(FileExistsError):
+            os.mkdir(folder)
+        sync_folder(above)
+
+
+@contextlib.contextmanager
+def whole_file(path, work):
+    """A binary file that gets its name when the block ends well, and vanishes when it does not.
+
+    Until then it lies in the folder `work` of the same file system, under a name that holds host and process: two
+    processes that make one file never write into each other's, and the later one replaces a file of the same bytes.
+    """
+    temporary = os.path.join(work, f"{os.path.basename(path)}.{socket.gethostname()}.{os.getpid()}{TEMPORARY}")
+    try:
+        with open(temporary, "wb") as file:
+            yield file
+            file.flush()
+            os.fsync(file.fileno())
+        os.rename(temporary, path)
+        sync_folder(os.path.dirname(path))
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.remove(temporary)
+        raise
+
+
+def write_whole(path, work, text):
+    with whole_file(path, work) as file:
+        file.write(text.encode())
+
+
+def running(process):
+    """Is there a process of that number on this host?"""
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:
+        return True
+    return True
+
+
+def remove_temporaries(work, of_all=False):
+    """Removes what killed processes of this host left in a folder, or whatever any process left."""
+    for name in os.listdir(work):
+        if not name.endswith(TEMPORARY):
+            continue
+        host, process = name[:-len(TEMPORARY)].rsplit(".", 2)[-2:]
+        if of_all or (host == socket.gethostname() and not running(int(process))):
+            with contextlib.suppress(FileNotFoundError):
+                os.remove(os.path.join(work, name))
+
+
+def digest_of(data):
+    return "sha256:" + hashlib.sha256(data).hexdigest()
+
+
+def digest_of_file(path):
+    digest = hashlib.sha256()
+    with open(path, "rb") as file:
+        while chunk := file.read(CHUNK):
+            digest.update(chunk)
+    return "sha256:" + digest.hexdigest()
+
+
+def canonical(value):
+    """A text of JSON that depends on the value alone."""
+    return json.dumps(value, sort_keys=True, separators=(",", ":"), ensure_ascii=False)

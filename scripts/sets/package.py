@@ -1,0 +1,78 @@
+"""Finishes a data set: its page, its schema of frames, and last its manifest, datapackage.json."""
+import json
+import os
+
+import page
+from durable import digest_of, digest_of_file, remove_temporaries, sync_folder, write_whole
+from layout import DOCUMENTS, WORK
+from plan import ROOT, Fault, read_json
+from shard import BEGUN, MANIFEST, missing, record_path
+
+PAGE, FRAME = "README.md", f"{DOCUMENTS}/frame.json"
+
+
+def frame_fields():
+    """A Table Schema of the frame's members, from glint's own schema."""
+    frame = read_json(os.path.join(ROOT, "schemas", "frame.json"))
+    fields = [{"name": name, "type": member.get("type", "any"), "description": member.get("description", "")}
+              for name, member in frame["properties"].items()]
+    return {"fields": fields, "primaryKey": ["scene", "seed", "frame"]}
+
+
+def resource_of(file, shard):
+    """A shard's file, in the words of Frictionless and our own."""
+    return {"name": file["path"].lower().removesuffix(".jsonl.gz"), "path": file["path"], "profile": "data-resource",
+            "format": "jsonl", "mediatype": "application/jsonl", "encoding": "utf-8", "compression": "gz",
+            "schema": FRAME, "split": shard["split"], "suite": shard["suite"],
+            "rows": file["rows"], "bytes": file["bytes"], "hash": file["hash"],
+            "content_bytes": file["content_bytes"], "content_hash": file["content_hash"],
+            "commands": shard["commands"]}
+
+
+def content_hash(resources):
+    """One digest of all uncompressed bytes: of the lines that sha256sum would print of them."""
+    lines = [f"{resource['content_hash'].removeprefix('sha256:')}  {resource['path']}\n" for resource in resources]
+    return digest_of("".join(lines).encode())
+
+
+def package_of(layout, records, documents):
+    plan = layout["plan"]
+    resources = [resource_of(file, layout["shards"][record["part"]]) for record in records for file in record["files"]]
+    return {"profile": "data-package", "name": plan["name"], "description": plan["origin"],
+            "program": layout["program"], "identity": layout["identity"], "plan": plan,
+            "rows": sum(resource["rows"] for resource in resources),
+            "bytes": sum(resource["bytes"] for resource in resources),
+            "content_bytes": sum(resource["content_bytes"] for resource in resources),
+            "content_hash": content_hash(resources),
+            "inputs": layout["inputs"], "documents": documents, "resources": resources}
+
+
+def manifest_of(package):
+    """The manifest's text. Its last line holds the digest of all bytes before that line."""
+    text = json.dumps(package, indent=1, ensure_ascii=False).removesuffix("\n}") + ",\n"
+    return text + f' "digest": "{digest_of(text.encode())}"}}\n'
+
+
+def documents_of(layout, folder):
+    names = [document["path"] for document in layout["documents"]] + [FRAME, PAGE]
+    return [{"path": name, "bytes": os.path.getsize(os.path.join(folder, name)),
+             "hash": digest_of_file(os.path.join(folder, name))} for name in names]
+
+
+def finish(layout, folder):
+    """Writes page and manifest, if all shards are there as their records say; else names those that are not."""
+    left = missing(layout, folder)
+    if left:
+        raise Fault(1, f"{len(left)} of {len(layout['shards'])} shards are missing: "
+                    f"{' '.join(f'part-{part}' for part in left)}; make them again in {os.path.abspath(folder)}")
+    work = os.path.join(folder, WORK)
+    records = [read_json(record_path(folder, part)) for part in range(len(layout["shards"]))]
+    write_whole(os.path.join(folder, FRAME), work, json.dumps(frame_fields(), indent=1, ensure_ascii=False) + "\n")
+    write_whole(os.path.join(folder, PAGE), work, page.page_of(layout, records))
+    package = package_of(layout, records, documents_of(layout, folder))
+    if os.path.exists(os.path.join(work, BEGUN)):
+        os.remove(os.path.join(work, BEGUN))
+    remove_temporaries(work, of_all=True)
+    sync_folder(work)
+    write_whole(os.path.join(folder, MANIFEST), work, manifest_of(package))
+    return package

@@ -1,0 +1,148 @@
+"""The README.md of a data set: what is in it, its conventions, and how to load it."""
+import collections
+import os
+
+PAGE = """\
+# {name}
+
+{origin}
+
+{rows} frames of {program}, of {shards} shards, {targets} targets. `datapackage.json` describes every file (Frictionless): rows,
+bytes, SHA-256 of the file (`hash`) and of its uncompressed bytes (`content_hash`), and the command lines that made it. Its last
+line is the SHA-256 of all bytes before that line.
+
+{table}
+
+| class of the object that made most of a target | {splits} |
+|---|{rules}|
+{classes}
+
+## Conventions
+
+- A shard is `SPLIT/SUITE/NUMBER.jsonl.gz`: gzip, one frame a line. `documents/frame.json` lists the members of a frame.
+- SI units and radians; the unit is in the name of a member. Axes follow ISO 8855: x forward, y left, angles counter-clockwise.
+  Azimuth counts from boresight, left positive; range rate is positive when receding.
+- A frame is known by `scene`, `seed` and `frame`. `objects` is the truth; a target's `contributors` are its label: object, class of
+  path, and `weight`, 1 in sum; the first is not always the strongest. `cell_...` are the values without noise.
+- A scan without targets is a frame all the same. `seed` is text, as it may have 64 bits.
+- `documents/` has the radars and vehicles; `GLINT_DATA=documents glint -c '...'` repeats a command line.
+- {leak}
+- Frames are made by glint from models; there is no measured data in them.
+
+## Loading
+
+Run in the folder of the set.
+
+pandas{pandas_tested}:
+
+```python
+import pandas
+
+frames = pandas.read_json("{first}", lines=True, dtype=False, convert_dates=False)
+targets = pandas.json_normalize(frames.to_dict("records"), "targets", ["scene", "frame", "time_s"])
+strongest = targets["contributors"].map(lambda parts: max(parts, key=lambda part: part["weight"])["object"])
+print(len(frames), len(targets), strongest.nunique())
+```
+
+DuckDB{duckdb_tested}:
+
+```sql
+select scene, frame, target.sensor, target.range_m, target.azimuth_rad, target.range_rate_mps
+from (select scene, frame, unnest(targets) as target from read_json('{split}/*/*.jsonl.gz', format = 'newline_delimited'))
+order by scene, frame;
+```
+
+PyTorch{torch_tested}:
+
+```python
+import glob
+import gzip
+import json
+
+import torch
+
+
+class Frames(torch.utils.data.IterableDataset):
+    \"\"\"Targets of a frame as rows of range, azimuth, range rate and amplitude, with its truth; each worker reads its own shards.\"\"\"
+
+    def __init__(self, pattern):
+        self.paths = sorted(glob.glob(pattern))
+
+    def __iter__(self):
+        worker = torch.utils.data.get_worker_info()
+        for path in self.paths[worker.id::worker.num_workers] if worker else self.paths:
+            with gzip.open(path, "rt", encoding="utf-8") as lines:
+                for frame in map(json.loads, lines):
+                    rows = [[target["range_m"], target["azimuth_rad"], target["range_rate_mps"], target["amplitude_db"]]
+                            for target in frame["targets"]]
+                    yield torch.tensor(rows).reshape(-1, 4), frame["objects"]
+
+
+loader = torch.utils.data.DataLoader(Frames("{split}/*/*.jsonl.gz"), batch_size=None, num_workers=2)
+print(sum(len(targets) for targets, objects in loader))
+```
+
+MATLAB{matlab_tested}:
+
+```matlab
+folder = tempname();
+names = gunzip("{first}", folder);
+lines = strsplit(strtrim(fileread(names{{1}})), "\\n");
+count = 0;
+for i = 1:numel(lines)
+    frame = jsondecode(lines{{i}});
+    count = count + numel(frame.targets);
+end
+printed = sprintf("%d %d", numel(lines), count)
+```
+"""
+LEAKS = {None: "The set is one split.",
+         "scene": "Splits share no scene: scenes were drawn one by one.",
+         "time": "Splits are blocks of time; {gap_s} s between two of them are left out.",
+         "recording": "Splits share no recording."}
+
+
+def counted(number):
+    return f"{number:,}"
+
+
+def split_table(layout, records):
+    """Rows of the table of splits and suites."""
+    sums = collections.defaultdict(lambda: [0, 0, 0, 0])
+    for record in records:
+        shard = layout["shards"][record["part"]]
+        for i, count in enumerate((1, sum(file["rows"] for file in record["files"]), sum(record["targets"].values()),
+                                   sum(file["bytes"] for file in record["files"]))):
+            sums[shard["split"], shard["suite"]][i] += count
+    rows = [f"| `{split}/{suite}` | {' | '.join(map(counted, row))} |" for (split, suite), row in sums.items()]
+    return "\n".join(["| folder | shards | frames | targets | bytes |", "|---|---:|---:|---:|---:|", *rows])
+
+
+def classes_by_split(layout, records):
+    counts = collections.defaultdict(collections.Counter)
+    for record in records:
+        counts[layout["shards"][record["part"]]["split"]].update(record["targets"])
+    return counts
+
+
+def class_table(counts):
+    """Rows of classes, the most frequent first, then by name."""
+    whole = sum(counts.values(), collections.Counter())
+    rows = [[name, *(counted(of_split[name]) for of_split in counts.values())]
+            for name, _ in sorted(whole.items(), key=lambda item: (-item[1], item[0]))]
+    return "\n".join(f"| {' | '.join(row)} |" for row in rows)
+
+
+def page_of(layout, records):
+    plan, counts = layout["plan"], classes_by_split(layout, records)
+    splits = plan.get("splits", {})
+    first = layout["shards"][0]
+    tested = "; glint's tests run this"
+    return PAGE.format(
+        name=plan["name"], origin=plan["origin"], program=layout["program"], shards=len(records),
+        rows=counted(sum(file["rows"] for record in records for file in record["files"])),
+        targets=counted(sum(sum(record["targets"].values()) for record in records)),
+        table=split_table(layout, records), splits=" | ".join(counts), rules="|".join("---:" for _ in counts),
+        classes=class_table(counts), leak=LEAKS[splits.get("by")].format(gap_s=splits.get("gap_s")),
+        first=first["path"], split=os.path.dirname(os.path.dirname(first["path"])),
+        pandas_tested=tested, duckdb_tested=tested, torch_tested=" (untested)", matlab_tested=" (untested)")

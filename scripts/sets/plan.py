@@ -1,0 +1,156 @@
+"""Reads the plan of a data set and refuses what would leak or could not be made."""
+import json
+import os
+import re
+import shlex
+
+import schema
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+USAGE, BAD_DATA, NO_INPUT, CANNOT_CREATE, IO = 64, 65, 66, 73, 74
+
+# What a kind of source needs and takes besides `program` and `options`.
+KINDS = {"random": ({"frames"}, set()),
+         "scenario": (set(), {"scenes"}),
+         "recording": ({"egos"}, {"scene", "from_s", "to_s", "block_s", "rate_hz", "split"})}
+# Which kind can be split how.
+SPLIT_BY = {"random": {"scene"}, "scenario": {"scene"}, "recording": {"time", "recording"}}
+# Options of sources that the plan's own members give.
+OWN_OPTIONS = {"--first", "--frames", "--density", "--seed", "--scene", "--scenes", "--ego", "--from-s", "--to-s",
+               "--rate-hz", "--output", "-o", "--complete"}
+LEAKS = {"ego": 'leaks: egos of one recording see the same traffic; split by "recording", or by "time" with a gap',
+         "seed": 'leaks: another seed is the same traffic with other noise; split by "scene", "recording" or "time"'}
+
+
+class Fault(Exception):
+    """What is wrong, and the exit code that says of which kind it is (sysexits)."""
+
+    def __init__(self, code, text):
+        super().__init__(text)
+        self.code = code
+
+
+def refuse(condition, path, text):
+    if condition:
+        raise Fault(BAD_DATA, f"{path}: {text}")
+
+
+def once(pairs):
+    members = dict(pairs)
+    if len(members) < len(pairs):
+        names = [name for name, _ in pairs]
+        raise ValueError(f"{next(name for name in names if names.count(name) > 1)} is there twice")
+    return members
+
+
+def no_constant(word):
+    raise ValueError(f"{word} is no number of JSON")
+
+
+def read_json(path):
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file, object_pairs_hook=once, parse_constant=no_constant)
+    except FileNotFoundError as error:
+        raise Fault(NO_INPUT, f"{path}: {error.strerror}") from error
+    except json.JSONDecodeError as error:
+        raise Fault(BAD_DATA, f"{path}:{error.lineno}: {error.msg}") from error
+    except ValueError as error:
+        raise Fault(BAD_DATA, f"{path}: {error}") from error
+
+
+def kind_of(source):
+    kinds = [kind for kind in KINDS if kind in source]
+    return kinds[0] if len(kinds) == 1 else None
+
+
+def check_source(source, path):
+    kind = kind_of(source)
+    refuse(kind is None, path, f"expected one of {', '.join(KINDS)}")
+    needed, taken = KINDS[kind]
+    for name in sorted(needed - source.keys()):
+        refuse(True, path, f"{name} is missing: a {kind} source needs it")
+    for name in source.keys() - needed - taken - {kind, "program", "options"}:
+        refuse(True, f"{path}/{name}", f"a {kind} source has none")
+    for word in shlex.split(source.get("options", "")):
+        refuse(word.split("=")[0] in OWN_OPTIONS or word in "|<>&;", f"{path}/options", f"{word} is the plan's to say")
+    for name in ("from_s", "to_s"):
+        refuse("block_s" in source and name not in source, path, f"{name} is missing: blocks need it")
+    refuse(source.get("from_s", 0) >= source.get("to_s", float("inf")), f"{path}/to_s", "expected later than from_s")
+    scenes = source.get("scenes", [0, 1])
+    refuse(scenes[0] >= scenes[1], f"{path}/scenes", "expected a first scene before the last")
+
+
+def check_chain(chain):
+    refuse("{suite}" not in chain, "/chain", "names no suite; write --sensors {suite}")
+    programs = [part.split()[0] if part.split() else "" for part in chain.split("|")]
+    for program in programs:
+        refuse(not program.startswith("glint-"), "/chain", f"{program!r} is no program of glint")
+    for option in re.findall(r"(?<=\s)(-o|--output|--vehicles)(?=[\s=])", chain):
+        refuse(True, "/chain", f"{option} is not the chain's to say")
+    refuse(">" in chain or "<" in chain, "/chain", "redirects")
+
+
+def check_splits(plan):
+    splits = plan.get("splits", {})
+    by, shares = splits.get("by"), splits.get("shares", {})
+    for i, source in enumerate(plan["sources"]):
+        path, kind = f"/sources/{i}", kind_of(source)
+        refuse(by and by not in SPLIT_BY[kind], path,
+               f"a {kind} source cannot be split by {by}, but by {' or '.join(sorted(SPLIT_BY[kind]))}")
+        refuse((by == "recording") != ("split" in source), path,
+               "split is missing" if by == "recording" else "split is for splits by recording")
+        refuse(by == "scene" and kind == "scenario" and "scenes" not in source, path,
+               "it is one scene, which cannot be split; scenes are missing")
+        refuse(by == "time" and not {"from_s", "to_s"} <= source.keys(), path, "splits by time need from_s and to_s")
+    refuse(by in ("scene", "time") and not shares, "/splits", "shares is missing")
+    refuse(by == "recording" and shares, "/splits/shares", "the sources say their splits")
+    refuse(shares and abs(sum(shares.values()) - 1) > 1e-9, "/splits/shares", f"{sum(shares.values())} in sum; expected 1")
+    refuse((by == "time") != ("gap_s" in splits) and by, "/splits/gap_s",
+           "missing: without a gap, traffic of one split is in the next" if by == "time" else "is for splits by time")
+    for name in shares:
+        refuse(not re.fullmatch("[a-z0-9][a-z0-9_-]*", name), "/splits/shares", f"{name!r} is no name of a folder")
+
+
+def check_once(plan, path_of, digest_of):
+    """Refuses traffic that comes twice: in two splits it leaks, and in one its draws are not independent."""
+    seen, names = {}, {}
+    for i, source in enumerate(plan["sources"]):
+        kind = kind_of(source)
+        traffic = source["random"] if kind == "random" else digest_of(path_of(source[kind], kind))
+        if traffic in seen:
+            other = plan["sources"][seen[traffic]]
+            leaks = other.get("split") != source.get("split")
+            refuse(True, f"/sources/{i}", f"the same traffic as /sources/{seen[traffic]}"
+                   + (f", which is in another split ({other.get('split')}): it leaks" if leaks
+                      else "; one source may have several egos, and a plan several seeds"))
+        seen[traffic] = i
+        name = scene_of(source)
+        refuse(name in names, f"/sources/{i}", f"its scenes have the names of /sources/{names.get(name)}; give it a scene")
+        names[name] = i
+
+
+def scene_of(source):
+    """How the names of a source's scenes begin."""
+    kind = kind_of(source)
+    if kind == "random":
+        return "random-" + source["random"]
+    return source.get("scene", os.path.basename(source[kind]).split(".")[0])
+
+
+def read_plan(path):
+    """A plan that is right by itself; whether its traffic leaks is a question to check_once."""
+    plan = read_json(path)
+    try:
+        by = plan["splits"]["by"] if isinstance(plan, dict) and isinstance(plan.get("splits"), dict) else None
+        refuse(isinstance(by, str) and by in LEAKS, "/splits/by", f'"{by}" {LEAKS.get(by)}')
+        fault = schema.fault_of(plan, read_json(os.path.join(ROOT, "schemas", "dataset.json")))
+        if fault:
+            raise Fault(BAD_DATA, fault)
+        for i, source in enumerate(plan["sources"]):
+            check_source(source, f"/sources/{i}")
+        check_chain(plan["chain"])
+        check_splits(plan)
+    except Fault as fault:
+        raise Fault(fault.code, f"{path}: {fault}") from fault
+    return plan

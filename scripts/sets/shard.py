@@ -1,0 +1,172 @@
+"""Makes one shard of a data set, and holds those that are there to their records."""
+import hashlib
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+import zlib
+
+from durable import CHUNK, digest_of_file, remove_temporaries, whole_file, write_whole
+from layout import WORK, environment, program_version
+from plan import BAD_DATA, NO_INPUT, USAGE, Fault, read_json
+from progress import Progress, line_of
+
+# The level of glint's own output: it keeps up with the chain. Bytes depend on the content and on zlib alone.
+LEVEL, GZIP = 1, 16 + zlib.MAX_WBITS
+BEGUN, MANIFEST = "begun", "datapackage.json"
+
+
+def record_path(folder, part):
+    return os.path.join(folder, WORK, f"part-{part}.json")
+
+
+class Gzip:
+    """Compresses lines into a file and measures both sides."""
+
+    def __init__(self, file):
+        self.file, self.packer = file, zlib.compressobj(LEVEL, wbits=GZIP)
+        self.packed, self.plain = hashlib.sha256(), hashlib.sha256()
+        self.rows = self.bytes = self.plain_bytes = 0
+
+    def send(self, packed):
+        self.packed.update(packed)
+        self.bytes += len(packed)
+        self.file.write(packed)
+
+    def write(self, lines):
+        self.plain.update(lines)
+        self.rows += lines.count(b"\n")
+        self.plain_bytes += len(lines)
+        self.send(self.packer.compress(lines))
+
+    def close(self):
+        self.send(self.packer.flush())
+
+    def facts(self):
+        return {"rows": self.rows, "bytes": self.bytes, "hash": "sha256:" + self.packed.hexdigest(),
+                "content_bytes": self.plain_bytes, "content_hash": "sha256:" + self.plain.hexdigest()}
+
+
+def run_into(gzip, command, folder, plan_folder):
+    """Runs a pipeline and compresses what it writes."""
+    process = subprocess.Popen(["glint", "-c", command], cwd=plan_folder, env=environment(folder),
+                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE)
+    try:
+        while lines := process.stdout.read(CHUNK):
+            gzip.write(lines)
+    finally:
+        process.stdout.close()
+        code = process.wait()
+    if code != 0:
+        raise Fault(code if code > 0 else 128 - code, f"exit status {code}: glint -c {command!r}")
+
+
+def counts_of(path, folder):
+    """Scans' targets by class, as glint-summary counts them; it also says whether all scenes are whole."""
+    done = subprocess.run(["glint-summary", "--complete", path], env=environment(folder), stdout=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        raise Fault(done.returncode, f"exit status {done.returncode}: glint-summary --complete {path}")
+    block = re.search(r"\ntargets by class.*\n((?: .*\n)+)", done.stdout)
+    rows = re.findall(r" *(\d+) +[\d.]+ % +(.*)\n", block[1]) if block else []
+    return {name: int(count) for count, name in sorted(rows, key=lambda row: row[1])}
+
+
+def check_inputs(layout, shard, folder, plan_folder):
+    """The program, the copies of documents and the shard's own inputs are those of the layout."""
+    if program_version() != layout["program"]:
+        raise Fault(BAD_DATA, f"the set was begun by {layout['program']}; this is {program_version()}")
+    for place, known, names in ((folder, layout["documents"], None), (plan_folder, layout["inputs"], shard["inputs"])):
+        for input_ in known:
+            path = os.path.join(place, input_["path"])
+            if names is not None and input_["path"] not in names:
+                continue
+            if not os.path.isfile(path):
+                raise Fault(NO_INPUT, f"{path}: no such file")
+            if digest_of_file(path) != input_["hash"]:
+                raise Fault(BAD_DATA, f"{path}: has changed since the set was begun")
+
+
+def make(layout, part, folder, plan_folder):
+    """Makes a shard: its file, and when that is on the disk, its record."""
+    if not 0 <= part < len(layout["shards"]):
+        raise Fault(USAGE, f"part-{part}: the set has part-0 to part-{len(layout['shards']) - 1}")
+    shard, work = layout["shards"][part], os.path.join(folder, WORK)
+    path = os.path.join(folder, shard["path"])
+    try:
+        check_inputs(layout, shard, folder, plan_folder)
+        with whole_file(path, work) as file:
+            gzip = Gzip(file)
+            for command in shard["commands"]:
+                run_into(gzip, command, folder, plan_folder)
+            gzip.close()
+            file.flush()
+            targets = counts_of(file.name, folder)
+    except (Fault, OSError) as fault:
+        raise Fault(getattr(fault, "code", 74), f"part-{part}, {shard['path']}: {fault}") from fault
+    record = {"identity": layout["identity"], "part": part, "files": [{"path": shard["path"], **gzip.facts()}],
+              "targets": targets}
+    write_whole(record_path(folder, part), work, json.dumps(record, indent=1, ensure_ascii=False) + "\n")
+    show_progress(layout, folder)
+
+
+def wrong_record(layout, part, folder):
+    """Why a shard has to be made, or None: it is there as its record says, and the record is of this layout."""
+    path = record_path(folder, part)
+    if not os.path.exists(path):
+        return "missing"
+    try:
+        record = read_json(path)
+        if record["identity"] != layout["identity"] or record["part"] != part:
+            return "of another plan"
+        for file in record["files"]:
+            place = os.path.join(folder, file["path"])
+            if not os.path.isfile(place):
+                return f"{file['path']} is missing"
+            if os.path.getsize(place) != file["bytes"] or digest_of_file(place) != file["hash"]:
+                return f"{file['path']} is damaged"
+    except (Fault, KeyError, TypeError) as fault:
+        return f"its record is damaged: {fault}"
+    return None
+
+
+def missing(layout, folder):
+    """The numbers of shards that have to be made. Records that do not hold are taken away."""
+    found = []
+    for part in Progress("shards verified").over(range(len(layout["shards"]))):
+        reason = wrong_record(layout, part, folder)
+        if reason is None:
+            continue
+        found.append(part)
+        if reason != "missing":
+            print(f"dataset: part-{part}: {reason}: it is made again", file=sys.stderr)
+            os.remove(record_path(folder, part))
+    return found
+
+
+def verify(layout, folder):
+    """Before a run: what is left of killed runs goes, and what is there is held to its records. A manifest stands
+    beside whole sets alone."""
+    work = os.path.join(folder, WORK)
+    remove_temporaries(work)
+    left = missing(layout, folder)
+    if left and os.path.exists(os.path.join(folder, MANIFEST)):
+        os.remove(os.path.join(folder, MANIFEST))
+    write_whole(os.path.join(work, BEGUN), work, json.dumps({"time_s": time.time(), "missing": len(left)}))
+    return left
+
+
+def show_progress(layout, folder):
+    """The line of progress, from the records that are there."""
+    if not sys.stderr.isatty():
+        return
+    try:
+        begun = read_json(os.path.join(folder, WORK, BEGUN))
+    except Fault:
+        return
+    names = os.listdir(os.path.join(folder, WORK))
+    left = len(layout["shards"]) - sum(name.startswith("part-") and name.endswith(".json") for name in names)
+    done, elapsed_s = begun["missing"] - left, time.time() - begun["time_s"]
+    if done > 0 and elapsed_s >= 1:
+        print(f"\r{line_of('shards', done, elapsed_s, done / begun['missing']):72}", end="", file=sys.stderr, flush=True)

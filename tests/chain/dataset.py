@@ -1,0 +1,379 @@
+"""Data sets by scripts/dataset: the same bytes however they are cut, interrupted and resumed; leaks are refused.
+
+Usage: python3 tests/chain/dataset.py BIN_DIR [--kills N] [--scenes N]
+
+50 kills in 200 scenes if absent.
+"""
+import argparse
+import glob
+import gzip
+import hashlib
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "tests", "support"))
+sys.dont_write_bytecode = True
+from progress import Progress  # noqa: E402
+
+DATASET = os.path.join(ROOT, "scripts", "dataset")
+CHAIN = "glint-extract | glint-ideal --sensors {suite} --account | glint-sensor | glint-noise"
+SUITE = "corner77-every-frame"
+SHARES = {"train": 0.8, "validation": 0.1, "test": 0.1}
+PATIENCE_S = 120
+
+
+def plan_of(sources, **members):
+    return {"name": "set", "origin": "Made for a test.", "sources": sources, "chain": CHAIN, "suites": [SUITE],
+            "frames_per_shard": 10} | members
+
+
+def snapshots(count, **members):
+    return plan_of([{"random": "medium", "frames": count}], **members)
+
+
+def run(words, **more):
+    return subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=PATIENCE_S, **more)
+
+
+def begin(folder, plan, name="set"):
+    """Lays a set out; its folder, and what scripts/dataset says."""
+    path = os.path.join(folder, f"{name}.json")
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(plan, file)
+    done = run([DATASET, path, "--out", os.path.join(folder, name)])
+    return os.path.join(folder, name), done
+
+
+def make(place, *words):
+    return run(["make", "-s", "-C", place, "-j2", *words])
+
+
+def made(folder, plan, name="set"):
+    """A set that is there; its folder."""
+    place, done = begin(folder, plan, name)
+    assert done.returncode == 0, done.stdout
+    done = make(place)
+    assert done.returncode == 0, done.stdout
+    return place
+
+
+def files(place):
+    """All files of a set by their paths. The Makefile has paths of the machine."""
+    found = {}
+    for path in glob.glob(place + "/**", recursive=True):
+        name = os.path.relpath(path, place)
+        if os.path.isfile(path) and name != "Makefile":
+            with open(path, "rb") as file:
+                found[name] = file.read()
+    return found
+
+
+def frames_of(place, pattern):
+    return b"".join(gzip.open(path).read() for path in sorted(glob.glob(os.path.join(place, pattern, "*.jsonl.gz"))))
+
+
+def manifest(place):
+    with open(os.path.join(place, "datapackage.json"), encoding="utf-8") as file:
+        return json.load(file)
+
+
+def sha256(data):
+    return "sha256:" + hashlib.sha256(data).hexdigest()
+
+
+# --- bytes ----------------------------------------------------------------------------------------
+
+def shards_join_to_the_bytes_of_one_run(folder):
+    chain = CHAIN.format(suite=SUITE)
+    right = run(["glint", "-c", f"glint-traffic-random --density medium --frames 64 | {chain}"]).stdout.encode()
+    for size, count in ((64, 1), (10, 7), (1, 64)):
+        place = made(folder, snapshots(64, frames_per_shard=size), f"by-{size}")
+        assert len(manifest(place)["resources"]) == count, f"{size} frames a shard: {len(manifest(place)['resources'])} shards"
+        assert frames_of(place, "all/*") == right, f"{count} shards join to other bytes"
+
+
+def a_scenario_and_seeds_are_played_whole(folder):
+    place = made(folder, plan_of([{"scenario": "cut-in"}], seeds=[1, 2]))
+    chain = CHAIN.format(suite=SUITE)
+    right = "".join(run(["glint", "-c", f"glint-traffic cut-in --seed {seed} | {chain}"]).stdout for seed in (1, 2))
+    assert frames_of(place, "all/*") == right.encode()
+
+
+def the_manifest_says_what_is_there(folder):
+    place = made(folder, snapshots(40, splits={"by": "scene", "shares": SHARES}, suites=[SUITE, "lrr77-every-frame"]))
+    package = manifest(place)
+    text = files(place)["datapackage.json"].decode()
+    whole, last = text[:text.rindex(' "digest"')], text[text.rindex(' "digest"'):]
+    assert last == f' "digest": "{sha256(whole.encode())}"}}\n', "the last line is no digest of those before"
+    rows = {}
+    for resource in package["resources"]:
+        packed = files(place)[resource["path"]]
+        plain = gzip.decompress(packed)
+        assert (len(packed), sha256(packed)) == (resource["bytes"], resource["hash"])
+        assert (len(plain), sha256(plain)) == (resource["content_bytes"], resource["content_hash"])
+        assert plain.count(b"\n") == resource["rows"]
+        rows[resource["split"], resource["suite"]] = rows.get((resource["split"], resource["suite"]), 0) + resource["rows"]
+        again = "".join(run(["glint", "-c", command], env=os.environ | {"GLINT_DATA": place + "/documents"}).stdout
+                        for command in resource["commands"])
+        assert again.encode() == plain, f"{resource['path']}: its commands make other bytes"
+    suites = (SUITE, "lrr77-every-frame")
+    assert rows == {(split, suite): count for split, count in zip(SHARES, (32, 4, 4)) for suite in suites}, rows
+    for document in package["documents"]:
+        assert sha256(files(place)[document["path"]]) == document["hash"]
+
+
+# --- splits ---------------------------------------------------------------------------------------
+
+def times_of(place, split):
+    """(scene, time) of all frames of a split."""
+    lines = frames_of(place, f"{split}/*").splitlines()
+    return [(frame["scene"], frame["time_s"]) for frame in map(json.loads, lines)]
+
+
+def blocks_of_time_keep_their_gap(folder):
+    source = {"recording": "highway", "egos": ["1", "7"], "from_s": 0, "to_s": 10.2, "block_s": 1.5}
+    place = made(folder, plan_of([source], splits={"by": "time", "shares": {"train": 0.6, "test": 0.4}, "gap_s": 1.2}))
+    train, test = times_of(place, "train"), times_of(place, "test")
+    steps = [round(i / 10, 1) for i in range(1, 102)]
+    for ego in "17":
+        of_ego = [[time_s for scene, time_s in split if scene.endswith("/" + ego)] for split in (train, test)]
+        assert of_ego == [[at for at in steps if at < 5.4], [at for at in steps if at >= 6.6]], f"ego {ego}: {of_ego}"
+    assert len({scene for scene, _ in train}) == 8 and len({scene for scene, _ in test}) == 6
+    assert not {scene for scene, _ in train} & {scene for scene, _ in test}
+
+
+def recording(folder, name, rows):
+    """A part of the shipped recording as a file of its own: the plan's path of it."""
+    with open(os.path.join(ROOT, "data/trajectories/highway.csv"), encoding="utf-8") as table:
+        lines = table.readlines()
+    os.makedirs(os.path.join(folder, "traffic"), exist_ok=True)
+    with open(os.path.join(folder, "traffic", name), "w", encoding="utf-8") as file:
+        file.writelines([lines[0], *lines[rows]])
+    return "traffic/" + name
+
+
+def leaks_are_refused(folder):
+    one, two = {"recording": "highway", "egos": ["1"]}, {"recording": "highway", "egos": ["7"], "scene": "other"}
+    copied = {"recording": recording(folder, "copied.csv", slice(1, None)), "egos": ["7"]}
+    by_recording = {"splits": {"by": "recording"}}
+    medium = {"random": "medium", "frames": 20}
+    timed = one | {"from_s": 0, "to_s": 10}
+    cases = [
+        (plan_of([one], splits={"by": "ego"}), '/splits/by: "ego" leaks: egos of one recording see the same traffic'),
+        (snapshots(9, splits={"by": "seed"}), '/splits/by: "seed" leaks: another seed is the same traffic'),
+        (plan_of([one | {"split": "train"}, two | {"split": "test"}], **by_recording), "another split (train): it leaks"),
+        (plan_of([one | {"split": "train"}, copied | {"split": "test"}], **by_recording), "another split (train): it leaks"),
+        (plan_of([medium, medium]), "/sources/1: the same traffic as /sources/0"),
+        (plan_of([one], splits={"by": "scene", "shares": SHARES}), "cannot be split by scene"),
+        (plan_of([medium], **by_recording), "cannot be split by recording"),
+        (plan_of([timed], splits={"by": "time", "shares": SHARES}), "/splits/gap_s: missing: without a gap"),
+        (plan_of([timed], splits={"by": "time", "shares": SHARES, "gap_s": 5}), "gaps fill all of highway"),
+        (plan_of([one], splits={"by": "time", "shares": SHARES, "gap_s": 1}), "splits by time need from_s and to_s"),
+        (plan_of([{"scenario": "cut-in"}], splits={"by": "scene", "shares": SHARES}), "it is one scene"),
+        (snapshots(9, splits={"by": "scene", "shares": {"train": 0.8, "test": 0.1}}), "expected 1"),
+    ]
+    refusals(folder, cases, 65)
+
+
+def what_cannot_be_made_is_refused(folder):
+    medium = {"random": "medium", "frames": 20}
+    refusals(folder, [
+        (snapshots(0), "/sources/0/frames: 0; expected at least 1"),
+        (snapshots(9, suites=[]), "/suites: []; expected at least this many items: 1"),
+        (snapshots(9, colour="red"), "/colour: unknown member"),
+        (snapshots(9, chain="cat"), "/chain: names no suite"),
+        (snapshots(9, chain=CHAIN + " > list"), "/chain: redirects"),
+        (snapshots(9, chain="cat | " + CHAIN), "'cat' is no program of glint"),
+        (plan_of([medium | {"scenario": "cut-in"}]), "expected one of random, scenario, recording"),
+        (plan_of([{"random": "medium"}]), "frames is missing"),
+        (plan_of([medium | {"options": "--seed 3"}]), "--seed is the plan's to say"),
+        (plan_of([medium | {"egos": ["1"]}]), "a random source has none"),
+    ], 65)
+    refusals(folder, [(plan_of([{"recording": "nowhere.csv", "egos": ["1"]}]), "no such file"),
+                      (snapshots(9, suites=["nowhere"]), "no such file")], 66)
+    refusals(folder, [(snapshots(9, chain=CHAIN.replace("--account", "--acount")), "this fails: glint -c")], 64)
+
+
+def refusals(folder, cases, code):
+    for plan, message in cases:
+        place, done = begin(folder, plan, "refused")
+        assert done.returncode == code and message in done.stdout, f"{message}: {done.returncode}: {done.stdout}"
+        assert not os.path.exists(os.path.join(place, "Makefile"))
+        shutil.rmtree(place, ignore_errors=True)
+
+
+# --- nothing lost ---------------------------------------------------------------------------------
+
+def another_plan_in_the_folder_is_refused(folder):
+    place = made(folder, snapshots(20))
+    before = files(place)
+    _, done = begin(folder, snapshots(30))
+    assert done.returncode == 73 and "holds the set of another plan" in done.stdout, done.stdout
+    assert files(place) == before
+    place, done = begin(folder, snapshots(20))
+    assert done.returncode == 0 and make(place).returncode == 0 and files(place) == before
+    os.makedirs(os.path.join(folder, "full", "of things"))
+    _, done = begin(folder, snapshots(20), "full")
+    assert done.returncode == 73 and "holds other files" in done.stdout, done.stdout
+
+
+def what_is_damaged_is_made_again(folder):
+    place = made(folder, snapshots(40))
+    right = files(place)
+    shards = sorted(name for name in right if name.endswith(".jsonl.gz"))
+
+    def flip(name):
+        with open(os.path.join(place, name), "r+b") as file:
+            file.seek(len(right[name]) // 2)
+            file.write(bytes([right[name][len(right[name]) // 2] ^ 1]))
+
+    def cut(name):
+        os.truncate(os.path.join(place, name), len(right[name]) - 1)
+
+    def remove(name):
+        os.remove(os.path.join(place, name))
+
+    for damage, name in ((flip, shards[0]), (cut, shards[1]), (remove, shards[2]), (flip, "work/part-3.json")):
+        damage(name)
+        done = make(place)
+        assert done.returncode == 0 and "it is made again" in done.stdout, f"{damage.__name__} {name}: {done.stdout}"
+        assert files(place) == right, f"{damage.__name__} {name}"
+    flip("documents/sensors/" + SUITE + ".json")
+    remove("work/part-0.json")
+    done = make(place)
+    assert done.returncode != 0 and "has changed since the set was begun" in done.stdout, done.stdout
+    assert "datapackage.json" not in files(place)
+
+
+def one_failing_scene_stops_no_other(folder):
+    names = [recording(folder, f"{i}.csv", slice(1 + 100 * i, 101 + 100 * i)) for i in range(4)]
+    place, done = begin(folder, plan_of([{"recording": name, "egos": ["all"]} for name in names]))
+    assert done.returncode == 0, done.stdout
+    path = os.path.join(folder, names[2])
+    with open(path, encoding="utf-8") as file:
+        good = file.read()
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(good[:-40])
+    done = make(place)
+    assert done.returncode != 0 and "1 of 4 shards are missing: part-2" in done.stdout, done.stdout
+    assert f"{names[2]}: has changed since the set was begun" in done.stdout
+    there = files(place)
+    assert sum(name.endswith(".jsonl.gz") for name in there) == 3 and "datapackage.json" not in there, list(there)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(good)
+    assert make(place).returncode == 0
+    assert files(place) == files(made(folder, plan_of([{"recording": name, "egos": ["all"]} for name in names]), "right"))
+
+
+def a_chain_that_fails_is_named(folder):
+    names = [recording(folder, f"{i}.csv", slice(1 + 100 * i, 101 + 100 * i)) for i in range(3)]
+    plan = plan_of([{"recording": name, "egos": ["nobody" if name == names[1] else "all"]} for name in names])
+    place, _ = begin(folder, plan)
+    done = make(place)
+    assert done.returncode != 0 and "part-1, all/" in done.stdout and "exit status 65: glint -c" in done.stdout, done.stdout
+    assert "1 of 3 shards are missing: part-1" in done.stdout
+
+
+def a_full_disk_loses_nothing(folder):
+    """A file system with room for half of the shards, in a mount of its own."""
+    plan = snapshots(60)
+    right = files(made(folder, plan, "right"))
+    pages = {name: 1 + len(content) // 4096 for name, content in right.items()}
+    shards = sum(count for name, count in pages.items() if name.endswith(".jsonl.gz"))
+    size = 4 * (sum(pages.values()) - shards // 2)
+    disk, script = os.path.join(folder, "disk"), f"""
+        mount -t tmpfs -o size={size}k glint {folder}/disk || exit 99
+        {DATASET} {folder}/set.json --out {folder}/disk/set && make -s -C {folder}/disk/set -j2
+        echo made $?; ls -A {folder}/disk/set/work | grep tmp; ls {folder}/disk/set/datapackage.json
+        mount -o remount,size=100m {folder}/disk && make -s -C {folder}/disk/set -j2 && cp -r {folder}/disk/set {folder}/copy"""
+    os.mkdir(disk)
+    with open(os.path.join(folder, "set.json"), "w", encoding="utf-8") as file:
+        json.dump(plan, file)
+    done = run(["unshare", "-rm", "bash", "-c", script])
+    if done.returncode in (1, 99) and "made" not in done.stdout:
+        print("    left out: this machine lets nobody mount a small disk")
+        return
+    assert "No space left on device" in done.stdout and "shards are missing" in done.stdout, done.stdout
+    assert "made 2" in done.stdout and ".tmp\n" not in done.stdout, done.stdout
+    assert files(os.path.join(folder, "copy")) == right
+
+
+def kill_at_random(place, draws):
+    """Begins a run and kills all of it, or one of its processes, at a random time. True if it ended before."""
+    process = subprocess.Popen(["make", "-s", "-C", place, "-j2"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                               start_new_session=True)
+    time.sleep(draws.random() * 0.4)
+    with open(f"/proc/{process.pid}/stat", encoding="ascii") as stat:
+        ended = stat.read().split(") ")[1][0] == "Z"
+    if draws.random() < 0.3:
+        kill_one(process.pid, draws)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    return ended
+
+
+def kill_one(session, draws):
+    """Kills one process of a session, and lets the others go on for a moment."""
+    members = []
+    for name in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{name}/stat", encoding="ascii") as stat:
+                if int(stat.read().rsplit(") ", 1)[1].split()[3]) == session:
+                    members.append(int(name))
+        except (FileNotFoundError, ProcessLookupError):
+            continue
+    try:
+        os.kill(draws.choice(members), signal.SIGKILL)
+    except (ProcessLookupError, IndexError):
+        return
+    time.sleep(draws.random() * 0.05)
+
+
+def kills_lose_nothing(folder, kills, scenes):
+    """Kills runs of a set until there were enough; a set that gets done is begun again. Each is then as if never killed."""
+    plan = snapshots(scenes, frames_per_shard=4)
+    right, draws, done, place = files(made(folder, plan, "right")), random.Random(1), 0, None
+    progress = Progress("kills", kills)
+    while done < kills:
+        place, _ = begin(folder, plan)
+        while done < kills and not kill_at_random(place, draws):
+            done += 1
+            progress.step()
+        last = make(place)
+        assert last.returncode == 0 and files(place) == right, f"after {done} kills: {last.stdout}"
+        shutil.rmtree(place)
+    progress.end()
+
+
+CHECKS = [shards_join_to_the_bytes_of_one_run, a_scenario_and_seeds_are_played_whole, the_manifest_says_what_is_there,
+          blocks_of_time_keep_their_gap, leaks_are_refused, what_cannot_be_made_is_refused,
+          another_plan_in_the_folder_is_refused, what_is_damaged_is_made_again, one_failing_scene_stops_no_other,
+          a_chain_that_fails_is_named, a_full_disk_loses_nothing]
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("bin")
+    parser.add_argument("--kills", type=int, default=50)
+    parser.add_argument("--scenes", type=int, default=200)
+    options = parser.parse_args()
+    os.environ["PATH"] = os.path.abspath(options.bin) + os.pathsep + os.environ["PATH"]
+    os.environ["BUILD"] = os.path.relpath(os.path.dirname(os.path.abspath(options.bin)), ROOT)
+    for check in CHECKS:
+        with tempfile.TemporaryDirectory() as folder:
+            check(folder)
+        print(check.__name__.replace("_", " "), flush=True)
+    with tempfile.TemporaryDirectory() as folder:
+        kills_lose_nothing(folder, options.kills, options.scenes)
+    print(f"{options.kills} kills lose nothing")
+
+
+main()
