@@ -1,36 +1,17 @@
 /* Traffic of SUMO: floating car data as XML, also from a pipe while SUMO runs, or as a table. */
 /* needs: expat */
-#include <expat.h>
-#include <stdio.h>
-
-#include "base/number.h"
 #include "base/units.h"
-#include "run/stage.h"
-#include "text/file_format.h"
 #include "traffic/recorded_table.h"
 #include "traffic/recording.h"
-
-enum { READ_SIZE = 64 * 1024 };
-
-/* A row, or the end of a step. */
-struct event {
-    enum recorded_event kind;
-    struct recorded_row row;
-};
+#include "xml_rows.h"
 
 /* A document of SUMO that is being read: floating car data, or types. */
 struct document {
-    XML_Parser parser;
-    struct input *input;
-    const char *kind;                 /* in file_format.def */
-    struct diag fault;                /* that ends it, after the events before it */
+    struct xml_rows xml;
     struct recorded_classes *classes; /* to which types are added */
-    LIST_OF(struct event) events;     /* of the bytes that were parsed last */
-    size_t taken;
-    struct arena arena; /* of events */
-    int64_t time_ns;    /* of the step that is open */
-    int64_t whole_ns;   /* of the last step that is whole */
-    bool in_export, in_step, has_step, in_vehicle, ended;
+    int64_t time_ns;                  /* of the step that is open */
+    int64_t whole_ns;                 /* of the last step that is whole */
+    bool in_step, has_step, in_vehicle;
 };
 
 struct traffic_sumo {
@@ -47,48 +28,20 @@ struct traffic_sumo {
 static void fail(struct document *document, const char *what, const char *value,
                  const char *expectation)
 {
-    const char *quote = value != NULL ? "\"" : "";
-    diag_fail(&document->fault, DIAG_DATA, "line %zu: %s is %s%.80s%s; expected %s",
-              (size_t)XML_GetCurrentLineNumber(document->parser), what, quote,
-              value != NULL ? value : "missing", quote, expectation);
-    XML_StopParser(document->parser, XML_FALSE);
-}
-
-static const char *attribute(const char **attributes, const char *name)
-{
-    for (; *attributes != NULL; attributes += 2)
-        if (strcmp(attributes[0], name) == 0)
-            return attributes[1];
-    return NULL;
+    xml_rows_fail(&document->xml, what, value, expectation);
 }
 
 static bool read_number(struct document *document, const char **attributes, const char *name,
                         double low, double high, double *value)
 {
-    char expectation[80];
-    const char *text = attribute(attributes, name);
-    size_t length = text != NULL ? strlen(text) : 0;
-    bool good = text != NULL && (number_take(text, text + length, value) == text + length ||
-                                 field_read_number(text, length, value) == 0);
-    if (good && *value >= low && *value <= high)
-        return true;
-    snprintf(expectation, sizeof expectation, "a number in [%g, %g]", low, high);
-    fail(document, name, text, expectation);
-    return false;
+    return xml_rows_number(&document->xml, name, xml_rows_attribute(attributes, name), low, high,
+                           value);
 }
 
-/* A name in the arena, or NULL after a message. */
 static const char *read_name(struct document *document, const char **attributes, const char *name,
                              struct arena *arena)
 {
-    const char *text = attribute(attributes, name);
-    size_t length = 0;
-    while (text != NULL && (unsigned char)text[length] >= ' ' && text[length] != '\x7f')
-        length++;
-    if (text != NULL && text[length] == '\0' && length > 0 && length <= FIELD_NAME_SIZE)
-        return arena_text(arena, text, length);
-    fail(document, name, text, "a name of 1 to 1024 bytes");
-    return NULL;
+    return xml_rows_name(&document->xml, name, xml_rows_attribute(attributes, name), arena);
 }
 
 /* ---- floating car data ---- */
@@ -115,30 +68,30 @@ static void add_row(struct document *document, const char **attributes, const ch
         return;
     }
     row.time_ns = document->time_ns;
-    row.place = (size_t)XML_GetCurrentByteIndex(document->parser);
-    row.id = read_name(document, attributes, "id", &document->arena);
+    row.place = (size_t)XML_GetCurrentByteIndex(document->xml.parser);
+    row.id = read_name(document, attributes, "id", &document->xml.arena);
     if (row.id == NULL || !read_number(document, attributes, "x", -1e9, 1e9, &row.x_m) ||
         !read_number(document, attributes, "y", -1e9, 1e9, &row.y_m) ||
         !read_number(document, attributes, "angle", -1e3, 1e3, &angle_deg))
         return;
-    if (attribute(attributes, "speed") != NULL &&
+    if (xml_rows_attribute(attributes, "speed") != NULL &&
         !read_number(document, attributes, "speed", -1e4, 1e4, &row.speed_mps))
         return;
-    if (attribute(attributes, "type") != NULL)
-        row.class = read_name(document, attributes, "type", &document->arena);
+    if (xml_rows_attribute(attributes, "type") != NULL)
+        row.class = read_name(document, attributes, "type", &document->xml.arena);
     if (row.class == NULL)
         return;
     row.yaw_rad = (90 - angle_deg) * (PI / 180);
-    *list_add(&document->events, &document->arena) = (struct event){RECORDED_ROW, row};
+    *list_add(&document->xml.events, &document->xml.arena) = (struct xml_event){RECORDED_ROW, row};
 }
 
 /* Who rides in a vehicle is hidden by it. */
 static void on_begin(void *context, const char *name, const char **attributes)
 {
     struct document *document = context;
-    if (!document->in_export && strcmp(name, "fcd-export") != 0)
+    if (!document->xml.in_root && strcmp(name, "fcd-export") != 0)
         fail(document, "<fcd-export>", NULL, "floating car data (sumo --fcd-output)");
-    document->in_export = true;
+    document->xml.in_root = true;
     if (strcmp(name, "vehicle") == 0) {
         document->in_vehicle = true;
         add_row(document, attributes, "DEFAULT_VEHTYPE");
@@ -158,10 +111,10 @@ static void on_end(void *context, const char *name)
         document->in_vehicle = false;
     if (strcmp(name, "timestep") != 0)
         return;
-    struct event *event = list_add(&document->events, &document->arena);
+    struct xml_event *event = list_add(&document->xml.events, &document->xml.arena);
     event->kind = RECORDED_STEP;
     event->row.time_ns = document->time_ns;
-    event->row.place = (size_t)XML_GetCurrentByteIndex(document->parser);
+    event->row.place = (size_t)XML_GetCurrentByteIndex(document->xml.parser);
     document->in_step = false;
     document->has_step = true;
     document->whole_ns = document->time_ns;
@@ -186,7 +139,7 @@ static void on_comment(void *context, const char *text)
 static bool read_size(struct document *document, const char **attributes, const char *name,
                       double *size_m)
 {
-    return attribute(attributes, name) == NULL ||
+    return xml_rows_attribute(attributes, name) == NULL ||
            read_number(document, attributes, name, 0, 1e6, size_m);
 }
 
@@ -197,7 +150,7 @@ static void on_type(void *context, const char *name, const char **attributes)
     if (strcmp(name, "vType") != 0)
         return;
     const char *id = read_name(document, attributes, "id", document->classes->arena);
-    const char *class = attribute(attributes, "vClass");
+    const char *class = xml_rows_attribute(attributes, "vClass");
     if (id != NULL && read_size(document, attributes, "length", &length_m) &&
         read_size(document, attributes, "width", &width_m) &&
         read_size(document, attributes, "height", &height_m))
@@ -205,94 +158,30 @@ static void on_type(void *context, const char *name, const char **attributes)
                              width_m, height_m);
 }
 
-/* ---- parsing ---- */
+/* ---- the format ---- */
 
-static void *granted(void *memory)
+/* What SUMO leaves behind when it is killed. */
+static void fail_at_end(struct xml_rows *xml)
 {
-    return memory != NULL ? memory : memory_get((size_t)-1);
-}
-
-static void begin(struct document *document, const char *kind, struct input *input)
-{
-    document->kind = kind;
-    document->input = input;
-    document->parser = granted(XML_ParserCreate(NULL));
-    XML_SetUserData(document->parser, document);
-#ifdef XML_HAS_REPARSE_DEFERRAL
-    XML_SetReparseDeferralEnabled(document->parser, XML_FALSE);
-#endif
-}
-
-/* A document that ends early: what SUMO leaves behind when it is killed. */
-static void fail_at_end(struct document *document)
-{
+    const struct document *document = XML_GetUserData(xml->parser);
     char last[80] = "no step is whole";
     if (document->has_step)
         snprintf(last, sizeof last, "the last whole step is that of %.12g s",
                  recorded_row_seconds(document->whole_ns));
-    diag_fail(&document->fault, DIAG_DATA, "line %zu: the file ends %s; %s",
-              (size_t)XML_GetCurrentLineNumber(document->parser),
+    diag_fail(&xml->fault, DIAG_DATA, "line %zu: the file ends %s; %s", xml_rows_line(xml),
               document->in_step ? "inside a step" : "before </fcd-export>", last);
-}
-
-/* Parses a piece more; false at the end and after a fault. */
-static bool parse_more(struct document *document)
-{
-    void *buffer = granted(XML_GetBuffer(document->parser, READ_SIZE));
-    struct diag damage = {0};
-    long got = input_read(document->input, buffer, READ_SIZE, &damage);
-    bool done =
-        XML_ParseBuffer(document->parser, got > 0 ? (int)got : 0, got <= 0) == XML_STATUS_OK;
-    enum XML_Error error = XML_GetErrorCode(document->parser);
-    if (error == XML_ERROR_NO_MEMORY)
-        granted(NULL);
-    if (!done && got <= 0 && document->in_export)
-        fail_at_end(document);
-    else if (!done)
-        diag_fail(&document->fault, DIAG_DATA, "line %zu: %s",
-                  (size_t)XML_GetCurrentLineNumber(document->parser), XML_ErrorString(error));
-    if (got < 0) {
-        document->fault.code = damage.code;
-        diag_prefix(&document->fault, "%s: ", damage.text);
-    }
-    return done && got > 0;
-}
-
-static int report_fault(const struct document *document, struct diag *diag)
-{
-    size_t length;
-    const char *head = input_head(document->input, &length);
-    *diag = document->fault;
-    file_format_explain(document->kind, head, length, diag);
-    return -1;
 }
 
 static int next_event(void *state, struct recorded_row *row, struct diag *diag)
 {
     struct document *document = state;
-    while (document->taken == document->events.count && !document->ended) {
-        arena_clear(&document->arena);
-        document->events.items = NULL;
-        document->events.count = document->events.room = document->taken = 0;
-        document->ended = !parse_more(document);
-    }
-    if (document->taken < document->events.count) {
-        const struct event *event = &document->events.items[document->taken++];
-        *row = event->row;
-        return (int)event->kind;
-    }
-    if (document->fault.code == DIAG_OK)
-        return RECORDED_END;
-    return report_fault(document, diag);
+    return xml_rows_next(&document->xml, row, diag);
 }
 
 static void close_document(void *state)
 {
     struct document *document = state;
-    if (document->parser != NULL)
-        XML_ParserFree(document->parser);
-    input_close(document->input);
-    arena_free(&document->arena);
+    xml_rows_close(&document->xml);
 }
 
 static const struct recorded_format format = {
@@ -316,13 +205,13 @@ static int read_types(struct traffic_sumo *own, struct runner *runner)
     if (input == NULL)
         return diag_prefix(diag, "--types: %s: ", own->types);
     document->classes = &own->recording.steps.classes;
-    begin(document, "routes", input);
-    XML_SetStartElementHandler(document->parser, on_type);
-    while (parse_more(document))
+    xml_rows_begin(&document->xml, "routes", input, document);
+    XML_SetStartElementHandler(document->xml.parser, on_type);
+    while (xml_rows_parse(&document->xml))
         continue;
-    if (document->fault.code == DIAG_OK)
+    if (document->xml.fault.code == DIAG_OK)
         return 0;
-    report_fault(document, diag);
+    xml_rows_report(&document->xml, diag);
     return diag_prefix(diag, "--types: %s: ", own->types);
 }
 
@@ -333,9 +222,10 @@ static int traffic_sumo_start(void *state, struct runner *runner)
     struct input *input = runner_input(runner, own->source);
     if (input == NULL)
         return diag_prefix(diag, "%s: ", own->source);
-    begin(&own->document, "floating car data", input);
-    XML_SetElementHandler(own->document.parser, on_begin, on_end);
-    XML_SetCommentHandler(own->document.parser, on_comment);
+    xml_rows_begin(&own->document.xml, "floating car data", input, &own->document);
+    own->document.xml.fail_at_end = fail_at_end;
+    XML_SetElementHandler(own->document.xml.parser, on_begin, on_end);
+    XML_SetCommentHandler(own->document.xml.parser, on_comment);
     struct recorded_reader reader = {&format, &own->document};
     if (recording_open(&own->recording, reader, own->source, &own->options, own->live,
                        runner_arena(runner), diag) != 0)
