@@ -11,6 +11,7 @@
 
 #include "base/number.h"
 #include "run/stage.h"
+#include "text/input.h"
 #include "traffic/recorded_row.h"
 
 enum { XML_ROWS_PIECE = 64 * 1024 };
