@@ -121,16 +121,22 @@ static void read_interval(struct document *document, const struct member *member
         interval->high = value;
 }
 
+static void fail_interval(struct document *document, const char *name, struct interval interval,
+                          const char *expectation)
+{
+    char text[80];
+    snprintf(text, sizeof text, "[%.9g, %.9g]", interval.low, interval.high);
+    fail(document, name, text, expectation);
+}
+
 /* The middle, or NAN; false after a message. */
 static bool take(struct document *document, const char *name, struct interval interval,
                  double *value)
 {
-    char text[80];
     *value = 0.5 * (interval.low + interval.high);
     if (interval.low <= interval.high || (isnan(interval.low) && isnan(interval.high)))
         return true;
-    snprintf(text, sizeof text, "[%.9g, %.9g]", interval.low, interval.high);
-    fail(document, name, text, "both ends of an interval, the lower one first");
+    fail_interval(document, name, interval, "both ends of an interval, the lower one first");
     return false;
 }
 
@@ -234,7 +240,7 @@ static bool is_whole(struct document *document, const struct recorded_row *row, 
         if (needs[i].missing)
             fail(document, needs[i].what, NULL, needs[i].expectation);
     if (document->state.time.low < document->state.time.high || time > floor(time))
-        fail(document, "time", "no whole number", "an exact, whole number of steps");
+        fail_interval(document, "time", document->state.time, "a whole number of steps");
     return document->xml.fault.code == DIAG_OK;
 }
 
