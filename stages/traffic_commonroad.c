@@ -8,7 +8,9 @@
 
 enum { PATH_SIZE = 512, NAME_SIZE = FIELD_NAME_SIZE + 1, STEPS = 1000000 };
 
-/* An exact value or an interval, each time with both ends. NAN: not said. */
+#define UNSAID ((double)NAN)
+
+/* An exact value or an interval, each time with both ends, which may be UNSAID. */
 struct interval {
     double low, high;
 };
@@ -22,7 +24,7 @@ struct part {
     double x_m, y_m, length_m, width_m, orientation_rad, radius_m;
 };
 
-/* The box around parts. length_m NAN: there is none yet. */
+/* The box around parts. length_m UNSAID: there is none yet. */
 struct region {
     double x_m, y_m, length_m, width_m;
 };
@@ -53,9 +55,9 @@ struct traffic_commonroad {
     struct recording recording;
 };
 
-static const struct state unsaid = {{NAN, NAN}, {NAN, NAN}, {NAN, NAN},
-                                    {NAN, NAN}, {NAN, NAN}, {NAN, NAN}};
-static const struct part no_part = {.x_m = NAN, .y_m = NAN};
+static const struct state unsaid = {{UNSAID, UNSAID}, {UNSAID, UNSAID}, {UNSAID, UNSAID},
+                                    {UNSAID, UNSAID}, {UNSAID, UNSAID}, {UNSAID, UNSAID}};
+static const struct part no_part = {.x_m = UNSAID, .y_m = UNSAID};
 
 static bool is_white(char letter)
 {
@@ -129,7 +131,7 @@ static void fail_interval(struct document *document, const char *name, struct in
     fail(document, name, text, expectation);
 }
 
-/* The middle, or NAN; false after a message. */
+/* The middle, or UNSAID; false after a message. */
 static bool take(struct document *document, const char *name, struct interval interval,
                  double *value)
 {
@@ -203,7 +205,7 @@ static bool take_velocity(struct document *document, struct recorded_row *row)
     struct vec2 heading = vec2_heading(isnan(row->yaw_rad) ? 0 : row->yaw_rad);
     if (isnan(left_mps)) {
         slip_rad = isnan(slip_rad) ? 0 : slip_rad;
-        left_mps = isnan(row->yaw_rad) ? (double)NAN : ahead_mps * elementary_sin(slip_rad);
+        left_mps = isnan(row->yaw_rad) ? UNSAID : ahead_mps * elementary_sin(slip_rad);
         ahead_mps *= elementary_cos(slip_rad);
     }
     row->speed_mps = ahead_mps;
@@ -218,7 +220,7 @@ static void shift(const struct region *shape, struct recorded_row *row)
     struct vec2 heading = vec2_heading(row->yaw_rad);
     row->x_m += shape->x_m * heading.x - shape->y_m * heading.y;
     row->y_m += shape->x_m * heading.y + shape->y_m * heading.x;
-    row->vx_mps = row->vy_mps = NAN;
+    row->vx_mps = row->vy_mps = UNSAID;
 }
 
 /* Refuses an obstacle that lacks what a row needs. */
@@ -248,7 +250,7 @@ static bool fill_row(struct document *document, struct recorded_row *row)
 {
     const struct state *state = &document->state;
     const struct region *shape = &document->shape;
-    double time = NAN;
+    double time = UNSAID;
     *row = recorded_row_unsaid;
     row->place = xml_rows_line(&document->xml);
     row->x_m = document->position.x_m;
@@ -283,7 +285,7 @@ static void end_state(struct document *document)
         *list_add(&xml->events, arena) = (struct xml_event){RECORDED_ROW, row};
     }
     document->state = unsaid;
-    document->position.length_m = NAN;
+    document->position.length_m = UNSAID;
 }
 
 /* ---- elements ---- */
@@ -314,7 +316,7 @@ static void begin_obstacle(struct document *document, const char *name, const ch
     else
         fail(document, "id", id, "1 to 1024 printable ASCII characters");
     document->type[0] = '\0';
-    document->shape.length_m = document->position.length_m = NAN;
+    document->shape.length_m = document->position.length_m = UNSAID;
     document->state = unsaid;
     document->part = no_part;
 }
@@ -464,7 +466,7 @@ static int traffic_commonroad_start(void *state, struct runner *runner)
     struct input *input = runner_input(runner, own->source);
     if (input == NULL)
         return diag_prefix(diag, "%s: ", own->source);
-    xml_rows_begin(&document->xml, input, document);
+    xml_rows_begin(&document->xml, "commonroad", input, document);
     XML_SetElementHandler(document->xml.parser, on_begin, on_end);
     XML_SetCharacterDataHandler(document->xml.parser, on_text);
     document->xml.fail_at_end = fail_at_end;

@@ -11,6 +11,7 @@
 
 #include "base/number.h"
 #include "run/stage.h"
+#include "text/file_format.h"
 #include "text/input.h"
 #include "traffic/recorded_row.h"
 

@@ -125,13 +125,17 @@ int recording_open(struct recording *recording, struct recorded_reader reader, c
 
 /* ---- steps ---- */
 
+/* --ego all means whoever could carry a radar. */
 static bool is_ego(const struct recording *recording, const struct recorded_state *state)
 {
+    static const char *const others[] = {"pedestrian", "guardrail", "wall", "post"};
     uint32_t number;
     const struct object *object = &state->object;
-    return recording->all
-               ? strcmp(object->class, "pedestrian") != 0
-               : intern_find(&recording->wanted, object->id, strlen(object->id), &number);
+    for (size_t i = 0; recording->all && i < sizeof others / sizeof *others; i++)
+        if (strcmp(object->class, others[i]) == 0)
+            return false;
+    return recording->all ||
+           intern_find(&recording->wanted, object->id, strlen(object->id), &number);
 }
 
 static void fill_grid(struct recording *recording)

@@ -31,7 +31,7 @@ struct recording {
     const char *source;
     const struct recording_options *options;
     const char *name; /* of scenes, before the ego's */
-    bool all;         /* is everybody an ego who is no pedestrian? */
+    bool all;         /* is every vehicle an ego? */
     int64_t from_ns;
     struct intern wanted; /* ids of egos, unless all are */
     struct recorded_steps steps;

@@ -200,6 +200,24 @@ def sumo_xml(folder, users):
     return save(folder, "fcd.xml", ["<fcd-export>", *lines, "</fcd-export>"])
 
 
+def commonroad_state(tag, step, at):
+    values = {"orientation": f"{at.yaw:.6f}", "time": step, "velocity": f"{math.hypot(at.vx, at.vy):.6f}",
+              "yawRate": f"{at.rate:.6f}"}
+    exact = "".join(f"<{name}><exact>{value}</exact></{name}>" for name, value in values.items())
+    return f"<{tag}><position><point><x>{at.x:.6f}</x><y>{at.y:.6f}</y></point></position>{exact}</{tag}>"
+
+
+def commonroad(folder, users):
+    lines = [f'<commonRoad timeStepSize="{1 / RATE_HZ}" commonRoadVersion="2020a">']
+    for user in users:
+        first, *later = [(step, at) for step, who, at in rows(users) if who is user]
+        lines += [f'<dynamicObstacle id="{user.id}"><type>{user.kind}</type><shape><rectangle>'
+                  f"<length>{user.length}</length><width>{user.width}</width></rectangle></shape>",
+                  commonroad_state("initialState", *first), "<trajectory>",
+                  *[commonroad_state("state", *state) for state in later], "</trajectory></dynamicObstacle>"]
+    return save(folder, "scenario.xml", [*lines, "</commonRoad>"])
+
+
 OWN = {kind: kind for kind in ("car", "truck", "motorcycle", "pedestrian")}
 INTERACTION = OWN
 HIGHD = {"car": "Car", "truck": "Truck"}
@@ -215,6 +233,8 @@ FORMATS = [
     Format("SUMO's table", sumo_table, 1e-6, yaw_unit=math.radians(1e-6), size_unit=0, classes=SUMO),
     Format("SUMO's XML", sumo_xml, 1e-6, program="glint-traffic-sumo", options=("--types", "types.rou.xml"),
            yaw_unit=math.radians(1e-6), heights=True, classes=SUMO),
+    Format("CommonRoad", commonroad, 1e-6, program="glint-traffic-commonroad", velocity_unit=1e-4, yaw_unit=1e-6,
+           rate_unit=1e-6, size_unit=1e-6, classes=OWN),
 ]
 
 

@@ -95,6 +95,24 @@ void fuzz_chain(struct frame *frame, const char *suite)
         runner_free(&runners[--after]); /* the frame has names that belong to them */
 }
 
+void fuzz_play(const char *stage, const char *path, const char *ego)
+{
+    enum { FRAMES = 3 };
+    const char *words[] = {path, "--ego", ego};
+    struct runner runner;
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena};
+    bool good = fuzz_begin(&runner, stage, ego != NULL ? 3 : 1, words) == 0;
+    for (int i = 0; good && i < FRAMES; i++) {
+        good = runner_next(&runner, &frame) == 1;
+        if (good)
+            fuzz_chain(&frame, "corner77-every-frame");
+    }
+    fuzz_judge(&runner.diag);
+    runner_free(&runner);
+    arena_free(&arena);
+}
+
 static void write_again(const struct text *line, struct text *again)
 {
     struct arena arena = {0};

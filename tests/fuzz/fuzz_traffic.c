@@ -6,25 +6,6 @@
 
 #include "fuzz/fuzz.h"
 
-enum { FRAMES = 3 };
-
-static void play(const char *source, const char *ego)
-{
-    const char *words[] = {source, "--ego", ego};
-    struct runner runner;
-    struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
-    bool good = fuzz_begin(&runner, "traffic", ego != NULL ? 3 : 1, words) == 0;
-    for (int i = 0; good && i < FRAMES; i++) {
-        good = runner_next(&runner, &frame) == 1;
-        if (good)
-            fuzz_chain(&frame, "corner77-every-frame");
-    }
-    fuzz_judge(&runner.diag);
-    runner_free(&runner);
-    arena_free(&arena);
-}
-
 /* The name of a table says that it is one, so it needs a file with a name. */
 static void play_table(const uint8_t *bytes, size_t size)
 {
@@ -37,7 +18,7 @@ static void play_table(const uint8_t *bytes, size_t size)
     if (row != NULL && memchr(row, ',', (size_t)(end - row)) != NULL)
         snprintf(ego, sizeof ego, "%.*s",
                  (int)((const char *)memchr(row, ',', (size_t)(end - row)) - row - 1), row + 1);
-    play(path, ego);
+    fuzz_play("traffic", path, ego);
     unlink(path);
 }
 
@@ -49,7 +30,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     }
     struct fuzz_file file;
     fuzz_open(&file, bytes, size);
-    play(file.path, NULL);
+    fuzz_play("traffic", file.path, NULL);
     fuzz_close(&file);
     return 0;
 }
