@@ -1,5 +1,6 @@
 /* The JSON Schemas of the frame and of every document, as files of a folder. */
 #include "run/schema.h"
+#include "export/table_schema.h"
 #include "run/tool.h"
 #include "text/field.h"
 #include "text/output.h"
@@ -8,26 +9,32 @@ struct schema_state {
     const char *folder;
 };
 
-static int write_schema(const struct schema_state *own, size_t index, struct runner *runner)
+static int write_file(const struct schema_state *own, const char *name, struct text *text,
+                      struct runner *runner)
 {
-    struct text text = {0};
-    text_format(&text, "%s.json", schema_name(index));
-    text_add(&text, "", 1);
-    struct output *output = runner_output_in(runner, own->folder, text.bytes);
-    text.length = 0;
-    schema_write(index, &text);
+    struct output *output = runner_output_in(runner, own->folder, name);
     int result =
-        output == NULL ? -1 : output_write(output, text.bytes, text.length, runner_diag(runner));
-    text_free(&text);
+        output == NULL ? -1 : output_write(output, text->bytes, text->length, runner_diag(runner));
+    text_free(text);
     return result;
 }
 
 static int schema_run(void *state, struct runner *runner)
 {
-    for (size_t i = 0; schema_name(i) != NULL; i++)
-        if (write_schema(state, i, runner) != 0)
-            return -1;
-    return 0;
+    struct text text = {0};
+    int result = 0;
+    for (size_t i = 0; schema_name(i) != NULL && result == 0; i++) {
+        schema_write(i, &text);
+        result = write_file(state, arena_format(runner_arena(runner), "%s.json", schema_name(i)),
+                            &text, runner);
+    }
+    if (result != 0)
+        return -1;
+    table_schema_write_json(&text);
+    if (write_file(state, "tables.json", &text, runner) != 0)
+        return -1;
+    table_schema_write_sql(&text);
+    return write_file(state, "tables.sql", &text, runner);
 }
 
 static const struct field schema_options[] = {
@@ -38,7 +45,10 @@ static const struct field schema_options[] = {
 const struct tool tool_schema = {
     .name = "schema",
     .summary = "Write the JSON Schemas of the frame and of every document.",
-    .details = "They are printed from the tables that the readers use (JSON Schema 2020-12).",
+    .details =
+        "They are printed from the tables that the readers use (JSON Schema 2020-12).\n"
+        "The columns of glint-tables are in tables.json, as Frictionless Table Schemas, and\n"
+        "in tables.sql, by which DuckDB reads them.",
     .options = STAGE_OPTIONS(struct schema_state, schema_options),
     .operand = "DIR",
     .into_folder = true,

@@ -210,7 +210,7 @@ static const struct field contributor_fields[] = {
     {0},
 };
 
-static const struct record contributor_record = {
+const struct record contributor_record = {
     FIELD_TABLE(struct contributor, contributor_fields, "contributor", "An echo and its weight.")};
 
 static const struct field cell_fields[] = {
@@ -272,8 +272,8 @@ static const struct field lost_echo_fields[] = {
     {0},
 };
 
-static const struct record lost_echo_record = {FIELD_TABLE(
-    struct lost_echo, lost_echo_fields, "lost echo", "An echo that is part of no target.")};
+const struct record lost_echo_record = {FIELD_TABLE(struct lost_echo, lost_echo_fields, "lost echo",
+                                                    "An echo that is part of no target.")};
 
 static const struct field lost_group_fields[] = {
     {NAME(struct lost_group, sensor, "name in the suite")},

@@ -253,8 +253,10 @@ extern const struct record frame_record;
 extern const struct record object_record;
 extern const struct record sensor_view_record;
 extern const struct record echo_record;
+extern const struct record contributor_record;
 extern const struct record cell_record;
 extern const struct record target_record;
+extern const struct record lost_echo_record;
 extern const struct record lost_group_record;
 
 /* True if both names are equal. It is quick for names that are one pointer, as those of documents

@@ -293,10 +293,12 @@ int csv_table_number(const struct csv_table *table, size_t row, size_t column, d
 
 size_t csv_table_quote(const char *text, char *cell, size_t room)
 {
-    if (strpbrk(text, ",\"\r\n") != NULL)
-        return csv_write(cell, room, text, strlen(text));
     size_t length = 0;
-    for (; text[length] != '\0'; length++)
+    for (; text[length] != '\0'; length++) {
+        if (text[length] == ',' || text[length] == '"' || text[length] == '\r' ||
+            text[length] == '\n')
+            return csv_write(cell, room, text, strlen(text));
         cell[length] = text[length];
+    }
     return length;
 }

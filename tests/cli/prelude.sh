@@ -77,6 +77,8 @@ reflectors() { sed -E "$1" reflectors.jsonl | glint-ideal --sensors suite.json; 
 echoes() { sed -E "$1" echoes.jsonl | glint-sensor; }
 cells() { sed -E "$1" cells.jsonl | glint-noise; }
 targets() { sed -E "$1" targets.jsonl | glint-export-csv; }
+# The cells of one column of a CSV table without quotes.
+column() { awk -F, -v name="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) at = i } NR > 1 { print $at }'; }
 scenario() { sed -E "$1" scene.json >bad.json; glint-traffic bad.json; }
 suite() { sed -E "$1" suite.json >bad.json; glint-ideal --sensors bad.json reflectors.jsonl; }
 vehicle() {

@@ -1,0 +1,38 @@
+/* Members of structs as columns of CSV tables.
+ *
+ * Every member of a field table that is one value is a column of its name: numbers, flags, names,
+ * choices, seeds and sets, whose words stand in one cell with blanks between them. The members of
+ * an embedded struct are columns as well, with its name before theirs (margins_sight_m). Lists and
+ * raw members are no columns. A cell is empty where a line of JSON would lack the member
+ * (record_text.h); a flag is always true or false. Numbers are the shortest that read back to the
+ * same double. */
+#ifndef CSV_COLUMNS_H
+#define CSV_COLUMNS_H
+
+#include "base/text.h"
+#include "text/field.h"
+
+struct csv_column {
+    const char *name;
+    const struct field *field;
+    const struct record *record; /* whose field it is */
+    size_t offset;               /* of that record in the struct of the row */
+};
+
+/* All zero before the first member. */
+struct csv_columns {
+    LIST_OF(struct csv_column) list;
+};
+
+/* Appends the columns of a record, but those of the names in without, which ends with NULL. */
+void csv_columns_add(struct csv_columns *columns, const struct record *record,
+                     const char *const *without, struct arena *arena);
+
+/* Appends to a row the names of the columns, the cells of a struct, or empty cells in its place;
+ * behind each of them stands a comma, which csv_columns_end_row turns into the end of the row. */
+void csv_columns_write_names(const struct csv_columns *columns, struct text *row);
+void csv_columns_write(const struct csv_columns *columns, const void *base, struct text *row);
+void csv_columns_write_empty(const struct csv_columns *columns, struct text *row);
+void csv_columns_end_row(struct text *row);
+
+#endif

@@ -1,0 +1,369 @@
+#include "export/detection_tables.h"
+
+#include <stdlib.h>
+
+#include "export/radar_ghost_label.h"
+#include "frame/frame_order.h"
+#include "geometry/sensor_pose.h"
+
+const char *const detection_tables_names[] = {
+    [TABLE_DETECTIONS] = "detections",     [TABLE_OBJECTS] = "objects", [TABLE_SCANS] = "scans",
+    [TABLE_CONTRIBUTORS] = "contributors", [TABLE_LOST] = "lost",
+};
+
+/* What rows have beside the members of the frame. Each table takes its columns from this struct by
+ * records of its own. */
+struct row {
+    int64_t frame_key, scan_key, object_key, detection_key;
+    const char *scene, *ego;
+    uint64_t seed;
+    int64_t frame;
+    double time_s, interval_s, measured_s;
+    bool last;
+    double origin_x_m, origin_y_m;
+    const char *suite, *sensor;
+    int64_t detections, detection, contributors, contributor;
+    double sensor_x_m, sensor_y_m, sensor_yaw_rad, sensor_vx_mps, sensor_vy_mps;
+    const char *class;
+    int64_t radar_ghost_label;
+};
+
+enum { NO_KEY = -1 };
+
+#define KEY(member, help)                                                                          \
+    {                                                                                              \
+        FIELD_INTEGER_IN(struct row, member, 0, 0x1p53, help)                                      \
+    }
+#define OBJECT_KEY                                                                                 \
+    {                                                                                              \
+        FIELD_INTEGER_IN(struct row, object_key, 0, 0x1p53, "row of objects"), FIELD_OPTIONAL,     \
+            .absent = NO_KEY                                                                       \
+    }
+#define COUNT(member, help)                                                                        \
+    {                                                                                              \
+        FIELD_INTEGER_IN(struct row, member, 0, 0x1p53, help)                                      \
+    }
+#define REAL(member, help)                                                                         \
+    {                                                                                              \
+        FIELD_REAL_IN(struct row, member, -1e11, 1e11, help)                                       \
+    }
+#define WORD(member, help)                                                                         \
+    {                                                                                              \
+        FIELD_NAME_OF(struct row, member, help)                                                    \
+    }
+#define RECORD(fields, name, help)                                                                 \
+    static const struct record fields##_record = {FIELD_TABLE(struct row, fields, name, help)}
+
+static const struct field detection_fields[] = {
+    KEY(detection_key, "number of this row"),
+    KEY(scan_key, "row of scans"),
+    COUNT(detection, "place in the sensor's list, from 0"),
+    WORD(scene, "unique in a set: source, ego, variant"),
+    COUNT(frame, "number in the scene, from 0"),
+    REAL(time_s, "end of the interval that the frame stands for"),
+    {0},
+};
+RECORD(detection_fields, "detection", "Where a target stands.");
+
+static const struct field pose_fields[] = {
+    REAL(sensor_x_m, "place of the sensor at the measurement, from the frame's origin"),
+    REAL(sensor_y_m, "place of the sensor at the measurement, from the frame's origin"),
+    REAL(sensor_yaw_rad, "direction of its boresight"),
+    REAL(sensor_vx_mps, "velocity of the sensor"),
+    REAL(sensor_vy_mps, "velocity of the sensor"),
+    {0},
+};
+RECORD(pose_fields, "pose", "Place and motion of a sensor.");
+
+static const struct field label_fields[] = {
+    OBJECT_KEY,
+    {FIELD_NAME_OF(struct row, class, "class of the object"), FIELD_OPTIONAL},
+    COUNT(contributors, "echoes in the label"),
+    {FIELD_INTEGER_IN(struct row, radar_ghost_label, -2, 9999, "as the Radar Ghost data set")},
+    {0},
+};
+RECORD(label_fields, "label", "What a target shows most of.");
+
+static const struct field object_fields[] = {
+    KEY(object_key, "number of this row"),
+    KEY(frame_key, "number of the frame"),
+    WORD(scene, "unique in a set: source, ego, variant"),
+    COUNT(frame, "number in the scene, from 0"),
+    REAL(time_s, "end of the interval that the frame stands for"),
+    {0},
+};
+RECORD(object_fields, "object", "When an object was there.");
+
+static const struct field scan_fields[] = {
+    KEY(scan_key, "number of this row"),
+    KEY(frame_key, "number of the frame"),
+    WORD(scene, "unique in a set: source, ego, variant"),
+    {FIELD_SEED_OF(struct row, seed, "seed of all random numbers")},
+    COUNT(frame, "number in the scene, from 0"),
+    REAL(time_s, "end of the interval that the frame stands for"),
+    REAL(interval_s, "length of that interval"),
+    {FIELD_FLAG_OF(struct row, last, "is this the scene's last frame?")},
+    WORD(ego, "id of the object that carries the sensors"),
+    REAL(origin_x_m, "origin of the frame's coordinates in those of the source"),
+    REAL(origin_y_m, "origin of the frame's coordinates in those of the source"),
+    WORD(suite, "name of the suite document"),
+    WORD(sensor, "name in the suite"),
+    REAL(measured_s, "instant of the measurement"),
+    COUNT(detections, "targets of this scan"),
+    {0},
+};
+RECORD(scan_fields, "scan", "A scan of a sensor.");
+
+static const struct field contributor_fields[] = {
+    KEY(detection_key, "row of detections"),
+    COUNT(contributor, "place in the label, from 0; the leader of the cell is the first"),
+    OBJECT_KEY,
+    {0},
+};
+RECORD(contributor_fields, "contributor", "In which label an echo stands.");
+
+static const struct field lost_fields[] = {
+    {FIELD_INTEGER_IN(struct row, scan_key, 0, 0x1p53, "row of scans"), FIELD_OPTIONAL,
+     .absent = NO_KEY},
+    OBJECT_KEY,
+    {0},
+};
+RECORD(lost_fields, "lost echo", "Of which scan an echo was lost.");
+
+static const char *const all[] = {NULL};
+/* Columns that stand elsewhere in the row, or say the same for every row. */
+static const char *const known_of_scan[] = {"name", "measured", "age_s", NULL};
+/* Of the label's echo its names and its weight. */
+static const char *const values[] = {"range_m", "azimuth_rad", "range_rate_mps",
+                                     "ercs",    "time_s",      NULL};
+
+/* The structs whose members make a row, in its order. */
+static const struct {
+    const struct record *record;
+    const char *const *without;
+} structs[TABLE_COUNT][DETECTION_TABLES_STRUCTS] = {
+    [TABLE_DETECTIONS] = {{&detection_fields_record, all},
+                          {&target_record, all},
+                          {&label_fields_record, all},
+                          {&contributor_record, values},
+                          {&pose_fields_record, all}},
+    [TABLE_OBJECTS] = {{&object_fields_record, all}, {&object_record, all}},
+    [TABLE_SCANS] = {{&scan_fields_record, all},
+                     {&pose_fields_record, all},
+                     {&sensor_view_record, known_of_scan}},
+    [TABLE_CONTRIBUTORS] = {{&contributor_fields_record, all}, {&contributor_record, all}},
+    [TABLE_LOST] = {{&lost_fields_record, all},
+                    {&lost_group_record, all},
+                    {&lost_echo_record, all}},
+};
+
+void detection_tables_begin(struct detection_tables *tables, int64_t first_key, struct arena *arena)
+{
+    tables->frame_key = tables->scan_key = first_key;
+    tables->object_key = tables->detection_key = first_key;
+    tables->end_key = first_key + DETECTION_TABLES_KEYS;
+    for (int table = 0; table < TABLE_COUNT; table++) {
+        struct text *rows = tables->rows[table];
+        for (int i = 0; i < DETECTION_TABLES_STRUCTS && structs[table][i].record != NULL; i++) {
+            struct csv_columns *columns = &tables->columns[table][i];
+            csv_columns_add(columns, structs[table][i].record, structs[table][i].without, arena);
+            if (rows != NULL)
+                csv_columns_write_names(columns, rows);
+        }
+        if (rows != NULL)
+            csv_columns_end_row(rows);
+    }
+}
+
+/* A frame whose rows are being written. */
+struct writing {
+    struct detection_tables *tables;
+    const struct frame *frame;
+    struct object *const *by_id;
+    const char *id; /* that was looked for last, as echoes of one object stand together */
+    const struct object *object; /* with that id, or NULL */
+    struct row row;
+    bool has_pose;
+};
+
+/* Appends a row, of which structs are NULL where its cells are empty. */
+static void write_row(const struct writing *writing, enum table table, const void *const *bases)
+{
+    struct text *rows = writing->tables->rows[table];
+    const struct csv_columns *columns = writing->tables->columns[table];
+    if (rows == NULL)
+        return;
+    for (int i = 0; i < DETECTION_TABLES_STRUCTS && columns[i].list.count > 0; i++)
+        if (bases[i] != NULL)
+            csv_columns_write(&columns[i], bases[i], rows);
+        else
+            csv_columns_write_empty(&columns[i], rows);
+    csv_columns_end_row(rows);
+}
+
+static int has_id(const void *id, const void *object)
+{
+    return strcmp(id, (*(struct object *const *)object)->id);
+}
+
+/* Finds the object of an echo and its key, which are NULL and none for the ground and for noise. */
+static void find_object(struct writing *writing, const char *id)
+{
+    const struct frame *frame = writing->frame;
+    if (writing->id == NULL || !frame_same_name(writing->id, id)) {
+        struct object *const *found = frame->objects.count == 0
+                                          ? NULL
+                                          : bsearch(id, writing->by_id, frame->objects.count,
+                                                    sizeof(struct object *), has_id);
+        writing->id = id;
+        writing->object = found != NULL ? *found : NULL;
+    }
+    writing->row.object_key =
+        writing->object == NULL
+            ? NO_KEY
+            : writing->tables->object_key + (writing->object - frame->objects.items);
+}
+
+static void write_objects(struct writing *writing)
+{
+    const struct frame *frame = writing->frame;
+    for (size_t i = 0; i < frame->objects.count; i++) {
+        writing->row.object_key = writing->tables->object_key + (int64_t)i;
+        write_row(
+            writing, TABLE_OBJECTS,
+            (const void *[DETECTION_TABLES_STRUCTS]){&writing->row, &frame->objects.items[i]});
+    }
+}
+
+static void write_contributors(struct writing *writing, const struct target *target)
+{
+    for (size_t i = 0; i < target->contributors.count; i++) {
+        const struct contributor *from = &target->contributors.items[i];
+        find_object(writing, from->id.object);
+        writing->row.contributor = (int64_t)i;
+        write_row(writing, TABLE_CONTRIBUTORS,
+                  (const void *[DETECTION_TABLES_STRUCTS]){&writing->row, from});
+    }
+}
+
+static void write_detection(struct writing *writing, const struct target *target)
+{
+    struct row *row = &writing->row;
+    const struct contributor *from = frame_strongest(target);
+    row->contributors = (int64_t)target->contributors.count;
+    find_object(writing, from->id.object);
+    row->class = writing->object != NULL ? writing->object->class : NULL;
+    row->radar_ghost_label = radar_ghost_label_of(from->id.path, row->class);
+    write_row(writing, TABLE_DETECTIONS,
+              (const void *[DETECTION_TABLES_STRUCTS]){row, target, row, from,
+                                                       writing->has_pose ? row : NULL});
+}
+
+/* A sensor's lost echoes stand in groups of its name. */
+static void write_lost(struct writing *writing, const struct sensor_view *sensor)
+{
+    const struct frame *frame = writing->frame;
+    for (size_t i = 0; i < frame->lost.count; i++) {
+        const struct lost_group *group = &frame->lost.items[i];
+        if (!frame_same_name(group->sensor, sensor->name))
+            continue;
+        for (size_t j = 0; j < group->echoes.count; j++) {
+            const struct lost_echo *echo = &group->echoes.items[j];
+            find_object(writing, echo->id.object);
+            write_row(writing, TABLE_LOST,
+                      (const void *[DETECTION_TABLES_STRUCTS]){&writing->row, group, echo});
+        }
+    }
+}
+
+static void take_pose(struct writing *writing, const struct sensor_view *sensor)
+{
+    const struct object *ego = frame_object(writing->frame, writing->frame->ego);
+    struct row *row = &writing->row;
+    writing->has_pose = ego != NULL;
+    if (ego == NULL)
+        return;
+    struct motion motion = frame_motion(ego, sensor->age_s);
+    struct sensor_pose pose =
+        sensor_pose_on(&motion, sensor->mount_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
+    row->sensor_x_m = pose.position_m.x;
+    row->sensor_y_m = pose.position_m.y;
+    row->sensor_yaw_rad = pose.yaw_rad;
+    row->sensor_vx_mps = pose.velocity_mps.x;
+    row->sensor_vy_mps = pose.velocity_mps.y;
+}
+
+static void write_scan(struct writing *writing, const struct sensor_view *sensor)
+{
+    struct row *row = &writing->row;
+    const struct frame *frame = writing->frame;
+    row->sensor = sensor->name;
+    row->measured_s = frame->time_s - sensor->age_s;
+    row->scan_key = writing->tables->scan_key;
+    row->detections = 0;
+    take_pose(writing, sensor);
+    for (size_t i = 0; i < frame->targets.count; i++) {
+        const struct target *target = &frame->targets.items[i];
+        if (!frame_same_name(target->sensor, sensor->name))
+            continue;
+        row->detection = row->detections++;
+        row->detection_key = writing->tables->detection_key++;
+        write_detection(writing, target);
+        write_contributors(writing, target);
+    }
+    if (sensor->measured || row->detections > 0) {
+        write_row(
+            writing, TABLE_SCANS,
+            (const void *[DETECTION_TABLES_STRUCTS]){row, writing->has_pose ? row : NULL, sensor});
+        writing->tables->scan_key++;
+    } else {
+        row->scan_key = NO_KEY;
+    }
+    write_lost(writing, sensor);
+}
+
+static struct row row_of(const struct frame *frame, int64_t frame_key)
+{
+    return (struct row){
+        .frame_key = frame_key,
+        .scene = frame->scene,
+        .ego = frame->ego,
+        .seed = frame->seed,
+        .frame = frame->frame,
+        .time_s = frame->time_s,
+        .interval_s = frame->interval_s,
+        .last = frame->last,
+        .origin_x_m = frame->origin_x_m,
+        .origin_y_m = frame->origin_y_m,
+        .suite = frame->sensors.suite,
+    };
+}
+
+static int check_keys(const struct detection_tables *tables, const struct frame *frame,
+                      struct diag *diag)
+{
+    int64_t left = tables->end_key;
+    if (tables->frame_key < left && tables->object_key + (int64_t)frame->objects.count <= left &&
+        tables->scan_key + (int64_t)frame->sensors.list.count <= left &&
+        tables->detection_key + (int64_t)frame->targets.count <= left)
+        return 0;
+    return diag_fail(diag, DIAG_DATA, "a table has more than %lld rows; expected parts of fewer",
+                     (long long)DETECTION_TABLES_KEYS);
+}
+
+int detection_tables_add(struct detection_tables *tables, struct frame *frame, struct diag *diag)
+{
+    if (check_keys(tables, frame, diag) != 0)
+        return -1;
+    struct writing writing = {
+        .tables = tables,
+        .frame = frame,
+        .by_id = frame_order_objects(frame),
+        .row = row_of(frame, tables->frame_key++),
+    };
+    write_objects(&writing);
+    for (size_t i = 0; i < frame->sensors.list.count; i++)
+        write_scan(&writing, &frame->sensors.list.items[i]);
+    tables->object_key += (int64_t)frame->objects.count;
+    return 0;
+}

@@ -1,0 +1,55 @@
+/* Frames as rows of tables that whole numbers join.
+ *
+ *     detections     a row for each target: its values, its label, the sensor's pose
+ *     objects        a row for each object of each frame: truth
+ *     scans          a row for each sensor that measured in a frame, without targets too
+ *     contributors   a row for each echo in a target's label
+ *     lost           a row for each echo in no target, if the frames keep account
+ *
+ * Members of the frame are columns of the same names (csv_columns.h). A column that ends in _key
+ * numbers rows from first_key on: frame_key, scan_key, object_key and detection_key. A key is empty
+ * where there is nothing to join, as clutter and false alarms are of no object. The label of a
+ * detection is its contributor of the greatest weight.
+ *
+ * Keys stay below first_key + DETECTION_TABLES_KEYS. Nothing of a frame is kept. */
+#ifndef DETECTION_TABLES_H
+#define DETECTION_TABLES_H
+
+#include "base/text.h"
+#include "export/csv_columns.h"
+#include "frame/frame.h"
+
+enum table {
+    TABLE_DETECTIONS,
+    TABLE_OBJECTS,
+    TABLE_SCANS,
+    TABLE_CONTRIBUTORS,
+    TABLE_LOST,
+    TABLE_COUNT,
+};
+
+extern const char *const detection_tables_names[]; /* by enum table */
+
+/* The rows that a part of a set has at most. */
+#define DETECTION_TABLES_KEYS INT64_C(1000000000)
+
+/* The structs, of which a row has the members, at most. */
+enum { DETECTION_TABLES_STRUCTS = 5 };
+
+struct detection_tables {
+    struct text *rows[TABLE_COUNT]; /* where the rows go; NULL: the table is not wanted */
+    int64_t frame_key, scan_key, object_key, detection_key; /* of the next row */
+    int64_t end_key;
+    struct csv_columns columns[TABLE_COUNT][DETECTION_TABLES_STRUCTS];
+};
+
+/* Sets the columns, which lie in the arena, and appends the names to the tables whose rows are
+ * set. */
+void detection_tables_begin(struct detection_tables *tables, int64_t first_key,
+                            struct arena *arena);
+
+/* Appends the rows of a frame in canonical order, which must have sensors and targets. Fails with
+ * DIAG_DATA where there are no keys left. */
+int detection_tables_add(struct detection_tables *tables, struct frame *frame, struct diag *diag);
+
+#endif

@@ -1,0 +1,71 @@
+/* A stream as tables: detections, objects, scans, contributors and lost echoes. */
+#include "export/detection_tables.h"
+#include "run/tool.h"
+#include "text/output.h"
+
+struct tables_state {
+    const char *folder;
+    bool plain;
+    int64_t part;
+    struct output *outputs[TABLE_COUNT];
+    struct detection_tables tables;
+};
+
+static int open_outputs(struct tables_state *own, struct runner *runner)
+{
+    for (int i = 0; i < TABLE_COUNT; i++) {
+        const char *name = arena_format(runner_arena(runner), "%s.csv%s", detection_tables_names[i],
+                                        own->plain ? "" : ".gz");
+        own->outputs[i] = runner_output_in(runner, own->folder, name);
+        if (own->outputs[i] == NULL)
+            return -1;
+        own->tables.rows[i] = output_text(own->outputs[i]);
+    }
+    return 0;
+}
+
+static int send_rows(struct tables_state *own, struct runner *runner)
+{
+    for (int i = 0; i < TABLE_COUNT; i++)
+        if (output_send(own->outputs[i], runner_diag(runner)) != 0)
+            return -1;
+    return 0;
+}
+
+static int tables_run(void *state, struct runner *runner)
+{
+    struct tables_state *own = state;
+    struct frame *frame;
+    int more = open_outputs(own, runner) == 0 ? 1 : -1;
+    if (more > 0)
+        detection_tables_begin(&own->tables, own->part * DETECTION_TABLES_KEYS,
+                               runner_arena(runner));
+    while (more > 0 && (more = runner_frame(runner, &frame)) > 0)
+        if (detection_tables_add(&own->tables, frame, runner_diag(runner)) != 0 ||
+            send_rows(own, runner) != 0)
+            more = -1;
+    return more;
+}
+
+static const struct field tables_options[] = {
+    {FIELD_NAME_OF(struct tables_state, folder, "a folder, which gets five tables")},
+    {FIELD_FLAG_OF(struct tables_state, plain, "write .csv instead of .csv.gz"), FIELD_OPTIONAL},
+    {FIELD_INTEGER_IN(struct tables_state, part, 0, 9e6,
+                      "number of this part of a set: its keys begin at so many times 1e9"),
+     FIELD_OPTIONAL},
+    {0},
+};
+
+const struct tool tool_tables = {
+    .name = "tables",
+    .summary = "Write tables of detections, objects, scans, contributors and lost echoes.",
+    .details =
+        "The files are detections.csv.gz and so on. Columns are the members of the frame, with\n"
+        "the same names and units; columns that end in _key are whole numbers that join rows.\n"
+        "Parts of a set have keys of their own with --part. schemas/README.md says more.",
+    .options = STAGE_OPTIONS(struct tables_state, tables_options),
+    .operand = "DIR",
+    .into_folder = true,
+    .reads = SECTION_SENSORS | SECTION_TARGETS,
+    .run = tables_run,
+};

@@ -1,0 +1,212 @@
+"""glint-tables and glint-export-csv against the frames that they read.
+
+Usage: python3 tests/chain/detection_tables.py BIN_DIR        exit status 1 if any check fails
+
+Rows are made here from the JSON lines, member by member, and must be those of the tables: the same names, the same
+numbers, in the same order. Sensor poses are integrated here along the ego's path.
+"""
+import csv
+import gzip
+import io
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+TABLES = ["detections", "objects", "scans", "contributors", "lost"]
+AWKWARD = 'with "quotes", commas and\u00a0blanks '
+CHAIN = "glint-extract | glint-ideal --sensors {} | glint-sensor | glint-noise"
+STREAMS = [
+    f"glint-traffic side-crossing --scene '{AWKWARD}' | " + CHAIN.format("srr24-pair"),
+    "glint-traffic walled-road | " + CHAIN.format("radarscenes77-full --account --margins"),
+    "glint-traffic gravel --conditions '{\"rain_mmph\": 10}' | " + CHAIN.format("lrr77-full --account"),
+    "glint-traffic-random --frames 20 --density dense | " + CHAIN.format("corner77-uncompensated --account"),
+]
+# Members that stand elsewhere in a row or say the same for every row, and those that no column shows.
+OF_SCAN = {"name", "measured", "age_s"}
+OF_LABEL = ["object", "reflector", "path", "mirror", "number", "weight"]
+faults = []
+
+
+def check(good, text):
+    if not good:
+        faults.append(text)
+
+
+def run(text, bin_dir, data=None):
+    environment = dict(os.environ, PATH=bin_dir + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
+    done = subprocess.run(["bash", "-o", "pipefail", "-c", text], env=environment, cwd=ROOT, input=data,
+                          capture_output=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"tables: {text}: {done.stderr.decode()}")
+    return done.stdout
+
+
+def read(path):
+    with (gzip.open if path.endswith(".gz") else open)(path, "rt", newline="") as file:
+        return list(csv.DictReader(file, strict=True))
+
+
+def values(record, without=()):
+    """The members of a JSON object that are single values, by the names of their columns."""
+    found = {}
+    for key, value in record.items():
+        if isinstance(value, dict):
+            found.update({f"{key}_{name}": one for name, one in values(value).items()})
+        elif key == "effects":
+            found[key] = " ".join(value)
+        elif not isinstance(value, list) and key not in without:
+            found[key] = value
+    return found
+
+
+def pose(frame, sensor):
+    """Place, boresight and velocity of a sensor age_s ago, as the ego drives a circle at constant speed."""
+    ego = next(one for one in frame["objects"] if one["id"] == frame["ego"])
+    steps, age, turn = 64, sensor.get("age_s", 0), ego["yaw_rate_radps"]
+    speed, course = math.hypot(ego["vx_mps"], ego["vy_mps"]), math.atan2(ego["vy_mps"], ego["vx_mps"])
+    x, y = ego["x_m"], ego["y_m"]
+    for step in range(steps):  # Simpson's rule on each step
+        for share, weight in ((0, 1), (0.5, 4), (1, 1)):
+            at = course - turn * age * (step + share) / steps
+            x -= speed * math.cos(at) * age / steps * weight / 6
+            y -= speed * math.sin(at) * age / steps * weight / 6
+    yaw, course = ego["yaw_rad"] - turn * age, course - turn * age
+    dx = math.cos(yaw) * sensor["mount_x_m"] - math.sin(yaw) * sensor["mount_y_m"]
+    dy = math.sin(yaw) * sensor["mount_x_m"] + math.cos(yaw) * sensor["mount_y_m"]
+    return {"sensor_x_m": x + dx, "sensor_y_m": y + dy, "sensor_yaw_rad": yaw + sensor["mount_yaw_rad"],
+            "sensor_vx_mps": speed * math.cos(course) - turn * dy, "sensor_vy_mps": speed * math.sin(course) + turn * dx}
+
+
+def ghost_label(path, kind):
+    """The label of the Radar Ghost data set: class, main object, bounce type and order."""
+    digit = {"pedestrian": 1, "bicycle": 2, "car": 3, "van": 3, "truck": 4, "articulated_truck": 4, "bus": 4,
+             "motorcycle": 5}.get(kind, 0)
+    bounces = {"wall_object": 12, "object_wall": 22, "wall_object_wall": 24}.get(path, 11)
+    if path == "false_alarm":
+        return -2
+    return 0 if path == "clutter" or digit == 0 else 1000 * digit + 100 + bounces
+
+
+def expected(frames, first=0):
+    """The rows of all tables."""
+    rows = {table: [] for table in TABLES}
+    for number, frame in enumerate(frames):
+        when = {key: frame[key] for key in ("scene", "frame", "time_s")}
+        keys = {}
+        for one in frame["objects"]:
+            keys[one["id"]] = first + len(rows["objects"])
+            rows["objects"].append({"object_key": keys[one["id"]], "frame_key": first + number, **when, **values(one)})
+        classes = {one["id"]: one["class"] for one in frame["objects"]}
+        for sensor in frame["sensors"]["list"]:
+            here, name = pose(frame, sensor), sensor["name"]
+            targets = [one for one in frame["targets"] if one["sensor"] == name]
+            scan = first + len(rows["scans"])
+            if sensor["measured"]:
+                rows["scans"].append({
+                    "scan_key": scan, "frame_key": first + number, **when, "seed": frame["seed"],
+                    "interval_s": frame["interval_s"], "last": frame.get("last", False), "ego": frame["ego"],
+                    "origin_x_m": frame.get("origin_x_m", 0), "origin_y_m": frame.get("origin_y_m", 0),
+                    "suite": frame["sensors"]["suite"], "sensor": name,
+                    "measured_s": frame["time_s"] - sensor.get("age_s", 0), "detections": len(targets), **here,
+                    **values(sensor, OF_SCAN)})
+            for place, target in enumerate(targets):
+                key = first + len(rows["detections"])
+                best = max(target["contributors"], key=lambda part: part["weight"])
+                label = {column: best.get(column, "") for column in OF_LABEL}
+                rows["detections"].append({
+                    "detection_key": key, "scan_key": scan, "detection": place, **when, **values(target),
+                    "sign_undecided": target.get("sign_undecided", False), "object_key": keys.get(best["object"], ""),
+                    "class": classes.get(best["object"], ""), "contributors": len(target["contributors"]),
+                    "radar_ghost_label": ghost_label(best["path"], classes.get(best["object"])), **label, **here})
+                rows["contributors"] += [
+                    {"detection_key": key, "contributor": index, "object_key": keys.get(part["object"], ""),
+                     **values(part)} for index, part in enumerate(target["contributors"])]
+            rows["lost"] += [{"scan_key": scan, "object_key": keys.get(echo["object"], ""), **values(group),
+                              **values(echo)}
+                             for group in frame.get("lost", []) if group["sensor"] == name for echo in group["echoes"]]
+    return rows
+
+
+def same(column, cell, value):
+    if isinstance(value, bool):
+        return cell == str(value).lower()
+    if not isinstance(value, (int, float)) or cell == "":
+        return cell == value
+    if column.startswith("sensor_"):
+        return abs(float(cell) - value) <= 1e-9
+    return float(cell) == value
+
+
+def compare(table, rows, wanted, columns, stream):
+    check(len(rows) == len(wanted), f"{stream}: {table} has {len(rows)} rows, expected {len(wanted)}")
+    for row, want in zip(rows, wanted):
+        unknown = want.keys() - set(columns)
+        check(not unknown, f"{stream}: {table} has no column {unknown}")
+        wrong = {column: (row[column], want.get(column, "")) for column in columns
+                 if not same(column, row[column], want.get(column, ""))}
+        check(not wrong, f"{stream}: {table}: {wrong}")
+        if faults:
+            return
+
+
+def check_stream(stream, schema, bin_dir, seen):
+    frames = run(stream, bin_dir)
+    wanted = expected([json.loads(line) for line in frames.splitlines()])
+    with tempfile.TemporaryDirectory() as folder:
+        run(f"glint-tables {folder}", bin_dir, frames)
+        for table in TABLES:
+            rows = read(f"{folder}/{table}.csv.gz")
+            columns = [field["name"] for field in schema[table]["fields"]]
+            check(not rows or list(rows[0]) == columns, f"{stream}: the columns of {table} are not those of tables.json")
+            compare(table, rows, wanted[table], columns, stream)
+            seen[table] += len(rows)
+            for row in rows:
+                seen["empty scans"] += row.get("detections") == "0"
+                seen["labels"].add(row.get("radar_ghost_label"))
+        with gzip.open(f"{folder}/detections.csv.gz") as file:
+            check(file.read() == run("glint-export-csv", bin_dir, frames), f"{stream}: glint-export-csv writes others")
+
+
+def check_ways(bin_dir):
+    """The same bytes fused and piped, packed and plain; and keys of parts that differ by 1e9."""
+    stream = STREAMS[0]
+    with tempfile.TemporaryDirectory() as folder:
+        os.makedirs(f"{folder}/plain")
+        run(f"{stream} | glint-tables {folder}", bin_dir)
+        quoted = stream.replace("'", "'\\''")
+        run(f"glint -c '{quoted} | glint-tables --plain {folder}/plain'", bin_dir)
+        for table in TABLES:
+            with gzip.open(f"{folder}/{table}.csv.gz") as packed, open(f"{folder}/plain/{table}.csv", "rb") as plain:
+                check(packed.read() == plain.read(), f"{table}.csv has other bytes in one process")
+        run(f"{stream} | glint-tables --plain --part 7 {folder}/plain", bin_dir)
+        for table in TABLES:
+            for part, whole in zip(read(f"{folder}/plain/{table}.csv"), read(f"{folder}/{table}.csv.gz")):
+                moved = {name: str(int(cell) + 7 * 10**9) if name.endswith("_key") and cell else cell
+                         for name, cell in whole.items()}
+                check(part == moved, f"{table}: part 7 has the row {part}, expected {moved}")
+    table = run("bash pipelines/table.sh", bin_dir).decode()
+    check(len(list(csv.DictReader(io.StringIO(table, newline="")))) > 100, "pipelines/table.sh writes no table")
+
+
+def main():
+    bin_dir = os.path.abspath(sys.argv[1])
+    with open(ROOT + "/schemas/tables.json", encoding="utf-8") as file:
+        schema = json.load(file)
+    seen = dict.fromkeys([*TABLES, "empty scans"], 0) | {"labels": set()}
+    for stream in STREAMS:
+        check_stream(stream, schema, bin_dir, seen)
+    check(all(seen[name] > 0 for name in seen if name != "labels"), f"too little to see: {seen}")
+    check({"0", "-2", "3111", "3122"} <= seen["labels"], f"labels are {seen['labels']}")
+    check_ways(bin_dir)
+    for text in faults[:10]:
+        print(f"FAILED   {text}"[:2000])
+    print(f"tables: {', '.join(f'{seen[table]} {table}' for table in TABLES)}; {len(faults)} faults")
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,127 @@
+#include "check.h"
+
+#include <string.h>
+
+#include "export/csv_columns.h"
+
+enum colour { COLOUR_NONE, COLOUR_RED };
+static const char *const colours[] = {"none", "red", NULL};
+static const char *const things[] = {"wheel", "door", "roof", NULL};
+
+struct inner {
+    double size_m, weight;
+};
+
+struct outer {
+    double x_m, known_m;
+    int64_t whole, absent;
+    bool flag;
+    const char *name;
+    enum colour colour;
+    uint64_t seed, set;
+    LIST_OF(const char *) names;
+    const char *extra;
+    struct inner inner;
+};
+
+static const struct field inner_fields[] = {
+    {FIELD_REAL_IN(struct inner, size_m, 0, 9, "size"), FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct inner, weight, 0, 9, "weight"), FIELD_OPTIONAL},
+    {0},
+};
+static const struct record inner_record = {
+    FIELD_TABLE(struct inner, inner_fields, "inner", "For tests.")};
+
+static const struct field outer_fields[] = {
+    {FIELD_REAL_IN(struct outer, x_m, -9, 9, "place")},
+    {FIELD_REAL_IN(struct outer, known_m, 0, 9, "0: not known"), FIELD_OPTIONAL},
+    {FIELD_INTEGER_IN(struct outer, whole, -1e15, 1e15, "whole")},
+    {FIELD_INTEGER_IN(struct outer, absent, 0, 9, "absent: -1"), FIELD_OPTIONAL, .absent = -1},
+    {FIELD_FLAG_OF(struct outer, flag, "flag"), FIELD_OPTIONAL},
+    {FIELD_NAME_OF(struct outer, name, "name"), FIELD_OPTIONAL},
+    {FIELD_CHOICE_OF(struct outer, colour, colours, "colour")},
+    {FIELD_SEED_OF(struct outer, seed, "seed")},
+    {FIELD_SET_OF(struct outer, set, things, "set"), FIELD_OPTIONAL},
+    {FIELD_NAMES_OF(struct outer, names, "no column")},
+    {FIELD_RAW_OF(struct outer, extra, "no column")},
+    {FIELD_RECORD_OF(struct outer, inner, &inner_record, "inner"), FIELD_OPTIONAL},
+    {0},
+};
+static const struct record outer_record = {
+    FIELD_TABLE(struct outer, outer_fields, "outer", "For tests.")};
+
+static const char *const none[] = {NULL};
+
+static void check_row(const struct outer *outer, const char *const *without, const char *expected)
+{
+    struct arena arena = {0};
+    struct csv_columns columns = {0};
+    struct text row = {0};
+    csv_columns_add(&columns, &outer_record, without, &arena);
+    if (outer != NULL)
+        csv_columns_write(&columns, outer, &row);
+    else
+        csv_columns_write_names(&columns, &row);
+    csv_columns_end_row(&row);
+    text_add(&row, "", 1);
+    assert_string_equal(row.bytes, expected);
+    text_free(&row);
+    arena_free(&arena);
+}
+
+static void members_are_columns_and_those_of_structs_have_its_name_before_theirs(void **state)
+{
+    (void)state;
+    check_row(NULL, none,
+              "x_m,known_m,whole,absent,flag,name,colour,seed,set,inner_size_m,inner_weight\n");
+    static const char *const without[] = {"whole", "inner", NULL};
+    check_row(NULL, without, "x_m,known_m,absent,flag,name,colour,seed,set\n");
+}
+
+static void values_are_written_as_in_json_and_absent_ones_not_at_all(void **state)
+{
+    (void)state;
+    struct outer outer = {.x_m = 0.1 + 0.2, .whole = -INT64_C(9007199254740993), .absent = -1};
+    check_row(&outer, none, "0.30000000000000004,,-9007199254740993,,false,,none,0,,,\n");
+    outer = (struct outer){.x_m = -0.0,
+                           .known_m = 1e-7,
+                           .flag = true,
+                           .name = "plain",
+                           .colour = COLOUR_RED,
+                           .seed = UINT64_MAX,
+                           .set = 5,
+                           .inner.weight = 2};
+    check_row(&outer, none, "-0.0,1e-07,0,0,true,plain,red,18446744073709551615,wheel roof,,2\n");
+}
+
+static void names_are_quoted_where_they_must_be(void **state)
+{
+    (void)state;
+    static const char *const without[] = {"x_m",    "known_m", "whole", "absent", "flag",
+                                          "colour", "seed",    "set",   "inner",  NULL};
+    check_row(&(struct outer){.name = "a, \"b\""}, without, "\"a, \"\"b\"\"\"\n");
+    check_row(&(struct outer){.name = "two\nlines"}, without, "\"two\nlines\"\n");
+}
+
+static void the_longest_name_has_room_if_all_of_it_is_quotes(void **state)
+{
+    (void)state;
+    char name[FIELD_NAME_SIZE + 1] = {0}, expected[2 * FIELD_NAME_SIZE + 4] = {0};
+    memset(name, '"', FIELD_NAME_SIZE);
+    memset(expected, '"', 2 * FIELD_NAME_SIZE + 2);
+    expected[2 * FIELD_NAME_SIZE + 2] = '\n';
+    static const char *const without[] = {"x_m",    "known_m", "whole", "absent", "flag",
+                                          "colour", "seed",    "set",   "inner",  NULL};
+    check_row(&(struct outer){.name = name}, without, expected);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(members_are_columns_and_those_of_structs_have_its_name_before_theirs),
+        cmocka_unit_test(values_are_written_as_in_json_and_absent_ones_not_at_all),
+        cmocka_unit_test(names_are_quoted_where_they_must_be),
+        cmocka_unit_test(the_longest_name_has_room_if_all_of_it_is_quotes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
