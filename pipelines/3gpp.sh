@@ -6,6 +6,6 @@
 set -o pipefail
 glint-traffic cut-in \
   | glint-extract-3gpp \
-  | glint-ideal --sensors lrr77-full --account \
+  | glint-ideal --sensors lrr77-full --sections account \
   | glint-sensor \
   | glint-noise

@@ -5,7 +5,7 @@
 set -o pipefail
 glint-traffic wet-road \
   | glint-extract \
-  | glint-ideal --sensors lrr77-full --account \
+  | glint-ideal --sensors lrr77-full --sections account \
       --effects=-interference,-rain,-fog \
   | glint-sensor \
   | glint-noise

@@ -5,6 +5,6 @@
 set -o pipefail
 glint-traffic gravel \
   | glint-extract \
-  | glint-ideal --sensors lrr77-full --account \
+  | glint-ideal --sensors lrr77-full --sections account \
   | glint-sensor \
   | glint-noise

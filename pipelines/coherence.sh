@@ -5,6 +5,6 @@
 set -o pipefail
 glint-traffic two-posts \
   | glint-extract \
-  | glint-ideal --sensors lrr77-coherent --account \
+  | glint-ideal --sensors lrr77-coherent --sections account \
   | glint-sensor \
   | glint-noise

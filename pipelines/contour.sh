@@ -6,6 +6,6 @@
 set -o pipefail
 glint-traffic cut-in \
   | glint-extract-contour --spacing-m 0.1 \
-  | glint-ideal --sensors lrr77-coherent --account \
+  | glint-ideal --sensors lrr77-coherent --sections account \
   | glint-sensor-smear \
   | glint-noise

@@ -4,6 +4,6 @@
 set -o pipefail
 glint-traffic corner-approach \
   | glint-extract \
-  | glint-ideal --sensors srr24-pair --account \
+  | glint-ideal --sensors srr24-pair --sections account \
   | glint-sensor \
   | glint-noise

@@ -4,7 +4,7 @@
 set -o pipefail
 glint-traffic open-road \
   | glint-extract \
-  | glint-ideal --sensors lrr77-full --account \
+  | glint-ideal --sensors lrr77-full --sections account \
       --effects visibility,plane_reflection,rows,occlusion,merging,superposition,threshold,angle_noise,range_noise,false_alarms \
   | glint-sensor \
   | glint-noise

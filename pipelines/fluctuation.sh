@@ -5,7 +5,7 @@
 set -o pipefail
 glint-traffic wet-road \
   | glint-extract \
-  | glint-ideal --sensors lrr77-full --account \
+  | glint-ideal --sensors lrr77-full --sections account \
       --effects=visibility,plane_reflection,rows,occlusion,merging,superposition,threshold,rain,fog,fluctuation \
   | glint-sensor \
   | glint-noise

@@ -4,6 +4,6 @@
 set -o pipefail
 glint-traffic highway --ego 1 --radius-m 250 \
   | glint-extract \
-  | glint-ideal --sensors lrr77-every-frame --account \
+  | glint-ideal --sensors lrr77-every-frame --sections account \
   | glint-sensor \
   | glint-noise

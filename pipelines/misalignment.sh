@@ -5,7 +5,7 @@
 set -o pipefail
 glint-traffic open-road \
   | glint-extract \
-  | glint-ideal --sensors lrr77-full --account \
+  | glint-ideal --sensors lrr77-full --sections account \
       --effects visibility,plane_reflection,rows,occlusion,merging,superposition,threshold,misalignment \
   | glint-sensor \
   | glint-noise

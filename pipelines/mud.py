@@ -26,6 +26,6 @@ for line in sys.stdin:
     frame = json.loads(line)
     hidden = [echo for echo in frame["echoes"] if low <= echo["azimuth_rad"] <= high]
     frame["echoes"] = [echo for echo in frame["echoes"] if echo not in hidden]
-    if frame.get("account"):
+    if "account" in frame.get("sections", []):
         lose(frame, hidden)
     print(json.dumps(frame))

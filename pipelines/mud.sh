@@ -4,7 +4,7 @@
 set -o pipefail
 glint-traffic intersection \
   | glint-extract \
-  | glint-ideal --sensors srr24-pair --account \
+  | glint-ideal --sensors srr24-pair --sections account \
   | python3 pipelines/mud.py -0.2 0.1 \
   | glint-sensor \
   | glint-noise

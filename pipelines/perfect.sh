@@ -5,6 +5,6 @@
 set -o pipefail
 glint-traffic cut-in \
   | glint-extract \
-  | glint-ideal --sensors corner77 --account \
+  | glint-ideal --sensors corner77 --sections account \
   | glint-sensor-perfect \
   | glint-noise-gauss

@@ -5,6 +5,6 @@
 set -o pipefail
 glint-traffic highway-straight \
   | glint-extract \
-  | glint-ideal --sensors corner77-uncompensated --account \
+  | glint-ideal --sensors corner77-uncompensated --sections account \
   | glint-sensor \
   | glint-noise

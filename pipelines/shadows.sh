@@ -6,6 +6,6 @@
 set -o pipefail
 glint-traffic shadows \
   | glint-extract \
-  | glint-ideal --sensors lrr77-full --account \
+  | glint-ideal --sensors lrr77-full --sections account \
   | glint-sensor \
   | glint-noise

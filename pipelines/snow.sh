@@ -4,6 +4,6 @@
 set -o pipefail
 glint-traffic highway-straight --conditions '{"snow_mmph": 10}' \
   | glint-extract \
-  | glint-ideal --sensors lrr77-full --account \
+  | glint-ideal --sensors lrr77-full --sections account \
   | glint-sensor \
   | glint-noise

@@ -10,7 +10,6 @@
 
 struct ideal {
     struct suite_choice choice; /* first: its options are ideal's */
-    bool account, margins;
     const struct suite *suite;
     struct sensors request; /* what every frame says of suite and effects */
 };
@@ -82,8 +81,6 @@ static int ideal_step(void *state, struct frame *frame, struct runner *runner)
     struct ideal *ideal = state;
     const struct suite *suite = ideal->suite;
     struct selection selection;
-    frame->account = ideal->account;
-    frame->margins = ideal->margins;
     frame->sensors = ideal->request;
     if (suite_choice_effects(&ideal->choice, frame, runner, &selection) != 0)
         return -1;
@@ -95,12 +92,6 @@ static int ideal_step(void *state, struct frame *frame, struct runner *runner)
 
 static const struct field ideal_options[] = {
     SUITE_CHOICE_OF_IDEAL,
-    {FIELD_FLAG_OF(struct ideal, account,
-                   "list in lost, from here on, every reflector that gets into no target"),
-     FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct ideal, margins,
-                   "write, from here on, how close every decision was to another outcome"),
-     FIELD_OPTIONAL},
     {0},
 };
 

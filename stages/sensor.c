@@ -48,7 +48,9 @@ static void sense(struct frame *frame, const struct sensor *sensor,
     effects_note(selection, EFFECT_THRESHOLD, true);
     scan_account(&scan, frame, "sensor");
     const struct margins *margins =
-        frame->margins ? cell_margins_of(sensor, &scan.received, scan.cells, frame->arena) : NULL;
+        frame_carries(frame, CARRY_MARGINS)
+            ? cell_margins_of(sensor, &scan.received, scan.cells, frame->arena)
+            : NULL;
     for (size_t number = 0; number < scan.cells; number++)
         report(frame, &scan, selection, margins, number);
 }

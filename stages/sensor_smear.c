@@ -24,7 +24,7 @@ static void report(struct frame *frame, const struct selection *selection,
     cell.interference = interference;
     if (interference > 0)
         cell.effects |= EFFECT_BIT(EFFECT_INTERFERENCE);
-    if (frame->margins)
+    if (frame_carries(frame, CARRY_MARGINS))
         cell.margins = margins_of(smear, number, &cell);
     resolution_cell_list(frame, "sensor-smear", smear->sensor, selection, &cell, has_angle);
 }

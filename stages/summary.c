@@ -62,7 +62,7 @@ static void count_target(struct summary *summary, const struct frame *frame,
     for (size_t i = 0; i < target->contributors.count; i++) {
         const struct contributor *from = &target->contributors.items[i];
         merged = merged || strcmp(from->id.object, target->contributors.items[0].id.object) != 0;
-        if (frame->account && from->id.path != PATH_FALSE_ALARM)
+        if (frame_carries(frame, CARRY_ACCOUNT) && from->id.path != PATH_FALSE_ALARM)
             count(&summary->outcomes, "in a target", 1, arena);
     }
     if (strongest != NULL)
@@ -152,8 +152,9 @@ const struct stage stage_summary = {
     .details =
         "A target counts for its strongest contributor: for the class of the object, or, apart\n"
         "from classes, as ghost, clutter or false alarm. Shares are of all targets.\n"
-        "With --account given to glint-ideal it also prints what became of every reflector that\n"
-        "a sensor looked for: how many are in a target, and how many are lost for which reason.\n"
+        "With --sections account given to glint-ideal it also prints what became of every\n"
+        "reflector that a sensor looked for: how many are in a target, and how many are lost for\n"
+        "which reason.\n"
         "Prints at the end of the stream.",
     .options = STAGE_OPTIONS(struct summary, field_none),
     .sink = true,

@@ -152,9 +152,9 @@ const struct stage stage_view = {
     .name = "view",
     .summary = "Write an HTML page that plays the stream, or one frame as an SVG still.",
     .details =
-        "The page is one file without any connection: open it in a browser. With --account\n"
-        "given to glint-ideal it also tells why a reflector is in no target. Without --frame\n"
-        "the page opens where most is to be seen, and the still shows the frame with most\n"
+        "The page is one file without any connection: open it in a browser. With --sections\n"
+        "account given to glint-ideal it also tells why a reflector is in no target. Without\n"
+        "--frame the page opens where most is to be seen, and the still shows the frame with most\n"
         "targets. Written at the end of the stream. With --truth the page shows the targets of\n"
         "another stream of the same scenes over those of this one, paired as glint-score pairs\n"
         "them; with --tracks a tracker's tracks, paired with the objects in view.",

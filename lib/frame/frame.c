@@ -331,9 +331,9 @@ static const struct field frame_fields[] = {
     {FIELD_REAL_IN(struct frame, origin_y_m, -1e9, 1e9,
                    "origin of the frame's coordinates in those of the source"),
      FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct frame, account, "do lost and counts account for every echo?"),
-     FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct frame, margins, "do entries have margins?"), FIELD_OPTIONAL},
+    {FIELD_SET_OF(struct frame, sections, sections_names,
+                  "what it carries by choice, now or once it is made; absent: objects"),
+     FIELD_OPTIONAL, .absent = CARRY_BY_DEFAULT},
     {FIELD_RECORD_OF(struct frame, conditions, &conditions_record,
                      "road, weather and other radars"),
      FIELD_OPTIONAL},
@@ -550,7 +550,7 @@ static struct lost_group *find_group(const struct frame *frame, const struct los
 
 static void lose(struct frame *frame, const struct lost_group *kind, const struct lost_echo *echo)
 {
-    if (!frame->account)
+    if (!frame_carries(frame, CARRY_ACCOUNT))
         return;
     struct lost_group *group = find_group(frame, kind);
     if (group == NULL) {

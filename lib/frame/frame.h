@@ -20,6 +20,7 @@
 #include "frame/effects.h"
 #include "frame/margins.h"
 #include "frame/reflectors.h"
+#include "frame/sections.h"
 #include "radar/antenna.h"
 #include "text/field.h"
 
@@ -36,9 +37,6 @@ enum section {
     SECTION_COUNTS = 1 << 7,
     SECTION_VEHICLES = 1 << 8,
 };
-
-/* Sections that a stage drops after it has read them, unless it is given --keep. */
-enum { SECTIONS_CONSUMED = SECTION_REFLECTORS | SECTION_ECHOES | SECTION_CELLS };
 
 /* The part of a frame that one stage may have written. */
 struct frame_part {
@@ -226,8 +224,7 @@ struct frame {
     uint64_t seed;
     const char *ego;
     double origin_x_m, origin_y_m;
-    bool account; /* do lost and counts account for every echo? */
-    bool margins; /* do entries have margins? If not, no stage computes any. */
+    uint64_t sections; /* set of enum carried: what it carries by choice, now or once it is made */
     struct conditions conditions;
     LIST_OF(struct object) objects;
     LIST_OF(struct class_document) vehicles; /* by class; empty before extraction */
@@ -268,6 +265,12 @@ static inline bool frame_same_name(const char *a, const char *b)
 
 /* Empties the frame. Its arena keeps its memory, and the cache of lists stays. */
 void frame_clear(struct frame *frame);
+
+/* Does the frame carry this, now or once it is made? */
+static inline bool frame_carries(const struct frame *frame, enum carried what)
+{
+    return (frame->sections & what) != 0;
+}
 
 /* The key of a section on the wire. */
 const char *frame_section_name(enum section section);

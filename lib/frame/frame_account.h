@@ -2,10 +2,10 @@
  *
  * Every pair of a sensor that measured and a reflector must have exactly one direct entry, in a
  * target's label or in lost; every echo of another path that was made must have one too. Before
- * there are targets, cells or echoes stand for them. Frames keep account if glint-ideal was given
- * --account. They are checked after the stage that writes targets, and by sinks and tools that read
- * them from another process. The check knows how many entries are
- * due, not which: a missing entry together with an invented one would pass. */
+ * there are targets, cells or echoes stand for them. Frames that carry an account (sections.h) are
+ * checked after the stage that writes targets, and by sinks and tools that read them from another
+ * process. The check knows how many entries are due, not which: a missing entry together with an
+ * invented one would pass. */
 #ifndef FRAME_ACCOUNT_H
 #define FRAME_ACCOUNT_H
 

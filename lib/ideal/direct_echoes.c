@@ -13,7 +13,7 @@ static const char stage_name[] = "ideal";
 static struct margins margins_of(const struct look *look, double margin_m)
 {
     struct margins margins = {0};
-    if (look->frame->margins)
+    if (frame_carries(look->frame, CARRY_MARGINS))
         margins_note(&margins, MARGIN_SIGHT, margin_m);
     return margins;
 }
@@ -21,7 +21,7 @@ static struct margins margins_of(const struct look *look, double margin_m)
 static void lose(struct look *look, const struct look_body *body, const char *reflector,
                  struct vec2 place, enum loss reason, const struct look_body *by, double margin_m)
 {
-    if (!look->frame->account)
+    if (!frame_carries(look->frame, CARRY_ACCOUNT))
         return;
     struct vec2 sight = vec2_sub(place, look->pose.position_m), boresight = look->pose.boresight;
     frame_lose(look->frame, stage_name, look->sensor->name, reason,
@@ -95,7 +95,7 @@ static void find_line_of_sight(const struct look *look, struct candidate *candid
 static bool is_plainly_lost(const struct look *look, const struct look_body *body,
                             struct candidate *candidate)
 {
-    if (look->frame->account)
+    if (frame_carries(look->frame, CARRY_ACCOUNT))
         return false;
     struct silhouette place =
         silhouette_of_place(vec2_sub(candidate->place, look->pose.position_m));
@@ -184,7 +184,7 @@ static void add_echo(struct look *look, const struct look_body *body,
 static void add_candidate(struct look *look, const struct look_body *body,
                           struct candidate *candidate)
 {
-    bool margins = look->frame->margins;
+    bool margins = frame_carries(look->frame, CARRY_MARGINS);
     struct vec2 velocity = motion_velocity_at(&body->box.motion, candidate->place);
     struct kinematics plane = kinematics_of(look->pose.position_m, look->pose.velocity_mps,
                                             look->pose.boresight, candidate->place, velocity);
@@ -227,7 +227,8 @@ static void add_point(struct look *look, const struct look_body *body,
     if (is_plainly_lost(look, body, &candidate))
         return;
     double visible = look_visibility(look, body, point, facing, place, look->pose.position_m);
-    if (look->frame->margins && effects_enabled(look->selection, EFFECT_VISIBILITY))
+    if (frame_carries(look->frame, CARRY_MARGINS) &&
+        effects_enabled(look->selection, EFFECT_VISIBILITY))
         candidate.margin_m = sight_margins_facing_m(&body->box, point->shape, point->facing_rad,
                                                     point->zero_rad, place, look->pose.position_m);
     if (visible == 0) {
@@ -250,7 +251,7 @@ static void add_plane(struct look *look, const struct look_body *body,
         return;
     }
     struct vec2 foot;
-    double margin_m = look->frame->margins
+    double margin_m = frame_carries(look->frame, CARRY_MARGINS)
                           ? sight_margins_foot_m(side.from, side.to, side.along, plane->margin_m,
                                                  look->pose.position_m)
                           : 0;
@@ -292,7 +293,7 @@ static void add_row(struct look *look, const struct look_body *body, const struc
  * effects that were tried, and the count of pairs how many posts of a row are in range. */
 static bool may_skip(const struct look *look, const struct look_set *set)
 {
-    return !look->frame->account && look->selection->log == NULL &&
+    return !frame_carries(look->frame, CARRY_ACCOUNT) && look->selection->log == NULL &&
            set->reflectors->rows.count == 0;
 }
 
@@ -348,7 +349,7 @@ static void add_body(struct look *look, const struct look_body *body, const stru
     effects_note(selection, EFFECT_VISIBILITY, all->points.count + all->rows.count > 0);
     effects_note(selection, EFFECT_PLANE_REFLECTION, all->planes.count > 0);
     effects_note(selection, EFFECT_ROWS, all->rows.count > 0);
-    bool account = look->frame->account;
+    bool account = frame_carries(look->frame, CARRY_ACCOUNT);
     add_points(look, body, set, account || !effects_enabled(selection, EFFECT_VISIBILITY));
     add_planes(look, body, all, account);
     for (size_t i = 0; i < all->rows.count && effects_enabled(selection, EFFECT_ROWS); i++)

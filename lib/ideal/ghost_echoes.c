@@ -168,7 +168,7 @@ static bool pass_leg(const struct look *look, struct route *route, struct obstru
     struct line_of_sight passed = line_of_sight_along(look, &line, except, count);
     route->factor *= passed.factor;
     route->effects |= passed.effects;
-    if (look->frame->margins && passed.factor > 0)
+    if (frame_carries(look->frame, CARRY_MARGINS) && passed.factor > 0)
         route->margin_m =
             elementary_min(route->margin_m, line_of_sight_clearance_m(look, &line, except, count));
     return route->factor > 0;
@@ -208,7 +208,7 @@ static bool pass_by_mirror(const struct look *look, struct ghost_candidate *cand
     if (!(route->factor > 0 && within_m >= 0) || !pass_leg(look, route, out, touched, 3) ||
         !pass_leg(look, route, onward, touched, 4))
         return false;
-    if (look->frame->margins)
+    if (frame_carries(look->frame, CARRY_MARGINS))
         route->margin_m = elementary_min(
             route->margin_m, elementary_min(bounce_margin_m(look, candidate), within_m));
     return true;
@@ -236,7 +236,7 @@ static struct margins margins_of(const struct look *look, const struct kinematic
 {
     struct margins margins = {0};
     double limits_m = limits_margin_m(look->sensor, read, out->read.azimuth_rad);
-    if (look->frame->margins)
+    if (frame_carries(look->frame, CARRY_MARGINS))
         margins_note(&margins, MARGIN_SIGHT,
                      elementary_min(limits_m, elementary_min(out->margin_m, back->margin_m)));
     return margins;
@@ -338,7 +338,7 @@ static void apply_visibility(const struct look *look, const struct ghost_candida
     route->factor *= visible;
     if (visible < 1)
         route->effects |= EFFECT_BIT(EFFECT_VISIBILITY);
-    if (look->frame->margins)
+    if (frame_carries(look->frame, CARRY_MARGINS))
         route->margin_m = sight_margins_facing_m(box, point->shape, point->facing_rad,
                                                  point->zero_rad, candidate->place, viewer);
 }
@@ -440,7 +440,7 @@ static void add_plane(struct look *look, const struct mirror_face *face,
     candidate.reflector = plane->name;
     candidate.ercs = look_plane_ercs(look, plane, range_m, &route->effects);
     route->effects |= EFFECT_BIT(EFFECT_PLANE_REFLECTION);
-    if (look->frame->margins)
+    if (frame_carries(look->frame, CARRY_MARGINS))
         route->margin_m =
             sight_margins_foot_m(side.from, side.to, side.along, plane->margin_m, eye);
     add_paths(look, &candidate, false);

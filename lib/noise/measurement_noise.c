@@ -18,7 +18,7 @@ bool measurement_noise_read(const struct effect_scan *context, const struct cell
         elementary_hypot(creal(measurement->pointers.sum), cimag(measurement->pointers.sum));
     effect_measure(context, EFFECT_STEP_NOISE, measurement);
     effect_measure(context, EFFECT_STEP_AZIMUTH, measurement);
-    if (context->frame->margins)
+    if (frame_carries(context->frame, CARRY_MARGINS))
         target_list_note_margins(sensor, cell, measurement->pointers, measurement->amplitude,
                                  effect_simulates(context, EFFECT_FINAL_THRESHOLD),
                                  &measurement->margins);

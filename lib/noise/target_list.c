@@ -82,7 +82,7 @@ void target_list_make(struct frame *frame, const char *stage, const struct senso
     sort_items(measurements, count, sizeof *measurements,
                sensor->list_order == LIST_STRONGEST ? compare_strength : compare_range,
                frame->arena);
-    if (frame->margins && limit > 0)
+    if (frame_carries(frame, CARRY_MARGINS) && limit > 0)
         note_limit_margins(measurements, count, sensor->list_order, limit);
     for (size_t i = 0; i < count; i++) {
         struct effect_measurement *measurement = &measurements[i];

@@ -57,7 +57,7 @@ int frame_sample_add(struct frame_sample *sample, const struct frame *frame, str
     struct frame bare = *frame;
     struct text line = {0};
     frame_drop(&bare, ~(unsigned)(SECTION_OBJECTS | SECTION_VEHICLES | SECTION_REFLECTORS));
-    bare.account = bare.margins = false;
+    bare.sections = CARRY_BY_DEFAULT;
     int result = frame_text_write(&bare, &line, diag);
     if (result == 0)
         *list_add(&sample->list, sample->arena) = (struct sampled_frame){

@@ -14,9 +14,12 @@ static const struct field common_fields[] = {
          "write to this file instead of standard output; .gz compresses; like > of a shell, keeps "
          "mode, owner and links of a file that is there; unlike it, all of it or nothing"),
      FIELD_OPTIONAL, .word = "FILE"},
-    {FIELD_FLAG_OF(struct common_options, keep,
-                   "keep the sections that this stage would drop after use"),
-     FIELD_OPTIONAL},
+    {FIELD_NAME_OF(
+         struct common_options, sections,
+         "what frames carry from here on: all, none, or words, with - to leave one out: objects, "
+         "reflectors, echoes, cells, account (account:every=10), margins, quality; absent: what "
+         "they say, at first objects"),
+     FIELD_OPTIONAL, .word = "LIST"},
     {FIELD_SEED_OF(struct common_options, seed,
                    "seed of the random numbers from here on; absent: 1, or the frames' own"),
      FIELD_OPTIONAL, .absent = 1},
@@ -73,8 +76,8 @@ static bool applies(const struct program *program, const struct field *field)
     switch (field->offset) {
     case offsetof(struct common_options, output):
         return !program->into_folder;
-    case offsetof(struct common_options, keep):
-        return stage;
+    case offsetof(struct common_options, sections):
+        return program->kind == PROGRAM_SOURCE || program->kind == PROGRAM_FILTER;
     case offsetof(struct common_options, seed):
         return stage || program->takes_files;
     case offsetof(struct common_options, explain):

@@ -14,8 +14,8 @@
 struct common_options {
     const char *output; /* NULL: standard output */
     const char *explain;
-    bool table; /* the lines of explain are a table for people */
-    bool keep;
+    bool table;           /* the lines of explain are a table for people */
+    const char *sections; /* NULL: what the frames say */
     bool complete;
     uint64_t seed;
     bool seed_given;

@@ -170,6 +170,9 @@ static int prepare(struct runner *runner, size_t count, const char *const *words
                               &runner->arena, &runner->diag);
     if (runner->common.explain != NULL)
         runner->log = explain_begin(&runner->arena);
+    if (result == 0 && runner->common.sections != NULL &&
+        sections_read(runner->common.sections, &runner->sections, &runner->diag) != 0)
+        return diag_prefix(&runner->diag, "--sections: ");
     return result;
 }
 
@@ -201,6 +204,9 @@ void runner_free(struct runner *runner)
 static int check_sections(struct runner *runner, const struct frame *frame)
 {
     unsigned missing = runner->program.reads & ~frame->present;
+    if ((missing & SECTION_OBJECTS) != 0 && !frame_carries(frame, CARRY_OBJECTS))
+        return diag_fail(&runner->diag, DIAG_DATA,
+                         "objects: missing; --sections left them out of the stream");
     if (missing != 0)
         return diag_fail(&runner->diag, DIAG_DATA,
                          "%s: missing; the stage that writes it must stand before this one",
@@ -227,22 +233,28 @@ static int refuse(struct runner *runner, const struct frame *frame)
     return diag_prefix(&runner->diag, "wrote an invalid frame: ");
 }
 
-/* After every step: drops the sections that the stage consumed; orders and checks those that it
- * wrote, so that a stage that writes an invalid frame fails itself and not its neighbour. The other
- * sections were checked when they were read or written. */
+static int apply_sections(struct runner *runner, struct frame *frame)
+{
+    return runner->common.sections == NULL
+               ? 0
+               : sections_apply(&runner->sections, frame, &runner->diag);
+}
+
+/* After every step: drops the sections that nobody needs any more; orders and checks those that the
+ * stage wrote, so that a stage that writes an invalid frame fails itself and not its neighbour. The
+ * other sections were checked when they were read or written. */
 static int finish_step(struct runner *runner, struct frame *frame)
 {
     const struct stage *stage = runner->stage;
     const struct frame_part written = {stage->writes, stage->name};
-    if (!runner->common.keep)
-        frame_drop(frame, stage->reads & ~stage->writes & SECTIONS_CONSUMED);
     frame->present |= stage->writes & ~(unsigned)SECTION_LOST;
-    if (frame->account && (stage->writes & SECTION_LOST) != 0)
+    sections_drop(frame);
+    if (frame_carries(frame, CARRY_ACCOUNT) && (stage->writes & SECTION_LOST) != 0)
         frame->present |= SECTION_LOST;
     frame_order_part(frame, written);
     if (frame_check_part(frame, written, &runner->diag) != 0)
         return refuse(runner, frame);
-    if (frame->account && (stage->writes & SECTION_TARGETS) != 0)
+    if (frame_carries(frame, CARRY_ACCOUNT) && (stage->writes & SECTION_TARGETS) != 0)
         return frame_account_check(frame, &runner->diag);
     return 0;
 }
@@ -270,7 +282,9 @@ int runner_next(struct runner *runner, struct frame *frame)
     frame->version = FRAME_VERSION;
     frame->seed = runner->common.seed;
     int more = ensure_message(runner, runner->stage->next(runner->state, frame, runner));
-    return more == 1 && finish_step(runner, frame) != 0 ? -1 : more;
+    if (more != 1)
+        return more;
+    return apply_sections(runner, frame) == 0 && finish_step(runner, frame) == 0 ? 1 : -1;
 }
 
 /* A frame from another process may have passed filters that dropped echoes without a word. Where
@@ -279,7 +293,8 @@ static int check_account(const struct runner *runner, const struct frame *frame,
 {
     bool ends = runner->program.kind == PROGRAM_SINK || runner->program.kind == PROGRAM_TOOL;
     bool whole = (frame->present & (SECTION_TARGETS | SECTION_CELLS | SECTION_ECHOES)) != 0;
-    if (!ends || !whole || !frame->account || runner->before != NULL || runner->input == NULL)
+    if (!ends || !whole || !frame_carries(frame, CARRY_ACCOUNT) || runner->before != NULL ||
+        runner->input == NULL)
         return 0;
     return frame_account_check(frame, diag);
 }
@@ -290,7 +305,8 @@ static int take_frame(struct runner *runner, struct frame *frame)
 {
     if (runner->common.seed_given)
         frame->seed = runner->common.seed;
-    if (check_sections(runner, frame) != 0 || check_account(runner, frame, &runner->diag) != 0)
+    if (check_sections(runner, frame) != 0 || check_account(runner, frame, &runner->diag) != 0 ||
+        apply_sections(runner, frame) != 0)
         return -1;
     return runner->common.complete
                ? frame_sequence_follow(&runner->sequence, frame, runner_place(runner),

@@ -24,7 +24,8 @@ struct runner {
     const struct tool *tool;   /* NULL for a stage */
     void *state;
     struct common_options common;
-    struct arena arena; /* of options and documents: as long as the runner */
+    struct sections_change sections; /* of common.sections */
+    struct arena arena;              /* of options and documents: as long as the runner */
     struct diag diag;
     LIST_OF(struct output *) outputs; /* only the last runner of a chain has any */
     struct frame_source frames;       /* of a tool; set by the chain */

@@ -97,6 +97,8 @@ static int read_list(struct reader *reader, const struct field *field, void *bas
                                .record = field->record};
     if (!json_scan_take(scan, '['))
         return refuse_value(scan, field);
+    if (field->kind == FIELD_SET)
+        FIELD_STORE(uint64_t, field, base, 0);
     if (json_scan_take(scan, ']'))
         return 0;
     size_t i = 0;

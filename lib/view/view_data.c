@@ -57,7 +57,6 @@ static uint32_t scene_of(struct view_data *data, const struct frame *frame)
             .start_s = frame->time_s,
             .anchor_x_m = frame->origin_x_m + ego->x_m,
             .anchor_y_m = frame->origin_y_m + ego->y_m,
-            .account = frame->account,
         };
     }
     if (frame->last)
@@ -332,6 +331,7 @@ void view_data_add(struct view_data *data, const struct frame *frame)
     view_data_real(data, COLUMN_FRAME_TIME, frame->time_s - scene->start_s);
     view_data_count(data, COLUMN_FRAME_SCENE, number);
     view_data_count(data, COLUMN_FRAME_NUMBER, (uint32_t)(frame->frame - scene->first_frame));
+    view_data_count(data, COLUMN_FRAME_ACCOUNT, frame_carries(frame, CARRY_ACCOUNT));
     view_data_count(data, COLUMN_FRAME_OBJECTS, (uint32_t)frame->objects.count);
     view_data_count(data, COLUMN_FRAME_SCANS, (uint32_t)frame->sensors.list.count);
     for (size_t i = 0; i < frame->objects.count; i++)

@@ -23,7 +23,7 @@ struct view_scene {
     int64_t first_frame;
     double start_s;
     double anchor_x_m, anchor_y_m;
-    bool account, ended;
+    bool ended;
 };
 
 struct view_data {

@@ -279,7 +279,7 @@ static void draw_legend(struct drawing *drawing)
                 y + 20);
     text_format(text, "<circle class=\"lit\" cx=\"29\" cy=\"%.0f\" r=\"3\"/>\n", y + 36);
     text_format(text, "<text class=\"note\" x=\"46\" y=\"%.0f\">echo in a target</text>\n", y + 40);
-    if (!frame->account)
+    if (!frame_carries(frame, CARRY_ACCOUNT))
         return;
     text_format(text, "<path class=\"lost\" d=\"M24.5 %.0fl9 9m0 -9l-9 9\"/>\n", y + 51);
     text_format(text, "<text class=\"note\" x=\"46\" y=\"%.0f\">echo in no target</text>\n",

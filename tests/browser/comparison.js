@@ -7,7 +7,7 @@ const path = require('node:path');
 
 module.exports = ({work, write, view, withPage}) => {
     const file = name => path.join(work, name);
-    execSync('glint-traffic intersection | glint-extract | glint-ideal --sensors srr24-pair --account | ' +
+    execSync('glint-traffic intersection | glint-extract | glint-ideal --sensors srr24-pair --sections account | ' +
         `glint-sensor >${file('cells.jsonl')} && glint-noise-none ${file('cells.jsonl')} >${file('truth.jsonl')} && ` +
         `glint-noise ${file('cells.jsonl')} >${file('list.jsonl')}`, {shell: '/bin/bash'});
     const lines = name => fs.readFileSync(file(name), 'utf8').trim().split('\n').map(line => JSON.parse(line));

@@ -54,7 +54,7 @@ async function measure(browser, work, name, objects, frames, sensors) {
     const scene = path.join(work, 'scene.json');
     const file = path.join(work, 'page.html');
     execSync(`${path.join(__dirname, 'make-traffic')} ${objects} ${frames} >${scene} && glint-traffic ${scene} | ` +
-        `glint-extract | glint-ideal --sensors ${sensors} --account | glint-sensor | glint-noise | glint-view -o ${file}`);
+        `glint-extract | glint-ideal --sensors ${sensors} --sections account | glint-sensor | glint-noise | glint-view -o ${file}`);
     const begin = Date.now();
     const {page} = await open(browser, file);
     await page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));

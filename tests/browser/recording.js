@@ -115,7 +115,7 @@ module.exports = ({stream, view, withPage, targetOnMap, clickMap, panelText, clo
             const [first, ...others] = frame.targets;
             others.slice(0, 2).forEach(one =>
                 Object.assign(one, {range_m: first.range_m, azimuth_rad: first.azimuth_rad}));
-            const stack = {...frame, account: undefined, lost: undefined, counts: undefined, last: true};
+            const stack = {...frame, sections: undefined, lost: undefined, counts: undefined, last: true};
             await withPage(view([stack]), async page => {
                 await page.evaluate(() => { chooseObject(-1); fitView(); });
                 const seen = [];

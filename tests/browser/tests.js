@@ -331,7 +331,7 @@ const tests = {
         const [leader] = target.contributors;
         Object.assign(leader, {path: 'wall_object', mirror: 'house'});
         target.effects = ['merging', 'list_limit'];
-        await withPage(view([{...frame, account: undefined, lost: undefined, counts: undefined, last: true}]),
+        await withPage(view([{...frame, sections: undefined, lost: undefined, counts: undefined, last: true}]),
             async page => {
                 await page.keyboard.press('Escape');
                 await page.keyboard.press('Escape');
@@ -356,7 +356,7 @@ const tests = {
             object: i % 2 ? 'clutter' : 'noise', reflector: 'echo', number: number + 1,
             path: i % 2 ? 'clutter' : 'false_alarm',
         })));
-        await withPage(view([{...frame, account: undefined, lost: undefined, counts: undefined, last: true}]),
+        await withPage(view([{...frame, sections: undefined, lost: undefined, counts: undefined, last: true}]),
             async page => {
                 for (const colour of ['sensor', 'object', 'rate', 'amplitude', 'path']) {
                     await page.selectOption('#colour', colour);
@@ -372,7 +372,7 @@ const tests = {
                 await page.keyboard.press('Escape');
                 assert.match(await panelText(page), /clutter \(not in this frame\)/);
             });
-        view([{...frame, account: undefined, lost: undefined, counts: undefined, last: true}], '--svg');
+        view([{...frame, sections: undefined, lost: undefined, counts: undefined, last: true}], '--svg');
     },
 
     async 'what was lost names the effect that lost it'() {
@@ -428,7 +428,7 @@ const tests = {
         frame.targets = Array.from({length: 500}, (_, i) => ({
             ...model, range_m: 1 + i / 20, azimuth_rad: Math.sin(i), amplitude_db: 40 - i / 20,
         }));
-        await withPage(view([{...frame, account: undefined, lost: undefined, counts: undefined, last: true}]),
+        await withPage(view([{...frame, sections: undefined, lost: undefined, counts: undefined, last: true}]),
             async page => {
                 await page.keyboard.press('Escape');
                 assert.match(await panelText(page), /left: 500 targets/);
@@ -502,9 +502,9 @@ const tests = {
     },
 
     async 'a stream without account says what to do'() {
-        const frames = corner.map(frame => ({...frame, account: undefined, lost: undefined, counts: undefined}));
+        const frames = corner.map(frame => ({...frame, sections: undefined, lost: undefined, counts: undefined}));
         await withPage(view(frames, '--frame', '110'), async page => {
-            assert.match(await panelText(page), /give --account to glint-ideal/);
+            assert.match(await panelText(page), /give --sections account to glint-ideal/);
         });
     },
 

@@ -190,7 +190,7 @@ def small(scenario):
 def chain_of(draw):
     words = {"sensors": "./suite.json", "sensor": draw.choice(SENSORS), "noise": draw.choice(NOISES)}
     chain = [command.format(**words) for command in CHAIN]
-    chain[1] += draw.choice(("", " --account", " --margins", " --account --margins", " --effects all"))
+    chain[1] += draw.choice(("", " --sections account", " --sections margins", " --sections account,margins", " --effects all"))
     return chain
 
 

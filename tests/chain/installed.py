@@ -69,7 +69,7 @@ def build_stage(folder):
 
 def check_stage(folder):
     """Each echo is kept or accounted for, by the law that the page states, and by its address alone."""
-    source = "glint-traffic-random --frames 400 --seed 5 | glint-extract | glint-ideal --sensors corner77 --account"
+    source = "glint-traffic-random --frames 400 --seed 5 | glint-extract | glint-ideal --sensors corner77 --sections account"
     run(f"{source} >ideal.jsonl && glint-spray --reach-m {REACH_M} ideal.jsonl >spray.jsonl", folder)
     before, after = frames("cat ideal.jsonl", folder), frames("cat spray.jsonl", folder)
     expected = variance = kept = lost = 0

@@ -16,7 +16,7 @@ import zlib
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 PATIENCE_S = 60
-CHAIN = ("glint-extract | glint-ideal --sensors srr24-pair-every-frame --account | glint-sensor | glint-noise")
+CHAIN = ("glint-extract | glint-ideal --sensors srr24-pair-every-frame --sections account | glint-sensor | glint-noise")
 FRAMES = 60
 
 

@@ -65,7 +65,7 @@ def fused(text, data=b""):
 
 
 def chain(suite, account=True, sensor="glint-sensor", noise="glint-noise"):
-    ideal = f"glint-ideal --sensors {suite}" + (" --account" if account else "")
+    ideal = f"glint-ideal --sensors {suite}" + (" --sections account" if account else "")
     again = f" --sensors {suite}" if "/" in suite else ""
     return f"glint-extract | {ideal} | {sensor}{again} | {noise}{again}"
 
@@ -391,7 +391,7 @@ def laws_hold(folder):
     frames = 0
     for path in PIPELINES:
         commands = stages_of(path)[1]
-        if ("--account" in " ".join(commands) and writes_frames(commands[-1])
+        if ("--sections account" in " ".join(commands) and writes_frames(commands[-1])
                 and "glint-extract" in (command.split()[0] for command in commands)):
             for frame in parse(run(["bash", path]).stdout):
                 check_laws(frame)
@@ -491,9 +491,9 @@ def lines_alone(folder):
                 for point in one.get("points", []):
                     point["ercs"] = draw.choice([point["ercs"], 0.5])
         lines = [json.dumps(frame, separators=(",", ":")).encode() + b"\n" for frame in frames]
-        whole = piped(stage + " --keep", b"".join(lines))
+        whole = piped(stage, b"".join(lines))
         for line, expected in zip(lines, whole.splitlines(keepends=True)):
-            check(piped(stage + " --keep", line) == expected,
+            check(piped(stage, line) == expected,
                   f"{place(json.loads(line))}: {stage} writes something else of this line alone")
         frames = parse(whole)
     return f"{len(frames)} lines"
@@ -563,8 +563,8 @@ def unseen_objects(folder):
 
 
 def perfect_sensor(folder):
-    text = ("glint-extract | glint-ideal --sensors srr24-pair --account | "
-            "glint-sensor-perfect --keep | glint-noise-none")
+    text = ("glint-extract | glint-ideal --sensors srr24-pair --sections account,echoes | "
+            "glint-sensor-perfect | glint-noise-none")
     targets = 0
     for frame in parse(fused(text, piped("glint-traffic intersection"))):
         echoes = {tuple(echo[key] for key in NAMES): echo for echo in frame["echoes"]}
@@ -622,15 +622,17 @@ def keep(folder):
     for stage, used in zip(stages, uses):
         plain_out, read = piped(stage, data), exact(data)
         if used != "objects":
-            kept = exact(piped(stage + " --keep", data))
+            kept = exact(piped(f"{stage} --sections {used}", data))
             for frame, before in zip(kept, read):
-                check(frame.get(used) == before[used], f"{stage} --keep: {used} is not kept")
-            same_frames(kept, exact(plain_out), (used,), stage + " --keep")
+                check(frame.get(used) == before[used], f"{stage}: {used} is not kept")
+            same_frames(kept, exact(plain_out), (used, "sections"), f"{stage} --sections {used}")
             check(not any(used in frame for frame in exact(plain_out)), f"{stage} leaves {used}")
         data = plain_out
-    words = [stages[0]] + [stage + " --keep" for stage in stages[1:]]
-    same_frames(exact(data), exact(piped("glint-traffic intersection | " + " | ".join(words))),
-                uses, "--keep everywhere")
+    for place in range(3):
+        words = list(stages)
+        words[place] += " --sections reflectors,echoes,cells"
+        same_frames(exact(data), exact(piped("glint-traffic intersection | " + " | ".join(words))),
+                    [*uses, "sections"], f"sections given to {stages[place]}")
 
 
 def compressed_output(folder):
@@ -678,8 +680,8 @@ def extras(folder):
                  "glint-sensor | glint-noise"),
                 (1, '"objects":', "id", "glint-extract | glint-ideal --sensors srr24-pair | "
                  "glint-sensor-perfect | glint-noise-gauss"),
-                (3, '"echoes":', "sensor", "glint-sensor --keep | glint-noise"),
-                (4, '"cells":', "sensor", "glint-noise --keep"),
+                (3, '"echoes":', "sensor", "glint-sensor --sections echoes | glint-noise"),
+                (4, '"cells":', "sensor", "glint-noise --sections cells"),
                 (5, '"targets":', "sensor", "glint-extract")]
     for count, pick, after, rest in carriers:
         data, added = add_extra(piped(" | ".join(stages[:count])), pick, after)
@@ -823,7 +825,7 @@ PROPERTIES = [
     ("a perfect sensor without noise shows every echo as it is", perfect_sensor),
     ("Gaussian noise has the sigmas of the suite", gauss_noise),
     ("stages can be swapped for others", swapped_stages),
-    ("--keep keeps sections and changes nothing else", keep),
+    ("--sections keeps sections and changes nothing else", keep),
     ("-o FILE.gz holds the bytes of standard output", compressed_output),
     ("extra members pass byte for byte", extras),
     ("all numbers are finite, all sections in canonical order", well_formed),

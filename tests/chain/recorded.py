@@ -463,7 +463,7 @@ def beside_sumo(folder):
 
 def through_a_pipe(folder, sumo):
     chain = (f"set -o pipefail; {sumo} --fcd-output /dev/stdout 2>/dev/null | glint-traffic-sumo - --types n.rou.xml "
-             "--ego all --radius-m 150 | glint-extract | glint-ideal --sensors lrr77-every-frame --account "
+             "--ego all --radius-m 150 | glint-extract | glint-ideal --sensors lrr77-every-frame --sections account "
              "| glint-sensor | glint-noise")
     lines = {}
     for mode, text in (("", f"{chain} --complete"), ("live", chain.replace("--ego all", "--ego ego --live"))):

@@ -44,7 +44,7 @@ def counted(frames):
     for frame in frames:
         classes = {one["id"]: one["class"] for one in frame["objects"]}
         scans.update(one["name"] for one in frame["sensors"]["list"] if one["measured"])
-        for group in frame.get("lost", []) if frame.get("account") else []:
+        for group in frame.get("lost", []) if "account" in frame.get("sections", []) else []:
             counts[LOOKED][group["reason"]] += len(group["echoes"])
         for target in frame["targets"]:
             parts = target["contributors"]
@@ -53,7 +53,7 @@ def counted(frames):
             counts[SENSORS][target["sensor"]] += 1
             counts[APART if other else CLASSES][other or classes.get(strongest["object"], strongest["object"])] += 1
             merged += len({part["object"] for part in parts}) > 1
-            if frame.get("account"):
+            if "account" in frame.get("sections", []):
                 counts[LOOKED]["in a target"] += sum(part["path"] != "false_alarm" for part in parts)
     for name in scans:
         counts[SENSORS][name] += 0

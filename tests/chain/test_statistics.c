@@ -52,7 +52,7 @@ static void bench_begin(struct bench *bench, int64_t number)
     frame->interval_s = 1;
     frame->seed = 1;
     frame->ego = "ego";
-    frame->account = true;
+    frame->sections |= CARRY_ACCOUNT;
     frame->sensors.suite = bench->suite->name;
     frame->sensors.digest = bench->suite->digest;
     for (size_t i = 0; i < bench->suite->sensors.count; i++) {

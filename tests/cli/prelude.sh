@@ -64,7 +64,7 @@ END
     glint-traffic scene.json >scene.jsonl
     head -1 scene.jsonl >objects.jsonl
     glint-extract objects.jsonl >reflectors.jsonl
-    glint-ideal --sensors suite.json --account reflectors.jsonl >echoes.jsonl
+    glint-ideal --sensors suite.json --sections account reflectors.jsonl >echoes.jsonl
     glint-sensor echoes.jsonl >cells.jsonl
     glint-noise cells.jsonl >targets.jsonl
     glint-traffic tracks.csv --ego 1 >tracks.jsonl

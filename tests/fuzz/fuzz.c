@@ -81,7 +81,7 @@ void fuzz_chain(struct frame *frame, const char *suite)
 {
     static const char *const extracts[] = {"extract", "extract-3gpp", "extract-contour"};
     const char *steps[] = {extracts[frame->frame % 3], "ideal", "sensor", "noise"};
-    const char *const words[] = {"--sensors", suite, "--account", "--margins"};
+    const char *const words[] = {"--sensors", suite, "--sections", "account,margins"};
     static const size_t word_counts[] = {0, 4, 2, 2};
     enum { STEPS = sizeof steps / sizeof steps[0] };
     struct runner runners[STEPS];

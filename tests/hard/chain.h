@@ -28,7 +28,6 @@ static inline void hard_chain_stage(struct runner *runner, const char *name, siz
         stage++;
     if (runner_prepare(runner, *stage, count, words) != 0 || runner_start(runner) != 0)
         fail_msg("%s", runner->diag.text);
-    runner->common.keep = true;
 }
 
 /* The frames of adversarial scenes, which have ties, from first to first + frames - 1. */

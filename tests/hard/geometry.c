@@ -297,7 +297,7 @@ static void begin_scene(struct scene *scene, struct vec2 sensor, double yaw_rad)
     scene->frame.scene = "s";
     scene->frame.ego = "e";
     scene->frame.interval_s = 1;
-    scene->frame.account = true;
+    scene->frame.sections |= CARRY_ACCOUNT;
     scene->sensor = (struct sensor){.name = "front", .range_max_m = 1000, .field_of_view_rad = PI};
     *list_add(&scene->frame.objects, &scene->arena) = (struct object){
         .id = "e", .class = "car", .x_m = sensor.x, .y_m = sensor.y, .yaw_rad = yaw_rad};

@@ -109,8 +109,8 @@ static const struct stage *stage_of(const char *name)
 
 static void prepare(struct runner *runner, const char *stage)
 {
-    static const char *const words[] = {"--keep"};
-    assert_int_equal(runner_prepare(runner, stage_of(stage), 1, words), 0);
+    static const char *const words[] = {"--sections", "reflectors,echoes,cells"};
+    assert_int_equal(runner_prepare(runner, stage_of(stage), 2, words), 0);
 }
 
 static void prepare_chain(struct chain *chain)
@@ -212,7 +212,7 @@ static void begin(struct chain *chain, int64_t number)
     chain->frame.frame = number;
     chain->frame.seed = 1;
     chain->frame.interval_s = 1;
-    chain->frame.account = true;
+    chain->frame.sections |= CARRY_ACCOUNT;
     chain->frame.present = SECTION_OBJECTS;
 }
 
@@ -583,7 +583,7 @@ static void run_scene(struct bench *bench, int64_t number)
         move_suite(bench, &coin);
     else
         move_traffic(&after->frame, &coin);
-    before->frame.margins = true;
+    before->frame.sections |= CARRY_MARGINS;
     run_chain(before, bench->suite);
     run_chain(after, sensors ? &bench->moved : bench->suite);
     collect(before, bench->suite);

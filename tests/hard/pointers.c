@@ -33,9 +33,9 @@ struct bench {
 
 static void open_stage(struct runner *runner, const struct stage *stage, const struct suite *suite)
 {
-    assert_int_equal(runner_prepare(runner, stage, 0, NULL), 0);
+    static const char *const words[] = {"--sections", "echoes,cells"};
+    assert_int_equal(runner_prepare(runner, stage, 2, words), 0);
     *list_add(&runner->suites, &runner->arena) = suite;
-    runner->common.keep = true;
     assert_int_equal(runner_start(runner), 0);
 }
 
@@ -79,7 +79,7 @@ static void bench_begin(struct bench *bench)
     frame->scene = "bench";
     frame->interval_s = 1;
     frame->ego = "ego";
-    frame->account = true;
+    frame->sections |= CARRY_ACCOUNT;
     frame->sensors.suite = bench->suite.name;
     frame->sensors.digest = bench->suite.digest;
     *list_add(&frame->sensors.list, frame->arena) =
@@ -177,7 +177,8 @@ static void a_target_on_the_sensor_is_told(void **state)
         naive += !isfinite(20 / range_m * (20 / range_m) * ((pole.x - ego.x) / range_m));
         struct look look = look_at_pole(&bench, ego, pole);
         const struct frame *frame = &bench.frame;
-        bool lost = frame->lost.count == 1 && frame_loss_of(frame->lost.items[0].reason) == LOSS_OUT_OF_RANGE;
+        bool lost = frame->lost.count == 1 &&
+                    frame_loss_of(frame->lost.items[0].reason) == LOSS_OUT_OF_RANGE;
         bool good = look.pairs == 1 && lost == on && bench_step(&bench) &&
                     frame->targets.count == (on ? 0 : 1);
         ours += !good;

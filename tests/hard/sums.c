@@ -409,7 +409,7 @@ static void no_amplitude_makes_infinite_decibels(void **state)
     int points = hard_points(100000);
     double naive = 0, ours = 0;
     for (int i = 0; i < points; i += 5) {
-        struct frame frame = {.arena = &arena, .account = true};
+        struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
         double amplitudes[] = {0, 5e-324, -0.0, DBL_MAX, any_amplitude(&random)};
         for (size_t k = 0; k < 5; k++) {
             naive += !isfinite(20 * log10(amplitudes[k]));

@@ -36,7 +36,7 @@ def example_scene():
 
 def see(bench, frames, one, effects="all", noise="glint-noise-none"):
     path = bench.write_suite(suite_of(one))
-    text = f"glint-extract | glint-ideal --sensors {path} --effects={effects} --account | glint-sensor | {noise}"
+    text = f"glint-extract | glint-ideal --sensors {path} --effects={effects} --sections account | glint-sensor | {noise}"
     data = "".join(json.dumps(frame) + "\n" for frame in frames).encode()
     done = subprocess.run([str(bench.bin / "glint"), "-c", text], input=data, env=bench.env, capture_output=True,
                           check=False)

@@ -39,8 +39,8 @@ def body(name, kind, x, y, height, length=0.2, width=0.2, velocity=(0.0, 0.0)):
     return dict(thing(name, kind, x, y, length=length, width=width, velocity=velocity), height_m=height)
 
 
-def ideal(bench, things, suite, effects="auto", *options):
-    words = ["glint-ideal", "--sensors", bench.write_suite(suite), "--effects", effects, "--account", *options]
+def ideal(bench, things, suite, effects="auto", more=""):
+    words = ["glint-ideal", "--sensors", bench.write_suite(suite), "--effects", effects, "--sections", "account" + more]
     text = bench.stage(words, bench.stage(["glint-extract"], json.dumps(frame([ego(), *things])) + "\n"))
     return json.loads(text)
 
@@ -230,7 +230,7 @@ def an_edge_just_beside_the_sector_still_counts(bench):
 
 
 def margin_of(bench, things, suite):
-    answer = ideal(bench, things, suite, "auto", "--margins")
+    answer = ideal(bench, things, suite, "auto", more=",margins")
     ones = answer.get("echoes", []) + [one for group in answer.get("lost", []) for one in group["echoes"]]
     return ones[0]["margins"]["sight_m"]
 
@@ -294,7 +294,7 @@ def full_suite():
 
 def whole_chain(bench, text, effects):
     sensors = ["--sensors", bench.write_suite(full_suite())]
-    ideal = ["glint-ideal", *sensors, "--effects", effects, "--account"]
+    ideal = ["glint-ideal", *sensors, "--effects", effects, "--sections", "account"]
     for words in (["glint-extract"], ideal, ["glint-sensor", *sensors], ["glint-noise", *sensors]):
         text = bench.stage(words, text)
     return [json.loads(line) for line in text.splitlines()]

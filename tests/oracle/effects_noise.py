@@ -31,8 +31,8 @@ def frames_of(objects, count, interval=0.1):
 def listen(bench, frames, sensors, effects="all", margins=False):
     """The output of the whole chain, with its account."""
     path = bench.write_suite(suite_of(*sensors))
-    text = (f"glint-extract | glint-ideal --sensors {path} --effects {effects} --account"
-            f"{' --margins' if margins else ''} | glint-sensor | glint-noise")
+    text = (f"glint-extract | glint-ideal --sensors {path} --effects {effects} --sections account"
+            f"{',margins' if margins else ''} | glint-sensor | glint-noise")
     data = "".join(json.dumps(one) + "\n" for one in frames).encode()
     done = subprocess.run([str(bench.bin / "glint"), "-c", text], input=data, env=bench.env, capture_output=True,
                           check=False)
@@ -420,7 +420,7 @@ def alternatives(bench):
     radar = snr_sensor("s", 20, misalignment_rad=0.1, false_alarms=5, azimuth_sigma_rad=0, range_step_m=0.5)
     path = bench.write_suite(suite_of(radar))
     text = "".join(json.dumps(one) + "\n" for one in frames)
-    for words in (["glint-extract"], ["glint-ideal", "--sensors", path, "--account"], ["glint-sensor"]):
+    for words in (["glint-extract"], ["glint-ideal", "--sensors", path, "--sections", "account"], ["glint-sensor"]):
         text = bench.stage(words, text)
     for name in ("glint-noise-none", "glint-noise-gauss"):
         for line in bench.stage([name], text).splitlines():

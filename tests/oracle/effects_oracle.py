@@ -248,8 +248,9 @@ def compare(bench, where, answer, name, made, tally):
 
 def answers(bench, items, suite, effects):
     text = "".join(json.dumps(item) + "\n" for item in items)
-    for words in (["glint-extract"], ["glint-ideal", "--sensors", suite, "--account", "--margins", "--effects", effects],
-                  ["glint-sensor", "--keep"], ["glint-noise", "--keep"]):
+    sections = "account,margins,echoes,cells"
+    for words in (["glint-extract"], ["glint-ideal", "--sensors", suite, "--sections", sections, "--effects", effects],
+                  ["glint-sensor"], ["glint-noise"]):
         text = bench.stage(words, text)
     return [json.loads(line) for line in text.splitlines()]
 

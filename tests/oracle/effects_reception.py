@@ -42,8 +42,8 @@ def run(bench, text, frames=()):
 def receive(bench, frames, sensors, effects="all", source=""):
     """The output of the whole chain, with its cells and its account."""
     path = bench.write_suite(suite_of(*sensors))
-    return run(bench, f"{source}glint-extract | glint-ideal --sensors {path} --account --effects {effects}"
-                      " | glint-sensor | glint-noise --keep", frames)
+    return run(bench, f"{source}glint-extract | glint-ideal --sensors {path} --sections account,cells --effects {effects}"
+                      " | glint-sensor | glint-noise", frames)
 
 
 def cells_by_leader(frame):

@@ -55,7 +55,7 @@ def frames_of(objects, count=1, carrier=None, **conditions):
 
 def see(bench, frames, one, effects=APART, stages="glint-sensor | glint-noise-none"):
     path = bench.write_suite(suite_of(one))
-    text = f"glint-extract | glint-ideal --sensors {path} --effects={effects} --account | {stages}"
+    text = f"glint-extract | glint-ideal --sensors {path} --effects={effects} --sections account | {stages}"
     data = "".join(json.dumps(frame) + "\n" for frame in frames).encode()
     done = subprocess.run([str(bench.bin / "glint"), "-c", text], input=data, env=bench.env, capture_output=True,
                           check=False)

@@ -45,7 +45,7 @@ def quiet(name="radar", **changes):
 def run(bench, frames, sensors, stages=SIGNAL, effects="all"):
     """The frames of the chain, whose account is audited."""
     path = bench.write_suite(suite_of(*sensors))
-    text = f"glint-extract | glint-ideal --sensors {path} --account --effects {effects} | {stages}"
+    text = f"glint-extract | glint-ideal --sensors {path} --sections account --effects {effects} | {stages}"
     data = "".join(json.dumps(one) + "\n" for one in frames).encode()
     done = subprocess.run([str(bench.bin / "glint"), "-c", text], input=data, env=bench.env, capture_output=True,
                           check=False)
@@ -263,7 +263,7 @@ def shipped(bench):
     """Every shipped suite with a signal gives the same bytes fused, piped and in pieces."""
     root = Path(__file__).resolve().parents[2]
     for suite in sorted((root / "data/sensors").glob("*-signal*.json")):
-        source = f"glint-traffic {root}/data/scenarios/cut-in.json | glint-extract | glint-ideal --sensors {suite} --account"
+        source = f"glint-traffic {root}/data/scenarios/cut-in.json | glint-extract | glint-ideal --sensors {suite} --sections account"
         frames = 2 if "large" in suite.stem else 12
         piped = subprocess.run(["bash", "-c", f"{source} | head -{frames} >{bench.scratch}/echoes.jsonl; cd {bench.scratch};"
                                 "glint-sensor-signal echoes.jsonl | tee piped.jsonl | wc -l;"

@@ -48,7 +48,7 @@ def numbered(frames):
 
 def run(bench, frames, sensors, stages):
     path = bench.write_suite(suite_of(*sensors))
-    return chain(bench, f"glint-extract | glint-ideal --sensors {path} --account --effects all | {stages}", frames)
+    return chain(bench, f"glint-extract | glint-ideal --sensors {path} --sections account --effects all | {stages}", frames)
 
 
 def strongest_db(frame):

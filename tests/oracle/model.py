@@ -58,9 +58,10 @@ class Bench:
 
     def chain(self, frames, suite, account=False):
         """Runs the chain and returns frames with echoes, cells and targets."""
-        ideal = ["glint-ideal", "--sensors", self.write_suite(suite)] + (["--account"] if account else [])
+        ideal = ["glint-ideal", "--sensors", self.write_suite(suite)] + \
+            ["--sections", "echoes,cells" + (",account" if account else "")]
         text = "".join(json.dumps(f) + "\n" for f in frames)
-        for words in (["glint-extract"], ideal, ["glint-sensor", "--keep"], ["glint-noise-none", "--keep"]):
+        for words in (["glint-extract"], ideal, ["glint-sensor"], ["glint-noise-none"]):
             text = self.stage(words, text)
         answer = [json.loads(line) for line in text.splitlines()]
         self.check(len(answer) == len(frames), f"{len(frames)} frames in, {len(answer)} out")

@@ -2,7 +2,7 @@
 
 Usage: python3 tests/oracle/random_scenes.py BIN_DIR [FRAMES]
 
-FRAMES (2000) of every density go through every suite with --account. Exit status 1 if any check
+FRAMES (2000) of every density go through every suite with --sections account. Exit status 1 if any check
 fails.
 """
 
@@ -32,8 +32,8 @@ def source(density, suite, frames, first=0, seed=1):
     return [*kind, "--frames", str(frames), "--first", str(first), "--seed", str(seed)]
 
 
-def chain(suite, keep=""):
-    return f"glint-extract | glint-ideal --sensors {suite} --account | glint-sensor {keep} | glint-noise {keep}"
+def chain(suite, more=""):
+    return f"glint-extract | glint-ideal --sensors {suite} --sections account{more} | glint-sensor | glint-noise"
 
 
 def fused(bench, text):
@@ -75,7 +75,7 @@ def check_laws(bench, frames):
 
 def check_piped(bench):
     for density in DENSITIES:
-        text = " ".join(source(density, SUITES[2], 50)) + " | " + chain(SUITES[2], "--keep")
+        text = " ".join(source(density, SUITES[2], 50)) + " | " + chain(SUITES[2], ",echoes,cells")
         piped = subprocess.run(["bash", "-o", "pipefail", "-c", text], env=bench.env, capture_output=True, check=False)
         bench.check(piped.returncode == 0 and piped.stdout == fused(bench, text), f"{density}: piped and fused differ")
     bench.end_group("piped and fused agree")
@@ -118,7 +118,7 @@ def hit_rates(bench, density, suite, frames):
     ways = {"threshold": near_threshold, "leaders": near_tie, "tie in cell": near_tie_in_reach,
             "range": lambda f, s: at_spacing(f, s, "range_m"), "rate": lambda f, s: at_spacing(f, s, "range_rate_mps")}
     hits = dict.fromkeys(ways, 0)
-    text = " ".join(source(density, suite, frames)) + " | " + chain(suite, "--keep")
+    text = " ".join(source(density, suite, frames)) + " | " + chain(suite, ",echoes,cells")
     for line in fused(bench, text).splitlines():
         frame = json.loads(line)
         for name, way in ways.items():

@@ -151,9 +151,9 @@ static int start_scenes(struct bench *bench)
  * place of the suite. */
 static int start_step(struct planner *planner, int step, const struct soundness *wanted)
 {
-    const char *const of_ideal[] = {"--sensors", wanted->sensors,
-                                    "--effects", planner->effects,
-                                    "--account", wanted->margins ? "--margins" : NULL,
+    const char *const of_ideal[] = {"--sensors",  wanted->sensors,
+                                    "--effects",  planner->effects,
+                                    "--sections", wanted->margins ? "account,margins" : "account",
                                     NULL};
     const char *const of_others[] = {"--sensors", wanted->sensors, NULL};
     return start_stage(&planner->runners[step], steps[step], step == 0 ? of_ideal : of_others);

@@ -43,7 +43,7 @@ def objects(glint, folder, size):
 
 def objects_in_full(glint, folder, size):
     """The same, with account and margins."""
-    return objects(glint, folder, size).replace(SUITE, SUITE + " --account --margins")
+    return objects(glint, folder, size).replace(SUITE, SUITE + " --sections account,margins")
 
 
 def speeds(glint, folder, size):
@@ -57,7 +57,7 @@ def cells(glint, folder, size):
 
 
 def echoes(glint, folder, size, values_of):
-    frame = first_frame(glint, "glint-extract", f"glint-ideal --sensors {SUITE} --margins")
+    frame = first_frame(glint, "glint-extract", f"glint-ideal --sensors {SUITE} --sections margins")
     frame["echoes"] = [dict(frame["echoes"][0], reflector=f"point {i:06}", **values_of(i)) for i in range(size)]
     frame.pop("counts", None)
     path = write(folder, f"echoes-{size}.jsonl", json.dumps(frame))

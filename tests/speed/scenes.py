@@ -114,7 +114,7 @@ def suite_of(kind, sensors):
 
 def commands(kind, count, sensors, frames, labels):
     """The five stages of the chain. labels: "default" or "account"."""
-    account = " --account" if labels == "account" else ""
+    account = " --sections account" if labels == "account" else ""
     suite = suite_of(kind, sensors)
     again = f" --sensors {suite}" if "/" in suite else ""
     return [f"glint-traffic {write_scene(kind, count, frames)}", "glint-extract",

@@ -65,7 +65,7 @@ def start(output):
 LINES = [
     ("a frame, fused, to a plain chain without labels", "{:,.0f} frames/s",
      lambda output: chain(output, "default")),
-    ("the same with --account", "{:,.0f} frames/s", lambda output: chain(output, "account")),
+    ("the same with an account", "{:,.0f} frames/s", lambda output: chain(output, "account")),
     ("its physics, to writing it", "{:.0f} to {:.0f} µs", physics),
     ("writing it, to writing 240 numbers", "{:.1f} kB",
      lambda output: text(output, "noise: write", "write 240 numbers")),

@@ -143,7 +143,7 @@ class Floors:
 
 
 def census(glint, text):
-    """Echoes and targets per frame; the text has --account."""
+    """Echoes and targets per frame; the text has --sections account."""
     done = subprocess.run([glint, "-c", text], check=True, stdout=subprocess.PIPE, text=True)
     frames = [json.loads(line) for line in done.stdout.splitlines()]
     echoes = sum(path["echoes"] for frame in frames for count in frame["counts"]

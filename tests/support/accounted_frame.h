@@ -42,7 +42,7 @@ static inline struct frame accounted_frame(struct arena *arena)
     frame.scene = "s";
     frame.interval_s = 1;
     frame.ego = "e";
-    frame.account = true;
+    frame.sections |= CARRY_ACCOUNT;
     static const char *const ids[] = {"e", "b", "a"};
     for (size_t i = 0; i < 3; i++)
         *list_add(&frame.objects, arena) = (struct object){.id = ids[i], .class = "car"};

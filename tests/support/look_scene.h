@@ -26,8 +26,8 @@ static inline int make_scene(void **state)
 {
     struct scene *scene = calloc(1, sizeof *scene);
     assert_non_null(scene);
-    scene->frame =
-        (struct frame){.scene = "s", .ego = "e", .time_s = 10, .interval_s = 1, .account = true};
+    scene->frame = (struct frame){
+        .scene = "s", .ego = "e", .time_s = 10, .interval_s = 1, .sections = CARRY_ACCOUNT};
     scene->frame.arena = &scene->arena;
     scene->sensor = (struct sensor){
         .name = "front", .range_max_m = 100, .field_of_view_rad = PI, .range_min_m = 0.1};

@@ -130,7 +130,7 @@ function latencyLines() {
 }
 
 function lossLines() {
-    return head.scenes.some(scene => scene.account)
+    return column('frame_account').includes(1)
         ? [legendLine(markCanvas(drawing => drawLostMark(drawing, {x: 9, y: 8}, 5)), 'echo that is in no target')]
         : [];
 }

@@ -215,8 +215,8 @@ function objectNotes() {
         return ['The ego carries the sensors. It neither reflects nor blocks.'];
     }
     const notes = [];
-    if (!head.scenes[state.scene].account && hasSensors()) {
-        notes.push('The stream does not tell what was lost: give --account to glint-ideal.');
+    if (!column('frame_account')[state.frame] && hasSensors()) {
+        notes.push('The frame does not tell what was lost: give --sections account to glint-ideal.');
     }
     return notes;
 }
@@ -404,8 +404,8 @@ function showReflector() {
     for (let scan = begin; scan < end; scan++) {
         const fates = reflectorFates(scan);
         const silent = !column('scan_measured')[scan] ? 'The sensor did not measure in this frame.'
-            : head.scenes[state.scene].account ? 'Not looked for: out of range.'
-                : 'In no target. Why is not in the stream: give --account to glint-ideal.';
+            : column('frame_account')[state.frame] ? 'Not looked for: out of range.'
+                : 'In no target. Why is not in the frame: give --sections account to glint-ideal.';
         parts.push(sensorTitle(scan, fates.length > 1 ? `${fates.length} echoes` : ''),
             ...(fates.length > 0 ? fates : [make('p', silent)]));
     }

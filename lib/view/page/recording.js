@@ -67,7 +67,7 @@ function reasonOfGap(frame, scan, subject) {
     if (objectRow(frame, subject.object) < 0) {
         return 'not in the scene';
     }
-    if (!head.scenes[state.scene].account) {
+    if (!column('frame_account')[frame]) {
         return 'lost: no account';
     }
     const begin = starts('scan_fates');

@@ -12,7 +12,7 @@ static void losses_are_grouped_by_sensor_stage_and_reason(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct frame frame = {.arena = &arena, .account = true};
+    struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
     static const char *const sensors[] = {"s", "t"}, *const stages[] = {"ideal", "noise"};
     for (int i = 0; i < 24; i++)
         frame_lose(&frame, stages[i % 2], sensors[i / 12], i / 2 % 2 ? LOSS_BLOCKED : LOSS_NO_ANGLE,
@@ -39,7 +39,7 @@ static void a_stage_may_have_reasons_of_its_own(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct frame frame = {.arena = &arena, .account = true};
+    struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
     const struct lost_echo echo = {.id.object = "o", .id.reflector = "r"};
     char word[] = "covered", known[] = "blocked"; /* as a line that was read has them */
     frame_lose_own(&frame, "mud", "s", "covered", &echo);

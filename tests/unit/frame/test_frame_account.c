@@ -180,7 +180,7 @@ static void echoes_that_differ_in_one_member_are_two_entries(void **state)
                                             {"a", "p", PATH_WALL_OBJECT, "w", 2}};
     for (size_t i = 0; i <= COUNT(others); i++) {
         struct arena arena = {0};
-        struct frame frame = {.arena = &arena, .account = true};
+        struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
         struct diag diag = {0};
         frame_count_pairs(&frame, "s", 2);
         frame_lose(&frame, "sensor", "s", LOSS_NO_ANGLE, &(struct lost_echo){.id = one});
@@ -195,7 +195,7 @@ static void the_same_echo_of_two_sensors_is_one_entry_of_each(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    struct frame frame = {.arena = &arena, .account = true};
+    struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
     struct diag diag = {0};
     static const char *const sensors[] = {"s", "t"};
     for (int i = 0; i < 2; i++) {
@@ -213,7 +213,7 @@ static void one_that_is_doubled_is_found_among_many(void **state)
     (void)state;
     enum { MANY = 20000 };
     struct arena arena = {0};
-    struct frame frame = {.arena = &arena, .account = true};
+    struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
     struct diag diag = {0};
     frame_count_pairs(&frame, "s", MANY);
     struct lost_echo lost = {.id = {.object = "a", .reflector = "p"}};

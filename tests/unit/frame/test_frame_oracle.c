@@ -270,7 +270,7 @@ static bool check_line(const char *line, size_t length)
 
 #define HEAD                                                                                       \
     "{\"version\":0,\"scene\":\"cut-in\",\"frame\":7,\"time_s\":0.28,\"interval_s\":0.04,"         \
-    "\"last\":true,\"seed\":\"18446744073709551615\",\"ego\":\"e\",\"account\":true"
+    "\"last\":true,\"seed\":\"18446744073709551615\",\"ego\":\"e\",\"sections\":[\"account\"]"
 #define ECHO                                                                                       \
     "\"object\":\"e\",\"reflector\":\"p\",\"path\":\"direct\",\"range_m\":12.25,"                  \
     "\"azimuth_rad\":-0.014320000000000001,\"range_rate_mps\":-1e-07,\"ercs\":2,\"time_s\":0.27"

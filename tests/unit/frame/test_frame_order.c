@@ -215,7 +215,7 @@ static void other_sections_and_other_stages_losses_stay_as_they_are(void **state
 {
     (void)state;
     struct arena arena = {0};
-    struct frame frame = {.arena = &arena, .account = true};
+    struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
     lose_two(&frame, "ideal");
     lose_two(&frame, "noise");
     for (int i = 0; i < 2; i++)

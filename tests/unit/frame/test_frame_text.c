@@ -16,7 +16,7 @@
 #define HEAD                                                                                       \
     "{\"version\":0,\"scene\":\"cut-in\",\"frame\":7,\"time_s\":0.28,\"interval_s\":0.04,"         \
     "\"last\":true,\"seed\":\"18446744073709551615\",\"ego\":\"e\",\"origin_x_m\":500000.25,"      \
-    "\"origin_y_m\":-0.0,\"account\":true,\"margins\":true,"
+    "\"origin_y_m\":-0.0,\"sections\":[\"objects\",\"account\",\"margins\"],"
 #define OBJECTS                                                                                    \
     "\"objects\":[{\"id\":\"e\",\"class\":\"car\",\"x_m\":-0.0,\"y_m\":1e-07,\"yaw_rad\":0.1,"     \
     "\"vx_mps\":5e-324,\"vy_mps\":-2.5,\"yaw_rate_radps\":0,\"length_m\":4.5,\"width_m\":1.8,"     \
@@ -288,7 +288,7 @@ static void faults_are_named_with_their_path_value_and_expectation(void **state)
          "objects[0].z_m: unknown key; expected one of " OBJECT_KEYS},
         {"\"digest\":", "\"digest\":\"1\",\"digest\":", "sensors.digest: the key stands twice"},
         {"\"pairs\":2", "\"pairs\":2,\"pairs\":2", "counts[0].pairs: the key stands twice"},
-        {"\"account\":true,", "\"account\":true,\"objects\":[],", "objects: the key stands twice"},
+        {"\"objects\":[{", "\"objects\":[],\"objects\":[{", "objects: the key stands twice"},
         {"\"reason\":\"blocked\"", "\"reason\":[]", "lost[0].reason: an array; expected a name"},
         {"\"counts\":[{", "\"counts\":[7,{", "counts[0]: a number; expected an object"},
         {"\"sensors\":{", "\"sensors\":[{", "sensors: an array; expected an object"},

@@ -243,7 +243,7 @@ static void a_margin_is_the_distance_from_another_answer(void **state)
         void *place;
         make_scene(&place);
         struct scene *scene = place;
-        scene->frame.margins = true;
+        scene->frame.sections |= CARRY_MARGINS;
         scene->sensor.field_of_view_rad = PI / 2;
         scene->sensor.range_min_m = 1;
         struct point_reflector *pole = add_point(scene, add_set(scene, "pole"));
@@ -287,7 +287,7 @@ static void an_echo_from_under_a_truck_can_change_in_two_ways(void **state)
         void *place;
         make_scene(&place);
         struct scene *scene = place;
-        scene->frame.margins = true;
+        scene->frame.sections |= CARRY_MARGINS;
         add_point(scene, add_set(scene, "pole"))->under_vehicles = 0.5;
         add_set(scene, "truck")->raised = true;
         add_set(scene, "wall");
@@ -303,7 +303,7 @@ static void an_echo_from_under_a_truck_can_change_in_two_ways(void **state)
 static void the_margin_of_a_plane_is_the_distance_of_its_foot_from_an_end(void **state)
 {
     struct scene *scene = *state;
-    scene->frame.margins = true;
+    scene->frame.sections |= CARRY_MARGINS;
     struct reflector_set *set = add_set(scene, "a");
     *list_add(&set->planes, &scene->arena) = (struct plane_reflector){
         .name = "rear", .from_x = -0.5, .from_y = 0.5, .to_x = -0.5, .to_y = -0.5, .ercs = 0.7};
@@ -357,7 +357,7 @@ static void auto_without_an_account_finds_the_same_echoes(void **state)
         add_random_bodies(scene, &random);
         struct look all = look_at(scene, 10), some;
         struct frame *frame = &scene->frame, accounted = *frame;
-        frame->account = false;
+        frame->sections &= ~(uint64_t)CARRY_ACCOUNT;
         memset(&frame->echoes, 0, sizeof frame->echoes);
         assert_int_equal(look_begin(&some, frame, &scene->sensor, &automatic, 10, NULL), 0);
         direct_echoes_add(&some);

@@ -27,7 +27,8 @@ struct scene {
 static void clear_scene(struct scene *scene)
 {
     arena_clear(&scene->arena);
-    scene->frame = (struct frame){.scene = "s", .ego = "e", .time_s = 10, .account = true};
+    scene->frame =
+        (struct frame){.scene = "s", .ego = "e", .time_s = 10, .sections = CARRY_ACCOUNT};
     scene->frame.arena = &scene->arena;
     scene->sensor = (struct sensor){.name = "front",
                                     .range_min_m = 0.1,
@@ -588,7 +589,7 @@ static void margins_tell_how_near_a_ghost_is_to_vanishing(void **state)
     add_wall(scene, "w", -10, 50, 4);
     assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
     assert_int_equal(scene->frame.echoes.items[0].margins.present, 0);
-    scene->frame.margins = true;
+    scene->frame.sections |= CARRY_MARGINS;
     /* The nearest border is the wall's line, 4 m from the sensor; a blocker beside the direct leg;
      * a blocker beside the leg to the wall; the wall's end beyond the bounce. */
     const struct {
@@ -601,7 +602,7 @@ static void margins_tell_how_near_a_ghost_is_to_vanishing(void **state)
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         clear_scene(scene);
-        scene->frame.margins = true;
+        scene->frame.sections |= CARRY_MARGINS;
         add_standard_pole(scene);
         add_wall(scene, "w", -10, cases[i].end_x_m, 4);
         add_object(scene, "b", cases[i].x_m, cases[i].y_m, 0, 0);
@@ -665,7 +666,7 @@ static void heights_count_on_every_leg(void **state)
                 1e-12);
     assert_true((out->effects & EFFECT_BIT(EFFECT_ELEVATION)) != 0);
     wall->height_m = 1.7 + 1e-9;
-    scene->frame.margins = true;
+    scene->frame.sections |= CARRY_MARGINS;
     assert_int_equal(paths_of(scene), OUT | BACK | BOTH);
     assert_close(ghost_of(scene, PATH_OBJECT_WALL)->margins.sight_m, 1e-9, 1e-15);
     wall->height_m = 1.7 - 1e-9;

@@ -62,7 +62,7 @@ static void a_body_hides_nothing_of_a_wall_that_it_joins(void **state)
     scene->sensor.mount_yaw_rad = PI / 2;
     for (int joined = 1; joined >= 0; joined--) {
         scene->frame.echoes.count = 0;
-        scene->frame.account = false;
+        scene->frame.sections &= ~(uint64_t)CARRY_ACCOUNT;
         front->planes.count = (size_t)joined;
         struct look look;
         assert_int_equal(look_begin(&look, &scene->frame, &scene->sensor, &automatic, 10, NULL), 0);
@@ -233,7 +233,7 @@ static struct look look_at_random_bodies(struct scene *scene, uint64_t *random)
 {
     struct look look;
     add_random_bodies(scene, random);
-    scene->frame.account = false;
+    scene->frame.sections &= ~(uint64_t)CARRY_ACCOUNT;
     assert_int_equal(look_begin(&look, &scene->frame, &scene->sensor, &automatic, 10, NULL), 0);
     direct_echoes_add(&look);
     return look;

@@ -31,7 +31,7 @@ static struct cell_span false_alarms_of(struct bench *bench, double mean, uint64
                                       .frame = (int64_t)number,
                                       .time_s = 3,
                                       .interval_s = 0.1,
-                                      .account = true}};
+                                      .sections = CARRY_ACCOUNT}};
     bench->frame.arena = &bench->arena;
     *list_add(&bench->frame.sensors.list, &bench->arena) =
         (struct sensor_view){.name = "s", .measured = measured};

@@ -22,7 +22,7 @@ static void begin_list(struct list *list, enum list_order order)
 {
     *list = (struct list){.sensor = {.name = "s", .list_order = order}};
     list->frame.arena = &list->arena;
-    list->frame.account = true;
+    list->frame.sections = CARRY_ACCOUNT;
 }
 
 static void add_measurement(struct list *list, const char *object, double range_m, double amplitude)
@@ -168,7 +168,7 @@ static void a_limit_gives_margins_to_both_sides_of_the_cut(void **state)
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct list list;
         begin_list(&list, cases[i].order);
-        list.frame.margins = true;
+        list.frame.sections |= CARRY_MARGINS;
         add_all(&list);
         make(&list, cases[i].limit);
         bool in_db = cases[i].present == MARGIN_LIMIT_DB;

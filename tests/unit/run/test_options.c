@@ -105,10 +105,12 @@ static void options_come_in_any_order_and_both_spellings(void **state)
 {
     (void)state;
     static const char *const lines[] = {
-        "--where here --radius-m 50 --number 3 --quick --mode fast -o out --seed 5 --keep a b",
+        "--where here --radius-m 50 --number 3 --quick --mode fast -o out --seed 5 --sections none "
+        "a b",
         "a --mode=fast --quick --number=3 --radius-m=5e1 --where=here --output=out --seed=5 b "
-        "--keep",
-        "--keep --radius-m 1 --radius-m 50 --quick --where x --where here --number 3 --mode fast "
+        "--sections=none",
+        "--sections all --sections none --radius-m 1 --radius-m 50 --quick --where x --where here "
+        "--number 3 --mode fast "
         "--output out --seed 5 -- a b"};
     for (size_t i = 0; i < COUNT(lines); i++) {
         struct result result;
@@ -117,7 +119,7 @@ static void options_come_in_any_order_and_both_spellings(void **state)
         assert_string_equal(result.choice.where, "here");
         assert_close(result.choice.radius_m, 50, 0);
         assert_int_equal(result.choice.number, 3);
-        assert_true(result.choice.quick && result.common.keep && !result.common.complete);
+        assert_true(result.choice.quick && !result.common.complete);
         assert_int_equal(result.choice.mode, 1);
         assert_string_equal(result.common.output, "out");
         assert_int_equal(result.common.seed, 5);
@@ -133,7 +135,7 @@ static void what_is_not_given_is_absent(void **state)
     struct result result;
     assert_int_equal(read_line(&filter, "--where x", &result), 0);
     assert_close(result.choice.radius_m, 7, 0);
-    assert_false(result.choice.quick || result.common.keep || result.common.help);
+    assert_false(result.choice.quick || result.common.sections != NULL || result.common.help);
     assert_null(result.common.output);
     assert_false(result.common.seed_given);
     assert_int_equal(result.common.seed, 1);
@@ -240,9 +242,9 @@ static void a_tool_refuses_options_that_would_do_nothing(void **state)
                  {&maker, "a --seed 1", "unknown option --seed; see --help"},
                  {&maker, "a --complete", "unknown option --complete; see --help"},
                  {&tables, "a -o x", "unknown option -o; see --help"},
-                 {&tables, "a --keep", "unknown option --keep; see --help"},
+                 {&tables, "a --sections all", "unknown option --sections; see --help"},
                  {&tables, "a --explain x", "unknown option --explain; see --help"},
-                 {&reader, "--where x --keep", "unknown option --keep; see --help"}};
+                 {&reader, "--where x --sections all", "unknown option --sections; see --help"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct result result;
         assert_int_equal(read_words(program_of_tool(cases[i].tool), cases[i].line, &result), -1);
@@ -276,7 +278,7 @@ static void help_names_every_option_with_unit_bounds_and_choices(void **state)
                                             "      --quick ",
                                             "which way; one of slow, fast\n",
                                             "  -o, --output=FILE ",
-                                            "      --keep ",
+                                            "      --sections=LIST ",
                                             "      --complete ",
                                             "      --seed=SEED ",
                                             "  -h, --help ",

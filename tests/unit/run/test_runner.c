@@ -50,8 +50,6 @@ static void write_rest(const struct frame *frame, unsigned present, const struct
     rest.present = present & ~(stage->writes & ~(unsigned)SECTION_LOST);
     if ((stage->writes & SECTION_REFLECTORS) != 0)
         forget_sizes(&rest, &arena);
-    if ((stage->writes & SECTION_SENSORS) != 0)
-        rest.account = rest.margins = false;
     text->length = 0;
     if (frame_text_write(&rest, text, &diag) != 0)
         fail_msg("%s", diag.text);
@@ -112,16 +110,19 @@ static void run_filters(const char *suite, const char *density)
     size_t count = order_filters(suite, filters);
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
-    begin(&source, stage_of("traffic-random"), 5,
-          (const char *[]){"--density", density, "--conditions", "--frames", "20"});
+    begin(&source, stage_of("traffic-random"), 7,
+          (const char *[]){"--density", density, "--conditions", "--frames", "20", "--sections",
+                           "all"});
     for (size_t i = 0; i < count; i++)
-        begin(&runners[i], filters[i], strcmp(filters[i]->name, "ideal") == 0 ? 5 : 1,
-              (const char *[]){"--keep", "--sensors", suite, "--account", "--margins"});
+        begin(&runners[i], filters[i], strcmp(filters[i]->name, "ideal") == 0 ? 2 : 0,
+              (const char *[]){"--sensors", suite});
     while (runner_next(&source, &frame) == 1)
         for (size_t i = 0; i < count; i++) {
             /* What stands in takes from what it replaces the echoes that it accounts for. */
-            if (i >= 4)
-                frame.account = false;
+            if (i >= 4) {
+                frame.sections &= ~(uint64_t)CARRY_ACCOUNT;
+                frame_drop(&frame, SECTION_LOST);
+            }
             if (!keeps_to_its_part(&runners[i], &frame))
                 fail_msg("glint-%s changed what it does not declare", filters[i]->name);
         }

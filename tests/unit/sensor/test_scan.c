@@ -131,7 +131,7 @@ static void where_all_echoes_are_silent_there_is_no_cell(void **state)
 static void silent_echoes_are_lost_with_their_margins(void **state)
 {
     struct bench *bench = *state;
-    bench->frame.account = true;
+    bench->frame.sections = CARRY_ACCOUNT;
     add_echo(bench, "radar", "a", 20, 0, 1);
     add_echo(bench, "radar", "b", 20, 0, 0);
     margins_note(&bench->frame.echoes.items[1].margins, MARGIN_SIGHT, 0.25);

@@ -40,7 +40,7 @@ static void begin(struct bench *bench)
     bench->sensor.waveform.repetitions = REPETITIONS;
     bench->signal = signal_cube_of(&bench->sensor, &bench->arena);
     bench->frame.arena = &bench->arena;
-    bench->frame.account = true;
+    bench->frame.sections = CARRY_ACCOUNT;
 }
 
 /* The strongest echo comes first. */

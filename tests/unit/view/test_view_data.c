@@ -40,7 +40,8 @@
 #define FRAME(scene, number, time, last, rest) AGED("0", scene, number, time, last, rest)
 #define AGED(age, scene, number, time, last, rest)                                                 \
     "{\"version\":0,\"scene\":\"" scene "\",\"frame\":" number ",\"time_s\":" time                 \
-    ",\"interval_s\":0.04,\"last\":" last ",\"seed\":\"1\",\"ego\":\"e\",\"account\":true,"        \
+    ",\"interval_s\":0.04,\"last\":" last                                                          \
+    ",\"seed\":\"1\",\"ego\":\"e\",\"sections\":[\"account\"],"                                    \
     "\"objects\":[" EGO "," OTHER "]," SENSORS(age) rest "}"
 #define RICH                                                                                       \
     "\"targets\":[" TARGET(                                                                        \

@@ -1,0 +1,138 @@
+#include "frame/sections.h"
+
+#include <math.h>
+
+#include "base/suggestion.h"
+#include "frame/frame.h"
+
+const char *const sections_names[] = {"objects", "reflectors", "echoes",  "cells",
+                                      "account", "margins",    "quality", NULL};
+
+enum { CARRY_ALL = (CARRY_QUALITY << 1) - 1 };
+
+/* Of each word, in the order of enum carried: the section of that name, the sections that tell that
+ * the last stage has run which takes the word, and this stage. */
+static const struct {
+    unsigned own, after;
+    const char *stage;
+} places[] = {
+    {SECTION_OBJECTS, SECTION_TARGETS, "glint-noise"},
+    {SECTION_REFLECTORS, SECTION_SENSORS, "glint-ideal"},
+    {SECTION_ECHOES, SECTION_CELLS | SECTION_TARGETS, "glint-sensor"},
+    {SECTION_CELLS, SECTION_TARGETS, "glint-noise"},
+    {SECTION_LOST, SECTION_SENSORS, "glint-ideal"},
+    {0, SECTION_SENSORS, "glint-ideal"},
+    {0, SECTION_TARGETS, "glint-noise"},
+};
+
+/* Do the length bytes at text spell the word? */
+static bool is_word(const char *text, size_t length, const char *word)
+{
+    return strlen(word) == length && memcmp(text, word, length) == 0;
+}
+
+static int refuse_word(const char *text, size_t length, struct diag *diag)
+{
+    bool remove = length > 0 && text[0] == '-';
+    struct suggestion meant = suggestion_begin(text + remove, length - remove);
+    for (int i = 0; sections_names[i] != NULL; i++)
+        suggestion_offer(&meant, sections_names[i]);
+    return diag_fail(diag, DIAG_USAGE,
+                     "\"%.*s\" is no section%s; expected all, none, objects, reflectors, echoes, "
+                     "cells, account, account:every=N, margins, quality, or - and a word",
+                     (int)(length < 80 ? length : 80), text,
+                     suggestion_question(&meant, remove ? "-" : ""));
+}
+
+/* Reads the N of account:every=N. */
+static int read_every(const char *text, size_t length, struct sections_change *change,
+                      struct diag *diag)
+{
+    double every;
+    if (field_read_number(text, length, &every) != 0 || every != floor(every) || every < 1 ||
+        every > 1e9)
+        return diag_fail(diag, DIAG_USAGE,
+                         "account:every=%.*s; expected a whole number in [1, 1e9]",
+                         (int)(length < 80 ? length : 80), text);
+    change->account_every = (int64_t)every;
+    return 0;
+}
+
+static int read_word(const char *text, size_t length, struct sections_change *change,
+                     struct diag *diag)
+{
+    static const char every[] = "account:every=";
+    size_t start = strlen(every);
+    if (length >= start && memcmp(text, every, start) == 0) {
+        if (read_every(text + start, length - start, change, diag) != 0)
+            return -1;
+        length = strlen("account");
+    }
+    bool remove = length > 0 && text[0] == '-';
+    for (int i = 0; sections_names[i] != NULL; i++)
+        if (is_word(text + remove, length - remove, sections_names[i])) {
+            uint64_t bit = UINT64_C(1) << i;
+            change->added = remove ? change->added & ~bit : change->added | bit;
+            change->removed = remove ? change->removed | bit : change->removed & ~bit;
+            return 0;
+        }
+    return refuse_word(text, length, diag);
+}
+
+int sections_read(const char *text, struct sections_change *change, struct diag *diag)
+{
+    *change = (struct sections_change){.account_every = 1};
+    for (bool first = true;; first = false) {
+        size_t length = strcspn(text, ",");
+        if (first && is_word(text, length, "all"))
+            change->added = CARRY_ALL;
+        else if (first && is_word(text, length, "none"))
+            change->removed = CARRY_ALL;
+        else if (read_word(text, length, change, diag) != 0)
+            return -1;
+        if (text[length] == '\0')
+            return 0;
+        text += length + 1;
+    }
+}
+
+static void clear_margins(struct frame *frame)
+{
+    const struct margins none = {0};
+    for (size_t i = 0; i < frame->echoes.count; i++)
+        frame->echoes.items[i].margins = none;
+    for (size_t i = 0; i < frame->cells.count; i++)
+        frame->cells.items[i].margins = none;
+    for (size_t i = 0; i < frame->targets.count; i++)
+        frame->targets.items[i].margins = none;
+    for (size_t i = 0; i < frame->lost.count; i++)
+        for (size_t j = 0; j < frame->lost.items[i].echoes.count; j++)
+            frame->lost.items[i].echoes.items[j].margins = none;
+}
+
+int sections_apply(const struct sections_change *change, struct frame *frame, struct diag *diag)
+{
+    uint64_t before = frame->sections, wanted = (before & ~change->removed) | change->added;
+    if (frame->frame % change->account_every != 0)
+        wanted &= ~(uint64_t)CARRY_ACCOUNT;
+    for (int i = 0; sections_names[i] != NULL; i++)
+        if ((wanted & ~before & UINT64_C(1) << i) != 0 && (frame->present & places[i].after) != 0 &&
+            (frame->present & places[i].own) == 0)
+            return diag_fail(diag, DIAG_CONFIG,
+                             "--sections: \"%s\" comes too late for this frame; give it to %s or a "
+                             "stage before it",
+                             sections_names[i], places[i].stage);
+    if ((before & ~wanted & CARRY_MARGINS) != 0)
+        clear_margins(frame);
+    frame->sections = wanted;
+    return 0;
+}
+
+void sections_drop(struct frame *frame)
+{
+    unsigned dropped = 0;
+    for (int i = 0; sections_names[i] != NULL; i++)
+        if ((frame->sections & UINT64_C(1) << i) == 0 && (frame->present & places[i].after) != 0)
+            dropped |= places[i].own;
+    frame_drop(frame, dropped);
+}

@@ -1,0 +1,166 @@
+#include "frame/sections.h"
+
+#include "check.h"
+#include "frame/frame.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+/* The choice of a frame after a text of --sections. */
+static uint64_t after(const char *text, uint64_t before, int64_t number)
+{
+    struct frame frame = {.frame = number, .sections = before};
+    struct sections_change change;
+    struct diag diag = {0};
+    if (sections_read(text, &change, &diag) != 0 || sections_apply(&change, &frame, &diag) != 0)
+        fail_msg("%s: %s", text, diag.text);
+    return frame.sections;
+}
+
+static void words_change_what_the_frame_says(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        uint64_t before, after;
+    } cases[] = {
+        {"account", CARRY_OBJECTS, CARRY_OBJECTS | CARRY_ACCOUNT},
+        {"account,cells", CARRY_MARGINS, CARRY_MARGINS | CARRY_ACCOUNT | CARRY_CELLS},
+        {"-objects", CARRY_OBJECTS | CARRY_ECHOES, CARRY_ECHOES},
+        {"-margins,quality", CARRY_OBJECTS, CARRY_OBJECTS | CARRY_QUALITY},
+        {"none", CARRY_OBJECTS | CARRY_ACCOUNT, 0},
+        {"none,margins", CARRY_OBJECTS | CARRY_ACCOUNT, CARRY_MARGINS},
+        {"all,-cells,-account,-quality", 0,
+         CARRY_OBJECTS | CARRY_REFLECTORS | CARRY_ECHOES | CARRY_MARGINS},
+        {"account,-account", CARRY_ACCOUNT, 0},
+        {"-account,account", 0, CARRY_ACCOUNT},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++)
+        assert_int_equal(after(cases[i].text, cases[i].before, 7), cases[i].after);
+}
+
+static void an_account_of_every_tenth_frame_is_in_frames_0_10_and_20(void **state)
+{
+    (void)state;
+    for (int64_t number = 0; number < 30; number++) {
+        uint64_t due = number % 10 == 0 ? CARRY_ACCOUNT : 0;
+        assert_int_equal(after("account:every=10", 0, number), due);
+        assert_int_equal(after("account:every=10", CARRY_ACCOUNT, number), due);
+        assert_int_equal(after("account:every=1", 0, number), CARRY_ACCOUNT);
+    }
+}
+
+static void what_is_no_section_is_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *message;
+    } cases[] = {
+        {"acount", "\"acount\" is no section (did you mean account?); expected all, none"},
+        {"-echos", "\"-echos\" is no section (did you mean -echoes?)"},
+        {"", "\"\" is no section; expected"},
+        {"account,", "\"\" is no section; expected"},
+        {"account,all", "\"all\" is no section; expected"},
+        {"targets", "\"targets\" is no section; expected"},
+        {"-account:every=2", "\"-account:every=2\" is no section"},
+        {"account:every=0", "account:every=0; expected a whole number in [1, 1e9]"},
+        {"account:every=2.5", "account:every=2.5; expected a whole number in [1, 1e9]"},
+        {"account:every=x", "account:every=x; expected a whole number in [1, 1e9]"},
+        {"account:every=", "account:every=; expected a whole number in [1, 1e9]"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct sections_change change;
+        struct diag diag = {0};
+        assert_int_equal(sections_read(cases[i].text, &change, &diag), -1);
+        assert_int_equal(diag.code, DIAG_USAGE);
+        if (strncmp(diag.text, cases[i].message, strlen(cases[i].message)) != 0)
+            fail_msg("%s: %s", cases[i].text, diag.text);
+    }
+}
+
+static void a_word_is_taken_until_its_stage_has_run(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *word;
+        unsigned before, after; /* sections of a frame that still takes it, and that does not */
+    } cases[] = {
+        {"objects", SECTION_CELLS | SECTION_SENSORS, SECTION_TARGETS},
+        {"reflectors", SECTION_REFLECTORS | SECTION_SENSORS, SECTION_SENSORS},
+        {"echoes", SECTION_SENSORS, SECTION_CELLS | SECTION_SENSORS},
+        {"echoes", SECTION_ECHOES | SECTION_CELLS, SECTION_TARGETS},
+        {"cells", SECTION_SENSORS | SECTION_CELLS, SECTION_TARGETS},
+        {"account", SECTION_OBJECTS | SECTION_REFLECTORS, SECTION_SENSORS | SECTION_COUNTS},
+        {"margins", SECTION_OBJECTS | SECTION_REFLECTORS, SECTION_SENSORS | SECTION_ECHOES},
+        {"quality", SECTION_SENSORS | SECTION_CELLS, SECTION_TARGETS},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct frame early = {.present = cases[i].before}, late = {.present = cases[i].after};
+        struct sections_change change;
+        struct diag diag = {0};
+        assert_int_equal(sections_read(cases[i].word, &change, &diag), 0);
+        assert_int_equal(sections_apply(&change, &early, &diag), 0);
+        assert_int_equal(sections_apply(&change, &late, &diag), -1);
+        assert_int_equal(diag.code, DIAG_CONFIG);
+    }
+}
+
+static void sections_go_when_no_later_stage_reads_them(void **state)
+{
+    (void)state;
+    static const struct {
+        uint64_t carried;
+        unsigned present, left;
+    } cases[] = {
+        {CARRY_OBJECTS, SECTION_OBJECTS | SECTION_REFLECTORS, SECTION_OBJECTS | SECTION_REFLECTORS},
+        {0, SECTION_OBJECTS | SECTION_SENSORS | SECTION_ECHOES,
+         SECTION_OBJECTS | SECTION_SENSORS | SECTION_ECHOES},
+        {0, SECTION_REFLECTORS | SECTION_SENSORS | SECTION_ECHOES,
+         SECTION_SENSORS | SECTION_ECHOES},
+        {CARRY_REFLECTORS, SECTION_REFLECTORS | SECTION_SENSORS,
+         SECTION_REFLECTORS | SECTION_SENSORS},
+        {CARRY_ECHOES, SECTION_ECHOES | SECTION_CELLS | SECTION_TARGETS,
+         SECTION_ECHOES | SECTION_TARGETS},
+        {CARRY_CELLS, SECTION_ECHOES | SECTION_CELLS | SECTION_TARGETS,
+         SECTION_CELLS | SECTION_TARGETS},
+        {0, SECTION_OBJECTS | SECTION_TARGETS | SECTION_COUNTS | SECTION_VEHICLES,
+         SECTION_TARGETS | SECTION_COUNTS | SECTION_VEHICLES},
+        {0, SECTION_SENSORS | SECTION_LOST, SECTION_SENSORS},
+        {CARRY_ACCOUNT, SECTION_SENSORS | SECTION_LOST, SECTION_SENSORS | SECTION_LOST},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct frame frame = {.sections = cases[i].carried, .present = cases[i].present};
+        sections_drop(&frame);
+        assert_int_equal(frame.present, cases[i].left);
+    }
+}
+
+static void margins_that_are_left_out_go_at_once(void **state)
+{
+    (void)state;
+    struct echo echo = {.margins.present = MARGIN_SIGHT};
+    struct lost_echo lost = {.margins.present = MARGIN_SIGHT};
+    struct lost_group group = {.echoes = {&lost, 1, 1}};
+    struct frame frame = {.sections = CARRY_MARGINS | CARRY_ACCOUNT,
+                          .present = SECTION_SENSORS | SECTION_ECHOES | SECTION_LOST,
+                          .echoes = {&echo, 1, 1},
+                          .lost = {&group, 1, 1}};
+    struct sections_change change;
+    struct diag diag = {0};
+    assert_int_equal(sections_read("-margins", &change, &diag), 0);
+    assert_int_equal(sections_apply(&change, &frame, &diag), 0);
+    assert_int_equal(echo.margins.present, 0);
+    assert_int_equal(lost.margins.present, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(words_change_what_the_frame_says),
+        cmocka_unit_test(an_account_of_every_tenth_frame_is_in_frames_0_10_and_20),
+        cmocka_unit_test(what_is_no_section_is_refused),
+        cmocka_unit_test(a_word_is_taken_until_its_stage_has_run),
+        cmocka_unit_test(sections_go_when_no_later_stage_reads_them),
+        cmocka_unit_test(margins_that_are_left_out_go_at_once),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
