@@ -45,7 +45,8 @@ def counted(frames):
         classes = {one["id"]: one["class"] for one in frame["objects"]}
         scans.update(one["name"] for one in frame["sensors"]["list"] if one["measured"])
         for group in frame.get("lost", []) if "account" in frame.get("sections", []) else []:
-            counts[LOOKED][group["reason"]] += len(group["echoes"])
+            own = group["stage"] + ": " if group["stage"] == "mud" else ""
+            counts[LOOKED][own + group["reason"]] += len(group["echoes"])
         for target in frame["targets"]:
             parts = target["contributors"]
             strongest = max(parts, key=lambda part: part["weight"])

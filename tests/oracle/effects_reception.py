@@ -101,7 +101,7 @@ def weather(bench):
         scene = {"origin": "A test.", "ego": "ego", "rate_hz": 10, "duration_s": 0,
                  "objects": [{"id": "ego", "class": "car"}, {"id": "a", "class": "spot", "x_m": range_m}]}
         path.write_text(json.dumps(scene))
-        words = " ".join(f"--{key.replace('_', '-')} {value}" for key, value in conditions.items())
+        words = f"--conditions '{json.dumps(conditions)}'"
         wet = {"options": receive(bench, [], sensors, source=f"glint-traffic {path} {words} | ")}
         path.write_text(json.dumps({**scene, "conditions": conditions}))
         wet["scenario"] = receive(bench, [], sensors, source=f"glint-traffic {path} | ")
