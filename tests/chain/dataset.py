@@ -24,7 +24,7 @@ sys.dont_write_bytecode = True
 from progress import Progress  # noqa: E402
 
 DATASET = os.path.join(ROOT, "scripts", "dataset")
-CHAIN = "glint-extract | glint-ideal --sensors {suite} --account | glint-sensor | glint-noise"
+CHAIN = "glint-extract | glint-ideal --sensors {suite} --sections account | glint-sensor | glint-noise"
 SUITE = "corner77-every-frame"
 SHARES = {"train": 0.8, "validation": 0.1, "test": 0.1}
 PATIENCE_S = 120
@@ -199,7 +199,7 @@ def what_cannot_be_made_is_refused(folder):
     ], 65)
     refusals(folder, [(plan_of([{"recording": "nowhere.csv", "egos": ["1"]}]), "no such file"),
                       (snapshots(9, suites=["nowhere"]), "no such file")], 66)
-    refusals(folder, [(snapshots(9, chain=CHAIN.replace("--account", "--acount")), "this fails: glint -c")], 64)
+    refusals(folder, [(snapshots(9, chain=CHAIN.replace("--sections account", "--acount")), "this fails: glint -c")], 64)
 
 
 def refusals(folder, cases, code):

@@ -21,9 +21,9 @@ AWKWARD = 'with "quotes", commas and\u00a0blanks '
 CHAIN = "glint-extract | glint-ideal --sensors {} | glint-sensor | glint-noise"
 STREAMS = [
     f"glint-traffic side-crossing --scene '{AWKWARD}' | " + CHAIN.format("srr24-pair"),
-    "glint-traffic walled-road | " + CHAIN.format("radarscenes77-full --account --margins"),
-    "glint-traffic gravel --conditions '{\"rain_mmph\": 10}' | " + CHAIN.format("lrr77-full --account"),
-    "glint-traffic-random --frames 20 --density dense | " + CHAIN.format("corner77-uncompensated --account"),
+    "glint-traffic walled-road | " + CHAIN.format("radarscenes77-full --sections account,margins"),
+    "glint-traffic gravel --conditions '{\"rain_mmph\": 10}' | " + CHAIN.format("lrr77-full --sections account"),
+    "glint-traffic-random --frames 20 --density dense | " + CHAIN.format("corner77-uncompensated --sections account"),
 ]
 # Members that stand elsewhere in a row or say the same for every row, and those that no column shows.
 OF_SCAN = {"name", "measured", "age_s"}
