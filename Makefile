@@ -181,7 +181,9 @@ $(harnesses): %: %.o $(addprefix $(BUILD)/tests/fuzz/,fuzz.o numbers_mutated.o) 
 $(BUILD)/tests/speed/%: $(BUILD)/tests/speed/%.o $(BUILD)/libglint.a
 	$(Q)$(LINK) -o $@ $^ $(SPEED_LIBS) -lz -lm
 $(BUILD)/tests/speed/parse_xml: SPEED_LIBS = -lexpat
+$(BUILD)/tests/speed/read_table: SPEED_LIBS = -ljansson -lcsv
 $(BUILD)/tests/speed/floors: $(BUILD)/tests/speed/plain.o $(BUILD)/tests/speed/digits.o
+$(BUILD)/tests/speed/read_table: $(BUILD)/tests/speed/digits.o
 $(BUILD)/tests/speed/digits.o: tests/speed/digits.cc
 	@mkdir -p $(@D)
 	$(Q)$(CXX) $(HOUSE_CXX) $(CXXFLAGS) -c -o $@ $<

@@ -145,6 +145,8 @@ static const struct field traffic_options[] = {
 #define INTERACTION(word, class) "\n    INTERACTION  " word " = " class
 #define HIGHD(word, class) "\n    highD        " word " = " class
 #define IND(word, class) "\n    inD          " word " = " class
+#define NGSIM(word, class) "\n    NGSIM        " word " = " class
+#define ESMINI(word, class) "\n    esmini       " word " = " class
 #define SUMO(word, class, length_m, width_m, height_m) "\n    SUMO         " word " = " class
 
 const struct stage stage_traffic = {
@@ -152,9 +154,10 @@ const struct stage stage_traffic = {
     .summary = "Play a scenario or a recorded table, frame by frame.",
     .details =
         "A scenario is a JSON document; a table is CSV, plain or gzip, in the columns of highD,\n"
-        "inD, rounD, exiD, uniD, INTERACTION or SUMO, and needs --ego. Frame rate and classes\n"
-        "are in files beside it, where its maker puts them there. Coordinates beyond a kilometre\n"
-        "are made relative to an origin near the ego, which every frame names.\n"
+        "inD, rounD, exiD, uniD, INTERACTION, NGSIM, SUMO or of esmini's log, and needs --ego.\n"
+        "Frame rate and classes are in files beside it, where its maker puts them there.\n"
+        "Coordinates beyond a kilometre are made relative to an origin near the ego, which every\n"
+        "frame names.\n"
         "\n"
         "Velocities and yaw rates that a table lacks are centred differences, which wait for\n"
         "the next step. --rate-hz takes cubic curves between steps.\n"

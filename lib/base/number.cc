@@ -30,8 +30,8 @@ constexpr uint64_t WHOLE_TENS[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 100
 // Up to here one more digit and seven behind the point still fit a double.
 constexpr uint64_t WHOLE_MOST = 10000000;
 
-// More bytes than number_take looks at.
-enum { NUMBER_ROOM = 64 };
+// number_take looks at fewer bytes.
+static_assert(NUMBER_ROOM > 1 + 8 + 1 + 8 + NUMBER_DIGITS, "it has room for a sign, a point and all digits");
 
 constexpr uint64_t BYTES = UINT64_C(0x0101010101010101);
 

@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-enum { NUMBER_SIZE = 32, NUMBER_DIGITS = 19 };
+enum { NUMBER_SIZE = 32, NUMBER_DIGITS = 19, NUMBER_ROOM = 64 };
 
 /* Writes a finite double at text (at least NUMBER_SIZE bytes) without a NUL; returns its length.
  * Minus zero is "-0.0". */
@@ -29,7 +29,8 @@ bool number_read(const char *begin, const char *end, double *value);
 
 /* Reads the number at the beginning of [begin, end), as the nearest double, if it has the form of
  * JSON, no exponent, at most NUMBER_DIGITS digits and a size below 10^8. Returns where it ends;
- * NULL if it is none of these, or no number. */
+ * NULL if it is none of these, or no number. With NUMBER_ROOM readable bytes, whatever is behind
+ * the number, it takes half the time. */
 const char *number_take(const char *begin, const char *end, double *value);
 
 /* The double nearest to digits / 10^places; places from 0 to NUMBER_DIGITS. */

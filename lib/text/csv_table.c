@@ -15,12 +15,15 @@ struct reader {
     struct csv_table *table;
     struct arena *arena;
     struct diag *diag;
+    struct text text;       /* the cells, a NUL after each */
+    LIST_OF(size_t) begins; /* of the cells in it */
     LIST_OF(const char *) cells;
     LIST_OF(size_t) numbers;
-    size_t row_begin; /* the current row's first cell */
-    size_t row;       /* number of the current row */
-    int last_end;     /* character that ended the row before */
-    bool semicolons;  /* separate the cells */
+    size_t row_begin;         /* the current row's first cell */
+    size_t row;               /* number of the current row */
+    int last_end;             /* character that ended the row before */
+    bool semicolons;          /* separate the cells */
+    const char *const *names; /* csv_table_form.names, or NULL */
 };
 
 static void refuse_semicolons(const struct csv_table *table, struct diag *diag)
@@ -41,15 +44,33 @@ static void refuse_repeated_names(const struct csv_table *table, struct arena *a
     }
 }
 
+/* Is the first row one of values, with a name for each? No column is named by a number. */
+static bool lacks_header(const struct reader *reader)
+{
+    size_t count = 0;
+    while (reader->names != NULL && reader->names[count] != NULL)
+        count++;
+    const char *first = reader->text.bytes;
+    return count > 0 && count == reader->begins.count && first[strspn(first, "0123456789")] == '\0';
+}
+
 static void take_header(struct reader *reader)
 {
     struct csv_table *table = reader->table;
-    size_t columns = reader->cells.count;
+    size_t columns = reader->begins.count;
+    if (lacks_header(reader)) {
+        table->header = reader->names;
+        table->columns = columns;
+        *list_add(&reader->numbers, reader->arena) = reader->row;
+        return;
+    }
     const char **header = arena_get(reader->arena, columns * sizeof *header);
-    memcpy(header, reader->cells.items, columns * sizeof *header);
+    const char *names = arena_text(reader->arena, reader->text.bytes, reader->text.length);
+    for (size_t i = 0; i < columns; i++)
+        header[i] = names + reader->begins.items[i];
     table->header = header;
     table->columns = columns;
-    reader->cells.count = 0;
+    reader->begins.count = reader->text.length = 0;
     if (!reader->semicolons)
         refuse_semicolons(table, reader->diag);
     refuse_repeated_names(table, reader->arena, reader->diag);
@@ -57,7 +78,7 @@ static void take_header(struct reader *reader)
 
 static void take_row(struct reader *reader)
 {
-    size_t cells = reader->cells.count - reader->row_begin;
+    size_t cells = reader->begins.count - reader->row_begin;
     if (cells == reader->table->columns)
         *list_add(&reader->numbers, reader->arena) = reader->row;
     else
@@ -68,15 +89,17 @@ static void take_row(struct reader *reader)
 static void on_cell(void *text, size_t length, void *context)
 {
     struct reader *reader = context;
-    if (reader->diag->code == DIAG_OK)
-        *list_add(&reader->cells, reader->arena) = arena_text(reader->arena, text, length);
+    if (reader->diag->code != DIAG_OK)
+        return;
+    *list_add(&reader->begins, reader->arena) = reader->text.length;
+    text_add(&reader->text, text, length + 1);
 }
 
 /* libcsv reports CR and LF of one line end as the ends of two rows. */
 static void on_row(int end, void *context)
 {
     struct reader *reader = context;
-    bool empty = reader->cells.count == reader->row_begin;
+    bool empty = reader->begins.count == reader->row_begin;
     bool second_half = empty && end == CSV_LF && reader->last_end == CSV_CR;
     reader->last_end = end;
     if (second_half || reader->diag->code != DIAG_OK)
@@ -85,7 +108,7 @@ static void on_row(int end, void *context)
         take_header(reader);
     else if (!empty)
         take_row(reader);
-    reader->row_begin = reader->cells.count;
+    reader->row_begin = reader->begins.count;
     reader->row++;
 }
 
@@ -142,8 +165,17 @@ static int read_text(const struct text *text, struct reader *reader)
     return done;
 }
 
-static void show_rows(const struct reader *reader)
+static void end_text(struct reader *reader)
 {
+    memset(text_room(&reader->text, NUMBER_ROOM), 0, NUMBER_ROOM);
+}
+
+/* The text has grown to its end, so that its cells have their places. */
+static void show_rows(struct reader *reader)
+{
+    reader->cells.count = 0;
+    for (size_t i = 0; i < reader->begins.count; i++)
+        *list_add(&reader->cells, reader->arena) = reader->text.bytes + reader->begins.items[i];
     reader->table->rows = reader->numbers.count;
     reader->table->cells = reader->cells.items;
     reader->table->numbers = reader->numbers.items;
@@ -155,7 +187,11 @@ int csv_table_parse(const struct text *text, struct csv_table *table, struct are
     *table = (struct csv_table){0};
     struct reader reader = {.table = table, .arena = arena, .diag = diag, .row = 1};
     int done = read_text(text, &reader);
+    end_text(&reader);
+    struct text kept = reader.text;
+    reader.text.bytes = arena_text(arena, kept.bytes, kept.length + NUMBER_ROOM);
     show_rows(&reader);
+    text_free(&kept);
     return done;
 }
 
@@ -166,10 +202,53 @@ struct csv_table_rows {
     struct csv_parser parser;
     struct reader reader;
     struct input *input;
-    struct arena names, cells;
+    struct arena arena;
     struct diag fault; /* that ended the table, after the rows before it */
+    const struct csv_table_form *form;
+    struct text commas; /* the line, with commas for its blanks */
     bool begun, ended;
+    bool before_header;
+    bool blanks; /* separate the cells */
+    bool held;   /* was the first line a row? */
 };
+
+static bool begins_with(const char *line, size_t length, const char *word)
+{
+    size_t letters = strlen(word);
+    return length >= letters && memcmp(line, word, letters) == 0;
+}
+
+/* What the first line tells: what separates cells, and whether the header is in a later line. */
+static void look_at_first(struct csv_table_rows *rows, const char *line, size_t length)
+{
+    rows->before_header = rows->form != NULL && begins_with(line, length, rows->form->preamble);
+    if (rows->before_header || memchr(line, ',', length) != NULL)
+        return;
+    rows->reader.semicolons = memchr(line, ';', length) != NULL;
+    if (rows->reader.semicolons)
+        csv_set_delim(&rows->parser, ';');
+    else
+        rows->blanks = memchr(line, '"', length) == NULL;
+}
+
+/* A comma for every run of blanks, but for those at the ends. */
+static void put_commas(struct csv_table_rows *rows, const char **line, size_t *length)
+{
+    struct text *commas = &rows->commas;
+    commas->length = 0;
+    char *to = text_room(commas, *length);
+    bool waits = false;
+    for (size_t i = 0; i < *length; i++) {
+        bool blank = strchr(" \t\r", (*line)[i]) != NULL && (*line)[i] != '\0';
+        if (!blank && waits && commas->length > 0)
+            to[commas->length++] = ',';
+        if (!blank)
+            to[commas->length++] = (*line)[i];
+        waits = blank;
+    }
+    *line = to;
+    *length = commas->length;
+}
 
 /* Parses a line more, and the end after the last. */
 static void parse_line(struct csv_table_rows *rows)
@@ -177,15 +256,23 @@ static void parse_line(struct csv_table_rows *rows)
     const char *line;
     size_t length;
     int more = input_line(rows->input, CSV_TABLE_SIZE, &line, &length, &rows->fault);
-    size_t skipped = more > 0 && !rows->begun ? mark_length(line, length) : 0;
-    if (more > 0 && !rows->begun && memchr(line, ',', length) == NULL &&
-        memchr(line, ';', length) != NULL) {
-        rows->reader.semicolons = true;
-        csv_set_delim(&rows->parser, ';');
+    if (more > 0 && !rows->begun) {
+        size_t mark = mark_length(line, length);
+        line += mark;
+        length -= mark;
+        look_at_first(rows, line, length);
+        rows->begun = true;
     }
-    rows->begun = true;
+    if (more > 0 && rows->before_header)
+        rows->before_header = !begins_with(line, length, rows->form->header);
+    if (more > 0 && rows->before_header) {
+        rows->reader.row++;
+        return;
+    }
+    if (more > 0 && rows->blanks)
+        put_commas(rows, &line, &length);
     if (more > 0)
-        more = parse(&rows->parser, &rows->reader, line + skipped, length - skipped) == 0 &&
+        more = parse(&rows->parser, &rows->reader, line, length) == 0 &&
                parse(&rows->parser, &rows->reader, "\n", 1) == 0;
     else if (more == 0)
         finish(&rows->parser, &rows->reader);
@@ -195,12 +282,14 @@ static void parse_line(struct csv_table_rows *rows)
 const struct csv_table *csv_table_next(struct csv_table_rows *rows, struct diag *diag)
 {
     struct reader *reader = &rows->reader;
-    arena_clear(&rows->cells);
-    memset(&reader->cells, 0, sizeof reader->cells);
-    memset(&reader->numbers, 0, sizeof reader->numbers);
-    reader->row_begin = 0;
+    if (rows->held) {
+        rows->held = false;
+        return &rows->table;
+    }
+    reader->begins.count = reader->numbers.count = reader->text.length = reader->row_begin = 0;
     while (!rows->ended && reader->numbers.count == 0)
         parse_line(rows);
+    end_text(reader);
     show_rows(reader);
     if (rows->table.rows > 0)
         return &rows->table;
@@ -209,16 +298,22 @@ const struct csv_table *csv_table_next(struct csv_table_rows *rows, struct diag 
     return NULL;
 }
 
-struct csv_table_rows *csv_table_open(struct input *input, struct diag *diag)
+struct csv_table_rows *csv_table_open(struct input *input, const struct csv_table_form *form,
+                                      struct diag *diag)
 {
     struct csv_table_rows *rows = memory_get(sizeof *rows);
-    *rows = (struct csv_table_rows){.input = input};
-    rows->reader = (struct reader){
-        .table = &rows->table, .arena = &rows->names, .diag = &rows->fault, .row = 1};
+    *rows = (struct csv_table_rows){.input = input, .form = form};
+    rows->reader = (struct reader){.table = &rows->table,
+                                   .arena = &rows->arena,
+                                   .diag = &rows->fault,
+                                   .row = 1,
+                                   .names = form != NULL ? form->names : NULL};
     rows->ended = begin(&rows->parser, &rows->reader) != 0;
     while (!rows->ended && rows->table.header == NULL)
         parse_line(rows);
-    rows->reader.arena = &rows->cells;
+    rows->held = rows->reader.numbers.count > 0;
+    end_text(&rows->reader);
+    show_rows(&rows->reader);
     if (rows->fault.code == DIAG_OK)
         return rows;
     *diag = rows->fault;
@@ -236,8 +331,9 @@ void csv_table_close(struct csv_table_rows *rows)
     if (rows == NULL)
         return;
     csv_free(&rows->parser);
-    arena_free(&rows->names);
-    arena_free(&rows->cells);
+    arena_free(&rows->arena);
+    text_free(&rows->reader.text);
+    text_free(&rows->commas);
     free(rows);
 }
 
@@ -263,16 +359,17 @@ const char *csv_table_cell(const struct csv_table *table, size_t row, size_t col
     return table->cells[row * table->columns + column];
 }
 
+/* The text is a cell, which has NUMBER_ROOM bytes behind it. */
 static bool number_of(const char *text, double *value)
 {
-    const char *end = text + strlen(text);
-    if (number_take(text, end, value) == end)
+    const char *end = number_take(text, text + NUMBER_ROOM, value);
+    if (end != NULL && *end == '\0')
         return true;
     if (*text != '-' && (*text < '0' || *text > '9'))
         return false;
     struct diag ignored;
     ignored.code = DIAG_OK;
-    struct json_scan scan = {.at = text, .end = end, .diag = &ignored};
+    struct json_scan scan = {.at = text, .end = text + strlen(text), .diag = &ignored};
     return json_scan_number(&scan, value) == 0 && scan.at == scan.end;
 }
 

@@ -30,11 +30,20 @@ struct csv_table {
 int csv_table_parse(const struct text *text, struct csv_table *table, struct arena *arena,
                     struct diag *diag);
 
-/* The same row by row, in constant memory; cells may be separated by semicolons, where the header
- * has those and no comma. Opening reads the header; the input stays the caller's. NULL after a
- * message. */
+/* How a table may begin whose first line is no header. */
+struct csv_table_form {
+    const char *const *names; /* of its columns, NULL after the last: taken where the first row has
+                               * as many cells and begins with a number */
+    const char *preamble;     /* where the first line begins so, the header is the next line */
+    const char *header;       /* that begins so */
+};
+
+/* The same row by row, in constant memory; form may be NULL. Where the first line has no comma,
+ * cells are separated by semicolons, or else by any number of blanks. Opening reads the header; the
+ * input stays the caller's. NULL after a message. */
 struct csv_table_rows;
-struct csv_table_rows *csv_table_open(struct input *input, struct diag *diag);
+struct csv_table_rows *csv_table_open(struct input *input, const struct csv_table_form *form,
+                                      struct diag *diag);
 void csv_table_close(struct csv_table_rows *rows);
 
 /* A table of the columns alone. */

@@ -20,8 +20,9 @@ static const struct recorded_word words[] = {
     {0},
 };
 
-static void complete(struct recorded_row *row)
+static void complete(struct recorded_cells *cells)
 {
+    struct recorded_row *row = &cells->row;
     row->x_m += row->length_m / 2;
     row->y_m -= row->width_m / 2;
 }

@@ -102,7 +102,7 @@ static int read_rows(struct reading *reading, const char *table_path, const char
     struct diag *diag = reading->diag;
     const char *path;
     struct input *input = open_beside(table_path, name, &path, reading);
-    struct csv_table_rows *rows = input != NULL ? csv_table_open(input, diag) : NULL;
+    struct csv_table_rows *rows = input != NULL ? csv_table_open(input, NULL, diag) : NULL;
     int count = 0;
     while (rows != NULL && count >= 0 && (reading->row = csv_table_next(rows, diag)) != NULL)
         count = take(reading) == 0 ? count + 1 : -1;

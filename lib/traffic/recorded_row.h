@@ -19,6 +19,7 @@ struct recorded_row {
     int64_t time_ns;
     const char *id;
     const char *class;     /* the format's own word, of its vocabulary or not */
+    const char *likely;    /* the word to take if the class is unknown; NULL */
     double x_m, y_m;       /* y counter-clockwise of x; any size, UTM too */
     double ahead;          /* how many lengths the place lies ahead of the box's centre */
     double yaw_rad;        /* NAN: along the velocity */

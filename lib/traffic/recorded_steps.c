@@ -27,6 +27,8 @@ static int take_row(struct recorded_steps *steps, struct recorded_step *step, st
 {
     const struct recorded_row *row = &steps->row;
     const struct recorded_word *word = recorded_classes_find(&steps->classes, row->class);
+    if (word == NULL && row->likely != NULL)
+        word = recorded_classes_find(&steps->classes, row->likely);
     if (word == NULL) {
         recorded_classes_refuse(&steps->classes, row->class, diag);
         return diag_prefix(diag, "%s %zu: ", steps->reader.format->place, row->place);

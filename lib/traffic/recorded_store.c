@@ -13,16 +13,16 @@ static const uint32_t NONE = UINT32_MAX;
 struct stored_row {
     double values[5]; /* x_m, y_m, yaw_rad, vx_mps, vy_mps */
     float yaw_rate_radps;
-    uint32_t id, body, place;
+    uint32_t body, place;
     uint32_t next; /* of the same step; NONE */
 };
 
-_Static_assert(sizeof(struct stored_row) <= 64, "a row takes 64 bytes at most");
+_Static_assert(sizeof(struct stored_row) <= 60, "with what lists take a row has 64 bytes at most");
 
 /* What many rows share: it is interned by its bytes. */
 struct body {
     double length_m, width_m, height_m, ahead, direction_rad;
-    uint64_t class;
+    uint32_t id, class; /* names */
 };
 
 struct stored_step {
@@ -60,13 +60,16 @@ static void store_row(struct store *store, const struct recorded_row *row)
         *list_add(&store->chunks, arena) = arena_get(arena, CHUNK * sizeof(struct stored_row));
     uint32_t number = store->rows++;
     struct stored_step *step = step_of(store, row->time_ns);
-    struct body body = {row->length_m,      row->width_m,
-                        row->height_m,      row->ahead,
-                        row->direction_rad, intern_word(&store->names, row->class, arena)};
+    struct body body = {row->length_m,
+                        row->width_m,
+                        row->height_m,
+                        row->ahead,
+                        row->direction_rad,
+                        intern_word(&store->names, row->id, arena),
+                        intern_word(&store->names, row->class, arena)};
     *row_at(store, number) = (struct stored_row){
         {row->x_m, row->y_m, row->yaw_rad, row->vx_mps, row->vy_mps},
         (float)row->yaw_rate_radps,
-        intern_word(&store->names, row->id, arena),
         intern_number(&store->bodies, &body, sizeof body, arena),
         (uint32_t)row->place,
         step->first,
@@ -80,8 +83,8 @@ static void unpack(const struct store *store, const struct stored_row *stored,
     struct body body;
     memcpy(&body, intern_text(&store->bodies, stored->body), sizeof body);
     *row = recorded_row_unsaid;
-    row->id = intern_text(&store->names, stored->id);
-    row->class = intern_text(&store->names, (uint32_t)body.class);
+    row->id = intern_text(&store->names, body.id);
+    row->class = intern_text(&store->names, body.class);
     row->x_m = stored->values[0];
     row->y_m = stored->values[1];
     row->yaw_rad = stored->values[2];

@@ -1,93 +1,138 @@
 #include "traffic/recorded_table.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <strings.h>
 
 #include "text/field.h"
 #include "text/file_format.h"
 
 static const struct recorded_layout *const layouts[] = {
-    &sumo_table_layout, &sumo_table_plain_layout, &ind_table_layout, &highd_table_layout,
-    &interaction_table_layout};
+    &sumo_table_layout,  &sumo_table_plain_layout, &ind_table_layout,        &highd_table_layout,
+    &ngsim_table_layout, &esmini_table_layout,     &interaction_table_layout};
 
-enum { LAYOUTS = sizeof layouts / sizeof layouts[0], ABSENT = -1 };
+static const struct csv_table_form form = {
+    .names = ngsim_table_names, .preamble = "esmini ", .header = "Index "};
+
+enum { LAYOUTS = sizeof layouts / sizeof layouts[0], ABSENT = -1, NAME_ROOM = 80 };
+
+/* A kind of road user that the table has; in a wide table one road user. */
+struct part {
+    const struct recorded_kind *kind;
+    int at[RECORDED_COLUMNS]; /* the places of its columns; ABSENT */
+};
 
 struct recorded_table {
     struct csv_table_rows *lines;
     struct input *input;
     const struct recorded_layout *layout;
-    const struct csv_table *rows;               /* of the last line, or NULL */
-    size_t row;                                 /* of those, which is read */
-    struct recorded_kind kinds[RECORDED_KINDS]; /* that the table has */
-    size_t kind_count;
+    const struct csv_table *names;
+    struct intern places;         /* of the columns, by their names */
+    const struct csv_table *rows; /* of the last line, or NULL */
+    size_t row;                   /* of those, which is read */
+    LIST_OF(struct part) parts;
+    size_t part; /* of the row, which is next */
     struct recorded_beside beside;
-    int at[RECORDED_KINDS][RECORDED_COLUMNS]; /* the places of their columns; ABSENT */
 };
 
-static int place_of(const struct csv_table *names, const char *name)
+/* Where letters differ in case a column is found by looking at all of them. */
+static int place_of(const struct recorded_table *table, const char *name)
 {
-    for (size_t i = 0; i < names->columns; i++)
-        if (strcmp(names->header[i], name) == 0)
+    uint32_t place;
+    if (intern_find(&table->places, name, strlen(name), &place))
+        return (int)place;
+    for (size_t i = 0; i < table->names->columns; i++)
+        if (strcasecmp(table->names->header[i], name) == 0)
             return (int)i;
     return ABSENT;
 }
 
-static const struct recorded_layout *layout_of(const struct csv_table *names)
+static const struct recorded_layout *layout_of(const struct recorded_table *table)
 {
     size_t i = 0;
-    while (i + 1 < LAYOUTS && place_of(names, layouts[i]->mark) == ABSENT)
+    while (i + 1 < LAYOUTS && place_of(table, layouts[i]->mark) == ABSENT)
         i++;
     return layouts[i];
 }
 
+/* The name of a column; in a wide table that of road user number 1, 2, ... */
+static const char *name_of(const struct recorded_column *column, size_t number, char *room)
+{
+    if (number == 0 || column->kind == RECORDED_TIME)
+        return column->name;
+    snprintf(room, NAME_ROOM, "#%zu %s", number, column->name);
+    return room;
+}
+
 /* Finds the columns of a kind. Those that stand together are needed once one of them is there, and
  * the first column of times where there is no other. */
-static int find_columns(const struct csv_table *names, const struct recorded_column *columns,
-                        int *at, struct diag *diag)
+static int find_columns(const struct recorded_table *table, struct part *part, size_t number,
+                        struct diag *diag)
 {
+    const struct recorded_column *columns = part->kind->columns;
     bool together = false, timed = false;
+    char room[NAME_ROOM];
     for (size_t i = 0; columns[i].name != NULL; i++) {
-        at[i] = place_of(names, columns[i].name);
-        together = together || (columns[i].need == RECORDED_TOGETHER && at[i] != ABSENT);
-        timed = timed || (columns[i].kind == RECORDED_TIME && at[i] != ABSENT);
+        int at = part->at[i] = place_of(table, name_of(&columns[i], number, room));
+        together = together || (columns[i].need == RECORDED_TOGETHER && at != ABSENT);
+        timed = timed || (columns[i].kind == RECORDED_TIME && at != ABSENT);
     }
     for (size_t i = 0; columns[i].name != NULL; i++) {
         bool needed = columns[i].kind == RECORDED_TIME       ? !timed
                       : columns[i].need == RECORDED_TOGETHER ? together
                                                              : columns[i].need == RECORDED_NEEDED;
         size_t ignored;
-        if (needed && at[i] == ABSENT)
-            return csv_table_column(names, columns[i].name, &ignored, diag);
+        if (needed && part->at[i] == ABSENT)
+            return csv_table_column(table->names, name_of(&columns[i], number, room), &ignored,
+                                    diag);
     }
     return 0;
 }
 
-/* Of a kind without a column of ids there is nobody, unless it is the only one. */
-static int find_kinds(struct recorded_table *table, struct diag *diag)
+static int add_part(struct recorded_table *table, const struct recorded_kind *kind, size_t number,
+                    struct arena *arena, struct diag *diag)
 {
-    const struct csv_table *names = csv_table_names(table->lines);
-    const struct recorded_kind *kinds = table->layout->kinds;
-    for (size_t i = 0; i < RECORDED_KINDS && kinds[i].columns != NULL; i++)
-        if (place_of(names, kinds[i].columns[0].name) != ABSENT) {
-            size_t kind = table->kind_count++;
-            table->kinds[kind] = kinds[i];
-            if (find_columns(names, kinds[i].columns, table->at[kind], diag) != 0)
-                return -1;
-        }
-    if (table->kind_count > 0 || kinds[0].columns == NULL)
-        return 0;
-    return find_columns(names, kinds[0].columns, table->at[0], diag);
+    struct part *part = list_add(&table->parts, arena);
+    part->kind = kind;
+    return find_columns(table, part, number, diag);
+}
+
+static int find_users(struct recorded_table *table, struct arena *arena, struct diag *diag)
+{
+    const struct recorded_kind *user = table->layout->kinds;
+    char room[NAME_ROOM];
+    int done = add_part(table, user, 1, arena, diag);
+    for (size_t i = 2; done == 0 && place_of(table, name_of(user->columns, i, room)) != ABSENT; i++)
+        done = add_part(table, user, i, arena, diag);
+    return done;
+}
+
+/* Of a kind without a column of ids there is nobody, unless all lack it: then the first is
+ * refused. */
+static int find_kinds(struct recorded_table *table, struct arena *arena, struct diag *diag)
+{
+    const struct recorded_kind *kinds = table->layout->kinds, *kind = kinds;
+    do {
+        if (place_of(table, kind->columns->name) != ABSENT &&
+            add_part(table, kind, 0, arena, diag) != 0)
+            return -1;
+    } while (++kind < kinds + RECORDED_KINDS && kind->columns != NULL);
+    return table->parts.count > 0 ? 0 : add_part(table, kinds, 0, arena, diag);
 }
 
 static int read_header(struct recorded_table *table, const char *path, struct arena *arena,
                        struct diag *diag)
 {
-    table->lines = csv_table_open(table->input, diag);
+    table->lines = csv_table_open(table->input, &form, diag);
     if (table->lines == NULL)
         return -1;
-    table->layout = layout_of(csv_table_names(table->lines));
-    const struct recorded_beside_columns *beside = &table->layout->beside;
-    if (find_kinds(table, diag) != 0)
+    table->names = csv_table_names(table->lines);
+    for (size_t i = 0; i < table->names->columns; i++)
+        intern_word(&table->places, table->names->header[i], arena);
+    table->layout = layout_of(table);
+    if ((table->layout->wide ? find_users : find_kinds)(table, arena, diag) != 0)
         return -1;
+    const struct recorded_beside_columns *beside = &table->layout->beside;
     return beside->id == NULL ? 0 : recorded_beside_read(&table->beside, beside, path, arena, diag);
 }
 
@@ -155,54 +200,63 @@ static bool is_empty(const struct recorded_table *table, int place)
 }
 
 /* Who the track is, as the file beside the table says. */
-static int find_track(const struct recorded_table *table, struct recorded_row *row,
-                      struct diag *diag)
+static int find_track(const struct recorded_table *table, const struct part *part,
+                      struct recorded_row *row, struct diag *diag)
 {
     uint32_t number;
     const struct recorded_beside *beside = &table->beside;
     if (!intern_find(&beside->ids, row->id, strlen(row->id), &number))
-        return refuse(table, (size_t)table->at[0][0], "\" is no track of tracksMeta", diag);
+        return refuse(table, (size_t)part->at[0], "\" is no track of tracksMeta", diag);
     row->class = beside->tracks.items[number].class;
     row->direction_rad = beside->tracks.items[number].direction_rad;
     return 0;
 }
 
-/* The row is of the first kind whose id it has, else of the last. */
-static int read_row(const struct recorded_table *table, struct recorded_row *row, struct diag *diag)
+static int read_part(const struct recorded_table *table, const struct part *part,
+                     struct recorded_row *row, struct diag *diag)
 {
-    size_t kind = 0;
-    while (kind + 1 < table->kind_count && is_empty(table, table->at[kind][0]))
-        kind++;
-    const struct recorded_column *columns = table->kinds[kind].columns;
-    const int *at = table->at[kind];
-    *row = recorded_row_unsaid;
-    row->place = table->rows->numbers[table->row];
-    row->class = table->kinds[kind].class;
-    row->ahead = table->kinds[kind].ahead;
+    const struct recorded_column *columns = part->kind->columns;
+    struct recorded_cells cells = {.row = recorded_row_unsaid};
+    cells.row.place = table->rows->numbers[table->row];
+    cells.row.class = part->kind->class;
+    cells.row.ahead = part->kind->ahead;
     for (size_t i = 0; columns[i].name != NULL; i++) {
+        int at = part->at[i];
         bool skipped = columns[i].kind == RECORDED_TIME
-                           ? at[i] == ABSENT
-                           : columns[i].need != RECORDED_NEEDED && is_empty(table, at[i]);
-        if (!skipped && read_cell(table, &columns[i], (size_t)at[i], row, diag) != 0)
+                           ? at == ABSENT
+                           : columns[i].need != RECORDED_NEEDED && is_empty(table, at);
+        if (!skipped && read_cell(table, &columns[i], (size_t)at, &cells.row, diag) != 0)
             return -1;
     }
-    if (table->layout->beside.id != NULL && find_track(table, row, diag) != 0)
+    if (table->layout->beside.id != NULL && find_track(table, part, &cells.row, diag) != 0)
         return -1;
     if (table->layout->complete != NULL)
-        table->layout->complete(row);
+        table->layout->complete(&cells);
+    *row = cells.row;
     return RECORDED_ROW;
 }
 
+/* A row is of the first kind whose id it has, else of the last; in a wide row all are there who
+ * have an id. */
 int recorded_table_next(void *table, struct recorded_row *row, struct diag *diag)
 {
     struct recorded_table *own = table;
-    if (own->rows != NULL)
-        own->row++;
-    if (own->rows == NULL || own->row == own->rows->rows) {
-        own->rows = csv_table_next(own->lines, diag);
-        own->row = 0;
+    for (;;) {
+        if (own->rows == NULL || own->part == own->parts.count) {
+            own->part = 0;
+            if (own->rows == NULL || ++own->row == own->rows->rows) {
+                own->rows = csv_table_next(own->lines, diag);
+                own->row = 0;
+            }
+        }
+        if (own->rows == NULL)
+            return diag->code == DIAG_OK ? RECORDED_END : -1;
+        const struct part *part = &own->parts.items[own->part++];
+        bool wide = own->layout->wide, more = own->part < own->parts.count;
+        if (is_empty(own, part->at[0]) && (wide || more))
+            continue;
+        if (!wide)
+            own->part = own->parts.count;
+        return read_part(own, part, row, diag);
     }
-    if (own->rows == NULL)
-        return diag->code == DIAG_OK ? RECORDED_END : -1;
-    return read_row(own, row, diag);
 }

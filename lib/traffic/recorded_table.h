@@ -1,8 +1,8 @@
 /* CSV tables of recorded traffic, of every layout.
  *
- * A layout is a file beside this one, which says what the columns are; their order and other
- * columns do not matter. The first layout whose mark is among the columns is taken, the last one
- * where none is. */
+ * A layout is a file beside this one, which says what the columns are; their order, the case of
+ * their letters and other columns do not matter. The first layout whose mark is among the columns
+ * is taken, the last one where none is. */
 #ifndef RECORDED_TABLE_H
 #define RECORDED_TABLE_H
 
@@ -45,6 +45,12 @@ struct recorded_column {
     {                                                                                              \
         .name = (name_), .kind = RECORDED_FRAMES, .high = 1e9, .scale = 1                          \
     }
+#define RECORDED_ASIDE(name_, index, low_, high_)                                                  \
+    {                                                                                              \
+        .name = (name_), .kind = RECORDED_NUMBER,                                                  \
+        .offset = offsetof(struct recorded_cells, aside[index]), .low = (low_), .high = (high_),   \
+        .scale = 1                                                                                 \
+    }
 #define RECORDED_VALUE(name_, member, need_, low_, high_, scale_, shift_)                          \
     {                                                                                              \
         .name = (name_), .kind = RECORDED_NUMBER, .need = (need_),                                 \
@@ -60,6 +66,12 @@ struct recorded_kind {
     double ahead; /* recorded_row.ahead */
 };
 
+/* What a row says, with members for the layout's function alone. */
+struct recorded_cells {
+    struct recorded_row row;
+    double aside[2];
+};
+
 enum { RECORDED_KINDS = 3, RECORDED_COLUMNS = 16 };
 
 struct recorded_layout {
@@ -67,11 +79,17 @@ struct recorded_layout {
     const char *mark;                           /* name of a column that no other layout has */
     struct recorded_kind kinds[RECORDED_KINDS]; /* columns NULL: no more */
     struct recorded_beside_columns beside;      /* id NULL: there are no files beside it */
-    void (*complete)(struct recorded_row *row); /* NULL: its columns say it all */
+    /* A row has columns for everybody: "#1 NAME" for the first, and so on. Columns of times have
+     * their plain names. Who has no id in a row is not there. */
+    bool wide;
+    void (*complete)(struct recorded_cells *cells); /* NULL: its columns say it all */
 };
 
-extern const struct recorded_layout highd_table_layout, ind_table_layout, interaction_table_layout,
-    sumo_table_layout, sumo_table_plain_layout;
+extern const struct recorded_layout esmini_table_layout, highd_table_layout, ind_table_layout,
+    interaction_table_layout, ngsim_table_layout, sumo_table_layout, sumo_table_plain_layout;
+
+/* The columns of NGSIM's files that have no header. */
+extern const char *const ngsim_table_names[];
 
 /* Words and sizes of SUMO's classes and default types, for its XML too. */
 extern const struct recorded_word sumo_table_words[];

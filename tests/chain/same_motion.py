@@ -169,6 +169,50 @@ def ind(folder, users):
         f"{user.length:.5f},{at.vx:.5f},{at.vy:.5f},3;5" for step, user, at in rows(users)])
 
 
+NGSIM_COLUMNS = ("Vehicle_ID,Frame_ID,Total_Frames,Global_Time,Local_X,Local_Y,Global_X,Global_Y,v_Length,v_Width,"
+                 "v_Class,v_Vel,v_Acc,Lane_ID,Preceding,Following,Space_Headway,Time_Headway")
+FOOT = 0.3048
+
+
+def ngsim_lines(users):
+    for step, user, at in rows(users):
+        front = (at.x + user.length / 2 * math.cos(at.yaw), at.y + user.length / 2 * math.sin(at.yaw))
+        yield (f"{user.id},{step + 1},{user.last - user.first + 1},{1118846979700 + step * 1000 // RATE_HZ},"
+               f"{-front[1] / FOOT:.3f},{front[0] / FOOT:.3f},6451137.641,1873344.962,{user.length / FOOT:.2f},"
+               f"{user.width / FOOT:.2f},{NGSIM[user.kind]},{math.hypot(at.vx, at.vy) / FOOT:.2f},0.00,2,0,0,0.00,0.00")
+
+
+def ngsim_commas(folder, users):
+    return save(folder, "trajectories.csv", [NGSIM_COLUMNS, *ngsim_lines(users)])
+
+
+def ngsim_blanks(folder, users):
+    return save(folder, "trajectories.txt", ["  " + line.replace(",", "     ") for line in ngsim_lines(users)])
+
+
+ESMINI_COLUMNS = ("Entity_Name [-],Entity_ID [-],Current_Speed [m/s],bb_x [m],bb_y [m],bb_z [m],bb_length [m],bb_width [m],"
+                  "bb_height [m],World_Position_X [m],World_Position_Y [m],Vel_X [m/s],Vel_Y [m/s],"
+                  "World_Heading_Angle [rad],Heading_Angle_Rate [rad/s],lane_id")
+
+
+def esmini(folder, users):
+    """The reference point is 1.4 m behind the centre, and 0.1 m to its right."""
+    head = "Index [-], TimeStamp [s], " + "".join(
+        f"#{number} {column}, " for number in range(1, len(users) + 1) for column in ESMINI_COLUMNS.split(","))
+    lines = ["esmini GIT REV: N/A", "esmini BUILD VERSION: N/A, client build", f"Number of Vehicles: {len(users)}", head]
+    for step in range(STEPS):
+        cells = [str(step), f"{step / RATE_HZ:.6f}"]
+        for user in users:
+            at, cosine, sine = user.pose(step), math.cos(user.pose(step).yaw), math.sin(user.pose(step).yaw)
+            back = -1.4 * cosine + 0.1 * sine, -1.4 * sine - 0.1 * cosine
+            values = (math.hypot(at.vx, at.vy), 1.4, 0.1, 0.75, user.length, user.width, user.height, at.x + back[0],
+                      at.y + back[1], at.vx - at.rate * back[1], at.vy + at.rate * back[0], at.yaw % (2 * math.pi), at.rate)
+            there = [user.id, user.id, *(f"{value:.6f}" for value in values), "-2"]
+            cells += there if user.first <= step <= user.last else [""] * len(there)
+        lines.append(", ".join(cells) + ", ")
+    return save(folder, "esmini.csv", lines)
+
+
 def sumo_rows(users):
     """(step, user, front, angle) by time."""
     for step, user, at in sorted(rows(users), key=lambda row: row[0]):
@@ -222,6 +266,7 @@ OWN = {kind: kind for kind in ("car", "truck", "motorcycle", "pedestrian")}
 INTERACTION = OWN
 HIGHD = {"car": "Car", "truck": "Truck"}
 IND = OWN
+NGSIM = {"car": 2, "truck": 3, "motorcycle": 1}
 SUMO = dict(OWN, car="passenger")
 SUMO_SIZES = {"car": (5, 1.8, 1.5), "truck": (7.1, 2.4, 2.4), "motorcycle": (2.2, 0.9, 1.5),
               "pedestrian": (0.215, 0.478, 1.719)}
@@ -230,6 +275,12 @@ FORMATS = [
     Format("INTERACTION", interaction, 1e-3, velocity_unit=1e-3, yaw_unit=1e-3, classes=INTERACTION),
     Format("highD", highd, 1e-2, velocity_unit=1e-2, classes=HIGHD, first_s=1 / RATE_HZ),
     Format("inD", ind, 1e-5, velocity_unit=1e-5, yaw_unit=math.radians(1e-5), size_unit=1e-5, classes=IND),
+    Format("NGSIM with commas", ngsim_commas, FOOT * 1e-3, size_unit=FOOT * 1e-2, front=0.5, classes=NGSIM,
+           first_s=1118846979.7),
+    Format("NGSIM with blanks", ngsim_blanks, FOOT * 1e-3, size_unit=FOOT * 1e-2, front=0.5, classes=NGSIM,
+           first_s=1118846979.7),
+    Format("esmini", esmini, 1e-6, velocity_unit=1e-6, yaw_unit=1e-6, rate_unit=1e-6, size_unit=1e-6, heights=True,
+           classes=OWN),
     Format("SUMO's table", sumo_table, 1e-6, yaw_unit=math.radians(1e-6), size_unit=0, classes=SUMO),
     Format("SUMO's XML", sumo_xml, 1e-6, program="glint-traffic-sumo", options=("--types", "types.rou.xml"),
            yaw_unit=math.radians(1e-6), heights=True, classes=SUMO),
@@ -260,29 +311,31 @@ def expected(kind, user, step):
     at = user.pose(step)
     if kind.velocity_unit == 0:
         at.vx, at.vy = (slope(*beside(user, step, value)) for value in (lambda pose: pose.x, lambda pose: pose.y))
+    if kind.yaw_unit == 0 and math.hypot(at.vx, at.vy) > 0.1:
+        at.yaw += math.remainder(math.atan2(at.vy, at.vx) - at.yaw, 2 * math.pi)
     if kind.rate_unit == 0:
         at.rate = slope(*beside(user, step, lambda pose: pose.yaw))
     return at
 
 
-def tolerances(kind, user, at):
-    """Of place, velocity, yaw and yaw rate: what rounding the last digit changes, with that of the size. A place that
-    lies ahead of the centre follows the front, whose course is not the yaw in a curve."""
+def tolerances(kind, user, step, at):
+    """Of place, velocity, yaw and yaw rate: what rounding the last digit changes, with that of the size. Where a format
+    tells places of the front and no headings, the course is that of the front, which swings out in a curve."""
     speed = math.hypot(at.vx, at.vy)
     ahead = kind.front * user.length
-    swing = 1.2 * ahead * abs(at.rate) + (0.04 if kind.front and at.rate else 0)
+    swing = 1.2 * ahead * max(abs(user.pose(beside).rate) for beside in range(step - 2, step + 3))
     place = 1.5 * kind.place_unit + kind.size_unit / 2
-    velocity = kind.velocity_unit or 2 * RATE_HZ * kind.place_unit + swing
+    velocity = kind.velocity_unit + 1.5 * kind.rate_unit or 2 * RATE_HZ * kind.place_unit + swing
     yaw = kind.yaw_unit or (velocity / speed if speed > 0 else 0)
     rate = kind.rate_unit or 2 * RATE_HZ * yaw
-    return place + ahead * yaw + 1e-9, velocity + 1e-9, yaw + 1e-9, rate + 1e-9
+    return place + 1.5 * ahead * yaw + 1e-9, velocity + 1e-9, yaw + 1e-9, rate + 1e-9
 
 
 def compare(kind, users, frames):
     ego = users[0]
     check(len(frames) == ego.last - ego.first + 1, f"{kind.name}: {len(frames)} frames")
     for step, frame in enumerate(frames):
-        check(abs(frame["time_s"] - kind.first_s - step / RATE_HZ) < 1e-9, f"{kind.name}: time {frame['time_s']}")
+        check(abs(frame["time_s"] - kind.first_s - step / RATE_HZ) < 1e-6, f"{kind.name}: time {frame['time_s']}")
         there = [user for user in users if user.first <= step <= user.last]
         check([part["id"] for part in frame["objects"]] == [user.id for user in there], f"{kind.name}: who is there")
         for user, part in zip(there, frame["objects"]):
@@ -291,7 +344,7 @@ def compare(kind, users, frames):
 
 def compare_body(kind, user, step, part):
     at = expected(kind, user, step)
-    place, velocity, yaw, rate = tolerances(kind, user, at)
+    place, velocity, yaw, rate = tolerances(kind, user, step, at)
     size = (user.length, user.width) if kind.size_unit else SUMO_SIZES[user.kind][:2]
     if not kind.size_unit:  # whose places are of the front bumper, whatever the length is
         shift = (user.length - size[0]) / 2

@@ -9,6 +9,7 @@ import gzip
 import json
 import math
 import os
+import resource
 import subprocess
 import sys
 import tempfile
@@ -73,6 +74,25 @@ def ind_states(folder, name):
                math.radians(heading), vx, vy, length, width)
 
 
+def esmini_states(path, classes):
+    with open(path, encoding="ascii") as file:
+        lines = file.read().splitlines()
+    head = next(i for i, line in enumerate(lines) if line.startswith("Index"))
+    names = [name.strip() for name in lines[head].split(",")]
+    for line in lines[head + 1:]:
+        row = dict(zip(names, (cell.strip() for cell in line.split(",")), strict=True))
+        for number in range(1, len(names) // 31 + 1):
+            def value(name, row=row, number=number):
+                return float(row[f"#{number} {name}"])
+            name, yaw = row[f"#{number} Entity_Name [-]"], value("World_Heading_Angle [rad]")
+            bx, by = value("bb_x [m]"), value("bb_y [m]")
+            shift = bx * math.cos(yaw) - by * math.sin(yaw), bx * math.sin(yaw) + by * math.cos(yaw)
+            rate = value("Heading_Angle_Rate [rad/s]")
+            yield (float(row["TimeStamp [s]"]), name, classes[name], value("World_Position_X [m]") + shift[0],
+                   value("World_Position_Y [m]") + shift[1], yaw, value("Vel_X [m/s]") - rate * shift[1],
+                   value("Vel_Y [m/s]") + rate * shift[0], value("bb_length [m]"), value("bb_width [m]"))
+
+
 def compare(frames, states, ego):
     steps = {}
     for time, name, *state in states:
@@ -98,6 +118,10 @@ def real_files():
         return
     compare(play(f"{DATA}/csv/01_tracks.csv", "--ego", "5"), highd_states(f"{DATA}/csv", "01"), "5")
     compare(play(f"{DATA}/csv/00_tracks.csv.gz", "--ego", "5"), ind_states(f"{DATA}/csv", "00"), "5")
+    for name, classes in (("cut-in", {"Ego": "car", "OverTaker": "car"}),
+                          ("pedestrian", {"Ego": "car", "pedestrian_adult": "pedestrian"})):
+        path = f"{DATA}/esmini/{name}.csv"
+        compare(play(path, "--ego", "Ego"), esmini_states(path, classes), "Ego")
 
 
 # ---- small files of our own -----------------------------------------------------------------------------
@@ -134,6 +158,40 @@ INTERACTION = {
 2,1,100,car,0.5,-1.5,7.5,0,0.0,4.1,1.9
 """,
 }
+NGSIM_COLUMNS = ("Vehicle_ID,Frame_ID,Total_Frames,Global_Time,Local_X,Local_Y,Global_X,Global_Y,v_Length,v_Width,"
+                 "v_Class,v_Vel,v_Acc,Lane_ID,Preceding,Following,Space_Headway,Time_Headway")
+NGSIM_ROWS = """2,13,437,1118846980200,16.467,35.381,6451137.641,1873344.962,14.5,4.9,2,40.00,0.00,2,0,0,0.00,0.00
+2,14,437,1118846980300,16.447,39.381,6451140.329,1873342.000,14.5,4.9,2,40.00,0.00,2,0,0,0.00,0.00
+2,15,437,1118846980400,16.426,43.381,6451143.018,1873339.038,14.5,4.9,2,40.00,0.00,2,0,0,0.00,0.00
+9,15,100,1118846980400,40.000,900.000,6451143.018,1873339.038,50.0,8.5,3,30.00,0.00,2,0,0,0.00,0.00
+2,16,437,1118846980500,16.426,2000.000,6451143.018,1873339.038,7.0,3.0,1,40.00,0.00,2,0,0,0.00,0.00
+"""
+NGSIM = {"trajectories.csv": NGSIM_COLUMNS + "\n" + NGSIM_ROWS}
+NGSIM_EXPORT = {"export.csv": NGSIM_COLUMNS.replace("v_Length", "v_length").replace(
+    "Preceding", "O_Zone,D_Zone,Int_ID,Section_ID,Direction,Movement,Preceding") + ",Location\n" + "".join(
+        ",".join([*row.split(",")[:14], *[""] * 6, *row.split(",")[14:], "us-101"]) + "\n"
+        for row in NGSIM_ROWS.splitlines())}
+
+
+def esmini_log():
+    columns = ("Entity_Name [-],Entity_ID [-],Current_Speed [m/s],bb_x [m],bb_y [m],bb_z [m],bb_length [m],bb_width [m],"
+               "bb_height [m],World_Position_X [m],World_Position_Y [m],Vel_X [m/s],Vel_Y [m/s],"
+               "World_Heading_Angle [rad],Heading_Angle_Rate [rad/s],collision_ids").split(",")
+    bodies = {"Ego": "Ego,0,10,1.4,0,0.75,5,2,1.5,{x},0,10,0,0,0,", "Ego_trailer": "Ego_trailer,1,10,-1,0,1,4,2,2,{t},0,10,0,0,0,",
+              "cyclist": "cyclist,2,3,0,0,1,1.8,0.6,1.7,30,{x},0,3,1.5,0.5,", "walker": "walker,3,1,0,0,1,0.5,0.6,1.8,40,5,0,0,0,0,",
+              "lorry": "lorry,4,0,4,0,2,16,2.5,4,60,-4,0,0,3.25,0,"}
+    lines = ["esmini GIT REV: N/A", "Scenario File Name: a, b.xosc", "Number of Vehicles: 5", "Index [-], TimeStamp [s], " + "".join(
+        f"#{number} {column}, " for number in range(1, 6) for column in columns)]
+    for step in range(3):
+        cells = [str(step), f"{step * 0.05:.6f}"]
+        for name, body in bodies.items():
+            text = body.format(x=step * 0.5, t=step * 0.5 - 4.25)
+            cells += text.split(",") if name != "walker" or step < 2 else [""] * len(columns)
+        lines.append(", ".join(cells) + ", ")
+    return "\n".join(lines) + "\n"
+
+
+ESMINI = {"log.csv": esmini_log()}
 SUMO = {
     "fcd.csv": """timestep_time;vehicle_angle;vehicle_id;vehicle_speed;vehicle_type;vehicle_x;vehicle_y
 0.00;90.00;1;20.00;passenger;10.00;0.00
@@ -174,6 +232,50 @@ def ind_says(folder):
     check(near(by_id(second)["6"], length_m=0, width_m=0, yaw_rad=math.pi / 2, vy_mps=1.5), "the pedestrian")
 
 
+def ngsim_says(folder):
+    """Feet, front bumper, x along the road and y to its left; times are of the stamp, and ids come again."""
+    first, second, third, last = frames = play(save(folder, NGSIM), "--ego", "2")
+    foot = 0.3048
+    car, lorry = by_id(second)["2"], by_id(third)["9"]
+    check(near(first, time_s=1118846980.2) and near(second, interval_s=0.1), "Unix time in milliseconds")
+    vy = (16.467 - 16.426) * foot / 0.2
+    yaw = math.atan2(vy, 12.192)
+    check(math.dist((car["vx_mps"], car["vy_mps"]), (12.192, vy)) < 1e-9, f"40 feet a second: {car}")
+    check(math.dist((car["x_m"], car["y_m"]), ((39.381 - 7.25 * math.cos(yaw)) * foot,
+                                               (-16.447 - 7.25 * math.sin(yaw)) * foot)) < 1e-9, f"the centre: {car}")
+    check(near(car, yaw_rad=yaw, length_m=14.5 * foot, width_m=4.9 * foot), f"the yaw: {car}")
+    check(lorry["class"] == "truck" and near(lorry, vx_mps=0, x_m=875 * foot, y_m=-40 * foot),
+          f"who is there for one step only: {lorry}")
+    check([frame["scene"] for frame in frames] == ["trajectories/2"] * 3 + ["trajectories/2/2"], "an id that comes again")
+    check(by_id(last)["2"]["class"] == "motorcycle", "another vehicle of that id")
+    export = play(save(folder, NGSIM_EXPORT), "--ego", "2", "--scene", "s")
+    check(export == play(save(folder, NGSIM), "--ego", "2", "--scene", "s"), "the other spelling, and more columns")
+    lower = NGSIM_COLUMNS.lower() + "\n" + NGSIM_ROWS
+    check(export == play(save(folder, {"l.csv": lower}), "--ego", "2", "--scene", "s"), "small letters")
+    for sign in (",", "   ", "\t"):
+        text = "".join("  " * (sign != ",") + row.replace(",", sign) + "  \r" * (sign != ",") + "\n" for row in NGSIM_ROWS.splitlines())
+        check(export == play(save(folder, {"t.txt": text}), "--ego", "2", "--scene", "s"), f"no header, {sign!r}")
+    no_stamp = play(save(folder, {"f.csv": NGSIM["trajectories.csv"].replace("Global_Time", "Time")}), "--ego", "2")
+    check(near(no_stamp[0], time_s=1.3), "frames of a tenth of a second")
+
+
+def esmini_says(folder):
+    """Boxes around the reference point, classes by box or by name, a trailer as a second body, and who leaves."""
+    path = save(folder, ESMINI)
+    frames = play(path, "--ego", "Ego")
+    check([sorted(by_id(frame)) for frame in frames] ==
+          [["Ego", "Ego_trailer", "cyclist", "lorry", "walker"]] * 2 + [["Ego", "Ego_trailer", "cyclist", "lorry"]], "who is there")
+    ego, trailer, cyclist, lorry = (by_id(frames[1])[name] for name in ("Ego", "Ego_trailer", "cyclist", "lorry"))
+    check(near(ego, x_m=1.9, y_m=0, vx_mps=10, height_m=1.5) and near(trailer, x_m=-4.75, length_m=4), "the trailer is a body")
+    check(near(lorry, x_m=60 + 4 * math.cos(3.25), y_m=-4 + 4 * math.sin(3.25)), f"{lorry}")
+    check([by_id(frames[0])[name]["class"] for name in ("Ego", "cyclist", "walker", "lorry")] ==
+          ["car", "motorcycle", "pedestrian", "truck"], "classes by the box")
+    named = play(path, "--ego", "Ego", "--class-map", "cyclist=bicycle,lorry=bus")[0]
+    check([by_id(named)[name]["class"] for name in ("Ego", "cyclist", "lorry")] == ["car", "bicycle", "bus"], "by the name")
+    plain = ESMINI["log.csv"].split("\n", 3)[3]
+    check(play(save(folder, {"log.csv": plain}), "--ego", "Ego") == frames, "without the lines before the header")
+
+
 def files_beside(folder):
     """Plain or gzip, whatever the table is."""
     plain = play(save(folder, IND), "--ego", "4")
@@ -185,7 +287,7 @@ def files_beside(folder):
 
 def columns_by_name(folder):
     """The order of columns and rows, quotes, and columns that nothing needs change nothing."""
-    for files in (HIGHD, IND, INTERACTION, SUMO):
+    for files in (HIGHD, IND, INTERACTION, NGSIM, SUMO):
         path = save(folder, files)
         plain = play(path, "--ego", "all")
         lines = open(path, encoding="ascii").read().splitlines()
@@ -195,6 +297,38 @@ def columns_by_name(folder):
         text = "\r\n".join(sign.join(row) for row in [table[0], *body])
         save(folder, {os.path.basename(path): "\ufeff".encode() + text.encode()})
         check(play(path, "--ego", "all") == plain, f"columns of {path} in another order")
+
+
+# ---- memory ---------------------------------------------------------------------------------------------
+
+ROWS, TRACKS = 300000, 600
+
+
+def in_memory(path, limit, *words):
+    """Does it work with so many bytes of memory?"""
+    done = subprocess.run([os.path.join(BIN, "glint-traffic"), path, *words, "-o", "/dev/null"], capture_output=True,
+                          check=False, timeout=60,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, (limit, limit)))
+    check(done.returncode in (0, 71), f"{path}: {done.stderr.decode()}")
+    return done.returncode == 0
+
+
+def memory(folder):
+    """A table by track takes 64 bytes a row, one by time those of three steps."""
+    steps = ROWS // TRACKS
+    path = save(folder, {
+        "10_tracks.csv": IND["18_tracks.csv"].splitlines()[0] + "\n" + "".join(
+            f"10,{track},{step},{step},{step}.25,{track}.5,0.5,1.8,4.5,25.0,0.25,1\n" for track in range(TRACKS)
+            for step in range(steps)),
+        "10_tracksMeta.csv": "trackId,class\n" + "".join(f"{track},car\n" for track in range(TRACKS)),
+        "10_recordingMeta.csv": "frameRate\n25\n"})
+    base = 8 << 20
+    check(in_memory(path, base + 64 * ROWS, "--ego", "1"), "64 bytes for each row")
+    check(not in_memory(path, base, "--ego", "1"), "a limit that is too low")
+    path = save(folder, {"fcd.csv": SUMO["fcd.csv"].splitlines()[0] + "\n" + "".join(
+        f"{step / 25:.2f};90.00;{track};25.00;passenger;{step}.25;{track}.50\n" for step in range(steps)
+        for track in range(TRACKS))})
+    check(in_memory(path, base, "--ego", "1", "--radius-m", "100"), "a table by time in constant memory")
 
 
 # ---- bad input ------------------------------------------------------------------------------------------
@@ -305,17 +439,59 @@ def bad_input(folder):
         (row, "1.00;90;9;2;truck;1;1", "row 3: 0 s after a step of 1 s; expected a later time"),
         ("vehicle_angle", "angle", 'column "vehicle_angle" is missing'),
     ], "1")
+    row = NGSIM_ROWS.splitlines()[0]
+    counts["NGSIM"] = refused(folder, NGSIM, [
+        *shared_cases(row, "35.381", "Local_Y", "Vehicle_ID"),
+        (row, row.replace("1118846980200", "1118846980200.5"), 'column "Global_Time": 1118846980200.5 is not a whole number'),
+        (row, row.replace("1118846980200", "noon"), 'row 2, column "Global_Time": "noon" is not a number'),
+        (row, row.replace(",2,40.00", ",4,40.00"), 'row 2: unknown class "4"; expected one of 1, 2, 3, '),
+        (row, row.replace("14.5", "-14.5"), 'row 2, column "v_Length": -14.5 is outside [0, 1e+09]'),
+        ("v_Class", "v_Kind", 'column "v_Class" is missing'),
+        ("v_Width", "v_length", 'column "v_Width" is missing'),
+    ], "2")
+    blanks = {"t.txt": NGSIM_ROWS.replace(",", "  ")}
+    counts["NGSIM with blanks"] = refused(folder, blanks, [
+        *[(row.replace(",", "  "), new.replace(",", "  "), message) for old, new, message in (
+            (row, row.replace("35.381", "wide"), 'row 1, column "Local_Y": "wide" is not a number'),)],
+        ("39.381", "wide", 'row 2, column "Local_Y": "wide" is not a number'),
+        ("39.381", "", "row 2: 17 cells; expected 18 as in the header"),
+        ("39.381", "39.381 1", "row 2: 19 cells; expected 18 as in the header"),
+        ("39.381", "3\0", "row 2: a NUL byte; expected text"),
+    ], "2")
+    row = next(line for line in ESMINI["log.csv"].splitlines() if line.startswith("0,"))
+    head = next(line for line in ESMINI["log.csv"].splitlines() if line.startswith("Index"))
+    x = "#1 World_Position_X [m]"
+    counts["esmini"] = refused(folder, ESMINI, [
+        (row, row.replace("1.5, 0.0", "1.5, wide"), f'row 5, column "{x}": "wide" is not a number'),
+        (row, row.replace("1.5, 0.0", "1.5, nan"), f'row 5, column "{x}": "nan" is not a number'),
+        (row, row.replace("1.5, 0.0", "1.5, 1e10"), f'row 5, column "{x}": 1e10 is outside [-1e+09, 1e+09]'),
+        (row, row.replace("1.5, 0.0", "1.5, "), f'row 5, column "{x}": "" is not a number'),
+        (row, row.replace("0.000000", "noon"), 'row 5, column "TimeStamp [s]": "noon" is not a number'),
+        (row, row.replace("0.000000", "1.000000"), "row 6: 0.05 s after a step of 1 s; expected a later time"),
+        (row, row.replace("walker", "Ego"), "row 5: Entity_Name Ego at 0 s is in row 5 already"),
+        (row, row.replace("Ego,", "Eg\u00f6,"), 'expected 1 to 1024 printable ASCII characters'),
+        (row, row[:-2], "row 5: 82 cells; expected 83 as in the header"),
+        (row, row + "1, ", "row 5: 84 cells; expected 83 as in the header"),
+        (row, row.replace("walker", 'a"b'), "row 5: a misplaced quote"),
+        (row, row.replace("walker", "\0"), "row 5: a NUL byte; expected text"),
+        (row, row.replace("5, 2, 1.5", "-5, 2, 1.5"), 'row 5, column "#1 bb_length [m]": -5 is outside [0, 1e+06]'),
+        (head, head.replace(x, "#1 x"), f'column "{x}" is missing'),
+        (head, head.replace("#4 bb_x", "#4 bx"), 'column "#4 bb_x [m]" is missing'),
+        (head, head.replace("#1 Entity_Name", "#0 Entity_Name"), 'column "#1 Entity_Name [-]" is missing'),
+        (head, head.replace(x, "#1 bb_x [m]"), 'are both named "#1 bb_x [m]"'),
+        (head, "", "the table is empty; expected a header"),
+    ], "Ego")
     path = save(folder, {"whatever.csv": HIGHD["07_tracks.csv"]})
     check("expected a table named NN_tracks.csv" in play(path, "--ego", "1", fails=65), "a table of another name")
     save(folder, {"empty.csv": ""})
     check("the table is empty" in play(os.path.join(folder, "empty.csv"), "--ego", "1", fails=65), "an empty table")
     print("tables: refused", ", ".join(f"{count} of {name}" for name, count in counts.items()))
-    check(min(counts.values()) >= 15, "at least 15 bad files of each format")
+    check(min(count for name, count in counts.items() if "blanks" not in name) >= 15, "bad files of each format")
 
 
 def main():
     real_files()
-    for test in (highd_says, ind_says, files_beside, columns_by_name, bad_input):
+    for test in (highd_says, ind_says, ngsim_says, esmini_says, files_beside, columns_by_name, memory, bad_input):
         with tempfile.TemporaryDirectory() as folder:
             test(folder)
     print(f"tables: {checks} checks hold")

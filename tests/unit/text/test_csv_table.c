@@ -83,7 +83,7 @@ static void rows_come_one_after_the_other(void **state)
     assert_int_equal(gzclose(file), Z_OK);
     struct diag diag = {0};
     struct input *input = input_open(scratch->path, &diag);
-    struct csv_table_rows *rows = csv_table_open(input, &diag);
+    struct csv_table_rows *rows = csv_table_open(input, NULL, &diag);
     assert_non_null(rows);
     assert_string_equal(csv_table_names(rows)->header[1], "a\nb");
     for (size_t i = 0; i < 50000; i++) {
@@ -111,7 +111,7 @@ static void rows_before_a_fault_come_first(void **state)
     assert_int_equal(fclose(file), 0);
     struct diag diag = {0};
     struct input *input = input_open(scratch->path, &diag);
-    assert_null(csv_table_open(input, &diag));
+    assert_null(csv_table_open(input, NULL, &diag));
     assert_string_equal(diag.text, "row 3: 1 cell; expected 2 as in the header");
     input_close(input);
     file = fopen(scratch->path, "wb");
@@ -120,7 +120,7 @@ static void rows_before_a_fault_come_first(void **state)
     assert_int_equal(fclose(file), 0);
     diag = (struct diag){0};
     input = input_open(scratch->path, &diag);
-    struct csv_table_rows *rows = csv_table_open(input, &diag);
+    struct csv_table_rows *rows = csv_table_open(input, NULL, &diag);
     assert_non_null(rows);
     assert_non_null(csv_table_next(rows, &diag));
     assert_int_equal(diag.code, DIAG_OK);
@@ -128,6 +128,66 @@ static void rows_before_a_fault_come_first(void **state)
     assert_string_equal(diag.text, "row 3: 1 cell; expected 2 as in the header");
     csv_table_close(rows);
     input_close(input);
+}
+
+/* ---- tables that begin otherwise ---- */
+
+static const char *const two_names[] = {"id", "x", NULL};
+static const struct csv_table_form other_form = {
+    .names = two_names, .preamble = "tool ", .header = "id"};
+
+/* All rows of a text as "cell|cell\n", with their numbers before them. */
+static void rows_of(struct scratch *scratch, const char *text, const struct csv_table_form *form,
+                    char *out, size_t room)
+{
+    FILE *file = fopen(scratch->path, "wb");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+    struct diag diag = {0};
+    struct input *input = input_open(scratch->path, &diag);
+    struct csv_table_rows *rows = csv_table_open(input, form, &diag);
+    const struct csv_table *row;
+    size_t length = 0;
+    out[0] = '\0';
+    while (rows != NULL && (row = csv_table_next(rows, &diag)) != NULL)
+        length += (size_t)snprintf(out + length, room - length, "%zu: %s=%s %s=%s\n",
+                                   row->numbers[0], row->header[0], csv_table_cell(row, 0, 0),
+                                   row->header[1], csv_table_cell(row, 0, 1));
+    if (diag.code != DIAG_OK)
+        snprintf(out + length, room - length, "%s", diag.text);
+    csv_table_close(rows);
+    input_close(input);
+}
+
+static void a_table_of_numbers_has_the_names_that_it_lacks(void **state)
+{
+    static const struct {
+        const char *text, *rows;
+    } cases[] = {
+        {"7,1.5\n8,2.5\n", "1: id=7 x=1.5\n2: id=8 x=2.5\n"},
+        {"  7   1.5\t\r\n\n\t8\t 2.5\n", "1: id=7 x=1.5\n3: id=8 x=2.5\n"},
+        {"7 wide\n", "1: id=7 x=wide\n"},
+        {"x id\n1 2\n", "2: x=1 id=2\n"},
+        {"7,1,2\n8,2,5\n", "2: 7=8 1=2\n"},
+        {"7 1\n8\n", "1: id=7 x=1\nrow 2: 1 cell; expected 2 as in the header"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char rows[256];
+        rows_of(*state, cases[i].text, &other_form, rows, sizeof rows);
+        assert_string_equal(rows, cases[i].rows);
+    }
+}
+
+static void lines_before_the_header_count_as_rows(void **state)
+{
+    char rows[256];
+    rows_of(*state, "tool 1, \"of\n\nmany, words\nid, x\n7, 1\n", &other_form, rows, sizeof rows);
+    assert_string_equal(rows, "5: id=7 x=1\n");
+    rows_of(*state, "tool 1\nno header\n", &other_form, rows, sizeof rows);
+    assert_string_equal(rows, "the table is empty; expected a header");
+    rows_of(*state, "tool 1,x\n7,1\n", NULL, rows, sizeof rows);
+    assert_string_equal(rows, "2: tool 1=7 x=1\n");
 }
 
 static void long_cells_are_read_whole(void **state)
@@ -289,6 +349,8 @@ int main(void)
         cmocka_unit_test(a_header_alone_is_a_table_without_rows),
         cmocka_unit_test(rows_come_one_after_the_other),
         cmocka_unit_test(rows_before_a_fault_come_first),
+        cmocka_unit_test(a_table_of_numbers_has_the_names_that_it_lacks),
+        cmocka_unit_test(lines_before_the_header_count_as_rows),
         cmocka_unit_test(long_cells_are_read_whole),
         cmocka_unit_test(rows_have_the_numbers_that_a_spreadsheet_shows),
         cmocka_unit_test(damaged_tables_are_refused),
