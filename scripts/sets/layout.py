@@ -280,8 +280,11 @@ def rehearse(layout, folder):
 # --- the folder of the set ------------------------------------------------------------------------
 
 MAKEFILE = """\
-# The data set {name}, of {count} shards. `make -jN` makes what is missing, names what fails, and, when all
-# shards are there, writes README.md and datapackage.json. `make part-N` makes one shard.
+# The data set {name}, of {count} shards.
+#   make -jN        makes what is missing, names what fails and, when all is there, writes README.md and datapackage.json
+#   make part-7     makes one shard
+#   make missing    names what is missing
+#   make slurm      has Slurm make what is missing
 dataset = {program} --in . --plan-folder {plan_folder}
 MAKEFLAGS += --keep-going --no-print-directory --no-builtin-rules
 
@@ -289,12 +292,15 @@ all:
 \t@$(dataset) --verify
 \t@$(MAKE) parts; $(dataset) --finish
 
+missing slurm:
+\t@$(dataset) --$@
+
 work/part-%.json:
 \t@$(dataset) --part $*
 
 {rules}
 
-.PHONY: all parts
+.PHONY: all missing slurm parts
 """
 
 

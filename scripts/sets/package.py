@@ -5,8 +5,8 @@ import os
 import page
 from durable import digest_of, digest_of_file, remove_temporaries, sync_folder, write_whole
 from layout import DOCUMENTS, WORK
-from plan import ROOT, Fault, read_json
-from shard import BEGUN, MANIFEST, missing, record_path
+from plan import ROOT, read_json
+from shard import BEGUN, MANIFEST, record_path
 
 PAGE, FRAME = "README.md", f"{DOCUMENTS}/frame.json"
 
@@ -60,11 +60,7 @@ def documents_of(layout, folder):
 
 
 def finish(layout, folder):
-    """Writes page and manifest, if all shards are there as their records say; else names those that are not."""
-    left = missing(layout, folder)
-    if left:
-        raise Fault(1, f"{len(left)} of {len(layout['shards'])} shards are missing: "
-                    f"{' '.join(f'part-{part}' for part in left)}; make them again in {os.path.abspath(folder)}")
+    """Writes page and manifest of a set whose shards are all there."""
     work = os.path.join(folder, WORK)
     records = [read_json(record_path(folder, part)) for part in range(len(layout["shards"]))]
     write_whole(os.path.join(folder, FRAME), work, json.dumps(frame_fields(), indent=1, ensure_ascii=False) + "\n")

@@ -11,6 +11,7 @@ import hashlib
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -263,7 +264,7 @@ def one_failing_scene_stops_no_other(folder):
     with open(path, "w", encoding="utf-8") as file:
         file.write(good[:-40])
     done = make(place)
-    assert done.returncode != 0 and "1 of 4 shards are missing: part-2" in done.stdout, done.stdout
+    assert done.returncode != 0 and "1 of 4 shards are missing: part-2;" in done.stdout, done.stdout
     assert f"{names[2]}: has changed since the set was begun" in done.stdout
     there = files(place)
     assert sum(name.endswith(".jsonl.gz") for name in there) == 3 and "datapackage.json" not in there, list(there)
@@ -279,7 +280,7 @@ def a_chain_that_fails_is_named(folder):
     place, _ = begin(folder, plan)
     done = make(place)
     assert done.returncode != 0 and "part-1, all/" in done.stdout and "exit status 65: glint -c" in done.stdout, done.stdout
-    assert "1 of 3 shards are missing: part-1" in done.stdout
+    assert "1 of 3 shards are missing: part-1;" in done.stdout
 
 
 def a_full_disk_loses_nothing(folder):
@@ -353,10 +354,57 @@ def kills_lose_nothing(folder, kills, scenes):
     progress.end()
 
 
+# --- engines --------------------------------------------------------------------------------------
+
+PAGE = os.path.join(ROOT, "data", "sets", "README.md")
+
+
+def block_of_page(first_word, kind="sh"):
+    """A block of the page, by how it begins."""
+    with open(PAGE, encoding="utf-8") as page:
+        blocks = re.findall(rf"```{kind}\n(.*?)```", page.read(), re.DOTALL)
+    return next(block for block in blocks if block.startswith(first_word))
+
+
+def parallel_makes_the_same_bytes(folder):
+    """By the lines of the page, whose set is called small."""
+    plan = snapshots(64)
+    right = files(made(folder, plan, "right"))
+    begin(folder, plan, "small")
+    lines = block_of_page("# GNU parallel")
+    assert len(lines.splitlines()) <= 12
+    done = run(["bash", "-e", "-o", "pipefail", "-c", lines], cwd=folder)
+    assert done.returncode == 0 and files(os.path.join(folder, "small")) == right, done.stdout
+
+
+def jobs_without_a_number_are_refused(folder):
+    """Programs that stand for Slurm's: an sbatch that prints no id, one whose array gets no number, and one that fails."""
+    place, _ = begin(folder, snapshots(20))
+    tools = os.path.join(folder, "tools")
+    os.mkdir(tools)
+    for sbatch, message in (("true", "sbatch printed '' instead of the id"), ("false", "exit status 1: sbatch"),
+                            ("echo Submitted batch job 7", "instead of the id")):
+        for name, text in (("scontrol", "echo MaxArraySize = 1001"), ("sbatch", sbatch)):
+            with open(os.path.join(tools, name), "w", encoding="ascii") as file:
+                file.write(f"#!/bin/sh\n{text}\n")
+            os.chmod(os.path.join(tools, name), 0o755)
+        done = run(["make", "-s", "-C", place, "slurm"], env=os.environ | {"PATH": tools + ":" + os.environ["PATH"]})
+        assert done.returncode == 2 and message in done.stdout, done.stdout
+    done = run(["sh", os.path.join(place, "work/slurm/part.sh")], env=os.environ | {"SLURM_ARRAY_TASK_ID": ""})
+    assert done.returncode != 0 and "SLURM_ARRAY_TASK_ID: is empty" in done.stdout, done.stdout
+
+
 CHECKS = [shards_join_to_the_bytes_of_one_run, a_scenario_and_seeds_are_played_whole, the_manifest_says_what_is_there,
           blocks_of_time_keep_their_gap, leaks_are_refused, what_cannot_be_made_is_refused,
           another_plan_in_the_folder_is_refused, what_is_damaged_is_made_again, one_failing_scene_stops_no_other,
-          a_chain_that_fails_is_named, a_full_disk_loses_nothing]
+          a_chain_that_fails_is_named, a_full_disk_loses_nothing, parallel_makes_the_same_bytes,
+          jobs_without_a_number_are_refused]
+
+
+def use(programs):
+    """Has everything here use the programs of a folder."""
+    os.environ["PATH"] = os.path.abspath(programs) + os.pathsep + os.environ["PATH"]
+    os.environ["BUILD"] = os.path.relpath(os.path.dirname(os.path.abspath(programs)), ROOT)
 
 
 def main():
@@ -365,8 +413,7 @@ def main():
     parser.add_argument("--kills", type=int, default=50)
     parser.add_argument("--scenes", type=int, default=200)
     options = parser.parse_args()
-    os.environ["PATH"] = os.path.abspath(options.bin) + os.pathsep + os.environ["PATH"]
-    os.environ["BUILD"] = os.path.relpath(os.path.dirname(os.path.abspath(options.bin)), ROOT)
+    use(options.bin)
     for check in CHECKS:
         with tempfile.TemporaryDirectory() as folder:
             check(folder)
@@ -376,4 +423,5 @@ def main():
     print(f"{options.kills} kills lose nothing")
 
 
-main()
+if __name__ == "__main__":
+    main()
