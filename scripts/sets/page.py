@@ -137,7 +137,7 @@ def page_of(layout, records):
     plan, counts = layout["plan"], classes_by_split(layout, records)
     splits = plan.get("splits", {})
     first = layout["shards"][0]
-    tested = "; glint's tests run this"
+    tested = " (tested)"
     return PAGE.format(
         name=plan["name"], origin=plan["origin"], program=layout["program"], shards=len(records),
         rows=counted(sum(file["rows"] for record in records for file in record["files"])),
@@ -145,4 +145,5 @@ def page_of(layout, records):
         table=split_table(layout, records), splits=" | ".join(counts), rules="|".join("---:" for _ in counts),
         classes=class_table(counts), leak=LEAKS[splits.get("by")].format(gap_s=splits.get("gap_s")),
         first=first["path"], split=os.path.dirname(os.path.dirname(first["path"])),
-        pandas_tested=tested, duckdb_tested=tested, torch_tested=" (untested)", matlab_tested=" (untested)")
+        pandas_tested=tested, duckdb_tested=tested, torch_tested=tested,
+        matlab_tested=" (tested with GNU Octave)")
