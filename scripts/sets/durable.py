@@ -3,10 +3,12 @@ import contextlib
 import hashlib
 import json
 import os
+import shutil
 import socket
 
 TEMPORARY = ".tmp"
 CHUNK = 1 << 20
+HOST = socket.gethostname().replace(".", "-")
 
 
 def sync_folder(folder):
@@ -28,6 +30,22 @@ def make_folder(folder):
         sync_folder(above)
 
 
+def temporary_name(path, work):
+    """A name in the folder `work` that no other process of any host takes."""
+    return os.path.join(work, f"{os.path.basename(path)}.{HOST}.{os.getpid()}{TEMPORARY}")
+
+
+@contextlib.contextmanager
+def temporary_folder(path, work):
+    """A folder for files that get their names elsewhere."""
+    temporary = temporary_name(path, work)
+    os.mkdir(temporary)
+    try:
+        yield temporary
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
+
+
 @contextlib.contextmanager
 def whole_file(path, work):
     """A binary file that gets its name when the block ends well, and vanishes when it does not.
@@ -35,7 +53,7 @@ def whole_file(path, work):
     Until then it lies in the folder `work` of the same file system, under a name that holds host and process: two
     processes that make one file never write into each other's, and the later one replaces a file of the same bytes.
     """
-    temporary = os.path.join(work, f"{os.path.basename(path)}.{socket.gethostname()}.{os.getpid()}{TEMPORARY}")
+    temporary = temporary_name(path, work)
     try:
         with open(temporary, "wb") as file:
             yield file
@@ -70,10 +88,11 @@ def remove_temporaries(work, of_all=False):
     for name in os.listdir(work):
         if not name.endswith(TEMPORARY):
             continue
-        host, process = name[:-len(TEMPORARY)].rsplit(".", 2)[-2:]
-        if of_all or (host == socket.gethostname() and not running(int(process))):
+        path, (host, process) = os.path.join(work, name), name[:-len(TEMPORARY)].split(".")[-2:]
+        if of_all or (host == HOST and not running(int(process))):
+            shutil.rmtree(path, ignore_errors=True)
             with contextlib.suppress(FileNotFoundError):
-                os.remove(os.path.join(work, name))
+                os.remove(path)
 
 
 def digest_of(data):

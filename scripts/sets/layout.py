@@ -221,8 +221,14 @@ def command_of(stretch, chain):
 
 # --- shards ---------------------------------------------------------------------------------------
 
+def table_names():
+    return list(read_json(os.path.join(ROOT, "schemas", "tables.json")))
+
+
 def shard_of(stretches, split, suite, number, plan, plan_folder):
-    return {"path": f"{split}/{suite}/{number:05}.jsonl.gz", "split": split, "suite": suite,
+    place = f"{split}/{suite}/{number:05}"
+    return {"path": place + ".jsonl.gz", "split": split, "suite": suite,
+            "tables": [f"{place}/{name}.csv.gz" for name in table_names() if plan.get("tables")],
             "inputs": sorted({name for stretch in stretches for name in files_of(stretch.source, plan_folder)}),
             "commands": [command_of(stretch, plan["chain"].replace("{suite}", suite)) for stretch in stretches]}
 
@@ -342,8 +348,8 @@ def prepare(plan, plan_folder, folder):
         with open(path, "rb") as source, whole_file(os.path.join(folder, name), work) as file:
             shutil.copyfileobj(source, file)
     rehearse(layout, folder)
-    for place in {os.path.dirname(shard["path"]) for shard in layout["shards"]}:
-        make_folder(os.path.join(folder, place))
+    for path in {path for shard in layout["shards"] for path in (shard["path"], *shard["tables"][:1])}:
+        make_folder(os.path.dirname(os.path.join(folder, path)))
     write_whole(os.path.join(folder, "Makefile"), work, makefile_of(layout, os.path.abspath(plan_folder)))
     sync_folder(folder)
     print(f"dataset: {folder}: {len(layout['shards'])} shards; make -C {shlex.quote(folder)} -jN", file=sys.stderr)

@@ -3,12 +3,12 @@ import json
 import os
 
 import page
-from durable import digest_of, digest_of_file, remove_temporaries, sync_folder, write_whole
+from durable import digest_of, digest_of_file, make_folder, remove_temporaries, sync_folder, write_whole
 from layout import DOCUMENTS, WORK
 from plan import ROOT, read_json
 from shard import BEGUN, MANIFEST, record_path
 
-PAGE, FRAME = "README.md", f"{DOCUMENTS}/frame.json"
+PAGE, FRAME = "README.md", "frame"
 
 
 def frame_fields():
@@ -19,13 +19,31 @@ def frame_fields():
     return {"fields": fields, "primaryKey": ["scene", "seed", "frame"]}
 
 
+def schema_path(name):
+    return f"{DOCUMENTS}/schemas/{name}.json"
+
+
+def schemas_of(layout):
+    """The Table Schemas of what the set has, by the paths that they get."""
+    of_tables = read_json(os.path.join(ROOT, "schemas", "tables.json")) if layout["plan"].get("tables") else {}
+    return {schema_path(name): fields for name, fields in {FRAME: frame_fields(), **of_tables}.items()}
+
+
+def kind_of_file(path):
+    """What Frictionless says of a file of lines, or of a table."""
+    if path.endswith(".jsonl.gz"):
+        return {"format": "jsonl", "mediatype": "application/jsonl", "encoding": "utf-8", "compression": "gz",
+                "schema": schema_path(FRAME)}
+    return {"format": "csv", "mediatype": "text/csv", "encoding": "utf-8", "compression": "gz",
+            "schema": schema_path(os.path.basename(path).removesuffix(".csv.gz"))}
+
+
 def resource_of(file, shard):
     """A shard's file, in the words of Frictionless and our own."""
-    return {"name": file["path"].lower().removesuffix(".jsonl.gz"), "path": file["path"], "profile": "data-resource",
-            "format": "jsonl", "mediatype": "application/jsonl", "encoding": "utf-8", "compression": "gz",
-            "schema": FRAME, "split": shard["split"], "suite": shard["suite"],
-            "rows": file["rows"], "bytes": file["bytes"], "hash": file["hash"],
-            "content_bytes": file["content_bytes"], "content_hash": file["content_hash"],
+    name = file["path"].lower().removesuffix(".gz").removesuffix(".jsonl").removesuffix(".csv")
+    return {"name": name, "path": file["path"], "profile": "data-resource", **kind_of_file(file["path"]),
+            "split": shard["split"], "suite": shard["suite"],
+            **{member: file[member] for member in ("rows", "bytes", "hash", "content_bytes", "content_hash")},
             "commands": shard["commands"]}
 
 
@@ -40,7 +58,7 @@ def package_of(layout, records, documents):
     resources = [resource_of(file, layout["shards"][record["part"]]) for record in records for file in record["files"]]
     return {"profile": "data-package", "name": plan["name"], "description": plan["origin"],
             "program": layout["program"], "identity": layout["identity"], "plan": plan,
-            "rows": sum(resource["rows"] for resource in resources),
+            "rows": sum(resource["rows"] for resource in resources if resource["format"] == "jsonl"),
             "bytes": sum(resource["bytes"] for resource in resources),
             "content_bytes": sum(resource["content_bytes"] for resource in resources),
             "content_hash": content_hash(resources),
@@ -54,7 +72,7 @@ def manifest_of(package):
 
 
 def documents_of(layout, folder):
-    names = [document["path"] for document in layout["documents"]] + [FRAME, PAGE]
+    names = [document["path"] for document in layout["documents"]] + [*schemas_of(layout), PAGE]
     return [{"path": name, "bytes": os.path.getsize(os.path.join(folder, name)),
              "hash": digest_of_file(os.path.join(folder, name))} for name in names]
 
@@ -63,7 +81,9 @@ def finish(layout, folder):
     """Writes page and manifest of a set whose shards are all there."""
     work = os.path.join(folder, WORK)
     records = [read_json(record_path(folder, part)) for part in range(len(layout["shards"]))]
-    write_whole(os.path.join(folder, FRAME), work, json.dumps(frame_fields(), indent=1, ensure_ascii=False) + "\n")
+    for path, fields in schemas_of(layout).items():
+        make_folder(os.path.dirname(os.path.join(folder, path)))
+        write_whole(os.path.join(folder, path), work, json.dumps(fields, indent=1, ensure_ascii=False) + "\n")
     write_whole(os.path.join(folder, PAGE), work, page.page_of(layout, records))
     package = package_of(layout, records, documents_of(layout, folder))
     if os.path.exists(os.path.join(work, BEGUN)):

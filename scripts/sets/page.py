@@ -19,7 +19,7 @@ line is the SHA-256 of all bytes before that line.
 
 ## Conventions
 
-- A shard is `SPLIT/SUITE/NUMBER.jsonl.gz`: gzip, one frame a line. `documents/frame.json` lists the members of a frame.
+- A shard is `SPLIT/SUITE/NUMBER.jsonl.gz`: gzip, one frame a line. `documents/schemas/` lists members and columns.{tables}
 - SI units and radians; the unit is in the name of a member. Axes follow ISO 8855: x forward, y left, angles counter-clockwise.
   Azimuth counts from boresight, left positive; range rate is positive when receding.
 - A frame is known by `scene`, `seed` and `frame`. `objects` is the truth; a target's `contributors` are its label: object, class of
@@ -96,6 +96,9 @@ end
 printed = sprintf("%d %d", numel(lines), count)
 ```
 """
+TABLES = """
+- Beside a shard, in `SPLIT/SUITE/NUMBER/`, are its tables (CSV, gzip), which whole numbers join: columns that end in `_key` are
+  unique in the set."""
 LEAKS = {None: "The set is one split.",
          "scene": "Splits share no scene: scenes were drawn one by one.",
          "time": "Splits are blocks of time; {gap_s} s between two of them are left out.",
@@ -111,7 +114,7 @@ def split_table(layout, records):
     sums = collections.defaultdict(lambda: [0, 0, 0, 0])
     for record in records:
         shard = layout["shards"][record["part"]]
-        for i, count in enumerate((1, sum(file["rows"] for file in record["files"]), sum(record["targets"].values()),
+        for i, count in enumerate((1, record["files"][0]["rows"], sum(record["targets"].values()),
                                    sum(file["bytes"] for file in record["files"]))):
             sums[shard["split"], shard["suite"]][i] += count
     rows = [f"| `{split}/{suite}` | {' | '.join(map(counted, row))} |" for (split, suite), row in sums.items()]
@@ -140,10 +143,10 @@ def page_of(layout, records):
     tested = " (tested)"
     return PAGE.format(
         name=plan["name"], origin=plan["origin"], program=layout["program"], shards=len(records),
-        rows=counted(sum(file["rows"] for record in records for file in record["files"])),
+        rows=counted(sum(record["files"][0]["rows"] for record in records)),
         targets=counted(sum(sum(record["targets"].values()) for record in records)),
         table=split_table(layout, records), splits=" | ".join(counts), rules="|".join("---:" for _ in counts),
         classes=class_table(counts), leak=LEAKS[splits.get("by")].format(gap_s=splits.get("gap_s")),
-        first=first["path"], split=os.path.dirname(os.path.dirname(first["path"])),
+        tables=TABLES if plan.get("tables") else "", first=first["path"], split=os.path.dirname(os.path.dirname(first["path"])),
         pandas_tested=tested, duckdb_tested=tested, torch_tested=tested,
         matlab_tested=" (tested with GNU Octave)")

@@ -1,16 +1,21 @@
 """Makes one shard of a data set, and holds those that are there to their records."""
+import csv
+import gzip
 import hashlib
+import io
 import json
 import os
 import re
+import shlex
 import subprocess
 import sys
 import time
 import zlib
 
-from durable import CHUNK, digest_of_file, remove_temporaries, whole_file, write_whole
+from durable import (CHUNK, digest_of, digest_of_file, remove_temporaries, sync_folder, temporary_folder, whole_file,
+                     write_whole)
 from layout import WORK, environment, program_version
-from plan import BAD_DATA, NO_INPUT, USAGE, Fault, read_json
+from plan import BAD_DATA, IO, NO_INPUT, USAGE, Fault, read_json
 from progress import Progress, line_of
 
 # The level of glint's own output: it keeps up with the chain. Bytes depend on the content and on zlib alone.
@@ -49,13 +54,13 @@ class Gzip:
                 "content_bytes": self.plain_bytes, "content_hash": "sha256:" + self.plain.hexdigest()}
 
 
-def run_into(gzip, command, folder, plan_folder):
+def run_into(gzip_file, command, folder, plan_folder):
     """Runs a pipeline and compresses what it writes."""
     process = subprocess.Popen(["glint", "-c", command], cwd=plan_folder, env=environment(folder),
                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE)
     try:
         while lines := process.stdout.read(CHUNK):
-            gzip.write(lines)
+            gzip_file.write(lines)
     finally:
         process.stdout.close()
         code = process.wait()
@@ -63,14 +68,46 @@ def run_into(gzip, command, folder, plan_folder):
         raise Fault(code if code > 0 else 128 - code, f"exit status {code}: glint -c {command!r}")
 
 
-def counts_of(path, folder):
-    """Scans' targets by class, as glint-summary counts them; it also says whether all scenes are whole."""
-    done = subprocess.run(["glint-summary", "--complete", path], env=environment(folder), stdout=subprocess.PIPE, text=True)
+def ask(words, folder):
+    """What a program prints."""
+    done = subprocess.run(words, env=environment(folder), stdout=subprocess.PIPE, text=True)
     if done.returncode != 0:
-        raise Fault(done.returncode, f"exit status {done.returncode}: glint-summary --complete {path}")
-    block = re.search(r"\ntargets by class.*\n((?: .*\n)+)", done.stdout)
+        raise Fault(done.returncode, f"exit status {done.returncode}: {shlex.join(words)}")
+    return done.stdout
+
+
+def counts_of(path, folder):
+    """Targets by class, as glint-summary counts them; it also says whether all scenes are whole."""
+    summary = ask(["glint-summary", "--complete", path], folder)
+    block = re.search(r"\ntargets by class.*\n((?: .*\n)+)", summary)
     rows = re.findall(r" *(\d+) +[\d.]+ % +(.*)\n", block[1]) if block else []
     return {name: int(count) for count, name in sorted(rows, key=lambda row: row[1])}
+
+
+def facts_of_table(path):
+    """As Gzip's; the rows are those below the heading."""
+    with open(path, "rb") as file:
+        packed = file.read()
+    plain = gzip.decompress(packed)
+    # A cell in quotes may hold the end of a line.
+    lines = plain.count(b"\n") if b'"' not in plain else sum(1 for _ in csv.reader(io.StringIO(plain.decode(), newline="")))
+    return {"rows": lines - 1, "bytes": len(packed), "hash": digest_of(packed), "content_bytes": len(plain),
+            "content_hash": digest_of(plain)}
+
+
+def make_tables(shard, part, lines, folder):
+    """The tables of a shard's lines, each on the disk before it gets its name; their facts."""
+    files = []
+    with temporary_folder(f"part-{part}-tables", os.path.join(folder, WORK)) as place:
+        if shard["tables"]:
+            ask(["glint-tables", "--part", str(part), place, lines], folder)
+        for name in shard["tables"]:
+            made = os.path.join(place, os.path.basename(name))
+            files.append({"path": name, **facts_of_table(made)})
+            os.rename(made, os.path.join(folder, name))
+        if shard["tables"]:
+            sync_folder(os.path.dirname(os.path.join(folder, shard["tables"][0])))
+    return files
 
 
 def check_inputs(layout, shard, folder, plan_folder):
@@ -88,26 +125,32 @@ def check_inputs(layout, shard, folder, plan_folder):
                 raise Fault(BAD_DATA, f"{path}: has changed since the set was begun")
 
 
+def make_files(shard, part, folder, plan_folder):
+    """The files of a shard and its targets by class, from what glint reads back of the lines on the disk."""
+    with whole_file(os.path.join(folder, shard["path"]), os.path.join(folder, WORK)) as file:
+        gzip_file = Gzip(file)
+        for command in shard["commands"]:
+            run_into(gzip_file, command, folder, plan_folder)
+        gzip_file.close()
+        file.flush()
+        targets = counts_of(file.name, folder)
+        tables = make_tables(shard, part, file.name, folder)
+    return [{"path": shard["path"], **gzip_file.facts()}, *tables], targets
+
+
 def make(layout, part, folder, plan_folder):
-    """Makes a shard: its file, and when that is on the disk, its record."""
+    """Makes a shard: its files, and when they are on the disk, its record."""
     if not 0 <= part < len(layout["shards"]):
         raise Fault(USAGE, f"part-{part}: the set has part-0 to part-{len(layout['shards']) - 1}")
-    shard, work = layout["shards"][part], os.path.join(folder, WORK)
-    path = os.path.join(folder, shard["path"])
+    shard = layout["shards"][part]
     try:
         check_inputs(layout, shard, folder, plan_folder)
-        with whole_file(path, work) as file:
-            gzip = Gzip(file)
-            for command in shard["commands"]:
-                run_into(gzip, command, folder, plan_folder)
-            gzip.close()
-            file.flush()
-            targets = counts_of(file.name, folder)
+        files, targets = make_files(shard, part, folder, plan_folder)
+        record = {"identity": layout["identity"], "part": part, "files": files, "targets": targets}
+        write_whole(record_path(folder, part), os.path.join(folder, WORK),
+                    json.dumps(record, indent=1, ensure_ascii=False) + "\n")
     except (Fault, OSError) as fault:
-        raise Fault(getattr(fault, "code", 74), f"part-{part}, {shard['path']}: {fault}") from fault
-    record = {"identity": layout["identity"], "part": part, "files": [{"path": shard["path"], **gzip.facts()}],
-              "targets": targets}
-    write_whole(record_path(folder, part), work, json.dumps(record, indent=1, ensure_ascii=False) + "\n")
+        raise Fault(getattr(fault, "code", IO), f"part-{part}, {shard['path']}: {fault}") from fault
     show_progress(layout, folder)
 
 

@@ -5,6 +5,7 @@ Usage: python3 tests/chain/dataset.py BIN_DIR [--kills N] [--scenes N]
 50 kills in 200 scenes if absent.
 """
 import argparse
+import csv
 import glob
 import gzip
 import hashlib
@@ -129,6 +130,26 @@ def the_manifest_says_what_is_there(folder):
     assert rows == {(split, suite): count for split, count in zip(SHARES, (32, 4, 4)) for suite in suites}, rows
     for document in package["documents"]:
         assert sha256(files(place)[document["path"]]) == document["hash"]
+
+
+def tables_have_the_targets_of_their_lines(folder):
+    place = made(folder, snapshots(40, tables=True, splits={"by": "scene", "shares": SHARES}))
+    frames = [json.loads(line) for line in frames_of(place, "train/*").splitlines()]
+    of_tables, keys = [], set()
+    for path in sorted(glob.glob(place + "/train/*/*/detections.csv.gz")):
+        with gzip.open(path, "rt", encoding="utf-8", newline="") as table:
+            rows = list(csv.DictReader(table))
+        of_tables += [(row["scene"], float(row["range_m"])) for row in rows]
+        keys |= {row["detection_key"] for row in rows}
+    of_lines = [(frame["scene"], target["range_m"]) for frame in frames for target in frame["targets"]]
+    assert of_tables == of_lines and len(keys) == len(of_lines) > 100
+    facts = {resource["path"]: resource for resource in manifest(place)["resources"]}
+    assert len(facts) == 6 * 6, "lines and five tables of six shards"
+    assert sum(fact["rows"] for path, fact in facts.items() if path.startswith("train/") and "detections" in path) == len(of_lines)
+    for path, fact in facts.items():
+        packed = files(place)[path]
+        assert sha256(packed) == fact["hash"] and sha256(gzip.decompress(packed)) == fact["content_hash"]
+        assert fact["schema"] in files(place), f"{path}: there is no {fact['schema']}"
 
 
 # --- splits ---------------------------------------------------------------------------------------
@@ -395,6 +416,7 @@ def jobs_without_a_number_are_refused(folder):
 
 
 CHECKS = [shards_join_to_the_bytes_of_one_run, a_scenario_and_seeds_are_played_whole, the_manifest_says_what_is_there,
+          tables_have_the_targets_of_their_lines,
           blocks_of_time_keep_their_gap, leaks_are_refused, what_cannot_be_made_is_refused,
           another_plan_in_the_folder_is_refused, what_is_damaged_is_made_again, one_failing_scene_stops_no_other,
           a_chain_that_fails_is_named, a_full_disk_loses_nothing, parallel_makes_the_same_bytes,
