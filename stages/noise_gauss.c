@@ -20,6 +20,9 @@ static struct effect_measurement measure(const struct frame *frame, const struct
     measurement.range_rate_mps += sensor->range_rate_sigma_mps * range_and_rate[1];
     measurement.azimuth_rad =
         units_wrap_rad(measurement.azimuth_rad + sensor->azimuth_sigma_rad * azimuth[0]);
+    measurement.range_sigma_m = sensor->range_sigma_m;
+    measurement.range_rate_sigma_mps = sensor->range_rate_sigma_mps;
+    measurement.azimuth_sigma_rad = sensor->azimuth_sigma_rad;
     return measurement;
 }
 
@@ -32,7 +35,13 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
         arena_get(frame->arena, cells.count * sizeof *measurements);
     for (size_t i = 0; i < cells.count; i++)
         measurements[i] = measure(frame, sensor, &cells.items[i]);
-    target_list_make(frame, "noise-gauss", sensor, measurements, cells.count, NULL);
+    struct detection_source source = {
+        .sensor = sensor,
+        .noise = sensor->pointer_sigma,
+        .existence.rise = detection_quality_rise(cells),
+        .range_rate_interval_mps = 2 * sensor->unambiguous_rate_mps,
+    };
+    target_list_make(frame, "noise-gauss", &source, measurements, cells.count);
 }
 
 const struct stage stage_noise_gauss = {

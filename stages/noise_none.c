@@ -11,7 +11,13 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
         arena_get(frame->arena, cells.count * sizeof *measurements);
     for (size_t i = 0; i < cells.count; i++)
         measurements[i] = effect_measurement_of(NULL, &cells.items[i]);
-    target_list_make(frame, "noise-none", sensor, measurements, cells.count, NULL);
+    struct detection_source source = {
+        .sensor = sensor,
+        .noise = sensor->pointer_sigma,
+        .existence.rise = detection_quality_rise(cells),
+        .range_rate_interval_mps = 2 * sensor->unambiguous_rate_mps,
+    };
+    target_list_make(frame, "noise-none", &source, measurements, cells.count);
 }
 
 const struct stage stage_noise_none = {

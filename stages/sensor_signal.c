@@ -89,7 +89,7 @@ static void sense(struct frame *frame, const struct transform *transform,
         signal_cube_input(signal, &scan, effect_simulates(&noise, EFFECT_ANGLE_NOISE));
     receive(transform, &input);
     struct range_doppler spectrum = signal_cube_spectrum(signal, frame->arena);
-    struct detections detections = detections_of(signal, &spectrum, input.sigma > 0, &context);
+    struct detections detections = detections_of(signal, &spectrum, input.sigma, &context);
     detections_label(&detections, frame, "sensor-signal", &scan.received);
     detections_list(&detections, frame, "sensor-signal", &noise);
     effects_count_scan(selection);

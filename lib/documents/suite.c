@@ -182,9 +182,26 @@ const struct record sensor_record = {
     FIELD_TABLE(struct sensor, sensor_fields, "sensor",
                 "A radar: mount, beam, amplitude, resolution, angle, noise and list.")};
 
+static const struct field prior_fields[] = {
+    {FIELD_REAL_IN(struct suite_prior, echoes, 1e-3, 1e6,
+                   "mean number of echoes in a scan, detected or not; absent: 20"),
+     FIELD_OPTIONAL, .absent = 20},
+    {FIELD_REAL_IN(struct suite_prior, snr_db, -100, 100,
+                   "mean of their powers over that of the noise; absent: 20"),
+     FIELD_OPTIONAL, .absent = 20},
+    {0},
+};
+
+static const struct record prior_record = {
+    FIELD_TABLE(struct suite_prior, prior_fields, "prior",
+                "What the designer of the sensors expects of a scan.")};
+
 static const struct field suite_fields[] = {
     {FIELD_NAME_OF(struct suite, origin, "who made this, and from what")},
     {FIELD_NAME_OF(struct suite, effects, "which effects to simulate, as for --effects"),
+     FIELD_OPTIONAL},
+    {FIELD_RECORD_OF(struct suite, prior, &prior_record,
+                     "echoes that the sensors expect, for probabilities of existence"),
      FIELD_OPTIONAL},
     {FIELD_LIST_OF(struct suite, sensors, &sensor_record, "the radars of one ego")},
     {0},

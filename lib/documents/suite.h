@@ -27,6 +27,12 @@ enum range_migration {
 };
 enum list_order { LIST_STRONGEST, LIST_NEAREST };
 
+/* What the designer of the sensors expects of a scan (MODEL 14.21). */
+struct suite_prior {
+    double echoes; /* mean number, detected or not */
+    double snr_db; /* mean power over that of the noise */
+};
+
 struct sensor {
     const char *name;
     double mount_x_m, mount_y_m, mount_z_m, mount_yaw_rad;
@@ -80,11 +86,13 @@ struct sensor {
     struct antenna antenna;
     double threshold;                         /* linear, on the amplitude */
     double half_range_m, half_range_rate_mps; /* half the size of a cell */
+    struct suite_prior prior;
 };
 
 struct suite {
     const char *origin;
-    const char *effects;            /* a selection of effects (effects.h); NULL: auto */
+    const char *effects; /* a selection of effects (effects.h); NULL: auto */
+    struct suite_prior prior;
     LIST_OF(struct sensor) sensors; /* in the document's order */
     const char *given;              /* the name or path that the user gave */
     const char *name;               /* of it the last part, without .json and what follows */
@@ -100,8 +108,8 @@ const struct sensor *suite_sensor(const struct suite *suite, const char *name);
  * less its latency if late is true. */
 double suite_instant_s(const struct sensor *sensor, double time_s, double interval_s, bool late);
 
-/* Fills a sensor's derived members from the document's; the tables that it names must be in place
- * already. */
+/* Fills a sensor's derived members, but for the suite's prior, from the document's; the tables that
+ * it names must be in place already. */
 void suite_derive(struct sensor *sensor);
 
 /* Refuses combinations of members that contradict each other; each member alone is checked by its

@@ -131,6 +131,7 @@ static int complete_suite(struct suite *suite, const char *path, const struct te
         if (add_tables(path, sensor, &digest, arena, diag) != 0)
             return diag_prefix(diag, "%s: sensors[%zu].", path, i);
         suite_derive(sensor);
+        sensor->prior = suite->prior;
     }
     snprintf(suite->digest, sizeof suite->digest, "%016llx", (unsigned long long)digest);
     return 0;

@@ -67,8 +67,9 @@ struct effect_measurement {
     struct random_address address; /* of the cell's draws */
     struct antenna_pointers pointers;
     double range_m, azimuth_rad, range_rate_mps;
-    double range_sigma_m, range_rate_sigma_mps; /* standard deviations */
-    double amplitude;                           /* linear */
+    /* Standard deviations: of the noise that is added, then as far as the sensor knows. */
+    double range_sigma_m, range_rate_sigma_mps, azimuth_sigma_rad;
+    double amplitude; /* linear */
     bool sign_undecided;
     uint64_t effects; /* the effects that changed one of the values */
     struct margins margins;

@@ -125,6 +125,9 @@ const struct record object_record = {
 static const struct field class_document_fields[] = {
     {NAME(struct class_document, class, "name of the vehicle document")},
     {NAME(struct class_document, digest, "digest of the document")},
+    {FIELD_REAL_IN(struct class_document, rear_axle_x_m, -1e3, 1e3,
+                   "from the centre of the box; absent: 5/18 of the length behind it"),
+     FIELD_OPTIONAL},
     {0},
 };
 
@@ -253,6 +256,8 @@ static const struct field target_fields[] = {
     {EFFECTS(struct target, "effects that changed a value of the target or of a contributor")},
     {FIELD_LIST_OF(struct target, contributors, &contributor_record, "the leader first")},
     {MARGINS(struct target)},
+    {FIELD_RECORD_OF(struct target, quality, &quality_record, "what the sensor tells of it"),
+     FIELD_OPTIONAL},
     {EXTRA(struct target)},
     {0},
 };

@@ -19,6 +19,7 @@
 #include "frame/conditions.h"
 #include "frame/effects.h"
 #include "frame/margins.h"
+#include "frame/quality.h"
 #include "frame/reflectors.h"
 #include "frame/sections.h"
 #include "radar/antenna.h"
@@ -61,7 +62,8 @@ struct object {
 /* The document that described a class to the stage which wrote the reflectors. */
 struct class_document {
     const char *class;
-    const char *digest; /* 16 hexadecimal digits */
+    const char *digest;   /* 16 hexadecimal digits */
+    double rear_axle_x_m; /* from the centre of the box; 0: the document does not say */
 };
 
 /* What a reader of targets needs to know of a sensor. */
@@ -161,6 +163,7 @@ struct target {
     uint64_t effects; /* EFFECT_BITs of those that changed a value of the target or a contributor */
     LIST_OF(struct contributor) contributors;
     struct margins margins;
+    struct quality quality;
     const char *extra;
 };
 

@@ -110,6 +110,12 @@ static void clear_margins(struct frame *frame)
             frame->lost.items[i].echoes.items[j].margins = none;
 }
 
+static void clear_quality(struct frame *frame)
+{
+    for (size_t i = 0; i < frame->targets.count; i++)
+        frame->targets.items[i].quality = (struct quality){0};
+}
+
 int sections_apply(const struct sections_change *change, struct frame *frame, struct diag *diag)
 {
     uint64_t before = frame->sections, wanted = (before & ~change->removed) | change->added;
@@ -124,6 +130,8 @@ int sections_apply(const struct sections_change *change, struct frame *frame, st
                              sections_names[i], places[i].stage);
     if ((before & ~wanted & CARRY_MARGINS) != 0)
         clear_margins(frame);
+    if ((before & ~wanted & CARRY_QUALITY) != 0)
+        clear_quality(frame);
     frame->sections = wanted;
     return 0;
 }

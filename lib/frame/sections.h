@@ -35,7 +35,7 @@ struct sections_change {
 int sections_read(const char *text, struct sections_change *change, struct diag *diag);
 
 /* Changes the choice of a frame. Fails with DIAG_CONFIG where a word comes too late, as a stage
- * before has gone on without. Margins that are left out go at once. */
+ * before has gone on without. Margins and quality that are left out go at once. */
 int sections_apply(const struct sections_change *change, struct frame *frame, struct diag *diag);
 
 /* Drops the sections that the frame does not carry and that no later stage reads. */

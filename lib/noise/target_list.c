@@ -61,7 +61,7 @@ static void note_limit_margins(struct effect_measurement *measurements, size_t c
     }
 }
 
-static void add_target(struct frame *frame, const struct effect_measurement *measurement)
+static struct target *add_target(struct frame *frame, const struct effect_measurement *measurement)
 {
     struct target *target =
         frame_add_target(frame, measurement->cell, units_amplitude_db(measurement->amplitude));
@@ -71,12 +71,14 @@ static void add_target(struct frame *frame, const struct effect_measurement *mea
     target->sign_undecided = measurement->sign_undecided;
     target->effects = measurement->effects;
     target->margins = measurement->margins;
+    return target;
 }
 
-void target_list_make(struct frame *frame, const char *stage, const struct sensor *sensor,
-                      struct effect_measurement *measurements, size_t count,
-                      const struct effect_scan *scan)
+void target_list_make(struct frame *frame, const char *stage, const struct detection_source *source,
+                      struct effect_measurement *measurements, size_t count)
 {
+    const struct sensor *sensor = source->sensor;
+    const struct effect_scan *scan = source->scan;
     bool limited = scan != NULL && effect_simulates(scan, EFFECT_LIST_LIMIT);
     int64_t limit = limited ? sensor->list_limit : 0, listed = 0;
     sort_items(measurements, count, sizeof *measurements,
@@ -94,7 +96,9 @@ void target_list_make(struct frame *frame, const char *stage, const struct senso
         }
         if (scan != NULL)
             effect_measure(scan, EFFECT_STEP_ROUNDING, measurement);
-        add_target(frame, measurement);
+        struct target *target = add_target(frame, measurement);
+        if (frame_carries(frame, CARRY_QUALITY))
+            target->quality = detection_quality_of(source, measurement, target, frame);
         listed++;
     }
 }

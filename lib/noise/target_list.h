@@ -3,7 +3,7 @@
 #ifndef TARGET_LIST_H
 #define TARGET_LIST_H
 
-#include "effects/effect.h"
+#include "noise/detection_quality.h"
 
 /* Adds to the margins of a measurement those of decisions about the noisy pointers and amplitude:
  * the final threshold, if it is tested, and the sign of the azimuth. */
@@ -11,10 +11,10 @@ void target_list_note_margins(const struct sensor *sensor, const struct cell *ce
                               struct antenna_pointers pointers, double amplitude,
                               bool final_threshold, struct margins *margins);
 
-/* Writes count measurements of one sensor as targets, strongest or nearest first, ties by the
- * frame's total order. If the scan simulates list_limit, measurements beyond the sensor's limit are
- * lost to the stage; so are those without amplitude, which have no decibels. Without a scan (NULL)
- * nothing is limited or rounded.
+/* Writes count measurements of the source's sensor as targets, strongest or nearest first, ties by
+ * the frame's total order, with their quality if the frame asks for it. If the source's scan
+ * simulates list_limit, measurements beyond the sensor's limit are lost to the stage; so are those
+ * without amplitude, which have no decibels. Without a scan (NULL) nothing is limited or rounded.
  *
  * In a frame with margins, a limit that cuts the list gives every measurement with amplitude a
  * margin: its distance, in what orders the list, to the first measurement beyond the limit if it is
@@ -22,8 +22,7 @@ void target_list_note_margins(const struct sensor *sensor, const struct cell *ce
  *
  * A sensor orders and cuts its list by unrounded values, so rounding to its steps comes last, if
  * the scan simulates quantisation; contributors keep the exact values. */
-void target_list_make(struct frame *frame, const char *stage, const struct sensor *sensor,
-                      struct effect_measurement *measurements, size_t count,
-                      const struct effect_scan *scan);
+void target_list_make(struct frame *frame, const char *stage, const struct detection_source *source,
+                      struct effect_measurement *measurements, size_t count);
 
 #endif

@@ -36,7 +36,8 @@ static int note_document(struct frame *frame, const struct vehicle *vehicle, str
             return frame->vehicles.items[i].digest == vehicle->digest
                        ? 0
                        : vehicle_check_frame(vehicle, frame, diag);
-    *list_add(&frame->vehicles, frame->arena) = (struct class_document){class, vehicle->digest};
+    *list_add(&frame->vehicles, frame->arena) = (struct class_document){
+        .class = class, .digest = vehicle->digest, .rear_axle_x_m = vehicle->rear_axle_x_m};
     return 0;
 }
 

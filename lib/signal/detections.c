@@ -8,6 +8,7 @@
 #include "noise/target_list.h"
 #include "radar/folding.h"
 #include "sensor/cell_margins.h"
+#include "signal/peak_accuracy.h"
 #include "signal/unfolding.h"
 
 #define NONE SIZE_MAX
@@ -62,7 +63,7 @@ static void add_beams(struct detections *detections, const struct range_doppler_
 }
 
 struct detections detections_of(const struct signal_cube *signal,
-                                const struct range_doppler *spectrum, bool noisy,
+                                const struct range_doppler *spectrum, double noise,
                                 const struct effect_scan *context)
 {
     struct arena *arena = context->frame->arena;
@@ -70,7 +71,8 @@ struct detections detections_of(const struct signal_cube *signal,
         .signal = signal,
         .spectrum = spectrum,
         .cfar = waveform_cfar(&signal->sensor->waveform, SIGNAL_CUBE_PADDING, spectrum->beams),
-        .least = noisy ? 0 : suite_threshold(signal->sensor, context->interference),
+        .noise = noise,
+        .least = noise > 0 ? 0 : suite_threshold(signal->sensor, context->interference),
         .time_s = context->time_s,
     };
     struct range_doppler_peak *peaks;
@@ -236,6 +238,18 @@ static struct effect_measurement measurement_of(const struct detection *detectio
     return measurement;
 }
 
+/* Sets the standard deviations at the signal-to-noise ratio that the sensor measured. */
+static void estimate(const struct detections *detections, struct effect_measurement *measurement)
+{
+    double ratio = measurement->amplitude / detections->noise;
+    double snr = elementary_max(ratio * ratio - 1, 0);
+    struct peak_accuracy accuracy =
+        peak_accuracy_of(detections->signal, measurement->azimuth_rad, snr);
+    measurement->range_sigma_m = accuracy.range_sigma_m;
+    measurement->range_rate_sigma_mps = accuracy.range_rate_sigma_mps;
+    measurement->azimuth_sigma_rad = accuracy.azimuth_sigma_rad;
+}
+
 void detections_list(const struct detections *detections, struct frame *frame, const char *stage,
                      const struct effect_scan *noise)
 {
@@ -244,7 +258,16 @@ void detections_list(const struct detections *detections, struct frame *frame, c
         arena_get(frame->arena, (count + 1) * sizeof *measurements);
     for (size_t i = 0; i < count; i++) {
         measurements[i] = measurement_of(&detections->list.items[i]);
+        if (frame_carries(frame, CARRY_QUALITY) && detections->noise > 0)
+            estimate(detections, &measurements[i]);
         effect_measure(noise, EFFECT_STEP_AZIMUTH, &measurements[i]);
     }
-    target_list_make(frame, stage, noise->sensor, measurements, count, noise);
+    struct detection_source source = {
+        .sensor = noise->sensor,
+        .scan = noise,
+        .range_rate_interval_mps = detections->signal->fold_mps,
+        .noise = detections->noise,
+        .existence = {.false_alarms = peak_accuracy_bins(detections->signal), .rise = 1},
+    };
+    target_list_make(frame, stage, &source, measurements, count);
 }

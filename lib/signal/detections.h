@@ -25,16 +25,17 @@ struct detections {
     const struct signal_cube *signal;
     const struct range_doppler *spectrum;
     struct cfar cfar;
+    double noise;  /* RMS of a bin's; 0: none */
     double least;  /* amplitude of a detection where no noise makes a threshold */
     double time_s; /* instant of the measurement */
     LIST_OF(struct detection) list;
 };
 
 /* A detection for every peak of the spectrum, in every beam that passes its threshold: range,
- * azimuth, range rate and amplitude. Without noise, detections must meet the sensor's threshold.
- * Memory comes from the frame's arena. */
+ * azimuth, range rate and amplitude. noise is the RMS of a bin's. Without noise, detections must
+ * meet the sensor's threshold. Memory comes from the frame's arena. */
 struct detections detections_of(const struct signal_cube *signal,
-                                const struct range_doppler *spectrum, bool noisy,
+                                const struct range_doppler *spectrum, double noise,
                                 const struct effect_scan *context);
 
 /* Gives every detection its cell, whose range rate is folded as the waveform folds it. Records the

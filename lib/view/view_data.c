@@ -1,5 +1,6 @@
 #include "view/view_data.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/sort.h"
@@ -113,6 +114,23 @@ static void add_contributor(struct view_data *data, const struct contributor *fr
     view_data_count(data, COLUMN_CONTRIBUTOR_NUMBER, (uint32_t)from->id.number);
 }
 
+/* Adds a row with every member of the quality, in the order of its table, if the target has one. */
+static void add_quality(struct view_data *data, const struct quality *quality)
+{
+    view_data_count(data, COLUMN_TARGET_QUALITY, quality->present != 0);
+    enum view_column column = COLUMN_QUALITY_SNR_DB;
+    for (const struct field *field = quality_record.fields; field->name != NULL;
+         field++, column++) {
+        if (quality->present == 0)
+            continue;
+        double value = field->kind == FIELD_REAL      ? FIELD_LOAD(double, field, quality)
+                       : field->kind == FIELD_INTEGER ? (double)FIELD_LOAD(int64_t, field, quality)
+                                                      : FIELD_LOAD(bool, field, quality);
+        view_data_real(data, column,
+                       (quality->present & field->section) != 0 ? value : (double)NAN);
+    }
+}
+
 static void add_target(struct view_data *data, const struct target *target)
 {
     view_data_real(data, COLUMN_TARGET_RANGE, target->range_m);
@@ -130,6 +148,7 @@ static void add_target(struct view_data *data, const struct target *target)
     view_data_count(data, COLUMN_TARGET_CONTRIBUTORS, (uint32_t)target->contributors.count);
     for (size_t i = 0; i < target->contributors.count; i++)
         add_contributor(data, &target->contributors.items[i]);
+    add_quality(data, &target->quality);
 }
 
 static uint32_t add_targets(struct view_data *data, const struct frame *frame, const char *sensor)

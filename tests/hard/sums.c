@@ -398,7 +398,8 @@ static void list_readings(struct frame *frame, const double *amplitudes, size_t 
             (struct contributor){.id.object = "o", .id.reflector = "r", .weight = 1};
         measurements[i] = effect_measurement_of(NULL, &cells[i]);
     }
-    target_list_make(frame, "noise", &sensor, measurements, count, NULL);
+    const struct detection_source source = {.sensor = &sensor};
+    target_list_make(frame, "noise", &source, measurements, count);
 }
 
 static void no_amplitude_makes_infinite_decibels(void **state)

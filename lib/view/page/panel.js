@@ -277,6 +277,47 @@ function valuesTable(scan, target) {
     return table;
 }
 
+// What the sensor tells of a target's quality, as rows of a table; none if the stream has none.
+function qualityRows(target) {
+    const begin = starts('target_quality');
+    const row = begin[target];
+    if (begin[target + 1] === row) {
+        return [];
+    }
+    const value = name => column('quality_' + name)[row];
+    const number = (name, digits, unit, scale = 1) => Number.isNaN(value(name)) ? 'not known'
+        : `${round(scale * value(name), digits)}${unit}`;
+    const place = (x, y) => Number.isNaN(value(x)) ? 'not known'
+        : `${round(value(x), 2)}, ${round(value(y), 2)} m`;
+    const merged = value('merged_objects') ? 'several objects'
+        : value('merged_reflectors') ? 'several reflection centres' : 'no';
+    const folds = Number.isNaN(value('ambiguity_number')) ? []
+        : [['label: true rate is off by', `${value('ambiguity_number')} times ${number('range_rate_interval_mps', 2, ' m/s')}`]];
+    return [
+        ['signal over noise', number('snr_db', 1, ' dB')],
+        ['cross section', number('rcs_dbsm', 1, ' dBsm')],
+        ['deviation of range', number('range_sd_m', 3, ' m')],
+        ['… of azimuth', number('azimuth_sd_rad', 2, '°', degrees)],
+        ['… of range rate', number('range_rate_sd_mps', 3, ' m/s')],
+        ['exists with', number('existence', 1, ' %', 100)],
+        ['rate less the sensor’s own', number('range_rate_over_ground_mps', 3, ' m/s')],
+        ...folds,
+        ['label: merged', merged],
+        ['from the sensor', place('x_sensor_m', 'y_sensor_m')],
+        ['from the ego’s centre', place('x_centre_m', 'y_centre_m')],
+        ['from the rear axle', place('x_rear_axle_m', 'y_rear_axle_m')],
+        ['in the world', place('x_world_m', 'y_world_m')],
+    ];
+}
+
+function qualitySection(target) {
+    const rows = qualityRows(target);
+    const table = make('table', null, 'values');
+    table.id = 'quality';
+    table.append(...rows.map(row => tableRow(row)));
+    return section('Quality', rows.length === 0 ? [] : [table]);
+}
+
 function weightBar(weight, colour) {
     const bar = make('div', null, 'bar');
     const filled = make('div');
@@ -325,7 +366,7 @@ function showTarget() {
     order.sort((a, b) => weights[b] - weights[a]);
     const rows = order.slice(0, 40).map(i => contributorRow(scan, state.target, i));
     panel.replaceChildren(backButton(), title, valuesTable(scan, state.target),
-        ...targetNotes(scan), ...section(`Made of ${plural(order.length, 'reflection centre')}`, rows),
+        ...targetNotes(scan), ...qualitySection(state.target), ...section(`Made of ${plural(order.length, 'reflection centre')}`, rows),
         ...moreLine(order.length - rows.length));
 }
 

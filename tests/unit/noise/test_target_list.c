@@ -39,7 +39,8 @@ static void make(struct list *list, int64_t limit)
 {
     const struct effect_scan scan = {.effects = EFFECT_BIT(EFFECT_LIST_LIMIT)};
     list->sensor.list_limit = limit;
-    target_list_make(&list->frame, "noise", &list->sensor, list->measurements, list->count, &scan);
+    const struct detection_source source = {.sensor = &list->sensor, .scan = &scan};
+    target_list_make(&list->frame, "noise", &source, list->measurements, list->count);
 }
 
 /* Makes the list and compares its targets with objects, one letter each. */
@@ -219,7 +220,8 @@ static struct target round_target(struct list *list, const struct effect_measure
     list->measurements[0].range_rate_mps = measurement->range_rate_mps;
     struct effect_scan scan =
         effect_begin(&list->frame, &list->sensor, &everything, EFFECT_HOME_NOISE);
-    target_list_make(&list->frame, "noise", &list->sensor, list->measurements, 1, &scan);
+    const struct detection_source source = {.sensor = &list->sensor, .scan = &scan};
+    target_list_make(&list->frame, "noise", &source, list->measurements, 1);
     assert_int_equal(list->frame.targets.count, 1);
     struct target target = list->frame.targets.items[0];
     arena_free(&list->arena);

@@ -80,7 +80,7 @@ static struct detections sight(struct bench *bench)
     const struct clustered_echoes received = {.echoes = bench->received_echoes,
                                               .count = bench->count};
     bench->spectrum = signal_cube_spectrum(&bench->signal, &bench->arena);
-    struct detections detections = detections_of(&bench->signal, &bench->spectrum, false, &context);
+    struct detections detections = detections_of(&bench->signal, &bench->spectrum, 0, &context);
     detections_label(&detections, &bench->frame, "test", &received);
     return detections;
 }

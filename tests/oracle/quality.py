@@ -1,0 +1,274 @@
+"""The quality of detections, through the executables, against closed forms and Monte Carlo (MODEL 14.21).
+
+Usage: python3 tests/oracle/quality.py BIN_DIR
+
+Exit status 1 if any check fails. Seeds are fixed; statistics are held to three standard errors.
+"""
+
+import json
+import math
+import random
+import sys
+
+sys.dont_write_bytecode = True
+import model  # noqa: E402
+from model import ego, sensor, suite_of, thing  # noqa: E402
+
+SCANS = 30000
+ASKED = ["--sections", "quality"]
+BATCH = 100  # cells of one frame
+PARTS = ("range_m", "range_rate_mps", "azimuth_rad")
+DEVIATIONS = ("range_sd_m", "range_rate_sd_mps", "azimuth_sd_rad")
+DEGREE = math.pi / 180
+
+
+def part(name, **values):
+    return {"object": name, "reflector": "r", "path": "direct", "range_m": 50, "azimuth_rad": 0, "range_rate_mps": 0,
+            "ercs": 1, "time_s": 0, "weight": 1, **values}
+
+
+def cell_of(number, range_m, azimuth_rad, rate_mps, amplitude, **rest):
+    """A cell of one echo that two dipoles receive with this amplitude on the sum channel (MODEL 7.1)."""
+    values = {"range_m": range_m, "azimuth_rad": azimuth_rad, "range_rate_mps": rate_mps}
+    u = math.pi / 2 * math.sin(azimuth_rad)
+    return {"sensor": "radar", **values, "amplitude": amplitude, "sum_re": amplitude, "sum_im": 0, "delta_re": 0,
+            "delta_im": -amplitude * math.tan(u), "members": [part(f"o{number}", **values)], **rest}
+
+
+def heard(bench, suite, lists, noise="glint-noise", effects="all"):
+    """What a noise stage makes of lists of cells, one list a frame."""
+    empty = bench.stage(["glint-extract"], json.dumps(dict(model.frame([ego()]))) + "\n")
+    empty = bench.stage(["glint-ideal", *ASKED, "--effects", effects, "--sensors", bench.write_suite(suite)], empty)
+    empty = json.loads(empty)
+    lines = [json.dumps(dict(empty, scene=f"s{n}", cells=cells)) for n, cells in enumerate(lists)]
+    return [json.loads(line) for line in bench.stage([noise], "\n".join(lines) + "\n").splitlines()]
+
+
+def targets_of(frames):
+    return [target for one in frames for target in one["targets"]]
+
+
+def alone(draw, count, snr_db, azimuth_rad, sigma):
+    """Lists of cells of one echo each, SNR even in decibels and azimuth even to both sides."""
+    def one(number):
+        aside = draw.uniform(*azimuth_rad) * draw.choice((-1, 1))
+        strength = sigma * 10 ** (draw.uniform(*snr_db) / 20)
+        return cell_of(number, draw.uniform(20, 90), aside, draw.uniform(-40, 40), strength)
+    return [[one(number) for number in range(BATCH)] for _ in range(count // BATCH)]
+
+
+def squared(targets, key, deviation):
+    """The squared errors of a component over the variances that the sensor tells."""
+    return [((one[key] - one["cell_" + key]) / one["quality"][deviation]) ** 2 for one in targets]
+
+
+def mean_of(values):
+    """The mean and its standard error."""
+    mean = sum(values) / len(values)
+    return mean, math.sqrt(sum((value - mean) ** 2 for value in values) / len(values) ** 2)
+
+
+def radar(**changes):
+    members = {"range_max_m": 100, "pointer_sigma": 0.5, "final_threshold": False, "threshold_db": 6,
+               "cell_range_m": 1.5, "cell_range_rate_mps": 0.2, "angle_estimator": "ratio",
+               "phase_reference": "centre"}
+    return sensor(**{**members, **changes})
+
+
+BY_SNR = {"sigma_law": "by_snr", "range_sigma_m": 0.01, "range_rate_sigma_mps": 0.001}
+LAWS = {
+    "ratio, fixed": ({}, 0),
+    "ratio, by_snr": (BY_SNR, 0),
+    "ratio, by_snr, floor and steps": ({**BY_SNR, "azimuth_floor_rad": 0.01, "range_step_m": 0.2,
+                                        "range_rate_step_mps": 0.05, "azimuth_step_rad": 0.01}, 0),
+    "magnitude, by_amplitude": ({"sigma_law": "by_amplitude", "angle_estimator": "magnitude"}, 5),
+    "magnitude, by_snr": ({**BY_SNR, "angle_estimator": "magnitude"}, 5),
+}
+
+
+def errors(bench):
+    """Normalised squared errors of targets of one contributor, SNR from 15 dB, beyond 5 degrees for magnitude:
+    within three standard errors of 1 over 30,000 scans."""
+    for name, (members, from_degrees) in LAWS.items():
+        for snr_db in ((15, 15), (15, 40)):
+            draw = random.Random(f"{name} {snr_db}")
+            lists = alone(draw, SCANS, snr_db, (from_degrees * DEGREE, 60 * DEGREE), 0.5)
+            targets = targets_of(heard(bench, suite_of(radar(**members)), lists))
+            bench.check(len(targets) == SCANS, f"{name}: {len(targets)} targets")
+            for key, deviation in zip(PARTS, DEVIATIONS):
+                mean, error = mean_of(squared(targets, key, deviation))
+                bench.check(abs(mean - 1) < 3 * math.sqrt(2 / SCANS), f"{name}, {snr_db} dB: {key}: {mean:.4f}")
+                print(f"  {name}, {snr_db[0]} to {snr_db[1]} dB: {key} {mean:.4f} +- {error:.4f}")
+
+
+def poisson(draw, mean):
+    count, left = 0, draw.expovariate(1)
+    while left < mean:
+        count, left = count + 1, left + draw.expovariate(1)
+    return count
+
+
+def existence(bench):
+    """In a world drawn from the prior, of detections with a probability so many are echoes: in ten bins within
+    three standard errors."""
+    sigma, snr, echoes, scans = 0.8, 10 ** 1.5, 5, 6000
+    for interference in (0, 3):
+        draw = random.Random(interference)
+        loud = [[cell_of(number, 50, draw.uniform(-1, 1), 0, sigma * math.sqrt(snr * draw.expovariate(1)),
+                         interference=interference) for number in range(max(1, poisson(draw, echoes)))]
+                for _ in range(scans)]
+        suite = suite_of(radar(pointer_sigma=sigma, final_threshold=True, false_alarms=3))
+        suite["prior"] = {"echoes": echoes, "snr_db": 15}
+        bins = [[0, 0, 0, 0] for _ in range(10)]
+        for one in targets_of(heard(bench, suite, loud)):
+            probability = one["quality"]["existence"]
+            tally = bins[min(int(10 * probability), 9)]
+            tally[0] += 1
+            tally[1] += probability
+            tally[2] += probability * (1 - probability)
+            tally[3] += one["contributors"][0]["path"] != "false_alarm"
+        for number, (count, expected, variance, found) in enumerate(bins):
+            good = abs(found - expected) <= 3 * math.sqrt(variance) + 1e-9
+            bench.check(good, f"bin {number}: {found} echoes of {count}, expected {expected:.1f}")
+        bench.check(interference or sum(count > 100 for count, *_ in bins) >= 8, f"empty bins: {[count for count, *_ in bins]}")
+        shares = ", ".join(f"{found / count:.3f} for {expected / count:.3f}" for count, expected, _, found in bins if count)
+        print(f"  interference {interference}: {shares}")
+
+
+def driven(bench, suite, frames, quality=True):
+    """What the chain makes of frames."""
+    text = "".join(json.dumps(one) + "\n" for one in frames)
+    ideal = ["glint-ideal", *(ASKED if quality else ()), "--effects", "all", "--sensors", bench.write_suite(suite)]
+    for words in (["glint-extract"], ideal, ["glint-sensor"], ["glint-noise"]):
+        text = bench.stage(words, text)
+    return [json.loads(line) for line in text.splitlines()]
+
+
+def turned(place, yaw):
+    return (place[0] * math.cos(yaw) - place[1] * math.sin(yaw), place[0] * math.sin(yaw) + place[1] * math.cos(yaw))
+
+
+def roadside(draw, number, posts):
+    """An ego that drives and turns among posts."""
+    yaw, speed = draw.uniform(-3, 3), draw.uniform(0, 40)
+    own = dict(ego(), x_m=draw.uniform(-500, 500), y_m=draw.uniform(-500, 500), yaw_rad=yaw, length_m=5,
+               vx_mps=speed * math.cos(yaw), vy_mps=speed * math.sin(yaw), yaw_rate_radps=draw.uniform(-0.5, 0.5))
+    stand = [thing(f"p{i}", "post", own["x_m"] + draw.uniform(-60, 60), own["y_m"] + draw.uniform(-60, 60))
+             for i in range(posts)]
+    return dict(model.frame([own] + stand), scene=f"s{number}")
+
+
+def check_target(bench, frame, view, target):
+    """Places and rate over ground of one target, from what the line says of ego and mount."""
+    own = next(one for one in frame["objects"] if one["id"] == frame["ego"])
+    age, turn, quality = view.get("age_s", 0), own["yaw_rate_radps"], target["quality"]
+    yaw, velocity = own["yaw_rad"], (own["vx_mps"], own["vy_mps"])
+    place = [own["x_m"], own["y_m"]]
+    for _ in range(200 if age else 0):
+        middle = turned(velocity, -turn * age / 400)
+        place = [place[0] - middle[0] * age / 200, place[1] - middle[1] * age / 200]
+        velocity, yaw = turned(velocity, -turn * age / 200), yaw - turn * age / 200
+    mount = (view["mount_x_m"], view["mount_y_m"])
+    seen = turned((target["range_m"], 0), target["azimuth_rad"])
+    body = [a + b for a, b in zip(mount, turned(seen, view["mount_yaw_rad"]))]
+    world = [a + b for a, b in zip(place, turned(body, yaw))]
+    arm = turned(mount, yaw)
+    speed = (velocity[0] - turn * arm[1], velocity[1] + turn * arm[0])
+    sight = yaw + view["mount_yaw_rad"] + target["azimuth_rad"]
+    expected = {
+        "x_sensor_m": seen[0], "y_sensor_m": seen[1], "x_centre_m": body[0], "y_centre_m": body[1],
+        "x_rear_axle_m": body[0] + 5 * 5 / 18, "y_rear_axle_m": body[1], "x_world_m": world[0], "y_world_m": world[1],
+        "range_rate_over_ground_mps": target["range_rate_mps"] + speed[0] * math.cos(sight) + speed[1] * math.sin(sight),
+    }
+    for key, value in expected.items():
+        bench.check(abs(quality[key] - value) < 1e-5, f"{key}: {quality[key]}, expected {value}")
+    return speed[0] * math.sin(sight) - speed[1] * math.cos(sight)
+
+
+def places(bench):
+    """Places are those of the line's range, azimuth, mount and ego at the instant that the scan shows; what stands
+    has a rate over ground of 0, as far as the deviations of rate and azimuth say."""
+    draw = random.Random(5)
+    corner = {"mount_x_m": 2, "mount_y_m": -0.8, "mount_yaw_rad": -1.2, **BY_SNR}
+    far = {"calibration_range_m": 90, "cell_range_m": 0.3}
+    suite = suite_of(radar(latency_s=0.05, **{**corner, **far}), radar(name="ahead"))
+    frames = driven(bench, suite, [roadside(draw, number, 60) for number in range(300)])
+    scaled = []
+    for frame in frames:
+        views = {view["name"]: view for view in frame["sensors"]["list"]}
+        for target in frame["targets"]:
+            across = check_target(bench, frame, views[target["sensor"]], target)
+            quality = target["quality"]
+            deviation = math.hypot(quality["range_rate_sd_mps"], across * quality["azimuth_sd_rad"])
+            if quality["snr_db"] >= 15 and not quality["merged_reflectors"] and target["sensor"] == "radar":
+                scaled.append(quality["range_rate_over_ground_mps"] / deviation)
+    mean, _ = mean_of([value * value for value in scaled])
+    count = len(scaled)
+    bench.check(count > 1500 and abs(mean - 1) < 3 * math.sqrt(2 / count), f"standing: {mean} over {count}")
+    bench.check(abs(sum(scaled) / count) < 3 / math.sqrt(count), f"standing: mean {sum(scaled) / count}")
+    print(f"  rate over ground of {count} standing echoes: mean square {mean:.3f}")
+
+
+def labels(bench):
+    """The true rate is the reported one plus ambiguity_number intervals; merged echoes are told."""
+    draw = random.Random(6)
+    lists = [[cell_of(n, 50, 0.2, 0, 40) for n in range(BATCH)] for _ in range(20)]
+    for cell in (cell for cells in lists for cell in cells):
+        true = draw.uniform(-70, 70)
+        cell["range_rate_mps"] = (true + 12) % 24 - 12
+        cell["members"][0]["range_rate_mps"] = true
+        kind = draw.randrange(3)
+        if kind:
+            name = cell["members"][0]["object"] if kind == 1 else "z"
+            cell["members"] += [dict(part(name), reflector="s", weight=0)]
+    for target in targets_of(heard(bench, suite_of(radar(unambiguous_rate_mps=12)), lists)):
+        quality, parts = target["quality"], target["contributors"]
+        true = target["range_rate_mps"] + quality["ambiguity_number"] * quality["range_rate_interval_mps"]
+        bench.check(abs(true - parts[0]["range_rate_mps"]) < 6 * quality["range_rate_sd_mps"], f"{quality} {parts}")
+        bench.check(quality["merged_reflectors"] == (len(parts) > 1), f"{quality} {parts}")
+        bench.check(quality["merged_objects"] == (parts[-1]["object"] == "z"), f"{quality} {parts}")
+
+
+def other_stages(bench):
+    """glint-noise-gauss tells its fixed sigmas, glint-noise-none that it adds nothing, and both the rest."""
+    suite = suite_of(radar(azimuth_sigma_rad=0.03))
+    lists = alone(random.Random(8), SCANS, (15, 40), (0, 60 * DEGREE), 0.5)
+    targets = targets_of(heard(bench, suite, lists, "glint-noise-gauss"))
+    for key, deviation in zip(PARTS, DEVIATIONS):
+        mean, _ = mean_of(squared(targets, key, deviation))
+        bench.check(abs(mean - 1) < 3 * math.sqrt(2 / SCANS), f"glint-noise-gauss: {key}: {mean:.4f}")
+    for cell, target in zip(lists[0], targets_of(heard(bench, suite, lists[:1], "glint-noise-none"))):
+        quality = target["quality"]
+        bench.check(all(quality[key] == 0 for key in DEVIATIONS) and quality["existence"] == 1, f"none: {quality}")
+    for target in targets[:BATCH]:
+        quality = target["quality"]
+        u = math.pi / 2 * math.sin(target["azimuth_rad"])
+        pattern = math.sin(u) / u * math.cos(target["azimuth_rad"]) * math.cos(u)
+        law = 10 ** (6 / 20) / 0.8 * (30 / target["range_m"]) ** 2
+        amplitude = 10 ** (target["amplitude_db"] / 20)
+        bench.check(abs(quality["snr_db"] - 20 * math.log10(amplitude / 0.5)) < 1e-9, f"snr: {quality}")
+        bench.check(abs(quality["rcs_dbsm"] - 10 - 20 * math.log10(amplitude / law / pattern)) < 1e-9, f"rcs: {quality}")
+
+
+def unasked(bench):
+    """A stream that does not ask has no quality, and else the same bytes."""
+    frames = [roadside(random.Random(9), number, 60) for number in range(40)]
+    plain, asked = (driven(bench, suite_of(radar(false_alarms=2, calibration_range_m=90)), frames, quality=quality) for quality in (False, True))
+    bench.check(sum("quality" in one for one in targets_of(asked)) == len(targets_of(plain)) > 80, "few targets")
+    bench.check(all("quality" not in one for one in targets_of(plain)), "quality without being asked")
+    for one in targets_of(asked) + asked:
+        one.pop("quality")
+    bench.check(asked == plain, "another stream with a quality")
+
+
+CHECKS = [
+    ("errors are as large as their deviations say", errors),
+    ("of detections with a probability of existence so many are echoes", existence),
+    ("places and the rate over ground are those of the ego and the mount", places),
+    ("labels of folds and merged echoes are exact", labels),
+    ("the other noise stages tell their own errors", other_stages),
+    ("nothing is told unless it is asked for", unasked),
+]
+
+if __name__ == "__main__":
+    model.run(__doc__, model.add_shipped_vehicles, CHECKS)

@@ -1,0 +1,249 @@
+#include "support/effect_bench.h"
+
+#include "noise/detection_quality.h"
+
+#define DEGREE (PI / 180)
+
+static struct contributor parts[] = {
+    {.id = {.object = "a", .reflector = "r"}, .range_rate_mps = -40, .weight = 0.4},
+    {.id = {.object = "a", .reflector = "r"}, .range_rate_mps = -60, .weight = 0.6},
+    {.id = {.object = "a", .reflector = "s"}},
+    {.id = {.object = "b", .reflector = "r"}},
+};
+
+/* A detection of amplitude 40 at 20 m, 30 degrees to the left, over noise of 1. */
+static struct effect_measurement measurement_of(struct effect_bench *bench, const struct cell *cell)
+{
+    bench->sensor.pointer_sigma = 1;
+    bench->sensor.prior = (struct suite_prior){.echoes = 10, .snr_db = 20};
+    return (struct effect_measurement){
+        .cell = cell, .range_m = 20, .azimuth_rad = PI / 6, .range_rate_mps = -4, .amplitude = 40};
+}
+
+static struct target target_of(const struct effect_measurement *measurement, size_t begin,
+                               size_t count)
+{
+    struct target target = {.sensor = "radar",
+                            .range_m = measurement->range_m,
+                            .azimuth_rad = measurement->azimuth_rad,
+                            .range_rate_mps = measurement->range_rate_mps};
+    target.contributors.items = parts + begin;
+    target.contributors.count = count;
+    return target;
+}
+
+static struct quality quality_of(struct effect_bench *bench, struct detection_source *source,
+                                 const struct effect_measurement *measurement,
+                                 const struct target *target)
+{
+    source->sensor = &bench->sensor;
+    source->noise = bench->sensor.pointer_sigma;
+    source->existence.rise = detection_quality_rise((struct cell_span){measurement->cell, 1});
+    return detection_quality_of(source, measurement, target, &bench->frame);
+}
+
+/* The bench's amplitude is ERCS A_phi (10 m/R)^2, so 40 at 20 m is that of an ERCS of 160/A_phi.
+ * At 30 degrees u is pi/4 and A_phi is si(u) cos 30 cos u, 0.551329 (MODEL 7.1). */
+static void strength_is_over_noise_and_over_a_reflector_of_ten_square_metres(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct cell cell = {0};
+    struct effect_measurement measurement = measurement_of(bench, &cell);
+    struct target target = target_of(&measurement, 0, 1);
+    struct detection_source source = {0};
+    struct quality quality = quality_of(bench, &source, &measurement, &target);
+    assert_close(quality.snr_db, 32.0412, 1e-4);
+    assert_close(quality.rcs_dbsm, 10 + 20 * log10(160 / 0.5513288954), 1e-8);
+    cell.interference = 9;
+    quality = quality_of(bench, &source, &measurement, &target);
+    assert_close(quality.snr_db, 22.0412, 1e-4);
+    bench->sensor.pointer_sigma = 0;
+    quality = quality_of(bench, &source, &measurement, &target);
+    assert_int_equal(quality.present & (QUALITY_SNR | QUALITY_EXISTENCE), 0);
+}
+
+/* The ego heads north at 20 m/s and turns left at 0.1 rad/s; the sensor is 2 m ahead and 1 m to the
+ * left, and looks left by 30 degrees, so that the sight is at 60 degrees from the heading. */
+static void places_are_in_four_frames_and_the_rate_is_less_the_sensors_own(void **state)
+{
+    struct effect_bench *bench = *state;
+    bench->frame.objects.items[0] = (struct object){.id = "ego",
+                                                    .class = "car",
+                                                    .x_m = 100,
+                                                    .y_m = 50,
+                                                    .yaw_rad = PI / 2,
+                                                    .vy_mps = 20,
+                                                    .yaw_rate_radps = 0.1,
+                                                    .length_m = 9};
+    bench->frame.sensors.list.items[0] = (struct sensor_view){
+        .name = "radar", .mount_x_m = 2, .mount_y_m = 1, .mount_yaw_rad = PI / 6, .measured = true};
+    struct cell cell = {0};
+    struct effect_measurement measurement = measurement_of(bench, &cell);
+    struct target target = target_of(&measurement, 0, 1);
+    struct detection_source source = {0};
+    struct quality quality = quality_of(bench, &source, &measurement, &target);
+    double root = sqrt(3);
+    assert_close(quality.x_sensor_m, 10 * root, 1e-12);
+    assert_close(quality.y_sensor_m, 10, 1e-12);
+    assert_close(quality.x_centre_m, 12, 1e-12);
+    assert_close(quality.y_centre_m, 1 + 10 * root, 1e-12);
+    assert_close(quality.x_rear_axle_m, 12 + 2.5, 1e-12);
+    assert_close(quality.y_rear_axle_m, 1 + 10 * root, 1e-12);
+    assert_close(quality.x_world_m, 100 - 1 - 10 * root, 1e-12);
+    assert_close(quality.y_world_m, 50 + 12, 1e-12);
+    /* The mount moves forward at 20 - 0.1 and to the left at 0.2 m/s. */
+    assert_close(quality.range_rate_over_ground_mps, -4 + 19.9 / 2 + 0.2 * root / 2, 1e-12);
+    *list_add(&bench->frame.vehicles, &bench->arena) =
+        (struct class_document){.class = "car", .rear_axle_x_m = -1.5};
+    quality = quality_of(bench, &source, &measurement, &target);
+    assert_close(quality.x_rear_axle_m, 13.5, 1e-12);
+}
+
+/* Half a second before, the ego was 10 m further south. */
+static void places_are_those_of_the_instant_that_the_scan_shows(void **state)
+{
+    struct effect_bench *bench = *state;
+    bench->frame.objects.items[0] =
+        (struct object){.id = "ego", .class = "car", .yaw_rad = PI / 2, .vy_mps = 20};
+    bench->frame.sensors.list.items[0].age_s = 0.5;
+    struct cell cell = {0};
+    struct effect_measurement measurement = measurement_of(bench, &cell);
+    struct target target = target_of(&measurement, 0, 1);
+    struct detection_source source = {0};
+    struct quality quality = quality_of(bench, &source, &measurement, &target);
+    assert_close(quality.x_world_m, -10, 1e-12);
+    assert_close(quality.y_world_m, -10 + 10 * sqrt(3), 1e-12);
+}
+
+/* -60 m/s that reads -4 is off by -56 m/s, two intervals of 28; the strongest part decides. */
+static void the_label_tells_folds_and_merged_echoes(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct cell cell = {0};
+    struct effect_measurement measurement = measurement_of(bench, &cell);
+    struct detection_source source = {.range_rate_interval_mps = 28};
+    struct target target = target_of(&measurement, 0, 2);
+    struct quality quality = quality_of(bench, &source, &measurement, &target);
+    assert_int_equal(quality.ambiguity_number, -2);
+    assert_close(quality.range_rate_interval_mps, 28, 0);
+    assert_true(!quality.merged_objects && !quality.merged_reflectors);
+    target = target_of(&measurement, 1, 2);
+    quality = quality_of(bench, &source, &measurement, &target);
+    assert_true(!quality.merged_objects && quality.merged_reflectors);
+    target = target_of(&measurement, 1, 3);
+    quality = quality_of(bench, &source, &measurement, &target);
+    assert_true(quality.merged_objects && quality.merged_reflectors);
+    source.range_rate_interval_mps = 0;
+    quality = quality_of(bench, &source, &measurement, &target);
+    assert_int_equal(quality.present & (QUALITY_INTERVAL | QUALITY_AMBIGUITY), 0);
+}
+
+static struct effect_measurement estimated(struct effect_bench *bench,
+                                           struct detection_source *source, double amplitude,
+                                           uint64_t effects)
+{
+    struct cell cell = {0};
+    struct effect_measurement measurement = measurement_of(bench, &cell);
+    measurement.amplitude = amplitude;
+    struct effect_scan scan = effect_bench_begin(bench, effects, EFFECT_HOME_NOISE);
+    *source = (struct detection_source){
+        .sensor = &bench->sensor, .scan = &scan, .noise = 1, .existence.rise = 1};
+    detection_quality_estimate(source, &measurement, 1);
+    measurement.cell = NULL;
+    source->scan = NULL;
+    return measurement;
+}
+
+/* An amplitude of sqrt(101) over noise of 1 is that of an echo of power 100: range and rate have a
+ * tenth of their factor, 0.5 cells. At 30 degrees an azimuth has sqrt 2/pi over the amplitude,
+ * sqrt(1 + tan^2 45) and cos 30 (MODEL 14.21). */
+static void standard_deviations_follow_the_amplitude_that_was_measured(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct sensor *sensor = &bench->sensor;
+    struct detection_source source;
+    sensor->sigma_law = SIGMA_BY_SNR;
+    sensor->window_factor = 0.5;
+    sensor->cell_range_m = 2;
+    sensor->cell_range_rate_mps = 0.4;
+    struct effect_measurement known = estimated(bench, &source, sqrt(101), EVERY_EFFECT);
+    assert_near(known.range_sigma_m, 0.1, 1e-12);
+    assert_near(known.range_rate_sigma_mps, 0.02, 1e-12);
+    double azimuth = sqrt(2) / PI / sqrt(101) / (sqrt(2) * cos(PI / 6));
+    assert_near(known.azimuth_sigma_rad, azimuth, 1e-6);
+    sensor->azimuth_floor_rad = 0.05;
+    known = estimated(bench, &source, sqrt(101), EVERY_EFFECT);
+    assert_near(known.azimuth_sigma_rad, sqrt(azimuth * azimuth + 0.0025), 1e-6);
+    /* Weaker than the noise: anywhere in the cell, and in the view of 90 degrees. */
+    known = estimated(bench, &source, 0.1, EVERY_EFFECT);
+    assert_near(known.range_sigma_m, 2 / sqrt(12), 1e-12);
+    assert_near(known.azimuth_sigma_rad, PI / 2 / sqrt(12), 1e-12);
+}
+
+static void noise_that_is_not_simulated_has_no_deviation(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct sensor *sensor = &bench->sensor;
+    struct detection_source source;
+    sensor->range_sigma_m = 0.1;
+    sensor->range_rate_sigma_mps = 0.2;
+    sensor->sigma_law = SIGMA_BY_AMPLITUDE;
+    sensor->threshold = 3;
+    uint64_t without = EVERY_EFFECT & ~EFFECT_BIT(EFFECT_ANGLE_NOISE);
+    struct effect_measurement known = estimated(bench, &source, 30, without);
+    assert_near(known.range_sigma_m, 0.01, 1e-12);
+    assert_close(known.azimuth_sigma_rad, 0, 0);
+    known = estimated(bench, &source, 30, EVERY_EFFECT & ~EFFECT_BIT(EFFECT_ACCURACY));
+    assert_close(known.range_rate_sigma_mps, 0.2, 0);
+    known = estimated(bench, &source, 30, EVERY_EFFECT & ~EFFECT_BIT(EFFECT_RANGE_NOISE));
+    assert_close(known.range_sigma_m, 0, 0);
+}
+
+static void false_alarms_are_expected_where_they_are_made(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct sensor *sensor = &bench->sensor;
+    struct detection_source source;
+    sensor->false_alarms = 0.5;
+    sensor->final_threshold = true;
+    sensor->threshold = 3;
+    estimated(bench, &source, 30, EVERY_EFFECT);
+    assert_close(source.existence.false_alarms, 0.5, 0);
+    assert_close(source.existence.least_false_alarm, 9, 1e-12);
+    assert_close(source.existence.least_echo, 9, 1e-12);
+    estimated(bench, &source, 30, EVERY_EFFECT & ~EFFECT_BIT(EFFECT_FALSE_ALARMS));
+    assert_close(source.existence.false_alarms, 0, 0);
+}
+
+static void rounding_adds_its_own_deviation(void **state)
+{
+    struct effect_bench *bench = *state;
+    struct sensor *sensor = &bench->sensor;
+    sensor->range_step_m = 0.2;
+    struct cell cell = {0};
+    struct effect_measurement measurement = measurement_of(bench, &cell);
+    measurement.range_sigma_m = 0.1;
+    struct target target = target_of(&measurement, 0, 1);
+    struct effect_scan scan = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
+    struct detection_source source = {.scan = &scan};
+    struct quality quality = quality_of(bench, &source, &measurement, &target);
+    assert_near(quality.range_sd_m, sqrt(0.01 + 0.04 / 12), 1e-12);
+    source.scan = NULL;
+    quality = quality_of(bench, &source, &measurement, &target);
+    assert_near(quality.range_sd_m, 0.1, 1e-12);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        EFFECT_TEST(strength_is_over_noise_and_over_a_reflector_of_ten_square_metres),
+        EFFECT_TEST(places_are_in_four_frames_and_the_rate_is_less_the_sensors_own),
+        EFFECT_TEST(places_are_those_of_the_instant_that_the_scan_shows),
+        EFFECT_TEST(the_label_tells_folds_and_merged_echoes),
+        EFFECT_TEST(standard_deviations_follow_the_amplitude_that_was_measured),
+        EFFECT_TEST(noise_that_is_not_simulated_has_no_deviation),
+        EFFECT_TEST(false_alarms_are_expected_where_they_are_made),
+        EFFECT_TEST(rounding_adds_its_own_deviation),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,105 @@
+#include "check.h"
+
+#include <stdbool.h>
+
+#include "noise/existence.h"
+#include "sample.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+/* By hand: with one echo of mean power 9 and 1/2 false alarm from 4 on, a power of 4 has the
+ * densities exp(-0.4)/10 and 1/2, one of 14 has exp(-1.4)/10 and exp(-10)/2. */
+static void probabilities_are_those_of_bayes_rule(void **state)
+{
+    (void)state;
+    const struct existence existence = {.echoes = 1,
+                                        .snr = 9,
+                                        .false_alarms = 0.5,
+                                        .least_false_alarm = 4,
+                                        .least_echo = 4,
+                                        .rise = 1};
+    double echo = exp(-0.4) / 10;
+    assert_near(existence_probability(&existence, 4), echo / (echo + 0.5), 1e-14);
+    echo = exp(-1.4) / 10;
+    assert_near(existence_probability(&existence, 14), echo / (echo + exp(-10) / 2), 1e-14);
+}
+
+static void powers_that_one_cause_alone_can_have_are_certain(void **state)
+{
+    (void)state;
+    struct existence existence = {.echoes = 1,
+                                  .snr = 9,
+                                  .false_alarms = 0.5,
+                                  .least_false_alarm = 4,
+                                  .least_echo = 8,
+                                  .rise = 2};
+    assert_close(existence_probability(&existence, 3), 1, 0);
+    assert_close(existence_probability(&existence, 6), 0, 0);
+    assert_true(existence_probability(&existence, 8) > 0);
+    assert_close(existence_probability(&existence, 1e6), 1, 0);
+    existence.false_alarms = 0;
+    assert_close(existence_probability(&existence, 6), 1, 0);
+}
+
+/* Where the prior's mean is below that of the noise's tail, strong detections are rarer echoes than
+ * noise, and no density underflows on the way. */
+static void densities_below_the_least_double_still_compare(void **state)
+{
+    (void)state;
+    const struct existence existence = {.echoes = 1,
+                                        .snr = 1e-3,
+                                        .false_alarms = 0.5,
+                                        .least_false_alarm = 0,
+                                        .least_echo = 0,
+                                        .rise = 1};
+    double log_odds = log(0.5 * 1.001) - 2000 + 2000 / 1.001;
+    assert_near(existence_probability(&existence, 2000), 1 / (1 + exp(log_odds)), 1e-12);
+}
+
+struct bin {
+    double expected, variance, echoes;
+};
+
+/* A world drawn from the prior: echoes of exponential power in complex Gaussian noise, and false
+ * alarms above the threshold. */
+static void of_detections_with_a_probability_so_many_are_echoes(void **state)
+{
+    (void)state;
+    const struct existence existence = {.echoes = 3,
+                                        .snr = 30,
+                                        .false_alarms = 1,
+                                        .least_false_alarm = 6,
+                                        .least_echo = 6,
+                                        .rise = 1};
+    uint64_t sample = 7;
+    struct bin bins[10] = {{0}};
+    for (int i = 0; i < 400000; i++) {
+        bool echo = sample_between(&sample, 0, 4) < 3;
+        double draw = -log(1 - sample_between(&sample, 0, 1));
+        double power = echo ? 31 * draw : 6 + draw;
+        if (power < 6)
+            continue;
+        double probability = existence_probability(&existence, power);
+        struct bin *bin = &bins[probability == 1 ? 9 : (int)(10 * probability)];
+        bin->expected += probability;
+        bin->variance += probability * (1 - probability);
+        bin->echoes += echo;
+    }
+    int filled = 0;
+    for (size_t i = 0; i < COUNT(bins); i++) {
+        filled += bins[i].variance > 100;
+        assert_close(bins[i].echoes, bins[i].expected, 3 * sqrt(bins[i].variance) + 1e-9);
+    }
+    assert_true(filled >= 8);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(probabilities_are_those_of_bayes_rule),
+        cmocka_unit_test(powers_that_one_cause_alone_can_have_are_certain),
+        cmocka_unit_test(densities_below_the_least_double_still_compare),
+        cmocka_unit_test(of_detections_with_a_probability_so_many_are_echoes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
