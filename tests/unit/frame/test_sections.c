@@ -152,6 +152,20 @@ static void margins_that_are_left_out_go_at_once(void **state)
     assert_int_equal(lost.margins.present, 0);
 }
 
+static void quality_that_is_left_out_goes_at_once(void **state)
+{
+    (void)state;
+    struct target target = {.quality = {.snr_db = 20, .present = QUALITY_SNR}};
+    struct frame frame = {.sections = CARRY_QUALITY};
+    struct sections_change change;
+    struct diag diag = {0};
+    frame.targets.items = &target;
+    frame.targets.count = 1;
+    assert_int_equal(sections_read("-quality", &change, &diag), 0);
+    assert_int_equal(sections_apply(&change, &frame, &diag), 0);
+    assert_int_equal(target.quality.present, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -161,6 +175,7 @@ int main(void)
         cmocka_unit_test(a_word_is_taken_until_its_stage_has_run),
         cmocka_unit_test(sections_go_when_no_later_stage_reads_them),
         cmocka_unit_test(margins_that_are_left_out_go_at_once),
+        cmocka_unit_test(quality_that_is_left_out_goes_at_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
