@@ -156,7 +156,9 @@ class Bench:
 
     def __init__(self, folder, bin_dir):
         self.folder = os.path.join(folder, "sensors")
-        self.environment = dict(os.environ, PATH=bin_dir + os.pathsep + os.environ["PATH"],
+        # The glint of the tests has glint-traffic-adversarial as well.
+        tests = os.path.join(os.path.dirname(bin_dir), "tests")
+        self.environment = dict(os.environ, PATH=os.pathsep.join((tests, bin_dir, os.environ["PATH"])),
                                 GLINT_DATA=os.path.join(ROOT, "data"))
         for name in ("sensors", "antennas"):
             shutil.copytree(os.path.join(ROOT, "data", name), os.path.join(folder, name))
@@ -232,7 +234,7 @@ def adversarial(bench, draw):
     """Adversarial scenes for an extreme suite."""
     name = draw.choice(sorted(bench.suites))
     bench.save("suite.json", changed(bench.suites[name], SCHEMAS["sensors"], draw))
-    return ["glint-traffic-random --density adversarial --sensors ./suite.json --frames 4"] + chain_of(draw)
+    return ["glint-traffic-adversarial --sensors ./suite.json --frames 4"] + chain_of(draw)
 
 
 def table(bench, draw):
