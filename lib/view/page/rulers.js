@@ -59,7 +59,7 @@ function drawGridNumbers() {
     const {low, high} = viewedArea();
     const bottom = canvas.clientHeight - 11;
     const upright = state.up === 'up';
-    rulerText(state.follow ? 'm ahead and left of the ego' : 'm from the ego’s start', 92, bottom);
+    rulerText(state.follow ? 'axes: m ahead and left of the ego' : 'axes: m from the ego’s start', 118, bottom);
     for (let x = Math.ceil(low.x / step) * step; x <= high.x; x += step) {
         const at = localToScreen({x, y: 0});
         rulerText(metres(x), ...(upright ? [20, at.y] : [at.x, bottom]));
