@@ -63,6 +63,7 @@ static void add_row(struct document *document, const char **attributes, const ch
     double angle_deg;
     row.class = type;
     row.ahead = 0.5; /* the place is the middle of the front bumper */
+    row.passenger = !document->in_vehicle;
     if (!document->in_step) {
         fail(document, "<timestep>", NULL, "one around road users");
         return;
@@ -85,7 +86,8 @@ static void add_row(struct document *document, const char **attributes, const ch
     *list_add(&document->xml.events, &document->xml.arena) = (struct xml_event){RECORDED_ROW, row};
 }
 
-/* Who rides in a vehicle is hidden by it. */
+/* Who rides in a vehicle is hidden by it: newer SUMO writes riders within the vehicle, older SUMO
+ * behind it, at its place. */
 static void on_begin(void *context, const char *name, const char **attributes)
 {
     struct document *document = context;

@@ -29,6 +29,7 @@ struct recorded_row {
     double speed_mps;      /* along the yaw, for the step in which the places tell no velocity */
     double length_m, width_m, height_m; /* 0: that of the word, or of the class */
     size_t place;                       /* row, line or byte in the file, for messages */
+    bool passenger; /* left out where the vehicle in the row before is: who rides is hidden */
 };
 
 /* A row of which nothing is said. */

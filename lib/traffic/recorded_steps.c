@@ -23,9 +23,21 @@ static double seconds_between(const struct recorded_step *from, const struct rec
 
 /* ---- rows become states ---- */
 
+/* Is the row a passenger of the vehicle that was taken last? Its place is the vehicle's then, to
+ * the last digit; those who wait may share a place too. */
+static bool rides(const struct recorded_row *row, const struct recorded_step *step)
+{
+    if (!row->passenger || step->states.count == 0)
+        return false;
+    const struct recorded_state *last = &step->states.items[step->states.count - 1];
+    return !last->passenger && last->at_m.x == row->x_m && last->at_m.y == row->y_m;
+}
+
 static int take_row(struct recorded_steps *steps, struct recorded_step *step, struct diag *diag)
 {
     const struct recorded_row *row = &steps->row;
+    if (rides(row, step))
+        return 0;
     const struct recorded_word *word = recorded_classes_find(&steps->classes, row->class);
     if (word == NULL && row->likely != NULL)
         word = recorded_classes_find(&steps->classes, row->likely);
@@ -47,6 +59,7 @@ static int take_row(struct recorded_steps *steps, struct recorded_step *step, st
                    .width_m = row->width_m != 0 ? row->width_m : word->width_m,
                    .height_m = row->height_m != 0 ? row->height_m : word->height_m},
         .since_ns = step->time_ns,
+        .passenger = row->passenger,
         .place = row->place,
         .at_m = {row->x_m, row->y_m},
         .direction_rad = row->direction_rad,

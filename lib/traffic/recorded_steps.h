@@ -20,6 +20,7 @@ enum { RECORDED_STEPS_RING = 3, RECORDED_STEPS_FASTEST_MPS = 200 };
 struct recorded_state {
     struct object object;     /* in the source's coordinates */
     int64_t since_ns;         /* when its visit began */
+    bool passenger;           /* recorded_row.passenger */
     bool leaves;              /* is it missing from the next step, or is this the last? */
     size_t place;             /* row, line or byte in the file */
     struct vec2 at_m;         /* of which velocities are taken */

@@ -64,6 +64,7 @@ struct recorded_kind {
     const struct recorded_column *columns;
     const char *class;
     double ahead; /* recorded_row.ahead */
+    bool passenger; /* the same of passenger */
 };
 
 /* What a row says, with members for the layout's function alone. */

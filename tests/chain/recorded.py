@@ -230,6 +230,27 @@ def exactness(folder):
 # ---- what all recordings share ----------------------------------------------------------------------
 
 
+def riders_are_hidden(folder):
+    """Within their vehicle, as newer SUMO writes them, or behind it at its place; who waits at one place is there."""
+    bus = '<vehicle id="bus" x="{0}" y="2" angle="90" type="bus" speed="10"'
+    behind = '<person id="p" x="{0}" y="2" angle="90" speed="10"/><container id="c" x="{0}" y="2" angle="90" speed="10"/>'
+    waiting = '<container id="k" x="9" y="-5" angle="0" speed="0"/><container id="l" x="9" y="-5" angle="0" speed="0"/>'
+    near = '<person id="n" x="{0}" y="2.01" angle="90" speed="10"/>'
+    for riders in (f"{bus}/>{behind}", f"{bus}>{behind}</vehicle>", f"{bus}/>"):
+        steps = "".join(f'<timestep time="{i}">{(riders + near + waiting).format(10 * i)}</timestep>' for i in range(3))
+        path = os.path.join(folder, "riders.xml")
+        with open(path, "w", encoding="ascii") as file:
+            file.write(f"<fcd-export>{steps}</fcd-export>")
+        there = [[part["id"] for part in frame["objects"]] for frame in run("glint-traffic-sumo", path, "--ego", "bus")]
+        check(there == [["bus", "k", "l", "n"]] * 3, f"riders: {there}")
+    path = os.path.join(folder, "riders.csv")
+    with open(path, "w", encoding="ascii") as file:
+        file.write("timestep_time;vehicle_id;vehicle_x;vehicle_y;vehicle_angle;person_id;person_x;person_y;person_angle\n"
+                   "0;bus;0;2;90;;;;\n0;;;;;p;0;2;90\n0;;;;;q;0;3;90\n1;bus;9;2;90;r;9;2;90\n1;;;;;p;0;2;90\n")
+    there = [[part["id"] for part in frame["objects"]] for frame in run("glint-traffic", path, "--ego", "bus")]
+    check(there == [["bus", "q"], ["bus", "p"]], f"riders of a table: {there}")
+
+
 def every_ego_is_as_if_alone(folder):
     path = os.path.join(folder, "own.xml")
     for words in ((), ("--radius-m", "20"), ("--rate-hz", "8"), ("--from-s", "0.7", "--to-s", "1.9")):
@@ -457,8 +478,42 @@ def beside_sumo(folder):
     subprocess.run([*sumo.split(), "--fcd-output", "file.xml.gz"], cwd=folder, **QUIET)
     check(run("glint-traffic-sumo", path, *words) == run("glint-traffic-sumo", path + ".gz", *words), "gzip by SUMO")
     through_a_pipe(folder, sumo)
+    riders_of_sumo_are_hidden(folder)
     sizes_are_those_of_sumo(folder)
     degrees_are_refused(folder)
+
+
+STOPS = """<additional><busStop id="bs" lane="ab_1" startPos="40" endPos="60"/>
+<busStop id="be" lane="bc_1" startPos="100" endPos="120"/>
+<containerStop id="cs" lane="ab_1" startPos="80" endPos="120"/>
+<containerStop id="ce" lane="bc_1" startPos="200" endPos="240"/></additional>"""
+RIDES = """<routes><vType id="lorry" vClass="truck" containerCapacity="1"/><vType id="coach" vClass="coach"/>
+<person id="p" depart="0"><walk from="ab" busStop="bs"/><ride busStop="be" lines="b"/><walk to="bc" arrivalPos="200"/></person>
+<container id="k" depart="0" departPos="100"><transport from="ab" containerStop="ce" lines="l"/></container>
+<vehicle id="lorry" type="lorry" line="l" depart="1"><route edges="ab bc"/><stop containerStop="cs" duration="5"/>
+<stop containerStop="ce" duration="9"/></vehicle>
+<vehicle id="bus" type="coach" line="b" depart="5"><route edges="ab bc"/><stop busStop="bs" duration="50"/>
+<stop busStop="be" duration="5"/></vehicle></routes>"""
+
+
+def riders_of_sumo_are_hidden(folder):
+    """A person walks, rides a bus and walks again; a container waits and is carried."""
+    for name, text in (("s.add.xml", STOPS), ("s.rou.xml", RIDES), ("s.edg.xml", EDGES.replace("speed", 'sidewalkWidth="2" speed'))):
+        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+            file.write(text)
+    subprocess.run(["netconvert", "-n", "n.nod.xml", "-e", "s.edg.xml", "-o", "s.net.xml"], cwd=folder, **QUIET)
+    subprocess.run(["sumo", "-n", "s.net.xml", "-a", "s.add.xml", "-r", "s.rou.xml", "--end", "140", "--fcd-output", "s.xml"],
+                   cwd=folder, **QUIET)
+    frames = run("glint-traffic-sumo", os.path.join(folder, "s.xml"), "--ego", "bus,lorry", "--class-default", "truck")
+    seen = {}
+    for frame in frames:
+        places = {part["id"]: (part["x_m"], part["y_m"]) for part in frame["objects"]}
+        for name in set(places) - {frame["ego"]}:
+            check(math.dist(places[name], places[frame["ego"]]) > 2, f"{name} in {frame['ego']} at {frame['time_s']} s")
+            seen.setdefault(name, []).append(frame["time_s"])
+    walks = sorted(set(seen["p"]))
+    check(max(after - before for before, after in zip(walks, walks[1:])) > 10, f"the person is away while it rides: {walks}")
+    check(max(seen["k"]) < 60, f"the container is away from when it is carried: {seen['k']}")
 
 
 def through_a_pipe(folder, sumo):
@@ -549,6 +604,7 @@ with tempfile.TemporaryDirectory() as place:
         beside_sumo(place)
     elif os.path.exists(os.path.join(BIN, "glint-traffic-sumo")):
         exactness(place)
+        riders_are_hidden(place)
         every_ego_is_as_if_alone(place)
         a_mirrored_world_is_mirrored(place)
         a_loop_in_lock_step_never_waits()
