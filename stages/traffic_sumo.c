@@ -11,7 +11,7 @@ struct document {
     struct recorded_classes *classes; /* to which types are added */
     int64_t time_ns;                  /* of the step that is open */
     int64_t whole_ns;                 /* of the last step that is whole */
-    bool in_step, has_step, in_vehicle;
+    bool in_step, has_step, in_vehicle, in_routes;
 };
 
 struct traffic_sumo {
@@ -149,6 +149,9 @@ static void on_type(void *context, const char *name, const char **attributes)
 {
     struct document *document = context;
     double length_m = 0, width_m = 0, height_m = 0;
+    if (!document->in_routes && strcmp(name, "routes") != 0 && strcmp(name, "additional") != 0)
+        fail(document, "<routes>", NULL, "routes, or additional elements, of SUMO");
+    document->in_routes = true;
     if (strcmp(name, "vType") != 0)
         return;
     const char *id = read_name(document, attributes, "id", document->classes->arena);

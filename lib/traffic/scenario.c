@@ -328,10 +328,17 @@ int scenario_read(const char *name, struct scenario_document *document, struct a
     return document->line != NULL ? 0 : -1;
 }
 
+/* The centre of a body whose front is at the bound of places lies beyond it. */
+static double origin_near(double place_m)
+{
+    const double most_m = 1e9;
+    return fabs(place_m) < most_m ? round(place_m) + 0.0 : copysign(most_m, place_m); /* no -0 */
+}
+
 struct vec2 scenario_frame_origin(struct vec2 ego_m)
 {
     bool near = fabs(ego_m.x) <= 1000 && fabs(ego_m.y) <= 1000;
-    return near ? (struct vec2){0, 0} : (struct vec2){round(ego_m.x), round(ego_m.y)};
+    return near ? (struct vec2){0, 0} : (struct vec2){origin_near(ego_m.x), origin_near(ego_m.y)};
 }
 
 /* Shifts the scenario to the origin of frames with its ego. */

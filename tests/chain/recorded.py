@@ -374,6 +374,13 @@ def tables_of_sumo(folder):
         check(one["objects"] == other["objects"], "a table and XML")
 
 
+def places_reach_to_their_bound():
+    """The centre of a body whose front is at 1e9 m lies beyond; its frame has an origin within the bound."""
+    data = b'<fcd-export><timestep time="0"><vehicle id="a" x="1e9" y="-1e9" angle="-90"/></timestep></fcd-export>'
+    frame = run("glint-traffic-sumo", "-", "--ego", "a", data=data)[0]
+    check((frame["origin_x_m"], frame["origin_y_m"], frame["objects"][0]["x_m"]) == (1e9, -1e9, 2.5), f"{frame}")
+
+
 def early_ends(folder):
     """Wherever a file is cut, the whole steps come out, and the message names the last of them."""
     path = os.path.join(folder, "cut.xml")
@@ -419,6 +426,8 @@ def bad_input(folder):
             file.write(FCD.replace(old, new, 1))
         text, _ = run("glint-traffic-sumo", path, "--ego", "ego", fails=65)
         check(f"glint-traffic-sumo: {path}: " in text and message in text, f"{old} -> {new}: {text}")
+    with open(os.path.join(folder, "net.xml"), "w", encoding="ascii") as file:
+        file.write('<net><vType id="passenger" length="1"/></net>')
     for words, code, message in (
             (("--ego", "nobody"), 65, '--ego: "nobody" is no id'),
             ((), 64, "a recording has no ego of its own"),
@@ -426,6 +435,9 @@ def bad_input(folder):
             (("--ego", "ego", "--from-s", "2", "--to-s", "1"), 64, "--to-s: 1 is before --from-s, which is 2"),
             (("--ego", "ego", "--class-map", "bus"), 64, '--class-map: "bus"; expected WORD=CLASS'),
             (("--ego", "ego,,late"), 64, 'has an empty id'),
+            (("--ego", "ego", "--types", os.path.join(folder, "own.xml")), 65, "own.xml: SUMO's floating car data; "),
+            (("--ego", "ego", "--types", os.path.join(folder, "net.xml")), 65,
+             "net.xml: line 1: <routes> is missing; expected routes, or additional elements, of SUMO"),
             (("--ego", "ego", "--types", "none.xml"), 66, "--types: none.xml: No such file or directory")):
         text, _ = run("glint-traffic-sumo", os.path.join(folder, "own.xml"), *words, fails=code)
         check(message in text, f"{words}: {text}")
@@ -611,6 +623,7 @@ with tempfile.TemporaryDirectory() as place:
         a_loop_closes_through_the_whole_chain()
         memory_is_constant()
         tables_of_sumo(place)
+        places_reach_to_their_bound()
         early_ends(place)
         bad_input(place)
     else:
