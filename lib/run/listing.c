@@ -11,13 +11,13 @@
 static void add_stages(struct text *text)
 {
     for (size_t i = 0; stages[i] != NULL; i++)
-        text_format(text, "glint-%-16s %s\n", stages[i]->name, stages[i]->summary);
+        text_format(text, "glint-%-18s %s\n", stages[i]->name, stages[i]->summary);
 }
 
 static void add_tools(struct text *text)
 {
     for (size_t i = 0; tools[i] != NULL; i++)
-        text_format(text, "glint-%-16s %s\n", tools[i]->name, tools[i]->summary);
+        text_format(text, "glint-%-18s %s\n", tools[i]->name, tools[i]->summary);
 }
 
 static void add_effects(struct text *text)
