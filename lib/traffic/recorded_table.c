@@ -220,7 +220,7 @@ static int read_part(const struct recorded_table *table, const struct part *part
     cells.row.place = table->rows->numbers[table->row];
     cells.row.class = part->kind->class;
     cells.row.ahead = part->kind->ahead;
-    cells.row.passenger = part->kind->passenger;
+    cells.row.passenger = part->kind != table->layout->kinds;
     for (size_t i = 0; columns[i].name != NULL; i++) {
         int at = part->at[i];
         bool skipped = columns[i].kind == RECORDED_TIME

@@ -59,12 +59,11 @@ struct recorded_column {
     }
 
 /* One kind of road user in a table. Its first column is the id; a row is of the first kind whose id
- * it has, and has the kind's class if no column says another. */
+ * it has, and has the kind's class if no column says another. All kinds but the first may ride. */
 struct recorded_kind {
     const struct recorded_column *columns;
     const char *class;
     double ahead; /* recorded_row.ahead */
-    bool passenger; /* the same of passenger */
 };
 
 /* What a row says, with members for the layout's function alone. */

@@ -36,8 +36,8 @@ const struct recorded_layout sumo_table_layout = {
     .format = FORMAT,
     .mark = "timestep_time",
     .kinds = {{vehicles, "DEFAULT_VEHTYPE", 0.5},
-              {persons, "DEFAULT_PEDTYPE", 0.5, true},
-              {containers, "DEFAULT_CONTAINERTYPE", 0.5, true}},
+              {persons, "DEFAULT_PEDTYPE", 0.5},
+              {containers, "DEFAULT_CONTAINERTYPE", 0.5}},
 };
 
 const struct recorded_layout sumo_table_plain_layout = {
