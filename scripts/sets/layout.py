@@ -10,7 +10,8 @@ import sys
 
 from durable import (canonical, digest_of, digest_of_file, make_folder, remove_temporaries, sync_folder, whole_file,
                      write_whole)
-from plan import BAD_DATA, CANNOT_CREATE, NO_INPUT, ROOT, Fault, check_once, kind_of, read_json, scene_of
+from plan import (BAD_DATA, CANNOT_CREATE, FROM_FILES, NO_INPUT, ROOT, Fault, check_once, kind_of, read_json,
+                  scene_of)
 
 BIN = os.path.join(ROOT, os.environ.get("BUILD", "build"), "bin")
 US = 1_000_000  # of a second
@@ -76,7 +77,7 @@ def copies_of_traffic(plan, plan_folder):
     """What has a name; what has a path is read where it lies."""
     for source in plan["sources"]:
         kind = kind_of(source)
-        if kind != "random" and is_name(source[kind]):
+        if kind in FROM_FILES and is_name(source[kind]):
             path = path_of(source[kind], kind, plan_folder)
             yield f"{DOCUMENTS}/{KINDS[kind]}/{os.path.basename(path)}", path
 
@@ -96,7 +97,7 @@ def files_of(source, plan_folder):
     kind = kind_of(source)
     words = shlex.split(source.get("options", "").replace("=", " "))
     names = [word for word in words if not is_name(word) and os.path.isfile(os.path.join(plan_folder, word))]
-    if kind != "random" and not is_name(source[kind]):
+    if kind in FROM_FILES and not is_name(source[kind]):
         names.append(source[kind])
         folder, name = os.path.split(source[kind])
         recorded = re.fullmatch(r"(.*)_tracks\.csv(\.gz)?", name)
@@ -144,18 +145,26 @@ def blocks_of(source, begin, end):
     return [(at, min(at + step, end)) for at in range(begin, end, step)]
 
 
+def scene_frames(source, size, plan_folder):
+    """How many frames a scene has at most; the size of a shard where that is drawn."""
+    kind = kind_of(source)
+    if kind == "random":
+        return 1
+    if kind == "moving":
+        return int(source["seconds"] * source.get("rate_hz", 20) + 1e-9) + 1
+    document = read_json(path_of(source["scenario"], "scenario", plan_folder))
+    drawn = isinstance(document["duration_s"], dict) or isinstance(document["rate_hz"], dict)
+    return size if drawn else int(document["duration_s"] * document["rate_hz"] + 1e-9) + 1
+
+
 def stretches_of(plan, source, seed, size, plan_folder):
     """Stretches by split."""
-    kind = kind_of(source)
-    if kind == "recording":
+    if kind_of(source) == "recording":
         return {split: [Stretch(source, seed, block, 0, 1, frames_of_block(source, block, size))
                         for block in blocks_of(source, *times)]
                 for split, times in times_of(plan, source).items()}
-    frames, (first, end) = 1, (0, source.get("frames"))
-    if kind == "scenario":
-        document = read_json(path_of(source["scenario"], "scenario", plan_folder))
-        frames = int(document["duration_s"] * document["rate_hz"] + 1e-9) + 1
-        first, end = source.get("scenes", (0, 1))
+    first, end = source.get("scenes", (0, source.get("frames", 1)))
+    frames = scene_frames(source, size, plan_folder)
     parts = shares_of(plan, first, end) if "splits" in plan else {"all": (first, end)}
     return {split: [Stretch(source, seed, None, *part, frames)] for split, part in parts.items() if part[0] < part[1]}
 
@@ -191,6 +200,11 @@ def seconds(time_us):
     return f"{sign}{whole // US}.{whole % US:06}".rstrip("0").rstrip(".")
 
 
+def text_of(value):
+    """The shortest text that reads back to the same number."""
+    return repr(value)
+
+
 def words_of_recording(stretch):
     """The end of a block is the next one's begin: the microsecond before it is the last that is played."""
     source, (begin, end) = stretch.source, stretch.block
@@ -198,21 +212,27 @@ def words_of_recording(stretch):
     words = [source["recording"], "--ego", ",".join(source["egos"]), "--scene", name]
     words += ["--from-s", seconds(begin)] if begin is not None else []
     words += ["--to-s", seconds(end - 1)] if end is not None else []
-    return words + (["--rate-hz", f"{source['rate_hz']:.15g}"] if "rate_hz" in source else [])
+    return words + (["--rate-hz", text_of(source["rate_hz"])] if "rate_hz" in source else [])
+
+
+def source_words(stretch):
+    source, kind = stretch.source, kind_of(stretch.source)
+    if kind == "recording":
+        return words_of_recording(stretch)
+    scenes = ["--scenes", f"{stretch.first}:{stretch.end}"] if "scenes" in source else []
+    if kind == "scenario":
+        return [source["scenario"], *scenes]
+    if kind == "random":
+        return ["--density", source["random"], "--first", str(stretch.first), "--frames", str(stretch.end - stretch.first)]
+    rate = ["--rate-hz", text_of(source["rate_hz"])] if "rate_hz" in source else []
+    return ["--density", source["random"], "--seconds", text_of(source["seconds"]), *scenes, *rate]
 
 
 def source_command(stretch):
     source = stretch.source
-    kind = kind_of(source)
-    if kind == "random":
-        words = ["--density", source["random"], "--first", str(stretch.first), "--frames", str(stretch.end - stretch.first)]
-    elif kind == "recording":
-        words = words_of_recording(stretch)
-    else:
-        words = [source["scenario"]]
-        words += ["--scenes", f"{stretch.first}:{stretch.end}"] if "scenes" in source else []
-    program = source.get("program", "glint-traffic-random" if kind == "random" else "glint-traffic")
-    return shlex.join([program, *words, "--seed", str(stretch.seed), *shlex.split(source.get("options", ""))])
+    program = source.get("program", "glint-traffic" if kind_of(source) in FROM_FILES else "glint-traffic-random")
+    more = shlex.split(source.get("options", ""))
+    return shlex.join([program, *source_words(stretch), "--seed", str(stretch.seed), *more])
 
 
 def command_of(stretch, chain):

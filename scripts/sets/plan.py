@@ -9,15 +9,17 @@ import schema
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 USAGE, BAD_DATA, NO_INPUT, CANNOT_CREATE, IO = 64, 65, 66, 73, 74
 
-# What a kind of source needs and takes besides `program` and `options`.
-KINDS = {"random": ({"frames"}, set()),
-         "scenario": (set(), {"scenes"}),
-         "recording": ({"egos"}, {"scene", "from_s", "to_s", "block_s", "rate_hz", "split"})}
-# Which kind can be split how.
-SPLIT_BY = {"random": {"scene"}, "scenario": {"scene"}, "recording": {"time", "recording"}}
+# What a kind of source needs, and what it takes besides `program` and `options`.
+KINDS = {"random": ({"random", "frames"}, set()),
+         "moving": ({"random", "seconds", "scenes"}, {"rate_hz"}),
+         "scenario": ({"scenario"}, {"scenes"}),
+         "recording": ({"recording", "egos"}, {"scene", "from_s", "to_s", "block_s", "rate_hz", "split"})}
+FROM_FILES = ("scenario", "recording")
+# How a kind can be split.
+SPLIT_BY = {"random": {"scene"}, "moving": {"scene"}, "scenario": {"scene"}, "recording": {"time", "recording"}}
 # Options of sources that the plan's own members give.
 OWN_OPTIONS = {"--first", "--frames", "--density", "--seed", "--scene", "--scenes", "--ego", "--from-s", "--to-s",
-               "--rate-hz", "--output", "-o", "--complete"}
+               "--rate-hz", "--seconds", "--output", "-o", "--complete"}
 LEAKS = {"ego": 'leaks: egos of one recording see the same traffic; split by "recording", or by "time" with a gap',
          "seed": 'leaks: another seed is the same traffic with other noise; split by "scene", "recording" or "time"'}
 
@@ -60,17 +62,20 @@ def read_json(path):
 
 
 def kind_of(source):
-    kinds = [kind for kind in KINDS if kind in source]
-    return kinds[0] if len(kinds) == 1 else None
+    """The kind of a source: random snapshots, moving random scenes, a scenario or a recording."""
+    kinds = [kind for kind in ("random", "scenario", "recording") if kind in source]
+    if len(kinds) != 1:
+        return None
+    return "moving" if kinds == ["random"] and "seconds" in source else kinds[0]
 
 
 def check_source(source, path):
     kind = kind_of(source)
-    refuse(kind is None, path, f"expected one of {', '.join(KINDS)}")
+    refuse(kind is None, path, "expected one of random, scenario, recording")
     needed, taken = KINDS[kind]
     for name in sorted(needed - source.keys()):
         refuse(True, path, f"{name} is missing: a {kind} source needs it")
-    for name in source.keys() - needed - taken - {kind, "program", "options"}:
+    for name in source.keys() - needed - taken - {"program", "options"}:
         refuse(True, f"{path}/{name}", f"a {kind} source has none")
     for word in shlex.split(source.get("options", "")):
         refuse(word.split("=")[0] in OWN_OPTIONS or word in "|<>&;", f"{path}/options", f"{word} is the plan's to say")
@@ -117,7 +122,7 @@ def check_once(plan, path_of, digest_of):
     seen, names = {}, {}
     for i, source in enumerate(plan["sources"]):
         kind = kind_of(source)
-        traffic = source["random"] if kind == "random" else digest_of(path_of(source[kind], kind))
+        traffic = digest_of(path_of(source[kind], kind)) if kind in FROM_FILES else f"{kind} {source['random']}"
         if traffic in seen:
             other = plan["sources"][seen[traffic]]
             leaks = other.get("split") != source.get("split")
@@ -133,8 +138,8 @@ def check_once(plan, path_of, digest_of):
 def scene_of(source):
     """How the names of a source's scenes begin."""
     kind = kind_of(source)
-    if kind == "random":
-        return "random-" + source["random"]
+    if kind not in FROM_FILES:
+        return f"{kind} {source['random']}"
     return source.get("scene", os.path.basename(source[kind]).split(".")[0])
 
 

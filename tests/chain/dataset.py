@@ -102,11 +102,14 @@ def shards_join_to_the_bytes_of_one_run(folder):
         assert frames_of(place, "all/*") == right, f"{count} shards join to other bytes"
 
 
-def a_scenario_and_seeds_are_played_whole(folder):
-    place = made(folder, plan_of([{"scenario": "cut-in"}], seeds=[1, 2]))
-    chain = CHAIN.format(suite=SUITE)
-    right = "".join(run(["glint", "-c", f"glint-traffic cut-in --seed {seed} | {chain}"]).stdout for seed in (1, 2))
-    assert frames_of(place, "all/*") == right.encode()
+def scenes_and_seeds_are_played_whole(folder):
+    sources = [{"scenario": "cut-in"}, {"scenario": "varied-cut-in", "scenes": [3, 8]}]
+    right = "".join(run(["glint", "-c", f"glint-traffic {words} --seed {seed} | {CHAIN.format(suite=SUITE)}"]).stdout
+                    for seed in (1, 2) for words in ("cut-in", "varied-cut-in --scenes 3:8"))
+    for size, count in ((10000, 1), (300, 8), (100, 12)):
+        place = made(folder, plan_of(sources, seeds=[1, 2], frames_per_shard=size), f"by-{size}")
+        assert frames_of(place, "all/*") == right.encode()
+        assert len(manifest(place)["resources"]) == count, len(manifest(place)["resources"])
 
 
 def the_manifest_says_what_is_there(folder):
@@ -415,7 +418,7 @@ def jobs_without_a_number_are_refused(folder):
     assert done.returncode != 0 and "SLURM_ARRAY_TASK_ID: is empty" in done.stdout, done.stdout
 
 
-CHECKS = [shards_join_to_the_bytes_of_one_run, a_scenario_and_seeds_are_played_whole, the_manifest_says_what_is_there,
+CHECKS = [shards_join_to_the_bytes_of_one_run, scenes_and_seeds_are_played_whole, the_manifest_says_what_is_there,
           tables_have_the_targets_of_their_lines,
           blocks_of_time_keep_their_gap, leaks_are_refused, what_cannot_be_made_is_refused,
           another_plan_in_the_folder_is_refused, what_is_damaged_is_made_again, one_failing_scene_stops_no_other,
