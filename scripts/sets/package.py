@@ -3,8 +3,9 @@ import json
 import os
 
 import page
+from documents import DOCUMENTS
 from durable import digest_of, digest_of_file, make_folder, remove_temporaries, sync_folder, write_whole
-from layout import DOCUMENTS, WORK
+from layout import WORK
 from plan import ROOT, read_json
 from shard import BEGUN, MANIFEST, record_path
 

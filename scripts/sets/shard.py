@@ -12,9 +12,10 @@ import sys
 import time
 import zlib
 
+from documents import environment, program_version
 from durable import (CHUNK, digest_of, digest_of_file, remove_temporaries, sync_folder, temporary_folder, whole_file,
                      write_whole)
-from layout import WORK, environment, program_version
+from layout import WORK
 from plan import BAD_DATA, IO, NO_INPUT, USAGE, Fault, read_json
 from progress import Progress, line_of
 

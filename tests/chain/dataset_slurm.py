@@ -196,4 +196,5 @@ def main():
             print(check.__name__.replace("_", " "), flush=True)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,111 @@
+"""The programs and documents that a data set is made with: where they lie, and which of them it gets copies of."""
+import os
+import re
+import shlex
+import subprocess
+
+from durable import digest_of_file
+from plan import BAD_DATA, FROM_FILES, NO_INPUT, ROOT, Fault, kind_of, read_json
+
+BIN = os.path.join(ROOT, os.environ.get("BUILD", "build"), "bin")
+DOCUMENTS = "documents"
+FOLDERS = {"recording": "trajectories", "scenario": "scenarios", "suite": "sensors"}
+
+
+def program_version():
+    done = subprocess.run([os.path.join(BIN, "glint"), "--version"], check=True, stdout=subprocess.PIPE, text=True)
+    return done.stdout.strip()
+
+
+def environment(folder):
+    return os.environ | {"PATH": BIN + os.pathsep + os.environ["PATH"],
+                         "GLINT_DATA": os.path.abspath(os.path.join(folder, DOCUMENTS))}
+
+
+def data_folders():
+    """Where names of documents are looked up, as glint does."""
+    return [folder for folder in (os.environ.get("GLINT_DATA"), os.path.join(ROOT, "data")) if folder]
+
+
+def path_of(word, kind, plan_folder):
+    """The file of a name or path."""
+    if "/" in word or "." in word:
+        found = [os.path.join(plan_folder, word)]
+    else:
+        found = [os.path.join(folder, FOLDERS[kind], word + ending) for folder in data_folders()
+                 for ending in (".json", ".csv", ".csv.gz")]
+    for path in found:
+        if os.path.isfile(path):
+            return path
+    raise Fault(NO_INPUT, f"{kind} {word}: {' and '.join(found)}: no such file")
+
+
+def is_name(word):
+    return "/" not in word and "." not in word
+
+
+def suite_name(word):
+    return os.path.splitext(os.path.basename(word))[0]
+
+
+def copies_of_suites(plan, plan_folder):
+    for word in plan["suites"]:
+        path = path_of(word, "suite", plan_folder)
+        yield f"{DOCUMENTS}/sensors/{suite_name(word)}.json", path
+        for sensor in read_json(path).get("sensors", []):
+            table = sensor.get("antenna_table", "")
+            if "/" in table:
+                yield os.path.normpath(f"{DOCUMENTS}/sensors/{table}"), os.path.join(os.path.dirname(path), table)
+
+
+def copies_of_vehicles(plan, plan_folder):
+    """All of them, as traffic may have any class. The user's own stand before the shipped ones."""
+    folders = [os.path.join(folder, "vehicles") for folder in reversed(data_folders())]
+    if "vehicles" in plan:
+        folders.append(os.path.join(plan_folder, plan["vehicles"]))
+        if not os.path.isdir(folders[-1]):
+            raise Fault(NO_INPUT, f"/vehicles: {folders[-1]}: no such folder")
+    found = {name: os.path.join(folder, name) for folder in folders if os.path.isdir(folder)
+             for name in os.listdir(folder) if name.endswith(".json")}
+    for name, path in found.items():
+        yield f"{DOCUMENTS}/vehicles/{name}", path
+
+
+def copies_of_traffic(plan, plan_folder):
+    """What has a name; what has a path is read where it lies."""
+    for source in plan["sources"]:
+        kind = kind_of(source)
+        if kind in FROM_FILES and is_name(source[kind]):
+            path = path_of(source[kind], kind, plan_folder)
+            yield f"{DOCUMENTS}/{FOLDERS[kind]}/{os.path.basename(path)}", path
+
+
+def copies(plan, plan_folder):
+    """What the set gets copies of: file by the path that it gets in the set."""
+    found = {}
+    for copies_of in (copies_of_suites, copies_of_vehicles, copies_of_traffic):
+        for name, path in copies_of(plan, plan_folder):
+            if digest_of_file(found.setdefault(name, path)) != digest_of_file(path):
+                raise Fault(BAD_DATA, f"{path} and {found[name]} would get one name in the set: {name}")
+    return dict(sorted(found.items()))
+
+
+def files_of(source, plan_folder):
+    """Paths, from the plan's folder, of the files that a source reads there: traffic, its meta files, options' files."""
+    kind = kind_of(source)
+    words = shlex.split(source.get("options", "").replace("=", " "))
+    names = [word for word in words if not is_name(word) and os.path.isfile(os.path.join(plan_folder, word))]
+    if kind in FROM_FILES and not is_name(source[kind]):
+        names.append(source[kind])
+        folder, name = os.path.split(source[kind])
+        recorded = re.fullmatch(r"(.*)_tracks\.csv(\.gz)?", name)
+        beside = os.listdir(os.path.join(plan_folder, folder)) if recorded else []
+        names += [os.path.join(folder, other) for other in beside
+                  if re.fullmatch(re.escape(recorded[1]) + r"_(tracks|recording)Meta\.csv", other)]
+    return sorted(set(names))
+
+
+def described(files, folder=""):
+    """Size and digest of files, by the names that they have in the set or from the plan's folder."""
+    return [{"path": name, "bytes": os.path.getsize(os.path.join(folder, path)),
+             "hash": digest_of_file(os.path.join(folder, path))} for name, path in files.items()]

@@ -1,0 +1,141 @@
+"""The traffic of a data set: which split has which scenes of a source, how they fill shards, and the commands that play them."""
+import collections
+import shlex
+
+from documents import path_of
+from plan import BAD_DATA, FROM_FILES, Fault, kind_of, read_json, scene_of
+
+US = 1_000_000  # of a second
+
+# Scenes [first, end) of a source, of `frames` frames each; a block of a recording is one such scene.
+Stretch = collections.namedtuple("Stretch", "source seed block first end frames")
+
+
+def shares_of(plan, first, end):
+    """The part of [first, end) of each split, in whole numbers that fill it."""
+    begin, sum_, parts = first, 0, {}
+    shares = plan["splits"]["shares"]
+    for name, share in shares.items():
+        sum_ += share
+        stop = end if name == list(shares)[-1] else first + round((end - first) * sum_)
+        parts[name] = (begin, stop)
+        begin = stop
+    return parts
+
+
+def times_of(plan, source):
+    """From when to when, in microseconds, each split has of a recording: shares of what the gaps leave."""
+    if "from_s" not in source or "to_s" not in source:
+        return {source.get("split", "all"): tuple(round(source[name] * US) if name in source else None
+                                                  for name in ("from_s", "to_s"))}
+    begin, end = round(source["from_s"] * US), round(source["to_s"] * US)
+    if plan.get("splits", {}).get("by") != "time":
+        return {source.get("split", "all"): (begin, end)}
+    gap = round(plan["splits"]["gap_s"] * US)
+    gaps = gap * (len(plan["splits"]["shares"]) - 1)
+    if end - begin <= gaps:
+        raise Fault(BAD_DATA, f"/splits/gap_s: gaps fill all of {source['recording']}")
+    parts = shares_of(plan, begin, end - gaps)
+    return {name: (part[0] + i * gap, part[1] + i * gap) for i, (name, part) in enumerate(parts.items())}
+
+
+def blocks_of(source, begin, end):
+    """A split of a recording as scenes of at most block_s."""
+    if "block_s" not in source:
+        return [(begin, end)]
+    step = round(source["block_s"] * US)
+    return [(at, min(at + step, end)) for at in range(begin, end, step)]
+
+
+def scene_frames(source, size, plan_folder):
+    """How many frames a scene has at most; the size of a shard where that is drawn."""
+    kind = kind_of(source)
+    if kind == "random":
+        return 1
+    if kind == "moving":
+        return int(source["seconds"] * source.get("rate_hz", 20) + 1e-9) + 1
+    document = read_json(path_of(source["scenario"], "scenario", plan_folder))
+    drawn = isinstance(document["duration_s"], dict) or isinstance(document["rate_hz"], dict)
+    return size if drawn else int(document["duration_s"] * document["rate_hz"] + 1e-9) + 1
+
+
+def stretches_of(plan, source, seed, size, plan_folder):
+    """Stretches by split."""
+    if kind_of(source) == "recording":
+        return {split: [Stretch(source, seed, block, 0, 1, frames_of_block(source, block, size))
+                        for block in blocks_of(source, *times)]
+                for split, times in times_of(plan, source).items()}
+    first, end = source.get("scenes", (0, source.get("frames", 1)))
+    frames = scene_frames(source, size, plan_folder)
+    parts = shares_of(plan, first, end) if "splits" in plan else {"all": (first, end)}
+    return {split: [Stretch(source, seed, None, *part, frames)] for split, part in parts.items() if part[0] < part[1]}
+
+
+def frames_of_block(source, block, size):
+    """How many frames a block has; the size of a shard where nobody says so."""
+    if "rate_hz" not in source or None in block or source["egos"] == ["all"]:
+        return size
+    return max(1, round((block[1] - block[0]) / US * source["rate_hz"]) * len(source["egos"]))
+
+
+def packed(stretches, size):
+    """The stretches, cut and joined to shards of at most `size` frames; one scene is never cut."""
+    shard, room = [], size
+    for stretch in stretches:
+        while stretch.first < stretch.end:
+            if shard and stretch.frames > room:
+                yield shard
+                shard, room = [], size
+            count = min(stretch.end - stretch.first, max(1, room // stretch.frames))
+            shard.append(stretch._replace(end=stretch.first + count))
+            room -= count * stretch.frames
+            stretch = stretch._replace(first=stretch.first + count)
+    if shard:
+        yield shard
+
+
+# --- commands -------------------------------------------------------------------------------------
+
+def seconds(time_us):
+    """A time as text, exact."""
+    sign, whole = "-" * (time_us < 0), abs(time_us)
+    return f"{sign}{whole // US}.{whole % US:06}".rstrip("0").rstrip(".")
+
+
+def text_of(value):
+    """The shortest text that reads back to the same number."""
+    return repr(value)
+
+
+def words_of_recording(stretch):
+    """The end of a block is the next one's begin: the microsecond before it is the last that is played."""
+    source, (begin, end) = stretch.source, stretch.block
+    name = scene_of(source) + (f"@{seconds(begin)}" if begin is not None else "")
+    words = [source["recording"], "--ego", ",".join(source["egos"]), "--scene", name]
+    words += ["--from-s", seconds(begin)] if begin is not None else []
+    words += ["--to-s", seconds(end - 1)] if end is not None else []
+    return words + (["--rate-hz", text_of(source["rate_hz"])] if "rate_hz" in source else [])
+
+
+def source_words(stretch):
+    source, kind = stretch.source, kind_of(stretch.source)
+    if kind == "recording":
+        return words_of_recording(stretch)
+    scenes = ["--scenes", f"{stretch.first}:{stretch.end}"] if "scenes" in source else []
+    if kind == "scenario":
+        return [source["scenario"], *scenes]
+    if kind == "random":
+        return ["--density", source["random"], "--first", str(stretch.first), "--frames", str(stretch.end - stretch.first)]
+    rate = ["--rate-hz", text_of(source["rate_hz"])] if "rate_hz" in source else []
+    return ["--density", source["random"], "--seconds", text_of(source["seconds"]), *scenes, *rate]
+
+
+def source_command(stretch):
+    source = stretch.source
+    program = source.get("program", "glint-traffic" if kind_of(source) in FROM_FILES else "glint-traffic-random")
+    more = shlex.split(source.get("options", ""))
+    return shlex.join([program, *source_words(stretch), "--seed", str(stretch.seed), *more])
+
+
+def command_of(stretch, chain):
+    return f"{source_command(stretch)} | {chain}"
