@@ -59,7 +59,8 @@ def package_of(layout, records, documents):
     resources = [resource_of(file, layout["shards"][record["part"]]) for record in records for file in record["files"]]
     return {"profile": "data-package", "name": plan["name"], "description": plan["origin"],
             "program": layout["program"], "identity": layout["identity"], "plan": plan,
-            "rows": sum(resource["rows"] for resource in resources if resource["format"] == "jsonl"),
+            "frames": sum(record["files"][0]["rows"] for record in records),
+            "rows": sum(resource["rows"] for resource in resources),
             "bytes": sum(resource["bytes"] for resource in resources),
             "content_bytes": sum(resource["content_bytes"] for resource in resources),
             "content_hash": content_hash(resources),

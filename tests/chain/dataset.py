@@ -29,7 +29,7 @@ DATASET = os.path.join(ROOT, "scripts", "dataset")
 CHAIN = "glint-extract | glint-ideal --sensors {suite} --sections account | glint-sensor | glint-noise"
 SUITE = "corner77-every-frame"
 SHARES = {"train": 0.8, "validation": 0.1, "test": 0.1}
-PATIENCE_S = 120
+PATIENCE_S = 600
 
 
 def plan_of(sources, **members):

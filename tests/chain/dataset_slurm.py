@@ -21,7 +21,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import dataset as sets  # noqa: E402
 
-PATIENCE_S = 120
+PATIENCE_S = 600
 MOST_TASKS = 8
 CONFIGURATION = """\
 ClusterName=glint
