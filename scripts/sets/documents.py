@@ -72,11 +72,13 @@ def copies_of_vehicles(plan, plan_folder):
 
 
 def copies_of_traffic(plan, plan_folder):
-    """What has a name; what has a path is read where it lies."""
+    """What has a name; what has a path is read where it lies. Moving random scenes are those of a scenario."""
     for source in plan["sources"]:
-        kind = kind_of(source)
-        if kind in FROM_FILES and is_name(source[kind]):
-            path = path_of(source[kind], kind, plan_folder)
+        kind, word = kind_of(source), source.get(kind_of(source))
+        if kind == "moving":
+            kind, word = "scenario", "random-roads"
+        if kind in FROM_FILES and is_name(word):
+            path = path_of(word, kind, plan_folder)
             yield f"{DOCUMENTS}/{FOLDERS[kind]}/{os.path.basename(path)}", path
 
 
