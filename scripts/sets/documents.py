@@ -93,7 +93,7 @@ def copies(plan, plan_folder):
 
 
 def files_of(source, plan_folder):
-    """Paths, from the plan's folder, of the files that a source reads there: traffic, its meta files, options' files."""
+    """The files that a source reads in the plan's folder: traffic, its meta files, and those that options name."""
     kind = kind_of(source)
     words = shlex.split(source.get("options", "").replace("=", " "))
     names = [word for word in words if not is_name(word) and os.path.isfile(os.path.join(plan_folder, word))]

@@ -76,7 +76,7 @@ def rehearse(plan, copied):
 
 MAKEFILE = """\
 # The data set {name}, of {count} shards.
-#   make -jN        makes what is missing, names what fails and, when all is there, writes README.md and datapackage.json
+#   make -jN        makes what is missing and names what fails; when all is there, it writes datapackage.json
 #   make part-7     makes one shard
 #   make missing    names what is missing
 #   make slurm      has Slurm make what is missing
@@ -119,7 +119,7 @@ def check_folder(folder, layout):
     """Refuses a folder that holds something else, or the set of another plan."""
     if os.path.exists(os.path.join(folder, LAYOUT)):
         if read_layout(folder)["identity"] != layout["identity"]:
-            raise Fault(CANNOT_CREATE, f"{folder}: holds the set of another plan, of other inputs or of another version")
+            raise Fault(CANNOT_CREATE, f"{folder}: holds the set of another plan, other inputs or another version")
     elif os.path.isdir(folder) and set(os.listdir(folder)) - {WORK}:
         raise Fault(CANNOT_CREATE, f"{folder}: holds other files; name a new folder")
 

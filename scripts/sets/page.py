@@ -7,9 +7,9 @@ PAGE = """\
 
 {origin}
 
-{rows} frames of {program}, of {shards} shards, {targets} targets. `datapackage.json` describes every file (Frictionless): rows,
-bytes, SHA-256 of the file (`hash`) and of its uncompressed bytes (`content_hash`), and the command lines that made it. Its last
-line is the SHA-256 of all bytes before that line.
+{rows} frames in {shards} shards, with {targets} targets, by {program}. `datapackage.json` describes every file
+(Frictionless): rows, bytes, SHA-256 of the file (`hash`) and of its uncompressed bytes (`content_hash`), and the command
+lines that made it. Its last line is the SHA-256 of all bytes before that line.
 
 {table}
 
@@ -20,12 +20,13 @@ line is the SHA-256 of all bytes before that line.
 ## Conventions
 
 - A shard is `SPLIT/SUITE/NUMBER.jsonl.gz`: gzip, one frame a line. `documents/schemas/` lists members and columns.{tables}
-- SI units and radians; the unit is in the name of a member. Axes follow ISO 8855: x forward, y left, angles counter-clockwise.
-  Azimuth counts from boresight, left positive; range rate is positive when receding.
-- A frame is known by `scene`, `seed` and `frame`. `objects` is the truth; a target's `contributors` are its label: object, class of
-  path, and `weight`, 1 in sum; the first is not always the strongest. `cell_...` are the values without noise.
+- SI units and radians; the unit is in the name of a member. Axes follow ISO 8855: x forward, y left, angles
+  counter-clockwise. Azimuth counts from boresight, left positive; range rate is positive when receding.
+- A frame is known by `scene`, `seed` and `frame`. `objects` is the truth. A target's `contributors` are its label: `object`,
+  `reflector`, `path` and `weight`, 1 in sum; the first is not always the strongest. `cell_...` are values without noise.
 - A scan without targets is a frame all the same. `seed` is text, as it may have 64 bits.
-- `documents/` has the radars and vehicles; `GLINT_DATA=documents glint -c '...'` repeats a command line.
+- `documents/` has the radars and vehicles. `GLINT_DATA=documents glint -c '...'` repeats a command line; paths of recordings
+  are from the folder of the plan.
 - {leak}
 - Frames are made by glint from models; there is no measured data in them.
 
@@ -63,7 +64,10 @@ import torch
 
 
 class Frames(torch.utils.data.IterableDataset):
-    \"\"\"Targets of a frame as rows of range, azimuth, range rate and amplitude, with its truth; each worker reads its own shards.\"\"\"
+    \"\"\"Targets of a frame as rows of range, azimuth, range rate and amplitude, and its objects.
+
+    Each worker reads shards of its own.
+    \"\"\"
 
     def __init__(self, pattern):
         self.paths = sorted(glob.glob(pattern))
@@ -97,8 +101,8 @@ printed = sprintf("%d %d", numel(lines), count)
 ```
 """
 TABLES = """
-- Beside a shard, in `SPLIT/SUITE/NUMBER/`, are its tables (CSV, gzip), which whole numbers join: columns that end in `_key` are
-  unique in the set."""
+- The tables of a shard (CSV, gzip) are in `SPLIT/SUITE/NUMBER/`. Whole numbers join them: columns that end in `_key`, whose
+  values are unique in the set."""
 LEAKS = {None: "The set is one split.",
          "scene": "Splits share no scene: scenes were drawn one by one.",
          "time": "Splits are blocks of time; {gap_s} s between two of them are left out.",

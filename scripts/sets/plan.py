@@ -110,7 +110,8 @@ def check_splits(plan):
         refuse(by == "time" and not {"from_s", "to_s"} <= source.keys(), path, "splits by time need from_s and to_s")
     refuse(by in ("scene", "time") and not shares, "/splits", "shares is missing")
     refuse(by == "recording" and shares, "/splits/shares", "the sources say their splits")
-    refuse(shares and abs(sum(shares.values()) - 1) > 1e-9, "/splits/shares", f"{sum(shares.values())} in sum; expected 1")
+    whole = sum(shares.values())
+    refuse(shares and abs(whole - 1) > 1e-9, "/splits/shares", f"{whole} in sum; expected 1")
     refuse((by == "time") != ("gap_s" in splits) and by, "/splits/gap_s",
            "missing: without a gap, traffic of one split is in the next" if by == "time" else "is for splits by time")
     for name in shares:
@@ -131,7 +132,8 @@ def check_once(plan, path_of, digest_of):
                       else "; one source may have several egos, and a plan several seeds"))
         seen[traffic] = i
         name = scene_of(source)
-        refuse(name in names, f"/sources/{i}", f"its scenes have the names of /sources/{names.get(name)}; give it a scene")
+        refuse(name in names, f"/sources/{i}",
+               f"its scenes have the names of those of /sources/{names.get(name)}; give it a scene")
         names[name] = i
 
 

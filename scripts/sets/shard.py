@@ -90,8 +90,9 @@ def facts_of_table(path):
     with open(path, "rb") as file:
         packed = file.read()
     plain = gzip.decompress(packed)
-    # A cell in quotes may hold the end of a line.
-    lines = plain.count(b"\n") if b'"' not in plain else sum(1 for _ in csv.reader(io.StringIO(plain.decode(), newline="")))
+    lines = plain.count(b"\n")
+    if b'"' in plain:  # a cell in quotes may hold the end of a line
+        lines = sum(1 for _ in csv.reader(io.StringIO(plain.decode(), newline="")))
     return {"rows": lines - 1, "bytes": len(packed), "hash": digest_of(packed), "content_bytes": len(plain),
             "content_hash": digest_of(plain)}
 
@@ -201,6 +202,12 @@ def verify(layout, folder):
     return left
 
 
+def clear_progress():
+    """Takes the line away that the last shard has left."""
+    if sys.stderr.isatty():
+        print(f"\r{'':72}\r", end="", file=sys.stderr, flush=True)
+
+
 def show_progress(layout, folder):
     """The line of progress, from the records that are there."""
     if not sys.stderr.isatty():
@@ -213,4 +220,5 @@ def show_progress(layout, folder):
     left = len(layout["shards"]) - sum(name.startswith("part-") and name.endswith(".json") for name in names)
     done, elapsed_s = begun["missing"] - left, time.time() - begun["time_s"]
     if done > 0 and elapsed_s >= 1:
-        print(f"\r{line_of('shards', done, elapsed_s, done / begun['missing']):72}", end="", file=sys.stderr, flush=True)
+        line = line_of("shards", done, elapsed_s, done / begun["missing"])
+        print(f"\r{line:72}", end="", file=sys.stderr, flush=True)

@@ -90,9 +90,9 @@ def submit(parts, folder, plan_folder):
     make_folder(place)
     quoted = shlex.quote(os.path.abspath(folder))
     write_whole(f"{place}/part.sh", work, BATCH.format(folder=quoted))
-    write_whole(f"{place}/check.sh", work, CHECK.format(folder=quoted, program=shlex.quote(os.path.abspath(sys.argv[0])),
-                                                       plan_folder=shlex.quote(os.path.abspath(plan_folder))))
+    program, plan_folder = (shlex.quote(os.path.abspath(path)) for path in (sys.argv[0], plan_folder))
+    write_whole(f"{place}/check.sh", work, CHECK.format(folder=quoted, program=program, plan_folder=plan_folder))
     ids = [number_of_job(ask(array_words(folder, first, tasks))) for first, tasks in arrays(parts, most_tasks())]
     check = number_of_job(ask(["sbatch", "--parsable", f"--dependency=afterany:{':'.join(ids)}",
                                f"--output={place}/check.out", f"{place}/check.sh"]))
-    print(f"dataset: {len(parts)} shards in arrays {' '.join(ids)}; job {check} checks them; it writes {place}/check.out")
+    print(f"dataset: {len(parts)} shards in arrays {' '.join(ids)}; job {check} checks them: {place}/check.out")

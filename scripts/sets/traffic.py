@@ -1,4 +1,4 @@
-"""The traffic of a data set: which split has which scenes of a source, how they fill shards, and the commands that play them."""
+"""The traffic of a data set: which split has which scenes, how they fill shards, and the commands that play them."""
 import collections
 import shlex
 
@@ -125,7 +125,8 @@ def source_words(stretch):
     if kind == "scenario":
         return [source["scenario"], *scenes]
     if kind == "random":
-        return ["--density", source["random"], "--first", str(stretch.first), "--frames", str(stretch.end - stretch.first)]
+        frames = ["--first", str(stretch.first), "--frames", str(stretch.end - stretch.first)]
+        return ["--density", source["random"], *frames]
     rate = ["--rate-hz", text_of(source["rate_hz"])] if "rate_hz" in source else []
     return ["--density", source["random"], "--seconds", text_of(source["seconds"]), *scenes, *rate]
 
