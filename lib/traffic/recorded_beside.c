@@ -59,39 +59,35 @@ static int take_track(struct reading *reading)
     return 0;
 }
 
-/* Opens a file beside the table, plain or gzip, whose name has these letters in place of "tracks",
- * with which the table's own name ends but for its endings. NULL after a message; *path is the name
- * in either case. */
+/* Opens the file whose name has these letters in place of "tracks", with which the table's own name
+ * ends but for its endings; plain or gzip. NULL after a message; *path is the name in either
+ * case. */
 static struct input *open_beside(const char *table_path, const char *name, const char **path,
                                  const struct reading *reading)
 {
-    static const char tracks[] = "tracks";
-    enum { LETTERS = sizeof tracks - 1 };
-    const char *slash = strrchr(table_path, '/');
-    const char *base = slash != NULL ? slash + 1 : table_path, *ending = base + strcspn(base, ".");
-    struct input *input = NULL;
+    enum { LETTERS = sizeof "tracks" - 1 };
+    const char *slash = strrchr(table_path, '/'), *base = slash != NULL ? slash + 1 : table_path;
+    size_t length = strcspn(base, "."), plain = strlen(base + length);
+    const char *ending = base + length;
     *path = table_path;
-    if (ending - base < LETTERS || memcmp(ending - LETTERS, tracks, LETTERS) != 0) {
+    if (length < LETTERS || memcmp(ending - LETTERS, "tracks", LETTERS) != 0) {
         diag_fail(reading->diag, DIAG_DATA,
                   "expected a table named NN_tracks.csv, to find NN_%s.csv beside it", name);
         return NULL;
     }
-    size_t plain = strlen(ending);
     if (plain > 3 && strcmp(ending + plain - 3, ".gz") == 0)
         plain -= 3;
+    *path = arena_format(reading->arena, "%.*s%s%.*s", (int)(ending - LETTERS - table_path),
+                         table_path, name, (int)plain, ending);
     struct diag fault = {0};
-    for (int packed = 0; packed < 2 && input == NULL; packed++) {
-        struct text text = {0};
-        text_format(&text, "%.*s%s%.*s%s", (int)(ending - LETTERS - table_path), table_path, name,
-                    (int)plain, ending, packed ? ".gz" : "");
-        const char *tried = arena_text(reading->arena, text.bytes, text.length);
-        text_free(&text);
-        input = input_open(tried, &fault);
-        if (input != NULL || !packed)
-            *path = tried;
-    }
+    struct input *input = input_open(*path, &fault);
+    if (input != NULL)
+        return input;
+    const char *packed = arena_format(reading->arena, "%s.gz", *path);
+    input = input_open(packed, reading->diag);
     if (input == NULL)
         *reading->diag = fault;
+    *path = input != NULL ? packed : *path;
     return input;
 }
 

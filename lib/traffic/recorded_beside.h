@@ -22,7 +22,6 @@ struct recorded_track {
 
 struct recorded_beside {
     double rate_hz;
-    const char *tracks_path; /* for messages */
     struct intern ids;
     LIST_OF(struct recorded_track) tracks; /* by the number of the id */
 };

@@ -23,40 +23,25 @@ struct recorded_column {
     const char *name; /* NULL after the last */
     enum { RECORDED_TEXT, RECORDED_TIME, RECORDED_FRAMES, RECORDED_NUMBER } kind;
     enum recorded_need need; /* of several columns of times, one is needed */
-    size_t offset;           /* of the member */
+    size_t offset;           /* of the member, in struct recorded_cells */
     double low, high;        /* of a number in the file */
     double scale, shift;     /* of a time: seconds for 1, which is whole unless it is a second */
 };
 
-#define RECORDED_ID(name_)                                                                         \
+#define RECORDED_COLUMN(name, kind, need, member, low, high, scale, shift)                         \
     {                                                                                              \
-        .name = (name_), .kind = RECORDED_TEXT, .offset = offsetof(struct recorded_row, id)        \
+        name, kind, need, offsetof(struct recorded_cells, member), low, high, scale, shift         \
     }
-#define RECORDED_CLASS(name_, need_)                                                               \
-    {                                                                                              \
-        .name = (name_), .kind = RECORDED_TEXT, .need = (need_),                                   \
-        .offset = offsetof(struct recorded_row, class)                                             \
-    }
-#define RECORDED_TIME_IN(name_, unit_s)                                                            \
-    {                                                                                              \
-        .name = (name_), .kind = RECORDED_TIME, .need = RECORDED_OPTIONAL, .scale = (unit_s)       \
-    }
-#define RECORDED_FRAME(name_)                                                                      \
-    {                                                                                              \
-        .name = (name_), .kind = RECORDED_FRAMES, .high = 1e9, .scale = 1                          \
-    }
-#define RECORDED_ASIDE(name_, index, low_, high_)                                                  \
-    {                                                                                              \
-        .name = (name_), .kind = RECORDED_NUMBER,                                                  \
-        .offset = offsetof(struct recorded_cells, aside[index]), .low = (low_), .high = (high_),   \
-        .scale = 1                                                                                 \
-    }
-#define RECORDED_VALUE(name_, member, need_, low_, high_, scale_, shift_)                          \
-    {                                                                                              \
-        .name = (name_), .kind = RECORDED_NUMBER, .need = (need_),                                 \
-        .offset = offsetof(struct recorded_row, member), .low = (low_), .high = (high_),           \
-        .scale = (scale_), .shift = (shift_)                                                       \
-    }
+#define RECORDED_ID(name) RECORDED_COLUMN(name, RECORDED_TEXT, RECORDED_NEEDED, row.id, 0, 0, 0, 0)
+#define RECORDED_CLASS(name, need) RECORDED_COLUMN(name, RECORDED_TEXT, need, row.class, 0, 0, 0, 0)
+#define RECORDED_TIME_IN(name, unit_s)                                                             \
+    RECORDED_COLUMN(name, RECORDED_TIME, RECORDED_OPTIONAL, row.time_ns, 0, 0, unit_s, 0)
+#define RECORDED_FRAME(name)                                                                       \
+    RECORDED_COLUMN(name, RECORDED_FRAMES, RECORDED_NEEDED, row.time_ns, 0, 1e9, 1, 0)
+#define RECORDED_VALUE(name, member, need, low, high, scale, shift)                                \
+    RECORDED_COLUMN(name, RECORDED_NUMBER, need, row.member, low, high, scale, shift)
+#define RECORDED_ASIDE(name, index, low, high)                                                     \
+    RECORDED_COLUMN(name, RECORDED_NUMBER, RECORDED_NEEDED, aside[index], low, high, 1, 0)
 
 /* One kind of road user in a table. Its first column is the id; a row is of the first kind whose id
  * it has, and has the kind's class if no column says another. All kinds but the first may ride. */

@@ -276,6 +276,42 @@ def esmini_says(folder):
     check(play(save(folder, {"log.csv": plain}), "--ego", "Ego") == frames, "without the lines before the header")
 
 
+def interaction_says(folder):
+    """Pedestrians have neither heading nor size, in a file of their own and beside vehicles."""
+    head, *rows = INTERACTION["vehicle_tracks_000.csv"].splitlines()
+    walker = "P1,{0},{0}00,pedestrian/bicycle,5.0,2.0,0.6,0.8"
+    joined = "\n".join([head, *rows, *(walker.format(frame) + ",,," for frame in (1, 2))])
+    alone = "\n".join([",".join(head.split(",")[:8]), *(walker.format(frame) for frame in (1, 2))])
+    frames = play(save(folder, {"joined.csv": joined}), "--ego", "1")
+    check([len(frame["objects"]) for frame in frames] == [3, 2], "who is there")
+    for frame in (*frames, *play(save(folder, {"alone.csv": alone}), "--ego", "P1")):
+        part = by_id(frame)["P1"]
+        check(part["class"] == "pedestrian" and near(part, yaw_rad=math.atan2(0.8, 0.6), length_m=0, width_m=0), f"{part}")
+    cases = {"val.csv": "case_id," + head + ",track_to_predict\n" + "".join(
+        f"{case},{row},0\n" for case in (1, 2) for row in rows)}
+    text = play(save(folder, cases), "--ego", "1", fails=65)
+    check("row 5: track_id 1 at 0.1 s is in row 2 already" in text, text)
+    save(folder, cases)
+    one = "\n".join(line for i, line in enumerate(cases["val.csv"].splitlines()) if i == 0 or line.startswith("2,"))
+    check(play(save(folder, {"one.csv": one}), "--ego", "1", "--scene", "s") ==
+          play(save(folder, INTERACTION), "--ego", "1", "--scene", "s"), "one case of several")
+
+
+def chains(folder):
+    """From each format to target lists, as the page of traffic does; and at the bounds of places."""
+    for files in (HIGHD, IND, INTERACTION, NGSIM, ESMINI, SUMO):
+        path = save(folder, files)
+        chain = (f"glint-traffic {path} --ego all --radius-m 150 | glint-extract | glint-ideal --sensors lrr77-every-frame "
+                 "| glint-sensor | glint-noise --complete")
+        done = subprocess.run([os.path.join(BIN, "glint"), "-c", chain], capture_output=True, check=False, timeout=60)
+        check(done.returncode == 0, f"{path}: {done.stderr.decode()}")
+        check(done.stdout.count(b"\n") == len(play(path, "--ego", "all")), f"{path}: a list for each frame")
+    far = dict(HIGHD)
+    far["07_tracks.csv"] = far["07_tracks.csv"].replace(",8.0,", ",1e9,").replace(",8.02,", ",1e9,").replace("0.5,0", "0,0")
+    frame = play(save(folder, far), "--ego", "1", "--radius-m", "10")[0]
+    check(frame["origin_y_m"] == -1e9 and frame["objects"][0]["y_m"] == -1, "a place at its bound")
+
+
 def files_beside(folder):
     """Plain or gzip, whatever the table is."""
     plain = play(save(folder, IND), "--ego", "4")
@@ -491,7 +527,7 @@ def bad_input(folder):
 
 def main():
     real_files()
-    for test in (highd_says, ind_says, ngsim_says, esmini_says, files_beside, columns_by_name, memory, bad_input):
+    for test in (highd_says, ind_says, ngsim_says, esmini_says, interaction_says, chains, files_beside, columns_by_name, memory, bad_input):
         with tempfile.TemporaryDirectory() as folder:
             test(folder)
     print(f"tables: {checks} checks hold")

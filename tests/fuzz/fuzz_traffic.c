@@ -1,25 +1,26 @@
 /* Scenarios and recorded tables, played by glint-traffic: the first frames go through the chain. A
- * text that begins with a brace is a scenario, any other a table, whose ego is the first track. */
+ * text that begins with a brace is a scenario, any other a table and the files beside it at once,
+ * of which everybody is an ego. */
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "fuzz/fuzz.h"
 
-/* The name of a table says that it is one, so it needs a file with a name. */
+/* The names of these files say what they are. */
 static void play_table(const uint8_t *bytes, size_t size)
 {
-    char path[64], ego[64] = "1";
-    const char *row = memchr(bytes, '\n', size), *end = (const char *)bytes + size;
-    snprintf(path, sizeof path, "build-fuzz/fuzz_traffic.%ld.csv", (long)getpid());
-    FILE *file = fopen(path, "w");
-    fuzz_must(file != NULL && fwrite(bytes, 1, size, file) == size, "no table in build-fuzz");
-    fclose(file);
-    if (row != NULL && memchr(row, ',', (size_t)(end - row)) != NULL)
-        snprintf(ego, sizeof ego, "%.*s",
-                 (int)((const char *)memchr(row, ',', (size_t)(end - row)) - row - 1), row + 1);
-    fuzz_play("traffic", path, ego);
-    unlink(path);
+    static const char *const names[] = {"tracks", "tracksMeta", "recordingMeta"};
+    enum { FILES = sizeof names / sizeof names[0] };
+    char paths[FILES][64];
+    for (size_t i = 0; i < FILES; i++) {
+        snprintf(paths[i], sizeof paths[i], "build-fuzz/fuzz_%ld_%s.csv", (long)getpid(), names[i]);
+        FILE *file = fopen(paths[i], "w");
+        fuzz_must(file != NULL && fwrite(bytes, 1, size, file) == size, "no table in build-fuzz");
+        fclose(file);
+    }
+    fuzz_play("traffic", paths[0], "all");
+    for (size_t i = 0; i < FILES; i++)
+        unlink(paths[i]);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
