@@ -79,6 +79,18 @@ void detection_quality_estimate(struct detection_source *source,
     }
 }
 
+/* Places and rates to 0.1 mm and 0.1 mm/s, decibels to a thousandth: digits that nobody needs make
+ * long lines. */
+static double to_tenth_of_mm(double value)
+{
+    return round(value * 1e4) / 1e4;
+}
+
+static double to_thousandth(double decibels)
+{
+    return round(decibels * 1e3) / 1e3;
+}
+
 /* A standard deviation with that of rounding to multiples of step. */
 static double rounded_sigma(const struct detection_source *source, double sigma, double step)
 {
@@ -106,13 +118,13 @@ static void add_strength(const struct detection_source *source,
     double reference = suite_amplitude(sensor, measurement->range_m,
                                        elementary_min(fabs(measurement->azimuth_rad), PI / 2), 1);
     if (reference > 0) {
-        quality->rcs_dbsm = 10 + units_amplitude_db(amplitude / reference);
+        quality->rcs_dbsm = to_thousandth(10 + units_amplitude_db(amplitude / reference));
         quality->present |= QUALITY_RCS;
     }
     if (source->noise == 0)
         return;
     double ratio = amplitude / source->noise;
-    quality->snr_db = units_amplitude_db(ratio / sqrt(source->existence.rise));
+    quality->snr_db = to_thousandth(units_amplitude_db(ratio / sqrt(source->existence.rise)));
     struct existence existence = source->existence;
     double expected = units_amplitude_from_db(sensor->prior.snr_db);
     existence.echoes = sensor->prior.echoes;
@@ -158,12 +170,12 @@ static void add_places(const struct frame *frame, const struct target *target,
     const struct object *ego = frame_object(frame, frame->ego);
     struct vec2 sight = vec2_heading(target->azimuth_rad);
     struct vec2 place_m = vec2_scale(target->range_m, sight);
-    quality->x_sensor_m = place_m.x;
-    quality->y_sensor_m = place_m.y;
+    quality->x_sensor_m = to_tenth_of_mm(place_m.x);
+    quality->y_sensor_m = to_tenth_of_mm(place_m.y);
     struct vec2 centre_m = vec2_add((struct vec2){view->mount_x_m, view->mount_y_m},
                                     vec2_turn(place_m, vec2_heading(view->mount_yaw_rad)));
-    quality->x_centre_m = centre_m.x;
-    quality->y_centre_m = quality->y_rear_axle_m = centre_m.y;
+    quality->x_centre_m = to_tenth_of_mm(centre_m.x);
+    quality->y_centre_m = quality->y_rear_axle_m = to_tenth_of_mm(centre_m.y);
     quality->present |= QUALITY_X_SENSOR | QUALITY_Y_SENSOR | QUALITY_X_CENTRE | QUALITY_Y_CENTRE;
     if (ego == NULL)
         return;
@@ -171,11 +183,11 @@ static void add_places(const struct frame *frame, const struct target *target,
     struct sensor_pose pose =
         sensor_pose_on(&motion, view->mount_x_m, view->mount_y_m, view->mount_yaw_rad);
     struct vec2 world_m = vec2_add(pose.position_m, vec2_turn(place_m, pose.boresight));
-    quality->x_rear_axle_m = centre_m.x - rear_axle_x_m(frame, ego);
-    quality->x_world_m = world_m.x;
-    quality->y_world_m = world_m.y;
-    quality->range_rate_over_ground_mps =
-        target->range_rate_mps + vec2_dot(pose.velocity_mps, vec2_turn(sight, pose.boresight));
+    quality->x_rear_axle_m = to_tenth_of_mm(centre_m.x - rear_axle_x_m(frame, ego));
+    quality->x_world_m = to_tenth_of_mm(world_m.x);
+    quality->y_world_m = to_tenth_of_mm(world_m.y);
+    quality->range_rate_over_ground_mps = to_tenth_of_mm(
+        target->range_rate_mps + vec2_dot(pose.velocity_mps, vec2_turn(sight, pose.boresight)));
     quality->present |= QUALITY_X_REAR_AXLE | QUALITY_Y_REAR_AXLE | QUALITY_X_WORLD |
                         QUALITY_Y_WORLD | QUALITY_OVER_GROUND;
 }

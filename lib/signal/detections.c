@@ -238,11 +238,22 @@ static struct effect_measurement measurement_of(const struct detection *detectio
     return measurement;
 }
 
-/* Sets the standard deviations at the signal-to-noise ratio that the sensor measured. */
-static void estimate(const struct detections *detections, struct effect_measurement *measurement)
+/* The power of an echo whose amplitude was measured, over that of the noise in it. */
+static double snr_of(const struct detections *detections, double amplitude)
 {
-    double ratio = measurement->amplitude / detections->noise;
-    double snr = elementary_max(ratio * ratio - 1, 0);
+    double ratio = amplitude / detections->noise;
+    return elementary_max(ratio * ratio - 1, 0);
+}
+
+/* Sets the standard deviations at the signal-to-noise ratios that the sensor measured. */
+static void estimate(const struct detections *detections, const struct detection *detection,
+                     struct effect_measurement *measurement)
+{
+    const struct range_doppler_peak *peak = detection->peak;
+    struct peak_snr snr = {
+        .found = snr_of(detections, peak->amplitude * peak->gain),
+        .in_beam = snr_of(detections, detection->amplitude * peak->gain),
+    };
     struct peak_accuracy accuracy =
         peak_accuracy_of(detections->signal, measurement->azimuth_rad, snr);
     measurement->range_sigma_m = accuracy.range_sigma_m;
@@ -259,7 +270,7 @@ void detections_list(const struct detections *detections, struct frame *frame, c
     for (size_t i = 0; i < count; i++) {
         measurements[i] = measurement_of(&detections->list.items[i]);
         if (frame_carries(frame, CARRY_QUALITY) && detections->noise > 0)
-            estimate(detections, &measurements[i]);
+            estimate(detections, &detections->list.items[i], &measurements[i]);
         effect_measure(noise, EFFECT_STEP_AZIMUTH, &measurements[i]);
     }
     struct detection_source source = {

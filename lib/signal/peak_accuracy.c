@@ -25,21 +25,22 @@ static double element_sigma_rad(const struct beamforming_array *array, double az
 }
 
 struct peak_accuracy peak_accuracy_of(const struct signal_cube *signal, double azimuth_rad,
-                                      double snr)
+                                      struct peak_snr snr)
 {
     const struct sensor *sensor = signal->sensor;
     struct snr_sigma range = {.cell = sensor->cell_range_m,
                               .factor = factors[signal->range_response]};
     struct snr_sigma rate = {.cell = sensor->cell_range_rate_mps,
                              .factor = factors[sensor->waveform.window]};
-    double rate_mps = snr_sigma_of(&rate, snr);
-    double azimuth =
-        signal->array.elements > 0
-            ? element_sigma_rad(&signal->array, azimuth_rad, snr)
-            : monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator, azimuth_rad, snr);
+    double rate_mps = snr_sigma_of(&rate, snr.found);
+    double coupled_m = signal->coupling * signal->range_step_m * rate_mps, azimuth;
+    if (signal->array.elements > 0)
+        azimuth = element_sigma_rad(&signal->array, azimuth_rad, snr.in_beam);
+    else
+        azimuth = monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator, azimuth_rad,
+                                      snr.in_beam);
     return (struct peak_accuracy){
-        .range_sigma_m = elementary_hypot(snr_sigma_of(&range, snr),
-                                          signal->coupling * signal->range_step_m * rate_mps),
+        .range_sigma_m = elementary_hypot(snr_sigma_of(&range, snr.found), coupled_m),
         .range_rate_sigma_mps = rate_mps,
         .azimuth_sigma_rad = elementary_min(azimuth, sensor->field_of_view_rad / sqrt(12)),
     };

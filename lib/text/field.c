@@ -15,8 +15,9 @@ const char *field_unit(const char *name)
     /* Longer endings come first, because "_mps" also ends in "_s". */
     static const char *const units[][2] = {
         {"_mps2", "m/s²"}, {"_radps", "rad/s"}, {"_mmph", "mm/h"}, {"_gpm3", "g/m³"},
-        {"_hzps", "Hz/s"}, {"_dbm", "dBm"},     {"_mps", "m/s"},   {"_rad", "rad"},
-        {"_hz", "Hz"},     {"_db", "dB"},       {"_m", "m"},       {"_s", "s"},
+        {"_hzps", "Hz/s"}, {"_dbsm", "dBsm"},   {"_dbm", "dBm"},   {"_mps", "m/s"},
+        {"_rad", "rad"},   {"_hz", "Hz"},       {"_db", "dB"},     {"_m", "m"},
+        {"_s", "s"},
     };
     size_t length = strlen(name);
     for (size_t i = 0; i < sizeof units / sizeof units[0]; i++) {

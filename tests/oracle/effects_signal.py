@@ -294,4 +294,5 @@ def main():
         sys.exit(1 if bench.failures else 0)
 
 
-main()
+if __name__ == "__main__":
+    main()

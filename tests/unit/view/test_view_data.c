@@ -411,9 +411,26 @@ static void an_empty_stream_has_a_head(void **state)
     release(&packed);
 }
 
+static void columns_of_the_quality_are_those_of_its_table(void **state)
+{
+    (void)state;
+    const struct view_columns columns = {0};
+    struct view_column_place places[COLUMN_COUNT];
+    view_columns_places(&columns, places);
+    const char *prefix = "quality_";
+    enum view_column column = COLUMN_QUALITY_SNR_DB;
+    for (const struct field *field = quality_record.fields; field->name != NULL;
+         field++, column++) {
+        assert_int_equal(strncmp(places[column].name, prefix, strlen(prefix)), 0);
+        assert_string_equal(places[column].name + strlen(prefix), field->name);
+    }
+    assert_int_equal(column, COLUMN_COUNT);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(columns_of_the_quality_are_those_of_its_table),
         cmocka_unit_test(the_columns_hold_what_the_frames_held),
         cmocka_unit_test(a_sensor_that_stays_the_same_is_listed_once),
         cmocka_unit_test(a_sensor_stands_and_moves_with_its_mount),
