@@ -40,13 +40,7 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
     size_t count = measure_cells(frame, &context, cells, measurements);
     for (size_t i = 0; i < alarms.count; i++)
         measurements[count++] = effect_measurement_of(NULL, &alarms.items[i]);
-    struct detection_source source = {
-        .sensor = sensor,
-        .scan = &context,
-        .noise = sensor->pointer_sigma,
-        .existence.rise = detection_quality_rise(cells),
-        .range_rate_interval_mps = 2 * sensor->unambiguous_rate_mps,
-    };
+    struct detection_source source = detection_quality_source(sensor, cells, &context);
     if (frame_carries(frame, CARRY_QUALITY))
         detection_quality_estimate(&source, measurements, count);
     target_list_make(frame, "noise", &source, measurements, count);

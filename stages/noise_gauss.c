@@ -35,12 +35,7 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
         arena_get(frame->arena, cells.count * sizeof *measurements);
     for (size_t i = 0; i < cells.count; i++)
         measurements[i] = measure(frame, sensor, &cells.items[i]);
-    struct detection_source source = {
-        .sensor = sensor,
-        .noise = sensor->pointer_sigma,
-        .existence.rise = detection_quality_rise(cells),
-        .range_rate_interval_mps = 2 * sensor->unambiguous_rate_mps,
-    };
+    struct detection_source source = detection_quality_source(sensor, cells, NULL);
     target_list_make(frame, "noise-gauss", &source, measurements, cells.count);
 }
 

@@ -11,12 +11,7 @@ static void list_targets(struct frame *frame, const struct sensor *sensor,
         arena_get(frame->arena, cells.count * sizeof *measurements);
     for (size_t i = 0; i < cells.count; i++)
         measurements[i] = effect_measurement_of(NULL, &cells.items[i]);
-    struct detection_source source = {
-        .sensor = sensor,
-        .noise = sensor->pointer_sigma,
-        .existence.rise = detection_quality_rise(cells),
-        .range_rate_interval_mps = 2 * sensor->unambiguous_rate_mps,
-    };
+    struct detection_source source = detection_quality_source(sensor, cells, NULL);
     target_list_make(frame, "noise-none", &source, measurements, cells.count);
 }
 

@@ -10,37 +10,36 @@
 /* Behind the centre of the box, in its lengths: that of a car of 4.5 m (MODEL 2.1). */
 #define REAR_AXLE (1.25 / 4.5)
 
-double detection_quality_rise(struct cell_span cells)
+struct detection_source detection_quality_source(const struct sensor *sensor,
+                                                 struct cell_span cells,
+                                                 const struct effect_scan *scan)
 {
     double interference = 0;
     for (size_t i = 0; i < cells.count; i++)
         interference = elementary_max(interference, cells.items[i].interference);
-    return 1 + interference;
+    return (struct detection_source){.sensor = sensor,
+                                     .scan = scan,
+                                     .noise = sensor->pointer_sigma,
+                                     .existence.rise = 1 + interference,
+                                     .range_rate_interval_mps = 2 * sensor->unambiguous_rate_mps};
 }
 
-/* The amplitude that was measured, less the mean power of the noise in it, over the rise of the
- * noise. */
-static double strength_of(const struct effect_measurement *measurement, double noise, double rise)
-{
-    double power = measurement->amplitude * measurement->amplitude - noise * noise;
-    return sqrt(elementary_max(power, 0) / rise);
-}
-
+/* The amplitude counts less the mean power of the noise in it, and over the rise of the noise. */
 static void estimate_range(const struct detection_source *source,
                            struct effect_measurement *measurement, double noise)
 {
     const struct sensor *sensor = source->sensor;
-    if (!effect_simulates(source->scan, EFFECT_RANGE_NOISE))
-        return;
-    measurement->range_sigma_m = sensor->range_sigma_m;
-    measurement->range_rate_sigma_mps = sensor->range_rate_sigma_mps;
-    if (!effect_simulates(source->scan, EFFECT_ACCURACY))
-        return;
-    double strength = strength_of(measurement, noise, source->existence.rise);
-    measurement->range_sigma_m =
-        suite_sigma(sensor, strength, sensor->cell_range_m, sensor->range_sigma_m);
-    measurement->range_rate_sigma_mps =
-        suite_sigma(sensor, strength, sensor->cell_range_rate_mps, sensor->range_rate_sigma_mps);
+    double amplitude = measurement->amplitude;
+    double power = elementary_max(amplitude * amplitude - noise * noise, 0);
+    double strength = sqrt(power / source->existence.rise);
+    double range_m = sensor->range_sigma_m, rate_mps = sensor->range_rate_sigma_mps;
+    bool noisy = effect_simulates(source->scan, EFFECT_RANGE_NOISE);
+    if (effect_simulates(source->scan, EFFECT_ACCURACY)) {
+        range_m = suite_sigma(sensor, strength, sensor->cell_range_m, range_m);
+        rate_mps = suite_sigma(sensor, strength, sensor->cell_range_rate_mps, rate_mps);
+    }
+    measurement->range_sigma_m = noisy ? range_m : 0;
+    measurement->range_rate_sigma_mps = noisy ? rate_mps : 0;
 }
 
 /* At most that of an azimuth anywhere in the field of view. */
@@ -61,34 +60,25 @@ static void estimate_azimuth(const struct detection_source *source,
 void detection_quality_estimate(struct detection_source *source,
                                 struct effect_measurement *measurements, size_t count)
 {
-    const struct sensor *sensor = source->sensor;
     struct existence *existence = &source->existence;
-    double least = sensor->threshold / source->noise;
+    double least = source->sensor->threshold / source->noise, noise = 0;
     existence->least_false_alarm = least * least;
     if (effect_simulates(source->scan, EFFECT_FALSE_ALARMS))
-        existence->false_alarms = sensor->false_alarms;
+        existence->false_alarms = source->sensor->false_alarms;
     if (effect_simulates(source->scan, EFFECT_FINAL_THRESHOLD))
         existence->least_echo = existence->least_false_alarm * existence->rise;
-    double noise = 0;
     if (effect_simulates(source->scan, EFFECT_ANGLE_NOISE))
         noise = source->noise * sqrt(existence->rise);
     for (size_t i = 0; i < count; i++) {
-        measurements[i].range_sigma_m = measurements[i].range_rate_sigma_mps = 0;
         estimate_range(source, &measurements[i], noise);
         estimate_azimuth(source, &measurements[i], noise);
     }
 }
 
-/* Places and rates to 0.1 mm and 0.1 mm/s, decibels to a thousandth: digits that nobody needs make
- * long lines. */
-static double to_tenth_of_mm(double value)
+/* Digits that nobody needs make long lines. */
+static double to_part(double value, double parts)
 {
-    return round(value * 1e4) / 1e4;
-}
-
-static double to_thousandth(double decibels)
-{
-    return round(decibels * 1e3) / 1e3;
+    return round(value * parts) / parts;
 }
 
 /* A standard deviation with that of rounding to multiples of step. */
@@ -98,8 +88,8 @@ static double rounded_sigma(const struct detection_source *source, double sigma,
     return rounds ? elementary_hypot(sigma, step / sqrt(12)) : sigma;
 }
 
-static void add_accuracy(const struct detection_source *source,
-                         const struct effect_measurement *measurement, struct quality *quality)
+static void add_errors(const struct detection_source *source,
+                       const struct effect_measurement *measurement, struct quality *quality)
 {
     const struct sensor *sensor = source->sensor;
     quality->range_sd_m = rounded_sigma(source, measurement->range_sigma_m, sensor->range_step_m);
@@ -107,34 +97,34 @@ static void add_accuracy(const struct detection_source *source,
         rounded_sigma(source, measurement->range_rate_sigma_mps, sensor->range_rate_step_mps);
     quality->azimuth_sd_rad =
         rounded_sigma(source, measurement->azimuth_sigma_rad, sensor->azimuth_step_rad);
-    quality->present |= QUALITY_RANGE | QUALITY_RANGE_RATE | QUALITY_AZIMUTH;
+    quality->present |= QUALITY_ERRORS;
 }
 
 static void add_strength(const struct detection_source *source,
                          const struct effect_measurement *measurement, struct quality *quality)
 {
     const struct sensor *sensor = source->sensor;
-    double amplitude = measurement->amplitude;
-    double reference = suite_amplitude(sensor, measurement->range_m,
-                                       elementary_min(fabs(measurement->azimuth_rad), PI / 2), 1);
+    double ratio = measurement->amplitude / source->noise;
+    double expected = units_amplitude_from_db(sensor->prior.snr_db);
+    double azimuth_rad = elementary_min(fabs(measurement->azimuth_rad), PI / 2);
+    double reference = suite_amplitude(sensor, measurement->range_m, azimuth_rad, 1);
+    struct existence existence = source->existence;
     if (reference > 0) {
-        quality->rcs_dbsm = to_thousandth(10 + units_amplitude_db(amplitude / reference));
+        quality->rcs_dbsm =
+            to_part(10 + units_amplitude_db(measurement->amplitude / reference), 1e3);
         quality->present |= QUALITY_RCS;
     }
     if (source->noise == 0)
         return;
-    double ratio = amplitude / source->noise;
-    quality->snr_db = to_thousandth(units_amplitude_db(ratio / sqrt(source->existence.rise)));
-    struct existence existence = source->existence;
-    double expected = units_amplitude_from_db(sensor->prior.snr_db);
     existence.echoes = sensor->prior.echoes;
     existence.snr = expected * expected;
+    quality->snr_db = to_part(units_amplitude_db(ratio / sqrt(existence.rise)), 1e3);
     quality->existence = existence_probability(&existence, ratio * ratio);
-    quality->present |= QUALITY_SNR | QUALITY_EXISTENCE;
+    quality->present |= QUALITY_NOISE;
 }
 
-static void add_label(const struct detection_source *source, const struct target *target,
-                      struct quality *quality)
+static void add_labels(const struct detection_source *source, const struct target *target,
+                       struct quality *quality)
 {
     const struct contributor *parts = target->contributors.items;
     double interval_mps = source->range_rate_interval_mps;
@@ -144,13 +134,13 @@ static void add_label(const struct detection_source *source, const struct target
         quality->merged_reflectors |=
             !same || !frame_same_name(parts[i].id.reflector, parts[0].id.reflector);
     }
-    quality->present |= QUALITY_OBJECTS | QUALITY_REFLECTORS;
+    quality->present |= QUALITY_MERGED;
     if (interval_mps == 0)
         return;
     double excess_mps = frame_strongest(target)->range_rate_mps - target->range_rate_mps;
     quality->range_rate_interval_mps = interval_mps;
     quality->ambiguity_number = (int64_t)round(excess_mps / interval_mps);
-    quality->present |= QUALITY_INTERVAL | QUALITY_AMBIGUITY;
+    quality->present |= QUALITY_FOLDS;
 }
 
 static double rear_axle_x_m(const struct frame *frame, const struct object *ego)
@@ -162,34 +152,34 @@ static double rear_axle_x_m(const struct frame *frame, const struct object *ego)
     return -REAR_AXLE * ego->length_m;
 }
 
-/* Places, and the range rate over ground, at the instant that the scan shows. */
+/* To 0.1 mm and 0.1 mm/s, at the instant that the scan shows. */
 static void add_places(const struct frame *frame, const struct target *target,
                        struct quality *quality)
 {
+    const double parts = 1e4;
     const struct sensor_view *view = frame_view(frame, target->sensor);
     const struct object *ego = frame_object(frame, frame->ego);
     struct vec2 sight = vec2_heading(target->azimuth_rad);
     struct vec2 place_m = vec2_scale(target->range_m, sight);
-    quality->x_sensor_m = to_tenth_of_mm(place_m.x);
-    quality->y_sensor_m = to_tenth_of_mm(place_m.y);
     struct vec2 centre_m = vec2_add((struct vec2){view->mount_x_m, view->mount_y_m},
                                     vec2_turn(place_m, vec2_heading(view->mount_yaw_rad)));
-    quality->x_centre_m = to_tenth_of_mm(centre_m.x);
-    quality->y_centre_m = quality->y_rear_axle_m = to_tenth_of_mm(centre_m.y);
-    quality->present |= QUALITY_X_SENSOR | QUALITY_Y_SENSOR | QUALITY_X_CENTRE | QUALITY_Y_CENTRE;
+    quality->x_sensor_m = to_part(place_m.x, parts);
+    quality->y_sensor_m = to_part(place_m.y, parts);
+    quality->x_centre_m = to_part(centre_m.x, parts);
+    quality->y_centre_m = quality->y_rear_axle_m = to_part(centre_m.y, parts);
+    quality->present |= QUALITY_MOUNT;
     if (ego == NULL)
         return;
     struct motion motion = frame_motion(ego, view->age_s);
     struct sensor_pose pose =
         sensor_pose_on(&motion, view->mount_x_m, view->mount_y_m, view->mount_yaw_rad);
     struct vec2 world_m = vec2_add(pose.position_m, vec2_turn(place_m, pose.boresight));
-    quality->x_rear_axle_m = to_tenth_of_mm(centre_m.x - rear_axle_x_m(frame, ego));
-    quality->x_world_m = to_tenth_of_mm(world_m.x);
-    quality->y_world_m = to_tenth_of_mm(world_m.y);
-    quality->range_rate_over_ground_mps = to_tenth_of_mm(
-        target->range_rate_mps + vec2_dot(pose.velocity_mps, vec2_turn(sight, pose.boresight)));
-    quality->present |= QUALITY_X_REAR_AXLE | QUALITY_Y_REAR_AXLE | QUALITY_X_WORLD |
-                        QUALITY_Y_WORLD | QUALITY_OVER_GROUND;
+    double own_mps = vec2_dot(pose.velocity_mps, vec2_turn(sight, pose.boresight));
+    quality->x_rear_axle_m = to_part(centre_m.x - rear_axle_x_m(frame, ego), parts);
+    quality->x_world_m = to_part(world_m.x, parts);
+    quality->y_world_m = to_part(world_m.y, parts);
+    quality->range_rate_over_ground_mps = to_part(target->range_rate_mps + own_mps, parts);
+    quality->present |= QUALITY_EGO;
 }
 
 struct quality detection_quality_of(const struct detection_source *source,
@@ -198,8 +188,8 @@ struct quality detection_quality_of(const struct detection_source *source,
 {
     struct quality quality = {0};
     add_strength(source, measurement, &quality);
-    add_accuracy(source, measurement, &quality);
-    add_label(source, target, &quality);
+    add_errors(source, measurement, &quality);
+    add_labels(source, target, &quality);
     add_places(frame, target, &quality);
     return quality;
 }

@@ -14,9 +14,11 @@ struct detection_source {
     double range_rate_interval_mps; /* rates this far apart read alike; 0: none do */
 };
 
-/* The rise of the noise's power by other radars, which the cells of a scan tell: they are heard in
- * the whole scan, so in its false alarms too. 1 where no cell does. */
-double detection_quality_rise(struct cell_span cells);
+/* The source of cells, without false alarms. Other radars, which the cells tell, are heard in the
+ * whole scan. */
+struct detection_source detection_quality_source(const struct sensor *sensor,
+                                                 struct cell_span cells,
+                                                 const struct effect_scan *scan);
 
 /* For glint-noise: sets the false alarms and the thresholds, and gives the measurements the
  * standard deviations of its noise as far as the sensor knows, by the amplitude that it measured in

@@ -155,7 +155,7 @@ static void margins_that_are_left_out_go_at_once(void **state)
 static void quality_that_is_left_out_goes_at_once(void **state)
 {
     (void)state;
-    struct target target = {.quality = {.snr_db = 20, .present = QUALITY_SNR}};
+    struct target target = {.quality = {.snr_db = 20, .present = QUALITY_NOISE}};
     struct frame frame = {.sections = CARRY_QUALITY};
     struct sections_change change;
     struct diag diag = {0};

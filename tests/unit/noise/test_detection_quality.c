@@ -32,14 +32,14 @@ static struct target target_of(const struct effect_measurement *measurement, siz
     return target;
 }
 
-static struct quality quality_of(struct effect_bench *bench, struct detection_source *source,
+static struct quality quality_of(struct effect_bench *bench, const struct detection_source *source,
                                  const struct effect_measurement *measurement,
                                  const struct target *target)
 {
-    source->sensor = &bench->sensor;
-    source->noise = bench->sensor.pointer_sigma;
-    source->existence.rise = detection_quality_rise((struct cell_span){measurement->cell, 1});
-    return detection_quality_of(source, measurement, target, &bench->frame);
+    struct detection_source whole = detection_quality_source(
+        &bench->sensor, (struct cell_span){measurement->cell, 1}, source->scan);
+    whole.range_rate_interval_mps = source->range_rate_interval_mps;
+    return detection_quality_of(&whole, measurement, target, &bench->frame);
 }
 
 /* The bench's amplitude is ERCS A_phi (10 m/R)^2, so 40 at 20 m is that of an ERCS of 160/A_phi.
@@ -59,7 +59,7 @@ static void strength_is_over_noise_and_over_a_reflector_of_ten_square_metres(voi
     assert_close(quality.snr_db, 22.0412, 6e-4);
     bench->sensor.pointer_sigma = 0;
     quality = quality_of(bench, &source, &measurement, &target);
-    assert_int_equal(quality.present & (QUALITY_SNR | QUALITY_EXISTENCE), 0);
+    assert_int_equal(quality.present & QUALITY_NOISE, 0);
 }
 
 /* The ego heads north at 20 m/s and turns left at 0.1 rad/s; the sensor is 2 m ahead and 1 m to the
@@ -135,7 +135,7 @@ static void the_label_tells_folds_and_merged_echoes(void **state)
     assert_true(quality.merged_objects && quality.merged_reflectors);
     source.range_rate_interval_mps = 0;
     quality = quality_of(bench, &source, &measurement, &target);
-    assert_int_equal(quality.present & (QUALITY_INTERVAL | QUALITY_AMBIGUITY), 0);
+    assert_int_equal(quality.present & QUALITY_FOLDS, 0);
 }
 
 static struct effect_measurement estimated(struct effect_bench *bench,
