@@ -67,6 +67,21 @@ class Signed:
         return "(" + ", ".join(f'"{mark:g}{suffix}" {self.at(mark):.6g}' for mark in marks) + ")"
 
 
+class Linear:
+    """From zero."""
+
+    def __init__(self, values):
+        self.range = (0, max(values) * 1.05)
+        self.step = next(mark for mark in steps(1e-6, 1e6) if mark >= self.range[1] / 8)
+
+    def at(self, value):
+        return value
+
+    def tics(self, suffix=""):
+        return "(" + ", ".join(f'"{mark * self.step:g}{suffix}" {mark * self.step:.6g}'
+                               for mark in range(int(self.range[1] / self.step) + 1)) + ")"
+
+
 class Rows:
     """One row for each name, the first on top."""
 
@@ -261,6 +276,34 @@ def knob_panel(rows, group, x, y, least, size, frame, texts):
         panel.series([(row[x], row[y]) for row in of], colour, title=f"{radar} range" if radar else None)
     panel.names(names, bars)
     return panel
+
+
+def tracker_page(rows, path):
+    """The score on each rung, and below it what effects change."""
+    rungs, own = pick(rows, group="models"), [row for row in rows if row["group"] != "models" and "change" in row]
+    shown = {}
+    for row in own:
+        if row["change_low"] > 0 or row["change_high"] < 0:
+            shown[row["chain"]] = max(shown.get(row["chain"], 0), abs(row["change"]))
+    names = sorted(shown, key=lambda name: -shown[name])
+    own = [row for row in own if row["chain"] in shown]
+    middle = 60 + 24 * len(names)
+    size = (WIDTH, middle + 24 * len(rungs) + 210)
+    ladder = Panel(size, Box(170, 830, middle + 130, size[1] - 65), Linear([row["high"] for row in rungs]),
+                   Rows([row["chain"] for row in rungs]),
+                   ("What a tracker makes of each chain", "GOSPA of its tracks, m, with 95 % interval", ""))
+    ladder.bars([(row["gospa"], place, row["low"], row["high"]) for place, row in enumerate(rungs)], BLUE, False)
+    ladder.series([(row["gospa"], place) for place, row in enumerate(rungs)], BLUE)
+    effects = Panel(size, Box(170, 830, 60, middle),
+                    Signed([row[key] for row in own for key in ("change_low", "change_high")] or [1]), Rows(names),
+                    ("What an effect adds to it, with its 95 % interval", "m", ""))
+    effects.more.append(f"set arrow from 0, graph 0 to 0, graph 1 nohead lw 0.5 lc rgb \"{GREY}\"")
+    for group, colour, shift, title in (("added", BLUE, -0.16, "added to the paper's"),
+                                        ("left out", ORANGE, 0.16, "in all others")):
+        at = [(row, names.index(row["chain"]) + shift) for row in own if row["group"] == group]
+        effects.bars([(row["change"], y, row["change_low"], row["change_high"]) for row, y in at], colour, False)
+        effects.series([(row["change"], y) for row, y in at], colour, title=title)
+    page(path, size, [ladder, effects])
 
 
 FRAME, ANGLE = "CPU time of a frame, µs", "CPU time of an angle, µs"
