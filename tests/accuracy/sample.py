@@ -1,4 +1,6 @@
 """What scripts/test checks of scripts/accuracy-cost with few frames and seeds."""
+import json
+import os
 import random
 import statistics
 import sys
@@ -8,7 +10,9 @@ import chains
 import errors
 import knobs
 import scenes
+import tracking
 import written
+from progress import Progress
 from written import RADARS, pick
 
 
@@ -104,6 +108,30 @@ def settings(checks, radar, cache):
     checks.hold(all(few >= many for few, many in zip(off, off[1:])) and off[-1] == 0, f"digits: GOSPA {off}")
 
 
+SILENT = """python3 -c '
+import json, sys
+for line in sys.stdin:
+    frame = json.loads(line)
+    print(json.dumps({"scene": frame["scene"], "frame": frame["frame"], "tracks": []}))'"""
+
+
+def tracker(checks, radar, cache):
+    """A tracker without tracks misses all: GOSPA is the same on every rung, the root of half the square of the
+    cut-off of 5 m for each road user in view (order 2, alpha 2). The tracker of scripts/ does better."""
+    rungs = [chain for chain in chains.models(radar) if chain.name in ("perfect", "paper")]
+    seen = [tracking.weathered(0, scenes.played("glint-traffic cut-in")[::5])]
+    progress = Progress("rungs")
+    silent = tracking.rows(cache, SILENT, progress, rungs, seen)
+    ours = tracking.rows(cache, os.path.join(chains.ROOT, "scripts", "tracker"), progress, rungs, seen)
+    lists = rungs[0].lists(cache, cache.text(".jsonl", "".join(json.dumps(frame) + "\n" for frame in seen[0])))
+    lines = tracking.scored(cache, lists, SILENT)
+    expected = statistics.fmean((12.5 * line["all"]["true_count"]) ** 0.5 for line in lines)
+    checks.hold(all(abs(row["gospa"] - expected) < 1e-9 and row["missed"] == 100 for row in silent) and expected > 1,
+                f"without tracks GOSPA is {silent[0]['gospa']}, expected {expected}")
+    checks.hold(silent[1]["change"] == 0, f"without tracks a chain changes GOSPA by {silent[1]['change']}")
+    checks.hold(ours[0]["gospa"] < 0.8 * expected, f"on ideal echoes the tracker has {ours[0]['gospa']:.3g} m")
+
+
 def check(tables):
     checks = Checks()
     with tempfile.TemporaryDirectory() as place:
@@ -113,6 +141,7 @@ def check(tables):
             up_to_date(checks, tables.cost, radar, cache)
             order(checks, radar, cache)
         settings(checks, radar, cache)
+        tracker(checks, radar, cache)
     angles = {name: off for name, _, off in knobs.angles(1)}
     checks.hold(angles["closed form"] <= angles["65536"] <= 1e-6 * angles["16"], f"tables of angles: {angles}")
     coverage(checks)

@@ -76,7 +76,7 @@ def mean_with_interval(values, resamples):
 
 
 def row_of(chain, score, base, resamples):
-    """change is what the better-described side adds: of an effect left out, that of the chain that has it."""
+    """change is what the chain adds to its base; of an effect that is left out, what the effect adds."""
     row = {"group": chain.group, "chain": chain.name, "scenes": len(score.gospa), "frames": score.frames,
            "missed": 100 * score.count["missed"] / score.count["true"],
            "false": 100 * score.count["false"] / max(1, score.count["listed"]),
@@ -89,16 +89,19 @@ def row_of(chain, score, base, resamples):
     return row
 
 
-def rows(cache, command, progress):
-    """A row for each rung of the ladder, each effect added to the paper's, and each left out of all."""
-    radar = scenes.Radar("long", cache, few=True)
-    frames = cache.text(".jsonl", "".join(json.dumps(frame) + "\n" for drive in drives(radar.plan) for frame in drive))
-    every = [chain for chain in chains.models(radar) if chain.name in RUNGS]
-    every += chains.added(radar) + chains.left_out(radar)
+def ladder(radar):
+    """Each rung, each effect added to the paper's, and each left out of all."""
+    rungs = [chain for chain in chains.models(radar) if chain.name in RUNGS]
+    return rungs + chains.added(radar) + chains.left_out(radar)
+
+
+def rows(cache, command, progress, every, seen):
+    """A row for each chain, over the drives that are seen."""
+    frames = cache.text(".jsonl", "".join(json.dumps(frame) + "\n" for drive in seen for frame in drive))
     scores = {}
     for chain in progress.over(every, len(every)):
         scores[chain.group, chain.name] = Score(scored(cache, chain.lists(cache, frames), command))
-    resamples = Resamples(len(scores["models", "perfect"].gospa))
+    resamples = Resamples(len(next(iter(scores.values())).gospa))
     return [row_of(chain, scores[chain.group, chain.name], scores.get(("models", chain.base)), resamples)
             for chain in every]
 
@@ -109,5 +112,7 @@ def read(folder):
 
 def measure(cache, command, folder, progress):
     """Writes tracker.csv, and returns its rows."""
-    written.write_csv(rows(cache, command, progress), COLUMNS, os.path.join(folder, "tracker.csv"))
+    radar = scenes.Radar("long", cache, few=True)
+    found = rows(cache, command, progress, ladder(radar), drives(radar.plan))
+    written.write_csv(found, COLUMNS, os.path.join(folder, "tracker.csv"))
     return read(folder)
