@@ -36,7 +36,7 @@ static int take_recording(struct reading *reading)
     if (reading->beside->rate_hz != 0)
         return diag_fail(reading->diag, DIAG_DATA, "row %zu: a second recording; expected one",
                          reading->row->numbers[0]);
-    return take_number(reading, "frameRate", 1e-3, 1e6, &reading->beside->rate_hz);
+    return take_number(reading, "frameRate", 1, 1e6, &reading->beside->rate_hz);
 }
 
 static int take_track(struct reading *reading)

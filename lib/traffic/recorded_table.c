@@ -167,14 +167,14 @@ static int refuse(const struct recorded_table *table, size_t place, const char *
 }
 
 static int read_cell(const struct recorded_table *table, const struct recorded_column *column,
-                     size_t place, struct recorded_row *row, struct diag *diag)
+                     size_t place, struct recorded_cells *cells, struct diag *diag)
 {
     const char *text = csv_table_cell(table->rows, table->row, place);
     double most_s = 9e9 / column->scale, value;
     if (column->kind == RECORDED_TEXT) {
         if (!recorded_row_name_fits(text))
             return refuse(table, place, "\"; expected 1 to 1024 printable ASCII characters", diag);
-        memcpy((char *)row + column->offset, &text, sizeof text);
+        memcpy((char *)cells + column->offset, &text, sizeof text);
         return 0;
     }
     bool time = column->kind == RECORDED_TIME;
@@ -185,12 +185,12 @@ static int read_cell(const struct recorded_table *table, const struct recorded_c
     if ((frames || (time && column->scale < 1)) && value != floor(value))
         return refuse(table, place, " is not a whole number", diag);
     if (time)
-        row->time_ns = recorded_row_time_ns(value, column->scale);
+        cells->row.time_ns = recorded_row_time_ns(value, column->scale);
     if (frames)
-        row->time_ns = (int64_t)round(value / table->beside.rate_hz * 1e9);
+        cells->row.time_ns = (int64_t)round(value / table->beside.rate_hz * 1e9);
     value = column->scale * (value + column->shift) + 0.0; /* never -0 */
     if (!time && !frames)
-        memcpy((char *)row + column->offset, &value, sizeof value);
+        memcpy((char *)cells + column->offset, &value, sizeof value);
     return 0;
 }
 
@@ -226,7 +226,7 @@ static int read_part(const struct recorded_table *table, const struct part *part
         bool skipped = columns[i].kind == RECORDED_TIME
                            ? at == ABSENT
                            : columns[i].need != RECORDED_NEEDED && is_empty(table, at);
-        if (!skipped && read_cell(table, &columns[i], (size_t)at, &cells.row, diag) != 0)
+        if (!skipped && read_cell(table, &columns[i], (size_t)at, &cells, diag) != 0)
             return -1;
     }
     if (table->layout->beside.id != NULL && find_track(table, part, &cells.row, diag) != 0)

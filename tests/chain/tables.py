@@ -410,7 +410,7 @@ def beside_cases(stem, id_name, track):
         (recording, "", None, f"{recording}: No such file or directory"),
         (recording, "frameRate", "rate", f'{recording}: column "frameRate" is missing; the header is: '),
         (recording, "25", "fast", f'{recording}: row 2, column "frameRate": "fast" is not a number'),
-        (recording, "25", "0", f'{recording}: row 2, column "frameRate": 0 is outside [0.001, 1e+06]'),
+        (recording, "25", "0", f'{recording}: row 2, column "frameRate": 0 is outside [1, 1e+06]'),
         (recording, "\n", "\n" + "1,25,25\n" if stem == "18" else "\n7,25,2,x\n",
          f"{recording}: row 3: a second recording; expected one"),
         (tracks, "class", "kind", f'{tracks}: column "class" is missing'),

@@ -92,9 +92,18 @@ def columns(_, folder, size):
     return f"glint-traffic {path} --ego 1"
 
 
+def users(_, folder, size):
+    """Road users in a row of esmini's log."""
+    names = ("Entity_Name [-],bb_x [m],bb_y [m],bb_length [m],bb_width [m],bb_height [m],World_Position_X [m],"
+             "World_Position_Y [m],Vel_X [m/s],Vel_Y [m/s],World_Heading_Angle [rad],Heading_Angle_Rate [rad/s]").split(",")
+    header = ["TimeStamp [s]"] + [f"#{i + 1} {name}" for i in range(size) for name in names]
+    row = ["0"] + [f"u{i},1.4,0,5,2,1.5,{10 * i},0,20,0,0.1,0" for i in range(size)]
+    return f"glint-traffic {write(folder, f'users-{size}.csv', ','.join(header), ','.join(row))} --ego u0"
+
+
 # Each with the size that the bench times and the size from which the guard doubles twice.
 CASES = [(objects, 16000, 1000), (objects_in_full, 4000, 500), (speeds, 8000, 1000), (cells, 8000, 1000),
-         (sensors, 10000, 100), (ids, 3000, 1000), (columns, 3000, 3000)]
+         (sensors, 10000, 100), (ids, 3000, 1000), (columns, 3000, 3000), (users, 1000, 250)]
 
 
 def cpu_s(glint, text):
