@@ -7,7 +7,7 @@
 
 /* A document of SUMO that is being read: floating car data, or types. */
 struct document {
-    struct xml_rows xml;
+    struct xml_rows xml;              /* first, as the format's functions take it */
     struct recorded_classes *classes; /* to which types are added */
     int64_t time_ns;                  /* of the step that is open */
     int64_t whole_ns;                 /* of the last step that is whole */
@@ -25,17 +25,19 @@ struct traffic_sumo {
 
 /* ---- attributes ---- */
 
-static void fail(struct document *document, const char *what, const char *value,
-                 const char *expectation)
-{
-    xml_rows_fail(&document->xml, what, value, expectation);
-}
-
 static bool read_number(struct document *document, const char **attributes, const char *name,
                         double low, double high, double *value)
 {
     return xml_rows_number(&document->xml, name, xml_rows_attribute(attributes, name), low, high,
                            value);
+}
+
+/* The same of an attribute that may be missing. */
+static bool read_optional(struct document *document, const char **attributes, const char *name,
+                          double low, double high, double *value)
+{
+    return xml_rows_attribute(attributes, name) == NULL ||
+           read_number(document, attributes, name, low, high, value);
 }
 
 static const char *read_name(struct document *document, const char **attributes, const char *name,
@@ -50,7 +52,7 @@ static void begin_step(struct document *document, const char **attributes)
 {
     double time_s;
     if (document->in_step)
-        fail(document, "<timestep>", NULL, "none within another");
+        xml_rows_fail(&document->xml, "<timestep>", NULL, "none within another");
     else if (read_number(document, attributes, "time", -9e9, 9e9, &time_s)) {
         document->time_ns = recorded_row_time_ns(time_s, 1);
         document->in_step = true;
@@ -65,7 +67,7 @@ static void add_row(struct document *document, const char **attributes, const ch
     row.ahead = 0.5; /* the place is the middle of the front bumper */
     row.passenger = !document->in_vehicle;
     if (!document->in_step) {
-        fail(document, "<timestep>", NULL, "one around road users");
+        xml_rows_fail(&document->xml, "<timestep>", NULL, "one around road users");
         return;
     }
     row.time_ns = document->time_ns;
@@ -73,10 +75,8 @@ static void add_row(struct document *document, const char **attributes, const ch
     row.id = read_name(document, attributes, "id", &document->xml.arena);
     if (row.id == NULL || !read_number(document, attributes, "x", -1e9, 1e9, &row.x_m) ||
         !read_number(document, attributes, "y", -1e9, 1e9, &row.y_m) ||
-        !read_number(document, attributes, "angle", -1e3, 1e3, &angle_deg))
-        return;
-    if (xml_rows_attribute(attributes, "speed") != NULL &&
-        !read_number(document, attributes, "speed", -1e4, 1e4, &row.speed_mps))
+        !read_number(document, attributes, "angle", -1e3, 1e3, &angle_deg) ||
+        !read_optional(document, attributes, "speed", -1e4, 1e4, &row.speed_mps))
         return;
     if (xml_rows_attribute(attributes, "type") != NULL)
         row.class = read_name(document, attributes, "type", &document->xml.arena);
@@ -92,7 +92,8 @@ static void on_begin(void *context, const char *name, const char **attributes)
 {
     struct document *document = context;
     if (!document->xml.in_root && strcmp(name, "fcd-export") != 0)
-        fail(document, "<fcd-export>", NULL, "floating car data (sumo --fcd-output)");
+        xml_rows_fail(&document->xml, "<fcd-export>", NULL,
+                      "floating car data (sumo --fcd-output)");
     document->xml.in_root = true;
     if (strcmp(name, "vehicle") == 0) {
         document->in_vehicle = true;
@@ -132,33 +133,26 @@ static void on_comment(void *context, const char *text)
         return;
     const char *value = geo + strlen(option);
     if (strchr("0nNfF-", value[0]) == NULL && strchr("fF", value[1]) == NULL)
-        fail(context, "--fcd-output.geo", "true",
-             "coordinates in metres: run sumo without that option");
+        xml_rows_fail(context, "--fcd-output.geo", "true",
+                      "coordinates in metres: run sumo without that option");
 }
 
 /* ---- types ---- */
-
-static bool read_size(struct document *document, const char **attributes, const char *name,
-                      double *size_m)
-{
-    return xml_rows_attribute(attributes, name) == NULL ||
-           read_number(document, attributes, name, 0, 1e6, size_m);
-}
 
 static void on_type(void *context, const char *name, const char **attributes)
 {
     struct document *document = context;
     double length_m = 0, width_m = 0, height_m = 0;
     if (!document->in_routes && strcmp(name, "routes") != 0 && strcmp(name, "additional") != 0)
-        fail(document, "<routes>", NULL, "routes, or additional elements, of SUMO");
+        xml_rows_fail(&document->xml, "<routes>", NULL, "routes, or additional elements, of SUMO");
     document->in_routes = true;
     if (strcmp(name, "vType") != 0)
         return;
     const char *id = read_name(document, attributes, "id", document->classes->arena);
     const char *class = xml_rows_attribute(attributes, "vClass");
-    if (id != NULL && read_size(document, attributes, "length", &length_m) &&
-        read_size(document, attributes, "width", &width_m) &&
-        read_size(document, attributes, "height", &height_m))
+    if (id != NULL && read_optional(document, attributes, "length", 0, 1e6, &length_m) &&
+        read_optional(document, attributes, "width", 0, 1e6, &width_m) &&
+        read_optional(document, attributes, "height", 0, 1e6, &height_m))
         recorded_classes_add(document->classes, id, class != NULL ? class : "passenger", length_m,
                              width_m, height_m);
 }
@@ -177,18 +171,6 @@ static void fail_at_end(struct xml_rows *xml)
               document->in_step ? "inside a step" : "before </fcd-export>", last);
 }
 
-static int next_event(void *state, struct recorded_row *row, struct diag *diag)
-{
-    struct document *document = state;
-    return xml_rows_next(&document->xml, row, diag);
-}
-
-static void close_document(void *state)
-{
-    struct document *document = state;
-    xml_rows_close(&document->xml);
-}
-
 static const struct recorded_format format = {
     .name = "floating car data",
     .id_name = "id",
@@ -196,8 +178,8 @@ static const struct recorded_format format = {
     .by_time = true,
     .marks_steps = true,
     .words = sumo_table_words,
-    .next = next_event,
-    .close = close_document,
+    .next = xml_rows_next,
+    .close = xml_rows_close,
 };
 
 /* ---- the stage ---- */
@@ -253,7 +235,7 @@ static int traffic_sumo_locate_fault(void *state, const struct frame *frame, str
 static void traffic_sumo_release(void *state)
 {
     struct traffic_sumo *own = state;
-    close_document(&own->types_document);
+    xml_rows_close(&own->types_document);
     recording_close(&own->recording);
 }
 

@@ -54,8 +54,9 @@ static inline void xml_rows_begin(struct xml_rows *xml, const char *kind, struct
 #endif
 }
 
-static inline void xml_rows_close(struct xml_rows *xml)
+static inline void xml_rows_close(void *state)
 {
+    struct xml_rows *xml = state;
     if (xml->parser != NULL)
         XML_ParserFree(xml->parser);
     input_close(xml->input);
@@ -83,7 +84,7 @@ static inline void xml_rows_fail(struct xml_rows *xml, const char *what, const c
 static inline const char *xml_rows_attribute(const char **attributes, const char *name)
 {
     for (; *attributes != NULL; attributes += 2)
-        if (strcmp(attributes[0], name) == 0)
+        if (*attributes[0] == *name && strcmp(attributes[0], name) == 0)
             return attributes[1];
     return NULL;
 }
@@ -150,9 +151,11 @@ static inline int xml_rows_report(const struct xml_rows *xml, struct diag *diag)
     return -1;
 }
 
-/* The next event: the format's function next. */
-static inline int xml_rows_next(struct xml_rows *xml, struct recorded_row *row, struct diag *diag)
+/* The next event: the format's function next. Its state, as that of close, is or begins with a
+ * struct xml_rows. */
+static inline int xml_rows_next(void *state, struct recorded_row *row, struct diag *diag)
 {
+    struct xml_rows *xml = state;
     while (xml->taken == xml->events.count && !xml->ended) {
         arena_clear(&xml->arena);
         xml->events.items = NULL;

@@ -452,7 +452,7 @@ def files_of_other_programs_are_named():
     check(len(names) >= 15, "files of other programs")
     for name in names:
         text, _ = run("glint-extract", name, fails=65)
-        check(re.search(r": [^:;]+; glint-traffic(-sumo|-commonroad|-osi)? (--types )?(reads|takes) ", text), text)
+        check(re.search(r": [^:;]+; glint-traffic(-sumo|-commonroad|-osi)? (--types )?(reads|takes|plays) ", text), text)
 
 
 # ---- SUMO itself --------------------------------------------------------------------------------------
