@@ -1,5 +1,4 @@
 /* Traffic: plays a scenario document or a recorded table, frame by frame. */
-#include "base/elementary.h"
 #include "run/stage.h"
 #include "text/document.h"
 #include "traffic/recorded_table.h"
@@ -30,6 +29,8 @@ static int start_scenario(struct traffic *traffic, struct runner *runner)
     struct scenario_scenes *scenes = &traffic->scenario;
     scenes->ego = options->ego;
     scenes->title = options->scene;
+    scenes->radius_m = options->radius_m;
+    scenes->flow = 1;
     scenes->name = recording_name(traffic->source, arena);
     if (scenario_scenes_choose(scenes, traffic->scenes, diag) != 0 ||
         scenario_read(traffic->source, &scenes->document, arena, diag) != 0)
@@ -87,19 +88,6 @@ static int traffic_start(void *state, struct runner *runner)
     return table ? start_table(traffic, path, runner) : start_scenario(traffic, runner);
 }
 
-/* Removes objects farther than radius_m from the ego. */
-static void limit_radius(struct frame *frame, double radius_m)
-{
-    const struct object ego = *frame_object(frame, frame->ego);
-    size_t kept = 0;
-    for (size_t i = 0; i < frame->objects.count; i++) {
-        const struct object *object = &frame->objects.items[i];
-        if (elementary_hypot(object->x_m - ego.x_m, object->y_m - ego.y_m) <= radius_m)
-            frame->objects.items[kept++] = *object;
-    }
-    frame->objects.count = kept;
-}
-
 static int traffic_next(void *state, struct frame *frame, struct runner *runner)
 {
     struct traffic *traffic = state;
@@ -110,8 +98,6 @@ static int traffic_next(void *state, struct frame *frame, struct runner *runner)
         return more;
     runner_expect(runner, scenario_scenes_frames(&traffic->scenario));
     conditions_change(&frame->conditions, &traffic->conditions);
-    if (traffic->options.radius_m >= 0)
-        limit_radius(frame, traffic->options.radius_m);
     return 1;
 }
 

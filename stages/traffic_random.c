@@ -1,26 +1,65 @@
-/* Random traffic: independent snapshots, each a scene of one frame that its number determines. */
+/* Random traffic: independent snapshots, each a scene of one frame, or moving scenes of some
+ * seconds. Its number determines a scene. */
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 
+#include "base/elementary.h"
 #include "documents/vehicle.h"
 #include "run/stage.h"
 #include "traffic/random_traffic.h"
+#include "traffic/scenario_scenes.h"
+
+#define RADIUS_M 250.0
 
 struct traffic_random {
     enum random_traffic_density density;
-    int64_t frames, first;
-    double rate_hz;
+    int64_t frames, first; /* -1: not given */
+    double rate_hz, seconds;
+    const char *scenes;
     bool conditions;
     struct random_traffic scene;
     int64_t made;
+    struct scenario_scenes moving; /* with --seconds */
 };
 
 /* The tests have one more density, with a stage of its own (tests/soundness). */
 static const char *const densities[] = {"sparse", "medium", "dense", NULL};
 
+/* Moving scenes are those of a scenario with roads, whose every value is drawn. */
+static int start_moving(struct traffic_random *traffic, struct runner *runner)
+{
+    static const double flows[] = {
+        [TRAFFIC_SPARSE] = 0.3, [TRAFFIC_MEDIUM] = 1, [TRAFFIC_DENSE] = 2};
+    struct scenario_scenes *moving = &traffic->moving;
+    struct diag *diag = runner_diag(runner);
+    if (traffic->frames >= 0 || traffic->first >= 0)
+        return diag_fail(diag, DIAG_USAGE,
+                         "--%s: with --seconds, --scenes A:B says which scenes to make",
+                         traffic->frames >= 0 ? "frames" : "first");
+    *moving = (struct scenario_scenes){
+        .radius_m = RADIUS_M,
+        .flow = flows[traffic->density],
+        .rate_hz = traffic->rate_hz,
+        .duration_s =
+            elementary_max(0, round(traffic->seconds * traffic->rate_hz) - 1) / traffic->rate_hz};
+    if (scenario_scenes_choose(moving, traffic->scenes != NULL ? traffic->scenes : "0:10", diag) !=
+        0)
+        return -1;
+    return scenario_read("random-roads", &moving->document, runner_arena(runner), diag);
+}
+
 static int traffic_random_start(void *state, struct runner *runner)
 {
     struct traffic_random *traffic = state;
+    if (traffic->seconds > 0)
+        return start_moving(traffic, runner);
+    if (traffic->scenes != NULL)
+        return diag_fail(runner_diag(runner), DIAG_USAGE,
+                         "--scenes: for moving scenes, of --seconds; --first and --frames say "
+                         "which snapshots to make");
+    traffic->frames = traffic->frames >= 0 ? traffic->frames : 100;
+    traffic->first = traffic->first >= 0 ? traffic->first : 0;
     struct random_traffic *scene = &traffic->scene;
     scene->density = traffic->density;
     for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
@@ -35,6 +74,24 @@ static int traffic_random_start(void *state, struct runner *runner)
     return 0;
 }
 
+/* The road and the weather hold for the whole scene; other radars would come and go with their
+ * vehicles, so there are none. */
+static int next_moving(struct traffic_random *traffic, struct frame *frame, struct runner *runner)
+{
+    struct scenario_scenes *moving = &traffic->moving;
+    int64_t number = moving->number;
+    moving->title = arena_format(frame->arena, "moving-%s/%" PRIu64,
+                                 random_traffic_densities[traffic->density], frame->seed);
+    int more = scenario_scenes_next(moving, frame, runner_diag(runner));
+    if (more != 1)
+        return more;
+    runner_expect(runner, scenario_scenes_frames(moving));
+    if (traffic->conditions)
+        random_traffic_conditions(&traffic->scene, number, frame);
+    frame->conditions.interferers.count = 0;
+    return 1;
+}
+
 static const char *name_of(const struct traffic_random *traffic, const struct frame *frame,
                            int64_t number)
 {
@@ -47,8 +104,9 @@ static const char *name_of(const struct traffic_random *traffic, const struct fr
 
 static int traffic_random_next(void *state, struct frame *frame, struct runner *runner)
 {
-    (void)runner;
     struct traffic_random *traffic = state;
+    if (traffic->seconds > 0)
+        return next_moving(traffic, frame, runner);
     if (traffic->made == traffic->frames)
         return 0;
     int64_t number = traffic->first + traffic->made++;
@@ -62,12 +120,31 @@ static int traffic_random_next(void *state, struct frame *frame, struct runner *
     return 1;
 }
 
+static int traffic_random_locate_fault(void *state, const struct frame *frame,
+                                       struct runner *runner)
+{
+    const struct traffic_random *traffic = state;
+    return traffic->seconds > 0 ? scenario_check_frame(frame, runner_diag(runner)) : 0;
+}
+
+static void traffic_random_release(void *state)
+{
+    struct traffic_random *traffic = state;
+    scenario_scenes_close(&traffic->moving);
+}
+
 static const struct field traffic_random_options[] = {
     {FIELD_CHOICE_OF(struct traffic_random, density, densities, "how many objects, and how near"),
      FIELD_OPTIONAL, .absent = TRAFFIC_MEDIUM},
-    {FIELD_INTEGER_IN(struct traffic_random, frames, 0, 1e9, "how many frames; absent: 100"),
-     FIELD_OPTIONAL, .absent = 100},
-    {FIELD_INTEGER_IN(struct traffic_random, first, 0, 1e9, "number of the first frame"),
+    {FIELD_INTEGER_IN(struct traffic_random, frames, 0, 1e9, "how many snapshots; absent: 100"),
+     FIELD_OPTIONAL, .absent = -1},
+    {FIELD_INTEGER_IN(struct traffic_random, first, 0, 1e9, "number of the first snapshot"),
+     FIELD_OPTIONAL, .absent = -1},
+    {FIELD_REAL_IN(struct traffic_random, seconds, 0, 1e5,
+                   "makes moving scenes of this length in place of snapshots"),
+     FIELD_OPTIONAL},
+    {FIELD_NAME_OF(struct traffic_random, scenes,
+                   "A:B makes moving scenes A to B - 1; absent: 0:10"),
      FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct traffic_random, rate_hz, 1, 1e4,
                    "frame number n is at time n / rate; absent: 20"),
@@ -79,12 +156,20 @@ static const struct field traffic_random_options[] = {
 
 const struct stage stage_traffic_random = {
     .name = "traffic-random",
-    .summary = "Make random traffic: independent snapshots, each a scene of its own.",
-    .details = "Objects of all classes around an ego: 0 to 3 within 120 m (sparse), 0 to 8 within\n"
-               "60 m (medium, the default), 4 to 15 within 25 m (dense). A frame depends on seed,\n"
-               "density and its number alone, so --first and --frames may cut a set anywhere.",
+    .summary = "Make random traffic: independent snapshots, or moving scenes.",
+    .details =
+        "Objects of all classes around an ego: 0 to 3 within 120 m (sparse), 0 to 8 within\n"
+        "60 m (medium, the default), 4 to 15 within 25 m (dense). A snapshot, which is a scene\n"
+        "of one frame, depends on seed, density and its number alone, so --first and --frames\n"
+        "may cut a set anywhere.\n"
+        "\n"
+        "With --seconds vehicles come and go on roads (scenarios/random-roads.json), as many as\n"
+        "its flows say, 0.3 times (sparse) or twice (dense) as many, and nobody collides. A scene\n"
+        "has what is within 250 m of the ego, and ends earlier where the ego leaves its road.",
     .options = STAGE_OPTIONS(struct traffic_random, traffic_random_options),
     .writes = SECTION_OBJECTS,
     .start = traffic_random_start,
     .next = traffic_random_next,
+    .locate_fault = traffic_random_locate_fault,
+    .release = traffic_random_release,
 };

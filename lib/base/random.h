@@ -31,6 +31,7 @@ enum random_purpose {
                               * glint-plan --cost) */
     RANDOM_SAMPLE = 16,      /* which frame of a stretch is in a sample (glint-plan --cost) */
     RANDOM_VARIATION = 17,   /* values of a scenario that are distributions */
+    RANDOM_ARRIVALS = 18,    /* vehicles that come to a lane: class, size, driver, when */
     RANDOM_OWN = 1 << 16,    /* any number from here to 2^31 - 1, one for each purpose of the
                               * stages that run together */
 };

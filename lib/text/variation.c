@@ -18,7 +18,7 @@ struct variation {
 
 static int draw_value(struct variation *variation);
 
-/* Draws the value of a member or item, by whose name the path is longer meanwhile. */
+/* Draws a value whose path goes on from outside by what was added to it. */
 static int draw_part(struct variation *variation, size_t outside)
 {
     int result = draw_value(variation);
@@ -26,43 +26,37 @@ static int draw_part(struct variation *variation, size_t outside)
     return result;
 }
 
-static int draw_items(struct variation *variation)
+/* Reads the key of a member, copies it, and adds it to the path. */
+static int copy_key(struct variation *variation)
 {
-    struct json_scan *scan = &variation->scan;
-    size_t outside = variation->path.length, index = 0;
-    json_scan_take(scan, '[');
-    text_add(&variation->drawn, "[", 1);
-    while (!json_scan_take(scan, ']')) {
-        if (json_scan_take(scan, ','))
-            text_add(&variation->drawn, ",", 1);
-        text_format(&variation->path, "[%zu]", index++);
-        if (draw_part(variation, outside) != 0)
-            return -1;
-    }
-    text_add(&variation->drawn, "]", 1);
+    struct json_string key;
+    if (json_scan_string(&variation->scan, &key) != 0)
+        return -1;
+    text_add_json(&variation->drawn, key.text, key.length);
+    text_add(&variation->drawn, ":", 1);
+    json_scan_take(&variation->scan, ':');
+    text_format(&variation->path, "%s%.*s", variation->path.length > 0 ? "." : "", (int)key.length,
+                key.text);
     return 0;
 }
 
-static int draw_members(struct variation *variation)
+/* Draws the values within an array or an object, which ends with this character. */
+static int draw_within(struct variation *variation, char end)
 {
     struct json_scan *scan = &variation->scan;
     size_t outside = variation->path.length;
-    struct json_string key;
-    json_scan_take(scan, '{');
-    text_add(&variation->drawn, "{", 1);
-    while (!json_scan_take(scan, '}')) {
+    text_add(&variation->drawn, scan->at++, 1);
+    for (size_t i = 0; !json_scan_take(scan, end); i++) {
         if (json_scan_take(scan, ','))
             text_add(&variation->drawn, ",", 1);
-        if (json_scan_string(scan, &key) != 0)
+        if (end == ']')
+            text_format(&variation->path, "[%zu]", i);
+        else if (copy_key(variation) != 0)
             return -1;
-        text_add_json(&variation->drawn, key.text, key.length);
-        text_add(&variation->drawn, ":", 1);
-        json_scan_take(scan, ':');
-        text_format(&variation->path, "%s%.*s", outside > 0 ? "." : "", (int)key.length, key.text);
         if (draw_part(variation, outside) != 0)
             return -1;
     }
-    text_add(&variation->drawn, "}", 1);
+    text_add(&variation->drawn, &end, 1);
     return 0;
 }
 
@@ -177,10 +171,8 @@ static int draw_value(struct variation *variation)
     const struct law *law = find_law(&values);
     if (law != NULL)
         return draw_law(variation, law, values);
-    if (json_scan_peek(scan) == '{')
-        return draw_members(variation);
-    if (json_scan_peek(scan) == '[')
-        return draw_items(variation);
+    if (json_scan_peek(scan) == '{' || *scan->at == '[')
+        return draw_within(variation, *scan->at == '{' ? '}' : ']');
     if (json_scan_value(scan, &bytes) != 0)
         return -1;
     text_add(&variation->drawn, bytes.text, bytes.length);

@@ -62,7 +62,13 @@ static const struct field scenario_fields[] = {
     {REAL(struct scenario, duration_s, 0, 1e6, "the last frame is not later")},
     {FIELD_RECORD_OF(struct scenario, conditions, &conditions_record, "road and weather"),
      FIELD_OPTIONAL},
-    {FIELD_LIST_OF(struct scenario, objects, &actor_record, "all objects, the ego too")},
+    {FIELD_LIST_OF(struct scenario, objects, &actor_record,
+                   "all objects, the ego too unless it is one of roads")},
+    {OPTIONAL_LIST(struct scenario, roads, &roadway_record,
+                   "traffic that comes and goes by itself")},
+    {OPTIONAL_REAL(struct scenario, warmup_s, 0, 3600,
+                   "how long roads fill before time 0; absent: 60 s"),
+     .absent = 60},
     {0},
 };
 
@@ -117,16 +123,52 @@ static int check_names(const struct scenario *scenario, struct arena *arena, str
                 diag, DIAG_CONFIG,
                 "conditions.interferers[%zu].object: \"%s\" is not the id of an object", i, id);
     }
-    return intern_word(&names, scenario->ego, arena) < count
+    bool scripted = intern_word(&names, scenario->ego, arena) < count;
+    if (scripted && scenario->arriving_ego != NULL)
+        return diag_fail(diag, DIAG_CONFIG,
+                         "ego: \"%s\" is an object; expected another id, as arrivals say ego_m",
+                         scenario->ego);
+    return scripted || scenario->roads.count > 0
                ? 0
                : diag_fail(diag, DIAG_CONFIG, "ego: \"%s\" is not the id of an object",
                            scenario->ego);
 }
 
-int scenario_check(const struct scenario *scenario, struct diag *diag)
+/* Refuses a road with the id of another, or whose vehicles could have that of an object. */
+static int check_road_id(const struct scenario *scenario, size_t number, struct diag *diag)
+{
+    const char *id = scenario->roads.items[number].id;
+    size_t length = strlen(id);
+    for (size_t i = 0; i < number; i++)
+        if (strcmp(scenario->roads.items[i].id, id) == 0)
+            return diag_fail(diag, DIAG_CONFIG, "id: \"%s\" is the id of roads[%zu] already", id,
+                             i);
+    for (size_t i = 0; i < scenario->objects.count; i++)
+        if (strncmp(scenario->objects.items[i].id, id, length) == 0 &&
+            scenario->objects.items[i].id[length] == '.')
+            return diag_fail(diag, DIAG_CONFIG,
+                             "id: objects[%zu].id, \"%s\", is like those of this road's vehicles",
+                             i, scenario->objects.items[i].id);
+    return 0;
+}
+
+static int check_roads(struct scenario *scenario, struct diag *diag)
+{
+    int egos = 0;
+    for (size_t i = 0; i < scenario->roads.count; i++)
+        if (check_road_id(scenario, i, diag) != 0 ||
+            road_check(&scenario->roads.items[i], &egos, diag) != 0)
+            return diag_prefix(diag, "roads[%zu].", i);
+    scenario->arriving_ego = egos > 0 ? scenario->ego : NULL;
+    return egos <= 1 ? 0
+                     : diag_fail(diag, DIAG_CONFIG,
+                                 "roads: %d arrivals say ego_m; expected one or none", egos);
+}
+
+int scenario_check(struct scenario *scenario, struct diag *diag)
 {
     struct arena arena = {0};
-    int result = check_names(scenario, &arena, diag);
+    int result = check_roads(scenario, diag) == 0 ? check_names(scenario, &arena, diag) : -1;
     arena_free(&arena);
     return result;
 }
@@ -147,6 +189,8 @@ void scenario_shift(struct scenario *scenario, struct vec2 origin_m)
 {
     for (size_t i = 0; i < scenario->objects.count; i++)
         shift_actor(&scenario->objects.items[i], origin_m);
+    for (size_t i = 0; i < scenario->roads.count; i++)
+        road_shift(&scenario->roads.items[i], origin_m);
 }
 
 static struct motion drive_segments(const struct actor *actor, double time_s, double *travelled_m)
@@ -316,6 +360,19 @@ int64_t scenario_frames(const struct scenario *scenario)
     return (int64_t)floor(scenario->duration_s * scenario->rate_hz * (1 + 1e-15)) + 1;
 }
 
+double scenario_time_s(const struct scenario *scenario, int64_t number)
+{
+    return (double)number / scenario->rate_hz;
+}
+
+const struct actor *scenario_object(const struct scenario *scenario, const char *id)
+{
+    for (size_t i = 0; i < scenario->objects.count; i++)
+        if (strcmp(scenario->objects.items[i].id, id) == 0)
+            return &scenario->objects.items[i];
+    return NULL;
+}
+
 int scenario_read(const char *name, struct scenario_document *document, struct arena *arena,
                   struct diag *diag)
 {
@@ -341,16 +398,17 @@ struct vec2 scenario_frame_origin(struct vec2 ego_m)
     return near ? (struct vec2){0, 0} : (struct vec2){origin_near(ego_m.x), origin_near(ego_m.y)};
 }
 
-/* Shifts the scenario to the origin of frames with its ego. */
-static void shift_to_ego(struct scenario *scenario)
+/* Where the ego is at time 0 if it is an object, else where the first road begins. */
+static struct vec2 ego_place(const struct scenario *scenario)
 {
-    const struct actor *actor = scenario->objects.items;
-    while (strcmp(actor->id, scenario->ego) != 0)
-        actor++;
+    const struct actor *actor = scenario_object(scenario, scenario->ego);
     double travelled_m;
-    struct motion carrier = scenario_motion(actor, 0, &travelled_m);
-    scenario->origin_m = scenario_frame_origin(carrier.position_m);
-    scenario_shift(scenario, scenario->origin_m);
+    if (actor != NULL)
+        return scenario_motion(actor, 0, &travelled_m).position_m;
+    if (scenario->roads.count == 0)
+        return (struct vec2){0, 0};
+    const struct road_point *point = scenario->roads.items[0].points.items;
+    return (struct vec2){point->x_m, point->y_m};
 }
 
 struct scenario *scenario_draw(const struct scenario_document *document, uint64_t seed,
@@ -360,19 +418,20 @@ struct scenario *scenario_draw(const struct scenario_document *document, uint64_
     struct random_address address = {.seed = seed, .scene = (uint64_t)number};
     struct scenario *scenario = arena_get(arena, sizeof *scenario);
     const char *line = variation_draw(document->line, address, arena, diag);
-    int result = line != NULL
-                     ? document_take(document->path, line, &scenario_record, scenario, arena, diag)
-                     : diag_prefix(diag, "%s: ", document->path);
-    if (result != 0)
+    if (line == NULL) {
+        diag_prefix(diag, "%s: ", document->path);
         return NULL;
-    if (ego != NULL)
-        scenario->ego = ego;
+    }
+    if (document_take(document->path, line, &scenario_record, scenario, arena, diag) != 0)
+        return NULL;
     if (scenario_check(scenario, diag) != 0) {
         diag->code = DIAG_CONFIG;
         diag_prefix(diag, "%s: ", document->path);
         return NULL;
     }
-    shift_to_ego(scenario);
+    scenario->ego = ego != NULL ? ego : scenario->ego;
+    scenario->origin_m = scenario_frame_origin(ego_place(scenario));
+    scenario_shift(scenario, scenario->origin_m);
     return scenario;
 }
 
@@ -400,7 +459,7 @@ void scenario_fill(const struct scenario *scenario, int64_t number, struct frame
 {
     frame->origin_x_m = scenario->origin_m.x;
     frame->origin_y_m = scenario->origin_m.y;
-    frame->time_s = (double)number / scenario->rate_hz;
+    frame->time_s = scenario_time_s(scenario, number);
     frame->interval_s = 1 / scenario->rate_hz;
     frame->conditions = scenario->conditions;
     for (size_t i = 0; i < scenario->objects.count; i++)

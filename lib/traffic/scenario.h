@@ -13,6 +13,7 @@
 
 #include "frame/frame.h"
 #include "geometry/motion.h"
+#include "traffic/road.h"
 
 struct segment {
     double duration_s;
@@ -42,14 +43,17 @@ struct scenario {
     double duration_s;
     struct conditions conditions;
     LIST_OF(struct actor) objects;
-    struct vec2 origin_m; /* of the frames' coordinates in those of the document */
+    LIST_OF(struct roadway) roads; /* lib/traffic/road_traffic.h */
+    double warmup_s;
+    const char *arriving_ego; /* id of the ego among arrivals; NULL: none of them says ego_m */
+    struct vec2 origin_m;     /* of the frames' coordinates in those of the document */
 };
 
 extern const struct record scenario_record;
 
-/* Refuses what field tables cannot: an unknown ego or interferer, an id of two objects, segments or
- * a start together with waypoints, waypoints whose times do not ascend. */
-int scenario_check(const struct scenario *scenario, struct diag *diag);
+/* Refuses what field tables cannot: an unknown ego or interferer, an id of two objects or roads,
+ * segments or a start together with waypoints, waypoints whose times do not ascend. */
+int scenario_check(struct scenario *scenario, struct diag *diag);
 
 /* Moves every place by -origin_m. Done before anything is computed, so that large coordinates cost
  * no precision later. */
@@ -63,6 +67,10 @@ struct motion scenario_motion(const struct actor *actor, double time_s, double *
 /* The number of frames; they are numbered from 0, and frame i is at i / rate_hz. But for rounding
  * the last is not after duration_s. */
 int64_t scenario_frames(const struct scenario *scenario);
+double scenario_time_s(const struct scenario *scenario, int64_t number);
+
+/* The object of this id; NULL if there is none. */
+const struct actor *scenario_object(const struct scenario *scenario, const char *id);
 
 /* The document of a scenario, whose values may be distributions (text/variation.h). */
 struct scenario_document {
@@ -85,8 +93,8 @@ struct scenario *scenario_draw(const struct scenario_document *document, uint64_
  * kilometre away (as in UTM), else that of the source. */
 struct vec2 scenario_frame_origin(struct vec2 ego_m);
 
-/* Fills time, interval, origin, conditions and objects of frame number 0 <= number <
- * scenario_frames. */
+/* Fills time, interval, origin, conditions and the scenario's own objects of frame number 0 <=
+ * number < scenario_frames. */
 void scenario_fill(const struct scenario *scenario, int64_t number, struct frame *frame);
 
 /* Refuses a frame with an object out of the bounds of its record, for instance too far from the

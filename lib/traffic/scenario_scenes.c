@@ -3,6 +3,9 @@
 #include <inttypes.h>
 #include <math.h>
 
+#include "base/elementary.h"
+#include "frame/frame.h"
+
 enum { SCENES = 1000000000 };
 
 /* Reads the whole number of a scene, which is below SCENES or is SCENES. */
@@ -32,13 +35,43 @@ int scenario_scenes_choose(struct scenario_scenes *scenes, const char *range, st
     return 0;
 }
 
+/* What the scenes change of the document. */
+static void change_scenario(const struct scenario_scenes *scenes)
+{
+    struct scenario *scenario = scenes->scenario;
+    if (scenes->rate_hz > 0) {
+        scenario->rate_hz = scenes->rate_hz;
+        scenario->duration_s = scenes->duration_s;
+    }
+    for (size_t i = 0; i < scenario->roads.count; i++)
+        road_scale_flow(&scenario->roads.items[i], scenes->flow);
+}
+
+/* Fills the roads of the scene, and looks for its ego. */
+static int begin_roads(struct scenario_scenes *scenes, uint64_t seed, struct diag *diag)
+{
+    const struct scenario *scenario = scenes->scenario;
+    struct random_address address = {.seed = seed, .scene = (uint64_t)scenes->number};
+    int result = road_traffic_begin(&scenes->roads, scenario->roads.items, scenario->roads.count,
+                                    scenario->warmup_s, scenario->arriving_ego, address,
+                                    &scenes->arena, diag);
+    scenes->on_road = scenario_object(scenario, scenario->ego) == NULL;
+    if (result == 0 && scenes->on_road && !road_traffic_has(&scenes->roads, scenario->ego))
+        result =
+            diag_fail(diag, DIAG_CONFIG, "ego: \"%s\" is neither an object nor on a road at time 0",
+                      scenario->ego);
+    return result == 0 ? 0 : diag_prefix(diag, "%s: ", scenes->document.path);
+}
+
 static int begin_scene(struct scenario_scenes *scenes, uint64_t seed, struct diag *diag)
 {
     struct arena *arena = &scenes->arena;
     arena_clear(arena);
     scenes->scenario =
         scenario_draw(&scenes->document, seed, scenes->number, scenes->ego, arena, diag);
-    if (scenes->scenario == NULL)
+    if (scenes->scenario != NULL)
+        change_scenario(scenes);
+    if (scenes->scenario == NULL || begin_roads(scenes, seed, diag) != 0)
         return scenes->numbered ? diag_prefix(diag, "scene %" PRId64 ": ", scenes->number) : -1;
     scenes->scene = scenes->title != NULL
                         ? scenes->title
@@ -50,6 +83,29 @@ static int begin_scene(struct scenario_scenes *scenes, uint64_t seed, struct dia
     return 0;
 }
 
+/* Is the next frame's ego still there? The roads go on to that frame. */
+static bool goes_on(struct scenario_scenes *scenes)
+{
+    const struct scenario *scenario = scenes->scenario;
+    if (scenes->frame == scenes->frames)
+        return false;
+    road_traffic_advance(&scenes->roads, scenario_time_s(scenario, scenes->frame));
+    return !scenes->on_road || road_traffic_has(&scenes->roads, scenario->ego);
+}
+
+/* Removes objects farther than radius_m from the ego. */
+static void limit_radius(struct frame *frame, double radius_m)
+{
+    const struct object ego = *frame_object(frame, frame->ego);
+    size_t kept = 0;
+    for (size_t i = 0; i < frame->objects.count; i++) {
+        const struct object *object = &frame->objects.items[i];
+        if (elementary_hypot(object->x_m - ego.x_m, object->y_m - ego.y_m) <= radius_m)
+            frame->objects.items[kept++] = *object;
+    }
+    frame->objects.count = kept;
+}
+
 int scenario_scenes_next(struct scenario_scenes *scenes, struct frame *frame, struct diag *diag)
 {
     if (scenes->scenario == NULL) {
@@ -59,10 +115,13 @@ int scenario_scenes_next(struct scenario_scenes *scenes, struct frame *frame, st
             return -1;
     }
     scenario_fill(scenes->scenario, scenes->frame, frame);
+    road_traffic_fill(&scenes->roads, frame);
     frame->scene = scenes->scene;
     frame->ego = scenes->scenario->ego;
+    if (scenes->radius_m >= 0)
+        limit_radius(frame, scenes->radius_m);
     frame->frame = scenes->frame++;
-    frame->last = scenes->frame == scenes->frames;
+    frame->last = !goes_on(scenes);
     if (frame->last) {
         scenes->scenario = NULL;
         scenes->number++;

@@ -71,6 +71,14 @@ END
     mkdir folder
 }
 
+# Plays scene.json with a road, on which the ego is, after a change of it by sed.
+road() {
+    local lane='{"offset_m": 9, "limit_mps": 20, "arrivals": [{"class": "car", "flow_per_h": 600, "spread": 0, "ego_m": 150}]}'
+    sed "s/\"objects\": \\[\$/\"roads\": [{\"id\": \"r\", \"points\": [{\"x_m\": 0, \"y_m\": 0}, {\"x_m\": 200, \"y_m\": 0}], \"lanes\": [$lane]}], &/
+        s/\"ego\": \"ego\"/\"ego\": \"me\"/; s/0\.2,/30,/" scene.json | sed "${1:-}" >bad.json
+    glint-traffic bad.json
+}
+
 # Each function changes a good file by the sed expression $1 and runs the stage that reads such files.
 frame() { sed -E "$1" objects.jsonl | glint-extract; }
 reflectors() { sed -E "$1" reflectors.jsonl | glint-ideal --sensors suite.json; }

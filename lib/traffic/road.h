@@ -1,0 +1,54 @@
+/* Roads of a scenario: polylines with lanes and arrivals. */
+#ifndef ROAD_H
+#define ROAD_H
+
+#include "base/vec2.h"
+#include "text/field.h"
+
+struct road_point {
+    double x_m, y_m;
+};
+
+struct road_signal {
+    double at_m; /* along its lane */
+    double green_s, red_s, offset_s;
+};
+
+/* Vehicles of a class that come independently of each other (Poisson). */
+struct road_arrivals {
+    const char *class;
+    double flow_per_h;
+    double length_m, width_m, height_m;
+    double speed_mps; /* wanted where the limit is higher */
+    double headway_s, gap_m, acceleration_mps2, deceleration_mps2;
+    double spread;
+    double ego_m; /* -1: none is the ego */
+};
+
+struct road_lane {
+    double offset_m, limit_mps;
+    bool oncoming;
+    LIST_OF(struct road_arrivals) arrivals;
+    LIST_OF(struct road_signal) signals;
+};
+
+struct roadway {
+    const char *id;
+    double radius_m; /* of the arcs at corners, at most */
+    LIST_OF(struct road_point) points;
+    LIST_OF(struct road_lane) lanes;
+};
+
+extern const struct record roadway_record;
+
+/* Refuses what field tables cannot: fewer than two points, equal points, no lane, a class that is a
+ * path. egos counts the arrivals that say ego_m. */
+int road_check(const struct roadway *road, int *egos, struct diag *diag);
+
+/* Multiplies every flow. */
+void road_scale_flow(struct roadway *road, double factor);
+
+/* Moves every point by -origin_m. */
+void road_shift(struct roadway *road, struct vec2 origin_m);
+
+#endif
