@@ -1,5 +1,6 @@
 """The traffic of a data set: which split has which scenes, how they fill shards, and the commands that play them."""
 import collections
+import math
 import shlex
 
 from documents import path_of
@@ -53,7 +54,7 @@ def scene_frames(source, size, plan_folder):
     if kind == "random":
         return 1
     if kind == "moving":
-        return int(source["seconds"] * source.get("rate_hz", 20) + 1e-9) + 1
+        return max(1, math.ceil(source["seconds"] * source.get("rate_hz", 20) - 1e-9))
     document = read_json(path_of(source["scenario"], "scenario", plan_folder))
     drawn = isinstance(document["duration_s"], dict) or isinstance(document["rate_hz"], dict)
     return size if drawn else int(document["duration_s"] * document["rate_hz"] + 1e-9) + 1

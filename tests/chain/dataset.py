@@ -103,10 +103,13 @@ def shards_join_to_the_bytes_of_one_run(folder):
 
 
 def scenes_and_seeds_are_played_whole(folder):
-    sources = [{"scenario": "cut-in"}, {"scenario": "varied-cut-in", "scenes": [3, 8]}]
-    right = "".join(run(["glint", "-c", f"glint-traffic {words} --seed {seed} | {CHAIN.format(suite=SUITE)}"]).stdout
-                    for seed in (1, 2) for words in ("cut-in", "varied-cut-in --scenes 3:8"))
-    for size, count in ((10000, 1), (300, 8), (100, 12)):
+    sources = [{"scenario": "cut-in"}, {"scenario": "varied-cut-in", "scenes": [3, 8]},
+               {"random": "medium", "seconds": 2, "scenes": [4, 9], "rate_hz": 10}]
+    words = ("glint-traffic cut-in", "glint-traffic varied-cut-in --scenes 3:8",
+             "glint-traffic-random --density medium --seconds 2 --scenes 4:9 --rate-hz 10")
+    right = "".join(run(["glint", "-c", f"{source} --seed {seed} | {CHAIN.format(suite=SUITE)}"]).stdout
+                    for seed in (1, 2) for source in words)
+    for size, count in ((10000, 1), (300, 8), (100, 14)):
         place = made(folder, plan_of(sources, seeds=[1, 2], frames_per_shard=size), f"by-{size}")
         assert frames_of(place, "all/*") == right.encode()
         assert len(manifest(place)["resources"]) == count, len(manifest(place)["resources"])
