@@ -1,4 +1,5 @@
 """Makes one shard of a data set, and holds those that are there to their records."""
+import contextlib
 import csv
 import gzip
 import hashlib
@@ -29,10 +30,10 @@ def record_path(folder, part):
 
 
 class Gzip:
-    """Compresses lines into a file and measures both sides."""
+    """Compresses lines into a file, measures both sides, and lets another program read along."""
 
-    def __init__(self, file):
-        self.file, self.packer = file, zlib.compressobj(LEVEL, wbits=GZIP)
+    def __init__(self, file, reader):
+        self.reader, self.file, self.packer = reader, file, zlib.compressobj(LEVEL, wbits=GZIP)
         self.packed, self.plain = hashlib.sha256(), hashlib.sha256()
         self.rows = self.bytes = self.plain_bytes = 0
 
@@ -45,6 +46,8 @@ class Gzip:
         self.plain.update(lines)
         self.rows += lines.count(b"\n")
         self.plain_bytes += len(lines)
+        with contextlib.suppress(BrokenPipeError):  # its exit status will say why it reads no more
+            self.reader.write(lines)
         self.send(self.packer.compress(lines))
 
     def close(self):
@@ -77,10 +80,28 @@ def ask(words, folder):
     return done.stdout
 
 
-def counts_of(path, folder):
-    """Targets by class, as glint-summary counts them; it also says whether all scenes are whole."""
-    summary = ask(["glint-summary", "--complete", path], folder)
-    block = re.search(r"\ntargets by class.*\n((?: .*\n)+)", summary)
+@contextlib.contextmanager
+def reading_along(folder):
+    """glint-summary, which refuses lines that are no frames, and scenes that are not whole."""
+    with subprocess.Popen(["glint-summary", "--complete"], env=environment(folder), stdin=subprocess.PIPE,
+                          stdout=subprocess.PIPE) as summary:
+        try:
+            yield summary
+        except BaseException:
+            summary.kill()
+            with contextlib.suppress(BrokenPipeError):
+                summary.stdin.close()
+            raise
+
+
+def counts_of(summary):
+    """Targets by class, when all has been read."""
+    with contextlib.suppress(BrokenPipeError):
+        summary.stdin.close()
+    text, code = summary.stdout.read().decode(), summary.wait()
+    if code != 0:
+        raise Fault(code, f"exit status {code}: glint-summary --complete")
+    block = re.search(r"\ntargets by class.*\n((?: .*\n)+)", text)
     rows = re.findall(r" *(\d+) +[\d.]+ % +(.*)\n", block[1]) if block else []
     return {name: int(count) for count, name in sorted(rows, key=lambda row: row[1])}
 
@@ -128,14 +149,15 @@ def check_inputs(layout, shard, folder, plan_folder):
 
 
 def make_files(shard, part, folder, plan_folder):
-    """The files of a shard and its targets by class, from what glint reads back of the lines on the disk."""
-    with whole_file(os.path.join(folder, shard["path"]), os.path.join(folder, WORK)) as file:
-        gzip_file = Gzip(file)
+    """The files of a shard, and its targets by class."""
+    with whole_file(os.path.join(folder, shard["path"]), os.path.join(folder, WORK)) as file, \
+            reading_along(folder) as summary:
+        gzip_file = Gzip(file, summary.stdin)
         for command in shard["commands"]:
             run_into(gzip_file, command, folder, plan_folder)
         gzip_file.close()
         file.flush()
-        targets = counts_of(file.name, folder)
+        targets = counts_of(summary)
         tables = make_tables(shard, part, file.name, folder)
     return [{"path": shard["path"], **gzip_file.facts()}, *tables], targets
 
