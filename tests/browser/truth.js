@@ -194,7 +194,7 @@ module.exports = ({stream, view, withPage, panelText}) => {
 
         async 'the quality of a target is told where the stream has it'() {
             const text = fs.readFileSync(path.join(root, 'pipelines', 'ambiguity.sh'), 'utf8')
-                .replace('glint-ideal', 'glint-ideal --sections quality');
+                .replace('--sections account', '--sections account,quality');
             const frames = execFileSync('glint', ['-c', text], {maxBuffer: 1 << 28, cwd: root}).toString()
                 .trim().split('\n').map(line => JSON.parse(line));
             const isFolded = target => target.quality.ambiguity_number !== 0;
@@ -206,16 +206,16 @@ module.exports = ({stream, view, withPage, panelText}) => {
                     await page.evaluate(chosen, number);
                     const rows = await page.locator('table#quality tr').allInnerTexts();
                     const shows = (name, value, unit, digits) => assert.ok(rows.includes(
-                        `${name}\t${value.toFixed(digits).replace(/^-(0\.0*)$/, '$1')}${unit}`), `${name}: ${value}: ${rows.join('; ')}`);
+                        `${name}\t${Math.fround(value).toFixed(digits).replace(/^-(0\.0*)$/, '$1')}${unit}`), `${name}: ${value}: ${rows.join('; ')}`);
                     shows('signal over noise', quality.snr_db, ' dB', 1);
                     shows('cross section', quality.rcs_dbsm, ' dBsm', 1);
                     shows('deviation of range', quality.range_sd_m, ' m', 3);
-                    shows('… of azimuth', quality.azimuth_sd_rad * 180 / Math.PI, '°', 2);
+                    shows('… of azimuth', Math.fround(quality.azimuth_sd_rad) * 180 / Math.PI, '°', 2);
                     shows('… of range rate', quality.range_rate_sd_mps, ' m/s', 3);
-                    shows('exists with', 100 * quality.existence, ' %', 1);
-                    const place = [quality.x_rear_axle_m, quality.y_rear_axle_m].map(one => one.toFixed(2)).join(', ');
+                    shows('exists with', 100 * Math.fround(quality.existence), ' %', 1);
+                    const place = [quality.x_rear_axle_m, quality.y_rear_axle_m].map(one => Math.fround(one).toFixed(2)).join(', ');
                     assert.ok(rows.includes(`from the rear axle\t${place} m`), rows.join('; '));
-                    const folds = `${quality.ambiguity_number} times ${quality.range_rate_interval_mps.toFixed(2)} m/s`;
+                    const folds = `${quality.ambiguity_number} times ${Math.fround(quality.range_rate_interval_mps).toFixed(2)} m/s`;
                     assert.ok(rows.includes(`label: true rate is off by\t${folds}`), rows.join('; '));
                 }
             });
