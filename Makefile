@@ -227,6 +227,7 @@ accuracy: all
 
 schemas: all
 	$(Q)$(BUILD)/bin/glint-schema schemas
+	$(Q)scripts/tables-sql schemas/tables.json >schemas/tables.sql
 
 # One line a module, from the headers.
 lib/README.md: FORCE

@@ -1,6 +1,6 @@
 /* The JSON Schemas of the frame and of every document, as files of a folder. */
 #include "run/schema.h"
-#include "export/table_schema.h"
+#include "export/detection_tables.h"
 #include "run/tool.h"
 #include "text/field.h"
 #include "text/output.h"
@@ -30,11 +30,8 @@ static int schema_run(void *state, struct runner *runner)
     }
     if (result != 0)
         return -1;
-    table_schema_write_json(&text);
-    if (write_file(state, "tables.json", &text, runner) != 0)
-        return -1;
-    table_schema_write_sql(&text);
-    return write_file(state, "tables.sql", &text, runner);
+    detection_tables_write_schema(&text);
+    return write_file(state, "tables.json", &text, runner);
 }
 
 static const struct field schema_options[] = {
@@ -45,10 +42,8 @@ static const struct field schema_options[] = {
 const struct tool tool_schema = {
     .name = "schema",
     .summary = "Write the JSON Schemas of the frame and of every document.",
-    .details =
-        "They are printed from the tables that the readers use (JSON Schema 2020-12).\n"
-        "The columns of glint-tables are in tables.json, as Frictionless Table Schemas, and\n"
-        "in tables.sql, by which DuckDB reads them.",
+    .details = "They are printed from the tables that the readers use (JSON Schema 2020-12).\n"
+               "The columns of glint-tables are in tables.json, as Frictionless Table Schemas.",
     .options = STAGE_OPTIONS(struct schema_state, schema_options),
     .operand = "DIR",
     .into_folder = true,

@@ -14,7 +14,8 @@ static bool is_among(const char *const *names, const char *name)
 }
 
 static void add_record(struct csv_columns *columns, const char *before, const struct record *record,
-                       size_t offset, const char *const *without, struct arena *arena)
+                       const struct field *embedded, const char *const *without,
+                       struct arena *arena)
 {
     for (const struct field *field = record->fields; field->name != NULL; field++) {
         const char *name = arena_format(arena, "%s%s", before, field->name);
@@ -23,17 +24,18 @@ static void add_record(struct csv_columns *columns, const char *before, const st
         if (!is_one || is_among(without, name))
             continue;
         if (field->kind == FIELD_RECORD)
-            add_record(columns, arena_format(arena, "%s_", name), field->record,
-                       offset + field->offset, without, arena);
+            add_record(columns, arena_format(arena, "%s_", name), field->record, field, without,
+                       arena);
         else
-            *list_add(&columns->list, arena) = (struct csv_column){name, field, record, offset};
+            *list_add(&columns->list, arena) = (struct csv_column){
+                name, field, record, embedded != NULL ? embedded->offset : 0, embedded};
     }
 }
 
 void csv_columns_add(struct csv_columns *columns, const struct record *record,
                      const char *const *without, struct arena *arena)
 {
-    add_record(columns, "", record, 0, without, arena);
+    add_record(columns, "", record, NULL, without, arena);
 }
 
 static void add_name(const char *name, struct text *row)
@@ -100,8 +102,10 @@ void csv_columns_write(const struct csv_columns *columns, const void *base, stru
         const struct csv_column *column = &columns->list.items[i];
         const struct field *field = column->field;
         const void *owner = (const char *)base + column->offset;
-        if (!field->optional || field->kind == FIELD_FLAG ||
-            field_present(column->record, field, owner))
+        bool there =
+            column->embedded == NULL || field_present(column->record, column->embedded, base);
+        if (there && (!field->optional || field->kind == FIELD_FLAG ||
+                      field_present(column->record, field, owner)))
             add_cell(field, owner, row);
         end_cell(row);
     }

@@ -17,6 +17,8 @@ struct csv_column {
     const struct field *field;
     const struct record *record; /* whose field it is */
     size_t offset;               /* of that record in the struct of the row */
+    const struct field
+        *embedded; /* the member that it is of that struct; NULL: the struct itself */
 };
 
 /* All zero before the first member. */

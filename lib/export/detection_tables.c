@@ -2,7 +2,6 @@
 
 #include <stdlib.h>
 
-#include "export/radar_ghost_label.h"
 #include "frame/frame_order.h"
 #include "geometry/sensor_pose.h"
 
@@ -30,105 +29,92 @@ struct row {
 
 enum { NO_KEY = -1 };
 
+#define WHOLE(member, help) FIELD_INTEGER_IN(struct row, member, -2, 0x1p53, help)
+#define REAL(member, help) FIELD_REAL_IN(struct row, member, -1e11, 1e11, help)
+#define WORD(member, help) FIELD_NAME_OF(struct row, member, help)
 #define KEY(member, help)                                                                          \
     {                                                                                              \
-        FIELD_INTEGER_IN(struct row, member, 0, 0x1p53, help)                                      \
+        WHOLE(member, help), FIELD_OPTIONAL, .absent = NO_KEY                                      \
     }
-#define OBJECT_KEY                                                                                 \
+#define WHEN                                                                                       \
+    {WORD(scene, "unique in a set: source, ego, variant")},                                        \
+        {WHOLE(frame, "number in the scene, from 0")},                                             \
     {                                                                                              \
-        FIELD_INTEGER_IN(struct row, object_key, 0, 0x1p53, "row of objects"), FIELD_OPTIONAL,     \
-            .absent = NO_KEY                                                                       \
+        REAL(time_s, "end of the interval that the frame stands for")                              \
     }
-#define COUNT(member, help)                                                                        \
+#define RECORD(fields)                                                                             \
     {                                                                                              \
-        FIELD_INTEGER_IN(struct row, member, 0, 0x1p53, help)                                      \
+        FIELD_TABLE(struct row, fields, "row", "Columns of a table.")                              \
     }
-#define REAL(member, help)                                                                         \
-    {                                                                                              \
-        FIELD_REAL_IN(struct row, member, -1e11, 1e11, help)                                       \
-    }
-#define WORD(member, help)                                                                         \
-    {                                                                                              \
-        FIELD_NAME_OF(struct row, member, help)                                                    \
-    }
-#define RECORD(fields, name, help)                                                                 \
-    static const struct record fields##_record = {FIELD_TABLE(struct row, fields, name, help)}
 
 static const struct field detection_fields[] = {
     KEY(detection_key, "number of this row"),
     KEY(scan_key, "row of scans"),
-    COUNT(detection, "place in the sensor's list, from 0"),
-    WORD(scene, "unique in a set: source, ego, variant"),
-    COUNT(frame, "number in the scene, from 0"),
-    REAL(time_s, "end of the interval that the frame stands for"),
+    {WHOLE(detection, "place in the sensor's list, from 0")},
+    WHEN,
     {0},
 };
-RECORD(detection_fields, "detection", "Where a target stands.");
+static const struct record detection_record = RECORD(detection_fields);
 
 static const struct field pose_fields[] = {
-    REAL(sensor_x_m, "place of the sensor at the measurement, from the frame's origin"),
-    REAL(sensor_y_m, "place of the sensor at the measurement, from the frame's origin"),
-    REAL(sensor_yaw_rad, "direction of its boresight"),
-    REAL(sensor_vx_mps, "velocity of the sensor"),
-    REAL(sensor_vy_mps, "velocity of the sensor"),
+    {REAL(sensor_x_m, "place of the sensor at the measurement, from the frame's origin")},
+    {REAL(sensor_y_m, "place of the sensor at the measurement, from the frame's origin")},
+    {REAL(sensor_yaw_rad, "direction of its boresight")},
+    {REAL(sensor_vx_mps, "velocity of the sensor")},
+    {REAL(sensor_vy_mps, "velocity of the sensor")},
     {0},
 };
-RECORD(pose_fields, "pose", "Place and motion of a sensor.");
+static const struct record pose_record = RECORD(pose_fields);
 
 static const struct field label_fields[] = {
-    OBJECT_KEY,
-    {FIELD_NAME_OF(struct row, class, "class of the object"), FIELD_OPTIONAL},
-    COUNT(contributors, "echoes in the label"),
-    {FIELD_INTEGER_IN(struct row, radar_ghost_label, -2, 9999, "as the Radar Ghost data set")},
+    KEY(object_key, "row of objects"),
+    {WORD(class, "class of the object"), FIELD_OPTIONAL},
+    {WHOLE(contributors, "echoes in the label")},
+    {WHOLE(radar_ghost_label, "as in the Radar Ghost data set")},
     {0},
 };
-RECORD(label_fields, "label", "What a target shows most of.");
+static const struct record label_record = RECORD(label_fields);
 
-static const struct field object_fields[] = {
+static const struct field truth_fields[] = {
     KEY(object_key, "number of this row"),
     KEY(frame_key, "number of the frame"),
-    WORD(scene, "unique in a set: source, ego, variant"),
-    COUNT(frame, "number in the scene, from 0"),
-    REAL(time_s, "end of the interval that the frame stands for"),
+    WHEN,
     {0},
 };
-RECORD(object_fields, "object", "When an object was there.");
+static const struct record truth_record = RECORD(truth_fields);
 
 static const struct field scan_fields[] = {
     KEY(scan_key, "number of this row"),
     KEY(frame_key, "number of the frame"),
-    WORD(scene, "unique in a set: source, ego, variant"),
+    WHEN,
     {FIELD_SEED_OF(struct row, seed, "seed of all random numbers")},
-    COUNT(frame, "number in the scene, from 0"),
-    REAL(time_s, "end of the interval that the frame stands for"),
-    REAL(interval_s, "length of that interval"),
+    {REAL(interval_s, "length of that interval")},
     {FIELD_FLAG_OF(struct row, last, "is this the scene's last frame?")},
-    WORD(ego, "id of the object that carries the sensors"),
-    REAL(origin_x_m, "origin of the frame's coordinates in those of the source"),
-    REAL(origin_y_m, "origin of the frame's coordinates in those of the source"),
-    WORD(suite, "name of the suite document"),
-    WORD(sensor, "name in the suite"),
-    REAL(measured_s, "instant of the measurement"),
-    COUNT(detections, "targets of this scan"),
+    {WORD(ego, "id of the object that carries the sensors")},
+    {REAL(origin_x_m, "origin of the frame's coordinates in those of the source")},
+    {REAL(origin_y_m, "origin of the frame's coordinates in those of the source")},
+    {WORD(suite, "name of the suite document")},
+    {WORD(sensor, "name in the suite")},
+    {REAL(measured_s, "instant of the measurement")},
+    {WHOLE(detections, "targets of this scan")},
     {0},
 };
-RECORD(scan_fields, "scan", "A scan of a sensor.");
+static const struct record scan_record = RECORD(scan_fields);
 
-static const struct field contributor_fields[] = {
+static const struct field part_fields[] = {
     KEY(detection_key, "row of detections"),
-    COUNT(contributor, "place in the label, from 0; the leader of the cell is the first"),
-    OBJECT_KEY,
+    {WHOLE(contributor, "place in the label, from 0; the leader of the cell is the first")},
+    KEY(object_key, "row of objects"),
     {0},
 };
-RECORD(contributor_fields, "contributor", "In which label an echo stands.");
+static const struct record part_record = RECORD(part_fields);
 
-static const struct field lost_fields[] = {
-    {FIELD_INTEGER_IN(struct row, scan_key, 0, 0x1p53, "row of scans"), FIELD_OPTIONAL,
-     .absent = NO_KEY},
-    OBJECT_KEY,
+static const struct field loss_fields[] = {
+    KEY(scan_key, "row of scans"),
+    KEY(object_key, "row of objects"),
     {0},
 };
-RECORD(lost_fields, "lost echo", "Of which scan an echo was lost.");
+static const struct record loss_record = RECORD(loss_fields);
 
 static const char *const all[] = {NULL};
 /* Columns that stand elsewhere in the row, or say the same for every row. */
@@ -142,19 +128,17 @@ static const struct {
     const struct record *record;
     const char *const *without;
 } structs[TABLE_COUNT][DETECTION_TABLES_STRUCTS] = {
-    [TABLE_DETECTIONS] = {{&detection_fields_record, all},
+    [TABLE_DETECTIONS] = {{&detection_record, all},
                           {&target_record, all},
-                          {&label_fields_record, all},
+                          {&label_record, all},
                           {&contributor_record, values},
-                          {&pose_fields_record, all}},
-    [TABLE_OBJECTS] = {{&object_fields_record, all}, {&object_record, all}},
-    [TABLE_SCANS] = {{&scan_fields_record, all},
-                     {&pose_fields_record, all},
+                          {&pose_record, all}},
+    [TABLE_OBJECTS] = {{&truth_record, all}, {&object_record, all}},
+    [TABLE_SCANS] = {{&scan_record, all},
+                     {&pose_record, all},
                      {&sensor_view_record, known_of_scan}},
-    [TABLE_CONTRIBUTORS] = {{&contributor_fields_record, all}, {&contributor_record, all}},
-    [TABLE_LOST] = {{&lost_fields_record, all},
-                    {&lost_group_record, all},
-                    {&lost_echo_record, all}},
+    [TABLE_CONTRIBUTORS] = {{&part_record, all}, {&contributor_record, all}},
+    [TABLE_LOST] = {{&loss_record, all}, {&lost_group_record, all}, {&lost_echo_record, all}},
 };
 
 void detection_tables_begin(struct detection_tables *tables, int64_t first_key, struct arena *arena)
@@ -173,6 +157,39 @@ void detection_tables_begin(struct detection_tables *tables, int64_t first_key, 
         if (rows != NULL)
             csv_columns_end_row(rows);
     }
+}
+
+static void write_json_column(const struct csv_column *column, struct text *text)
+{
+    static const char *const types[] = {
+        [FIELD_REAL] = "number", [FIELD_INTEGER] = "integer", [FIELD_FLAG] = "boolean",
+        [FIELD_NAME] = "string", [FIELD_CHOICE] = "string",   [FIELD_SEED] = "integer",
+        [FIELD_SET] = "string"};
+    const struct field *field = column->field;
+    text_format(text, "%s\n    {\"name\": \"%s\", \"type\": \"%s\"",
+                text->bytes[text->length - 1] == '[' ? "" : ",", column->name, types[field->kind]);
+    if (*field_unit(field->name) != '\0')
+        text_format(text, ", \"unit\": \"%s\"", field_unit(field->name));
+    text_add_word(text, ", \"description\": ");
+    text_add_json(text, field->help, strlen(field->help));
+    text_add_word(text, "}");
+}
+
+void detection_tables_write_schema(struct text *text)
+{
+    struct arena arena = {0};
+    struct detection_tables tables = {0};
+    detection_tables_begin(&tables, 0, &arena);
+    for (int table = 0; table < TABLE_COUNT; table++) {
+        text_format(text, "%s  \"%s\": {\"fields\": [", table == 0 ? "{\n" : ",\n",
+                    detection_tables_names[table]);
+        for (int i = 0; i < DETECTION_TABLES_STRUCTS; i++)
+            for (size_t j = 0; j < tables.columns[table][i].list.count; j++)
+                write_json_column(&tables.columns[table][i].list.items[j], text);
+        text_add_word(text, "]}");
+    }
+    text_add_word(text, "\n}\n");
+    arena_free(&arena);
 }
 
 /* A frame whose rows are being written. */
@@ -246,6 +263,43 @@ static void write_contributors(struct writing *writing, const struct target *tar
     }
 }
 
+/* The first digit of a label of the Radar Ghost data set; classes that are not listed have none. */
+static const struct {
+    const char *class;
+    int64_t digit;
+} class_digits[] = {
+    {"pedestrian", 1}, {"bicycle", 2},           {"car", 3}, {"van", 3},
+    {"truck", 4},      {"articulated_truck", 4}, {"bus", 4}, {"motorcycle", 5},
+};
+
+/* The last two digits, by path: 1 or 2 for a last bounce on the object or on the mirror, and a bit
+ * for the order: 1, 2 or 4 for one, two or three bounces. */
+static const int64_t bounce_digits[] = {
+    [PATH_DIRECT] = 11,           [PATH_WALL_OBJECT] = 12, [PATH_OBJECT_WALL] = 22,
+    [PATH_WALL_OBJECT_WALL] = 24, [PATH_WHEEL] = 11,       [PATH_LIMB] = 11,
+};
+
+enum { LABEL_BACKGROUND = 0, LABEL_NOISE = -2, LABEL_MAIN = 100 };
+
+static int64_t class_digit(const char *class)
+{
+    for (size_t i = 0; class != NULL && i < sizeof class_digits / sizeof *class_digits; i++)
+        if (strcmp(class, class_digits[i].class) == 0)
+            return class_digits[i].digit;
+    return 0;
+}
+
+/* The label that the Radar Ghost data set would give (Kraus et al. 2021): class, main object,
+ * bounce type and bounce order, a digit each. All objects count as its main one, because all ghosts
+ * are told apart. */
+static int64_t radar_ghost_label(enum path path, const char *class)
+{
+    if (path == PATH_FALSE_ALARM)
+        return LABEL_NOISE;
+    int64_t digit = path == PATH_CLUTTER ? 0 : class_digit(class);
+    return digit == 0 ? LABEL_BACKGROUND : 1000 * digit + LABEL_MAIN + bounce_digits[path];
+}
+
 static void write_detection(struct writing *writing, const struct target *target)
 {
     struct row *row = &writing->row;
@@ -253,7 +307,7 @@ static void write_detection(struct writing *writing, const struct target *target
     row->contributors = (int64_t)target->contributors.count;
     find_object(writing, from->id.object);
     row->class = writing->object != NULL ? writing->object->class : NULL;
-    row->radar_ghost_label = radar_ghost_label_of(from->id.path, row->class);
+    row->radar_ghost_label = radar_ghost_label(from->id.path, row->class);
     write_row(writing, TABLE_DETECTIONS,
               (const void *[DETECTION_TABLES_STRUCTS]){row, target, row, from,
                                                        writing->has_pose ? row : NULL});

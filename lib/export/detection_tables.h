@@ -52,4 +52,8 @@ void detection_tables_begin(struct detection_tables *tables, int64_t first_key,
  * DIAG_DATA where there are no keys left. */
 int detection_tables_add(struct detection_tables *tables, struct frame *frame, struct diag *diag);
 
+/* Appends a JSON object with a Frictionless Table Schema for each table: names, types, units and
+ * what the columns mean. */
+void detection_tables_write_schema(struct text *text);
+
 #endif

@@ -21,7 +21,7 @@ AWKWARD = 'with "quotes", commas and\u00a0blanks '
 CHAIN = "glint-extract | glint-ideal --sensors {} | glint-sensor | glint-noise"
 STREAMS = [
     f"glint-traffic side-crossing --scene '{AWKWARD}' | " + CHAIN.format("srr24-pair"),
-    "glint-traffic walled-road | " + CHAIN.format("radarscenes77-full --sections account,margins"),
+    "glint-traffic walled-road | " + CHAIN.format("radarscenes77-full --sections account,margins,quality"),
     "glint-traffic gravel --conditions '{\"rain_mmph\": 10}' | " + CHAIN.format("lrr77-full --sections account"),
     "glint-traffic-random --frames 20 --density dense | " + CHAIN.format("corner77-uncompensated --sections account"),
 ]
@@ -91,6 +91,12 @@ def ghost_label(path, kind):
     return 0 if path == "clutter" or digit == 0 else 1000 * digit + 100 + bounces
 
 
+def merged(target):
+    """Flags of a quality that is there are false where the line lacks them."""
+    flags = ("merged_objects", "merged_reflectors")
+    return {f"quality_{flag}": target["quality"].get(flag, False) for flag in flags} if "quality" in target else {}
+
+
 def expected(frames, first=0):
     """The rows of all tables."""
     rows = {table: [] for table in TABLES}
@@ -119,7 +125,7 @@ def expected(frames, first=0):
                 label = {column: best.get(column, "") for column in OF_LABEL}
                 rows["detections"].append({
                     "detection_key": key, "scan_key": scan, "detection": place, **when, **values(target),
-                    "sign_undecided": target.get("sign_undecided", False), "object_key": keys.get(best["object"], ""),
+                    "sign_undecided": target.get("sign_undecided", False), **merged(target), "object_key": keys.get(best["object"], ""),
                     "class": classes.get(best["object"], ""), "contributors": len(target["contributors"]),
                     "radar_ghost_label": ghost_label(best["path"], classes.get(best["object"])), **label, **here})
                 rows["contributors"] += [

@@ -1,0 +1,198 @@
+/* Whether a stream is what it claims to be. */
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+#include "frame/frame_order.h"
+#include "frame/frame_sequence.h"
+#include "run/fused.h"
+#include "run/suite_choice.h"
+#include "run/tool.h"
+#include "text/output.h"
+
+/* By so much, relative to its size, may a value differ from what is recomputed. */
+static const double tolerance = 1e-9;
+
+struct check {
+    const char *sensors, *extract;
+    bool partial;
+    struct runner *runner;
+    struct runner *extraction, *ideal; /* that make the echoes again; NULL: not begun */
+    const char *key;                   /* of ideal's suite and effects */
+    struct diag unknown;               /* why echoes of a frame could not be made again */
+    struct frame_sequence sequence;
+    int64_t frames, targets, contributors, recomputed;
+};
+
+/* Begins ideal anew where a frame has another suite or other effects than the one before. */
+static void begin_ideal(struct check *own, const struct frame *frame)
+{
+    struct arena *arena = runner_arena(own->runner);
+    const struct sensors *now = &frame->sensors;
+    const char *effects = now->effects != NULL ? now->effects : "auto";
+    const char *key = arena_format(frame->arena, "%s %s", now->digest, effects);
+    if (own->key != NULL && strcmp(own->key, key) == 0)
+        return;
+    const struct suite *suite = runner_suite_of_frame(own->runner, frame);
+    struct suite_choice choice = {suite != NULL ? suite->given : NULL,
+                                  arena_text(arena, effects, strlen(effects))};
+    own->key = arena_text(arena, key, strlen(key));
+    own->ideal =
+        suite == NULL ? NULL : runner_trial(own->runner, fused_stage("ideal"), &choice, NULL);
+}
+
+/* Makes the echoes of the frame's objects again. False without the documents that made them. */
+static bool remake(struct check *own, const struct frame *frame, struct frame *again)
+{
+    struct diag *diag = runner_diag(own->runner);
+    *again = *frame;
+    frame_drop(again, ~(unsigned)(SECTION_OBJECTS | SECTION_REFLECTORS | SECTION_VEHICLES));
+    again->sections = CARRY_BY_DEFAULT;
+    begin_ideal(own, frame);
+    bool made = own->ideal != NULL &&
+                ((frame->present & SECTION_REFLECTORS) != 0 ||
+                 runner_try(own->runner, own->extraction, again) == 0) &&
+                runner_try(own->runner, own->ideal, again) == 0;
+    if (own->unknown.code == DIAG_OK)
+        own->unknown = *diag;
+    *diag = (struct diag){0};
+    return made;
+}
+
+static int check_value(const char *member, double told, double truth, struct diag *diag)
+{
+    if (fabs(told - truth) <= tolerance * fabs(truth))
+        return 0;
+    return diag_fail(diag, DIAG_DATA, "%s: %.17g; recomputed, it is %.17g", member, told, truth);
+}
+
+/* Sensors must be those of the suite. */
+static int check_views(const struct frame *frame, const struct frame *again, struct diag *diag)
+{
+    for (size_t i = 0; i < frame->sensors.list.count && i < again->sensors.list.count; i++)
+        for (const struct field *field = sensor_view_record.fields; field->name != NULL; field++)
+            if (field->kind == FIELD_REAL &&
+                check_value(field->name, FIELD_LOAD(double, field, &frame->sensors.list.items[i]),
+                            FIELD_LOAD(double, field, &again->sensors.list.items[i]), diag) != 0)
+                return diag_prefix(diag, "sensors.list[%zu].", i);
+    return 0;
+}
+
+static int check_contributor(const struct contributor *told, struct echo_span echoes,
+                             struct check *own, struct diag *diag)
+{
+    for (size_t i = 0; i < echoes.count; i++) {
+        const struct echo *echo = &echoes.items[i];
+        if (frame_order_echo_ids(echo->id, told->id) != 0)
+            continue;
+        own->recomputed++;
+        bool same =
+            check_value("range_m", told->range_m, echo->range_m, diag) == 0 &&
+            check_value("azimuth_rad", told->azimuth_rad, echo->azimuth_rad, diag) == 0 &&
+            check_value("range_rate_mps", told->range_rate_mps, echo->range_rate_mps, diag) == 0 &&
+            check_value("time_s", told->time_s, echo->time_s, diag) == 0;
+        return same ? 0 : -1;
+    }
+    if (told->id.path >= PATH_WHEEL) /* made after ideal */
+        return 0;
+    return diag_fail(diag, DIAG_DATA, "reflector: the objects make no echo of \"%s\", \"%s\", %s",
+                     told->id.object, told->id.reflector, frame_path_name(told->id.path));
+}
+
+static int check_target(const struct target *target, const struct frame *again, struct check *own,
+                        struct diag *diag)
+{
+    double weights = 0;
+    own->contributors += (int64_t)target->contributors.count;
+    for (size_t i = 0; i < target->contributors.count; i++) {
+        const struct contributor *told = &target->contributors.items[i];
+        weights += told->weight;
+        if (again != NULL &&
+            check_contributor(told, frame_echoes_of(again, target->sensor), own, diag) != 0)
+            return diag_prefix(diag, "contributors[%zu].", i);
+    }
+    if (fabs(weights - 1) <= tolerance)
+        return 0;
+    return diag_fail(diag, DIAG_DATA, "contributors: weights sum to %.17g; expected 1", weights);
+}
+
+static int check_labels(struct check *own, const struct frame *frame, struct diag *diag)
+{
+    struct frame again;
+    bool known = frame->objects.count > 0 && remake(own, frame, &again);
+    if (known && check_views(frame, &again, diag) != 0)
+        return -1;
+    for (size_t i = 0; i < frame->targets.count; i++)
+        if (check_target(&frame->targets.items[i], known ? &again : NULL, own, diag) != 0)
+            return diag_prefix(diag, "targets[%zu].", i);
+    return 0;
+}
+
+static int check_all(struct check *own, struct diag *diag)
+{
+    struct frame *frame;
+    int more;
+    while ((more = runner_frame(own->runner, &frame)) > 0) {
+        own->frames++;
+        own->targets += (int64_t)frame->targets.count;
+        if ((own->partial ? frame_sequence_once
+                          : frame_sequence_follow)(&own->sequence, frame, runner_place(own->runner),
+                                                   runner_arena(own->runner), diag) != 0 ||
+            check_labels(own, frame, diag) != 0)
+            return -1;
+    }
+    return more == 0 && !own->partial ? frame_sequence_end(&own->sequence, diag) : more;
+}
+
+static int print(const struct check *own, struct output *output)
+{
+    struct text *text = output_text(output);
+    text_format(text,
+                "%" PRId64 " frames, %" PRId64 " targets; %" PRId64 " of %" PRId64
+                " contributors recomputed\n",
+                own->frames, own->targets, own->recomputed, own->contributors);
+    if (own->unknown.code != DIAG_OK)
+        text_format(text, "not all could be recomputed: %s\n", own->unknown.text);
+    return output_send(output, runner_diag(own->runner));
+}
+
+static int check_run(void *state, struct runner *runner)
+{
+    struct check *own = state;
+    own->runner = runner;
+    const struct stage *extract = fused_stage(own->extract != NULL ? own->extract : "extract");
+    if (extract == NULL)
+        return diag_fail(
+            runner_diag(runner), DIAG_USAGE,
+            "--extract: there is no stage \"%s\"; expected extract-contour or the like",
+            own->extract);
+    if (own->sensors != NULL && runner_suite(runner, own->sensors) == NULL)
+        return -1;
+    own->extraction = runner_trial(runner, extract, NULL, NULL);
+    struct output *output = runner_output(runner);
+    int result = output != NULL ? check_all(own, runner_diag(runner)) : -1;
+    return result == 0 ? print(own, output) : result;
+}
+
+static const struct field check_options[] = {
+    {FIELD_FLAG_OF(struct check, partial, "scenes may lack frames, and come in any order"),
+     FIELD_OPTIONAL},
+    {FIELD_NAME_OF(struct check, sensors, "path of the suite, if it is not found by its name"),
+     FIELD_OPTIONAL},
+    {FIELD_NAME_OF(struct check, extract, "the stage that extracted; absent: extract"),
+     FIELD_OPTIONAL},
+    {0},
+};
+
+const struct tool tool_check = {
+    .name = "check",
+    .summary = "Check that a stream is whole and its labels agree with its truth.",
+    .details =
+        "Every line is held to the schema and its bounds, every scene to its frames from 0 to\n"
+        "the last, every account to its sum. Echoes are made again from the objects, and labels\n"
+        "held to their range, azimuth, range rate and time, to 1e-9. The first fault ends the\n"
+        "check, with the exit status 65. scripts/check-set checks tables and sets.",
+    .options = STAGE_OPTIONS(struct check, check_options),
+    .reads = SECTION_SENSORS | SECTION_TARGETS,
+    .run = check_run,
+};

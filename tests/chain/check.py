@@ -1,0 +1,238 @@
+"""glint-check and scripts/check-set find what is wrong, and nothing in what is right.
+
+Usage: python3 tests/chain/check.py BIN_DIR        exit status 1 if any check fails
+
+Faults are planted here: in single values of a stream, in the order of its frames, in tables, and in a set every
+truncation of 20 files and every flipped bit of five. Of the flipped bits of a bare stream, those that leave it valid
+are counted and printed.
+"""
+import hashlib
+import importlib.machinery
+import importlib.util
+import json
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+CHAIN = "glint-extract | glint-ideal --sensors {} | glint-sensor | glint-noise"
+# Streams, and the options with which glint-check recomputes their labels.
+SOUND = [
+    ("glint pipelines/intersection.sh", ""), ("glint pipelines/contour.sh", "--extract extract-contour"),
+    ("glint pipelines/3gpp.sh", "--extract extract-3gpp"), ("glint pipelines/wheels-and-limbs.sh", ""),
+    ("glint pipelines/smear.sh", ""), ("glint pipelines/ghosts.sh", ""), ("glint pipelines/snow.sh", ""),
+    ("glint-traffic-random --frames 60 --conditions --density dense | "
+     + CHAIN.format("radarscenes77-full --sections account,reflectors"), ""),
+    ("glint-traffic-random --frames 60 --density dense | glint-extract --vehicles data/detailed/vehicles --sections "
+     "reflectors | glint-ideal --sensors corner77-uncompensated | glint-sensor | glint-noise", ""),
+]
+PLANTED = "glint-traffic side-crossing | " + CHAIN.format("srr24-pair --sections account")
+FLIPS = 300
+faults, checks = [], 0
+
+
+def check(good, text):
+    global checks
+    checks += 1
+    if not good:
+        faults.append(text)
+
+
+def run(command, bin_dir, data=None):
+    environment = dict(os.environ, PATH=bin_dir + os.pathsep + os.environ["PATH"], GLINT_DATA=ROOT + "/data")
+    return subprocess.run(["bash", "-o", "pipefail", "-c", command], env=environment, cwd=ROOT, input=data,
+                          capture_output=True, check=False)
+
+
+def stream_of(command, bin_dir):
+    done = run(command, bin_dir)
+    if done.returncode != 0:
+        sys.exit(f"check: {command}: {done.stderr.decode()}")
+    return done.stdout
+
+
+def lines_of(frames):
+    return "".join(json.dumps(frame) + "\n" for frame in frames).encode()
+
+
+def direct_part(frames, point):
+    """A contributor that a point of a car made (or a flat side), the number of its frame, and its path."""
+    for number, frame in enumerate(frames):
+        for i, target in enumerate(frame["targets"]):
+            for j, part in enumerate(target["contributors"]):
+                if part["path"] == "direct" and part["reflector"].startswith("corner") == point and part["range_rate_mps"]:
+                    return part, number, f"targets[{i}].contributors[{j}]."
+    sys.exit("check: no such contributor")
+
+
+def values(bin_dir, text):
+    """A value of a label that is off by 1e-8 is found and named; one that is off by 1e-12 is none."""
+    for point, member, floor in ((True, "range_m", 0), (True, "azimuth_rad", 1), (True, "range_rate_mps", 0),
+                                 (False, "range_rate_mps", 0), (True, "time_s", 1)):
+        for share, wanted in ((1e-8, 65), (1e-12, 0)):
+            frames = [json.loads(line) for line in text.splitlines()]
+            part, number, path = direct_part(frames, point)
+            part[member] += share * max(abs(part[member]), floor, 10 * (member == "range_rate_mps"))
+            done = run("glint-check", bin_dir, lines_of(frames))
+            check(done.returncode == wanted and (wanted == 0 or f"stdin:{number + 1}: {path}{member}:" in
+                                                 done.stderr.decode()), f"{member} off by {share}: {done.stderr.decode()}")
+
+
+def truth(bin_dir, text):
+    """A stream whose objects, names, weights, mounts or frames are others is refused."""
+    def plant(name, change, expected):
+        frames = [json.loads(line) for line in text.splitlines()]
+        frames = change(frames) or frames
+        done = run("glint-check", bin_dir, lines_of(frames))
+        check(done.returncode == 65 and expected in done.stderr.decode(), f"{name}: {done.returncode} {done.stderr.decode()}")
+
+    def seen(frames):
+        part, number, _ = direct_part(frames, True)
+        return frames[number], part
+
+    def move(frames, member, step, ego):
+        frame, part = seen(frames)
+        name = frame["ego"] if ego else part["object"]
+        next(one for one in frame["objects"] if one["id"] == name)[member] += step
+
+    for ego in (False, True):
+        for member in ("x_m", "y_m", "yaw_rad", "vx_mps", "vy_mps", "yaw_rate_radps"):
+            plant(member, lambda frames, member=member, ego=ego: move(frames, member, 1e-6, ego), "contributors[")
+    for member in ("length_m", "width_m"):
+        plant(member, lambda frames, member=member: move(frames, member, 1e-6, False), "contributors[")
+    plant("mount", lambda frames: frames[0]["sensors"]["list"][0].update(mount_yaw_rad=1e-6), "list[0].mount_yaw_rad")
+    plant("weight", lambda frames: seen(frames)[1].update(weight=0.5), "weights sum to")
+    plant("another object", lambda frames: seen(frames)[1].update(object="nobody"), 'no echo of "nobody"')
+    plant("a missing frame", lambda frames: frames[:3] + frames[4:], "frame: 4 of scene")
+    plant("no last frame", lambda frames: frames[:-1], "last")
+    plant("two frames swapped", lambda frames: [frames[1], frames[0], *frames[2:]], "frame")
+    plant("a loss that is missing", lambda frames: frames[0]["lost"][0]["echoes"].pop() and None, "account")
+    plant("a value out of bounds", lambda frames: seen(frames)[0]["targets"][0].update(range_m=-1), "outside")
+    done = run("glint-check --partial", bin_dir, b"".join(reversed(text.splitlines(keepends=True))))
+    check(done.returncode == 0, f"--partial: {done.stderr.decode()}")
+
+
+def flips(bin_dir, text):
+    """Flipped bits of a bare stream: how many stay valid. Those of digits that no truth recomputes, and of names."""
+    draw, valid = random.Random(1), 0
+    line = text.splitlines(keepends=True)[0]
+    whole = lines_of([json.loads(line) | {"last": True}])
+    for _ in range(FLIPS):
+        bit = draw.randrange(8 * len(whole))
+        flipped = bytearray(whole)
+        flipped[bit // 8] ^= 1 << bit % 8
+        valid += run("exec glint-check", bin_dir, bytes(flipped)).returncode == 0
+    check(0 < valid < FLIPS / 2, f"{valid} of {FLIPS} flips stay valid")
+    return f"{valid} of {FLIPS} flipped bits of a bare frame stay valid ({valid / FLIPS:.0%})"
+
+
+def check_set():
+    """scripts/check-set as a module."""
+    loader = importlib.machinery.SourceFileLoader("check_set", ROOT + "/scripts/check-set")
+    spec = importlib.util.spec_from_loader("check_set", loader)
+    module = importlib.util.module_from_spec(spec)
+    loader.exec_module(module)
+    return module
+
+
+def fault_of(module, data, entry):
+    """What the script's own functions say of a file's bytes; entry None: of the manifest's."""
+    try:
+        return module.fault_of_manifest(data) if entry is None else module.fault_of_bytes(data, entry)
+    except (ValueError, KeyError, TypeError) as error:
+        return str(error)
+
+
+def other_table(folder, package):
+    """Puts the table of one shard in the place of another's, and makes the manifest agree."""
+    tables = [entry for entry in package["resources"] if entry["path"].endswith("/objects.csv.gz")]
+    shutil.copy(f"{folder}/set/{tables[1]['path']}", f"{folder}/set/{tables[0]['path']}")
+    for name in ("rows", "bytes", "hash", "content_bytes", "content_hash"):
+        tables[0][name] = tables[1][name]
+    for name in ("rows", "bytes", "content_bytes"):
+        package[name] = sum(entry[name] for entry in package["resources"])
+    lines = "".join(f"{one['content_hash'].removeprefix('sha256:')}  {one['path']}\n" for one in package["resources"])
+    package["content_hash"] = "sha256:" + hashlib.sha256(lines.encode()).hexdigest()
+    del package["digest"]
+    text = json.dumps(package, indent=1, ensure_ascii=False).removesuffix("\n}") + ",\n"
+    with open(f"{folder}/set/datapackage.json", "w", encoding="utf-8") as file:
+        file.write(text + f' "digest": "sha256:{hashlib.sha256(text.encode()).hexdigest()}"}}\n')
+
+
+def sets(bin_dir):
+    """In a set every truncation and every flipped bit is found."""
+    module = check_set()
+    with tempfile.TemporaryDirectory() as folder:
+        plan = {"name": "tiny", "origin": "For tests.", "sources": [{"random": "sparse", "frames": 3}],
+                "chain": CHAIN.format("{suite}"), "suites": ["corner77-every-frame"], "frames_per_shard": 1, "tables": True}
+        with open(f"{folder}/plan.json", "w", encoding="utf-8") as file:
+            json.dump(plan, file)
+        build = os.path.dirname(bin_dir)
+        done = run(f"BUILD={build} scripts/dataset {folder}/plan.json --out {folder}/set && BUILD={build} "
+                   f"make -s -C {folder}/set", bin_dir)
+        if done.returncode != 0:
+            sys.exit(f"check: {done.stderr.decode()}")
+        done = run(f"BUILD={build} scripts/check-set {folder}/set", bin_dir)
+        check(done.returncode == 0, f"a sound set: {done.stdout.decode()}")
+        with open(f"{folder}/set/datapackage.json", "rb") as file:
+            manifest = file.read()
+        package = json.loads(manifest)
+        entries = [None, *sorted(package["documents"] + package["resources"], key=lambda entry: entry["bytes"])]
+        cut = flipped = 0
+        for number, entry in enumerate(entries[:20]):
+            data = manifest
+            if entry is not None:
+                with open(f"{folder}/set/{entry['path']}", "rb") as file:
+                    data = file.read()
+            lost = [size for size in range(len(data)) if not fault_of(module, data[:size], entry)]
+            check(not lost, f"truncations of {entry} to {lost[:3]} bytes pass")
+            cut += len(data)
+            if number < 5:
+                other = bytearray(data)
+                for bit in range(8 * len(data)):
+                    other[bit // 8] ^= 1 << bit % 8
+                    check(fault_of(module, bytes(other), entry), f"bit {bit} of {entry} may flip")
+                    other[bit // 8] ^= 1 << bit % 8
+                flipped += 8 * len(data)
+        # The same by the script: a shard that is cut, a table that is right by the manifest alone, a shard that is gone.
+        shard = package["resources"][0]
+        path = f"{folder}/set/{shard['path']}"
+        shutil.copy(path, f"{folder}/kept")
+        os.truncate(path, shard["bytes"] - 1)
+        done = run(f"BUILD={build} scripts/check-set {folder}/set", bin_dir)
+        check(done.returncode == 65 and f"{shard['path']}: bytes: {shard['bytes'] - 1}" in done.stdout.decode(),
+              f"a cut shard: {done.stdout.decode()}")
+        shutil.copy(f"{folder}/kept", path)
+        other_table(folder, package)
+        done = run(f"BUILD={build} scripts/check-set {folder}/set", bin_dir)
+        check(done.returncode == 65 and "other rows than those of the stream" in done.stdout.decode(),
+              f"a table of another stream: {done.stdout.decode()}")
+        os.remove(path)
+        done = run(f"BUILD={build} scripts/check-set {folder}/set", bin_dir)
+        check(done.returncode == 65 and "No such file" in done.stdout.decode(), f"a shard that is gone: {done.stdout.decode()}")
+    return f"{cut} truncations of 20 files and {flipped} flipped bits of 5 were found"
+
+
+def main():
+    bin_dir = os.path.abspath(sys.argv[1])
+    recomputed = []
+    for command, options in SOUND:
+        done = run(f"glint-check {options}", bin_dir, stream_of(command, bin_dir))
+        check(done.returncode == 0, f"{command}: {done.stderr.decode()}")
+        recomputed.append(done.stdout.decode().strip())
+        check(recomputed[-1].endswith("recomputed") and "; 0 of" not in recomputed[-1], f"{command}: {recomputed[-1]}")
+    text = stream_of(PLANTED, bin_dir)
+    for part in (values, truth):
+        part(bin_dir, text)
+    told = [flips(bin_dir, stream_of(SOUND[0][0], bin_dir)), sets(bin_dir)]
+    for fault in faults[:10]:
+        print(f"FAILED   {fault}"[:2000])
+    print(f"check: {recomputed[0]}; {'; '.join(told)}; {checks} checks, {len(faults)} faults")
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()
