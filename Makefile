@@ -48,10 +48,12 @@ LIBS = -ljansson -lcsv -lz -lm
 # The programs by the files of stages/. A file that needs another library says so in one line, and is
 # left out where that is missing: /* needs: fftw3 */
 needs = $(shell sed -n 's:^/\* needs\: \(.*\) \*/$$:\1:p' stages/$(1).c)
-have = $(if $(call needs,$(1)),$(shell pkg-config --exists $(call needs,$(1)) && echo yes),yes)
+have = $(if $(call needs,$(1)),$(shell pkg-config --exists $(call needs,$(1)) && $(call can_generate,$(1)) && echo yes),yes)
+# From an interface of protobuf beside it, stages/NAME.proto, protoc-c makes C.
+can_generate = { [ ! -e stages/$(1).proto ] || command -v protoc-c >/dev/null; }
 all_names := $(filter-out main,$(patsubst stages/%.c,%,$(sort $(wildcard stages/*.c))))
 names := $(foreach n,$(all_names),$(if $(call have,$(n)),$(n)))
-$(foreach n,$(filter-out $(names),$(all_names)),$(info glint-$(subst _,-,$(n)) is left out: it needs $(call needs,$(n))))
+$(foreach n,$(filter-out $(names),$(all_names)),$(info glint-$(subst _,-,$(n)) is left out: it needs $(call needs,$(n))$(if $(wildcard stages/$(n).proto), and protoc-c)))
 # A file defines either a struct stage or a struct tool.
 tools := $(filter $(names),$(patsubst stages/%.c,%,$(shell grep -l '^const struct tool tool_' stages/*.c)))
 stages := $(filter-out $(tools),$(names))
@@ -61,7 +63,8 @@ libs_of = $(if $(call needs,$(1)),$(shell pkg-config --libs $(call needs,$(1))))
 stage_libs := $(foreach n,$(names),$(call libs_of,$(n)))
 
 lib_objects := $(patsubst lib/%,$(BUILD)/lib/%.o,$(wildcard lib/*.c lib/*/*.c lib/*/*.cc lib/*.cc)) $(BUILD)/lib/view_page.o
-stage_objects := $(patsubst %,$(BUILD)/stages/%.o,$(names))
+interfaces := $(patsubst stages/%.proto,$(BUILD)/stages/%.pb-c,$(wildcard $(names:%=stages/%.proto)))
+stage_objects := $(patsubst %,$(BUILD)/stages/%.o,$(names)) $(interfaces:%=%.o)
 programs_of = $(foreach n,$(1),$(BUILD)/bin/glint-$(subst _,-,$(n)))
 # glint-plan tries stages of all kinds, so it lies in the file that has all.
 plain_names := $(filter-out plan,$(foreach n,$(names),$(if $(call needs,$(n)),,$(n))))
@@ -107,7 +110,16 @@ $(BUILD)/libglint.a: $(lib_objects)
 
 $(BUILD)/stages/%.o: stages/%.c
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(HOUSE_C) $(call flags_of,$*) $(CFLAGS) -c -o $@ $<
+	$(Q)$(CC) $(HOUSE_C) -iquote $(BUILD)/stages $(call flags_of,$*) $(CFLAGS) -c -o $@ $<
+
+$(BUILD)/stages/%.pb-c.c: stages/%.proto
+	@mkdir -p $(@D)
+	$(Q)protoc-c --proto_path=stages --c_out=$(@D) $<
+
+# What protoc-c writes is not held to our warnings.
+$(interfaces:%=%.o): %.pb-c.o: %.pb-c.c
+	$(Q)$(CC) $(HOUSE_C) -w $(call flags_of,$(*F)) $(CFLAGS) -c -o $@ $<
+$(interfaces:%.pb-c=%.o): %.o: %.pb-c.c
 
 # The folder is the registry; the file is rewritten only when the list has changed.
 registry = for n in $(2); do echo "extern const struct $(1) $(1)_$$n;"; done; \
@@ -236,10 +248,10 @@ lib/README.md: FORCE
 format:
 	clang-format -i $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.[ch] tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
 
-lint:
+lint: $(interfaces:%=%.c)
 	clang-format --dry-run --Werror $(wildcard lib/*.[ch] lib/*/*.[ch] stages/*.[ch] tests/*.[ch] tests/*/*.[ch] tests/*/*/*.[ch])
 	printf '%s\n' $(wildcard lib/*.c lib/*/*.c stages/*.c) | xargs -P $$(nproc) -n 16 sh -c \
-	    'clang-tidy --quiet "$$@" -- -std=c11 -D_XOPEN_SOURCE=700 -iquote lib' clang-tidy
+	    'clang-tidy --quiet "$$@" -- -std=c11 -D_XOPEN_SOURCE=700 -iquote lib -iquote $(BUILD)/stages' clang-tidy
 
 # Man pages are made from --help, by help2man; SOURCE_DATE_EPOCH makes them reproducible.
 man: all

@@ -13,6 +13,10 @@ import sys
 import tempfile
 from dataclasses import dataclass, field
 
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import osi_messages  # noqa: E402
+
 BIN = os.path.abspath(sys.argv[1])
 RATE_HZ = 10
 STEPS = 61
@@ -262,8 +266,23 @@ def commonroad(folder, users):
     return save(folder, "scenario.xml", [*lines, "</commonRoad>"])
 
 
+def osi(folder, users):
+    """Every number whole, with the bits of its double."""
+    messages = []
+    for step in range(STEPS):
+        there = [(user, user.pose(step)) for user in users if user.first <= step <= user.last]
+        messages.append(osi_messages.stamp(step * 1_000_000_000 // RATE_HZ) + b"".join(
+            osi_messages.moving(int(user.id), OSI[user.kind], at.x, at.y, at.yaw, (user.length, user.width, user.height),
+                                (at.vx, at.vy), at.rate) for user, at in there))
+    path = os.path.join(folder, "trace.osi")
+    with open(path, "wb") as file:
+        file.write(osi_messages.trace_of(*messages))
+    return path
+
+
 OWN = {kind: kind for kind in ("car", "truck", "motorcycle", "pedestrian")}
 INTERACTION = OWN
+OSI = {"car": 4, "truck": 7, "motorcycle": 10, "pedestrian": "pedestrian"}
 HIGHD = {"car": "Car", "truck": "Truck"}
 IND = OWN
 NGSIM = {"car": 2, "truck": 3, "motorcycle": 1}
@@ -286,6 +305,8 @@ FORMATS = [
            yaw_unit=math.radians(1e-6), heights=True, classes=SUMO),
     Format("CommonRoad", commonroad, 1e-6, program="glint-traffic-commonroad", velocity_unit=1e-4, yaw_unit=1e-6,
            rate_unit=1e-6, size_unit=1e-6, classes=OWN),
+    Format("OSI", osi, 1e-9, program="glint-traffic-osi", velocity_unit=1e-9, yaw_unit=1e-9, rate_unit=1e-9,
+           size_unit=1e-9, heights=True, classes=OSI),
 ]
 
 

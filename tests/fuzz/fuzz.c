@@ -95,17 +95,22 @@ void fuzz_chain(struct frame *frame, const char *suite)
         runner_free(&runners[--after]); /* the frame has names that belong to them */
 }
 
-void fuzz_play(const char *stage, const char *path, const char *ego)
+void fuzz_play(const char *stage, const char *const *words)
 {
-    enum { FRAMES = 3 };
-    const char *words[] = {path, "--ego", ego};
+    enum { FRAMES = 50 };
     struct runner runner;
     struct arena arena = {0};
-    struct frame frame = {.arena = &arena};
-    bool good = fuzz_begin(&runner, stage, ego != NULL ? 3 : 1, words) == 0;
+    size_t count = 0;
+    while (words[count] != NULL)
+        count++;
+    bool good = fuzz_begin(&runner, stage, count, words) == 0;
     for (int i = 0; good && i < FRAMES; i++) {
+        struct frame frame = {.arena = &arena};
+        arena_clear(&arena);
         good = runner_next(&runner, &frame) == 1;
         if (good)
+            fuzz_round_trip(&frame);
+        if (good && i < 3)
             fuzz_chain(&frame, "corner77-every-frame");
     }
     fuzz_judge(&runner.diag);

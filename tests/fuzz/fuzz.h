@@ -44,8 +44,9 @@ void fuzz_scene(struct frame *frame, int number, const char *class);
  * comes out must be a line that reads back to the same line. */
 void fuzz_chain(struct frame *frame, const char *suite);
 
-/* Plays a source's file: its first frames go through the chain. ego may be NULL. */
-void fuzz_play(const char *stage, const char *path, const char *ego);
+/* Plays a source with these words, the last of which is NULL: the first frames are written and read
+ * back, the first three go through the chain. */
+void fuzz_play(const char *stage, const char *const *words);
 
 /* Writes the frame, reads it back and writes it again: both lines must be equal. */
 void fuzz_round_trip(const struct frame *frame);

@@ -18,7 +18,7 @@ static void play_table(const uint8_t *bytes, size_t size)
         fuzz_must(file != NULL && fwrite(bytes, 1, size, file) == size, "no table in build-fuzz");
         fclose(file);
     }
-    fuzz_play("traffic", paths[0], "all");
+    fuzz_play("traffic", (const char *const[]){paths[0], "--ego", "all", NULL});
     for (size_t i = 0; i < FILES; i++)
         unlink(paths[i]);
 }
@@ -31,7 +31,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     }
     struct fuzz_file file;
     fuzz_open(&file, bytes, size);
-    fuzz_play("traffic", file.path, NULL);
+    fuzz_play("traffic", (const char *const[]){file.path, NULL});
     fuzz_close(&file);
     return 0;
 }

@@ -1,0 +1,431 @@
+/* Traffic of OSI: the ground truth of a trace, message by message, also while it is written. */
+/* needs: libprotobuf-c */
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "run/stage.h"
+#include "text/file_format.h"
+#include "text/input.h"
+#include "traffic/recording.h"
+#include "traffic_osi.pb-c.h"
+
+enum { LENGTH_SIZE = 4, PIECE = 64 * 1024, LONGEST = 1 << 27 };
+
+/* Objects whose types OSI numbers apart from each other. */
+enum object_kind { MOVING, VEHICLE, STATIONARY };
+
+enum { TYPE_VEHICLE = 2 }; /* of a moving object, which then has a type as a vehicle too */
+
+struct trace {
+    struct input *input;
+    bool rear_axle;    /* are velocities those of rear axles? */
+    bool ahead, begun; /* is the message still to be given out? has any been read? */
+    size_t place;      /* where the message begins in the file */
+    struct text bytes; /* of the message */
+    struct arena arena;
+    const Osi3__GroundTruth *truth; /* the message */
+    const Osi3__Identifier *host;
+    int64_t time_ns;
+    size_t given;                        /* of its moving objects, then of the stills */
+    LIST_OF(struct recorded_row) stills; /* stationary objects of the last message with any */
+    struct arena still_arena;
+};
+
+struct traffic_osi {
+    const char *source;
+    struct recording_options options;
+    bool live, rear_axle_velocity;
+    struct trace trace;
+    struct recording recording;
+};
+
+/* ---- objects become rows ---- */
+
+static const struct type {
+    enum object_kind kind;
+    int32_t number;
+    const char *word;
+} types[] = {
+#define OSI(kind, number, word, class) {kind, number, word},
+#include "traffic/recorded_classes.def"
+};
+
+static const char *word_of(enum object_kind kind, int32_t number, struct arena *arena)
+{
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        if (types[i].kind == kind && types[i].number == number)
+            return types[i].word;
+    return kind == STATIONARY
+               ? NULL
+               : arena_format(arena, "%s_%d", kind == MOVING ? "moving" : "vehicle", (int)number);
+}
+
+/* An object that is being read. */
+struct body {
+    const struct trace *trace;
+    const char *name; /* for messages */
+    struct recorded_row row;
+    struct diag *diag;
+};
+
+/* Takes a number, which is 0 where the file has none; false after a message. */
+static bool take(const struct body *body, const char *what, double value, double low, double high,
+                 double *taken)
+{
+    *taken = value + 0.0; /* never -0 */
+    if (value >= low && value <= high)
+        return true;
+    diag_fail(body->diag, DIAG_DATA, "byte %zu: %s: %s is %.9g; expected a number in [%g, %g]",
+              body->trace->place, body->name, what, value, low, high);
+    return false;
+}
+
+/* What moving and stationary objects have. */
+static bool take_box(struct body *body, const Osi3__Identifier *id, const Osi3__Vector3d *position,
+                     const Osi3__Dimension3d *dimension, const Osi3__Orientation3d *orientation,
+                     struct arena *arena)
+{
+    static const Osi3__Dimension3d unsaid = OSI3__DIMENSION3D__INIT;
+    struct recorded_row *row = &body->row;
+    *row = recorded_row_unsaid;
+    if (id == NULL || position == NULL) {
+        diag_fail(body->diag, DIAG_DATA, "byte %zu: %s: %s is missing; expected one in each",
+                  body->trace->place, body->name, id == NULL ? "id" : "base.position");
+        return false;
+    }
+    row->id = arena_format(arena, "%" PRIu64, id->value);
+    body->name = arena_format(arena, "%s %s", body->name, row->id);
+    dimension = dimension != NULL ? dimension : &unsaid;
+    return take(body, "base.position.x", position->x, -1e9, 1e9, &row->x_m) &&
+           take(body, "base.position.y", position->y, -1e9, 1e9, &row->y_m) &&
+           take(body, "base.dimension.length", dimension->length, 0, 1e6, &row->length_m) &&
+           take(body, "base.dimension.width", dimension->width, 0, 1e6, &row->width_m) &&
+           take(body, "base.dimension.height", dimension->height, 0, 1e6, &row->height_m) &&
+           (orientation == NULL ||
+            take(body, "base.orientation.yaw", orientation->yaw, -1e3, 1e3, &row->yaw_rad));
+}
+
+/* Adds the turn of the centre about the rear axle, the vector to which is in the body's axes. */
+static bool move_velocity(struct body *body, const Osi3__Vector3d *to_rear)
+{
+    struct recorded_row *row = &body->row;
+    double ahead_m, left_m;
+    if (isnan(row->yaw_rad) || isnan(row->yaw_rate_radps))
+        return true;
+    if (!take(body, "vehicle_attributes.bbcenter_to_rear.x", to_rear->x, -1e3, 1e3, &ahead_m) ||
+        !take(body, "vehicle_attributes.bbcenter_to_rear.y", to_rear->y, -1e3, 1e3, &left_m))
+        return false;
+    struct vec2 heading = vec2_heading(row->yaw_rad);
+    row->vx_mps += row->yaw_rate_radps * (ahead_m * heading.y + left_m * heading.x);
+    row->vy_mps -= row->yaw_rate_radps * (ahead_m * heading.x - left_m * heading.y);
+    return true;
+}
+
+static int give_moving(struct trace *trace, const Osi3__MovingObject *object,
+                       struct recorded_row *row, struct diag *diag)
+{
+    static const Osi3__BaseMoving unsaid = OSI3__BASE_MOVING__INIT;
+    const Osi3__BaseMoving *base = object->body != NULL ? object->body : &unsaid;
+    const Osi3__MovingObject__VehicleClassification *vehicle = object->vehicle_classification;
+    const Osi3__MovingObject__VehicleAttributes *attributes = object->vehicle_attributes;
+    struct body body = {.trace = trace, .name = "moving_object", .diag = diag};
+    bool good = take_box(&body, object->id, base->position, base->dimension, base->orientation,
+                         &trace->arena);
+    if (good && base->orientation_rate != NULL)
+        good = take(&body, "base.orientation_rate.yaw", base->orientation_rate->yaw, -1e3, 1e3,
+                    &body.row.yaw_rate_radps);
+    if (good && base->velocity != NULL) {
+        good = take(&body, "base.velocity.x", base->velocity->x, -1e4, 1e4, &body.row.vx_mps) &&
+               take(&body, "base.velocity.y", base->velocity->y, -1e4, 1e4, &body.row.vy_mps);
+        if (good && trace->rear_axle && attributes != NULL && attributes->bbcenter_to_rear != NULL)
+            good = move_velocity(&body, attributes->bbcenter_to_rear);
+    }
+    body.row.class = object->type != TYPE_VEHICLE
+                         ? word_of(MOVING, object->type, &trace->arena)
+                         : word_of(VEHICLE, vehicle != NULL ? vehicle->type : 0, &trace->arena);
+    *row = body.row;
+    return good ? RECORDED_ROW : -1;
+}
+
+/* Keeps the stationary objects of a message that has some: traces need not repeat them. */
+static int keep_stills(struct trace *trace, struct diag *diag)
+{
+    static const Osi3__BaseStationary unsaid = OSI3__BASE_STATIONARY__INIT;
+    struct arena *arena = &trace->still_arena;
+    if (trace->truth->n_stationary_object > 0) {
+        arena_clear(arena);
+        trace->stills.items = NULL;
+        trace->stills.count = trace->stills.room = 0;
+    }
+    for (size_t i = 0; i < trace->truth->n_stationary_object; i++) {
+        const Osi3__StationaryObject *object = trace->truth->stationary_object[i];
+        const Osi3__BaseStationary *base = object->body != NULL ? object->body : &unsaid;
+        struct body body = {.trace = trace, .name = "stationary_object", .diag = diag};
+        if (object->classification == NULL ||
+            word_of(STATIONARY, object->classification->type, arena) == NULL)
+            continue;
+        if (!take_box(&body, object->id, base->position, base->dimension, base->orientation, arena))
+            return -1;
+        body.row.class = word_of(STATIONARY, object->classification->type, arena);
+        body.row.vx_mps = body.row.vy_mps = body.row.yaw_rate_radps = 0;
+        *list_add(&trace->stills, arena) = body.row;
+    }
+    return 0;
+}
+
+/* ---- messages ---- */
+
+static void *arena_give(void *arena, size_t size)
+{
+    return arena_room(arena, size);
+}
+
+static void leave_to_arena(void *arena, void *memory)
+{
+    (void)arena;
+    (void)memory;
+}
+
+/* Reads so many bytes into the trace's text: their number, less at the end; -1 after a message. */
+static long read_bytes(struct trace *trace, size_t count, struct diag *diag)
+{
+    struct text *bytes = &trace->bytes;
+    bytes->length = 0;
+    while (bytes->length < count) {
+        size_t piece = count - bytes->length < PIECE ? count - bytes->length : PIECE;
+        long got = input_read(trace->input, text_room(bytes, piece), piece, diag);
+        if (got < 0)
+            return -1;
+        if (got == 0)
+            break;
+        bytes->length += (size_t)got;
+    }
+    return (long)bytes->length;
+}
+
+static int fail_at_end(const struct trace *trace, struct diag *diag)
+{
+    char last[80] = "no message is whole";
+    if (trace->begun)
+        snprintf(last, sizeof last, "the last whole message is that of %.12g s",
+                 recorded_row_seconds(trace->time_ns));
+    return diag_fail(diag, DIAG_DATA, "byte %zu: the trace ends inside a message; %s", trace->place,
+                     last);
+}
+
+/* Unpacks the message: a ground truth, or the view of a sensor, which holds one. */
+static int unpack(struct trace *trace, struct diag *diag)
+{
+    ProtobufCAllocator allocator = {arena_give, leave_to_arena, &trace->arena};
+    const uint8_t *bytes = (const uint8_t *)trace->bytes.bytes;
+    size_t length = trace->bytes.length;
+    arena_clear(&trace->arena);
+    trace->truth = osi3__ground_truth__unpack(&allocator, length, bytes);
+    if (trace->truth != NULL)
+        trace->host = trace->truth->host_vehicle_id;
+    if (trace->truth == NULL || trace->truth->n_moving_object == 0) {
+        const Osi3__SensorView *view = osi3__sensor_view__unpack(&allocator, length, bytes);
+        if (view != NULL && view->global_ground_truth != NULL) {
+            trace->truth = view->global_ground_truth;
+            trace->host = view->host_vehicle_id != NULL ? view->host_vehicle_id
+                                                        : trace->truth->host_vehicle_id;
+        }
+    }
+    return trace->truth != NULL
+               ? 0
+               : diag_fail(diag, DIAG_DATA,
+                           "byte %zu: a message of %zu bytes that is none of OSI; expected a "
+                           "GroundTruth behind its length",
+                           trace->place, length);
+}
+
+static int read_time(struct trace *trace, struct diag *diag)
+{
+    const Osi3__Timestamp *time = trace->truth->timestamp;
+    if (time == NULL)
+        return diag_fail(diag, DIAG_DATA,
+                         "byte %zu: timestamp is missing; expected one in each "
+                         "message",
+                         trace->place);
+    if (time->seconds < -9000000000 || time->seconds > 9000000000 || time->nanos >= 1000000000)
+        return diag_fail(diag, DIAG_DATA,
+                         "byte %zu: timestamp is %" PRId64 " s and %" PRIu32
+                         " ns; expected seconds in [-9e9, 9e9] and less than 1e9 ns",
+                         trace->place, time->seconds, time->nanos);
+    trace->time_ns = time->seconds * 1000000000 + time->nanos;
+    return 0;
+}
+
+/* Of a text or a log the first four bytes are a length beyond all bounds. Some bytes more let
+ * file_format_explain see what it is. */
+static int refuse_length(struct trace *trace, size_t length, struct diag *diag)
+{
+    struct diag ignored = {0};
+    input_read(trace->input, text_room(&trace->bytes, PIECE), PIECE, &ignored);
+    return diag_fail(diag, DIAG_DATA,
+                     "byte %zu: the length of a message is %zu; expected at most %d bytes",
+                     trace->place, length, LONGEST);
+}
+
+/* Reads the next message: 1; 0 at the end; -1 after a message. */
+static int read_message(struct trace *trace, struct diag *diag)
+{
+    trace->place += trace->begun ? LENGTH_SIZE + trace->bytes.length : 0;
+    long got = read_bytes(trace, LENGTH_SIZE, diag);
+    if (got <= 0)
+        return (int)got;
+    if (got < LENGTH_SIZE)
+        return fail_at_end(trace, diag);
+    size_t length = text_half_word(trace->bytes.bytes);
+    if (length > LONGEST)
+        return refuse_length(trace, length, diag);
+    got = read_bytes(trace, length, diag);
+    if (got < 0)
+        return -1;
+    if ((size_t)got < length)
+        return fail_at_end(trace, diag);
+    trace->begun = trace->ahead = true;
+    trace->given = 0;
+    return unpack(trace, diag) == 0 && read_time(trace, diag) == 0 && keep_stills(trace, diag) == 0
+               ? 1
+               : -1;
+}
+
+/* ---- the format ---- */
+
+static int explain(const struct trace *trace, struct diag *diag)
+{
+    size_t length;
+    const char *head = input_head(trace->input, &length);
+    file_format_explain("osi", head, length, diag);
+    return -1;
+}
+
+static int next_event(void *state, struct recorded_row *row, struct diag *diag)
+{
+    struct trace *trace = state;
+    int more = trace->ahead ? 1 : read_message(trace, diag);
+    if (more <= 0)
+        return more < 0 ? explain(trace, diag) : RECORDED_END;
+    size_t moving = trace->truth->n_moving_object, given = trace->given++;
+    int event = RECORDED_ROW;
+    if (given < moving)
+        event = give_moving(trace, trace->truth->moving_object[given], row, diag);
+    else if (given < moving + trace->stills.count)
+        *row = trace->stills.items[given - moving];
+    else
+        event = RECORDED_STEP;
+    trace->ahead = event != RECORDED_STEP;
+    row->time_ns = trace->time_ns;
+    row->place = trace->place;
+    return event;
+}
+
+static void close_trace(void *state)
+{
+    struct trace *trace = state;
+    input_close(trace->input);
+    text_free(&trace->bytes);
+    arena_free(&trace->arena);
+    arena_free(&trace->still_arena);
+}
+
+static const struct recorded_word words[] = {
+#define OSI(kind, number, word, class) {word, class, 0, 0, 0},
+#include "traffic/recorded_classes.def"
+    {0},
+};
+
+static const struct recorded_format format = {
+    .name = "an OSI trace",
+    .id_name = "id of an object",
+    .place = "byte",
+    .by_time = true,
+    .marks_steps = true,
+    .words = words,
+    .next = next_event,
+    .close = close_trace,
+};
+
+/* ---- the stage ---- */
+
+/* The first message is read at once, because it may name the host, who is the ego unless --ego says
+ * another one. */
+static int traffic_osi_start(void *state, struct runner *runner)
+{
+    struct traffic_osi *own = state;
+    struct trace *trace = &own->trace;
+    struct arena *arena = runner_arena(runner);
+    struct diag *diag = runner_diag(runner);
+    trace->input = runner_input(runner, own->source);
+    if (trace->input == NULL)
+        return diag_prefix(diag, "%s: ", own->source);
+    trace->rear_axle = own->rear_axle_velocity;
+    if (read_message(trace, diag) < 0) {
+        explain(trace, diag);
+        return diag_prefix(diag, "%s: ", own->source);
+    }
+    if (own->options.ego == NULL && trace->host != NULL)
+        own->options.ego = arena_format(arena, "%" PRIu64, trace->host->value);
+    return recording_open(&own->recording, (struct recorded_reader){&format, trace}, own->source,
+                          &own->options, own->live, arena, diag);
+}
+
+static int traffic_osi_next(void *state, struct frame *frame, struct runner *runner)
+{
+    struct traffic_osi *own = state;
+    return recording_next(&own->recording, frame, runner_diag(runner));
+}
+
+static int traffic_osi_locate_fault(void *state, const struct frame *frame, struct runner *runner)
+{
+    const struct traffic_osi *own = state;
+    return recording_check(&own->recording, frame, runner_diag(runner));
+}
+
+static void traffic_osi_release(void *state)
+{
+    struct traffic_osi *own = state;
+    if (own->recording.steps.reader.format == NULL) /* it was never opened */
+        close_trace(&own->trace);
+    recording_close(&own->recording);
+}
+
+static const struct field traffic_osi_fields[] = {
+    {FIELD_NAME_OF(struct traffic_osi, source,
+                   "an OSI trace (.osi), plain or gzip; - is standard input")},
+    {FIELD_RECORD_OF(struct traffic_osi, options, &recording_options_record, ""), FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct traffic_osi, rear_axle_velocity,
+                   "velocities are those of rear axles, as esmini's; absent: of centres of boxes"),
+     FIELD_OPTIONAL},
+    {FIELD_FLAG_OF(struct traffic_osi, live,
+                   "write the frame of a message before the next message is there"),
+     FIELD_OPTIONAL},
+    {0},
+};
+
+#define OSI(kind, number, word, class) "\n    " word " = " class
+
+const struct stage stage_traffic_osi = {
+    .name = "traffic-osi",
+    .summary = "Play the ground truth of an OSI trace, frame by frame.",
+    .details =
+        "A trace holds messages GroundTruth or SensorView, each behind its length in four bytes.\n"
+        "Without --ego the host vehicle is the ego, if the trace names it. Places are centres of\n"
+        "boxes, yaws counter-clockwise from x; velocities and yaw rates are those of the trace,\n"
+        "else centred differences, which wait for the next message, or with --live differences to\n"
+        "the message before. A trailer is an object of its own. Stationary objects that have a\n"
+        "class stay until a message has others; all others are left out.\n"
+        "\n"
+        "What types of objects mean:"
+#include "traffic/recorded_classes.def"
+    ,
+    .options = STAGE_OPTIONS(struct traffic_osi, traffic_osi_fields),
+    .operand = "SOURCE",
+    .writes = SECTION_OBJECTS,
+    .start = traffic_osi_start,
+    .next = traffic_osi_next,
+    .locate_fault = traffic_osi_locate_fault,
+    .release = traffic_osi_release,
+};

@@ -1,0 +1,361 @@
+"""Traces of OSI against protoc with the full interface, and against messages that are packed here, byte by byte.
+
+Usage: python3 tests/chain/osi.py BIN_DIR
+"""
+import gzip
+import json
+import math
+import os
+import re
+import select
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import recorded  # noqa: E402
+from osi_messages import (  # noqa: E402
+    LANE, VERSION, box, message, moving, stamp, stationary, trace_of, vector, whole)
+from recorded import BIN, DATA, PATIENCE_S, check, compare, run, slopes  # noqa: E402
+
+PROGRAM = "glint-traffic-osi"
+VEHICLES = {"TYPE_SMALL_CAR": "car", "TYPE_CAR": "car", "TYPE_MEDIUM_CAR": "car", "TYPE_HEAVY_TRUCK": "truck",
+            "TYPE_VAN": "van", "TYPE_DELIVERY_VAN": "van", "TYPE_BUS": "bus", "TYPE_MOTORBIKE": "motorcycle",
+            "TYPE_MOTORCYCLE": "motorcycle", "TYPE_BICYCLE": "bicycle", "TYPE_SEMITRAILER": "truck"}
+
+# ---- a trace of our own ---------------------------------------------------------------------------------
+
+STEP_NS = 50_000_000
+
+
+def drive(step, sign=1):
+    """A car that turns, as the host; the velocity is that of its rear axle, 1.4 m behind the centre."""
+    rate, speed = 0.5, 8.0
+    yaw = rate * step * STEP_NS * 1e-9
+    x, y = speed / rate * math.sin(yaw), speed / rate * (1 - math.cos(yaw))
+    rear = 1.4
+    return {"x": x + rear * math.cos(yaw), "y": sign * (y + rear * math.sin(yaw)), "yaw": sign * yaw, "rate": sign * rate,
+            "velocity": (speed * math.cos(yaw), sign * speed * math.sin(yaw)), "rear": (-rear, 0, -0.35)}
+
+
+def own_trace(sign=1, zeros=True, count=6):
+    """The host, of id 0; a tractor with its trailer; a walker without velocities; a pole and a bridge, said once."""
+    for step in range(count):
+        near = step % 50  # so that a long trace stays where it is
+        parts = [VERSION, stamp(step * STEP_NS, zeros), message(3, whole(1, 0) if zeros else b"")]
+        if step == 0:
+            parts += [stationary(90, 4, 20, sign * 5.5), stationary(91, 2, 40, sign * 2), LANE]
+        parts += [moving(0, 4, **drive(step, sign), zeros=zeros), LANE,
+                  moving(7, 16, 30 + near, sign * 3.5, sign * 0.0, (6, 2.5, 3.5), (20, 0), 0, zeros=zeros),
+                  moving(8, 8, 22 + near, sign * 3.5, sign * 0.0, (13, 2.5, 4), (20, 0), 0, zeros=zeros)]
+        if step > 1:
+            parts.append(moving(2**64 - 1, "pedestrian", 12 + 0.1 * near * near, sign * (8 + 0.05 * near), None, (0, 0, 0)))
+        yield b"".join(parts)
+
+
+def own_states(count=6, rear_axle=False):
+    steps = {}
+    for step in range(count):
+        at = drive(step)
+        vx, vy = at["velocity"]
+        if rear_axle:
+            vx, vy = vx - 1.4 * at["rate"] * math.sin(at["yaw"]), vy + 1.4 * at["rate"] * math.cos(at["yaw"])
+        steps[step * STEP_NS * 1e-9] = {
+            "0": {"class": "car", "x_m": at["x"], "y_m": at["y"], "yaw_rad": at["yaw"], "yaw_rate_radps": at["rate"],
+                  "vx_mps": vx, "vy_mps": vy, "length_m": 4.5, "width_m": 1.8, "height_m": 1.5},
+            "7": {"class": "truck", "x_m": 30 + step, "y_m": 3.5, "yaw_rad": 0, "vx_mps": 20, "length_m": 6},
+            "8": {"class": "truck", "x_m": 22 + step, "y_m": 3.5, "yaw_rad": 0, "vx_mps": 20, "length_m": 13},
+            "90": {"class": "post", "x_m": 20, "y_m": 5.5, "vx_mps": 0, "vy_mps": 0, "yaw_rate_radps": 0, "height_m": 3}}
+    times = sorted(steps)[2:]
+    xs, ys = ([12 + 0.1 * i * i for i in range(2, count)], [8 + 0.05 * i for i in range(2, count)])
+    for i, (time, vx, vy) in enumerate(zip(times, slopes(times, xs), slopes(times, ys))):
+        steps[time][str(2**64 - 1)] = {"class": "pedestrian", "x_m": xs[i], "y_m": ys[i], "vx_mps": vx, "vy_mps": vy,
+                                       "yaw_rad": math.atan2(vy, vx), "length_m": 0, "width_m": 0, "height_m": 0}
+    return {round(time, 9): users for time, users in steps.items()}
+
+
+def save(folder, name, content):
+    path = os.path.join(folder, name)
+    with open(path, "wb") as file:
+        file.write(content)
+    return path
+
+
+def sensor_view(truth):
+    return VERSION + stamp(0) + message(3, whole(1, 77)) + message(7, truth) + message(8, whole(1, 8))
+
+
+def exactness(folder):
+    for zeros in (True, False):
+        content = trace_of(*own_trace(zeros=zeros))
+        path = save(folder, "own.osi", content)
+        compare(run(PROGRAM, path), own_states(), "0")
+        compare(run(PROGRAM, path, "--rear-axle-velocity"), own_states(rear_axle=True), "0")
+        compare(run(PROGRAM, path, "--ego", str(2**64 - 1)), own_states(), str(2**64 - 1))
+        compare(run(PROGRAM, "-", data=content), own_states(), "0")
+        compare(run(PROGRAM, save(folder, "own.osi.gz", gzip.compress(content))), own_states(), "0")
+    views = trace_of(*[sensor_view(truth) for truth in own_trace()])
+    compare(run(PROGRAM, save(folder, "views.osi", views)), own_states(), "8")
+    late = trace_of(VERSION + stamp(1_700_000_000_123_456_789) + moving(5, 4, 0, 0, 0.0))
+    check(run(PROGRAM, save(folder, "late.osi", late), "--ego", "5")[0]["time_s"] == 1700000000.123456789, "time since 1970")
+    moved = [next(own_trace()), stamp(STEP_NS) + moving(0, 4, 0, 0, 0.0) + stationary(95, 11, 1, 2)]
+    frames = run(PROGRAM, save(folder, "moved.osi", trace_of(*moved)))
+    check([part["id"] for part in frames[1]["objects"]] == ["0", "95"], "stationary objects stay until others come")
+
+
+def shared_options(folder):
+    path = os.path.join(folder, "own.osi")
+    for words in ((), ("--radius-m", "25"), ("--rate-hz", "50"), ("--from-s", "0.1", "--to-s", "0.2")):
+        together = {}
+        for frame in run(PROGRAM, path, "--ego", "all", *words):
+            together.setdefault(frame["ego"], []).append(frame)
+        check(sorted(together) == ["0", "7", "8"], f"egos are all vehicles: {sorted(together)}")
+        for ego, frames in together.items():
+            check(frames == run(PROGRAM, path, "--ego", ego, *words), f"{ego} alone, {words}")
+    mapped = run(PROGRAM, path, "--class-map", "semitrailer=van,pole=guardrail")
+    check([part["class"] for part in mapped[0]["objects"]] == ["car", "truck", "van", "guardrail"], "--class-map")
+    strange = save(folder, "strange.osi", trace_of(stamp(0) + moving(0, 25, 0, 0, 0.0)))
+    text, _ = run(PROGRAM, strange, "--ego", "0", fails=65)
+    check('unknown class "vehicle_25"; expected one of pedestrian, ' in text, text)
+    check(run(PROGRAM, strange, "--ego", "0", "--class-default", "bus")[0]["objects"][0]["class"] == "bus", "--class-default")
+    none = save(folder, "none.osi", trace_of(stamp(0) + moving(0, 4, 0, 0, 0.0)))
+    text, _ = run(PROGRAM, none, fails=64)
+    check("a recording has no ego of its own; expected --ego" in text, text)
+
+
+def a_mirrored_world_is_mirrored(folder):
+    path = save(folder, "mirrored.osi", trace_of(*own_trace(sign=-1)))
+    for words in ((), ("--rear-axle-velocity",), ("--rate-hz", "70")):
+        for one, other in zip(run(PROGRAM, os.path.join(folder, "own.osi"), *words), run(PROGRAM, path, *words), strict=True):
+            for a, b in zip(one["objects"], other["objects"], strict=True):
+                for key in ("x_m", "vx_mps", "length_m", "travelled_m"):
+                    check(abs(a[key] - b[key]) < 1e-9, f"mirrored {key} of {a['id']}")
+                for key in ("y_m", "vy_mps", "yaw_rate_radps"):
+                    check(abs(a[key] + b[key]) < 1e-9, f"mirrored {key} of {a['id']}")
+                check(recorded.turn_between(a["yaw_rad"], -b["yaw_rad"]) < 1e-12, f"mirrored yaw of {a['id']}")
+
+
+def a_loop_in_lock_step_never_waits():
+    """A stand-in of a simulator writes a message, and waits for its frame before it writes the next."""
+    with subprocess.Popen([os.path.join(BIN, PROGRAM), "-", "--live"], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as loop:
+        into, out = loop.stdin.fileno(), loop.stdout.fileno()
+        for i in range(200):
+            os.write(into, trace_of(stamp(i * STEP_NS) + message(3, b"") + moving(0, 4, 0.4 * i, 0, 0.0, zeros=False)))
+            check(bool(select.select([out], [], [], PATIENCE_S)[0]), f"no frame of message {i} before the next")
+            frame = json.loads(os.read(out, 1 << 16))
+            check(frame["frame"] == i and abs(frame["objects"][0]["vx_mps"] - 8 * (i > 0)) < 1e-9, f"live frame {i}: {frame}")
+        loop.stdin.close()
+        check(loop.wait(PATIENCE_S) == 0, "the loop ends well")
+
+
+def memory_is_constant():
+    """What is resident while a simulator writes on."""
+    def resident_kb(process):
+        with open(f"/proc/{process.pid}/status", encoding="ascii") as file:
+            return int(re.search(r"VmRSS:\s+(\d+) kB", file.read())[1])
+    kilobytes = {}
+    with subprocess.Popen([os.path.join(BIN, PROGRAM), "-", "--live"], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as loop:
+        for i, one in enumerate(own_trace(count=10001)):
+            os.write(loop.stdin.fileno(), trace_of(one))
+            loop.stdout.readline()
+            if i in (1000, 10000):
+                kilobytes[i] = resident_kb(loop)
+        loop.stdin.close()
+        check(loop.wait(PATIENCE_S) == 0, "the loop ends well")
+    print(f"osi: {kilobytes[1000]} kB of memory after 1,000 messages, {kilobytes[10000]} kB after 10,000")
+    check(kilobytes[10000] <= kilobytes[1000] + 100, f"memory grows: {kilobytes} kB")
+
+
+def early_ends(folder):
+    """Wherever a trace is cut, the whole messages come out, and the message names the last of them."""
+    content, ends = b"", []
+    for one in own_trace():
+        content += trace_of(one)
+        ends.append(len(content))
+    for cut in (*range(1, len(content), 97), *[end + more for end in ends[:-1] for more in (1, 3, 4)]):
+        path, count = save(folder, "cut.osi", content[:cut]), sum(end <= cut for end in ends)
+        if cut in ends:
+            check(len(run(PROGRAM, path)) == count, f"cut at {cut}, between messages")
+            continue
+        text, frames = run(PROGRAM, path, fails=65)
+        said = f"the last whole message is that of {0.05 * (count - 1):g} s" if count else "no message is whole"
+        check(said in text and f"byte {ends[count - 1] if count else 0}: " in text, f"cut at {cut}: {text}")
+        check(frames == count, f"cut at {cut}: {frames} frames")
+
+
+def bad_input(folder):
+    """Each is the second message of a trace; the message says its byte."""
+    first = trace_of(next(own_trace()))
+    nan, car = float("nan"), {"number": 5, "kind": 4}
+    cases = [
+        (stamp(0), "0 s after a step of 0 s; expected a later time"),
+        (b"", "timestamp is missing; expected one in each message"),
+        (moving(0, 4, 1, 1), "timestamp is missing; expected one in each message"),
+        (message(2, whole(1, 10**10)), "timestamp is 10000000000 s and 0 ns; expected seconds in [-9e9, 9e9]"),
+        (message(2, whole(1, 1), whole(2, 10**9)), "timestamp is 1 s and 1000000000 ns; expected seconds in"),
+        (b"\xff" * 20, "a message of 20 bytes that is none of OSI; expected a GroundTruth behind its length"),
+        (stamp(STEP_NS)[:-1], "that is none of OSI"),
+        (stamp(STEP_NS) + message(5, message(1, whole(1, 5)), whole(2, 3)), "that is none of OSI"),
+        (stamp(STEP_NS) + message(5, box(0, 0, 0, (1, 1, 1))), "moving_object: id is missing; expected one in each"),
+        (stamp(STEP_NS) + message(5, message(1, whole(1, 5))), "moving_object: base.position is missing; expected one in each"),
+        (stamp(STEP_NS) + moving(**car, x=nan, y=0),
+         "moving_object 5: base.position.x is nan; expected a number in [-1e+09, 1e+09]"),
+        (stamp(STEP_NS) + moving(**car, x=0, y=2e9), "moving_object 5: base.position.y is 2e+09; expected a number in"),
+        (stamp(STEP_NS) + moving(**car, x=0, y=0, yaw=math.inf), "moving_object 5: base.orientation.yaw is inf; expected"),
+        (stamp(STEP_NS) + moving(**car, x=0, y=0, size=(-1, 1, 1)),
+         "moving_object 5: base.dimension.length is -1; expected a number in [0, 1e+06]"),
+        (stamp(STEP_NS) + moving(**car, x=0, y=0, size=(1, nan, 1)), "moving_object 5: base.dimension.width is nan; expected"),
+        (stamp(STEP_NS) + moving(**car, x=0, y=0, size=(1, 1, 1e9)), "moving_object 5: base.dimension.height is 1e+09; expected"),
+        (stamp(STEP_NS) + moving(**car, x=0, y=0, velocity=(1e5, 0)), "moving_object 5: base.velocity.x is 100000; expected"),
+        (stamp(STEP_NS) + moving(**car, x=0, y=0, velocity=(0, nan)), "moving_object 5: base.velocity.y is nan; expected"),
+        (stamp(STEP_NS) + moving(**car, x=0, y=0, rate=-2e3), "moving_object 5: base.orientation_rate.yaw is -2000; expected"),
+        (stamp(STEP_NS) + moving(**car, x=0, y=0, yaw=0, velocity=(1, 0), rate=1, rear=(nan, 0)),
+         "moving_object 5: vehicle_attributes.bbcenter_to_rear.x is nan; expected"),
+        (stamp(STEP_NS) + stationary(6, 4, nan, 0), "stationary_object 6: base.position.x is nan; expected a number"),
+        (stamp(STEP_NS) + moving(0, 4, 0, 0) + moving(0, 4, 1, 1), "id of an object 0 at 0.05 s is in byte "),
+        (stamp(STEP_NS) + moving(0, 4, 0, 0) + stationary(0, 4, 1, 1), "id of an object 0 at 0.05 s is in byte "),
+        (stamp(STEP_NS) + moving(0, 0, 0, 0), 'unknown class "vehicle_0"; expected one of pedestrian, '),
+    ]
+    for content, said in cases:
+        path = save(folder, "bad.osi", first + trace_of(content))
+        text, _ = run(PROGRAM, path, "--ego", "0", "--rear-axle-velocity", fails=65)
+        check(f"{PROGRAM}: {path}: byte {len(first)}: " in text and said in text, f"{said}: {text}")
+    for content, said in ((b"", '--ego: "0" is no id of an object'),
+                          (b"\x01\x02\x03", "byte 0: the trace ends inside a message; no message is whole"),
+                          (struct.pack("<I", 1 << 31), "byte 0: the length of a message is 2147483648; expected at most"),
+                          (b"\x89MCAP0\r\n" + bytes(50), "a log of MCAP; "),
+                          (b"<?xml version='1.0'?>\n<commonRoad ", "glint-traffic-commonroad reads it")):
+        text, _ = run(PROGRAM, save(folder, "bad.osi", content), "--ego", "0", fails=65)
+        check(said in text, f"{said}: {text}")
+    text, _ = run(PROGRAM, os.path.join(folder, "absent.osi"), fails=66)
+    check("absent.osi: No such file or directory" in text, text)
+    text, _ = run("glint-traffic", os.path.join(folder, "own.osi"), "--ego", "0", fails=65)
+    check("an OSI trace; glint-traffic-osi reads it" in text, text)
+
+
+# ---- real traces, decoded with the full interface -------------------------------------------------------
+
+
+def parse(lines):
+    """A message of protoc's text: {field: [values]}, to its closing brace."""
+    fields = {}
+    for line in lines:
+        line = line.strip()
+        if line == "}":
+            break
+        if line.endswith("{"):
+            fields.setdefault(line[:-2], []).append(parse(lines))
+        else:
+            key, _, value = line.partition(": ")
+            fields.setdefault(key, []).append(value)
+    return fields
+
+
+def decoded(path, folder):
+    """The messages of a trace, by one run of protoc: lengths become fields of a message around all."""
+    with open(path, "rb") as file:
+        content = file.read()
+    around, at = [], 0
+    while at < len(content):
+        length = struct.unpack_from("<I", content, at)[0]
+        around.append(message(1, content[at + 4:at + 4 + length]))
+        at += 4 + length
+    save(folder, "trace.proto", b'syntax = "proto2";\nimport "osi_groundtruth.proto";\n'
+                                b"message Trace { repeated osi3.GroundTruth truth = 1; }\n")
+    done = subprocess.run(["protoc", f"-I{folder}", f"-I{DATA}/osi/proto", "-I/usr/include", "--decode=Trace", "trace.proto"],
+                          input=b"".join(around), capture_output=True, check=False)
+    check(done.returncode == 0, f"protoc: {done.stderr.decode()}")
+    return parse(iter(done.stdout.decode().splitlines()))["truth"]
+
+
+def value_of(fields, *path):
+    """A number; 0 where it is absent, None where a message before it is."""
+    for name in path[:-1]:
+        if fields is None or name not in fields:
+            return None
+        fields = fields[name][-1]
+    return float(fields[path[-1]][-1]) if path[-1] in fields else 0.0
+
+
+def states_of(truths):
+    steps, tracks = {}, {}
+    for truth in truths:
+        time = round(value_of(truth, "timestamp", "seconds") + value_of(truth, "timestamp", "nanos") * 1e-9, 9)
+        steps[time] = {}
+        for thing in truth.get("moving_object", []):
+            one = {key: value_of(thing, "base", *path) for key, path in {
+                "x_m": ("position", "x"), "y_m": ("position", "y"), "yaw_rad": ("orientation", "yaw"),
+                "vx_mps": ("velocity", "x"), "vy_mps": ("velocity", "y"), "yaw_rate_radps": ("orientation_rate", "yaw"),
+                "length_m": ("dimension", "length"), "width_m": ("dimension", "width"),
+                "height_m": ("dimension", "height")}.items()}
+            kind = thing["type"][-1]
+            one["class"] = ("pedestrian" if kind == "TYPE_PEDESTRIAN"
+                            else VEHICLES[thing["vehicle_classification"][-1]["type"][-1]])
+            name = f"{value_of(thing, 'id', 'value'):.0f}"
+            steps[time][name] = one
+            tracks.setdefault(name, []).append((time, one, value_of(thing, "vehicle_attributes", "bbcenter_to_rear", "x")))
+    return steps, tracks
+
+
+def real_traces(folder):
+    if DATA is None or shutil.which("protoc") is None:
+        print("GLINT_TEST_DATA is not set, or there is no protoc: no traces of OSI to read")
+        return
+    for name in ("acc-test", "pedestrian"):
+        path = f"{DATA}/osi/{name}.osi"
+        steps, tracks = states_of(decoded(path, folder))
+        check(len(steps) > 400 and len(tracks) >= 2, f"{name}: {len(steps)} steps, {len(tracks)} objects")
+        for ego in tracks:
+            compare(run(PROGRAM, path, "--ego", ego), steps, ego)
+        centres_of_esmini_move_about_their_rear_axles(name, path, tracks["0"])
+
+
+def centres_of_esmini_move_about_their_rear_axles(name, path, track):
+    """Its places are of centres, its velocities of rear axles: moved to the centres they are the slopes of the places."""
+    times = [time for time, _, _ in track]
+    slope = list(zip(*[slopes(times, [one[key] for _, one, _ in track]) for key in ("x_m", "y_m")]))
+    worst = {}
+    for words in ((), ("--rear-axle-velocity",)):
+        parts = [next(part for part in frame["objects"] if part["id"] == "0")
+                 for frame in run(PROGRAM, path, "--ego", "0", *words)]
+        turning = [i for i in range(2, len(times) - 2) if abs(track[i][1]["yaw_rate_radps"]) > 5e-3]
+        worst[words] = max((math.dist((parts[i]["vx_mps"], parts[i]["vy_mps"]), slope[i]) for i in turning), default=0)
+    print(f"osi: {name}: velocities differ from the slopes of the places by {worst[()]:.4f} m/s, moved from rear axles "
+          f"by {worst[('--rear-axle-velocity',)]:.4f} m/s")
+    check(worst[("--rear-axle-velocity",)] <= worst[()] / 4, f"{name}: {worst}")
+
+
+def the_interface_is_part_of_the_standard():
+    """Every field of our interface has number and type of the full one; body is base there."""
+    if DATA is None:
+        return
+    full = ""
+    for name in ("osi_common", "osi_object", "osi_groundtruth", "osi_sensorview"):
+        with open(f"{DATA}/osi/proto/{name}.proto", encoding="utf-8") as file:
+            full += re.sub(r"//.*", "", file.read())
+    with open(os.path.join(os.path.dirname(__file__), "..", "..", "stages", "traffic_osi.proto"), encoding="utf-8") as file:
+        ours = re.sub(r"//.*", "", file.read())
+    fields = re.findall(r"(optional|repeated) (\w+) (\w+) = (\d+);", ours)
+    check(len(fields) > 30, f"{len(fields)} fields")
+    for label, kind, name, number in fields:
+        name, kind = ("base" if name == "body" else name), ("Type" if kind == "int32" else kind)
+        check(re.search(rf"{label} {kind} {name} = {number};", full), f"{label} {kind} {name} = {number} is none of OSI")
+
+
+with tempfile.TemporaryDirectory() as place:
+    if os.path.exists(os.path.join(BIN, PROGRAM)):
+        exactness(place)
+        shared_options(place)
+        a_mirrored_world_is_mirrored(place)
+        a_loop_in_lock_step_never_waits()
+        memory_is_constant()
+        early_ends(place)
+        bad_input(place)
+        real_traces(place)
+        the_interface_is_part_of_the_standard()
+    else:
+        print(f"{PROGRAM} is not there: it needs libprotobuf-c and protoc-c")
+print(f"osi: {recorded.checks} checks hold")
