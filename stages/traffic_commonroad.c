@@ -6,11 +6,11 @@
 #include "traffic/recording.h"
 #include "xml_rows.h"
 
-enum { PATH_SIZE = 512, NAME_SIZE = FIELD_NAME_SIZE + 1, STEPS = 1000000 };
-
 #define UNSAID ((double)NAN)
 
-/* An exact value or an interval, each time with both ends, which may be UNSAID. */
+enum { PATH_SIZE = 512, NAME_SIZE = FIELD_NAME_SIZE + 1, STEPS = 1000000 };
+
+/* An exact value or an interval. */
 struct interval {
     double low, high;
 };
@@ -19,14 +19,9 @@ struct state {
     struct interval time, orientation, velocity, lateral, slip, yaw_rate;
 };
 
-/* A rectangle, a circle or a point. */
-struct part {
+/* A rectangle, a circle or a point; or the box around several, not turned, if length_m is said. */
+struct area {
     double x_m, y_m, length_m, width_m, orientation_rad, radius_m;
-};
-
-/* The box around parts. length_m UNSAID: there is none yet. */
-struct region {
-    double x_m, y_m, length_m, width_m;
 };
 
 struct document {
@@ -34,12 +29,11 @@ struct document {
     double step_s;
     size_t depth;         /* elements that are open */
     char path[PATH_SIZE]; /* of those inside an obstacle, "/shape/rectangle" */
-    char text[NAME_SIZE]; /* of the one that was opened last */
+    char text[NAME_SIZE]; /* of the one that was opened last, without white space */
     size_t path_length, text_length;
     bool in_obstacle, still;
     char id[NAME_SIZE], type[NAME_SIZE]; /* of the obstacle; empty: not said yet */
-    struct region shape, position;
-    struct part part;
+    struct area shape, position, part;   /* part is added to one of the others at its end */
     struct state state;
     struct arena *arena;                 /* of what is kept until the end: */
     LIST_OF(struct recorded_row) stills; /* obstacles that stand still */
@@ -55,14 +49,10 @@ struct traffic_commonroad {
     struct recording recording;
 };
 
-static const struct state unsaid = {{UNSAID, UNSAID}, {UNSAID, UNSAID}, {UNSAID, UNSAID},
-                                    {UNSAID, UNSAID}, {UNSAID, UNSAID}, {UNSAID, UNSAID}};
-static const struct part no_part = {.x_m = UNSAID, .y_m = UNSAID};
-
-static bool is_white(char letter)
-{
-    return letter == ' ' || letter == '\t' || letter == '\r' || letter == '\n';
-}
+static const struct state no_state = {{UNSAID, UNSAID}, {UNSAID, UNSAID}, {UNSAID, UNSAID},
+                                      {UNSAID, UNSAID}, {UNSAID, UNSAID}, {UNSAID, UNSAID}};
+static const struct area no_part = {.x_m = UNSAID, .y_m = UNSAID};
+static const struct area no_area = {.length_m = UNSAID};
 
 static void fail(struct document *document, const char *what, const char *value,
                  const char *expectation)
@@ -72,30 +62,28 @@ static void fail(struct document *document, const char *what, const char *value,
 
 /* ---- values ---- */
 
+/* Intervals by their paths in a state, and numbers by the names of their elements. */
 static const struct member {
     const char *name;
     size_t offset;
     double low, high;
-} of_states[] =
-    {
-        {"/time", offsetof(struct document, state.time), 0, STEPS},
-        {"/orientation", offsetof(struct document, state.orientation), -1e3, 1e3},
-        {"/velocity", offsetof(struct document, state.velocity), -1e4, 1e4},
-        {"/velocityY", offsetof(struct document, state.lateral), -1e4, 1e4},
-        {"/slipAngle", offsetof(struct document, state.slip), -1e3, 1e3},
-        {"/yawRate", offsetof(struct document, state.yaw_rate), -1e3, 1e3},
-},
-  of_parts[] = {
-      {"x", offsetof(struct document, part.x_m), -1e9, 1e9},
-      {"y", offsetof(struct document, part.y_m), -1e9, 1e9},
-      {"length", offsetof(struct document, part.length_m), 0, 1e6},
-      {"width", offsetof(struct document, part.width_m), 0, 1e6},
-      {"orientation", offsetof(struct document, part.orientation_rad), -1e3, 1e3},
-      {"radius", offsetof(struct document, part.radius_m), 0, 1e6},
+    bool whole;
+} members[] = {
+    {"/time", offsetof(struct document, state.time), 0, STEPS, true},
+    {"/orientation", offsetof(struct document, state.orientation), -1e3, 1e3, false},
+    {"/velocity", offsetof(struct document, state.velocity), -1e4, 1e4, false},
+    {"/velocityY", offsetof(struct document, state.lateral), -1e4, 1e4, false},
+    {"/slipAngle", offsetof(struct document, state.slip), -1e3, 1e3, false},
+    {"/yawRate", offsetof(struct document, state.yaw_rate), -1e3, 1e3, false},
+    {"x", offsetof(struct document, part.x_m), -1e9, 1e9, false},
+    {"y", offsetof(struct document, part.y_m), -1e9, 1e9, false},
+    {"length", offsetof(struct document, part.length_m), 0, 1e6, false},
+    {"width", offsetof(struct document, part.width_m), 0, 1e6, false},
+    {"orientation", offsetof(struct document, part.orientation_rad), -1e3, 1e3, false},
+    {"radius", offsetof(struct document, part.radius_m), 0, 1e6, false},
 };
 
-enum { OF_STATES = sizeof of_states / sizeof *of_states };
-enum { OF_PARTS = sizeof of_parts / sizeof *of_parts };
+enum { MEMBERS = sizeof members / sizeof *members };
 
 /* What is left of a path below an element, or NULL if it is not below it. */
 static const char *below(const char *path, const char *element)
@@ -105,41 +93,36 @@ static const char *below(const char *path, const char *element)
     return inside && (path[length] == '/' || path[length] == '\0') ? path + length : NULL;
 }
 
-static bool read_number(struct document *document, const struct member *member, double *value)
-{
-    const char *name = member->name + (member->name[0] == '/');
-    return xml_rows_number(&document->xml, name, document->text, member->low, member->high, value);
-}
-
-static void read_interval(struct document *document, const struct member *member, const char *end)
+/* An interval is checked at its own end, "" after its path; its ends are set before. */
+static void end_interval(struct document *document, const struct member *member, const char *end)
 {
     struct interval *interval = (void *)((char *)document + member->offset);
+    const char *name = member->name + 1;
     double value;
-    if (*end == '\0' || !read_number(document, member, &value))
+    if (*end == '\0' && !(interval->low <= interval->high))
+        fail(document, name, NULL, "an exact value, or both ends of an interval, which ascend");
+    if (*end == '\0' ||
+        !xml_rows_number(&document->xml, name, document->text, member->low, member->high, &value))
         return;
+    if (member->whole && value != floor(value))
+        fail(document, name, document->text, "a whole number");
     if (strcmp(end, "/intervalEnd") != 0)
         interval->low = value;
     if (strcmp(end, "/intervalStart") != 0)
         interval->high = value;
 }
 
-static void fail_interval(struct document *document, const char *name, struct interval interval,
-                          const char *expectation)
+static void end_number(struct document *document, const struct member *member)
 {
-    char text[80];
-    snprintf(text, sizeof text, "[%.9g, %.9g]", interval.low, interval.high);
-    fail(document, name, text, expectation);
+    double value;
+    if (xml_rows_number(&document->xml, member->name, document->text, member->low, member->high,
+                        &value))
+        memcpy((char *)document + member->offset, &value, sizeof value);
 }
 
-/* The middle, or UNSAID; false after a message. */
-static bool take(struct document *document, const char *name, struct interval interval,
-                 double *value)
+static double middle(struct interval interval)
 {
-    *value = 0.5 * (interval.low + interval.high);
-    if (interval.low <= interval.high || (isnan(interval.low) && isnan(interval.high)))
-        return true;
-    fail_interval(document, name, interval, "both ends of an interval, the lower one first");
-    return false;
+    return 0.5 * (interval.low + interval.high);
 }
 
 /* ---- shapes and positions ---- */
@@ -153,125 +136,101 @@ static void join(double *middle, double *size, double other, double other_size)
     *size = high - low;
 }
 
-/* The first part makes the region, so that its numbers stay as they are. */
-static void add_part(struct document *document, struct region *region)
+/* Widens the area to hold the part too. The first part makes the area, so that its numbers stay as
+ * they are. Without a centre, a part of a shape lies in its origin. */
+static void end_part(struct document *document, struct area *area, bool is_point)
 {
-    const struct part part = document->part;
+    struct area part = document->part;
+    document->part = no_part;
+    if (isnan(part.x_m) && isnan(part.y_m) && area == &document->shape && !is_point)
+        part.x_m = part.y_m = 0;
+    if (isnan(part.x_m) || isnan(part.y_m))
+        fail(document, isnan(part.x_m) ? "x" : "y", NULL, "a number");
     double cosine = fabs(elementary_cos(part.orientation_rad));
     double sine = fabs(elementary_sin(part.orientation_rad));
     double length_m = part.length_m * cosine + part.width_m * sine + 2 * part.radius_m;
     double width_m = part.length_m * sine + part.width_m * cosine + 2 * part.radius_m;
-    document->part = no_part;
-    if (isnan(region->length_m)) {
-        *region = (struct region){part.x_m, part.y_m, length_m, width_m};
+    if (isnan(area->length_m)) {
+        *area = (struct area){.x_m = part.x_m, .y_m = part.y_m, length_m, width_m};
         return;
     }
-    join(&region->x_m, &region->length_m, part.x_m, length_m);
-    join(&region->y_m, &region->width_m, part.y_m, width_m);
+    join(&area->x_m, &area->length_m, part.x_m, length_m);
+    join(&area->y_m, &area->width_m, part.y_m, width_m);
 }
 
-/* An element inside a region has ended. Without a centre, a part of a shape lies in its origin. */
-static void end_in_region(struct document *document, struct region *region, const char *name)
+static void end_in_area(struct document *document, struct area *area, const char *name)
 {
-    struct part *part = &document->part;
     bool is_point = strcmp(name, "point") == 0;
-    if (is_point || strcmp(name, "rectangle") == 0 || strcmp(name, "circle") == 0) {
-        if (isnan(part->x_m) && isnan(part->y_m) && region == &document->shape && !is_point)
-            part->x_m = part->y_m = 0;
-        if (isnan(part->x_m) || isnan(part->y_m))
-            fail(document, isnan(part->x_m) ? "x" : "y", NULL, "a number");
-        add_part(document, region);
-        return;
-    }
-    for (size_t i = 0; i < OF_PARTS; i++) {
-        double value;
-        if (strcmp(of_parts[i].name, name) == 0 && read_number(document, &of_parts[i], &value))
-            memcpy((char *)document + of_parts[i].offset, &value, sizeof value);
-    }
+    if (is_point || strcmp(name, "rectangle") == 0 || strcmp(name, "circle") == 0)
+        end_part(document, area, is_point);
+    for (size_t i = 0; i < MEMBERS; i++)
+        if (strcmp(members[i].name, name) == 0)
+            end_number(document, &members[i]);
 }
 
 /* ---- states become rows ---- */
 
 /* velocity is along the yaw and velocityY to its left, unless a slip angle turns the velocity. The
  * two are along x and y where there is no yaw. */
-static bool take_velocity(struct document *document, struct recorded_row *row)
+static void set_velocity(const struct state *state, struct recorded_row *row)
 {
-    const struct state *state = &document->state;
-    double ahead_mps, left_mps, slip_rad;
-    if (!take(document, "velocity", state->velocity, &ahead_mps) ||
-        !take(document, "velocityY", state->lateral, &left_mps) ||
-        !take(document, "slipAngle", state->slip, &slip_rad))
-        return false;
+    double ahead_mps = middle(state->velocity), left_mps = middle(state->lateral);
+    double slip_rad = isnan(middle(state->slip)) ? 0 : middle(state->slip);
     struct vec2 heading = vec2_heading(isnan(row->yaw_rad) ? 0 : row->yaw_rad);
     if (isnan(left_mps)) {
-        slip_rad = isnan(slip_rad) ? 0 : slip_rad;
         left_mps = isnan(row->yaw_rad) ? UNSAID : ahead_mps * elementary_sin(slip_rad);
         ahead_mps *= elementary_cos(slip_rad);
     }
     row->speed_mps = ahead_mps;
     row->vx_mps = ahead_mps * heading.x - left_mps * heading.y + 0.0; /* never -0 */
     row->vy_mps = ahead_mps * heading.y + left_mps * heading.x + 0.0;
-    return true;
 }
 
-/* Moves a row from the point that states are of to the middle of a shape that lies off it. */
-static void shift(const struct region *shape, struct recorded_row *row)
+/* Moves a row from the point that states are of to the middle of the shape. Where that lies off the
+ * point, its velocity is not known. */
+static void centre(const struct area *shape, struct recorded_row *row)
 {
+    if (shape->x_m == 0 && shape->y_m == 0)
+        return;
     struct vec2 heading = vec2_heading(row->yaw_rad);
     row->x_m += shape->x_m * heading.x - shape->y_m * heading.y;
     row->y_m += shape->x_m * heading.y + shape->y_m * heading.x;
     row->vx_mps = row->vy_mps = UNSAID;
 }
 
-/* Refuses an obstacle that lacks what a row needs. */
-static bool is_whole(struct document *document, const struct recorded_row *row, double time)
+static bool is_there(struct document *document, const char *name, double value)
 {
-    const struct region *shape = &document->shape;
-    const struct {
-        bool missing;
-        const char *what, *expectation;
-    } needs[] = {
-        {document->type[0] == '\0', "type", "one before the states of an obstacle"},
-        {isnan(shape->length_m), "shape", "one before the states of an obstacle"},
-        {isnan(document->position.length_m), "position", "a point, or a region with a middle"},
-        {isnan(time), "time", "a whole number of steps"},
-        {isnan(row->yaw_rad) && (shape->x_m != 0 || shape->y_m != 0), "orientation",
-         "one, as the middle of the shape is not its origin"},
-    };
-    for (size_t i = 0; i < sizeof needs / sizeof *needs; i++)
-        if (needs[i].missing)
-            fail(document, needs[i].what, NULL, needs[i].expectation);
-    if (document->state.time.low < document->state.time.high || time > floor(time))
-        fail_interval(document, "time", document->state.time, "a whole number of steps");
-    return document->xml.fault.code == DIAG_OK;
+    if (isnan(value))
+        fail(document, name, NULL, "one for every state; type and shape stand before the states");
+    return !isnan(value);
 }
 
 static bool fill_row(struct document *document, struct recorded_row *row)
 {
-    const struct state *state = &document->state;
-    const struct region *shape = &document->shape;
-    double time = UNSAID;
+    const struct area *shape = &document->shape, *position = &document->position;
+    double steps = middle(document->state.time);
     *row = recorded_row_unsaid;
+    row->yaw_rad = middle(document->state.orientation);
+    if (!is_there(document, "type", document->type[0] == '\0' ? UNSAID : 0) ||
+        !is_there(document, "shape", shape->length_m) ||
+        !is_there(document, "position", position->length_m) || !is_there(document, "time", steps) ||
+        !is_there(document, "orientation", shape->x_m != 0 || shape->y_m != 0 ? row->yaw_rad : 0))
+        return false;
+    row->time_ns = recorded_row_time_ns(steps * document->step_s, 1);
     row->place = xml_rows_line(&document->xml);
-    row->x_m = document->position.x_m;
-    row->y_m = document->position.y_m;
+    row->x_m = position->x_m;
+    row->y_m = position->y_m;
     row->length_m = shape->length_m;
     row->width_m = shape->width_m;
-    if (!take(document, "time", state->time, &time) ||
-        !take(document, "orientation", state->orientation, &row->yaw_rad) ||
-        !take(document, "yawRate", state->yaw_rate, &row->yaw_rate_radps) ||
-        !take_velocity(document, row) || !is_whole(document, row, time))
-        return false;
-    row->time_ns = recorded_row_time_ns(time * document->step_s, 1);
-    if (shape->x_m != 0 || shape->y_m != 0)
-        shift(shape, row);
+    row->yaw_rate_radps = middle(document->state.yaw_rate);
+    set_velocity(&document->state, row);
+    centre(shape, row);
     return true;
 }
 
 static void end_state(struct document *document)
 {
-    struct xml_rows *xml = &document->xml;
-    struct arena *arena = document->still ? document->arena : &xml->arena;
+    struct arena *arena = document->still ? document->arena : &document->xml.arena;
     struct recorded_row row;
     if (!fill_row(document, &row))
         return;
@@ -282,10 +241,10 @@ static void end_state(struct document *document)
         *list_add(&document->stills, arena) = row;
     } else {
         intern_number(&document->steps, &row.time_ns, sizeof row.time_ns, document->arena);
-        *list_add(&xml->events, arena) = (struct xml_event){RECORDED_ROW, row};
+        *list_add(&document->xml.events, arena) = (struct xml_event){RECORDED_ROW, row};
     }
-    document->state = unsaid;
-    document->position.length_m = UNSAID;
+    document->state = no_state;
+    document->position = no_area;
 }
 
 /* ---- elements ---- */
@@ -309,41 +268,31 @@ static void begin_obstacle(struct document *document, const char *name, const ch
     document->still = strcmp(name, "staticObstacle") == 0;
     document->in_obstacle =
         document->still || strcmp(name, "obstacle") == 0 || strcmp(name, "dynamicObstacle") == 0;
-    if (!document->in_obstacle)
-        return;
+    document->type[0] = '\0';
+    document->shape = document->position = no_area;
+    document->state = no_state;
+    document->part = no_part;
     if (id != NULL && recorded_row_name_fits(id))
         memcpy(document->id, id, strlen(id) + 1);
-    else
+    else if (document->in_obstacle)
         fail(document, "id", id, "1 to 1024 printable ASCII characters");
-    document->type[0] = '\0';
-    document->shape.length_m = document->position.length_m = UNSAID;
-    document->state = unsaid;
-    document->part = no_part;
-}
-
-static void begin_inside(struct document *document, const char *name)
-{
-    size_t length = strlen(name);
-    if (document->path_length + length + 2 > PATH_SIZE) {
-        fail(document, "an element", name, "512 bytes of names around it at most");
-        return;
-    }
-    document->path[document->path_length++] = '/';
-    memcpy(document->path + document->path_length, name, length + 1);
-    document->path_length += length;
 }
 
 static void on_begin(void *context, const char *name, const char **attributes)
 {
     struct document *document = context;
+    size_t room = PATH_SIZE - document->path_length;
     document->text_length = 0;
-    if (document->in_obstacle)
-        begin_inside(document, name);
-    else if (document->depth == 0)
-        begin_root(document, name, attributes);
-    else if (document->depth == 1)
-        begin_obstacle(document, name, attributes);
     document->depth++;
+    if (document->in_obstacle && strlen(name) + 2 <= room)
+        document->path_length +=
+            (size_t)snprintf(document->path + document->path_length, room, "/%s", name);
+    else if (document->in_obstacle)
+        fail(document, "an element", name, "512 bytes of names around it at most");
+    else if (document->depth == 1)
+        begin_root(document, name, attributes);
+    else if (document->depth == 2)
+        begin_obstacle(document, name, attributes);
 }
 
 static void end_in_state(struct document *document, const char *path, const char *name)
@@ -351,18 +300,10 @@ static void end_in_state(struct document *document, const char *path, const char
     if (*path == '\0')
         end_state(document);
     else if (below(path, "/position") != NULL)
-        end_in_region(document, &document->position, name);
-    else
-        for (size_t i = 0; i < OF_STATES; i++)
-            if (below(path, of_states[i].name) != NULL)
-                read_interval(document, &of_states[i], below(path, of_states[i].name));
-}
-
-static void read_role(struct document *document)
-{
-    document->still = strcmp(document->text, "static") == 0;
-    if (!document->still && strcmp(document->text, "dynamic") != 0)
-        fail(document, "role", document->text, "static or dynamic");
+        end_in_area(document, &document->position, name);
+    for (size_t i = 0; i < MEMBERS; i++)
+        if (below(path, members[i].name) != NULL)
+            end_interval(document, &members[i], below(path, members[i].name));
 }
 
 static void end_inside(struct document *document, const char *name)
@@ -372,22 +313,21 @@ static void end_inside(struct document *document, const char *name)
     if (initial != NULL || later != NULL)
         end_in_state(document, initial != NULL ? initial : later, name);
     else if (below(path, "/shape") != NULL)
-        end_in_region(document, &document->shape, name);
+        end_in_area(document, &document->shape, name);
     else if (strcmp(path, "/type") == 0 && recorded_row_name_fits(text))
         memcpy(document->type, text, strlen(text) + 1);
-    else if (strcmp(path, "/role") == 0)
-        read_role(document);
+    else if (strcmp(path, "/role") == 0 && strcmp(text, "static") == 0)
+        document->still = true;
+    else if (strcmp(path, "/role") == 0 && strcmp(text, "dynamic") != 0)
+        fail(document, "role", text, "static or dynamic");
 }
 
 static void on_end(void *context, const char *name)
 {
     struct document *document = context;
-    while (document->text_length > 0 && is_white(document->text[document->text_length - 1]))
-        document->text_length--;
     document->text[document->text_length] = '\0';
     document->text_length = 0;
-    document->depth--;
-    document->in_obstacle = document->in_obstacle && document->depth > 1;
+    document->in_obstacle = --document->depth > 1 && document->in_obstacle;
     if (!document->in_obstacle)
         return;
     end_inside(document, name);
@@ -395,27 +335,23 @@ static void on_end(void *context, const char *name)
     document->path[document->path_length] = '\0';
 }
 
-/* White space before a text is left out, so that there is none between elements. */
 static void on_text(void *context, const char *text, int length)
 {
     struct document *document = context;
-    for (int i = 0; i < length && document->in_obstacle; i++) {
-        if (document->text_length == 0 && is_white(text[i]))
-            continue;
-        if (document->text_length + 1 < NAME_SIZE)
-            document->text[document->text_length++] = text[i];
-        else
+    for (int i = 0; i < length && document->in_obstacle; i++)
+        if (document->text_length + 1 == NAME_SIZE)
             fail(document, "a text", document->id, "1024 bytes at most");
-    }
+        else if (strchr(" \t\r\n", text[i]) == NULL)
+            document->text[document->text_length++] = text[i];
 }
-
-/* ---- the format ---- */
 
 static void fail_at_end(struct xml_rows *xml)
 {
     diag_fail(&xml->fault, DIAG_DATA, "line %zu: the file ends before </commonRoad>",
               xml_rows_line(xml));
 }
+
+/* ---- the format ---- */
 
 /* Behind the file, what stands still comes in the steps of all others. */
 static int next_event(void *state, struct recorded_row *row, struct diag *diag)
