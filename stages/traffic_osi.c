@@ -61,97 +61,91 @@ static const char *word_of(enum object_kind kind, int32_t number, struct arena *
                : arena_format(arena, "%s_%d", kind == MOVING ? "moving" : "vehicle", (int)number);
 }
 
-/* An object that is being read. */
-struct body {
-    const struct trace *trace;
-    const char *name; /* for messages */
-    struct recorded_row row;
-    struct diag *diag;
-};
+/* A number of a message of the base, which is 0 where that lacks it; not said without the message.
+ */
+#define NUMBER(part, number, low, high, member)                                                    \
+    {                                                                                              \
+#part "." #number, base->part != NULL ? base->part->number : 0, low, high,                 \
+            base->part != NULL ? &row->member : NULL                                               \
+    }
 
-/* Takes a number, which is 0 where the file has none; false after a message. */
-static bool take(const struct body *body, const char *what, double value, double low, double high,
-                 double *taken)
+/* Takes what moving and stationary objects have; false after a message. */
+static bool take_body(const struct trace *trace, const char *kind, const Osi3__Identifier *id,
+                      const Osi3__Base *base, struct recorded_row *row, struct diag *diag)
 {
-    *taken = value + 0.0; /* never -0 */
-    if (value >= low && value <= high)
-        return true;
-    diag_fail(body->diag, DIAG_DATA, "byte %zu: %s: %s is %.9g; expected a number in [%g, %g]",
-              body->trace->place, body->name, what, value, low, high);
-    return false;
-}
-
-/* What moving and stationary objects have. */
-static bool take_box(struct body *body, const Osi3__Identifier *id, const Osi3__Vector3d *position,
-                     const Osi3__Dimension3d *dimension, const Osi3__Orientation3d *orientation,
-                     struct arena *arena)
-{
-    static const Osi3__Dimension3d unsaid = OSI3__DIMENSION3D__INIT;
-    struct recorded_row *row = &body->row;
     *row = recorded_row_unsaid;
-    if (id == NULL || position == NULL) {
-        diag_fail(body->diag, DIAG_DATA, "byte %zu: %s: %s is missing; expected one in each",
-                  body->trace->place, body->name, id == NULL ? "id" : "base.position");
+    if (id == NULL || base == NULL || base->position == NULL) {
+        diag_fail(diag, DIAG_DATA, "byte %zu: %s: %s is missing; expected one in each",
+                  trace->place, kind, id == NULL ? "id" : "base.position");
         return false;
     }
-    row->id = arena_format(arena, "%" PRIu64, id->value);
-    body->name = arena_format(arena, "%s %s", body->name, row->id);
-    dimension = dimension != NULL ? dimension : &unsaid;
-    return take(body, "base.position.x", position->x, -1e9, 1e9, &row->x_m) &&
-           take(body, "base.position.y", position->y, -1e9, 1e9, &row->y_m) &&
-           take(body, "base.dimension.length", dimension->length, 0, 1e6, &row->length_m) &&
-           take(body, "base.dimension.width", dimension->width, 0, 1e6, &row->width_m) &&
-           take(body, "base.dimension.height", dimension->height, 0, 1e6, &row->height_m) &&
-           (orientation == NULL ||
-            take(body, "base.orientation.yaw", orientation->yaw, -1e3, 1e3, &row->yaw_rad));
+    const struct {
+        const char *name;
+        double value, low, high, *taken;
+    } numbers[] = {
+        NUMBER(position, x, -1e9, 1e9, x_m),
+        NUMBER(position, y, -1e9, 1e9, y_m),
+        NUMBER(dimension, length, 0, 1e6, length_m),
+        NUMBER(dimension, width, 0, 1e6, width_m),
+        NUMBER(dimension, height, 0, 1e6, height_m),
+        NUMBER(orientation, yaw, -1e3, 1e3, yaw_rad),
+        NUMBER(velocity, x, -1e4, 1e4, vx_mps),
+        NUMBER(velocity, y, -1e4, 1e4, vy_mps),
+        NUMBER(orientation_rate, yaw, -1e3, 1e3, yaw_rate_radps),
+    };
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        if (numbers[i].taken != NULL)
+            *numbers[i].taken = numbers[i].value + 0.0; /* never -0 */
+        if (numbers[i].value >= numbers[i].low && numbers[i].value <= numbers[i].high)
+            continue;
+        diag_fail(diag, DIAG_DATA,
+                  "byte %zu: %s %" PRIu64 ": base.%s is %.9g; expected a number in [%g, %g]",
+                  trace->place, kind, id->value, numbers[i].name, numbers[i].value, numbers[i].low,
+                  numbers[i].high);
+        return false;
+    }
+    return true;
 }
 
-/* Adds the turn of the centre about the rear axle, the vector to which is in the body's axes. */
-static bool move_velocity(struct body *body, const Osi3__Vector3d *to_rear)
+/* Adds the turn of the centre about the rear axle, the vector to which is in the body's axes. False
+ * if it is out of bounds. */
+static bool move_velocity(struct recorded_row *row, const Osi3__Vector3d *to_rear)
 {
-    struct recorded_row *row = &body->row;
-    double ahead_m, left_m;
+    if (!(fabs(to_rear->x) <= 1e3 && fabs(to_rear->y) <= 1e3))
+        return false;
     if (isnan(row->yaw_rad) || isnan(row->yaw_rate_radps))
         return true;
-    if (!take(body, "vehicle_attributes.bbcenter_to_rear.x", to_rear->x, -1e3, 1e3, &ahead_m) ||
-        !take(body, "vehicle_attributes.bbcenter_to_rear.y", to_rear->y, -1e3, 1e3, &left_m))
-        return false;
     struct vec2 heading = vec2_heading(row->yaw_rad);
-    row->vx_mps += row->yaw_rate_radps * (ahead_m * heading.y + left_m * heading.x);
-    row->vy_mps -= row->yaw_rate_radps * (ahead_m * heading.x - left_m * heading.y);
+    row->vx_mps += row->yaw_rate_radps * (to_rear->x * heading.y + to_rear->y * heading.x);
+    row->vy_mps -= row->yaw_rate_radps * (to_rear->x * heading.x - to_rear->y * heading.y);
     return true;
 }
 
 static int give_moving(struct trace *trace, const Osi3__MovingObject *object,
                        struct recorded_row *row, struct diag *diag)
 {
-    static const Osi3__BaseMoving unsaid = OSI3__BASE_MOVING__INIT;
-    const Osi3__BaseMoving *base = object->body != NULL ? object->body : &unsaid;
     const Osi3__MovingObject__VehicleClassification *vehicle = object->vehicle_classification;
     const Osi3__MovingObject__VehicleAttributes *attributes = object->vehicle_attributes;
-    struct body body = {.trace = trace, .name = "moving_object", .diag = diag};
-    bool good = take_box(&body, object->id, base->position, base->dimension, base->orientation,
-                         &trace->arena);
-    if (good && base->orientation_rate != NULL)
-        good = take(&body, "base.orientation_rate.yaw", base->orientation_rate->yaw, -1e3, 1e3,
-                    &body.row.yaw_rate_radps);
-    if (good && base->velocity != NULL) {
-        good = take(&body, "base.velocity.x", base->velocity->x, -1e4, 1e4, &body.row.vx_mps) &&
-               take(&body, "base.velocity.y", base->velocity->y, -1e4, 1e4, &body.row.vy_mps);
-        if (good && trace->rear_axle && attributes != NULL && attributes->bbcenter_to_rear != NULL)
-            good = move_velocity(&body, attributes->bbcenter_to_rear);
-    }
-    body.row.class = object->type != TYPE_VEHICLE
-                         ? word_of(MOVING, object->type, &trace->arena)
-                         : word_of(VEHICLE, vehicle != NULL ? vehicle->type : 0, &trace->arena);
-    *row = body.row;
-    return good ? RECORDED_ROW : -1;
+    struct arena *arena = &trace->arena;
+    if (!take_body(trace, "moving_object", object->id, object->body, row, diag))
+        return -1;
+    row->id = arena_format(arena, "%" PRIu64, object->id->value);
+    if (trace->rear_axle && attributes != NULL && attributes->bbcenter_to_rear != NULL &&
+        !move_velocity(row, attributes->bbcenter_to_rear))
+        return diag_fail(diag, DIAG_DATA,
+                         "byte %zu: moving_object %s: bbcenter_to_rear is (%.9g, %.9g); expected "
+                         "numbers in [-1e3, 1e3]",
+                         trace->place, row->id, attributes->bbcenter_to_rear->x,
+                         attributes->bbcenter_to_rear->y);
+    row->class = object->type != TYPE_VEHICLE
+                     ? word_of(MOVING, object->type, arena)
+                     : word_of(VEHICLE, vehicle != NULL ? vehicle->type : 0, arena);
+    return RECORDED_ROW;
 }
 
 /* Keeps the stationary objects of a message that has some: traces need not repeat them. */
 static int keep_stills(struct trace *trace, struct diag *diag)
 {
-    static const Osi3__BaseStationary unsaid = OSI3__BASE_STATIONARY__INIT;
     struct arena *arena = &trace->still_arena;
     if (trace->truth->n_stationary_object > 0) {
         arena_clear(arena);
@@ -160,16 +154,17 @@ static int keep_stills(struct trace *trace, struct diag *diag)
     }
     for (size_t i = 0; i < trace->truth->n_stationary_object; i++) {
         const Osi3__StationaryObject *object = trace->truth->stationary_object[i];
-        const Osi3__BaseStationary *base = object->body != NULL ? object->body : &unsaid;
-        struct body body = {.trace = trace, .name = "stationary_object", .diag = diag};
-        if (object->classification == NULL ||
-            word_of(STATIONARY, object->classification->type, arena) == NULL)
+        int32_t type = object->classification != NULL ? object->classification->type : 0;
+        const char *word = word_of(STATIONARY, type, arena);
+        struct recorded_row row;
+        if (word == NULL)
             continue;
-        if (!take_box(&body, object->id, base->position, base->dimension, base->orientation, arena))
+        if (!take_body(trace, "stationary_object", object->id, object->body, &row, diag))
             return -1;
-        body.row.class = word_of(STATIONARY, object->classification->type, arena);
-        body.row.vx_mps = body.row.vy_mps = body.row.yaw_rate_radps = 0;
-        *list_add(&trace->stills, arena) = body.row;
+        row.id = arena_format(arena, "%" PRIu64, object->id->value);
+        row.class = word;
+        row.vx_mps = row.vy_mps = row.yaw_rate_radps = 0;
+        *list_add(&trace->stills, arena) = row;
     }
     return 0;
 }
@@ -242,18 +237,17 @@ static int unpack(struct trace *trace, struct diag *diag)
 
 static int read_time(struct trace *trace, struct diag *diag)
 {
+    const int64_t most_s = 9000000000, second_ns = 1000000000;
     const Osi3__Timestamp *time = trace->truth->timestamp;
     if (time == NULL)
-        return diag_fail(diag, DIAG_DATA,
-                         "byte %zu: timestamp is missing; expected one in each "
-                         "message",
+        return diag_fail(diag, DIAG_DATA, "byte %zu: timestamp is missing; expected one in each",
                          trace->place);
-    if (time->seconds < -9000000000 || time->seconds > 9000000000 || time->nanos >= 1000000000)
+    if (time->seconds < -most_s || time->seconds > most_s || time->nanos >= second_ns)
         return diag_fail(diag, DIAG_DATA,
                          "byte %zu: timestamp is %" PRId64 " s and %" PRIu32
                          " ns; expected seconds in [-9e9, 9e9] and less than 1e9 ns",
                          trace->place, time->seconds, time->nanos);
-    trace->time_ns = time->seconds * 1000000000 + time->nanos;
+    trace->time_ns = time->seconds * second_ns + time->nanos;
     return 0;
 }
 
