@@ -6,6 +6,7 @@ import gzip
 import math
 import os
 import re
+import subprocess
 import sys
 import tempfile
 import xml.etree.ElementTree as ElementTree
@@ -280,6 +281,39 @@ def a_mirrored_world_is_mirrored(folder):
                 check(recorded.turn_between(a["yaw_rad"], -b["yaw_rad"]) < 1e-12, f"mirrored yaw of {a['id']}")
 
 
+def big(folder, count, steps=1000):
+    """So many obstacles, each with a state in every step."""
+    with open(os.path.join(folder, "big.xml"), "w", encoding="ascii") as file:
+        file.write('<commonRoad timeStepSize="0.1" commonRoadVersion="2020a">')
+        for i in range(count):
+            file.write(f'<dynamicObstacle id="{i}"><type>car</type><shape><rectangle><length>4</length><width>2</width>'
+                       "</rectangle></shape>")
+            for k in range(steps):
+                head, tag = ("<trajectory>" if k == 1 else ""), ("state" if k else "initialState")
+                file.write(f"{head}<{tag}><position><point><x>{10 * i + k}</x><y>{i}</y></point></position><orientation><exact>0"
+                           f"</exact></orientation><time><exact>{k}</exact></time><velocity><exact>10</exact></velocity></{tag}>")
+            file.write("</trajectory></dynamicObstacle>")
+        file.write("</commonRoad>")
+    return count * steps
+
+
+def memory_is_64_bytes_a_row(folder):
+    """The most that was resident once the first frame is there, when all rows have been read."""
+    most = {}
+    for count in (40, 120):
+        rows = big(folder, count)
+        with subprocess.Popen([os.path.join(BIN, PROGRAM), os.path.join(folder, "big.xml"), "--ego", "0", "--radius-m", "0"],
+                              stdout=subprocess.PIPE) as process:
+            process.stdout.readline()
+            with open(f"/proc/{process.pid}/status", encoding="ascii") as file:
+                most[rows] = int(re.search(r"VmHWM:\s+(\d+) kB", file.read())[1]) * 1024
+            frames = process.stdout.read().count(b"\n")
+        check(process.returncode == 0 and frames == 999, f"{rows} rows: {frames} frames more")
+    (few, less), (many, more) = most.items()
+    print(f"commonroad: {(more - less) / (many - few):.1f} bytes of memory a row")
+    check(more - less <= 66 * (many - few), f"memory: {most}")
+
+
 def bad_input(folder):
     number_of = "expected a number in "
     cases = [
@@ -345,6 +379,7 @@ with tempfile.TemporaryDirectory() as place:
         exactness(place)
         shared_options(place)
         a_mirrored_world_is_mirrored(place)
+        memory_is_64_bytes_a_row(place)
         bad_input(place)
     else:
         print(f"{PROGRAM} is not there: it needs expat")

@@ -232,8 +232,9 @@ def bad_input(folder):
         check(said in text, f"{said}: {text}")
     text, _ = run(PROGRAM, os.path.join(folder, "absent.osi"), fails=66)
     check("absent.osi: No such file or directory" in text, text)
-    text, _ = run("glint-traffic", os.path.join(folder, "own.osi"), "--ego", "0", fails=65)
-    check("an OSI trace; glint-traffic-osi reads it" in text, text)
+    for name in ("own.osi", "none.osi"):  # which begin with a version and with a time
+        text, _ = run("glint-traffic", os.path.join(folder, name), "--ego", "0", fails=65)
+        check("an OSI trace; glint-traffic-osi reads it" in text, text)
 
 
 # ---- real traces, decoded with the full interface -------------------------------------------------------
