@@ -98,12 +98,16 @@ void csv_columns_write_names(const struct csv_columns *columns, struct text *row
 
 void csv_columns_write(const struct csv_columns *columns, const void *base, struct text *row)
 {
+    const struct field *embedded = NULL; /* that of the column before */
+    bool there = true;
     for (size_t i = 0; i < columns->list.count; i++) {
         const struct csv_column *column = &columns->list.items[i];
         const struct field *field = column->field;
         const void *owner = (const char *)base + column->offset;
-        bool there =
-            column->embedded == NULL || field_present(column->record, column->embedded, base);
+        if (column->embedded != embedded) {
+            embedded = column->embedded;
+            there = embedded == NULL || field_present(column->record, embedded, base);
+        }
         if (there && (!field->optional || field->kind == FIELD_FLAG ||
                       field_present(column->record, field, owner)))
             add_cell(field, owner, row);

@@ -198,6 +198,20 @@ def check_ways(bin_dir):
     check(len(list(csv.DictReader(io.StringIO(table, newline="")))) > 100, "pipelines/table.sh writes no table")
 
 
+def check_memory(bin_dir):
+    """Ten times the frames take no more memory."""
+    most = []
+    for frames in (100, 1000):
+        with tempfile.TemporaryDirectory() as folder:
+            child = subprocess.Popen([f"{bin_dir}/glint", "-c", f"glint-traffic-random --frames {frames} | "
+                                      f"{CHAIN.format('corner77')} | glint-tables {folder}"],
+                                     env=dict(os.environ, GLINT_DATA=ROOT + "/data"))
+            _, status, used = os.wait4(child.pid, 0)
+            check(status == 0, f"{frames} frames end with {status}")
+            most.append(used.ru_maxrss)
+    check(most[1] <= most[0] + 1024, f"100 frames take {most[0]} kB, 1000 take {most[1]} kB")
+
+
 def main():
     bin_dir = os.path.abspath(sys.argv[1])
     with open(ROOT + "/schemas/tables.json", encoding="utf-8") as file:
@@ -208,6 +222,7 @@ def main():
     check(all(seen[name] > 0 for name in seen if name != "labels"), f"too little to see: {seen}")
     check({"0", "-2", "3111", "3122"} <= seen["labels"], f"labels are {seen['labels']}")
     check_ways(bin_dir)
+    check_memory(bin_dir)
     for text in faults[:10]:
         print(f"FAILED   {text}"[:2000])
     print(f"tables: {', '.join(f'{seen[table]} {table}' for table in TABLES)}; {len(faults)} faults")

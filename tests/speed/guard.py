@@ -3,7 +3,7 @@
 Instructions per frame of a few chains must be within 3 % of tests/speed/instructions.json where machine,
 compiler, its options and C library are those of the record; elsewhere they are only printed. A gain beyond
 that fails too: --renew writes down the instructions of this build. No chain may allocate anything after its
-first frames, anywhere.
+first frames, anywhere. A chain that ends in tables takes at most 1.5 times the instructions of one that ends in lines.
 """
 import json
 import os
@@ -15,6 +15,7 @@ import scenes
 RECORD = os.path.join("tests", "speed", "instructions.json")
 BUDGET = 0.03
 FRAMES = 12
+TABLES_SHARE = 1.5
 CHAINS = [("highway", 20, 1, "default"), ("highway", 20, 1, "account"),
           ("intersection", 20, 4, "default"), ("in-view", 100, 1, "default")]
 PIPED = CHAINS[0]
@@ -49,6 +50,14 @@ def growing(glint, folder):
             for name, few, many in zip(names, counted[:2], counted[2:]) if few != many]
 
 
+def tables_share(glint, folder):
+    """The instructions of a chain that writes tables, over those of the chain that writes lines."""
+    text = " | ".join(scenes.commands("intersection", 20, 4, counts.FIRST + FRAMES + 1, "account"))
+    lines, tables = counts.side_by_side(lambda job: counts.instructions(glint, job)["all"], [
+        (text, os.devnull), (f"{text} | glint-tables --plain {folder}", os.devnull)])
+    return tables / lines
+
+
 def compare(found, record):
     """A line for every chain, and the names of the chains that leave the budget."""
     outside = []
@@ -80,6 +89,10 @@ def run(glint, renew, folder):
     print("instructions per frame, next to the record")
     outside = compare(found, record["instructions_per_frame"])
     grown = growing(glint, folder)
+    share = tables_share(glint, folder)
+    print(f"tables take {share:.2f} times the instructions of lines")
+    if share > TABLES_SHARE:
+        grown.append(f"tables take {share:.2f} times the instructions of lines; at most {TABLES_SHARE} are expected")
     for told in grown:
         print(f"bench: {told}")
     foreign = [key for key, value in platform.items() if record[key] != value]
