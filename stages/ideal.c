@@ -105,7 +105,7 @@ const struct stage stage_ideal = {
         "see ghosts as well: what walls, guardrails and flat sides mirror.",
     .options = STAGE_OPTIONS(struct ideal, ideal_options),
     .reads = SECTION_OBJECTS | SECTION_REFLECTORS,
-    .writes = SECTION_SENSORS | SECTION_ECHOES | SECTION_LOST | SECTION_COUNTS,
+    .writes = SECTION_SENSORS | SECTION_ECHOES | SECTION_LOST | SECTION_COUNTS | SECTION_VISIBILITY,
     .start = ideal_start,
     .step = ideal_step,
     .locate_fault = suite_choice_locate_fault,

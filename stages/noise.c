@@ -57,7 +57,7 @@ const struct stage stage_noise = {
         "exactly which reflectors it comes from.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_CELLS,
-    .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS,
+    .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS | SECTION_VISIBILITY,
     .visit = list_targets,
     .locate_fault = suite_choice_locate_fault,
 };

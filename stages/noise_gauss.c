@@ -50,7 +50,7 @@ const struct stage stage_noise_gauss = {
         "zero amplitude is lost. A range below zero is reported as zero.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_CELLS,
-    .writes = SECTION_TARGETS | SECTION_LOST,
+    .writes = SECTION_TARGETS | SECTION_LOST | SECTION_VISIBILITY,
     .visit = list_targets,
     .locate_fault = suite_choice_locate_fault,
 };

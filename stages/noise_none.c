@@ -24,7 +24,7 @@ const struct stage stage_noise_none = {
                "is lost.",
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_CELLS,
-    .writes = SECTION_TARGETS | SECTION_LOST,
+    .writes = SECTION_TARGETS | SECTION_LOST | SECTION_VISIBILITY,
     .visit = list_targets,
     .locate_fault = suite_choice_locate_fault,
 };

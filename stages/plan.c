@@ -91,7 +91,7 @@ static int try_chain(struct plan_state *own, struct frame *frame, struct runner 
 {
     own->plan.frames++;
     frame_drop(frame, SECTION_SENSORS | SECTION_ECHOES | SECTION_CELLS | SECTION_TARGETS |
-                          SECTION_LOST | SECTION_COUNTS);
+                          SECTION_LOST | SECTION_COUNTS | SECTION_VISIBILITY);
     frame->sections = CARRY_BY_DEFAULT;
     if ((frame->present & SECTION_REFLECTORS) == 0 && runner_try(runner, own->extract, frame) != 0)
         return -1;

@@ -145,7 +145,7 @@ const struct stage stage_sensor_signal = {
         "digits, which no other stage does.",
     .options = STAGE_OPTIONS(struct sensor_signal, sensor_signal_fields),
     .reads = SECTION_SENSORS | SECTION_ECHOES,
-    .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS,
+    .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS | SECTION_VISIBILITY,
     .step = sensor_signal_step,
     .locate_fault = suite_choice_locate_fault,
     .release = sensor_signal_release,

@@ -363,6 +363,9 @@ static const struct field frame_fields[] = {
      SECTION(SECTION_LOST)},
     {FIELD_LIST_OF(struct frame, counts, &count_record, "what there is to account for, by sensor"),
      SECTION(SECTION_COUNTS)},
+    {FIELD_LIST_OF(struct frame, visibility, &sighting_record,
+                   "how much a sensor sees of each object, by sensor and object"),
+     SECTION(SECTION_VISIBILITY)},
     {EXTRA(struct frame)},
     {0},
 };

@@ -22,6 +22,7 @@
 #include "frame/quality.h"
 #include "frame/reflectors.h"
 #include "frame/sections.h"
+#include "frame/sightings.h"
 #include "radar/antenna.h"
 #include "text/field.h"
 
@@ -37,6 +38,7 @@ enum section {
     SECTION_LOST = 1 << 6,
     SECTION_COUNTS = 1 << 7,
     SECTION_VEHICLES = 1 << 8,
+    SECTION_VISIBILITY = 1 << 9,
 };
 
 /* The part of a frame that one stage may have written. */
@@ -238,6 +240,7 @@ struct frame {
     LIST_OF(struct target) targets;
     LIST_OF(struct lost_group) lost;
     LIST_OF(struct count) counts;
+    LIST_OF(struct sighting) visibility;
     const char *extra;
     const struct frame *document; /* NULL: no frame is copied from a document */
     unsigned present;             /* enum section: the sections that the frame has, even if empty */

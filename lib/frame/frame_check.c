@@ -116,6 +116,20 @@ static int check_targets(const struct frame *frame, struct diag *diag)
     return 0;
 }
 
+static int check_visibility(const struct frame *frame, struct diag *diag)
+{
+    const struct sighting *sighting = frame->visibility.items;
+    for (size_t i = 0; i < frame->visibility.count; i++) {
+        if (i > 0 && sightings_order(&sighting[i - 1], &sighting[i]) == 0)
+            return diag_fail(diag, DIAG_DATA,
+                             "visibility: sensor \"%s\", object \"%s\" stands twice",
+                             sighting[i].sensor, sighting[i].object);
+        if (check_listed(frame, "visibility", i, sighting[i].sensor, diag) != 0)
+            return -1;
+    }
+    return 0;
+}
+
 static int check_lost(const struct frame *frame, struct diag *diag)
 {
     for (size_t i = 0; i < frame->lost.count; i++) {
@@ -133,11 +147,12 @@ static int check_lost(const struct frame *frame, struct diag *diag)
 static int check_sections(struct frame *frame, unsigned sections, struct diag *diag)
 {
     if ((sections & SECTION_SENSORS) != 0)
-        sections |= SECTION_ECHOES | SECTION_CELLS | SECTION_TARGETS;
+        sections |= SECTION_ECHOES | SECTION_CELLS | SECTION_TARGETS | SECTION_VISIBILITY;
     if ((sections & frame->present & SECTION_OBJECTS) != 0 && check_objects(frame, diag) != 0)
         return -1;
     bool good = ((sections & SECTION_REFLECTORS) == 0 || check_sets(frame, diag) == 0) &&
                 ((sections & SECTION_SENSORS) == 0 || check_views(frame, diag) == 0) &&
+                ((sections & SECTION_VISIBILITY) == 0 || check_visibility(frame, diag) == 0) &&
                 ((sections & SECTION_LOST) == 0 || check_lost(frame, diag) == 0) &&
                 ((sections & SECTION_ECHOES) == 0 || check_echoes(frame, diag) == 0) &&
                 ((sections & SECTION_CELLS) == 0 || check_cells(frame, diag) == 0) &&

@@ -164,6 +164,8 @@ void frame_order_part(struct frame *frame, struct frame_part part)
         order_lost(frame, part.stage);
     if ((part.sections & SECTION_COUNTS) != 0)
         order_counts(frame);
+    if ((part.sections & SECTION_VISIBILITY) != 0)
+        sort_list(&frame->visibility, sightings_order, frame->arena);
 }
 
 void frame_order(struct frame *frame)

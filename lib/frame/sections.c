@@ -5,10 +5,10 @@
 #include "base/suggestion.h"
 #include "frame/frame.h"
 
-const char *const sections_names[] = {"objects", "reflectors", "echoes",  "cells",
-                                      "account", "margins",    "quality", NULL};
+const char *const sections_names[] = {"objects", "reflectors", "echoes",     "cells", "account",
+                                      "margins", "quality",    "visibility", NULL};
 
-enum { CARRY_ALL = (CARRY_QUALITY << 1) - 1 };
+enum { CARRY_ALL = (CARRY_VISIBILITY << 1) - 1 };
 
 /* Of each word, in the order of enum carried: the section of that name, the sections that tell that
  * the last stage has run which takes the word, and this stage. */
@@ -23,6 +23,7 @@ static const struct {
     {SECTION_LOST, SECTION_SENSORS, "glint-ideal"},
     {0, SECTION_SENSORS, "glint-ideal"},
     {0, SECTION_TARGETS, "glint-noise"},
+    {SECTION_VISIBILITY, SECTION_SENSORS, "glint-ideal"},
 };
 
 /* Do the length bytes at text spell the word? */
@@ -37,11 +38,11 @@ static int refuse_word(const char *text, size_t length, struct diag *diag)
     struct suggestion meant = suggestion_begin(text + remove, length - remove);
     for (int i = 0; sections_names[i] != NULL; i++)
         suggestion_offer(&meant, sections_names[i]);
-    return diag_fail(diag, DIAG_USAGE,
-                     "\"%.*s\" is no section%s; expected all, none, objects, reflectors, echoes, "
-                     "cells, account, account:every=N, margins, quality, or - and a word",
-                     (int)(length < 80 ? length : 80), text,
-                     suggestion_question(&meant, remove ? "-" : ""));
+    return diag_fail(
+        diag, DIAG_USAGE,
+        "\"%.*s\" is no section%s; expected all, none, objects, reflectors, echoes, "
+        "cells, account, account:every=N, margins, quality, visibility, or - and a word",
+        (int)(length < 80 ? length : 80), text, suggestion_question(&meant, remove ? "-" : ""));
 }
 
 /* Reads the N of account:every=N. */
@@ -134,6 +135,12 @@ int sections_apply(const struct sections_change *change, struct frame *frame, st
         clear_quality(frame);
     frame->sections = wanted;
     return 0;
+}
+
+unsigned sections_left_out(const struct frame *frame)
+{
+    return (frame_carries(frame, CARRY_ACCOUNT) ? 0U : SECTION_LOST) |
+           (frame_carries(frame, CARRY_VISIBILITY) ? 0U : SECTION_VISIBILITY);
 }
 
 void sections_drop(struct frame *frame)

@@ -14,9 +14,10 @@ enum carried {
     CARRY_REFLECTORS = 1 << 1, /* beyond the stage that reads them, as the two below */
     CARRY_ECHOES = 1 << 2,
     CARRY_CELLS = 1 << 3,
-    CARRY_ACCOUNT = 1 << 4, /* lost: with counts and labels, what became of every echo */
-    CARRY_MARGINS = 1 << 5, /* of every entry; without them no stage computes any */
-    CARRY_QUALITY = 1 << 6, /* of every target */
+    CARRY_ACCOUNT = 1 << 4,    /* lost: with counts and labels, what became of every echo */
+    CARRY_MARGINS = 1 << 5,    /* of every entry; without them no stage computes any */
+    CARRY_QUALITY = 1 << 6,    /* of every target */
+    CARRY_VISIBILITY = 1 << 7, /* sightings of every object (sightings.h) */
 };
 
 enum { CARRY_BY_DEFAULT = CARRY_OBJECTS };
@@ -37,6 +38,9 @@ int sections_read(const char *text, struct sections_change *change, struct diag 
 /* Changes the choice of a frame. Fails with DIAG_CONFIG where a word comes too late, as a stage
  * before has gone on without. Margins and quality that are left out go at once. */
 int sections_apply(const struct sections_change *change, struct frame *frame, struct diag *diag);
+
+/* The sections, a set of enum section, that frames have only by choice and this one does not. */
+unsigned sections_left_out(const struct frame *frame);
 
 /* Drops the sections that the frame does not carry and that no later stage reads. */
 void sections_drop(struct frame *frame);

@@ -18,9 +18,37 @@ static struct margins margins_of(const struct look *look, double margin_m)
     return margins;
 }
 
+/* Is it told what became of every reflector? If not, those that plainly send no echo may be passed
+ * over. */
+static bool tells_all(const struct look *look)
+{
+    return frame_carries(look->frame, CARRY_ACCOUNT) || look->sightings != NULL;
+}
+
+static void count_reflector(struct look *look, const struct look_body *body)
+{
+    look->pairs++;
+    if (look->sightings != NULL)
+        look->sightings[body - look->bodies].reflectors++;
+}
+
+/* Counts what became of a reflector that sends towards the sensor, LOSS_OWN for an echo, in the
+ * sighting of its body. */
+static void count_fate(struct look *look, const struct look_body *body, enum loss reason)
+{
+    bool blocked = reason == LOSS_BLOCKED, in_view = blocked || reason == LOSS_OWN;
+    if (look->sightings == NULL)
+        return;
+    struct sighting *sighting = &look->sightings[body - look->bodies];
+    sighting->in_range += in_view || reason == LOSS_OUT_OF_VIEW;
+    sighting->in_view += in_view;
+    sighting->blocked += blocked;
+}
+
 static void lose(struct look *look, const struct look_body *body, const char *reflector,
                  struct vec2 place, enum loss reason, const struct look_body *by, double margin_m)
 {
+    count_fate(look, body, reason);
     if (!frame_carries(look->frame, CARRY_ACCOUNT))
         return;
     struct vec2 sight = vec2_sub(place, look->pose.position_m), boresight = look->pose.boresight;
@@ -90,12 +118,13 @@ static void find_line_of_sight(const struct look *look, struct candidate *candid
 }
 
 /* Is the candidate out of reach or blocked? A few products tell, and spare the arctangents of the
- * candidate's azimuth. An account forbids the short cut, as it names the first reason in the order
- * of MODEL 2.5, and a log the one by reach, as it counts the effects that the full test tries. */
+ * candidate's azimuth. An account and sightings forbid the short cut, as they tell the first reason
+ * in the order of MODEL 2.5, and a log the one by reach, as it counts the effects that the full
+ * test tries. */
 static bool is_plainly_lost(const struct look *look, const struct look_body *body,
                             struct candidate *candidate)
 {
-    if (frame_carries(look->frame, CARRY_ACCOUNT))
+    if (tells_all(look))
         return false;
     struct silhouette place =
         silhouette_of_place(vec2_sub(candidate->place, look->pose.position_m));
@@ -162,6 +191,7 @@ static void add_echo(struct look *look, const struct look_body *body,
                      struct vec2 velocity)
 {
     look->echoes++;
+    count_fate(look, body, LOSS_OWN);
     struct echo *echo = list_add(&look->frame->echoes, look->frame->arena);
     *echo = (struct echo){
         .sensor = look->sensor->name,
@@ -212,7 +242,7 @@ static void add_candidate(struct look *look, const struct look_body *body,
 static void add_point(struct look *look, const struct look_body *body,
                       const struct point_reflector *point, struct vec2 facing, struct vec2 place)
 {
-    look->pairs++;
+    count_reflector(look, body);
     struct candidate candidate = {
         .reflector = point->name,
         .place = place,
@@ -243,7 +273,7 @@ static void add_point(struct look *look, const struct look_body *body,
 static void add_plane(struct look *look, const struct look_body *body,
                       const struct plane_reflector *plane)
 {
-    look->pairs++;
+    count_reflector(look, body);
     struct side side = line_of_sight_side(body, plane);
     struct vec2 middle = vec2_scale(0.5, vec2_add(side.from, side.to));
     if (!effects_enabled(look->selection, EFFECT_PLANE_REFLECTION)) {
@@ -289,12 +319,11 @@ static void add_row(struct look *look, const struct look_body *body, const struc
     }
 }
 
-/* May a body's reflectors be skipped all at once? An account needs the reason of each, a log the
- * effects that were tried, and the count of pairs how many posts of a row are in range. */
+/* May a body's reflectors be skipped all at once? Whoever tells all needs the reason of each, a log
+ * the effects that were tried, and the count of pairs how many posts of a row are in range. */
 static bool may_skip(const struct look *look, const struct look_set *set)
 {
-    return !frame_carries(look->frame, CARRY_ACCOUNT) && look->selection->log == NULL &&
-           set->reflectors->rows.count == 0;
+    return !tells_all(look) && look->selection->log == NULL && set->reflectors->rows.count == 0;
 }
 
 /* Are all reflectors of a body skipped, because it is plainly out of reach or hidden? If not, finds
@@ -349,20 +378,34 @@ static void add_body(struct look *look, const struct look_body *body, const stru
     effects_note(selection, EFFECT_VISIBILITY, all->points.count + all->rows.count > 0);
     effects_note(selection, EFFECT_PLANE_REFLECTION, all->planes.count > 0);
     effects_note(selection, EFFECT_ROWS, all->rows.count > 0);
-    bool account = frame_carries(look->frame, CARRY_ACCOUNT);
-    add_points(look, body, set, account || !effects_enabled(selection, EFFECT_VISIBILITY));
-    add_planes(look, body, all, account);
+    add_points(look, body, set, tells_all(look) || !effects_enabled(selection, EFFECT_VISIBILITY));
+    add_planes(look, body, all, tells_all(look));
     for (size_t i = 0; i < all->rows.count && effects_enabled(selection, EFFECT_ROWS); i++)
         add_row(look, body, &all->rows.items[i]);
+}
+
+/* Begins a sighting of every body, if the frame carries them. */
+static void begin_sightings(struct look *look)
+{
+    struct frame *frame = look->frame;
+    if (!frame_carries(frame, CARRY_VISIBILITY))
+        return;
+    for (size_t i = 0; i < look->body_count; i++)
+        *list_add(&frame->visibility, frame->arena) =
+            (struct sighting){.sensor = look->sensor->name, .object = look->bodies[i].object->id};
+    look->sightings = frame->visibility.items + frame->visibility.count - look->body_count;
 }
 
 void direct_echoes_add(struct look *look)
 {
     struct frame *frame = look->frame;
+    begin_sightings(look);
     look->blockers = arena_get(frame->arena, (look->body_count + 1) * sizeof(*look->blockers));
     for (size_t i = 0; i < frame->reflectors.count; i++)
         for (size_t j = 0; j < look->sets[i].reflectors->objects.count; j++)
             add_body(look, look->sets[i].bodies[j], &look->sets[i]);
+    for (size_t i = 0; look->sightings != NULL && i < look->body_count; i++)
+        sightings_judge(&look->sightings[i]);
     frame_count_pairs(frame, look->sensor->name, look->pairs);
     frame_count_echoes(frame, look->sensor->name, PATH_DIRECT, look->echoes);
 }

@@ -67,7 +67,8 @@ struct look {
     size_t indexed_count;
     const struct look_body **blockers; /* those that may hide the body at hand, by id */
     size_t blocker_count;
-    int64_t pairs, echoes; /* reflectors tried and direct echoes made so far */
+    int64_t pairs, echoes;      /* reflectors tried and direct echoes made so far */
+    struct sighting *sightings; /* of the bodies, in their order; NULL: none are asked for */
 };
 
 /* Sets up a look for a measurement at time_s. The frame must have reflectors, and objects with the

@@ -17,7 +17,8 @@ static const struct field common_fields[] = {
     {FIELD_NAME_OF(
          struct common_options, sections,
          "what frames carry from here on: all, none, or words, with - to leave one out: objects, "
-         "reflectors, echoes, cells, account (account:every=10), margins, quality; absent: what "
+         "reflectors, echoes, cells, account (account:every=10), margins, quality, visibility; "
+         "absent: what "
          "they say, at first objects"),
      FIELD_OPTIONAL, .word = "LIST"},
     {FIELD_SEED_OF(struct common_options, seed,
@@ -317,7 +318,7 @@ static void help_sections(const char *verb, unsigned sections, struct text *text
 {
     text_format(text, "%s", verb);
     const char *separator = " ";
-    for (unsigned bit = 1; bit <= SECTION_VEHICLES; bit <<= 1)
+    for (unsigned bit = 1; bit <= SECTION_VISIBILITY; bit <<= 1)
         if ((sections & bit) != 0) {
             text_format(text, "%s%s", separator, frame_section_name(bit));
             separator = ", ";

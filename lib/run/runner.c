@@ -211,7 +211,7 @@ static int check_sections(struct runner *runner, const struct frame *frame)
         return diag_fail(&runner->diag, DIAG_DATA,
                          "%s: missing; the stage that writes it must stand before this one",
                          frame_section_name(missing & -missing));
-    unsigned added = SECTION_LOST | SECTION_COUNTS | SECTION_VEHICLES;
+    unsigned added = SECTION_LOST | SECTION_COUNTS | SECTION_VEHICLES | SECTION_VISIBILITY;
     unsigned doubled = runner->program.writes & ~runner->program.reads & frame->present & ~added;
     if (doubled != 0)
         return diag_fail(&runner->diag, DIAG_DATA, "%s: already there; this stage would write it",
@@ -247,10 +247,10 @@ static int finish_step(struct runner *runner, struct frame *frame)
 {
     const struct stage *stage = runner->stage;
     const struct frame_part written = {stage->writes, stage->name};
-    frame->present |= stage->writes & ~(unsigned)SECTION_LOST;
+    frame->present |= stage->writes & ~sections_left_out(frame);
     sections_drop(frame);
-    if (frame_carries(frame, CARRY_ACCOUNT) && (stage->writes & SECTION_LOST) != 0)
-        frame->present |= SECTION_LOST;
+    if ((stage->writes & SECTION_TARGETS) != 0)
+        sightings_count_targets(frame);
     frame_order_part(frame, written);
     if (frame_check_part(frame, written, &runner->diag) != 0)
         return refuse(runner, frame);

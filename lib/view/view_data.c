@@ -313,6 +313,27 @@ static void add_losses(struct view_data *data, struct loss_scan *scan, const cha
     view_data_count(data, COLUMN_SCAN_DETAILS, details);
 }
 
+static void add_sightings(struct view_data *data, const struct frame *frame, const char *sensor)
+{
+    uint32_t count = 0;
+    for (size_t i = 0; i < frame->visibility.count; i++) {
+        const struct sighting *sighting = &frame->visibility.items[i];
+        if (strcmp(sighting->sensor, sensor) != 0)
+            continue;
+        count++;
+        view_data_real(data, COLUMN_SIGHTING_BLOCKED, sighting->blocked_share);
+        view_data_count(data, COLUMN_SIGHTING_OBJECT, name_of(data, sighting->object));
+        view_data_count(data, COLUMN_SIGHTING_REFLECTORS, (uint32_t)sighting->reflectors);
+        view_data_count(data, COLUMN_SIGHTING_IN_RANGE, (uint32_t)sighting->in_range);
+        view_data_count(data, COLUMN_SIGHTING_IN_VIEW, (uint32_t)sighting->in_view);
+        view_data_count(data, COLUMN_SIGHTING_LEVEL, sighting->visibility);
+        view_data_count(data, COLUMN_SIGHTING_DETECTIONS, (uint32_t)sighting->detections);
+        view_data_count(data, COLUMN_SIGHTING_MERGED, (uint32_t)sighting->merged);
+        view_data_count(data, COLUMN_SIGHTING_GHOSTS, (uint32_t)sighting->ghosts);
+    }
+    view_data_count(data, COLUMN_SCAN_SIGHTINGS, count);
+}
+
 static void add_scan(struct view_data *data, const struct frame *frame, uint32_t scene,
                      const struct sensor_view *sensor, struct vec2 shift)
 {
@@ -328,6 +349,7 @@ static void add_scan(struct view_data *data, const struct frame *frame, uint32_t
     view_data_count(data, COLUMN_SCAN_TARGETS, add_targets(data, frame, sensor->name));
     add_losses(data, &(struct loss_scan){.frame = frame, .scan = scan, .scene = scene},
                sensor->name);
+    add_sightings(data, frame, sensor->name);
 }
 
 void view_data_name(struct view_data *data, enum view_column column, const char *word)

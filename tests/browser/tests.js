@@ -509,6 +509,40 @@ const tests = {
         });
     },
 
+    async 'the panel of an object tells how much of it each sensor has in view'() {
+        const told = {sensor: 'left', object: 'parked_2', reflectors: 12, in_range: 5, in_view: 4,
+            blocked_share: 0.5, visibility: 'v40-60', detections: 2, merged: 1, ghosts: 3};
+        const bare = {sensor: 'left', object: 'parked_3', reflectors: 1, in_range: 1};
+        const frame = {...intersection[40], sections: ['objects', 'visibility'], visibility: [told, bare],
+            lost: undefined, counts: undefined, last: true};
+        await withPage(view([frame]), async page => {
+            const words = async id => {
+                await page.evaluate(name => chooseObject(names.indexOf(name)), id);
+                return panelText(page);
+            };
+            assert.ok((await words('parked_2')).includes('5 of 12 reflection centres in range, 4 in view, ' +
+                '50 % of these blocked (visibility 40 to 60 %). 2 detections, 1 merged with something else, 3 ghosts.'));
+            assert.ok((await words('parked_3')).includes(
+                '1 of 1 reflection centre in range, 0 in view. 0 detections.'));
+            assert.doesNotMatch(await words('bus'), /in view/);
+        });
+    },
+
+    async 'every sighting of a chain is on the page'() {
+        const chain = 'glint-traffic intersection --sections visibility | glint-extract' +
+            ' | glint-ideal --sensors srr24-pair | glint-sensor | glint-noise';
+        const frame = JSON.parse(execFileSync('glint', ['-c', chain], {maxBuffer: 1 << 28, cwd: root})
+            .toString().split('\n')[40]);
+        await withPage(view([{...frame, last: true}]), async page => {
+            for (const one of frame.visibility.filter(sighting => sighting.sensor === 'left')) {
+                await page.evaluate(name => chooseObject(names.indexOf(name)), one.object);
+                const [, range, all, inView] = (await panelText(page)).match(/(\d+) of (\d+) reflection.*, (\d+) in view/);
+                assert.deepStrictEqual([range, all, inView].map(Number),
+                    [one.in_range || 0, one.reflectors, one.in_view || 0], one.object);
+            }
+        });
+    },
+
     async 'reflection centres are those of the stream, whatever documents there are'() {
         const frames = structuredClone(corner.slice(100));
         frames.forEach(frame => { frame.objects[1].class = 'hovercraft'; });

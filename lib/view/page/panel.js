@@ -174,6 +174,32 @@ function silentWords(reason) {
     return reason === 'no_specular_point' ? 'mirroring past the sensor' : words(reason);
 }
 
+// Share in view, in the levels of nuScenes, by number (lib/frame/sightings.h).
+const levels = ['0 to 40 %', '40 to 60 %', '60 to 80 %', '80 to 100 %'];
+
+// What the section visibility says of the chosen object: a line, or none.
+function sightingLines(scan) {
+    const begin = starts('scan_sightings');
+    const objects = column('sighting_object');
+    for (let i = begin[scan]; i < begin[scan + 1]; i++) {
+        if (objects[i] === state.object) {
+            return [make('p', sightingWords(i), 'soft')];
+        }
+    }
+    return [];
+}
+
+function sightingWords(i) {
+    const value = name => column('sighting_' + name)[i];
+    const inView = value('in_view');
+    const seen = `${value('in_range')} of ${plural(value('reflectors'), 'reflection centre')} in range, ${inView} in view`;
+    const hidden = inView > 0
+        ? `, ${round(100 * value('blocked_share'), 0)} % of these blocked (visibility ${levels[value('visibility')]})` : '';
+    const merged = value('merged') > 0 ? `, ${value('merged')} merged with something else` : '';
+    const ghosts = value('ghosts') > 0 ? `, ${plural(value('ghosts'), 'ghost')}` : '';
+    return `${seen}${hidden}. ${plural(value('detections'), 'detection')}${merged}${ghosts}.`;
+}
+
 function summary(scan, targets, notable, silent) {
     if (!column('scan_measured')[scan]) {
         return 'did not measure in this frame';
@@ -244,6 +270,7 @@ function objectSections(scan) {
     const silent = losses.filter(loss => !loss.reason.notable);
     return [
         sensorTitle(scan, summary(scan, targets, notable, silent)),
+        ...sightingLines(scan),
         ...targets.map(one => targetRow(scan, one.target, one.number, state.object)),
         ...notable.slice(0, 40).map(lossRow),
         ...moreLine(notable.length - 40),

@@ -139,6 +139,18 @@ static void frames_that_contradict_themselves_are_refused(void **state)
     }
 }
 
+static void sight_with_no_sensor(struct frame *frame)
+{
+    *list_add(&frame->visibility, frame->arena) = (struct sighting){.sensor = "top", .object = "a"};
+}
+
+static void sight_one_twice(struct frame *frame)
+{
+    for (int i = 0; i < 2; i++)
+        *list_add(&frame->visibility, frame->arena) =
+            (struct sighting){.sensor = "left", .object = "a"};
+}
+
 /* What a frame says of one part, in canonical order, after a fault was planted anywhere. */
 static int check_part(void (*plant)(struct frame *frame), unsigned sections, const char *stage,
                       struct diag *diag)
@@ -162,7 +174,8 @@ static void a_part_is_refused_for_its_own_faults_alone(void **state)
                  {list_an_object_twice, SECTION_REFLECTORS, SECTION_OBJECTS},
                  {name_a_sensor_twice, SECTION_SENSORS, SECTION_OBJECTS},
                  {open_an_empty_cell, SECTION_CELLS, SECTION_TARGETS},
-                 {report_a_target_without_label, SECTION_TARGETS, SECTION_CELLS}};
+                 {report_a_target_without_label, SECTION_TARGETS, SECTION_CELLS},
+                 {sight_one_twice, SECTION_VISIBILITY, SECTION_TARGETS}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct diag diag = {0};
         assert_int_equal(check_part(cases[i].plant, cases[i].section, NULL, &diag), -1);
@@ -175,11 +188,13 @@ static void a_part_is_refused_for_its_own_faults_alone(void **state)
 static void new_sensors_are_held_against_all_that_names_one(void **state)
 {
     (void)state;
-    struct diag target = {0}, echo = {0};
+    struct diag target = {0}, echo = {0}, sighting = {0};
     assert_int_equal(check_part(report_with_no_sensor, SECTION_SENSORS, NULL, &target), -1);
     assert_string_equal(target.text, "targets[1].sensor: \"top\" is not in sensors.list");
     assert_int_equal(check_part(see_with_no_sensor, SECTION_SENSORS, NULL, &echo), -1);
     assert_string_equal(echo.text, "echoes[0].sensor: \"top\" is not in sensors.list");
+    assert_int_equal(check_part(sight_with_no_sensor, SECTION_SENSORS, NULL, &sighting), -1);
+    assert_string_equal(sighting.text, "visibility[0].sensor: \"top\" is not in sensors.list");
 }
 
 static void report_beyond_bounds(struct frame *frame)

@@ -58,9 +58,14 @@
     ",\"by\":\"e\",\"shortfall_db\":3" SIGHT "}]}],"
 #define COUNTS                                                                                     \
     "\"counts\":[{\"sensor\":\"f\",\"pairs\":2,\"paths\":[{\"path\":\"direct\",\"echoes\":1}]}],"
+#define VISIBILITY                                                                                 \
+    "\"visibility\":[{\"sensor\":\"f\",\"object\":\"e\",\"reflectors\":9,\"in_range\":8,"          \
+    "\"in_view\":4,\"blocked_share\":0.5,\"visibility\":\"v40-60\",\"detections\":3,\"merged\":2," \
+    "\"ghosts\":1}],"
 
 static const char rich[] =
-    HEAD OBJECTS REFLECTORS SENSORS ECHOES CELLS TARGETS LOST COUNTS "\"extra\":{ \"k\": -0.0 }}\n";
+    HEAD OBJECTS REFLECTORS SENSORS ECHOES CELLS TARGETS LOST COUNTS VISIBILITY
+    "\"extra\":{ \"k\": -0.0 }}\n";
 
 static int read_line(const char *line, struct frame *frame, struct diag *diag)
 {

@@ -30,7 +30,7 @@ static void words_change_what_the_frame_says(void **state)
         {"none", CARRY_OBJECTS | CARRY_ACCOUNT, 0},
         {"none,margins", CARRY_OBJECTS | CARRY_ACCOUNT, CARRY_MARGINS},
         {"all,-cells,-account,-quality", 0,
-         CARRY_OBJECTS | CARRY_REFLECTORS | CARRY_ECHOES | CARRY_MARGINS},
+         CARRY_OBJECTS | CARRY_REFLECTORS | CARRY_ECHOES | CARRY_MARGINS | CARRY_VISIBILITY},
         {"account,-account", CARRY_ACCOUNT, 0},
         {"-account,account", 0, CARRY_ACCOUNT},
     };
@@ -92,6 +92,7 @@ static void a_word_is_taken_until_its_stage_has_run(void **state)
         {"account", SECTION_OBJECTS | SECTION_REFLECTORS, SECTION_SENSORS | SECTION_COUNTS},
         {"margins", SECTION_OBJECTS | SECTION_REFLECTORS, SECTION_SENSORS | SECTION_ECHOES},
         {"quality", SECTION_SENSORS | SECTION_CELLS, SECTION_TARGETS},
+        {"visibility", SECTION_OBJECTS | SECTION_REFLECTORS, SECTION_SENSORS | SECTION_ECHOES},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct frame early = {.present = cases[i].before}, late = {.present = cases[i].after};

@@ -1,0 +1,102 @@
+#include "frame/sightings.h"
+
+#include <stdlib.h>
+
+#include "frame/frame.h"
+
+static const char *const levels[] = {"v0-40", "v40-60", "v60-80", "v80-100", NULL};
+
+#define COUNTED(member, help) FIELD_INTEGER_IN(struct sighting, member, 0, 1e12, help)
+
+static const struct field sighting_fields[] = {
+    {FIELD_NAME_OF(struct sighting, sensor, "name in the suite")},
+    {FIELD_NAME_OF(struct sighting, object, "id of the object")},
+    {COUNTED(reflectors, "reflectors of it that the sensor looked for"), FIELD_OPTIONAL},
+    {COUNTED(in_range, "of these, those that send towards the sensor and are in range"),
+     FIELD_OPTIONAL},
+    {COUNTED(in_view, "of these, those in the field of view"), FIELD_OPTIONAL},
+    {FIELD_REAL_IN(struct sighting, blocked_share, 0, 1, "share of these that a body hides"),
+     FIELD_OPTIONAL},
+    {FIELD_CHOICE_OF(struct sighting, visibility, levels,
+                     "share that is not hidden, in the levels of nuScenes; absent: none in view"),
+     FIELD_OPTIONAL, .absent = SIGHTING_NONE},
+    {COUNTED(detections, "targets with an echo of it, where it is"), FIELD_OPTIONAL},
+    {COUNTED(merged, "of the detections, those with an echo of something else"), FIELD_OPTIONAL},
+    {COUNTED(ghosts, "targets with an echo of it by way of a mirror"), FIELD_OPTIONAL},
+    {0},
+};
+
+const struct record sighting_record = {FIELD_TABLE(struct sighting, sighting_fields, "sighting",
+                                                   "How much of an object a sensor sees.")};
+
+enum sighting_level sightings_level(double share)
+{
+    return share < 0.4   ? SIGHTING_TO_40
+           : share < 0.6 ? SIGHTING_TO_60
+           : share < 0.8 ? SIGHTING_TO_80
+                         : SIGHTING_TO_100;
+}
+
+void sightings_judge(struct sighting *sighting)
+{
+    double in_view = (double)sighting->in_view, blocked = (double)sighting->blocked;
+    bool seen = sighting->in_view > 0;
+    sighting->blocked_share = seen ? blocked / in_view : 0;
+    sighting->visibility = seen ? sightings_level((in_view - blocked) / in_view) : SIGHTING_NONE;
+}
+
+int sightings_order(const void *left, const void *right)
+{
+    const struct sighting *a = left, *b = right;
+    int order = strcmp(a->sensor, b->sensor);
+    return order != 0 ? order : strcmp(a->object, b->object);
+}
+
+static struct sighting *find(const struct frame *frame, const char *sensor, const char *object)
+{
+    const struct sighting wanted = {.sensor = sensor, .object = object};
+    return frame->visibility.count == 0
+               ? NULL
+               : bsearch(&wanted, frame->visibility.items, frame->visibility.count, sizeof wanted,
+                         sightings_order);
+}
+
+static bool is_merged(const struct target *target)
+{
+    const struct contributor *from = target->contributors.items;
+    for (size_t i = 1; i < target->contributors.count; i++)
+        if (!frame_same_name(from[i].id.object, from[0].id.object))
+            return true;
+    return false;
+}
+
+/* Counts a target once for each object and kind, however many contributors there are. */
+static void count_target(struct frame *frame, const struct target *target, size_t number)
+{
+    bool merged = is_merged(target);
+    for (size_t i = 0; i < target->contributors.count; i++) {
+        const struct echo_id *id = &target->contributors.items[i].id;
+        struct sighting *sighting = find(frame, target->sensor, id->object);
+        if (sighting == NULL)
+            continue;
+        if (frame_shows_object(id->path) && sighting->last_detection != number) {
+            sighting->last_detection = number;
+            sighting->detections++;
+            sighting->merged += merged;
+        } else if (id->mirror != NULL && sighting->last_ghost != number) {
+            sighting->last_ghost = number;
+            sighting->ghosts++;
+        }
+    }
+}
+
+void sightings_count_targets(struct frame *frame)
+{
+    for (size_t i = 0; i < frame->visibility.count; i++) {
+        struct sighting *sighting = &frame->visibility.items[i];
+        sighting->detections = sighting->merged = sighting->ghosts = 0;
+        sighting->last_detection = sighting->last_ghost = 0;
+    }
+    for (size_t i = 0; i < frame->targets.count; i++)
+        count_target(frame, &frame->targets.items[i], i + 1);
+}

@@ -1,0 +1,78 @@
+#include "frame/sightings.h"
+
+#include "check.h"
+#include "frame/frame.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+static void levels_begin_at_their_lower_border(void **state)
+{
+    (void)state;
+    static const struct {
+        double share;
+        enum sighting_level level;
+    } cases[] = {{0, SIGHTING_TO_40},       {0.399, SIGHTING_TO_40},   {0.4, SIGHTING_TO_60},
+                 {0.599, SIGHTING_TO_60},   {0.6, SIGHTING_TO_80},     {0.799, SIGHTING_TO_80},
+                 {0.8, SIGHTING_TO_100},    {1, SIGHTING_TO_100},      {2.0 / 5, SIGHTING_TO_60},
+                 {3.0 / 5, SIGHTING_TO_80}, {4.0 / 5, SIGHTING_TO_100}};
+    for (size_t i = 0; i < COUNT(cases); i++)
+        assert_int_equal(sightings_level(cases[i].share), cases[i].level);
+}
+
+static void what_is_not_in_view_has_no_level(void **state)
+{
+    (void)state;
+    struct sighting unseen = {.reflectors = 12, .in_range = 3};
+    struct sighting half = {.reflectors = 12, .in_range = 5, .in_view = 4, .blocked = 2};
+    sightings_judge(&unseen);
+    sightings_judge(&half);
+    assert_int_equal(unseen.visibility, SIGHTING_NONE);
+    assert_close(unseen.blocked_share, 0, 0);
+    assert_int_equal(half.visibility, SIGHTING_TO_60);
+    assert_close(half.blocked_share, 0.5, 0);
+}
+
+static struct contributor from(const char *object, enum path path, const char *mirror)
+{
+    return (struct contributor){.id = {.object = object, .path = path, .mirror = mirror}};
+}
+
+/* A target of car and van together, one of the car alone with a wheel, one of the car's ghost with
+ * clutter beside it, and a false alarm. */
+static void targets_count_once_for_an_object_and_kind(void **state)
+{
+    (void)state;
+    struct contributor both[] = {from("car", PATH_DIRECT, NULL), from("car", PATH_DIRECT, NULL),
+                                 from("van", PATH_DIRECT, NULL)};
+    struct contributor alone[] = {from("car", PATH_DIRECT, NULL), from("car", PATH_WHEEL, NULL)};
+    struct contributor ghost[] = {from("car", PATH_OBJECT_WALL, "rail"),
+                                  from("car", PATH_WALL_OBJECT, "rail"),
+                                  from("ground", PATH_CLUTTER, NULL)};
+    struct contributor alarm[] = {from("noise", PATH_FALSE_ALARM, NULL)};
+    struct target targets[] = {{.sensor = "left", .contributors = {both, 3, 3}},
+                               {.sensor = "left", .contributors = {alone, 2, 2}},
+                               {.sensor = "left", .contributors = {ghost, 3, 3}},
+                               {.sensor = "right", .contributors = {alarm, 1, 1}}};
+    struct sighting sightings[] = {{.sensor = "left", .object = "car", .detections = 7},
+                                   {.sensor = "left", .object = "rail"},
+                                   {.sensor = "left", .object = "van"},
+                                   {.sensor = "right", .object = "car", .ghosts = 7}};
+    struct frame frame = {.targets = {targets, 4, 4}, .visibility = {sightings, 4, 4}};
+    static const int64_t due[][3] = {{2, 1, 1}, {0, 0, 0}, {1, 1, 0}, {0, 0, 0}};
+    sightings_count_targets(&frame);
+    for (size_t i = 0; i < COUNT(due); i++) {
+        assert_int_equal(sightings[i].detections, due[i][0]);
+        assert_int_equal(sightings[i].merged, due[i][1]);
+        assert_int_equal(sightings[i].ghosts, due[i][2]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(levels_begin_at_their_lower_border),
+        cmocka_unit_test(what_is_not_in_view_has_no_level),
+        cmocka_unit_test(targets_count_once_for_an_object_and_kind),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
