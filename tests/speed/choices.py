@@ -8,7 +8,7 @@ import subprocess
 
 import timing
 
-CHOICES = ("none", "objects", "quality", "account:every=10", "account", "margins",
+CHOICES = ("none", "objects", "quality", "visibility", "account:every=10", "account", "margins",
            "reflectors,echoes,cells", "all")
 # What makes the frames, the suite, and how often the file is read.
 SCENES = {"intersection": ("glint-traffic intersection", "srr24-pair-every-frame", 4),
