@@ -118,16 +118,10 @@ static int check_targets(const struct frame *frame, struct diag *diag)
 
 static int check_visibility(const struct frame *frame, struct diag *diag)
 {
-    const struct sighting *sighting = frame->visibility.items;
-    for (size_t i = 0; i < frame->visibility.count; i++) {
-        if (i > 0 && sightings_order(&sighting[i - 1], &sighting[i]) == 0)
-            return diag_fail(diag, DIAG_DATA,
-                             "visibility: sensor \"%s\", object \"%s\" stands twice",
-                             sighting[i].sensor, sighting[i].object);
-        if (check_listed(frame, "visibility", i, sighting[i].sensor, diag) != 0)
-            return -1;
-    }
-    return 0;
+    int result = 0;
+    for (size_t i = 0; i < frame->visibility.count && result == 0; i++)
+        result = check_listed(frame, "visibility", i, frame->visibility.items[i].sensor, diag);
+    return result;
 }
 
 static int check_lost(const struct frame *frame, struct diag *diag)

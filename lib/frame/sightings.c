@@ -19,7 +19,7 @@ static const struct field sighting_fields[] = {
      FIELD_OPTIONAL},
     {FIELD_CHOICE_OF(struct sighting, visibility, levels,
                      "share that is not hidden, in the levels of nuScenes; absent: none in view"),
-     FIELD_OPTIONAL, .absent = SIGHTING_NONE},
+     FIELD_OPTIONAL, .absent = 4},
     {COUNTED(detections, "targets with an echo of it, where it is"), FIELD_OPTIONAL},
     {COUNTED(merged, "of the detections, those with an echo of something else"), FIELD_OPTIONAL},
     {COUNTED(ghosts, "targets with an echo of it by way of a mirror"), FIELD_OPTIONAL},
@@ -29,20 +29,13 @@ static const struct field sighting_fields[] = {
 const struct record sighting_record = {FIELD_TABLE(struct sighting, sighting_fields, "sighting",
                                                    "How much of an object a sensor sees.")};
 
-enum sighting_level sightings_level(double share)
-{
-    return share < 0.4   ? SIGHTING_TO_40
-           : share < 0.6 ? SIGHTING_TO_60
-           : share < 0.8 ? SIGHTING_TO_80
-                         : SIGHTING_TO_100;
-}
-
 void sightings_judge(struct sighting *sighting)
 {
-    double in_view = (double)sighting->in_view, blocked = (double)sighting->blocked;
+    double in_view = (double)sighting->in_view;
+    double share = (in_view - (double)sighting->blocked) / in_view;
     bool seen = sighting->in_view > 0;
-    sighting->blocked_share = seen ? blocked / in_view : 0;
-    sighting->visibility = seen ? sightings_level((in_view - blocked) / in_view) : SIGHTING_NONE;
+    sighting->blocked_share = seen ? (double)sighting->blocked / in_view : 0;
+    sighting->visibility = seen ? (share >= 0.4) + (share >= 0.6) + (share >= 0.8) : 4;
 }
 
 int sightings_order(const void *left, const void *right)
@@ -61,21 +54,15 @@ static struct sighting *find(const struct frame *frame, const char *sensor, cons
                          sightings_order);
 }
 
-static bool is_merged(const struct target *target)
-{
-    const struct contributor *from = target->contributors.items;
-    for (size_t i = 1; i < target->contributors.count; i++)
-        if (!frame_same_name(from[i].id.object, from[0].id.object))
-            return true;
-    return false;
-}
-
 /* Counts a target once for each object and kind, however many contributors there are. */
 static void count_target(struct frame *frame, const struct target *target, size_t number)
 {
-    bool merged = is_merged(target);
+    const struct contributor *from = target->contributors.items;
+    bool merged = false;
+    for (size_t i = 1; i < target->contributors.count; i++)
+        merged = merged || !frame_same_name(from[i].id.object, from[0].id.object);
     for (size_t i = 0; i < target->contributors.count; i++) {
-        const struct echo_id *id = &target->contributors.items[i].id;
+        const struct echo_id *id = &from[i].id;
         struct sighting *sighting = find(frame, target->sensor, id->object);
         if (sighting == NULL)
             continue;

@@ -25,24 +25,17 @@ static bool tells_all(const struct look *look)
     return frame_carries(look->frame, CARRY_ACCOUNT) || look->sightings != NULL;
 }
 
-static void count_reflector(struct look *look, const struct look_body *body)
-{
-    look->pairs++;
-    if (look->sightings != NULL)
-        look->sightings[body - look->bodies].reflectors++;
-}
-
-/* Counts what became of a reflector that sends towards the sensor, LOSS_OWN for an echo, in the
- * sighting of its body. */
+/* Counts a reflector in the sighting of its body by what became of it, LOSS_OWN for an echo. */
 static void count_fate(struct look *look, const struct look_body *body, enum loss reason)
 {
-    bool blocked = reason == LOSS_BLOCKED, in_view = blocked || reason == LOSS_OWN;
     if (look->sightings == NULL)
         return;
     struct sighting *sighting = &look->sightings[body - look->bodies];
+    sighting->reflectors++;
+    bool in_view = reason == LOSS_BLOCKED || reason == LOSS_OWN;
     sighting->in_range += in_view || reason == LOSS_OUT_OF_VIEW;
     sighting->in_view += in_view;
-    sighting->blocked += blocked;
+    sighting->blocked += reason == LOSS_BLOCKED;
 }
 
 static void lose(struct look *look, const struct look_body *body, const char *reflector,
@@ -242,7 +235,7 @@ static void add_candidate(struct look *look, const struct look_body *body,
 static void add_point(struct look *look, const struct look_body *body,
                       const struct point_reflector *point, struct vec2 facing, struct vec2 place)
 {
-    count_reflector(look, body);
+    look->pairs++;
     struct candidate candidate = {
         .reflector = point->name,
         .place = place,
@@ -273,7 +266,7 @@ static void add_point(struct look *look, const struct look_body *body,
 static void add_plane(struct look *look, const struct look_body *body,
                       const struct plane_reflector *plane)
 {
-    count_reflector(look, body);
+    look->pairs++;
     struct side side = line_of_sight_side(body, plane);
     struct vec2 middle = vec2_scale(0.5, vec2_add(side.from, side.to));
     if (!effects_enabled(look->selection, EFFECT_PLANE_REFLECTION)) {

@@ -85,33 +85,28 @@ static uint32_t sensor_of(struct view_data *data, const struct sensor_view *sens
     return (uint32_t)data->sensors.count - 1;
 }
 
+/* What the rows of view_columns.def that have a member call, by their word. */
+#define add_real view_data_real
+#define add_count(data, column, value) view_data_count(data, column, (uint32_t)(value))
+#define add_word(data, column, value) view_data_count(data, column, name_of(data, value))
+
 static void add_object(struct view_data *data, const struct object *object, struct vec2 shift)
 {
     struct box box = view_frame_box(object, view_frame_vehicle(&data->models, object->class));
     view_data_real(data, COLUMN_OBJECT_X, object->x_m + shift.x);
     view_data_real(data, COLUMN_OBJECT_Y, object->y_m + shift.y);
     view_data_real(data, COLUMN_OBJECT_YAW, remainder(object->yaw_rad, 2 * acos(-1)));
-    view_data_real(data, COLUMN_OBJECT_VX, object->vx_mps);
-    view_data_real(data, COLUMN_OBJECT_VY, object->vy_mps);
-    view_data_real(data, COLUMN_OBJECT_YAW_RATE, object->yaw_rate_radps);
     view_data_real(data, COLUMN_OBJECT_LENGTH, box.length_m);
     view_data_real(data, COLUMN_OBJECT_WIDTH, box.width_m);
-    view_data_count(data, COLUMN_OBJECT_ID, name_of(data, object->id));
-    view_data_count(data, COLUMN_OBJECT_CLASS, name_of(data, object->class));
+#define OBJECT(name, key, how, member) add_##how(data, COLUMN_##name, object->member);
+#include "view/view_columns.def"
 }
 
 static void add_contributor(struct view_data *data, const struct contributor *from)
 {
-    view_data_real(data, COLUMN_CONTRIBUTOR_RANGE, from->range_m);
-    view_data_real(data, COLUMN_CONTRIBUTOR_AZIMUTH, from->azimuth_rad);
-    view_data_real(data, COLUMN_CONTRIBUTOR_RATE, from->range_rate_mps);
-    view_data_real(data, COLUMN_CONTRIBUTOR_ERCS, from->ercs);
-    view_data_real(data, COLUMN_CONTRIBUTOR_WEIGHT, from->weight);
-    view_data_count(data, COLUMN_CONTRIBUTOR_OBJECT, name_of(data, from->id.object));
-    view_data_count(data, COLUMN_CONTRIBUTOR_REFLECTOR, name_of(data, from->id.reflector));
-    view_data_count(data, COLUMN_CONTRIBUTOR_PATH, from->id.path);
+#define CONTRIBUTOR(name, key, how, member) add_##how(data, COLUMN_##name, from->member);
+#include "view/view_columns.def"
     view_data_count(data, COLUMN_CONTRIBUTOR_MIRROR, optional_name(data, from->id.mirror));
-    view_data_count(data, COLUMN_CONTRIBUTOR_NUMBER, (uint32_t)from->id.number);
 }
 
 /* Adds a row with every member of the quality, in the order of its table, if the target has one. */
@@ -133,19 +128,11 @@ static void add_quality(struct view_data *data, const struct quality *quality)
 
 static void add_target(struct view_data *data, const struct target *target)
 {
-    view_data_real(data, COLUMN_TARGET_RANGE, target->range_m);
-    view_data_real(data, COLUMN_TARGET_AZIMUTH, target->azimuth_rad);
-    view_data_real(data, COLUMN_TARGET_RATE, target->range_rate_mps);
-    view_data_real(data, COLUMN_TARGET_AMPLITUDE, target->amplitude_db);
-    view_data_real(data, COLUMN_TARGET_CELL_RANGE, target->cell_range_m);
-    view_data_real(data, COLUMN_TARGET_CELL_AZIMUTH, target->cell_azimuth_rad);
-    view_data_real(data, COLUMN_TARGET_CELL_RATE, target->cell_range_rate_mps);
-    view_data_real(data, COLUMN_TARGET_CELL_SUM, target->cell_sum);
-    view_data_count(data, COLUMN_TARGET_UNDECIDED, target->sign_undecided);
+#define TARGET(name, key, how, member) add_##how(data, COLUMN_##name, target->member);
+#include "view/view_columns.def"
     view_data_count(
         data, COLUMN_TARGET_EFFECTS,
         intern_number(&data->effect_sets, &target->effects, sizeof target->effects, data->arena));
-    view_data_count(data, COLUMN_TARGET_CONTRIBUTORS, (uint32_t)target->contributors.count);
     for (size_t i = 0; i < target->contributors.count; i++)
         add_contributor(data, &target->contributors.items[i]);
     add_quality(data, &target->quality);
@@ -321,15 +308,8 @@ static void add_sightings(struct view_data *data, const struct frame *frame, con
         if (strcmp(sighting->sensor, sensor) != 0)
             continue;
         count++;
-        view_data_real(data, COLUMN_SIGHTING_BLOCKED, sighting->blocked_share);
-        view_data_count(data, COLUMN_SIGHTING_OBJECT, name_of(data, sighting->object));
-        view_data_count(data, COLUMN_SIGHTING_REFLECTORS, (uint32_t)sighting->reflectors);
-        view_data_count(data, COLUMN_SIGHTING_IN_RANGE, (uint32_t)sighting->in_range);
-        view_data_count(data, COLUMN_SIGHTING_IN_VIEW, (uint32_t)sighting->in_view);
-        view_data_count(data, COLUMN_SIGHTING_LEVEL, sighting->visibility);
-        view_data_count(data, COLUMN_SIGHTING_DETECTIONS, (uint32_t)sighting->detections);
-        view_data_count(data, COLUMN_SIGHTING_MERGED, (uint32_t)sighting->merged);
-        view_data_count(data, COLUMN_SIGHTING_GHOSTS, (uint32_t)sighting->ghosts);
+#define SIGHTING(name, key, how, member) add_##how(data, COLUMN_##name, sighting->member);
+#include "view/view_columns.def"
     }
     view_data_count(data, COLUMN_SCAN_SIGHTINGS, count);
 }

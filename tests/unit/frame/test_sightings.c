@@ -9,27 +9,18 @@ static void levels_begin_at_their_lower_border(void **state)
 {
     (void)state;
     static const struct {
+        int64_t in_view, blocked;
+        int visibility;
         double share;
-        enum sighting_level level;
-    } cases[] = {{0, SIGHTING_TO_40},       {0.399, SIGHTING_TO_40},   {0.4, SIGHTING_TO_60},
-                 {0.599, SIGHTING_TO_60},   {0.6, SIGHTING_TO_80},     {0.799, SIGHTING_TO_80},
-                 {0.8, SIGHTING_TO_100},    {1, SIGHTING_TO_100},      {2.0 / 5, SIGHTING_TO_60},
-                 {3.0 / 5, SIGHTING_TO_80}, {4.0 / 5, SIGHTING_TO_100}};
-    for (size_t i = 0; i < COUNT(cases); i++)
-        assert_int_equal(sightings_level(cases[i].share), cases[i].level);
-}
-
-static void what_is_not_in_view_has_no_level(void **state)
-{
-    (void)state;
-    struct sighting unseen = {.reflectors = 12, .in_range = 3};
-    struct sighting half = {.reflectors = 12, .in_range = 5, .in_view = 4, .blocked = 2};
-    sightings_judge(&unseen);
-    sightings_judge(&half);
-    assert_int_equal(unseen.visibility, SIGHTING_NONE);
-    assert_close(unseen.blocked_share, 0, 0);
-    assert_int_equal(half.visibility, SIGHTING_TO_60);
-    assert_close(half.blocked_share, 0.5, 0);
+    } cases[] = {{5, 4, 0, 0.8},     {1000, 601, 0, 0.601}, {5, 3, 1, 0.6}, {1000, 401, 1, 0.401},
+                 {5, 2, 2, 0.4},     {1000, 201, 2, 0.201}, {5, 1, 3, 0.2}, {5, 0, 3, 0},
+                 {1000, 1000, 0, 1}, {4, 2, 1, 0.5},        {0, 0, 4, 0}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct sighting sighting = {.in_view = cases[i].in_view, .blocked = cases[i].blocked};
+        sightings_judge(&sighting);
+        assert_int_equal(sighting.visibility, cases[i].visibility);
+        assert_close(sighting.blocked_share, cases[i].share, 0);
+    }
 }
 
 static struct contributor from(const char *object, enum path path, const char *mirror)
@@ -71,7 +62,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(levels_begin_at_their_lower_border),
-        cmocka_unit_test(what_is_not_in_view_has_no_level),
         cmocka_unit_test(targets_count_once_for_an_object_and_kind),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
