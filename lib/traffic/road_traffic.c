@@ -130,7 +130,8 @@ static void drive(struct road_traffic *traffic, struct road_queue *queue)
         }
     }
     queue->vehicles.count -= left;
-    memmove(vehicles, vehicles + left, queue->vehicles.count * sizeof *vehicles);
+    if (left > 0)
+        memmove(vehicles, vehicles + left, queue->vehicles.count * sizeof *vehicles);
 }
 
 static void step(struct road_traffic *traffic)
