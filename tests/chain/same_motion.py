@@ -1,4 +1,5 @@
-"""One motion, written in every format of recorded traffic: the same frames, and mirrored a mirrored target list.
+"""One motion, written in every format of recorded traffic: the same frames, and mirrored a mirrored target list. So it is
+of mirrored scenarios.
 
 Usage: python3 tests/chain/same_motion.py BIN_DIR
 
@@ -406,8 +407,42 @@ def mirrors(kind, folder, frames, mirrored_frames):
             check(close, f"{kind.name}: mirrored, {one} and {other} at {step}")
 
 
+MIRRORED = ("y_m", "offset_m", "yaw_rad", "yaw_rate_radps")
+SCENARIOS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "data", "scenarios")
+
+
+def mirror_of(value, sign=1):
+    """A scenario with the other sign of all that points to the left; sign is that of the numbers in value."""
+    if isinstance(value, dict):
+        return {key: mirror_of(each, -1 if key in MIRRORED else sign) for key, each in value.items()}
+    if isinstance(value, list):
+        return [mirror_of(each, sign) for each in value]
+    return value if isinstance(value, str) or sign > 0 else -value
+
+
+def mirrors_scenario(name, *words):
+    """Traffic of our own, with roads and with distributions, in a mirrored world."""
+    kind = Format(name, None, 1e-9)
+    with open(os.path.join(SCENARIOS, name + ".json"), encoding="utf-8") as file:
+        mirrored = json.dumps(mirror_of(json.load(file)))
+    with tempfile.TemporaryDirectory() as folder:
+        path = save(folder, name + ".json", [mirrored])
+        streams = [glint("glint-traffic", source, *words, "--scene", name)
+                   for source in (os.path.join(SCENARIOS, name + ".json"), path)]
+    for plain, other in zip(*(stream.splitlines() for stream in streams), strict=True):
+        for one, image in zip(json.loads(plain)["objects"], json.loads(other)["objects"], strict=True):
+            for key in ("y_m", "vy_mps", "yaw_rate_radps"):
+                check(abs(one[key] + image[key]) < 1e-9, f"{name}: mirrored {key} of {one['id']}")
+            for key in ("x_m", "vx_mps", "travelled_m"):
+                check(abs(one[key] - image[key]) < 1e-9, f"{name}: mirrored {key} of {one['id']}")
+            check(one["id"] == image["id"] and one["class"] == image["class"], f"{name}: {one['id']} and {image['id']}")
+    mirrors(kind, None, *streams)
+
+
 def main():
     written = 0
+    mirrors_scenario("rush-hour", "--scenes", "0:1", "--radius-m", "150")
+    mirrors_scenario("varied-cut-in", "--scenes", "0:5")
     for kind in FORMATS:
         if not os.path.exists(os.path.join(BIN, kind.program)):
             print(f"same_motion: {kind.program} is not there")
