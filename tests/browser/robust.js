@@ -25,6 +25,7 @@ function renamed(frame, name) {
     fresh.ego = as(fresh.ego);
     fresh.objects.forEach(object => Object.assign(object, {id: as(object.id)}));
     fresh.sensors.list.forEach(sensor => { sensor.name = as(sensor.name); });
+    fresh.counts.forEach(count => { count.sensor = as(count.sensor); });
     fresh.targets.forEach(target => {
         target.sensor = as(target.sensor);
         target.contributors.forEach(part =>
