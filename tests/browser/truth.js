@@ -446,7 +446,7 @@ module.exports = ({stream, view, withPage, panelText}) => {
                     assert.ok(circles.some(one => apart(one, {x: 0, y: 0}) < 0.1), String(range));
                 }
                 assert.ok(words.filter(word => /^[−\d]+$/.test(word)).length >= 6, words.join());
-                assert.ok(words.includes('m ahead and left of the ego'));
+                assert.ok(words.includes('axes: m ahead and left of the ego'));
             });
         },
 

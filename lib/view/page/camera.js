@@ -40,6 +40,9 @@ function placesToFit() {
             places.push(targetPlace(scan, target));
         }
     });
+    if (state.cause !== null && state.object < 0) {
+        places.push(...placesOfCause());
+    }
     return places.concat(state.ego ? outlineOf(state.ego) : []).map(toLocal);
 }
 

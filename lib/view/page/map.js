@@ -417,12 +417,14 @@ function drawCause() {
     if (state.cause === null || state.object >= 0) {
         return;
     }
-    for (const {scan, loss} of lossesFor(state.cause)) {
-        const place = lossPlace(scan, loss);
-        if (place) {
-            drawLostMark(context, toScreen(place), 4);
-        }
+    for (const place of placesOfCause()) {
+        drawLostMark(context, toScreen(place), 4);
     }
+}
+
+// Where the losses of the cause are that is shown.
+function placesOfCause() {
+    return lossesFor(state.cause).map(({scan, loss}) => lossPlace(scan, loss)).filter(Boolean);
 }
 
 function reserveRoom() {
@@ -441,7 +443,6 @@ function drawMap() {
     reserveRoom();
     drawGrid();
     drawRings();
-    drawGridNumbers();
     const objects = objectsOf(state.frame);
     const scans = scansOf(state.frame);
     for (let scan = scans.begin; scan < scans.end; scan++) {
@@ -455,6 +456,8 @@ function drawMap() {
     for (let row = objects.begin; row < objects.end; row++) {
         drawReflectors(row);
     }
+    drawRingNumbers();
+    drawGridNumbers();
     eachScan(drawMeasuredBodies);
     eachTarget(state.frame, drawEchoes);
     if (state.trail) {

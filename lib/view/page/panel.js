@@ -95,8 +95,13 @@ function longReason(loss) {
     case 'no_angle': return 'Both channels of its cell are exactly zero, so there is no angle.';
     case 'list_limit': return 'The sensor reports no more targets than it did already.';
     case 'switched_off': return 'The effect that would have made its echo is not selected.';
-    default: return words(loss.reason.name);
+    default: return capital(ownReason(loss)) + '.';
     }
+}
+
+// A stage's own reason without the stage, for places that name it.
+function ownReason({reason, stage}) {
+    return words(reason.name.replace(`${stage}: `, ''));
 }
 
 function effectNote(effect) {
@@ -484,7 +489,7 @@ function showReflector() {
 function causeSection() {
     const rows = frameCauses(state.frame).map(({item, count}) => {
         const shown = state.cause === causeOf(item);
-        const row = rowButton('✕', [make('b', String(count)), ` ${silentWords(item.reason.name)}`],
+        const row = rowButton('✕', [make('b', String(count)), ` ${item.reason.name === 'no_specular_point' ? silentWords(item.reason.name) : ownReason(item)}`],
             `in ${item.stage}`, () => showCause(shown ? null : causeOf(item)));
         row.setAttribute('aria-pressed', String(shown));
         row.classList.toggle('chosen', shown);
@@ -497,6 +502,9 @@ function causeSection() {
 function showCause(cause) {
     state.cause = cause;
     refresh();
+    if (cause !== null && !placesOfCause().some(place => onScreen(toScreen(place), 0))) {
+        fitView();
+    }
 }
 
 function showFrame() {

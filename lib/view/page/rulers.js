@@ -23,12 +23,12 @@ function metres(value) {
     return String(Number(value.toPrecision(3))).replace('-', '−');
 }
 
-// Writes a number on the map where no other one is, and keeps labels away from it.
+// Writes a number on the map where it fits and no other one is, and keeps labels away from it.
 function rulerText(text, x, y) {
     context.font = rulerFont;
     const width = context.measureText(text).width;
     const box = {x: x - width / 2 - 3, y: y - 7, width: width + 6, height: 14};
-    if (!isFree(box)) {
+    if (!isFree(box) || box.x < 0 || box.x + box.width > canvas.clientWidth) {
         return;
     }
     taken.push(box);
@@ -76,26 +76,40 @@ function ringCentre() {
     return end - begin === 1 ? scanPlace(begin, 0, 0) : state.ego;
 }
 
-function drawRings() {
+// The rings on the screen: their middle, and their radii in metres.
+function ringsInView() {
     const centre = ringCentre();
     const {begin, end} = scansOf(state.frame);
     if (end === begin || !centre) {
-        return;
+        return {at: null, ranges: []};
     }
     let farthest = 0;
     for (let scan = begin; scan < end; scan++) {
         farthest = Math.max(farthest, sensorOf(scan).range_max_m);
     }
-    const at = toScreen(centre);
     const step = Math.min(gridStep(110), roundStep(farthest, 4)); // at least two rings
-    const ahead = screenAngle(state.ego ? state.ego.yaw : 0);
+    const ranges = [];
+    for (let range = step; range <= farthest && range < 40 * step; range += step) {
+        ranges.push(range);
+    }
+    return {at: toScreen(centre), ranges};
+}
+
+function drawRings() {
+    const {at, ranges} = ringsInView();
     context.strokeStyle = ink.faint;
     context.lineWidth = 1;
-    for (let range = step; range <= farthest && range < 40 * step; range += step) {
+    for (const range of ranges) {
         context.beginPath();
         context.arc(at.x, at.y, range * camera.scale, 0, 2 * Math.PI);
         context.stroke();
-        const angle = ahead + 0.3;
+    }
+}
+
+function drawRingNumbers() {
+    const {at, ranges} = ringsInView();
+    const angle = screenAngle(state.ego ? state.ego.yaw : 0) + 0.3;
+    for (const range of ranges) {
         rulerText(`${metres(range)} m`, at.x + range * camera.scale * Math.cos(angle),
             at.y + range * camera.scale * Math.sin(angle));
     }
