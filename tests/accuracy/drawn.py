@@ -230,6 +230,19 @@ def models_panel(rows, radar, size, frame):
     return panel
 
 
+# Group, colour, shift within the effect's row, and words of the legend.
+EFFECT_GROUPS = (("added", BLUE, -0.16, "added to the paper's"), ("left out", ORANGE, 0.16, "in all others"))
+
+
+def effect_series(panel, rows, names, value):
+    """What effects change, to both sides of a line at zero: with its interval, a row of the panel for each name."""
+    panel.more.append(f"set arrow from 0, graph 0 to 0, graph 1 nohead lw 0.5 lc rgb \"{GREY}\"")
+    for group, colour, shift, _ in EFFECT_GROUPS:
+        at = [(row, names.index(row["chain"]) + shift) for row in pick(rows, group=group)]
+        panel.bars([(row[value], y, row[value + "_low"], row[value + "_high"]) for row, y in at], colour, False)
+        panel.series([(row[value], y) for row, y in at], colour)
+
+
 def effect_panels(rows, radar, size, frames):
     """What effects gain, and beside it what they cost."""
     own = [row for row in pick(rows, radar=radar)
@@ -244,13 +257,10 @@ def effect_panels(rows, radar, size, frames):
     cost = {id(row): spent_more(rows, row) for row in own}
     costs = Panel(size, frames[1], Logarithmic(list(cost.values()), 1), Rows(["" for _ in names]),
                   ("Time that it takes", "CPU time of a frame, µs", ""))
-    gains.more.append(f"set arrow from 0, graph 0 to 0, graph 1 nohead lw 0.5 lc rgb \"{GREY}\"")
-    for group, colour, shift, title in (("added", BLUE, -0.16, "added to the paper's"),
-                                        ("left out", ORANGE, 0.16, "in all others")):
-        at = [(row, names.index(row["chain"]) + shift) for row in own if row["group"] == group]
-        gains.bars([(row["gain"], y, row["gain_low"], row["gain_high"]) for row, y in at], colour, False)
-        gains.series([(row["gain"], y) for row, y in at], colour)
-        costs.series([(cost[id(row)], y) for row, y in at], colour, title=title)
+    effect_series(gains, own, names, "gain")
+    for group, colour, shift, title in EFFECT_GROUPS:
+        costs.series([(cost[id(row)], names.index(row["chain"]) + shift) for row in pick(own, group=group)], colour,
+                     title=title)
     return [gains, costs]
 
 
@@ -297,12 +307,8 @@ def tracker_page(rows, path):
     effects = Panel(size, Box(170, 830, 60, middle),
                     Signed([row[key] for row in own for key in ("change_low", "change_high")] or [1]), Rows(names),
                     ("What an effect adds to it, with its 95 % interval", "m", ""))
-    effects.more.append(f"set arrow from 0, graph 0 to 0, graph 1 nohead lw 0.5 lc rgb \"{GREY}\"")
-    for group, colour, shift, title in (("added", BLUE, -0.16, "added to the paper's"),
-                                        ("left out", ORANGE, 0.16, "in all others")):
-        at = [(row, names.index(row["chain"]) + shift) for row in own if row["group"] == group]
-        effects.bars([(row["change"], y, row["change_low"], row["change_high"]) for row, y in at], colour, False)
-        effects.series([(row["change"], y) for row, y in at], colour, title=title)
+    effect_series(effects, own, names, "change")
+    effects.legend += [(title, colour) for _, colour, _, title in EFFECT_GROUPS]
     page(path, size, [ladder, effects])
 
 

@@ -18,28 +18,10 @@ import sys
 import tempfile
 import time
 
-BIN = os.path.abspath(sys.argv[1])
-DATA = os.environ.get("GLINT_TEST_DATA")
-PATIENCE_S = 60
-checks = 0
-
-
-def check(good, what):
-    global checks
-    checks += 1
-    if not good:
-        sys.exit(f"recorded: {what}")
-
-
-def run(program, *words, data=None, fails=None):
-    done = subprocess.run([os.path.join(BIN, program), *words], input=data, capture_output=True, check=False,
-                          timeout=PATIENCE_S)
-    if fails is None:
-        check(done.returncode == 0, f"{program} {words}: {done.stderr.decode()}")
-        return [json.loads(line) for line in done.stdout.splitlines()]
-    check(done.returncode == fails, f"{program} {words}: exit {done.returncode}, not {fails}: {done.stderr.decode()}")
-    return done.stderr.decode(), done.stdout.count(b"\n")
-
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import recorded  # noqa: E402
+from recorded import BIN, DATA, PATIENCE_S, check, run  # noqa: E402
 
 # ---- a drive of our own: exact positions at any time ------------------------------------------------
 
@@ -632,4 +614,4 @@ with tempfile.TemporaryDirectory() as place:
         resampling_error(place)
         if DATA is not None:
             files_of_other_programs_are_named()
-print(f"recorded: {checks} checks hold")
+print(f"recorded: {recorded.checks} checks hold")

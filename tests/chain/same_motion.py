@@ -17,18 +17,11 @@ from dataclasses import dataclass, field
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import osi_messages  # noqa: E402
+import recorded  # noqa: E402
+from recorded import BIN, check  # noqa: E402
 
-BIN = os.path.abspath(sys.argv[1])
 RATE_HZ = 10
 STEPS = 61
-checks = 0
-
-
-def check(good, what):
-    global checks
-    checks += 1
-    if not good:
-        sys.exit(f"same_motion: {what}")
 
 
 def glint(program, *words, data=None):
@@ -458,7 +451,7 @@ def main():
                 compare(kind, world, [json.loads(line) for line in streams[-1].splitlines()])
         mirrors(kind, None, *streams)
         written += 1
-    print(f"same_motion: {checks} checks of {written} formats hold")
+    print(f"same_motion: {recorded.checks} checks of {written} formats hold")
 
 
 main()

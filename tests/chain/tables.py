@@ -14,16 +14,10 @@ import subprocess
 import sys
 import tempfile
 
-BIN = os.path.abspath(sys.argv[1])
-DATA = os.environ.get("GLINT_TEST_DATA")
-checks = 0
-
-
-def check(good, what):
-    global checks
-    checks += 1
-    if not good:
-        sys.exit(f"tables: {what}")
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import recorded  # noqa: E402
+from recorded import BIN, DATA, check  # noqa: E402
 
 
 def play(path, *words, fails=None):
@@ -530,7 +524,7 @@ def main():
     for test in (highd_says, ind_says, ngsim_says, esmini_says, interaction_says, chains, files_beside, columns_by_name, memory, bad_input):
         with tempfile.TemporaryDirectory() as folder:
             test(folder)
-    print(f"tables: {checks} checks hold")
+    print(f"tables: {recorded.checks} checks hold")
 
 
 main()
