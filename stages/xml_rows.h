@@ -3,8 +3,7 @@
  * A file is parsed piece by piece. The source's handlers add events, which are given out before the
  * next piece is parsed. A fault ends the file, after the events before it. The functions are inline
  * because libglint.a has no expat. */
-#ifndef XML_ROWS_H
-#define XML_ROWS_H
+#pragma once
 
 #include <expat.h>
 #include <stdio.h>
@@ -169,5 +168,3 @@ static inline int xml_rows_next(void *state, struct recorded_row *row, struct di
     }
     return xml->fault.code == DIAG_OK ? RECORDED_END : xml_rows_report(xml, diag);
 }
-
-#endif

@@ -5,8 +5,7 @@
  * next in the chain's, both freed at the end; nothing else is allocated. Out of memory prints a
  * message on stderr and exits with 71, in jansson too (document_guard_memory), because a library
  * that carried on after a failed allocation has been seen to return wrong numbers. */
-#ifndef ARENA_H
-#define ARENA_H
+#pragma once
 
 #include <stddef.h>
 #include <string.h>
@@ -67,5 +66,3 @@ static inline void *list_room(struct arena *arena, void *items, size_t count, si
     memset((char *)items + count * size, 0, size);
     return items;
 }
-
-#endif

@@ -4,8 +4,7 @@
  * exit. A message names the place, the value and what was expected; the runner puts program, file
  * and line in front of it. Codes are those of sysexits, so that scripts can tell bad data (do not
  * retry) from a full disk (do). */
-#ifndef DIAG_H
-#define DIAG_H
+#pragma once
 
 enum diag_code {
     DIAG_OK = 0,
@@ -36,5 +35,3 @@ int diag_prefix(struct diag *diag, const char *format, ...) __attribute__((forma
 /* Prints "PROGRAM: MESSAGE" to stderr, with control characters as \xNN, those of two bytes (U+0080
  * to U+009F) too, since a message may quote input. */
 void diag_print(const char *program, const struct diag *diag);
-
-#endif

@@ -7,8 +7,7 @@
  * The bounds are in units in the last place of the exact result, with 0.5 for a correctly rounded
  * one. tests/unit/base/test_elementary measures them against MPFR, over logarithmic draws of the
  * whole domain and densely at the hard places of each function. */
-#ifndef ELEMENTARY_H
-#define ELEMENTARY_H
+#pragma once
 
 #include <math.h>
 #include <stdint.h>
@@ -82,5 +81,3 @@ static inline double elementary_max(double a, double b)
 {
     return b > a || isnan(a) ? b : a;
 }
-
-#endif

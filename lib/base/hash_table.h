@@ -2,8 +2,7 @@
  *
  * The numbers are 0, 1, 2, ... The table uses open addressing and is at most half full. The caller
  * keeps the items that the numbers stand for, and compares them with the wanted one. */
-#ifndef HASH_TABLE_H
-#define HASH_TABLE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -53,5 +52,3 @@ static inline uint32_t *hash_table_slot(const struct hash_table *table, uint64_t
             return slot;
     }
 }
-
-#endif

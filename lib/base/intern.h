@@ -3,8 +3,7 @@
  *
  * A name is any bytes, so a record of numbers gets a number the same way. A zeroed struct is empty.
  * All memory is the arena's, which must be the same one at every call. */
-#ifndef INTERN_H
-#define INTERN_H
+#pragma once
 
 #include "base/hash_table.h"
 
@@ -35,5 +34,3 @@ static inline const char *intern_text(const struct intern *names, uint32_t numbe
 {
     return names->list.items[number].text;
 }
-
-#endif

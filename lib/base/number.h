@@ -3,8 +3,7 @@
  * module in C++ (std::to_chars, std::from_chars), because C's own printf and strtod are ten times
  * slower and depend on the locale. For most numbers of a frame the shortest decimal follows from
  * one exact product, in half the time of std::to_chars. */
-#ifndef NUMBER_H
-#define NUMBER_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -38,6 +37,4 @@ double number_of_digits(uint64_t digits, int places);
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

@@ -4,8 +4,7 @@
  * and depends on nothing else. The cost grows with the square root of the mean, times the
  * overdispersion. Probabilities are good to about 1e-13; tails beyond 2^-75 of the probability at
  * the mean are left out, because no uniform draw of random.h reaches them. */
-#ifndef POISSON_H
-#define POISSON_H
+#pragma once
 
 #include <stdint.h>
 
@@ -19,5 +18,3 @@ int64_t poisson_count(double mean, double uniform);
  *
  *     P(k + 1) / P(k) = (mean + k (f - 1)) / (f (k + 1)). */
 int64_t poisson_overdispersed_count(double mean, double overdispersion, double uniform);
-
-#endif

@@ -3,8 +3,7 @@
  * A draw is a function of its address: the seed, the scene, the frame, the sensor, the reflector
  * and the purpose. So it does not depend on any other draw: not on sharding, on the order of
  * objects, on effects that are left out, nor on whether stages are piped or fused. */
-#ifndef RANDOM_H
-#define RANDOM_H
+#pragma once
 
 #include <stdint.h>
 
@@ -60,5 +59,3 @@ void random_gaussian(const struct random_address *address, enum random_purpose p
 /* The first two of the draws of random_gaussian. */
 void random_gaussian_pair(const struct random_address *address, enum random_purpose purpose,
                           uint32_t index, double gaussian[2]);
-
-#endif

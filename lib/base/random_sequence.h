@@ -1,7 +1,6 @@
 /* Sequence of random draws from one address. One random object or case takes all its draws from one
  * sequence; its address keeps them independent of all other draws. */
-#ifndef RANDOM_SEQUENCE_H
-#define RANDOM_SEQUENCE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -33,5 +32,3 @@ double random_sequence_sign(struct random_sequence *sequence);
 /* A signed distance from a border at which decisions change: 0 once in eight, else of either sign,
  * with its size spread evenly in the logarithm over the six decades up to largest. */
 double random_sequence_margin(struct random_sequence *sequence, double largest);
-
-#endif

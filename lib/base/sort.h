@@ -2,8 +2,7 @@
  * over a kilobyte and may or may not be stable. This merge sort merges the runs that are in order
  * already, of which a frame's lists have few, and moves every item once. A list in order costs one
  * pass. */
-#ifndef SORT_H
-#define SORT_H
+#pragma once
 
 #include "base/arena.h"
 
@@ -17,5 +16,3 @@ void sort_numbers(double *numbers, size_t count, struct arena *arena);
 /* Sorts a LIST_OF. */
 #define sort_list(list, compare, arena)                                                            \
     sort_items((list)->items, (list)->count, sizeof *(list)->items, (compare), (arena))
-
-#endif

@@ -3,8 +3,7 @@
  * The distance of two words is the number of letters to insert, take out, replace, or swap with
  * their neighbour, without regard to case. A word is suggested if at most a quarter of the unknown
  * word's letters must change, or if the unknown word is its beginning, of three letters or more. */
-#ifndef SUGGESTION_H
-#define SUGGESTION_H
+#pragma once
 
 #include <stddef.h>
 
@@ -26,5 +25,3 @@ void suggestion_offer(struct suggestion *suggestion, const char *known);
 /* " (did you mean --seed?)" for the nearest word with `before`, "--", in front of it; "" if none is
  * near. */
 const char *suggestion_question(struct suggestion *suggestion, const char *before);
-
-#endif

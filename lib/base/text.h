@@ -1,8 +1,7 @@
 /* Growing text, JSON strings, and eight bytes as a number.
  *
  * A zeroed text is empty; text_free gives its memory back. */
-#ifndef TEXT_H
-#define TEXT_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -100,5 +99,3 @@ static inline size_t text_plain(const char *bytes, size_t length)
 }
 
 void text_free(struct text *text);
-
-#endif

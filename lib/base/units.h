@@ -1,8 +1,7 @@
 /* Angles, wavelengths and decibels. Decibels of amplitude and of power never share a function.
  * Streams and decisions are linear; decibels appear only in documents (thresholds), in targets and
  * in losses. */
-#ifndef UNITS_H
-#define UNITS_H
+#pragma once
 
 #define PI 3.14159265358979323846
 #define SPEED_OF_LIGHT_MPS 299792458.0
@@ -30,5 +29,3 @@ double units_si(double x);
 /* The nearest multiple of step, halves away from 0. A step of 0 leaves the value as it is, and so
  * does one too small for the double to have a nearer multiple. */
 double units_rounded(double value, double step);
-
-#endif

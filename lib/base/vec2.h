@@ -1,7 +1,6 @@
 /* Plane vectors by value. A heading is a unit vector (cos, sin): rotating by it costs no
  * trigonometry and needs no wrapping. Counter-clockwise is positive. */
-#ifndef VEC2_H
-#define VEC2_H
+#pragma once
 
 #include <math.h>
 #include <stdbool.h>
@@ -94,5 +93,3 @@ static inline struct vec2 vec2_left(struct vec2 a)
 {
     return (struct vec2){-a.y, a.x};
 }
-
-#endif

@@ -4,8 +4,7 @@
  * the echo from the farthest range has a beat frequency that the receiver must pass. A check
  * compares two of them. Some disagreements are impossible, and the suite is refused; others are
  * doubts, which glint --datasheet prints with both sides. */
-#ifndef CONSISTENCY_H
-#define CONSISTENCY_H
+#pragma once
 
 #include "documents/suite.h"
 
@@ -55,5 +54,3 @@ double consistency_fold_mps(const struct sensor *sensor);
 /* The 3 dB width of a beam on boresight: of the row of elements, where the waveform has one, else
  * of the antenna's sum pattern, two ways. */
 double consistency_beam_rad(const struct sensor *sensor);
-
-#endif

@@ -8,8 +8,7 @@
  * on or before. So the powers of all posts in sight, added without regard to phase, make the
  * class's cross section on each normal and on each diagonal, whatever the spacing; an object longer
  * or wider than its class has more in proportion. */
-#ifndef CONTOUR_H
-#define CONTOUR_H
+#pragma once
 
 #include "frame/reflectors.h"
 
@@ -40,5 +39,3 @@ struct contour_view contour_view(double face_dbsm, double oblique_dbsm);
  * 0.01 m and the spacing 0.02 m. */
 void contour_describe(const struct contour *contour, double length_m, double width_m,
                       double spacing_m, struct reflector_set *set, struct arena *arena);
-
-#endif

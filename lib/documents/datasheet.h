@@ -1,8 +1,7 @@
 /* Figures of a sensor as its maker would print them.
  *
  * They follow from the document alone: one echo, no rain, no interference, heights left aside. */
-#ifndef DATASHEET_H
-#define DATASHEET_H
+#pragma once
 
 #include "documents/suite.h"
 
@@ -29,5 +28,3 @@ struct datasheet {
 
 /* The figures of a sensor with its derived members. */
 void datasheet_of(const struct sensor *sensor, struct datasheet *sheet);
-
-#endif

@@ -2,8 +2,7 @@
  * points, each in the middle of a face, with a lobe and a floor that is seen from everywhere; a
  * human has one (MODEL 2.8). The cross sections are means over the report's log-normal fluctuation
  * of 3.41 and 3.94 dB, which a sensor's `fluctuation` adds. */
-#ifndef SENSING_TARGET_3GPP_H
-#define SENSING_TARGET_3GPP_H
+#pragma once
 
 #include "frame/reflectors.h"
 
@@ -18,5 +17,3 @@ extern const char *const sensing_target_3gpp_names[]; /* ending with NULL */
  * blocks stay. Not for SENSING_TARGET_3GPP_NONE. */
 void sensing_target_3gpp_describe(enum sensing_target_3gpp target, struct reflector_set *set,
                                   struct arena *arena);
-
-#endif

@@ -3,8 +3,7 @@
  *
  * Plain members are the document's; those from `amplitude_law` on are derived when it is loaded
  * (suite_derive). */
-#ifndef SUITE_H
-#define SUITE_H
+#pragma once
 
 #include "documents/waveform.h"
 #include "frame/effects.h"
@@ -135,5 +134,3 @@ double suite_amplitude(const struct sensor *sensor, double range_m, double azimu
  * of that size of a cell: sigma itself, the document's; threshold/amplitude of it, at most 1; or
  * that of radar/snr_sigma.h at the ratio (amplitude/pointer_sigma)^2, with sigma as floor. */
 double suite_sigma(const struct sensor *sensor, double amplitude, double cell, double sigma);
-
-#endif

@@ -1,11 +1,8 @@
 /* Finds, reads and checks a sensor suite by name (data/sensors/). */
-#ifndef SUITE_FILE_H
-#define SUITE_FILE_H
+#pragma once
 
 #include "documents/suite.h"
 
 /* Loads a suite with its tables and derived members. The digest is a 64-bit hash over the document
  * and every table. All of it lies in the arena; NULL after a message (DIAG_CONFIG). */
 const struct suite *suite_file_load(const char *name, struct arena *arena, struct diag *diag);
-
-#endif

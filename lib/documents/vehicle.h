@@ -1,7 +1,6 @@
 /* Documents of classes of road users and things. They hold size, reflection centres and other
  * models of a class (data/vehicles/). */
-#ifndef VEHICLE_H
-#define VEHICLE_H
+#pragma once
 
 #include "documents/contour.h"
 #include "documents/sensing_target_3gpp.h"
@@ -27,5 +26,3 @@ const struct vehicle *vehicle_load(const char *class, const char *folder, struct
 /* Refuses the vehicle (DIAG_CONFIG) if the frame names another document of its class. */
 int vehicle_check_frame(const struct vehicle *vehicle, const struct frame *frame,
                         struct diag *diag);
-
-#endif

@@ -2,8 +2,7 @@
  * of a sensor's document. The resolution is that of the document's cells: chirps have the bandwidth
  * c/(2 cell_range_m), pulses are cell_range_m wide at half their amplitude, and a train of
  * repetitions lasts wavelength/(2 cell_range_rate_mps). */
-#ifndef WAVEFORM_H
-#define WAVEFORM_H
+#pragma once
 
 #include "radar/cfar.h"
 #include "radar/point_response.h"
@@ -39,5 +38,3 @@ size_t waveform_independent_bins(const struct waveform *waveform);
 /* The search in a spectrum of `padding` cells to a bin. Its windows take neighbours whose noise is
  * independent. Each beam has its share of the probability of a false alarm. */
 struct cfar waveform_cfar(const struct waveform *waveform, size_t padding, size_t beams);
-
-#endif

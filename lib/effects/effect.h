@@ -11,8 +11,7 @@
  *
  * Hooks read the frame, the documents and the values that are passed to them, draw random numbers
  * by address (base/random.h) and take memory from the frame's arena. */
-#ifndef EFFECT_H
-#define EFFECT_H
+#pragma once
 
 #include "base/random.h"
 #include "documents/suite.h"
@@ -137,5 +136,3 @@ struct effect_measurement effect_measurement_of(const struct effect_scan *scan,
  * measurement->effects. */
 void effect_measure(const struct effect_scan *scan, enum effect_step step,
                     struct effect_measurement *measurement);
-
-#endif

@@ -3,8 +3,7 @@
  * A direct echo, the parent, stays as it is; its parts are echoes of the same object and reflector
  * on the path wheel or limb, with numbers from 1. A part has its parent's height, time, effects and
  * margins, and a share of its cross section. */
-#ifndef MOVING_PART_H
-#define MOVING_PART_H
+#pragma once
 
 #include "effects/effect.h"
 
@@ -19,5 +18,3 @@ bool moving_part_any(const struct effect_scan *scan, enum moving_part part);
  * effect to its label. */
 struct echo moving_part_of(const struct echo *parent, enum path path, int64_t number, double factor,
                            enum effect_id effect);
-
-#endif

@@ -6,8 +6,7 @@
  * raw members are no columns. A cell is empty where a line of JSON would lack the member
  * (record_text.h); a flag is always true or false. Numbers are the shortest that read back to the
  * same double. */
-#ifndef CSV_COLUMNS_H
-#define CSV_COLUMNS_H
+#pragma once
 
 #include "base/text.h"
 #include "text/field.h"
@@ -36,5 +35,3 @@ void csv_columns_write_names(const struct csv_columns *columns, struct text *row
 void csv_columns_write(const struct csv_columns *columns, const void *base, struct text *row);
 void csv_columns_write_empty(const struct csv_columns *columns, struct text *row);
 void csv_columns_end_row(struct text *row);
-
-#endif

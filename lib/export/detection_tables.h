@@ -12,8 +12,7 @@
  * detection is its contributor of the greatest weight.
  *
  * Keys stay below first_key + DETECTION_TABLES_KEYS. Nothing of a frame is kept. */
-#ifndef DETECTION_TABLES_H
-#define DETECTION_TABLES_H
+#pragma once
 
 #include "base/text.h"
 #include "export/csv_columns.h"
@@ -55,5 +54,3 @@ int detection_tables_add(struct detection_tables *tables, struct frame *frame, s
 /* Appends a JSON object with a Frictionless Table Schema for each table: names, types, units and
  * what the columns mean. */
 void detection_tables_write_schema(struct text *text);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * They are those of the scene's document or of the source's options. What is absent there does not
  * exist: no road that mirrors, no rain, no other radar. */
-#ifndef CONDITIONS_H
-#define CONDITIONS_H
+#pragma once
 
 #include "text/field.h"
 
@@ -52,5 +51,3 @@ extern const size_t conditions_draw_count;
 
 /* Puts what is said in changes, 0 too, in place of what conditions say. */
 void conditions_change(struct conditions *conditions, const struct conditions *changes);
-
-#endif

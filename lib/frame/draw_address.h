@@ -2,8 +2,7 @@
  *
  * An address (random.h) holds the frame's seed, scene and number, the sensor, and the identity of
  * the echo. Random numbers of a cell have the address of its leader. */
-#ifndef DRAW_ADDRESS_H
-#define DRAW_ADDRESS_H
+#pragma once
 
 #include "base/random.h"
 #include "frame/frame.h"
@@ -17,5 +16,3 @@ struct random_address draw_address_in(struct random_address scan, struct echo_id
 /* The address of an echo: both of the above in one. */
 struct random_address draw_address_of(const struct frame *frame, const char *sensor,
                                       struct echo_id id);
-
-#endif

@@ -16,8 +16,7 @@
  *     bool merge = effects_forced(selection, EFFECT_MERGING) ||
  *                  (effects_enabled(selection, EFFECT_MERGING) && some_echoes_are_close);
  *     effects_note(selection, EFFECT_MERGING, merge); */
-#ifndef EFFECTS_H
-#define EFFECTS_H
+#pragma once
 
 #include "text/field.h"
 
@@ -93,5 +92,3 @@ static inline void effects_count_time(const struct selection *selection, enum ef
 /* Ends a scan in the log. An effect that was simulated for one object and left out for another
  * counts as simulated in the scan. */
 void effects_count_scan(const struct selection *selection);
-
-#endif

@@ -11,8 +11,7 @@
  * positive when receding. Positions of objects are the centres of their boxes, from the frame's
  * origin; mounts count from the centre of the ego's box. Amplitudes are linear, except members that
  * end in _db. */
-#ifndef FRAME_H
-#define FRAME_H
+#pragma once
 
 #include <string.h>
 
@@ -360,5 +359,3 @@ void frame_count_pairs(struct frame *frame, const char *sensor, int64_t pairs);
 /* Appends a target with the cell as its label; the target's own values and margins are the cell's,
  * without noise. */
 struct target *frame_add_target(struct frame *frame, const struct cell *cell, double amplitude_db);
-
-#endif

@@ -6,8 +6,7 @@
  * checked after the stage that writes targets, and by sinks and tools that read them from another
  * process. The check knows how many entries are due, not which: a missing entry together with an
  * invented one would pass. */
-#ifndef FRAME_ACCOUNT_H
-#define FRAME_ACCOUNT_H
+#pragma once
 
 #include "frame/frame.h"
 
@@ -15,5 +14,3 @@
  * the first echo that has two entries or the first sensor with a wrong number of entries: an
  * account that does not add up was in most cases wrong when it was read. */
 int frame_account_check(const struct frame *frame, struct diag *diag);
-
-#endif

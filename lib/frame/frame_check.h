@@ -1,8 +1,7 @@
 /* Consistency of a frame beyond its field tables.
  *
  * Tables hold single members to their bounds; this holds sections to each other. */
-#ifndef FRAME_CHECK_H
-#define FRAME_CHECK_H
+#pragma once
 
 #include "frame/frame.h"
 
@@ -23,5 +22,3 @@ int frame_check_object(const struct object *object, struct diag *diag);
 /* For a written frame that fails frame_check_part because extreme values were read: names the
  * object of the first entry whose own values are out of bounds (DIAG_DATA). 0 if there is none. */
 int frame_check_extremes(const struct frame *frame, struct diag *diag);
-
-#endif

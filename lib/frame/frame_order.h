@@ -2,8 +2,7 @@
  *
  * Stages see every section in canonical order, so that no result depends on the order in which a
  * source lists things. */
-#ifndef FRAME_ORDER_H
-#define FRAME_ORDER_H
+#pragma once
 
 #include "frame/frame.h"
 
@@ -32,5 +31,3 @@ int frame_order_names(const void *left, const void *right);
 int frame_order_echoes(const void *left, const void *right);
 int frame_order_cells(const void *left, const void *right);
 int frame_order_lost_groups(const void *left, const void *right);
-
-#endif

@@ -4,8 +4,7 @@
  * from 0 without a gap and end with its last frame; sinks that match frames ask less. Scenes may
  * interleave. Every scene is remembered to the end of the stream, as a scene must not come back
  * after its last frame: about 150 bytes for each. */
-#ifndef FRAME_SEQUENCE_H
-#define FRAME_SEQUENCE_H
+#pragma once
 
 #include "base/intern.h"
 #include "frame/frame.h"
@@ -49,5 +48,3 @@ int frame_sequence_one_seed(const struct frame_sequence *sequence, struct diag *
 /* Fails with DIAG_DATA if a scene lacks its last frame, or if there was no frame at all, as a
  * source that fails leaves none. */
 int frame_sequence_end(const struct frame_sequence *sequence, struct diag *diag);
-
-#endif

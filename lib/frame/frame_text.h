@@ -1,6 +1,5 @@
 /* A frame as a line of JSON (record_text.h), and back. */
-#ifndef FRAME_TEXT_H
-#define FRAME_TEXT_H
+#pragma once
 
 #include "base/text.h"
 #include "frame/frame.h"
@@ -15,5 +14,3 @@ int frame_text_read(const char *line, size_t length, struct frame *frame, struct
 /* Appends the frame's line, with its newline, to text. The frame must have passed field_check.
  * Fails if the line is longer than FRAME_TEXT_SIZE. */
 int frame_text_write(const struct frame *frame, struct text *text, struct diag *diag);
-
-#endif

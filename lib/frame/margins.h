@@ -4,8 +4,7 @@
  * border of all decisions of one kind that the entry depends on, and is 0 on the border itself. It
  * is absent if there was no decision of that kind; in a struct of zeros all are. Margins of a lost
  * echo are the distances from not being lost for its reason. */
-#ifndef MARGINS_H
-#define MARGINS_H
+#pragma once
 
 #include "radar/monopulse.h"
 #include "text/field.h"
@@ -45,5 +44,3 @@ double margins_between_db(double a, double b);
 /* Notes the margin of an azimuth's sign. Only MONOPULSE_MAGNITUDE decides about a sign. */
 void margins_note_sign(struct margins *margins, enum monopulse_estimator estimator,
                        struct antenna_pointers pointers);
-
-#endif

@@ -1,8 +1,7 @@
 /* What a sensor tells of a detection's quality (MODEL 14.21).
  *
  * It is what the sensor itself knows, from its report and its document, but for exact labels. */
-#ifndef QUALITY_H
-#define QUALITY_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -33,5 +32,3 @@ struct quality {
 };
 
 extern const struct record quality_record;
-
-#endif

@@ -4,8 +4,7 @@
  * lists the objects of that class. One set serves objects of any size: x and y are fractions of an
  * object's length and width from the centre of its box (box.h), z is a fraction of its height from
  * the road. */
-#ifndef REFLECTORS_H
-#define REFLECTORS_H
+#pragma once
 
 #include "geometry/box.h"
 #include "geometry/lobe.h"
@@ -156,5 +155,3 @@ void reflectors_posts_within(const struct box *box, const struct post_row *row, 
 
 /* The place of a post in the world. */
 struct vec2 reflectors_post_place(const struct box *box, const struct post_row *row, int64_t post);
-
-#endif

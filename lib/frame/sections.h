@@ -2,8 +2,7 @@
  *
  * The choice stands in the header of every frame, so that all later stages follow it without being
  * told again. Sensors, targets and counts are always carried. */
-#ifndef SECTIONS_H
-#define SECTIONS_H
+#pragma once
 
 #include "text/field.h"
 
@@ -44,5 +43,3 @@ unsigned sections_left_out(const struct frame *frame);
 
 /* Drops the sections that the frame does not carry and that no later stage reads. */
 void sections_drop(struct frame *frame);
-
-#endif

@@ -3,8 +3,7 @@
  * A sensor that measured has a sighting of every object but the ego. Reflectors count in the order
  * of MODEL 2.5: of those that the sensor looked for, those that send towards it and are in range,
  * of these those in view, and of these those that a body hides. */
-#ifndef SIGHTINGS_H
-#define SIGHTINGS_H
+#pragma once
 
 #include "text/field.h"
 
@@ -32,5 +31,3 @@ void sightings_count_targets(struct frame *frame);
 
 /* The canonical order, by sensor and object, for sort_items. */
 int sightings_order(const void *left, const void *right);
-
-#endif

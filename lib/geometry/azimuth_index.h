@@ -5,8 +5,7 @@
  * has the set of the bodies, by number, whose silhouettes reach into it. A search answers with
  * every body whose silhouette has one of the sectors searched, and possibly more. Sets are bits, 64
  * to a word: they are joined a word at a time and come out in ascending order. */
-#ifndef AZIMUTH_INDEX_H
-#define AZIMUTH_INDEX_H
+#pragma once
 
 #include <stdint.h>
 
@@ -43,5 +42,3 @@ void azimuth_index_enter(struct azimuth_index *index, size_t number,
 
 /* Writes to found all numbers that were entered in any sector of the span; returns how many. */
 size_t azimuth_index_find(const struct azimuth_index *index, struct azimuth_index_span span);
-
-#endif

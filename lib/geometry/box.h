@@ -2,8 +2,7 @@
  *
  * Fractions (x, y) are of the box's length and width from its centre: x forward, y left, so 0.5 is
  * the front or the left side. They may lie beyond the box. */
-#ifndef BOX_H
-#define BOX_H
+#pragma once
 
 #include "geometry/motion.h"
 
@@ -28,5 +27,3 @@ void box_outline(const struct box *box, struct vec2 corner[4]);
  * to the last bit. */
 struct vec2 box_along(const struct box *box, double from_x, double from_y, double to_x,
                       double to_y);
-
-#endif

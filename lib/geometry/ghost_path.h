@@ -15,8 +15,7 @@
  * so by the ghost's own range. So ercs_factor, on the ERCS of O, is the spreading of an echo at
  * that range over the path's own: G ((R+R')/2)^2/(R R') for one way by the wall, G^2 for both.
  * Under 1/R^2 the amplitude relative to the direct echo's is G R/R' and G^2 (R/R')^2. */
-#ifndef GHOST_PATH_H
-#define GHOST_PATH_H
+#pragma once
 
 #include "geometry/kinematics.h"
 #include "geometry/mirror.h"
@@ -33,5 +32,3 @@ struct ghost_path ghost_path_out(double reflection, const struct kinematics *dir
 struct ghost_path ghost_path_back(double reflection, const struct kinematics *direct,
                                   const struct kinematics *image);
 struct ghost_path ghost_path_both(double reflection, const struct kinematics *image);
-
-#endif

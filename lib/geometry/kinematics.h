@@ -1,7 +1,6 @@
 /* Range, azimuth and range rate of a moving point. Azimuth counts from boresight, left positive;
  * range rate is positive where the point recedes (MODEL 2.4, 5). */
-#ifndef KINEMATICS_H
-#define KINEMATICS_H
+#pragma once
 
 #include "base/vec2.h"
 
@@ -16,5 +15,3 @@ struct kinematics {
  * tangential motion keeps its sign. */
 struct kinematics kinematics_of(struct vec2 sensor_m, struct vec2 sensor_mps, struct vec2 boresight,
                                 struct vec2 point_m, struct vec2 point_mps);
-
-#endif

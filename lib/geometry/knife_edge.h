@@ -2,8 +2,7 @@
  *
  * depth_m is how far the sight line lies inside the shadow at the edge, negative outside; d1 and d2
  * are the distances from the edge to sensor and reflector, which count as at least 0.1 m. */
-#ifndef KNIFE_EDGE_H
-#define KNIFE_EDGE_H
+#pragma once
 
 /* nu = depth sqrt(2 (d1 + d2)/(lambda d1 d2)); wavelength > 0. */
 double knife_edge_parameter(double depth_m, double sensor_side_m, double reflector_side_m,
@@ -17,5 +16,3 @@ double knife_edge_amplitude_factor(double parameter);
 /* No edge farther than this from a sight line of length range_m changes the factor: the largest
  * first Fresnel radius along the line. 0 for a wavelength of 0. */
 double knife_edge_reach_m(double range_m, double wavelength_m);
-
-#endif

@@ -4,8 +4,7 @@
  *     drop = min(12 (off/width)^2, depth) + min(12 ((zenith - middle)/width)^2, depth)
  *
  * and at most depth_db in all. Half a width off the middle the lobe is 3 dB down. */
-#ifndef LOBE_H
-#define LOBE_H
+#pragma once
 
 struct lobe {
     double width_rad;        /* in azimuth, between the two angles 3 dB down; 0: no drop in
@@ -18,5 +17,3 @@ struct lobe {
 /* The factor on amplitude, in (0, 1], for a viewer whose azimuth is off_rad in [0, pi] from the
  * lobe's middle and whose zenith angle, seen from the point, is zenith_rad. */
 double lobe_amplitude_factor(const struct lobe *lobe, double off_rad, double zenith_rad);
-
-#endif

@@ -9,8 +9,7 @@
  *
  * where V is the velocity of the body's material at a place: seen from the wall, the image of the
  * velocity is the velocity of the image. Metres and metres per second, in one plane. */
-#ifndef MIRROR_H
-#define MIRROR_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -47,5 +46,3 @@ bool mirror_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec
  * m; unnecessarily true where the disc passes narrowly by an end of the wall. */
 bool mirror_may_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec2 centre_m,
                        double radius_m);
-
-#endif

@@ -7,8 +7,7 @@
  *     t ( (v + a t/2) si(h),  (a t/2) j1(h) ),    si(h) = sin h / h,  j1(h) = (si h - cos h) / h.
  *
  * si and j1 are smooth at 0, so small turn rates need no branch and no division by omega. */
-#ifndef MOTION_H
-#define MOTION_H
+#pragma once
 
 #include "base/vec2.h"
 
@@ -41,5 +40,3 @@ struct vec2 motion_velocity_at(const struct motion *body, struct vec2 place);
 void motion_hermite(struct vec2 from_m, struct vec2 from_mps, struct vec2 to_m, struct vec2 to_mps,
                     double duration_s, double s, struct vec2 *position_m, struct vec2 *velocity_mps,
                     struct vec2 *acceleration_mps2);
-
-#endif

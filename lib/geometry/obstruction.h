@@ -7,8 +7,7 @@
  * the line touches the outline is exact for the given coordinates (outline_crossing.h). Heights are
  * compared as plain doubles, so the rounding of its height, some 1e-15 m, decides a line that
  * grazes a top. */
-#ifndef OBSTRUCTION_H
-#define OBSTRUCTION_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -45,5 +44,3 @@ struct obstruction {
  * Fresnel radii inside the shadow on, nu >= 2 sqrt(2), the factor is 0. */
 struct obstruction obstruction_of(const struct vec2 *corners, size_t count, double top_m,
                                   const struct obstruction_line *line, double wavelength_m);
-
-#endif

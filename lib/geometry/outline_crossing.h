@@ -5,8 +5,7 @@
  * outline sees what is inside with it and nothing beyond. The answer is exact for the given
  * coordinates. An object is never tested against its own reflectors: their visibility ranges decide
  * that. */
-#ifndef OUTLINE_CROSSING_H
-#define OUTLINE_CROSSING_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -19,5 +18,3 @@ bool outline_crossing_segments_touch(struct vec2 p, struct vec2 q, struct vec2 a
 /* True if the closed segment from-to touches the closed polygon through the count corners. */
 bool outline_crossing_blocks(const struct vec2 *corners, size_t count, struct vec2 from,
                              struct vec2 to);
-
-#endif

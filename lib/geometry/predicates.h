@@ -6,8 +6,7 @@
  * Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates,
  * 1997). Exact as long as no product of coordinates under- or overflows: each coordinate is 0 or
  * has a size between 1e-140 and 1e140 m. */
-#ifndef PREDICATES_H
-#define PREDICATES_H
+#pragma once
 
 #include "base/vec2.h"
 
@@ -31,5 +30,3 @@ static inline int predicates_orientation(struct vec2 a, struct vec2 b, struct ve
 /* The sign of (b - a) · direction: +1 if b is farther along the direction than a, -1 if a is, 0 if
  * they are exactly abreast. */
 int predicates_along(struct vec2 a, struct vec2 b, struct vec2 direction);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * The mount is given from the centre of the ego's box, in the ego's own frame. The pose has the
  * coordinates of the ego's motion (MODEL 2.4). */
-#ifndef SENSOR_POSE_H
-#define SENSOR_POSE_H
+#pragma once
 
 #include "geometry/motion.h"
 
@@ -16,5 +15,3 @@ struct sensor_pose {
 
 struct sensor_pose sensor_pose_on(const struct motion *ego, double mount_x_m, double mount_y_m,
                                   double mount_yaw_rad);
-
-#endif

@@ -2,8 +2,7 @@
  * a box that the sensor sees. From two silhouettes follows whether one box can hide any of the
  * other or surely hides all of it: auto leaves out occlusion by the first answer, and only sight
  * lines between both answers need the exact test (outline_crossing.h). */
-#ifndef SILHOUETTE_H
-#define SILHOUETTE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -65,5 +64,3 @@ static inline bool silhouette_outside(const struct silhouette *silhouette, struc
             vec2_cross(right, silhouette->left_m) < 0) ||
            (vec2_cross(silhouette->right_m, left) < 0 && vec2_cross(silhouette->left_m, left) < 0);
 }
-
-#endif

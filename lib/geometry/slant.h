@@ -1,8 +1,7 @@
 /* Range, azimuth and gain of a reflector at another height. A reflector above or below the sensor
  * is farther away than in the plane, its range rate is smaller, its echo weaker, and a linear array
  * reads the angle of a cone, sin(azimuth read) = sin(azimuth) cos(elevation) (MODEL 14.2). */
-#ifndef SLANT_H
-#define SLANT_H
+#pragma once
 
 struct slant {
     double range_m; /* slant */
@@ -26,5 +25,3 @@ double slant_azimuth_rad(struct slant elevation, double azimuth_rad);
  * half_width_rad > 0 (5 to 10 deg for radars of cars, assumed); both ways double the decibels, so
  * the factor on amplitude is the one-way factor on power. */
 double slant_amplitude_factor(struct slant elevation, double half_width_rad);
-
-#endif

@@ -12,8 +12,7 @@
  * line_of_sight.h gives it to one of them. The direction of a -> b would not do, because rounding
  * bends the joint. Where the two sides' vertices differ by rounding, the gap or overlap, 1e-13 m at
  * a kilometre, is part of the scene. */
-#ifndef SPECULAR_POINT_H
-#define SPECULAR_POINT_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -28,5 +27,3 @@
  * missed by that. */
 bool specular_point_foot(struct vec2 a, struct vec2 b, struct vec2 along, double margin_m,
                          struct vec2 sensor, struct vec2 *foot);
-
-#endif

@@ -4,8 +4,7 @@
  * angle and leaves its shape open; glint offers four shapes. delta is the angle between the point's
  * facing and the direction to the sensor, in [0, pi]. All shapes are 1 up to full_rad, except
  * cosine, which falls from the start, and 0 beyond zero_rad. */
-#ifndef VISIBILITY_RANGE_H
-#define VISIBILITY_RANGE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -46,5 +45,3 @@ static inline bool visibility_range_surely_zero(double dark_cosine, struct vec2 
      * place. */
     return vec2_dot(facing, to_viewer) < dark_cosine * vec2_length(to_viewer) - 3 * slack_m;
 }
-
-#endif

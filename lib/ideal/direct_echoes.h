@@ -3,13 +3,10 @@
  * Every reflector of an object either becomes an echo of the frame or is listed in lost, with the
  * first reason that applies (MODEL 2.5): it faces away or has no specular point, it is out of
  * range, out of view, or blocked. */
-#ifndef DIRECT_ECHOES_H
-#define DIRECT_ECHOES_H
+#pragma once
 
 #include "ideal/look.h"
 
 /* Adds the echoes and losses of every reflector of every object to the frame, and the sensor's
  * counts of pairs and direct echoes. */
 void direct_echoes_add(struct look *look);
-
-#endif

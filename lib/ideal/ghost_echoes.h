@@ -28,8 +28,7 @@
  * image's distance.
  *
  * A ghost that is not seen is not made and has no entry in lost. */
-#ifndef GHOST_ECHOES_H
-#define GHOST_ECHOES_H
+#pragma once
 
 #include "ideal/look.h"
 
@@ -37,5 +36,3 @@
  * `mirror` is the id of the mirror's object, its `number` which of that object's mirrors, from 1.
  * auto passes over a body and a mirror that surely have no bounce (mirror_may_bounce). */
 void ghost_echoes_add(struct look *look);
-
-#endif

@@ -6,8 +6,7 @@
  * Two sides in line, of which one begins where the other ends, are one wall: neither body blocks a
  * line to a foot on the other's side, though its outline may touch that line. If both sides share
  * the vertex as doubles and the foot is exactly there, only the second side has it. */
-#ifndef LINE_OF_SIGHT_H
-#define LINE_OF_SIGHT_H
+#pragma once
 
 #include "geometry/obstruction.h"
 #include "ideal/look.h"
@@ -69,5 +68,3 @@ double line_of_sight_margin_m(const struct look *look, const struct look_body *c
 /* The sight margin of a line that is not blocked. Infinite if occlusion is not selected. */
 double line_of_sight_clearance_m(const struct look *look, const struct obstruction_line *line,
                                  const struct look_body *const *except, size_t count);
-
-#endif

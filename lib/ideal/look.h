@@ -8,8 +8,7 @@
  * slant range, the range rate along the slant and the azimuth that a linear array reads are
  * compared with the sensor's limits and reported. Objects then hide only what is not seen over them
  * (MODEL 14.3); an object without a height hides all behind it. */
-#ifndef LOOK_H
-#define LOOK_H
+#pragma once
 
 #include "documents/suite.h"
 #include "frame/frame.h"
@@ -119,5 +118,3 @@ struct point_reflector look_post(const struct look *look, const struct post_row 
 /* EFFECT_BIT of latency if the ego or the body moved between the measurement and the frame's time,
  * else 0. */
 uint64_t look_latency_effect(const struct look *look, const struct look_body *body);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * All are in metres and positive on both sides of a border, 0 on it: how far a reflector is from
  * being lost, or from not being lost (MODEL 2.5, 11.1). */
-#ifndef SIGHT_MARGINS_H
-#define SIGHT_MARGINS_H
+#pragma once
 
 #include "frame/reflectors.h"
 
@@ -29,5 +28,3 @@ double sight_margins_outline_m(const struct vec2 *corners, size_t count, struct 
  * nearest such end, from the edge where that is farthest. */
 double sight_margins_depth_m(const struct vec2 *corners, size_t count, struct vec2 from,
                              struct vec2 to);
-
-#endif

@@ -1,6 +1,5 @@
 /* Quality of a detection, as its sensor knows it (MODEL 14.21). */
-#ifndef DETECTION_QUALITY_H
-#define DETECTION_QUALITY_H
+#pragma once
 
 #include "effects/effect.h"
 #include "noise/existence.h"
@@ -31,5 +30,3 @@ void detection_quality_estimate(struct detection_source *source,
 struct quality detection_quality_of(const struct detection_source *source,
                                     const struct effect_measurement *measurement,
                                     const struct target *target, const struct frame *frame);
-
-#endif

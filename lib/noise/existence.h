@@ -6,8 +6,7 @@
  * and noise alone has
  *     f0(z) = false_alarms exp(-(z - least_false_alarm))      from least_false_alarm on.
  * The echo exists with f1/(f1 + f0). */
-#ifndef EXISTENCE_H
-#define EXISTENCE_H
+#pragma once
 
 struct existence {
     double echoes;                        /* mean number in a scan, detected or not; > 0 */
@@ -20,5 +19,3 @@ struct existence {
 /* The probability, in [0, 1], for a power >= 0. What can be neither an echo nor noise counts as an
  * echo. */
 double existence_probability(const struct existence *existence, double power);
-
-#endif

@@ -4,8 +4,7 @@
  * resolution cell, so uniform in range, azimuth and range rate, and as strong as noise that has
  * passed the threshold. A false alarm is a cell of its own with one contributor: number n, from 1,
  * of the reflector "cell" of the object "noise", which is no object of the frame. */
-#ifndef FALSE_ALARM_CELLS_H
-#define FALSE_ALARM_CELLS_H
+#pragma once
 
 #include "frame/frame.h"
 
@@ -31,5 +30,3 @@ double false_alarm_cells_amplitude(double threshold, double noise_sigma, double 
  * context. There are none if the effect is not simulated or the sensor did not measure in this
  * frame. */
 struct cell_span false_alarm_cells_of(struct frame *frame, const struct effect_scan *context);
-
-#endif

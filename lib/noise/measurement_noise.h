@@ -1,6 +1,5 @@
 /* Range, rate, angle and amplitude of a cell, with noise (MODEL 7 to 9, 14). */
-#ifndef MEASUREMENT_NOISE_H
-#define MEASUREMENT_NOISE_H
+#pragma once
 
 #include "noise/target_list.h"
 
@@ -9,5 +8,3 @@
  * False if both noisy pointers are zero, so that there is no azimuth. */
 bool measurement_noise_read(const struct effect_scan *context, const struct cell *cell,
                             struct effect_measurement *measurement);
-
-#endif

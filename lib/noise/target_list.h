@@ -1,7 +1,6 @@
 /* A sensor's target list: measurements, their order, limit and rounding (MODEL 9 to 11).
  */
-#ifndef TARGET_LIST_H
-#define TARGET_LIST_H
+#pragma once
 
 #include "noise/detection_quality.h"
 
@@ -24,5 +23,3 @@ void target_list_note_margins(const struct sensor *sensor, const struct cell *ce
  * the scan simulates quantisation; contributors keep the exact values. */
 void target_list_make(struct frame *frame, const char *stage, const struct detection_source *source,
                       struct effect_measurement *measurements, size_t count);
-
-#endif

@@ -12,8 +12,7 @@
  * rows and zero outside the table; delta is signed, positive to the left. Between two rows
  * delta/sum, a ratio of two straight lines, is monotone and has a closed inverse, so that a single
  * noise-free echo is read at its own azimuth. */
-#ifndef ANTENNA_H
-#define ANTENNA_H
+#pragma once
 
 #include <complex.h>
 #include <stdbool.h>
@@ -62,5 +61,3 @@ double antenna_azimuth_rad(const struct antenna *antenna, double delta, double s
  * least two rows, sums >= 0, in no row both amplitudes zero, and azimuth and delta/sum that ascend
  * strictly. *row becomes the first row at fault, counted from 0, or count if rows are missing. */
 const char *antenna_table_fault(const struct antenna_row *rows, size_t count, size_t *row);
-
-#endif

@@ -4,8 +4,7 @@
  * GHz. Fog with w g/m^3 of liquid water attenuates by K w dB/km, with K of P.840 for droplets far
  * smaller than the wavelength and the double-Debye permittivity of water, up to 200 GHz. Both are
  * of one way (MODEL 14.15). */
-#ifndef ATTENUATION_H
-#define ATTENUATION_H
+#pragma once
 
 #include "radar/carrier.h"
 
@@ -27,5 +26,3 @@ double attenuation_fog_dbpkm(double carrier_hz, double temperature_c, double wat
 /* The factor on an echo's amplitude, there and back: 10^(-2 gamma R/(1000 · 20)). Exactly 1 for an
  * attenuation of 0. */
 double attenuation_amplitude_factor(double attenuation_dbpkm, double range_m);
-
-#endif

@@ -4,8 +4,7 @@
  *
  * The sensor looks to the right of where it believes by the yaw error; the bumper, as a radome,
  * bends the beam by the bias, with periods of 20 to 40 degrees in practice (MODEL 14.8). */
-#ifndef BORESIGHT_ERROR_H
-#define BORESIGHT_ERROR_H
+#pragma once
 
 struct boresight_error {
     double yaw_error_rad;
@@ -17,5 +16,3 @@ struct boresight_error {
 /* The reported azimuth, in (-pi, pi]. Without yaw error and bias it is azimuth_rad itself, if that
  * is in this interval. */
 double boresight_error_reported_rad(const struct boresight_error *error, double azimuth_rad);
-
-#endif

@@ -4,8 +4,7 @@
  * by their mean power (CFAR_MEAN, cell averaging) or by the rank-th smallest power (CFAR_ORDERED,
  * ordered statistic), which a few strong echoes in the window do not raise. The threshold is a
  * factor times that estimate (MODEL 11.4; Rohling 1983). */
-#ifndef CFAR_H
-#define CFAR_H
+#pragma once
 
 #include <stddef.h>
 
@@ -35,5 +34,3 @@ size_t cfar_extent(const struct cfar *cfar);
  * stride]. count is at least cfar_extent. */
 double cfar_threshold(const struct cfar *cfar, const double *power, size_t count, size_t stride,
                       size_t at);
-
-#endif

@@ -10,8 +10,7 @@
  * surface and l2 from there on, its amplitude has the divergence factor D = 1/sqrt((1 + 2 d/(r1 c))
  * (1 + 2 d c/r2)),   d = l1 l2/(l1 + l2) of geometrical optics (Kouyoumjian and Pathak 1974;
  * MODEL 14.1). */
-#ifndef CURVED_SURFACE_H
-#define CURVED_SURFACE_H
+#pragma once
 
 /* Radii of convex curvature in [0, infinity], where infinity is straight; range_m >= 0. Zero if a
  * radius or the range is 0. */
@@ -24,5 +23,3 @@ double curved_surface_ercs(double radius_1_m, double radius_2_m, double range_m)
  * in (0, 1] and the distance d >= 0. */
 double curved_surface_divergence(double radius_1_m, double radius_2_m, double cosine,
                                  double distance_m);
-
-#endif

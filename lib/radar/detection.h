@@ -3,8 +3,7 @@
  * An echo of the mean amplitude A, fluctuating by the factor f (radar/swerling.h), is detected if
  * A f meets one threshold and |A f + n| another, n being complex Gaussian noise (MODEL 14.14). A
  * steady echo passes the second with Marcum's Q(sqrt 2 A/noise, sqrt 2 T/noise). */
-#ifndef DETECTION_H
-#define DETECTION_H
+#pragma once
 
 #include "radar/swerling.h"
 
@@ -26,5 +25,3 @@ double detection_probability(const struct detection *detection, double amplitude
 
 /* The least mean amplitude that is detected with this probability in (0, 1), within 1e-6 of it. */
 double detection_amplitude(const struct detection *detection, double probability);
-
-#endif

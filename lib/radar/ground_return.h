@@ -2,8 +2,7 @@
  *
  * Points are even over the area between two ranges within the field of view (MODEL 14.9, 14.13).
  * poisson.h draws how many there are. */
-#ifndef GROUND_RETURN_H
-#define GROUND_RETURN_H
+#pragma once
 
 #include "base/vec2.h"
 
@@ -19,5 +18,3 @@ double ground_return_range_m(double range_min_m, double range_max_m, double unif
  * the sensor itself (sensor_pose.h) and the unit vector u to the point. */
 double ground_return_range_rate_mps(struct vec2 sensor_mps, struct vec2 boresight,
                                     double azimuth_rad);
-
-#endif

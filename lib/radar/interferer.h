@@ -4,8 +4,7 @@
  * echoes. Its chirps cross the receiver's band only for a part of the time if their slope is
  * another; that part of the power counts as noise. Ratios of interference to noise (INR) of several
  * radars add, and the noise power rises by 1 + INR (MODEL 14.17). */
-#ifndef INTERFERER_H
-#define INTERFERER_H
+#pragma once
 
 /* The receiver's own noise, 10 lg(k T0 B/1 mW) + noise figure, with T0 = 290 K; bandwidth > 0. */
 double interferer_noise_dbm(double bandwidth_hz, double noise_figure_db);
@@ -26,5 +25,3 @@ double interferer_ratio(double power_dbm, double noise_dbm, double overlap, doub
 
 /* The factor on the noise's amplitude, sqrt(1 + INR). */
 double interferer_noise_factor(double ratio);
-
-#endif

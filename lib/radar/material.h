@@ -11,8 +11,7 @@
  *
  * The electric field is parallel to the surface (TE) or lies in the plane of incidence (TM). So an
  * upright field is TE at a wall and TM at the road (MODEL 14.1, 14.10). */
-#ifndef MATERIAL_H
-#define MATERIAL_H
+#pragma once
 
 #include <complex.h>
 
@@ -33,5 +32,3 @@ struct material_permittivity material_permittivity(enum material material, doubl
  */
 double _Complex material_reflection(const struct material_permittivity *permittivity,
                                     enum material_field field, double cosine);
-
-#endif

@@ -8,8 +8,7 @@
  * Limbs (MODEL 14.12, assumed): an arm or a leg of a walking person moves at (1 + x) times the
  * torso's speed over ground. x has a triangular law from -1, the foot on the ground, to 1.5, the
  * fastest part of a swing, with its peak at 0. */
-#ifndef MICRO_DOPPLER_H
-#define MICRO_DOPPLER_H
+#pragma once
 
 #include <stdint.h>
 
@@ -56,5 +55,3 @@ struct limb micro_doppler_limb(const double uniform[2]);
 /* The range rate of a limb. torso_mps is the torso's range rate, walking_mps the part of it that
  * the torso's motion over ground makes. */
 double micro_doppler_limb_rate_mps(double torso_mps, double walking_mps, struct limb limb);
-
-#endif

@@ -1,8 +1,7 @@
 /* Azimuth read from the sum and delta channels.
  *
  * |delta|/|sum| has the size of the azimuth, the phase between both its sign (MODEL 7.2, 7.4). */
-#ifndef MONOPULSE_H
-#define MONOPULSE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -42,5 +41,3 @@ double monopulse_sigma_rad(const struct antenna *antenna, enum monopulse_estimat
 /* The margin of the sign under MONOPULSE_MAGNITUDE: |Im(delta conj(sum))| / (|delta| |sum|), from
  * 0, undecided, to 1. NaN if a pointer is zero. */
 double monopulse_sign_margin(struct antenna_pointers pointers);
-
-#endif

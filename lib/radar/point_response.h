@@ -6,8 +6,7 @@
  * weighted by that window; if phases are counted from the middle sample, responses are real and
  * change sign from bin to bin. POINT_RESPONSE_PULSE is that of a Gaussian pulse, sampled as it is
  * received: its amplitude is 1/2 two bins to either side. */
-#ifndef POINT_RESPONSE_H
-#define POINT_RESPONSE_H
+#pragma once
 
 #include <stddef.h>
 
@@ -80,5 +79,3 @@ struct point_response_walk {
  * among ripples, within 0.3 dB and 0.2 cells up to 10 cells. Below 1e-8 cells it is exactly that at
  * rest. Not for PULSE. */
 struct point_response_walk point_response_of_walk(enum point_response response, double cells);
-
-#endif

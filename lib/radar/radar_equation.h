@@ -5,8 +5,7 @@
  * calibration_ercs on boresight at calibration_range_m just meets the threshold. The exponent 2 is
  * the 40 dB per decade of the radar equation. A table is straight between its rows in the
  * logarithms of range and amplitude. */
-#ifndef RADAR_EQUATION_H
-#define RADAR_EQUATION_H
+#pragma once
 
 #include <stddef.h>
 
@@ -45,5 +44,3 @@ double radar_cross_section_m2(double ercs);
 
 /* The cross section in m^2 of a value in dBsm. */
 double radar_cross_section_from_dbsm_m2(double dbsm);
-
-#endif

@@ -5,8 +5,7 @@
  * does (MODEL 6). A cell's range and range rate are amplitude-weighted means, equations (4) and
  * (5). Two echoes share a cell by the larger one of theirs.
  */
-#ifndef RESOLUTION_H
-#define RESOLUTION_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -53,5 +52,3 @@ struct resolution_row resolution_row_of(const struct resolution_echo *echoes, si
  * of its values (hard cases 15, 16). Weights may be from 1e-300 to 1e300 if the first is the
  * largest (hard case 17). */
 double resolution_mean(const double *values, const double *weights, size_t count);
-
-#endif

@@ -9,8 +9,7 @@
  * road's reflection coefficient g is Fresnel's (material.h) for an angle of incidence of cosine
  * sin psi, psi the grazing angle, times Rayleigh's factor exp(-8 (pi h sin psi/lambda)^2) of a road
  * whose height has the deviation h. */
-#ifndef ROAD_MIRROR_H
-#define ROAD_MIRROR_H
+#pragma once
 
 #include <complex.h>
 
@@ -58,5 +57,3 @@ double road_mirror_mean_factor(double reflection);
 double road_mirror_amplitude_factor(const struct road_mirror_road *road,
                                     enum polarization polarization, double wavelength_m,
                                     const struct road_mirror_ends *ends);
-
-#endif

@@ -6,8 +6,7 @@
  * as on it, so that times written as i/rate and cycles written as decimals agree; rounding stays
  * below that for some 3e6 cycles, 33 hours at 25 Hz. An instant at a frame's own time is exactly
  * that time. */
-#ifndef SCAN_TIMING_H
-#define SCAN_TIMING_H
+#pragma once
 
 enum scan_timing_answer { SCAN_TIMING_NONE, SCAN_TIMING_ONE, SCAN_TIMING_SEVERAL };
 
@@ -15,5 +14,3 @@ enum scan_timing_answer { SCAN_TIMING_NONE, SCAN_TIMING_ONE, SCAN_TIMING_SEVERAL
  * at time_s. SCAN_TIMING_SEVERAL means that the frame rate is too low for the sensor. */
 enum scan_timing_answer scan_timing_instant_s(double cycle_s, double time_s, double interval_s,
                                               double *instant_s);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * sigma^2 = min((factor cell)^2 / snr + floor^2, cell^2 / 12) + step^2 / 12 (MODEL 14.7). cell^2 /
  * 12 is the variance of a value anywhere in the cell, step^2 / 12 that of rounding. */
-#ifndef SNR_SIGMA_H
-#define SNR_SIGMA_H
+#pragma once
 
 /* How one quantity is measured: range, range rate or sine of azimuth. Members have its unit. */
 struct snr_sigma {
@@ -16,5 +15,3 @@ struct snr_sigma {
 /* The standard deviation. snr is the linear ratio of powers at the echo's peak, (amplitude / noise
  * RMS)^2, in [0, infinity]. */
 double snr_sigma_of(const struct snr_sigma *quantity, double snr);
-
-#endif

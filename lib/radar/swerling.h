@@ -9,8 +9,7 @@
  * Swerling's cases 2 and 4 have the laws of 1 and 3, but change from look to look; here a scan is
  * one look, so that they are the same. The cut lowers the mean power of the log-normal law to Q(a -
  * 3) + exp(3 a - a^2/2) Q(3) with a = s ln 10/10 and the Gaussian tail Q: 0.997 for 3.41 dB. */
-#ifndef SWERLING_H
-#define SWERLING_H
+#pragma once
 
 enum fluctuation_law {
     FLUCTUATION_NONE,
@@ -23,5 +22,3 @@ enum fluctuation_law {
  * law. Exactly 1 for FLUCTUATION_NONE, and for the log-normal law with 0 dB. */
 double swerling_amplitude_factor(enum fluctuation_law law, double sigma_db,
                                  const double uniform[4]);
-
-#endif

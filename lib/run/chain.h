@@ -4,8 +4,7 @@
  * Both are the same loop over the same runners, so both give the same bytes and the same exit code:
  * like a shell with pipefail, a chain ends with the code of its rightmost failing stage, and the
  * frames before the failure have gone out. */
-#ifndef CHAIN_H
-#define CHAIN_H
+#pragma once
 
 #include "run/runner.h"
 
@@ -28,5 +27,3 @@ int chain_main_tool(const struct tool *tool, int count, char **words);
 
 /* "glint-NAME: MESSAGE" to stderr. */
 void chain_complain(const struct runner *runner);
-
-#endif

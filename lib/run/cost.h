@@ -4,8 +4,7 @@
  * describes; leaves out, one at a time, the effects that these frames call for; and ends with finer
  * models. Errors are from a reference: the signal where the suite has a waveform and this build has
  * glint-sensor-signal, else all that the suite describes, with other seeds. */
-#ifndef COST_H
-#define COST_H
+#pragma once
 
 #include "run/ladder.h"
 #include "text/field.h"
@@ -47,5 +46,3 @@ struct relative_error cost_added(const struct cost *cost, const struct ladder_ch
  * chain holds the bound (DIAG_DATA). */
 enum cost_bound { COST_BOUND_ERROR, COST_BOUND_US };
 const struct ladder_chain *cost_find(struct cost *cost, enum cost_bound bound, double most);
-
-#endif

@@ -1,6 +1,5 @@
 /* Costs of accuracy, as a table and as a pipeline. */
-#ifndef COST_TEXT_H
-#define COST_TEXT_H
+#pragma once
 
 #include "run/cost.h"
 
@@ -11,5 +10,3 @@ void cost_text_table(const struct cost *cost, struct text *text);
  * that saves and adds; then its pipeline. */
 void cost_text_pipeline(const struct cost *cost, const struct ladder_chain *chain,
                         struct text *text);
-
-#endif

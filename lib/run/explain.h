@@ -1,6 +1,5 @@
 /* What --explain says of effects: simulated, left out, their time. */
-#ifndef EXPLAIN_H
-#define EXPLAIN_H
+#pragma once
 
 #include "frame/effects.h"
 
@@ -25,5 +24,3 @@ int explain_check(const char *path, struct diag *diag);
  * lines go out in one write, so stages of one pipeline may share the file. */
 int explain_append(const struct common_options *common, const char *stage,
                    const struct effect_log *log, struct diag *diag);
-
-#endif

@@ -1,7 +1,6 @@
 /* Sizes and reflectors for the objects of a frame (MODEL 2). Both come from the document of the
  * object's class. */
-#ifndef EXTRACTION_H
-#define EXTRACTION_H
+#pragma once
 
 #include "documents/vehicle.h"
 #include "run/stage.h"
@@ -33,5 +32,3 @@ int extraction_start(void *state, struct runner *runner);
  * what the stage writes. 0, or -1 after a message. */
 int extraction_step(const struct extraction *extraction, struct frame *frame, struct runner *runner,
                     extraction_describe *describe);
-
-#endif

@@ -3,8 +3,7 @@
  * All frames are kept until there are more than `most`. Then one of each stretch of 2 is kept, of
  * 4, of 8 and so on: drawn by its place in the stream alone, so that no sensor's cycle is in step
  * with the sample. Frames are kept as lines of their objects and reflectors. */
-#ifndef FRAME_SAMPLE_H
-#define FRAME_SAMPLE_H
+#pragma once
 
 #include "base/intern.h"
 #include "frame/frame.h"
@@ -36,5 +35,3 @@ void frame_sample_divide(struct frame_sample *sample);
 
 /* Reads a frame of the sample, in canonical order and checked. */
 int frame_sample_read(const struct sampled_frame *sampled, struct frame *frame, struct diag *diag);
-
-#endif

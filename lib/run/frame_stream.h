@@ -1,7 +1,6 @@
 /* The frames that a program reads. They are JSON lines from files, one file after the other, or
  * from standard input. */
-#ifndef FRAME_STREAM_H
-#define FRAME_STREAM_H
+#pragma once
 
 #include "frame/frame_sequence.h"
 #include "text/input.h"
@@ -31,5 +30,3 @@ double frame_stream_share(const struct frame_stream *stream);
 void frame_stream_name_line(const struct frame_stream *stream, struct diag *diag);
 
 void frame_stream_close(struct frame_stream *stream);
-
-#endif

@@ -1,6 +1,5 @@
 /* The program glint: a whole pipeline in one process. */
-#ifndef FUSED_H
-#define FUSED_H
+#pragma once
 
 #include "run/stage.h"
 #include "run/tool.h"
@@ -19,5 +18,3 @@ const struct tool *fused_tool(const char *name);
 
 /* glint's main. */
 int fused_main(int count, char **words);
-
-#endif

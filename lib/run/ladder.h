@@ -7,8 +7,7 @@
  *
  * Times are CPU time of all that `glint` does with a frame: its line is read and checked, goes
  * through all stages, and is written. */
-#ifndef LADDER_H
-#define LADDER_H
+#pragma once
 
 #include "run/frame_sample.h"
 #include "run/progress.h"
@@ -68,5 +67,3 @@ int ladder_begin(struct ladder *ladder, struct ladder_chain *reference);
 
 /* Runs a chain and compares it with the reference. */
 int ladder_climb(struct ladder *ladder, struct ladder_chain *chain);
-
-#endif

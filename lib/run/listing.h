@@ -1,6 +1,5 @@
 /* What `glint --list` prints: stages, tools, effects, documents and pipelines. */
-#ifndef LISTING_H
-#define LISTING_H
+#pragma once
 
 #include "base/arena.h"
 #include "base/diag.h"
@@ -10,5 +9,3 @@
  * also where it is simulated and what it costs, in indented lines). A document that cannot be read
  * has its message instead. DIAG_USAGE for another kind. */
 int listing_add(const char *kind, struct text *text, struct arena *arena, struct diag *diag);
-
-#endif

@@ -1,7 +1,6 @@
 /* Command line and --help of a program, from tables. One table has its own options, the other those
  * that all programs share. */
-#ifndef OPTIONS_H
-#define OPTIONS_H
+#pragma once
 
 #include "base/arena.h"
 #include "base/diag.h"
@@ -32,5 +31,3 @@ int options_read(const struct program *program, size_t count, const char *const 
 
 /* The text of --help, in the form from which help2man makes a manual page. */
 void options_help(const struct program *program, struct text *text);
-
-#endif

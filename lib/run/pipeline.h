@@ -2,8 +2,7 @@
  * lines, `|`, and the line `set -o pipefail`. Anything else (variables, redirections, file name
  * patterns, a second pipeline) is refused with its line and the advice to use bash: a script must
  * not do here what it would not do there. */
-#ifndef PIPELINE_H
-#define PIPELINE_H
+#pragma once
 
 #include "base/arena.h"
 #include "base/diag.h"
@@ -20,5 +19,3 @@ struct pipeline {
 /* Messages are "LINE: ...", with DIAG_USAGE. A text without a command is refused. */
 int pipeline_parse(const char *text, size_t length, struct pipeline *pipeline, struct arena *arena,
                    struct diag *diag);
-
-#endif

@@ -4,8 +4,7 @@
  * The chain has positions: a stage that models each, and for some a simpler stage that may stand in
  * for it. An effect is needed if it was simulated in any scan. A stage is needed unless its
  * stand-in, given the same frames, wrote the same bytes. */
-#ifndef PLAN_H
-#define PLAN_H
+#pragma once
 
 #include "base/text.h"
 #include "frame/frame.h"
@@ -53,5 +52,3 @@ void plan_write(const struct plan *plan, bool all, struct arena *arena, struct t
  * a suite that is a path as well. */
 void plan_write_pipeline(const char *sensors, const char *effects, const char *const *programs,
                          size_t count, struct text *text);
-
-#endif

@@ -1,6 +1,5 @@
 /* A stage or tool as its command line shows it. */
-#ifndef PROGRAM_H
-#define PROGRAM_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -27,5 +26,3 @@ struct program {
 
 struct program program_of_stage(const struct stage *stage);
 struct program program_of_tool(const struct tool *tool);
-
-#endif

@@ -2,8 +2,7 @@
  * work has lasted for a second, changes a few times a second, and is gone at the end:
  *
  *     [########                ]  33 %, 4100 frames/s, 0:00:12 left */
-#ifndef PROGRESS_H
-#define PROGRESS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -28,5 +27,3 @@ void progress_end(struct progress *progress);
 /* The line after so long, for a share above 0; above 1 counts as 1. */
 void progress_write(const struct progress *progress, double elapsed_s, double share, char *line,
                     size_t size);
-
-#endif

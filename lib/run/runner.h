@@ -1,8 +1,7 @@
 /* Runs one stage or one tool: options, checks and outputs. A runner owns the state, the options,
  * the documents and the outputs, checks the frames that go in and come out, and does what stages
  * and tools ask for (stage.h, tool.h). */
-#ifndef RUNNER_H
-#define RUNNER_H
+#pragma once
 
 #include "frame/frame_sequence.h"
 #include "run/frame_stream.h"
@@ -60,5 +59,3 @@ int runner_run_tool(struct runner *runner);
 int runner_close_outputs(struct runner *runner, bool whole);
 
 void runner_free(struct runner *runner);
-
-#endif

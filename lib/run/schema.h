@@ -1,7 +1,6 @@
 /* JSON Schemas (2020-12), printed from the tables of fields. There is one of the frame and one of
  * every document. */
-#ifndef SCHEMA_H
-#define SCHEMA_H
+#pragma once
 
 #include <stddef.h>
 
@@ -12,5 +11,3 @@ const char *schema_name(size_t index);
 
 /* Writes the schema of that number. */
 void schema_write(size_t index, struct text *text);
-
-#endif

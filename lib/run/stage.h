@@ -14,8 +14,7 @@
  *
  * Every function returns 0, or -1 after a message in the runner's diag; but next returns 1 after
  * making a frame, and 0 after the last frame of the last scene. */
-#ifndef STAGE_H
-#define STAGE_H
+#pragma once
 
 #include "frame/frame.h"
 
@@ -105,5 +104,3 @@ struct input *runner_input(struct runner *runner, const char *path);
 
 /* How many frames a source will make, for the time left. */
 void runner_expect(struct runner *runner, int64_t frames);
-
-#endif

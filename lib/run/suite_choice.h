@@ -4,8 +4,7 @@
  * A stage after ideal may be given a suite or effects as well, but only those that the frame was
  * seen with: others are refused with DIAG_CONFIG. All functions that return an int give 0, or -1
  * after a message. */
-#ifndef SUITE_CHOICE_H
-#define SUITE_CHOICE_H
+#pragma once
 
 #include "documents/suite.h"
 #include "run/stage.h"
@@ -57,5 +56,3 @@ int suite_choice_visit(const struct suite_choice *choice, struct frame *frame,
 /* For locate_fault of ideal and the stages after it: a speed, an amplitude or the like that is out
  * of bounds comes from extreme values of an object or of the suite. */
 int suite_choice_locate_fault(void *state, const struct frame *frame, struct runner *runner);
-
-#endif

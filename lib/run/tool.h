@@ -15,8 +15,7 @@
  *
  * Functions return 0, or -1 after a message in the runner's diag. Beside those below, tools may
  * call runner_arena, runner_diag and the like (stage.h). */
-#ifndef TOOL_H
-#define TOOL_H
+#pragma once
 
 #include "run/stage.h"
 
@@ -62,5 +61,3 @@ struct runner *runner_trial(struct runner *runner, const struct stage *stage,
 /* Runs one step of a tried stage on a frame, with all the checks of a run. A stage that could not
  * start fails here. */
 int runner_try(struct runner *runner, struct runner *trial, struct frame *frame);
-
-#endif

@@ -1,6 +1,5 @@
 /* Exact least-cost pairing of a matrix's rows with its columns. */
-#ifndef ASSIGNMENT_H
-#define ASSIGNMENT_H
+#pragma once
 
 #include "base/arena.h"
 
@@ -13,5 +12,3 @@
  * most short^2 long steps, of the shorter and the longer side. */
 void assignment_least(const double *cost, size_t rows, size_t columns, size_t *column_of,
                       struct arena *arena);
-
-#endif

@@ -5,8 +5,7 @@
  * which is 0 between equal laws and, for a distance d of strong negative type, between no others
  * (Szekely and Rizzo 2013; Lyons 2013). The estimate is the U-statistic: it is unbiased, so of
  * equal laws it is as often below 0 as above. */
-#ifndef ENERGY_DISTANCE_H
-#define ENERGY_DISTANCE_H
+#pragma once
 
 #include <stddef.h>
 
@@ -26,5 +25,3 @@ double energy_distance_without(const struct energy_sample *sample, size_t list);
 /* The variance of that estimate by the jackknife over the lists of both laws; each law needs at
  * least 3 lists. */
 double energy_distance_variance(const struct energy_sample *sample);
-
-#endif

@@ -5,8 +5,7 @@
  * (energy_distance.h) over the distance of embedded lists (list_embedding.h) is 0 in the mean if
  * both streams draw from one law. It is averaged over the frames and sensors of a scene, and then
  * over scenes. */
-#ifndef ENSEMBLE_H
-#define ENSEMBLE_H
+#pragma once
 
 #include "base/intern.h"
 #include "frame/frame.h"
@@ -56,5 +55,3 @@ int ensemble_add(struct ensemble *ensemble, const struct frame *frame, struct di
  * sensor measured, and a truth whose cells have no width or differ between seeds. */
 int ensemble_compare(const struct ensemble *truth, struct ensemble *listed, double azimuth_cell_rad,
                      struct arena *arena, struct ensemble_score *score, struct diag *diag);
-
-#endif

@@ -1,6 +1,5 @@
 /* Bias, RMS, quantile and Wasserstein distance of errors. */
-#ifndef ERROR_STATISTICS_H
-#define ERROR_STATISTICS_H
+#pragma once
 
 #include "base/arena.h"
 
@@ -19,5 +18,3 @@ struct error_statistics error_statistics_of(double *differences, size_t count, s
  * apart. */
 double error_statistics_wasserstein(double *one, size_t one_count, double *other,
                                     size_t other_count, struct arena *arena);
-
-#endif

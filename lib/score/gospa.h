@@ -13,8 +13,7 @@
  *
  * an average that never exceeds c. Both are metrics if d is. The same pairs serve both: all are
  * closer than the cut-off c. */
-#ifndef GOSPA_H
-#define GOSPA_H
+#pragma once
 
 #include "base/arena.h"
 
@@ -31,5 +30,3 @@ size_t gospa_pair(const double *distance, size_t truths, size_t listed, double c
 /* GOSPA and OSPA from the pairs' sum of d^2 and their number. Both are 0 for two empty lists. */
 struct gospa gospa_of(double squares, size_t pairs, size_t truths, size_t listed, double cutoff);
 double gospa_ospa(double squares, size_t pairs, size_t truths, size_t listed, double cutoff);
-
-#endif

@@ -8,8 +8,7 @@
  * characteristic, so m tells all lists apart (Sriperumbudur et al., JMLR 11, 2010), and the length
  * is of strong negative type (Lyons, Annals of Probability 41, 2013), as the energy distance needs
  * it. */
-#ifndef LIST_EMBEDDING_H
-#define LIST_EMBEDDING_H
+#pragma once
 
 #include "base/arena.h"
 
@@ -36,5 +35,3 @@ double list_embedding_distance(const struct embedded_list *one, const struct emb
  * energy_distance.h has it. */
 void list_embedding_add_distances(const struct embedded_list *const *lists, size_t count,
                                   double share, double *distance);
-
-#endif

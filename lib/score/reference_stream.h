@@ -4,8 +4,7 @@
  * a scene both ascend. Lines that come before they are needed wait in memory, so streams in the
  * same order take no more than a line. Lines are JSON objects with the members `scene` and
  * `frame`. */
-#ifndef REFERENCE_STREAM_H
-#define REFERENCE_STREAM_H
+#pragma once
 
 #include "frame/frame.h"
 #include "score/track.h"
@@ -51,5 +50,3 @@ int64_t reference_stream_missing(const struct reference_stream *reference);
 
 /* True if two times of one frame agree but for how they were written, to a microsecond. */
 bool reference_stream_same_time(double a_s, double b_s);
-
-#endif

@@ -13,8 +13,7 @@
  * 1.96 standard errors by the jackknife over the seeds of the reference and of the chains. Both
  * have the scatter of single draws in them, so where nothing else scatters the interval is too
  * wide. */
-#ifndef RELATIVE_ERROR_H
-#define RELATIVE_ERROR_H
+#pragma once
 
 #include "base/arena.h"
 
@@ -43,5 +42,3 @@ struct relative_error relative_error_of(const struct energy_blocks *chain,
 struct relative_error relative_error_added(const struct energy_blocks *chain,
                                            const struct energy_blocks *other,
                                            const struct energy_blocks *ideal, struct arena *arena);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * A tally takes pairs of lists, one after the other, and keeps every value, so that quantiles and
  * distributions over all of them are exact. A score is computed from one or more tallies. */
-#ifndef SCORE_H
-#define SCORE_H
+#pragma once
 
 #include "score/gospa.h"
 #include "text/field.h"
@@ -119,5 +118,3 @@ struct score score_of(const struct score_tally *tallies, size_t count, struct ar
 /* Fills in the summary's scores, in ascending order of the sensors' names. */
 void score_summarize(struct score_tallies *tallies, struct score_summary *summary,
                      struct arena *arena);
-
-#endif

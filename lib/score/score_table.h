@@ -3,8 +3,7 @@
  * It has a column for each score and a row, with its unit, for every figure that any of them has.
  * Missed targets are also in per cent of the true ones, false ones in per cent of the listed ones;
  * "-" stands where there are none. Distances are in cells for targets, in metres for tracks. */
-#ifndef SCORE_TABLE_H
-#define SCORE_TABLE_H
+#pragma once
 
 #include "base/text.h"
 #include "score/ensemble.h"
@@ -18,5 +17,3 @@ void score_table_track_summary(const struct score_track_summary *summary, struct
 
 /* Energy distances of all scenes, a row each, and of all together. */
 void score_table_ensemble(const struct ensemble_score *score, struct text *text);
-
-#endif

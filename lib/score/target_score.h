@@ -6,8 +6,7 @@
  *
  * with the difference in azimuth taken the short way round. Amplitudes are compared, but do not
  * decide which targets are paired. */
-#ifndef TARGET_SCORE_H
-#define TARGET_SCORE_H
+#pragma once
 
 #include "frame/frame.h"
 #include "score/score.h"
@@ -56,5 +55,3 @@ struct target_pairs target_score_pairs(const char *sensor, const struct frame *t
 void target_score_scan(struct score_tally *tally, const struct frame *truth,
                        const struct frame *listed, const struct target_cell *cell,
                        struct arena *arena);
-
-#endif

@@ -1,6 +1,5 @@
 /* Line format for a tracker's tracks in one frame. */
-#ifndef TRACK_H
-#define TRACK_H
+#pragma once
 
 #include "text/field.h"
 
@@ -27,5 +26,3 @@ extern const struct record track_list_record;
 
 /* Sorts the tracks by id; refuses an id of two tracks (DIAG_DATA). */
 int track_order(struct track_list *list, struct arena *arena, struct diag *diag);
-
-#endif

@@ -3,8 +3,7 @@
  * The distance of a track and an object is that of their centres in the plane, in metres. An
  * identity switch is an object that is paired with another track than when it was last paired in
  * its scene, however long ago. */
-#ifndef TRACK_SCORE_H
-#define TRACK_SCORE_H
+#pragma once
 
 #include "frame/frame.h"
 #include "score/score.h"
@@ -68,5 +67,3 @@ int64_t track_score_frame(struct score_tally *tally, const struct frame *frame,
                           const struct track_list *list, enum track_truth truth,
                           const char *classes, double cutoff_m, struct track_memory *memory,
                           struct arena *lasting);
-
-#endif

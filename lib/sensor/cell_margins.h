@@ -1,6 +1,5 @@
 /* How near a resolution cell was to having other members (MODEL 6, 11.1). */
-#ifndef CELL_MARGINS_H
-#define CELL_MARGINS_H
+#pragma once
 
 #include "sensor/resolution_cell.h"
 
@@ -23,5 +22,3 @@ struct margins *cell_margins_of(const struct sensor *sensor, const struct cluste
 /* Adds to a cell's margins those of decisions about the whole cell: the threshold on its summed
  * amplitude, and the sign of its azimuth, which only the magnitude rule decides. */
 void cell_margins_add(const struct sensor *sensor, struct cell *cell);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * The radar equation and the antenna give the echo its amplitude (MODEL 4); then the effects at
  * home in the sensor change it. */
-#ifndef RECEIVED_ECHO_H
-#define RECEIVED_ECHO_H
+#pragma once
 
 #include "documents/suite.h"
 #include "frame/frame.h"
@@ -27,5 +26,3 @@ struct received_echo received_echo_in_free_space(const struct sensor *sensor,
 
 /* The echo with every effect that the scan simulates. */
 struct received_echo received_echo_of(const struct effect_scan *context, const struct echo *echo);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * A cell without noise has the weighted means of its echoes' ranges and range rates (MODEL 6), and
  * the sum and delta pointers of their superposition (MODEL 8). */
-#ifndef RESOLUTION_CELL_H
-#define RESOLUTION_CELL_H
+#pragma once
 
 #include "radar/resolution.h"
 #include "sensor/received_echo.h"
@@ -36,5 +35,3 @@ bool resolution_cell_of(const struct sensor *sensor, const struct received_echo 
 void resolution_cell_list(struct frame *frame, const char *stage, const struct sensor *sensor,
                           const struct selection *selection, const struct cell *cell,
                           bool has_angle);
-
-#endif

@@ -1,8 +1,7 @@
 /* One scan before noise: received echoes and their cells.
  *
  * All memory of a scan comes from the frame's arena. */
-#ifndef SCAN_H
-#define SCAN_H
+#pragma once
 
 #include "effects/effect.h"
 #include "sensor/cell_margins.h"
@@ -31,5 +30,3 @@ const struct received_echo *scan_members(const struct scan *scan, size_t number,
 /* Counts the added echoes in the frame, by their paths, and writes the loss of every silent echo,
  * with its margins. */
 void scan_account(const struct scan *scan, struct frame *frame, const char *stage);
-
-#endif

@@ -13,8 +13,7 @@
  * first by range, then by rate). From the sample nearest to an echo, steps to the strongest
  * neighbour lead to one peak; the echoes that lead to one peak share a cell. So every echo is in
  * one cell. A peak that no echo leads to is a side lobe, and no cell. */
-#ifndef SMEAR_H
-#define SMEAR_H
+#pragma once
 
 #include "base/hash_table.h"
 #include "sensor/resolution_cell.h"
@@ -48,5 +47,3 @@ struct smear smear_make(const struct sensor *sensor, const struct received_echo 
  * amplitudes. The cell of a single echo is that of resolution_cell_of but for rounding. False if
  * both channels are zero, so that there is no azimuth. */
 bool smear_cell(const struct smear *smear, size_t number, struct arena *arena, struct cell *cell);
-
-#endif

@@ -2,8 +2,7 @@
  * formed for the sine s of an azimuth is B(s) = |sum over elements of x_a exp(-j 2 pi spacing (a -
  * middle) s)| divided by their number, so that one echo of amplitude A has a peak of A at its
  * azimuth. */
-#ifndef BEAMFORMING_H
-#define BEAMFORMING_H
+#pragma once
 
 #include "radar/point_response.h"
 
@@ -33,5 +32,3 @@ double beamforming_array_factor(const struct beamforming_array *array, double di
  * only falls or rises there is no peak. */
 size_t beamforming_peaks(const struct beamforming_array *array, const struct phasor *samples,
                          size_t stride, double limit, double least, struct beamforming_peak *peaks);
-
-#endif

@@ -5,8 +5,7 @@
  * this resolution cannot tell apart. A detection to which no echo belongs is labelled with the echo
  * that makes at least half of its amplitude, which then has two labels; if there is none, it is a
  * false alarm. */
-#ifndef DETECTIONS_H
-#define DETECTIONS_H
+#pragma once
 
 #include "effects/effect.h"
 #include "signal/signal_cube.h"
@@ -47,5 +46,3 @@ void detections_label(struct detections *detections, struct frame *frame, const 
 /* Writes the target list: misaligned, in the sensor's order, up to its limit, rounded. */
 void detections_list(const struct detections *detections, struct frame *frame, const char *stage,
                      const struct effect_scan *noise);
-
-#endif

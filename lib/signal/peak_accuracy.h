@@ -1,6 +1,5 @@
 /* Standard deviations of a detection's place in the signal's spectrum (MODEL 11.3, 14.21). */
-#ifndef PEAK_ACCURACY_H
-#define PEAK_ACCURACY_H
+#pragma once
 
 #include "signal/signal_cube.h"
 
@@ -23,5 +22,3 @@ struct peak_accuracy peak_accuracy_of(const struct signal_cube *signal, double a
 
 /* How many independent bins of noise the sensor searches: ranges times rates times beams. */
 double peak_accuracy_bins(const struct signal_cube *signal);
-
-#endif

@@ -10,8 +10,7 @@
  * cells, and its amplitude is that at this place (point_response.h). Stronger peaks take
  * precedence: beyond the main lobe of a stronger one, a peak that is less than twice what its side
  * lobes can be at that place is taken for one of them. */
-#ifndef RANGE_DOPPLER_H
-#define RANGE_DOPPLER_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -57,5 +56,3 @@ double range_doppler_rate_away(const struct range_doppler *spectrum, double rate
  * amplitude and threshold. A range outside the spectrum counts as its nearest cell. */
 struct range_doppler_peak range_doppler_at(const struct range_doppler *spectrum,
                                            const struct cfar *cfar, double range, double rate);
-
-#endif

@@ -13,8 +13,7 @@
  * of a cell after windows and transforms, over all elements together, as in glint-noise. The noise
  * of pulses has passed a matched receiver, so that its correlation over range is their point
  * response. */
-#ifndef SIGNAL_CUBE_H
-#define SIGNAL_CUBE_H
+#pragma once
 
 #include "base/random.h"
 #include "documents/suite.h"
@@ -87,5 +86,3 @@ void signal_cube_store(const struct signal_cube *signal, size_t train, size_t re
 /* The transformed spectrum with its power in every beam: of the sum channel, or of beams that cover
  * the field of view, half a beam's width apart. Memory comes from the arena. */
 struct range_doppler signal_cube_spectrum(const struct signal_cube *signal, struct arena *arena);
-
-#endif

@@ -6,8 +6,7 @@
  * second train, whose rates fold elsewhere, and so how strong it is there when its phases are
  * turned back. The hypothesis with the amplitude nearest to that in the first train is chosen; of
  * equal ones the slowest (MODEL 11.3). */
-#ifndef UNFOLDING_H
-#define UNFOLDING_H
+#pragma once
 
 #include "signal/signal_cube.h"
 
@@ -20,5 +19,3 @@ struct unfolding_reading {
  * peak, in [-v_u, v_u). */
 bool unfolding_choose(const struct signal_cube *signal, const struct range_doppler_peak *peak,
                       double amplitude, double sine, struct unfolding_reading *reading);
-
-#endif

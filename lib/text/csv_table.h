@@ -5,8 +5,7 @@
  * without any cell are skipped, and blanks around a cell without quotes do not belong to it.
  * Messages name the row as a spreadsheet shows it (the header is usually row 1, empty rows count,
  * line breaks inside quotes do not) and, for a cell, its column. */
-#ifndef CSV_TABLE_H
-#define CSV_TABLE_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -66,5 +65,3 @@ const char *csv_table_cell(const struct csv_table *table, size_t row, size_t col
  * inf, hexadecimal and a leading + are refused. */
 int csv_table_number(const struct csv_table *table, size_t row, size_t column, double low,
                      double high, double *value, struct diag *diag);
-
-#endif

@@ -4,8 +4,7 @@
  * A bare name (no slash, no dot) is <kind>/<name>.json in $GLINT_DATA, then in ../share/glint and
  * in ../../data beside the executable, then in ./data; anything else is a path. Every fault of a
  * document is DIAG_CONFIG, and so is a GLINT_DATA that is no folder. */
-#ifndef DOCUMENT_H
-#define DOCUMENT_H
+#pragma once
 
 #include "base/text.h"
 #include "text/field.h"
@@ -83,5 +82,3 @@ const char *document_line(const char *path, const struct text *bytes, const char
                           struct arena *arena, struct diag *diag);
 int document_take(const char *path, const char *line, const struct record *record, void *base,
                   struct arena *arena, struct diag *diag);
-
-#endif

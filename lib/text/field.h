@@ -6,8 +6,7 @@
  * nothing out of bounds leaves a stage (field_check.h) all follow from it. Functions that fail
  * leave a message that starts with the member's name, so that callers can put the path in front of
  * it. */
-#ifndef FIELD_H
-#define FIELD_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -196,5 +195,3 @@ bool field_unchanged(const struct record *record, const struct field *field, con
 /* Appends one zeroed item to the list member and returns its address. For FIELD_NAMES the item is a
  * const char *. */
 void *field_list_add(const struct field *field, void *base, struct arena *arena);
-
-#endif

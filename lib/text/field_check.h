@@ -3,8 +3,7 @@
  * It covers embedded structs and lists, and accepts whatever the reader of a line would. A list is
  * checked member by member: one member of all items, then the next member. Of several faults, the
  * message names the first in this order. */
-#ifndef FIELD_CHECK_H
-#define FIELD_CHECK_H
+#pragma once
 
 #include "text/field.h"
 
@@ -15,5 +14,3 @@ int field_check(const struct record *record, const void *base, struct diag *diag
 /* Like field_check, but of the record's own sections checks only these. */
 int field_check_sections(const struct record *record, const void *base, unsigned sections,
                          struct diag *diag);
-
-#endif

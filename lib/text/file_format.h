@@ -2,8 +2,7 @@
  *
  * A reader that has refused a file asks here whether it is of another format, and then names that
  * format and the program that reads it. */
-#ifndef FILE_FORMAT_H
-#define FILE_FORMAT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -25,5 +24,3 @@ const struct file_format *file_format_of(const char *bytes, size_t length);
 /* After a reader of this kind has refused the bytes (DIAG_USAGE, DIAG_DATA or DIAG_CONFIG): where
  * they are of another kind, the message becomes "NAME; USE". True if it does. */
 bool file_format_explain(const char *kind, const char *bytes, size_t length, struct diag *diag);
-
-#endif

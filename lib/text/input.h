@@ -7,8 +7,7 @@
  *
  * A line is given out as soon as its newline can be read, from pipes, sockets and terminals and out
  * of gzip alike. */
-#ifndef INPUT_H
-#define INPUT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -55,5 +54,3 @@ int input_line(struct input *input, size_t limit, const char **line, size_t *len
 
 /* Appends everything that is left to text; refuses more than limit bytes. */
 int input_all(struct input *input, size_t limit, struct text *text, struct diag *diag);
-
-#endif

@@ -3,8 +3,7 @@
  * It is strict also where libraries are lenient: UTF-8 must be valid, surrogates paired, and \u0000
  * is refused, since names are C strings. Every function moves the cursor past the token that it
  * read, or leaves a message without a path. */
-#ifndef JSON_SCAN_H
-#define JSON_SCAN_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -60,5 +59,3 @@ int json_scan_value(struct json_scan *scan, struct json_string *bytes);
 
 /* The kind of the next value, for messages: "a string", "null", ... */
 const char *json_scan_kind(struct json_scan *scan);
-
-#endif

@@ -2,8 +2,7 @@
  * frame to frame. A list that was read is kept with its text, so that the same text is not read
  * again; the text of a list that was written is kept, so that the same list is not formatted again.
  * The cache only saves time: each line is complete and is read and written as without it. */
-#ifndef LIST_CACHE_H
-#define LIST_CACHE_H
+#pragma once
 
 #include "text/field.h"
 
@@ -54,5 +53,3 @@ void list_cache_keep_written(struct list_cache *cache, struct list_cache_entry *
                              const char *text, size_t length);
 
 void list_cache_free(struct list_cache *cache);
-
-#endif

@@ -6,8 +6,7 @@
  * Links are followed, also one to a file that is not there, and never replaced. What is not a
  * regular file (a pipe, a device) is written directly, and so is a descriptor that is open:
  * standard output, /dev/fd/N, /proc/self/fd/N. Every write and the final close are checked. */
-#ifndef OUTPUT_H
-#define OUTPUT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -45,5 +44,3 @@ int output_close(struct output *output, bool whole, struct diag *diag);
 
 /* Writes bytes to standard output and closes it. */
 int output_print(const char *bytes, size_t length, struct diag *diag);
-
-#endif

@@ -3,8 +3,7 @@
  * The writer makes no tree and no white space; keys come in table order. The reader takes any key
  * order and any spelling of a number. It refuses unknown, missing and repeated keys and anything
  * out of bounds, and names the path: "echoes[3].range_m: -1 is outside [0, 1e+06] m". */
-#ifndef RECORD_TEXT_H
-#define RECORD_TEXT_H
+#pragma once
 
 #include "base/text.h"
 #include "text/list_cache.h"
@@ -19,5 +18,3 @@ int record_text_read(const char *line, size_t length, const struct record *recor
  * steady lists may be NULL. */
 void record_text_write(const struct record *record, const void *base, struct list_cache *cache,
                        struct text *text);
-
-#endif

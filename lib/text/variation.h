@@ -5,8 +5,7 @@
  *     {"uniform": [low, high]}  {"normal": [mean, sd]}  {"choice": [value, value, ...]}
  *
  * A choice takes any values, and they may hold distributions themselves. */
-#ifndef VARIATION_H
-#define VARIATION_H
+#pragma once
 
 #include "base/arena.h"
 #include "base/diag.h"
@@ -18,5 +17,3 @@
  * sd from the mean. */
 const char *variation_draw(const char *line, struct random_address address, struct arena *arena,
                            struct diag *diag);
-
-#endif

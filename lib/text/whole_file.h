@@ -8,8 +8,7 @@
  * A file that was there keeps its mode and its owner. If it has several names (hard links), belongs
  * to somebody else or is mounted by itself, it is not replaced: the whole bytes are copied into it
  * at the end. */
-#ifndef WHOLE_FILE_H
-#define WHOLE_FILE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -27,5 +26,3 @@ int whole_file_take_name(struct whole_file *file);
 
 /* Closes the file, which is gone unless it has its name: 0, or -1 with errno. */
 int whole_file_close(struct whole_file *file);
-
-#endif

@@ -6,8 +6,7 @@
  *     dv/dt = a (1 - (v/v0)^4 - (s* / s)^2),  s* = s0 + max(0, v T + v (v - v_l) / (2 sqrt(a b))),
  *
  * so that at the leader's speed the gap is (s0 + v T) / sqrt(1 - (v/v0)^4). */
-#ifndef CAR_FOLLOWING_H
-#define CAR_FOLLOWING_H
+#pragma once
 
 /* All positive; the headway may be 0. */
 struct car_following {
@@ -26,5 +25,3 @@ double car_following_acceleration_mps2(const struct car_following *driver, doubl
  * there, exactly where the parabola has its vertex: the speed is never negative. */
 void car_following_move(double *place_m, double *speed_mps, double acceleration_mps2,
                         double duration_s);
-
-#endif

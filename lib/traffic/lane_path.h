@@ -3,8 +3,7 @@
  * At a corner of the line by the angle theta an arc touches both legs at the distance
  * R tan(theta / 2) from the corner, at most half a leg, so that neighbours have room. A lane's arc
  * has the same centre. Heading is continuous, and the yaw rate is speed times curvature. */
-#ifndef LANE_PATH_H
-#define LANE_PATH_H
+#pragma once
 
 #include "geometry/motion.h"
 #include "traffic/road.h"
@@ -29,5 +28,3 @@ int lane_path_make(struct lane_path *path, const struct roadway *road, const str
 /* A body at place_m along the lane; the first and the last piece go on beyond the ends. The yaw is
  * in (-pi, pi]. */
 struct motion lane_path_motion(const struct lane_path *path, double place_m, double speed_mps);
-
-#endif

@@ -1,7 +1,6 @@
 /* Places within a radius of another, by a grid. Filling takes time in proportion to the
  * places, and a question in proportion to those in the nine cells around it. */
-#ifndef NEIGHBOUR_GRID_H
-#define NEIGHBOUR_GRID_H
+#pragma once
 
 #include <stdint.h>
 
@@ -24,5 +23,3 @@ struct neighbour_grid neighbour_grid_of(const struct vec2 *places, size_t count,
  * found has room for all places. Returns how many. */
 size_t neighbour_grid_find(const struct neighbour_grid *grid, struct vec2 place, uint32_t *found,
                            struct arena *arena);
-
-#endif

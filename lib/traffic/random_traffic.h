@@ -5,8 +5,7 @@
  * guardrails stand beside the road. Some objects stand still, some turn, a few crab. Objects never
  * overlap the ego, and rarely each other. Sizes vary around those of the class; some are left to it
  * (0). Every snapshot is drawn by its number alone, and in it every object by its own number. */
-#ifndef RANDOM_TRAFFIC_H
-#define RANDOM_TRAFFIC_H
+#pragma once
 
 #include "base/random_sequence.h"
 #include "frame/frame.h"
@@ -67,5 +66,3 @@ void random_traffic_fill(const struct random_traffic *traffic, int64_t number, s
  * 30 % of the chirps. */
 void random_traffic_conditions(const struct random_traffic *traffic, int64_t number,
                                struct frame *frame);
-
-#endif

@@ -3,8 +3,7 @@
  * NN_tracks.csv has NN_tracksMeta.csv beside it, with a row for each track, and
  * NN_recordingMeta.csv with a single row. Each may be gzip, under its name or with ".gz" behind it.
  */
-#ifndef RECORDED_BESIDE_H
-#define RECORDED_BESIDE_H
+#pragma once
 
 #include "base/intern.h"
 #include "text/csv_table.h"
@@ -31,5 +30,3 @@ struct recorded_beside {
 int recorded_beside_read(struct recorded_beside *beside,
                          const struct recorded_beside_columns *columns, const char *table_path,
                          struct arena *arena, struct diag *diag);
-
-#endif

@@ -1,6 +1,5 @@
 /* Our classes by a recording's words for road users. */
-#ifndef RECORDED_CLASSES_H
-#define RECORDED_CLASSES_H
+#pragma once
 
 #include "base/intern.h"
 #include "text/document.h"
@@ -35,5 +34,3 @@ const struct recorded_word *recorded_classes_find(struct recorded_classes *class
 /* Refuses the word with the words and the classes that there are; returns -1. */
 int recorded_classes_refuse(const struct recorded_classes *classes, const char *word,
                             struct diag *diag);
-
-#endif

@@ -3,8 +3,7 @@
  * A reader gives a recording row by row, as it stands in the file; recorded_steps.h makes steps of
  * the rows: it maps classes, finds centres, velocities and yaw rates. A new format is a file beside
  * this one that fills a struct recorded_format. */
-#ifndef RECORDED_ROW_H
-#define RECORDED_ROW_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -75,5 +74,3 @@ double recorded_row_seconds(int64_t time_ns);
 /* Refuses an id or class that is empty, longer than FIELD_NAME_SIZE or not printable ASCII: names
  * go into frames, which are UTF-8, and tables do not say how they are encoded. */
 bool recorded_row_name_fits(const char *name);
-
-#endif

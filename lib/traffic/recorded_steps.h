@@ -8,8 +8,7 @@
  * A road user that is missing from a step has left; with its id a new visit begins. So it is with
  * one that moves faster than RECORDED_STEPS_FASTEST_MPS from one step to the next, as those do that
  * SUMO teleports. Memory is that of three steps. */
-#ifndef RECORDED_STEPS_H
-#define RECORDED_STEPS_H
+#pragma once
 
 #include "base/vec2.h"
 #include "frame/frame.h"
@@ -60,5 +59,3 @@ int recorded_steps_next(struct recorded_steps *steps, const struct recorded_step
 const struct recorded_state *recorded_steps_find(const struct recorded_step *step, const char *id);
 
 void recorded_steps_close(struct recorded_steps *steps);
-
-#endif

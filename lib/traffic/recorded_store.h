@@ -1,6 +1,5 @@
 /* A recording in memory, in the order of time. */
-#ifndef RECORDED_STORE_H
-#define RECORDED_STORE_H
+#pragma once
 
 #include "traffic/recorded_row.h"
 
@@ -10,5 +9,3 @@
  * format is NULL after a message. */
 struct recorded_reader recorded_store_read(struct recorded_reader reader, struct arena *arena,
                                            struct diag *diag);
-
-#endif

@@ -3,8 +3,7 @@
  * A layout is a file beside this one, which says what the columns are; their order, the case of
  * their letters and other columns do not matter. The first layout whose mark is among the columns
  * is taken, the last one where none is. */
-#ifndef RECORDED_TABLE_H
-#define RECORDED_TABLE_H
+#pragma once
 
 #include "text/csv_table.h"
 #include "traffic/recorded_beside.h"
@@ -88,5 +87,3 @@ struct recorded_reader recorded_table_open(struct input *input, const char *path
 #define RECORDED_TABLE .place = "row", .next = recorded_table_next, .close = recorded_table_close
 int recorded_table_next(void *table, struct recorded_row *row, struct diag *diag);
 void recorded_table_close(void *table);
-
-#endif

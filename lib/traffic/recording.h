@@ -2,8 +2,7 @@
  *
  * This is what all sources of recorded traffic share: they open a reader of their format
  * (recorded_row.h), and a recording makes frames of what it reads. */
-#ifndef RECORDING_H
-#define RECORDING_H
+#pragma once
 
 #include "traffic/neighbour_grid.h"
 #include "traffic/resampling.h"
@@ -69,5 +68,3 @@ int recording_check(const struct recording *recording, const struct frame *frame
                     struct diag *diag);
 
 void recording_close(struct recording *recording);
-
-#endif

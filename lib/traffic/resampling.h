@@ -3,8 +3,7 @@
  * Places and velocities follow the cubic Hermite curve between two steps, yaws the shorter arc,
  * yaw rates and ways travelled the straight line; class and sizes are held. A road user is there
  * from its first step to its last. Instant 0 is the first step that is not before from_ns. */
-#ifndef RESAMPLING_H
-#define RESAMPLING_H
+#pragma once
 
 #include "traffic/recorded_steps.h"
 
@@ -25,5 +24,3 @@ int resampling_next(struct resampling *resampling, const struct recorded_step **
                     struct diag *diag);
 
 void resampling_close(struct resampling *resampling);
-
-#endif

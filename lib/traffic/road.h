@@ -1,6 +1,5 @@
 /* Roads of a scenario: polylines with lanes and arrivals. */
-#ifndef ROAD_H
-#define ROAD_H
+#pragma once
 
 #include "base/vec2.h"
 #include "text/field.h"
@@ -50,5 +49,3 @@ void road_scale_flow(struct roadway *road, double factor);
 
 /* Moves every point by -origin_m. */
 void road_shift(struct roadway *road, struct vec2 origin_m);
-
-#endif

@@ -6,8 +6,7 @@
  * Intelligent Driver Model; a red light is a leader that stands, for whoever can stop with twice
  * the comfortable deceleration. Speeds change linearly within steps of 1/16 s, and frames take
  * places and speeds at their own time in a step, so their rate does not change the traffic. */
-#ifndef ROAD_TRAFFIC_H
-#define ROAD_TRAFFIC_H
+#pragma once
 
 #include "base/random.h"
 #include "traffic/car_following.h"
@@ -63,5 +62,3 @@ bool road_traffic_has(const struct road_traffic *traffic, const char *id);
 
 /* Appends everybody to the frame's objects, lane by lane from the front. */
 void road_traffic_fill(const struct road_traffic *traffic, struct frame *frame);
-
-#endif

@@ -8,8 +8,7 @@
  * waypoints by finite differences, zero next to two equal places) and points along its velocity;
  * before the first and after the last waypoint it stands there. Poses are exact functions of time:
  * nothing is stepped, so no error accumulates. */
-#ifndef SCENARIO_H
-#define SCENARIO_H
+#pragma once
 
 #include "frame/frame.h"
 #include "geometry/motion.h"
@@ -100,5 +99,3 @@ void scenario_fill(const struct scenario *scenario, int64_t number, struct frame
 /* Refuses a frame with an object out of the bounds of its record, for instance too far from the
  * origin or turning too fast (DIAG_CONFIG). The message names its id and the frame. */
 int scenario_check_frame(const struct frame *frame, struct diag *diag);
-
-#endif

@@ -3,8 +3,7 @@
  * A scene is determined by its number and the seed, so any split of the numbers gives the same
  * frames. Within a scene frames come one after another, and the last is that where the ego leaves
  * its road, or that at the end of the scenario. */
-#ifndef SCENARIO_SCENES_H
-#define SCENARIO_SCENES_H
+#pragma once
 
 #include "traffic/road_traffic.h"
 #include "traffic/scenario.h"
@@ -40,5 +39,3 @@ int64_t scenario_scenes_frames(const struct scenario_scenes *scenes);
 
 /* Frees what is left of the last scene. */
 void scenario_scenes_close(struct scenario_scenes *scenes);
-
-#endif

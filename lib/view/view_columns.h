@@ -1,8 +1,7 @@
 /* Columns of numbers, packed for the page of glint-view. Real numbers are written in single
  * precision, whole numbers as narrowly as the largest of the column allows. view_data.h says what
  * the columns hold. */
-#ifndef VIEW_COLUMNS_H
-#define VIEW_COLUMNS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -40,5 +39,3 @@ void view_columns_places(const struct view_columns *columns, struct view_column_
 
 /* Writes all columns in base64, each beginning at a multiple of 16 characters. */
 void view_columns_write(const struct view_columns *columns, struct text *text);
-
-#endif

@@ -3,8 +3,7 @@
  * Truths are the targets of the other stream, each with the number of the listed target that
  * glint-score pairs it with. Missed objects are tracks without an id and a place. Frames that the
  * other stream lacks have neither, and say so. */
-#ifndef VIEW_COMPARISON_H
-#define VIEW_COMPARISON_H
+#pragma once
 
 #include "score/reference_stream.h"
 #include "score/track_score.h"
@@ -22,5 +21,3 @@ int view_comparison_add(struct view_comparison *comparison, struct view_data *da
 
 /* Reads the other streams on to their ends. */
 int view_comparison_finish(struct view_comparison *comparison, struct diag *diag);
-
-#endif

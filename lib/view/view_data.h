@@ -9,8 +9,7 @@
  * loss without a detail was at its spot: most reflectors stay where they are in their object's
  * axes, so that one place serves all frames of the scene. Coordinates are relative to the place of
  * the scene's ego in its first frame. */
-#ifndef VIEW_DATA_H
-#define VIEW_DATA_H
+#pragma once
 
 #include "base/intern.h"
 #include "frame/frame.h"
@@ -51,5 +50,3 @@ struct vec2 view_data_shift(struct view_data *data, const struct frame *frame);
 /* Adds a frame of any scene, in canonical order. Memory that it does not keep comes from the
  * frame's arena. */
 void view_data_add(struct view_data *data, const struct frame *frame);
-
-#endif

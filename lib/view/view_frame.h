@@ -1,8 +1,7 @@
 /* Places of sensors, targets and objects in a frame's view. Sensors are placed at the instant of
  * their measurement. Boxes without a size, as in streams that no glint-extract has seen, take that
  * of their class's vehicle document. */
-#ifndef VIEW_FRAME_H
-#define VIEW_FRAME_H
+#pragma once
 
 #include "documents/suite_file.h"
 #include "documents/vehicle.h"
@@ -46,5 +45,3 @@ const struct vehicle *view_frame_vehicle(struct view_models *models, const char 
  * be drawn where they are not. */
 int view_frame_check_vehicles(struct view_models *models, const struct frame *frame,
                               struct diag *diag);
-
-#endif

@@ -1,6 +1,5 @@
 /* Names, scenes and column places that the page reads first. */
-#ifndef VIEW_HEAD_H
-#define VIEW_HEAD_H
+#pragma once
 
 #include "view/view_data.h"
 
@@ -8,5 +7,3 @@
  * it: names, scenes, sensors, and the place of each column. open_frame is the frame that
  * the page opens with; -1 leaves it to the page. */
 void view_head_write(const struct view_data *data, int64_t open_frame, struct text *text);
-
-#endif

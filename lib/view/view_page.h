@@ -1,7 +1,6 @@
 /* The page of glint-view, embedded in the program. The Makefile joins lib/view/page/ into one file.
  * Two lines of it are marks, in this order, that view_head_write and view_columns_write replace. */
-#ifndef VIEW_PAGE_H
-#define VIEW_PAGE_H
+#pragma once
 
 #include <stddef.h>
 
@@ -11,5 +10,3 @@
 /* NUL-terminated; the size is without the NUL. */
 extern const char view_page[];
 extern const size_t view_page_size;
-
-#endif

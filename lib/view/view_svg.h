@@ -1,6 +1,5 @@
 /* SVG drawing of one frame, to scale, for reports. Light colours, no scripts. */
-#ifndef VIEW_SVG_H
-#define VIEW_SVG_H
+#pragma once
 
 #include "base/text.h"
 #include "view/view_frame.h"
@@ -11,5 +10,3 @@ void view_svg_write(const struct frame *frame, struct view_models *models, struc
 
 /* Draws a note that the stream is empty. */
 void view_svg_write_empty(struct text *text);
-
-#endif

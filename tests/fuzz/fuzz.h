@@ -3,8 +3,7 @@
  * A harness reads any bytes as one kind of input. It fails by a report of the sanitizers, by an
  * exit, or by fuzz_must. Input may be refused, but never with DIAG_INTERNAL, which says that a
  * stage is wrong. */
-#ifndef FUZZ_H
-#define FUZZ_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -50,5 +49,3 @@ void fuzz_play(const char *stage, const char *const *words);
 
 /* Writes the frame, reads it back and writes it again: both lines must be equal. */
 void fuzz_round_trip(const struct frame *frame);
-
-#endif

@@ -1,7 +1,6 @@
 /* The stages from random traffic to targets, one by one in this process, and a frame for them to
  * work on. */
-#ifndef HARD_CHAIN_H
-#define HARD_CHAIN_H
+#pragma once
 
 #include "hard.h"
 
@@ -76,5 +75,3 @@ static inline void hard_chain_write(const struct hard_chain *chain, struct text 
     if (frame_text_write(&chain->frame, text, &diag) != 0)
         fail_msg("%s", diag.text);
 }
-
-#endif

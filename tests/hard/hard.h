@@ -4,8 +4,7 @@
  * Cases carry the numbers of README.md beside this file, 1 to 64; what has no number is named.
  * Exact answers are MPFR's, computed in the test. Every case prints one row, which scripts/numerics
  * collects, and fails if glint's error is beyond its bound. */
-#ifndef HARD_H
-#define HARD_H
+#pragma once
 
 #include "support/check.h"
 #include "support/sample.h"
@@ -49,5 +48,3 @@ static inline double hard_ulp(double result, mpfr_t exact)
     mpfr_mul_2si(exact, exact, 53 - exponent, MPFR_RNDN);
     return fabs(mpfr_get_d(exact, MPFR_RNDN));
 }
-
-#endif

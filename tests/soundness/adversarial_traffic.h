@@ -18,8 +18,7 @@
  * the largest margin. The largest is 1e-3 of amplitudes, 1e-6 of distances in a cell and of facing
  * angles, 1e-7 of borders of view and 1e-9 to 1e-8 of others. Cases are built for scans at the end
  * of the frame. */
-#ifndef ADVERSARIAL_TRAFFIC_H
-#define ADVERSARIAL_TRAFFIC_H
+#pragma once
 
 #include "documents/suite.h"
 #include "traffic/random_traffic.h"
@@ -28,5 +27,3 @@
  * are "CASE-NUMBER-OBJECT", for instance "touch-2-1". */
 void adversarial_traffic_add(const struct random_traffic *traffic, const struct suite *suite,
                              int64_t number, struct frame *frame);
-
-#endif

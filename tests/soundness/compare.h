@@ -1,12 +1,9 @@
 /* Compares two frames that ought to be equal: one scene seen with every effect and with those that
  * a planner chose. */
-#ifndef SOUNDNESS_COMPARE_H
-#define SOUNDNESS_COMPARE_H
+#pragma once
 
 #include "frame/frame.h"
 
 /* Compares targets and lost bit by bit. Returns 0, or -1 with the first difference in the diag,
  * such as "targets[3].range_m". */
 int compare_bits(const struct frame *all, const struct frame *chosen, struct diag *diag);
-
-#endif

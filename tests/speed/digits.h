@@ -1,7 +1,6 @@
 /* Numbers as text by the compiler's own C++ library: the floor of shortest digits, which does not
  * move when lib/base/number.cc gets faster. */
-#ifndef DIGITS_H
-#define DIGITS_H
+#pragma once
 
 #ifdef __cplusplus
 extern "C" {
@@ -15,6 +14,4 @@ const char *digits_read(const char *at, const char *end, double *value);
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

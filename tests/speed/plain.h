@@ -1,7 +1,6 @@
 /* The floor under the physics: the time of the paper's radar when it is written down plainly, with
  * no library, no labels, no checks, no options and no care for hard cases. */
-#ifndef PLAIN_H
-#define PLAIN_H
+#pragma once
 
 #include <stddef.h>
 
@@ -21,5 +20,3 @@ struct plain_target {
  * PLAIN_CENTRES. */
 size_t plain_targets(const struct plain_vehicle *vehicles, size_t count,
                      struct plain_target *targets);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * Of each sensor's three direct pairs, two echoes are in its target (corner of b, rear of a) and
  * one is lost (corner of a). The objects are e, the ego, b and a, not in order. */
-#ifndef ACCOUNTED_FRAME_H
-#define ACCOUNTED_FRAME_H
+#pragma once
 
 #include "frame/frame.h"
 
@@ -54,5 +53,3 @@ static inline struct frame accounted_frame(struct arena *arena)
         SECTION_OBJECTS | SECTION_SENSORS | SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS;
     return frame;
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* cmocka, and comparisons in double precision, since its assert_float_equal compares in single
  * precision. */
-#ifndef CHECK_H
-#define CHECK_H
+#pragma once
 
 #include <math.h>
 #include <setjmp.h>
@@ -27,5 +26,3 @@ static inline void check_close(double actual, double expected, double tolerance,
         _fail(file, line);
     }
 }
-
-#endif

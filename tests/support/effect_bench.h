@@ -1,7 +1,6 @@
 /* One scan for tests of effects. A radar at the ego's centre looks ahead; it receives an echo of
  * ERCS 1 at 10 m on boresight with amplitude 1. Another object is 50 m ahead. */
-#ifndef EFFECT_BENCH_H
-#define EFFECT_BENCH_H
+#pragma once
 
 #include "check.h"
 
@@ -124,5 +123,3 @@ static inline void effect_bench_draw(const struct effect_bench *bench, const str
 
 #define EFFECT_TEST(name)                                                                          \
     cmocka_unit_test_setup_teardown(name, make_effect_bench, remove_effect_bench)
-
-#endif

@@ -1,8 +1,7 @@
 /* Scenes for tests of lib/ideal: one sensor on the ego, at the origin, and objects around it.
  *
  * make_scene and remove_scene are a cmocka setup and teardown. */
-#ifndef LOOK_SCENE_H
-#define LOOK_SCENE_H
+#pragma once
 
 #include <stdlib.h>
 
@@ -122,5 +121,3 @@ static inline void add_random_bodies(struct scene *scene, uint64_t *random)
 }
 
 #define SCENE_TEST(name) cmocka_unit_test_setup_teardown(name, make_scene, remove_scene)
-
-#endif

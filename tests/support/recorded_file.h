@@ -1,6 +1,5 @@
 /* A table of recorded traffic, opened as glint-traffic opens it. */
-#ifndef RECORDED_FILE_H
-#define RECORDED_FILE_H
+#pragma once
 
 #include "check.h"
 #include "traffic/recorded_table.h"
@@ -42,5 +41,3 @@ static inline bool recorded_file_next(struct recorded_file *file, struct frame *
         fail_msg("%s", diag.text);
     return more > 0;
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* Repeatable samples for tests, the same on every machine, and independent of the random module,
  * which is under test itself. The caller owns the state and starts it with any number. */
-#ifndef SAMPLE_H
-#define SAMPLE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -23,5 +22,3 @@ static inline int64_t sample_integer(uint64_t *state, int64_t bound)
 {
     return (int64_t)(sample_bits(state) % (uint64_t)(2 * bound + 1)) - bound;
 }
-
-#endif

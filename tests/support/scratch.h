@@ -1,7 +1,6 @@
 /* Setup and teardown for cmocka: a fresh directory with one file in it and an arena, for tests that
  * read what they write. The file's name is the constant SCRATCH_FILE. */
-#ifndef SCRATCH_H
-#define SCRATCH_H
+#pragma once
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,5 +36,3 @@ static inline int remove_scratch(void **state)
     free(scratch);
     return 0;
 }
-
-#endif
