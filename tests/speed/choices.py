@@ -1,10 +1,12 @@
-"""scripts/bench --sections: what each choice of --sections takes, in bytes and microseconds per frame.
+"""scripts/bench --sections: what each choice of --sections takes, and each form in which the frames of the default choice
+are written, in bytes and microseconds per frame.
 
-The frames of two scenes go from a file through the fused chain to a file. Bytes are the same in every run; time is
+The frames of two scenes go from a file through the fused chain to files. Bytes are the same in every run; time is
 CPU time, the least of several runs, of which each reads the file several times.
 """
 import os
 import subprocess
+import tempfile
 
 import timing
 
@@ -14,28 +16,44 @@ CHOICES = ("none", "objects", "quality", "visibility", "account:every=10", "acco
 SCENES = {"intersection": ("glint-traffic intersection", "srr24-pair-every-frame", 4),
           "highway": ("glint-traffic highway-straight", "lrr77-every-frame", 4)}
 RUNS = 3
+DEFAULT = "objects"
+# Ends of the chain that write its frames into the folder "out".
+FORMS = {"lines": "glint-noise -o out/frames.jsonl", "lines, gzip": "glint-noise -o out/frames.jsonl.gz",
+         "tables": "glint-noise | glint-tables --plain out", "tables, gzip": "glint-noise | glint-tables out"}
 
 
-def measure(glint, frames, suite, choice, reads, folder):
-    """Bytes and microseconds per frame."""
-    out = os.path.join(folder, "out.jsonl")
-    chain = (f"glint-extract {' '.join([frames] * reads)} | glint-ideal --sensors {suite} --sections {choice}"
-             f" | glint-sensor | glint-noise -o {out}")
-    took = min(sum(timing.part_times(glint, chain, folder).values()) for _ in range(RUNS))
-    with open(out, "rb") as file:
-        lines = sum(1 for _ in file)
-    return os.path.getsize(out) / lines, took / 1e3
+class Scene:
+    """A file of frames, and what its chain takes."""
+
+    def __init__(self, glint, name, folder):
+        self.glint, self.name, self.folder = glint, name, folder
+        source, self.suite, self.reads = SCENES[name]
+        self.frames = os.path.join(folder, name + ".jsonl")
+        subprocess.run([glint, "-c", f"{source} -o {self.frames}"], check=True)
+        with open(self.frames, "rb") as file:
+            self.count = self.reads * sum(1 for _ in file)
+
+    def measure(self, choice, form):
+        """Bytes and microseconds per frame, as cells."""
+        with tempfile.TemporaryDirectory(dir=self.folder) as out:
+            end = FORMS[form].replace("out", out)
+            chain = (f"glint-extract {' '.join([self.frames] * self.reads)} | glint-ideal --sensors {self.suite}"
+                     f" --sections {choice} | glint-sensor | {end}")
+            took = min(sum(timing.part_times(self.glint, chain, self.folder).values()) for _ in range(RUNS))
+            size = sum(entry.stat().st_size for entry in os.scandir(out))
+        return f"{size / self.count:,.0f} | {took / 1e3:.0f}"
+
+
+def show(heading, scenes, rows, cells):
+    """Prints a table of which cells(scene, row) are the cells."""
+    print(f"| {heading} | " + " | ".join(f"{scene.name}: bytes | µs" for scene in scenes) + " |")
+    print("|---" * (1 + 2 * len(scenes)) + "|")
+    for row in rows:
+        print(f"| `{row}` | " + " | ".join(cells(scene, row) for scene in scenes) + " |")
 
 
 def run(glint, folder):
-    print("| `--sections` | " + " | ".join(f"{scene}: bytes | µs" for scene in SCENES) + " |")
-    print("|---" * (1 + 2 * len(SCENES)) + "|")
-    rows = {choice: [] for choice in CHOICES}
-    for scene, (source, suite, reads) in SCENES.items():
-        frames = os.path.join(folder, scene + ".jsonl")
-        subprocess.run([glint, "-c", f"{source} -o {frames}"], check=True)
-        for choice in CHOICES:
-            size, took = measure(glint, frames, suite, choice, reads, folder)
-            rows[choice] += [f"{size:,.0f}", f"{took:.0f}"]
-    for choice, cells in rows.items():
-        print(f"| `{choice}` | " + " | ".join(cells) + " |")
+    scenes = [Scene(glint, name, folder) for name in SCENES]
+    show("`--sections`", scenes, CHOICES, lambda scene, choice: scene.measure(choice, "lines"))
+    print()
+    show("written as", scenes, FORMS, lambda scene, form: scene.measure(DEFAULT, form))
