@@ -179,7 +179,9 @@ static const struct field check_options[] = {
      FIELD_OPTIONAL},
     {FIELD_NAME_OF(struct check, sensors, "path of the suite, if it is not found by its name"),
      FIELD_OPTIONAL},
-    {FIELD_NAME_OF(struct check, extract, "the stage that extracted; absent: extract"),
+    {FIELD_NAME_OF(
+         struct check, extract,
+         "the stage that wrote the reflectors, extract-3gpp for instance; absent: extract"),
      FIELD_OPTIONAL},
     {0},
 };

@@ -218,7 +218,7 @@ static int plan_run(void *state, struct runner *runner)
 
 static const struct field plan_options[] = {
     SUITE_CHOICE_OF_IDEAL,
-    {FIELD_FLAG_OF(struct plan_state, all, "say of every effect why it is off, too"),
+    {FIELD_FLAG_OF(struct plan_state, all, "list effects that are off too, each with its reason"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct plan_state, cost,
                    "measure what accuracy costs: a table of chains by time and error"),
@@ -231,11 +231,10 @@ static const struct field plan_options[] = {
      FIELD_OPTIONAL, .word = "TIME"},
     {FIELD_INTEGER_IN(
          struct plan_state, frames, 1, 1e6,
-         "how many frames are measured at most (absent: 250, or fewer where the signal "
-         "takes long)"),
+         "how many frames are measured at most; absent: 250, or fewer where the signal takes long"),
      FIELD_OPTIONAL},
     {FIELD_CHOICE_OF(struct plan_state, reference, cost_references,
-                     "what errors are from (absent: the signal where there is one)"),
+                     "what errors are measured from; absent: the signal where there is one"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct plan_state, brief, "measure no chains that leave out an effect"),
      FIELD_OPTIONAL},

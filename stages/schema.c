@@ -35,7 +35,8 @@ static int schema_run(void *state, struct runner *runner)
 }
 
 static const struct field schema_options[] = {
-    {FIELD_NAME_OF(struct schema_state, folder, "a folder, which gets NAME.json for each of them")},
+    {FIELD_NAME_OF(struct schema_state, folder,
+                   "the folder that gets frame.json, sensors.json and so on")},
     {0},
 };
 

@@ -129,11 +129,11 @@ static const struct field score_options[] = {
     {FIELD_NAME_OF(struct score_state, truth, "frames with the targets that are the truth"),
      .word = "FILE"},
     {FIELD_REAL_IN(struct score_state, cutoff, 1e-6, 1e6,
-                   "targets this many cells apart are no pair (absent: 2)"),
+                   "targets this many cells apart are no pair; absent: 2"),
      FIELD_OPTIONAL, .absent = TARGET_SCORE_CUTOFF},
     {FIELD_REAL_IN(
          struct score_state, azimuth_cell_rad, 1e-6, 2 * PI,
-         "cell in azimuth (absent: that of the suite, or a twentieth of the field of view)"),
+         "cell in azimuth; absent: that of the suite, or a twentieth of the field of view"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct score_state, partial,
                    "count frames that only one side has instead of refusing them"),

@@ -48,7 +48,7 @@ static int tables_run(void *state, struct runner *runner)
 }
 
 static const struct field tables_options[] = {
-    {FIELD_NAME_OF(struct tables_state, folder, "a folder, which gets five tables")},
+    {FIELD_NAME_OF(struct tables_state, folder, "the folder that gets the five tables")},
     {FIELD_FLAG_OF(struct tables_state, plain, "write .csv instead of .csv.gz"), FIELD_OPTIONAL},
     {FIELD_INTEGER_IN(struct tables_state, part, 0, 9e6,
                       "number of this part of a set: its keys begin at so many times 1e9"),

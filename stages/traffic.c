@@ -122,8 +122,8 @@ static const struct field traffic_options[] = {
     {FIELD_NAME_OF(struct traffic, source,
                    "a scenario (a name in data/scenarios/, or a path), or a recorded table")},
     {FIELD_NAME_OF(struct traffic, scenes,
-                   "A:B plays scenes A to B - 1 of a scenario, each with draws of its own"),
-     FIELD_OPTIONAL},
+                   "play scenes A to B - 1 of a scenario, each with draws of its own; absent: 0:1"),
+     FIELD_OPTIONAL, .word = "A:B"},
     {FIELD_RECORD_OF(struct traffic, options, &recording_options_record, ""), FIELD_OPTIONAL},
     {0},
 };

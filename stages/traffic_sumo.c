@@ -211,6 +211,7 @@ static int traffic_sumo_start(void *state, struct runner *runner)
         return diag_prefix(diag, "%s: ", own->source);
     xml_rows_begin(&own->document.xml, "floating car data", input, &own->document);
     own->document.xml.fail_at_end = fail_at_end;
+    own->document.xml.advice = "; sumo needs --no-step-log where it writes to a pipe";
     XML_SetElementHandler(own->document.xml.parser, on_begin, on_end);
     XML_SetCommentHandler(own->document.xml.parser, on_comment);
     struct recorded_reader reader = {&format, &own->document};

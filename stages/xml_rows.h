@@ -27,6 +27,7 @@ struct xml_rows {
     struct input *input;
     const char *kind;                          /* in file_format.def */
     struct diag fault;                         /* that ends the file */
+    const char *advice;                        /* after what is no XML; NULL: none */
     void (*fail_at_end)(struct xml_rows *xml); /* refuses a file that ends within its root */
     LIST_OF(struct xml_event) events;          /* of the piece that was parsed last */
     size_t taken;
@@ -131,8 +132,8 @@ static inline bool xml_rows_parse(struct xml_rows *xml)
     if (!done && got <= 0 && xml->in_root)
         xml->fail_at_end(xml);
     else if (!done)
-        diag_fail(&xml->fault, DIAG_DATA, "line %zu: %s", xml_rows_line(xml),
-                  XML_ErrorString(error));
+        diag_fail(&xml->fault, DIAG_DATA, "line %zu: %s%s", xml_rows_line(xml),
+                  XML_ErrorString(error), xml->advice != NULL ? xml->advice : "");
     if (got < 0) {
         xml->fault.code = damage.code;
         diag_prefix(&xml->fault, "%s: ", damage.text);

@@ -1,5 +1,6 @@
 #include "base/diag.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -15,6 +16,11 @@ int diag_fail(struct diag *diag, enum diag_code code, const char *format, ...)
     vsnprintf(diag->text, sizeof diag->text, format, arguments);
     va_end(arguments);
     return -1;
+}
+
+enum diag_code diag_code_by_errno(enum diag_code otherwise)
+{
+    return errno == ENOMEM || errno == EMFILE || errno == ENFILE ? DIAG_MEMORY : otherwise;
 }
 
 void diag_print(const char *program, const struct diag *diag)

@@ -12,7 +12,7 @@ enum diag_code {
     DIAG_DATA = 65,
     DIAG_NO_INPUT = 66,
     DIAG_INTERNAL = 70,
-    DIAG_MEMORY = 71,
+    DIAG_MEMORY = 71, /* or file descriptors */
     DIAG_CANNOT_CREATE = 73,
     DIAG_IO = 74,
     DIAG_CONFIG = 78,
@@ -27,6 +27,9 @@ struct diag {
  * is nearest the cause. */
 int diag_fail(struct diag *diag, enum diag_code code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+/* DIAG_MEMORY if errno says that memory or descriptors are used up, otherwise the code. */
+enum diag_code diag_code_by_errno(enum diag_code otherwise);
 
 /* Puts the formatted text in front of the recorded message, for the place that only the caller
  * knows; returns -1. */

@@ -161,7 +161,7 @@ const struct suite *suite_file_load(const char *name, struct arena *arena, struc
     text_free(&bytes);
     suite->given = arena_text(arena, name, strlen(name));
     suite->name = plain_name(name, arena);
-    if (result != 0)
+    if (result != 0 && diag->code != DIAG_MEMORY)
         diag->code = DIAG_CONFIG;
     return result == 0 ? suite : NULL;
 }

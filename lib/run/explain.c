@@ -63,7 +63,8 @@ static int append(const char *path, const struct text *text, struct diag *diag)
 {
     int file = open(path, O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
     if (file < 0)
-        return diag_fail(diag, DIAG_CANNOT_CREATE, "%s: %s", path, strerror(errno));
+        return diag_fail(diag, diag_code_by_errno(DIAG_CANNOT_CREATE), "%s: %s", path,
+                         strerror(errno));
     size_t written = 0;
     ssize_t more = 0;
     while (written < text->length && more >= 0) {

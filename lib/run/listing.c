@@ -22,17 +22,18 @@ static void add_tools(struct text *text)
 
 static void add_effects(struct text *text)
 {
-    for (int i = 0; i < EFFECT_COUNT; i++) {
-        const struct effect *effect = effect_table[i];
-        text_format(text, "%-17s %s\n%17s simulated by glint-%s, described by %s\n",
-                    effects_names[i], effect->summary, "", effect_homes[effect->home],
-                    effect->cause);
-        if (effect->left_out_when != NULL)
-            text_format(text, "%17s auto leaves it out when %s\n", "", effect->left_out_when);
-        else
-            text_format(text, "%17s auto never leaves it out\n", "");
-        text_format(text, "%17s costs %s\n", "", effect->cost);
-    }
+    for (int i = 0; i < EFFECT_COUNT; i++)
+        text_format(text, "%-17s %-7s %s\n", effects_names[i], effect_homes[effect_table[i]->home],
+                    effect_table[i]->summary);
+}
+
+static void add_effect(const struct effect *effect, struct text *text)
+{
+    bool leaves = effect->left_out_when != NULL;
+    text_format(text, "%s\nsimulated by glint-%s\ndescribed by %s\nauto %s%s\ncosts %s\n",
+                effect->summary, effect_homes[effect->home], effect->cause,
+                leaves ? "leaves it out when " : "never leaves it out",
+                leaves ? effect->left_out_when : "", effect->cost);
 }
 
 /* What a suite or a scenario says of its origin, without "Made for glint ...: " at its begin. */
@@ -148,8 +149,15 @@ int listing_add(const char *kind, struct text *text, struct arena *arena, struct
         if (strcmp(kind, file_kinds[i].name) == 0)
             return add_files(&file_kinds[i], text, arena, diag);
     }
+    for (int i = 0; i < EFFECT_COUNT; i++) {
+        suggestion_offer(&meant, effects_names[i]);
+        if (strcmp(kind, effects_names[i]) == 0) {
+            add_effect(effect_table[i], text);
+            return 0;
+        }
+    }
     return diag_fail(diag, DIAG_USAGE,
                      "--list %s is unknown%s; expected sensors, scenarios, vehicles, pipelines, "
-                     "stages, tools or effects",
+                     "stages, tools, effects or the name of an effect",
                      kind, suggestion_question(&meant, ""));
 }

@@ -11,23 +11,24 @@ const struct record no_options_record = {.name = "stage", .fields = field_none};
 static const struct field common_fields[] = {
     {FIELD_NAME_OF(
          struct common_options, output,
-         "write to this file instead of standard output; .gz compresses; like > of a shell, keeps "
-         "mode, owner and links of a file that is there; unlike it, all of it or nothing"),
+         "write to this file instead of standard output, compressed if it ends in .gz; the file is "
+         "there when it is whole, and one that was there keeps its mode, owner and links"),
      FIELD_OPTIONAL, .word = "FILE"},
     {FIELD_NAME_OF(
          struct common_options, sections,
-         "what frames carry from here on: all, none, or words, with - to leave one out: objects, "
-         "reflectors, echoes, cells, account (account:every=10), margins, quality, visibility; "
-         "absent: what "
-         "they say, at first objects"),
+         "what frames carry from here on: all, none, or words with commas, -WORD to leave one out; "
+         "words: objects, reflectors, echoes, cells, account (account:every=10 for every tenth "
+         "frame), margins, quality, visibility; absent: as the frames say, objects at a source"),
      FIELD_OPTIONAL, .word = "LIST"},
     {FIELD_SEED_OF(struct common_options, seed,
                    "seed of the random numbers from here on; absent: 1, or the frames' own"),
      FIELD_OPTIONAL, .absent = 1},
-    {FIELD_NAME_OF(struct common_options, explain,
-                   "append which effects were simulated or left out, why, and the time they took"),
+    {FIELD_NAME_OF(
+         struct common_options, explain,
+         "append to this file which effects were simulated or left out, why, and their time"),
      FIELD_OPTIONAL, .word = "FILE"},
-    {FIELD_FLAG_OF(struct common_options, table, "append to the file of --explain as a table"),
+    {FIELD_FLAG_OF(struct common_options, table,
+                   "write the lines of --explain as a table for people"),
      FIELD_OPTIONAL},
     {FIELD_FLAG_OF(struct common_options, complete,
                    "fail unless there is a scene, and each has all frames from 0 to its last"),
@@ -291,6 +292,23 @@ static const char *value_word(const struct field *field)
     return field->word != NULL ? field->word : words[field->kind];
 }
 
+/* A name in the left column, and what it means in lines of the right one; a long name has a line of
+ * its own. */
+static void add_entry(const char *name, const char *words, struct text *text)
+{
+    enum { NAME = 26, COLUMN = 30, WIDTH = 90 };
+    text_format(text, "  %-*s", NAME + 1, name);
+    size_t at = strlen(name) <= NAME ? COLUMN - 1 : WIDTH;
+    while (*words != '\0') {
+        size_t length = strcspn(words, " ");
+        bool fits = at + 1 + length <= WIDTH;
+        text_format(text, "%s%*s%.*s", fits ? "" : "\n", fits ? 1 : COLUMN, "", (int)length, words);
+        at = (fits ? at + 1 : COLUMN) + length;
+        words += length + (words[length] == ' ');
+    }
+    text_add_word(text, "\n");
+}
+
 static void help_option(const struct field *field, struct text *text)
 {
     if (field->kind == FIELD_RECORD)
@@ -298,7 +316,7 @@ static void help_option(const struct field *field, struct text *text)
             help_option(member, text);
     if (field->kind == FIELD_RECORD || field->kind == FIELD_LIST)
         return;
-    char left[160], spelling[80], expected[512];
+    char left[160], spelling[80], expected[512] = "", words[1024];
     spell(field->name, spelling, sizeof spelling);
     bool flag = field->kind == FIELD_FLAG;
     const char *letter = strcmp(spelling, "output") == 0 ? "-o, "
@@ -306,12 +324,11 @@ static void help_option(const struct field *field, struct text *text)
                                                          : "    ";
     snprintf(left, sizeof left, "%s--%s%s%s", letter, spelling, flag ? "" : "=",
              flag ? "" : value_word(field));
-    text_format(text, "  %-26s  %s", left, field->help);
-    if (field->kind == FIELD_REAL || field->kind == FIELD_INTEGER || field->kind == FIELD_CHOICE) {
+    if (field->kind == FIELD_REAL || field->kind == FIELD_INTEGER || field->kind == FIELD_CHOICE)
         field_expectation(field, expected, sizeof expected);
-        text_format(text, "; %s", expected);
-    }
-    text_add_word(text, field->optional ? "\n" : "; required\n");
+    snprintf(words, sizeof words, "%s%s%s%s", field->help, *expected != '\0' ? "; " : "", expected,
+             field->optional ? "" : "; required");
+    add_entry(left, words, text);
 }
 
 static void help_sections(const char *verb, unsigned sections, struct text *text)
@@ -328,10 +345,10 @@ static void help_sections(const char *verb, unsigned sections, struct text *text
 
 static void help_usage(const struct program *program, struct text *text)
 {
-    const char *operand = program->operand != NULL ? program->operand : "";
-    text_format(text, "Usage: glint-%s [OPTION]... %s%s%s\n%s\n", program->name, operand,
-                program->takes_files && *operand != '\0' ? " " : "",
-                program->takes_files ? "[FILE]..." : "", program->summary);
+    const char *operand = program->operand;
+    text_format(text, "Usage: glint-%s [OPTION]...%s%s%s\n%s\n", program->name,
+                operand != NULL ? " " : "", operand != NULL ? operand : "",
+                program->takes_files ? " [FILE]..." : "", program->summary);
     if (program->operand != NULL)
         text_format(text, "\n%s: %s.\n", program->operand, program->options->fields->help);
     if (program->details != NULL)
@@ -341,7 +358,8 @@ static void help_usage(const struct program *program, struct text *text)
 void options_help(const struct program *program, struct text *text)
 {
     help_usage(program, text);
-    text_add_word(text, "\n");
+    if (program->reads != 0 || program->writes != 0)
+        text_add_word(text, "\n");
     if (program->reads != 0)
         help_sections("Frames come as JSON lines from the files or standard input; reads",
                       program->reads, text);
@@ -357,10 +375,10 @@ void options_help(const struct program *program, struct text *text)
     for (const struct field *field = common_fields; field->name != NULL; field++)
         if (applies(program, field))
             help_option(field, text);
+    text_add_word(text, "\nEnvironment:\n");
+    add_entry("GLINT_DATA", "folder of your own documents, before the shipped ones", text);
     text_add_word(text,
-                  "\nEnvironment:\n  GLINT_DATA                  folder of your own documents, "
-                  "before the shipped ones\n");
-    text_add_word(text, "\nExit status: 0, or as in sysexits: 64 usage, 65 bad data, 66 no input, "
-                        "70 internal,\n71 memory, 73 cannot create, 74 input/output, 78 "
-                        "configuration.\n");
+                  "\nExit status: 0, or as in sysexits: 64 usage, 65 bad data, 66 no input, "
+                  "70 internal,\n71 memory or descriptors, 73 cannot create, 74 input/output, 78 "
+                  "configuration.\n");
 }

@@ -89,13 +89,16 @@ static const struct suite *loaded_suite_of(const struct runner *runner, const st
     return NULL;
 }
 
-/* The document of the frame's suite at that place, or NULL. */
+/* The document of the frame's suite at that place, or NULL; with a message only where the document
+ * could not be opened for want of a descriptor. */
 static const struct suite *suite_at(struct runner *runner, const char *place,
                                     const struct frame *frame)
 {
-    struct diag unused = {0};
+    struct diag fault = {0};
     const struct suite *suite =
-        document_is_regular(place) ? load_suite(runner, place, &unused) : NULL;
+        document_is_regular(place) ? load_suite(runner, place, &fault) : NULL;
+    if (fault.code == DIAG_MEMORY)
+        runner->diag = fault;
     return is_suite_of(suite, frame) ? suite : NULL;
 }
 

@@ -21,16 +21,17 @@ extern const struct record suite_choice_record;
 #define SUITE_CHOICE_OF_IDEAL                                                                      \
     {FIELD_NAME_OF(struct suite_choice, sensors,                                                   \
                    "the sensor suite: a name in data/sensors/, or a path")},                       \
-        SUITE_CHOICE_EFFECTS
+        SUITE_CHOICE_EFFECTS(                                                                      \
+            "effects to simulate: auto, all, none, or names with commas, -NAME to "                \
+            "leave one out: all,-ghosts; absent: those of the suite, or auto")
 #define SUITE_CHOICE_AFTER_IDEAL                                                                   \
     {FIELD_NAME_OF(struct suite_choice, sensors,                                                   \
                    "path of the suite given to glint-ideal, if it is not found by its name"),      \
      FIELD_OPTIONAL},                                                                              \
-        SUITE_CHOICE_EFFECTS
-#define SUITE_CHOICE_EFFECTS                                                                       \
+        SUITE_CHOICE_EFFECTS("the effects given to glint-ideal; others are refused")
+#define SUITE_CHOICE_EFFECTS(help_)                                                                \
     {                                                                                              \
-        FIELD_NAME_OF(struct suite_choice, effects, "auto, all, none, or effects by their names"), \
-            FIELD_OPTIONAL, .word = "LIST"                                                         \
+        FIELD_NAME_OF(struct suite_choice, effects, help_), FIELD_OPTIONAL, .word = "LIST"         \
     }
 
 /* What ideal writes into every frame: name and digest of the suite, and the text of the effects,

@@ -71,16 +71,15 @@ void field_clear(const struct record *record, void *base)
     set_all_absent(record, base);
 }
 
-/* Writes 1e+06 as "1e6", and whole numbers in full. */
+/* Writes 1e+06 as "1e6", 1e-06 as "1e-6", and whole numbers in full. */
 static const char *show(double bound, char *text, size_t size)
 {
     bool whole = fabs(bound) >= 1e6 && fabs(bound) <= 0x1p53 && fmod(bound, 1e6) != 0;
     snprintf(text, size, whole ? "%.16g" : "%g", bound);
-    char *plus = strstr(text, "e+");
-    if (plus != NULL) {
-        char *digits = plus + 2;
-        digits += strspn(digits, "0");
-        memmove(plus + 1, digits, strlen(digits) + 1);
+    char *exponent = strchr(text, 'e');
+    if (exponent != NULL) {
+        char *place = exponent + 1 + (exponent[1] == '-'), *digits = place + strspn(place, "+0");
+        memmove(place, digits, strlen(digits) + 1);
     }
     return text;
 }

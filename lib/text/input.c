@@ -40,7 +40,7 @@ struct input *input_open(const char *path, struct diag *diag)
     bool standard = strcmp(path, "-") == 0;
     int fd = standard ? STDIN_FILENO : open(path, O_RDONLY);
     if (fd < 0) {
-        diag_fail(diag, DIAG_NO_INPUT, "%s", strerror(errno));
+        diag_fail(diag, diag_code_by_errno(DIAG_NO_INPUT), "%s", strerror(errno));
         return NULL;
     }
     struct input *input = memory_get(sizeof *input);

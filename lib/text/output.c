@@ -92,7 +92,7 @@ static void discard(struct output *output)
 
 static int cannot_create(const char *name, struct diag *diag)
 {
-    return diag_fail(diag, DIAG_CANNOT_CREATE, "%s: %s", name, strerror(errno));
+    return diag_fail(diag, diag_code_by_errno(DIAG_CANNOT_CREATE), "%s: %s", name, strerror(errno));
 }
 
 static const char *shown_name(const struct output *output)
@@ -104,7 +104,7 @@ static int cannot_write(struct output *output, struct diag *diag)
 {
     output->failed = true;
     /* zlib allocates with its first write. */
-    return diag_fail(diag, errno == ENOMEM ? DIAG_MEMORY : DIAG_IO, "%s: %s", shown_name(output),
+    return diag_fail(diag, diag_code_by_errno(DIAG_IO), "%s: %s", shown_name(output),
                      strerror(errno));
 }
 

@@ -8,9 +8,8 @@
 
 static const struct field recording_fields[] = {
     {FIELD_NAME_OF(struct recording_options, ego,
-                   "the object that carries the sensors, or ID,ID,... or all, for a scene of each; "
-                   "a scenario names one"),
-     FIELD_OPTIONAL},
+                   "the object that carries the sensors; ID,ID,... or all: a scene for each"),
+     FIELD_OPTIONAL, .word = "ID"},
     {FIELD_NAME_OF(struct recording_options, scene, "name of the scene; absent: SOURCE/EGO"),
      FIELD_OPTIONAL},
     {FIELD_REAL_IN(struct recording_options, radius_m, 0, 1e6,
@@ -30,8 +29,8 @@ static const struct field recording_fields[] = {
                    "the class of all words that nothing knows; absent: they are refused"),
      FIELD_OPTIONAL, .word = "CLASS"},
     {FIELD_NAME_OF(struct recording_options, conditions,
-                   "road and weather over what the scenario says, as its member of that name: "
-                   "'{\"rain_mmph\": 20}'"),
+                   "road and weather, over what the source says of them: '{\"rain_mmph\": 20}'; "
+                   "schemas/scenario.json has the words"),
      FIELD_OPTIONAL, .word = "JSON"},
     {0},
 };

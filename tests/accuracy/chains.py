@@ -120,7 +120,7 @@ class Chain:
 @functools.lru_cache(None)
 def effects_known():
     done = subprocess.run([GLINT, "--list", "effects"], check=True, stdout=subprocess.PIPE, text=True)
-    return [line.split()[0] for line in done.stdout.splitlines() if line[0] != " "]
+    return [line.split()[0] for line in done.stdout.splitlines()]
 
 
 def reference(radar):

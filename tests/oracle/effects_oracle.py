@@ -258,7 +258,7 @@ def answers(bench, items, suite, effects):
 def effects_but(bench, off):
     """What the program simulates, as --effects has it, and the set for the oracle."""
     listed = subprocess.run([str(bench.bin / "glint"), "--list", "effects"], env=bench.env, capture_output=True, text=True, check=True)
-    names = {line.split()[0] for line in listed.stdout.splitlines() if not line.startswith(" ")}
+    names = {line.split()[0] for line in listed.stdout.splitlines()}
     return ",".join(["all", *("-" + name for name in [*QUIET, *off])]), names - set(QUIET) - set(off)
 
 
