@@ -4,7 +4,9 @@
 
 #include "base/sort.h"
 #include "base/text.h"
-#include "run/stage.h"
+#include "frame/frame_text.h"
+#include "run/tool.h"
+#include "text/output.h"
 
 /* A name, and how often it was counted; of a sensor also its scans. */
 struct tally {
@@ -18,6 +20,7 @@ struct tallies {
 };
 
 struct summary {
+    const char *copy; /* a file that gets the frames, too; NULL: none does */
     int64_t frames, scenes, scans, merged;
     double seconds, farthest_m;
     struct tallies sensors, classes, others, outcomes;
@@ -73,10 +76,8 @@ static void count_target(struct summary *summary, const struct frame *frame,
     count(&summary->sensors, target->sensor, 1, arena);
 }
 
-static int summary_step(void *state, struct frame *frame, struct runner *runner)
+static void count_frame(struct summary *summary, const struct frame *frame, struct arena *arena)
 {
-    struct summary *summary = state;
-    struct arena *arena = runner_arena(runner);
     summary->frames++;
     summary->scenes += frame->last;
     summary->seconds += frame->interval_s;
@@ -90,7 +91,6 @@ static int summary_step(void *state, struct frame *frame, struct runner *runner)
     for (size_t i = 0; i < frame->lost.count; i++)
         count(&summary->outcomes, frame_loss_words(&frame->lost.items[i], frame->arena),
               (int64_t)frame->lost.items[i].echoes.count, arena);
-    return 0;
 }
 
 static int most_first(const void *left, const void *right)
@@ -123,9 +123,8 @@ static void print_tallies(const char *title, struct tallies *tallies, int64_t wh
     }
 }
 
-static int summary_stop(void *state, struct runner *runner)
+static int print(struct summary *summary, struct runner *runner)
 {
-    struct summary *summary = state;
     struct arena *arena = runner_arena(runner);
     struct text text = {0};
     int64_t targets = summary->sensors.sum;
@@ -146,7 +145,39 @@ static int summary_stop(void *state, struct runner *runner)
     return runner_write_text(runner, &text);
 }
 
-const struct stage stage_summary = {
+static int write_copy(struct output *copy, const struct frame *frame, struct diag *diag)
+{
+    if (copy == NULL)
+        return 0;
+    return frame_text_write(frame, output_text(copy), diag) == 0 ? output_send(copy, diag) : -1;
+}
+
+static int summary_run(void *state, struct runner *runner)
+{
+    struct summary *summary = state;
+    struct output *copy = NULL;
+    struct frame *frame;
+    if (runner_output(runner) == NULL)
+        return -1;
+    if (summary->copy != NULL && (copy = runner_output_beside(runner, summary->copy)) == NULL)
+        return diag_prefix(runner_diag(runner), "--copy: ");
+    int more;
+    while ((more = runner_frame(runner, &frame)) > 0) {
+        count_frame(summary, frame, runner_arena(runner));
+        if (write_copy(copy, frame, runner_diag(runner)) != 0)
+            return -1;
+    }
+    return more == 0 ? print(summary, runner) : -1;
+}
+
+static const struct field summary_options[] = {
+    {FIELD_NAME_OF(struct summary, copy,
+                   "also write the frames to this file, as -o of a stage does"),
+     FIELD_OPTIONAL, .word = "FILE"},
+    {0},
+};
+
+const struct tool tool_summary = {
     .name = "summary",
     .summary = "Print how many targets the sensors reported, of which classes, and how far.",
     .details =
@@ -155,10 +186,9 @@ const struct stage stage_summary = {
         "With --sections account given to glint-ideal it also prints what became of every\n"
         "reflector that a sensor looked for: how many are in a target, and how many are lost for\n"
         "which reason.\n"
-        "Prints at the end of the stream.",
-    .options = STAGE_OPTIONS(struct summary, field_none),
-    .sink = true,
+        "Prints at the end of the stream. With --copy it counts what a pipeline writes on the way\n"
+        "to a file, without another reading.",
+    .options = STAGE_OPTIONS(struct summary, summary_options),
     .reads = SECTION_OBJECTS | SECTION_SENSORS | SECTION_TARGETS,
-    .step = summary_step,
-    .stop = summary_stop,
+    .run = summary_run,
 };

@@ -106,16 +106,10 @@ static bool is_input(const char *path, const struct runner *runner, bool first)
            is_option(path, runner->program.options->fields, runner->state);
 }
 
-static bool is_output(const char *path, const struct runner *last)
-{
-    const char *output = last->common.output;
-    return same_file(path, output == NULL || strcmp(output, "-") == 0 ? "/dev/stdout" : output);
-}
-
 static void refuse_used(struct runner *runner, struct runner *runners, size_t count)
 {
     const char *path = runner->common.explain;
-    const char *use = is_output(path, &runners[count - 1]) ? "the output" : NULL;
+    const char *use = runner_writes_to(&runners[count - 1], path) ? "the output" : NULL;
     for (size_t i = 0; i < count && use == NULL; i++)
         if (is_input(path, &runners[i], i == 0))
             use = "an input";

@@ -12,6 +12,7 @@
 #include "score/reference_stream.h"
 #include "text/document.h"
 #include "text/record_text.h"
+#include "text/same_file.h"
 
 struct arena *runner_arena(struct runner *runner)
 {
@@ -394,6 +395,20 @@ static struct output *add_output(struct runner *runner, const char *path)
 struct output *runner_output(struct runner *runner)
 {
     return add_output(runner, runner->common.output != NULL ? runner->common.output : "-");
+}
+
+bool runner_writes_to(const struct runner *runner, const char *path)
+{
+    const char *output = runner->common.output;
+    return same_file(path, output == NULL || strcmp(output, "-") == 0 ? "/dev/stdout" : output);
+}
+
+struct output *runner_output_beside(struct runner *runner, const char *path)
+{
+    if (!runner_writes_to(runner, strcmp(path, "-") == 0 ? "/dev/stdout" : path))
+        return add_output(runner, path);
+    diag_fail(&runner->diag, DIAG_USAGE, "%s is the output; expected another file", path);
+    return NULL;
 }
 
 struct output *runner_output_in(struct runner *runner, const char *folder, const char *name)

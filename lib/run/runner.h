@@ -54,6 +54,9 @@ int runner_step(struct runner *runner, struct frame *frame);
 int runner_finish(struct runner *runner);
 int runner_run_tool(struct runner *runner);
 
+/* True if --output names that file, or standard output is that file and --output names none. */
+bool runner_writes_to(const struct runner *runner, const char *path);
+
 /* Closes the outputs: all are written to the disk, and then take their names. After a failure, or
  * if they are not whole because another runner failed, none does and nothing is left of them. */
 int runner_close_outputs(struct runner *runner, bool whole);

@@ -47,6 +47,9 @@ int runner_frame(struct runner *runner, struct frame **frame);
  * frame, so that a place where nothing can be written is refused before the work. */
 struct output *runner_output(struct runner *runner);
 
+/* A file beside that output. NULL after a message, also if both are one file. */
+struct output *runner_output_beside(struct runner *runner, const char *path);
+
 /* A file of that name in the folder, which must exist. NULL after a message. */
 struct output *runner_output_in(struct runner *runner, const char *folder, const char *name);
 

@@ -94,6 +94,7 @@ def check_chain(chain):
     for option in re.findall(r"(?<=\s)(-o|--output|--vehicles)(?=[\s=])", chain):
         refuse(True, "/chain", f"{option} is not the chain's to say")
     refuse(">" in chain or "<" in chain, "/chain", "redirects")
+    refuse("#" in chain, "/chain", "has a comment, which would hide what follows it")
 
 
 def check_splits(plan):
@@ -120,10 +121,10 @@ def check_splits(plan):
 
 def check_once(plan, path_of, digest_of):
     """Refuses traffic that comes twice: in two splits it leaks, and in one its draws are not independent."""
-    seen, names = {}, {}
+    seen, names = {}, []
     for i, source in enumerate(plan["sources"]):
         kind = kind_of(source)
-        traffic = digest_of(path_of(source[kind], kind)) if kind in FROM_FILES else f"{kind} {source['random']}"
+        traffic = digest_of(path_of(source[kind], kind)) if kind in FROM_FILES else scene_of(source)
         if traffic in seen:
             other = plan["sources"][seen[traffic]]
             leaks = other.get("split") != source.get("split")
@@ -132,16 +133,22 @@ def check_once(plan, path_of, digest_of):
                       else "; one source may have several egos, and a plan several seeds"))
         seen[traffic] = i
         name = scene_of(source)
-        refuse(name in names, f"/sources/{i}",
-               f"its scenes have the names of those of /sources/{names.get(name)}; give it a scene")
-        names[name] = i
+        for j, other in enumerate(names):
+            refuse(may_share_names(name, other), f"/sources/{i}",
+                   f"its scenes have the names of those of /sources/{j}; give it a scene")
+        names.append(name)
+
+
+def may_share_names(a, b):
+    """Names of scenes go on with an ego or a number, and those of blocks with their begin."""
+    return f"{a}/".startswith((f"{b}/", f"{b}@")) or f"{b}/".startswith((f"{a}/", f"{a}@"))
 
 
 def scene_of(source):
     """How the names of a source's scenes begin."""
     kind = kind_of(source)
     if kind not in FROM_FILES:
-        return f"{kind} {source['random']}"
+        return f"{kind}-{source['random']}"
     return source.get("scene", os.path.basename(source[kind]).split(".")[0])
 
 

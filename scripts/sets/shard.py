@@ -1,10 +1,8 @@
 """Makes one shard of a data set, and holds those that are there to their records."""
+import collections
 import contextlib
-import csv
 import fcntl
-import gzip
 import hashlib
-import io
 import json
 import os
 import re
@@ -34,10 +32,10 @@ def record_path(folder, part):
 
 
 class Gzip:
-    """Compresses lines into a file, measures both sides, and lets another program read along."""
+    """Compresses lines into a file, and measures both sides."""
 
-    def __init__(self, file, reader):
-        self.reader, self.file, self.packer = reader, file, zlib.compressobj(LEVEL, zlib.DEFLATED, GZIP, TABLES)
+    def __init__(self, file):
+        self.file, self.packer = file, zlib.compressobj(LEVEL, zlib.DEFLATED, GZIP, TABLES)
         self.packed, self.plain = hashlib.sha256(), hashlib.sha256()
         self.bytes = self.plain_bytes = 0
 
@@ -49,8 +47,6 @@ class Gzip:
     def write(self, lines):
         self.plain.update(lines)
         self.plain_bytes += len(lines)
-        with contextlib.suppress(BrokenPipeError):  # its exit status will say why it reads no more
-            self.reader.write(lines)
         self.send(self.packer.compress(lines))
 
     def close(self):
@@ -68,19 +64,23 @@ def widen(pipe):
 
 
 def run_into(gzip_file, command, folder, plan_folder):
-    """Runs a pipeline and compresses what it writes."""
-    process = subprocess.Popen(["glint", "-c", command], cwd=plan_folder, env=environment(folder),
-                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, bufsize=0)
-    widen(process.stdout)
-    room = bytearray(PORTION)
-    try:
-        while count := process.stdout.readinto(room):
+    """Runs a pipeline and compresses its frames; what glint-summary, at its end, counts in them. Frames that are no
+    target lists are refused, and scenes that are not whole."""
+    begin, end = os.pipe()
+    counting = f"{command} | glint-summary --complete --copy /dev/fd/{end}"
+    with subprocess.Popen(["glint", "-c", counting], cwd=plan_folder, env=environment(folder), stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, pass_fds=[end], text=True) as process, \
+            open(begin, "rb", buffering=0) as frames:
+        os.close(end)
+        widen(frames)
+        room = bytearray(PORTION)
+        while count := frames.readinto(room):
             gzip_file.write(memoryview(room)[:count])
-    finally:
-        process.stdout.close()
-        code = process.wait()
-    if code != 0:
+        counts = process.stdout.read()
+    if process.returncode != 0:
+        code = process.returncode
         raise Fault(code if code > 0 else 128 - code, f"exit status {code}: glint -c {command!r}")
+    return counts
 
 
 def ask(words, folder):
@@ -91,43 +91,37 @@ def ask(words, folder):
     return done.stdout
 
 
-@contextlib.contextmanager
-def reading_along(folder):
-    """glint-summary, which refuses lines that are no frames, and scenes that are not whole."""
-    with subprocess.Popen(["glint-summary", "--complete"], env=environment(folder), stdin=subprocess.PIPE,
-                          stdout=subprocess.PIPE) as summary:
-        widen(summary.stdin)
-        try:
-            yield summary
-        except BaseException:
-            summary.kill()
-            with contextlib.suppress(BrokenPipeError):
-                summary.stdin.close()
-            raise
-
-
-def counts_of(summary):
-    """Frames, and targets by class, when all has been read."""
-    with contextlib.suppress(BrokenPipeError):
-        summary.stdin.close()
-    text, code = summary.stdout.read().decode(), summary.wait()
-    if code != 0:
-        raise Fault(code, f"exit status {code}: glint-summary --complete")
-    block = re.search(r"\ntargets by class.*\n((?: .*\n)+)", text)
+def targets_by_class(counts):
+    """What glint-summary has counted."""
+    block = re.search(r"\ntargets by class.*\n((?: .*\n)+)", counts)
     rows = re.findall(r" *(\d+) +[\d.]+ % +(.*)\n", block[1]) if block else []
-    return int(text.split()[0]), {name: int(count) for count, name in sorted(rows, key=lambda row: row[1])}
+    return collections.Counter({name: int(count) for count, name in rows})
+
+
+class Rows:
+    """Counts the rows of a table of CSV. A cell in quotes may hold the end of a line."""
+
+    def __init__(self):
+        self.count, self.quoted = 0, False
+
+    def add(self, text):
+        pieces = text.split(b'"')
+        self.count += sum(piece.count(b"\n") for piece in pieces[self.quoted::2])
+        self.quoted ^= len(pieces) % 2 == 0
 
 
 def facts_of_table(path):
-    """As Gzip's; the rows are those below the heading."""
+    """As Gzip's, of a table of any length; the rows are those below the heading."""
+    unpacker, rows = zlib.decompressobj(GZIP), Rows()
+    plain, plain_bytes = hashlib.sha256(), 0
     with open(path, "rb") as file:
-        packed = file.read()
-    plain = gzip.decompress(packed)
-    lines = plain.count(b"\n")
-    if b'"' in plain:  # a cell in quotes may hold the end of a line
-        lines = sum(1 for _ in csv.reader(io.StringIO(plain.decode(), newline="")))
-    return {"rows": lines - 1, "bytes": len(packed), "hash": digest_of(packed), "content_bytes": len(plain),
-            "content_hash": digest_of(plain)}
+        while packed := file.read(PORTION):
+            text = unpacker.decompress(packed)
+            plain.update(text)
+            plain_bytes += len(text)
+            rows.add(text)
+    return {"rows": rows.count - 1, "bytes": os.path.getsize(path), "hash": digest_of_file(path),
+            "content_bytes": plain_bytes, "content_hash": "sha256:" + plain.hexdigest()}
 
 
 def make_tables(shard, part, lines, folder):
@@ -162,16 +156,17 @@ def check_inputs(layout, shard, folder, plan_folder):
 
 def make_files(shard, part, folder, plan_folder):
     """The files of a shard, and its targets by class."""
-    with whole_file(os.path.join(folder, shard["path"]), os.path.join(folder, WORK)) as file, \
-            reading_along(folder) as summary:
-        gzip_file = Gzip(file, summary.stdin)
+    frames, targets = 0, collections.Counter()
+    with whole_file(os.path.join(folder, shard["path"]), os.path.join(folder, WORK)) as file:
+        gzip_file = Gzip(file)
         for command in shard["commands"]:
-            run_into(gzip_file, command, folder, plan_folder)
+            counts = run_into(gzip_file, command, folder, plan_folder)
+            frames += int(counts.split()[0])
+            targets += targets_by_class(counts)
         gzip_file.close()
         file.flush()
-        frames, targets = counts_of(summary)
         tables = make_tables(shard, part, file.name, folder)
-    return [{"path": shard["path"], **gzip_file.facts(frames)}, *tables], targets
+    return [{"path": shard["path"], **gzip_file.facts(frames)}, *tables], dict(sorted(targets.items()))
 
 
 def make(layout, part, folder, plan_folder):

@@ -218,6 +218,7 @@ def what_cannot_be_made_is_refused(folder):
         (snapshots(9, suites=[]), "/suites: []; expected at least this many items: 1"),
         (snapshots(9, colour="red"), "/colour: unknown member"),
         (snapshots(9, chain="cat"), "/chain: names no suite"),
+        (snapshots(9, chain=CHAIN + " # a comment"), "/chain: has a comment"),
         (snapshots(9, chain=CHAIN + " > list"), "/chain: redirects"),
         (snapshots(9, chain="cat | " + CHAIN), "'cat' is no program of glint"),
         (plan_of([medium | {"scenario": "cut-in"}]), "expected one of random, scenario, recording"),
@@ -228,6 +229,17 @@ def what_cannot_be_made_is_refused(folder):
     refusals(folder, [(plan_of([{"recording": "nowhere.csv", "egos": ["1"]}]), "no such file"),
                       (snapshots(9, suites=["nowhere"]), "no such file")], 66)
     refusals(folder, [(snapshots(9, chain=CHAIN.replace("--sections account", "--acount")), "/chain: this fails: glint -c")], 64)
+
+
+def scenes_of_one_name_are_refused(folder):
+    """Each is a scene of its own, so that a shard of several pipelines has no scene twice."""
+    one, two = ({"recording": recording(folder, f"{name}.csv", rows), "egos": ["all"]}
+                for name, rows in (("one", slice(1, 101)), ("two", slice(101, 201))))
+    named = [({"scenario": "cut-in"}, {"scene": "cut-in/ego"}), (one, {"scene": "one@2"}), (one, {"scene": "one"}),
+             (one | {"scene": "two/7"}, {}), ({"random": "medium", "frames": 1}, {"scene": "random-medium/1/0"})]
+    refusals(folder, [(plan_of([source, two | other]), "/sources/1: its scenes have the names of those of /sources/0")
+                      for source, other in named], 65)
+    assert begin(folder, plan_of([one, two | {"scene": "one-more"}]))[1].returncode == 0
 
 
 def refusals(folder, cases, code):
@@ -423,7 +435,7 @@ def jobs_without_a_number_are_refused(folder):
 CHECKS = [shards_join_to_the_bytes_of_one_run, scenes_and_seeds_are_played_whole, the_manifest_says_what_is_there,
           tables_have_the_targets_of_their_lines,
           blocks_of_time_keep_their_gap, leaks_are_refused, what_cannot_be_made_is_refused,
-          another_plan_in_the_folder_is_refused, what_is_damaged_is_made_again, one_failing_scene_stops_no_other,
+          scenes_of_one_name_are_refused, another_plan_in_the_folder_is_refused, what_is_damaged_is_made_again, one_failing_scene_stops_no_other,
           a_chain_that_fails_is_named, a_full_disk_loses_nothing, parallel_makes_the_same_bytes,
           jobs_without_a_number_are_refused]
 
