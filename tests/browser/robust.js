@@ -111,6 +111,26 @@ module.exports = ({work, stream, view, withPage}) => {
             }
         },
 
+        async 'on a phone the legend is a line until it is tapped, and tells then what it tells elsewhere'() {
+            let everywhere;
+            await withPage(view(frames), async page => {
+                everywhere = await page.innerText('#legend');
+                assert.match(everywhere, /reflection centre/);
+            });
+            for (const [width, height] of [[320, 640], [400, 800], [900, 420]]) {
+                await withPage(view(frames), async page => {
+                    assert.ok((await page.locator('#legend').boundingBox()).height <= 32);
+                    assert.match(await page.innerText('#legend'), /^legend\s+left\s+right$/);
+                    await page.tap('#legend > summary');
+                    assert.strictEqual((await page.innerText('#legend')).replace(/^legend\s+/, ''), everywhere);
+                    await page.tap('#legend > summary');
+                    await page.keyboard.press('h');
+                    assert.ok(await page.evaluate(() => control('legend').open &&
+                        document.activeElement.type === 'checkbox'));
+                }, {viewport: {width, height}, hasTouch: true});
+            }
+        },
+
         async 'what is not shown is not decoded'() {
             await withPage(view(frames), async page => {
                 const has = name => page.evaluate(one => decoded.has(one), name);
@@ -155,6 +175,9 @@ module.exports = ({work, stream, view, withPage}) => {
                         await check(page, pane);
                     }
                     await page.evaluate(() => chooseObject(-1));
+                    if (!await page.evaluate(() => control('legend').open)) {
+                        await page.click('#legend > summary');
+                    }
                     await page.click('#switches summary');
                     await check(page, 'nothing chosen');
                     await page.click('#help');

@@ -411,19 +411,47 @@ module.exports = ({stream, view, withPage, panelText}) => {
                         const frame = frames.find(one => one.frame === number && one.scene === scene);
                         const ego = area.y / 2 + camera.x * camera.scale;
                         assert.ok(ego > 2 / 3 * area.y && ego < area.y, `${name}: the ego is ${ego} of ${area.y} px down`);
+                        const legend = await page.evaluate(() => ({x: control('legend').offsetLeft +
+                            control('legend').offsetWidth, y: control('legend').offsetTop + control('legend').offsetHeight}));
                         const shown = frame.targets.filter(target => {
                             const at = placeOf(frame, target.sensor, target.range_m, target.azimuth_rad);
                             const x = area.x / 2 - (at.y - camera.y) * camera.scale;
                             const y = area.y / 2 - (at.x - camera.x) * camera.scale;
+                            assert.ok(x > legend.x || y > legend.y, `${name}: a target is under the legend`);
                             return x > 0 && x < area.x && y > 0 && y < area.y;
                         });
-                        assert.ok(shown.length >= frame.targets.length / 3 && shown.length > 0,
+                        const listed = frame.targets.filter(one => one.contributors[0].path !== 'false_alarm');
+                        assert.ok(shown.length > 0 && listed.every(one => shown.includes(one)),
                             `${name}: ${shown.length} of ${frame.targets.length}`);
+                        assert.strictEqual(await page.isHidden('#outside'), shown.length === frame.targets.length);
+                        if (shown.length < frame.targets.length) {
+                            assert.strictEqual(await page.innerText('#outside'), `${frame.targets.length - shown.length} ` +
+                                `target${frame.targets.length - shown.length === 1 ? '' : 's'} off the map`);
+                            await page.click('#outside');
+                            await page.waitForFunction(() => control('outside').hidden);
+                        }
                         if (about[name]) {
                             assert.ok(shown.some(one => one.effects.includes(about[name])), `${name}: ${about[name]}`);
                         }
                     }, {viewport});
                 }
+            }
+        },
+
+        async 'a target so far away that a car would be shorter than 10 px is left out of the first view'() {
+            const [frame] = streamOf('corner').filter(one => one.targets.length === 5);
+            for (const [range, off] of [[100, false], [900, true]]) {
+                const contributors = frame.targets[0].contributors.map(one => ({...one, object: 'another'}));
+                const far = {...frame.targets[0], range_m: range, azimuth_rad: 0, contributors};
+                const alone = {...frame, targets: [...frame.targets, far], lost: undefined, counts: undefined,
+                    sections: undefined, last: true};
+                await withPage(view([alone]), async page => {
+                    assert.ok(await page.evaluate(() => camera.scale) >= 10 / 4.5);
+                    assert.strictEqual(await page.isVisible('#outside'), off, `${range} m`);
+                    if (off) {
+                        assert.strictEqual(await page.innerText('#outside'), '1 target off the map');
+                    }
+                });
             }
         },
 

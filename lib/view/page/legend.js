@@ -83,10 +83,23 @@ function colourLines() {
     return [];
 }
 
+// What of the legend is in view on a small screen until it is unfolded: the marks of the sensors.
+function legendTitle() {
+    const title = make('summary', 'legend');
+    sensorNames.forEach((name, i) => title.append(symbolCanvas(i, sensorColour(i), 16), make('bdi', name)));
+    return title;
+}
+
+const smallScreen = window.matchMedia('(max-width: 800px), (max-height: 520px)');
+
+function foldLegend() {
+    control('legend').open = !smallScreen.matches;
+}
+
 function showLegend() {
     const lines = sensorNames.map((name, i) => switchLine('sensor', i,
         symbolCanvas(i, sensorColour(i), 18), `target of ${name}`));
-    control('legend').replaceChildren(...lines, ...kindLines(), ...colourLines(),
+    control('legend').replaceChildren(legendTitle(), ...lines, ...kindLines(), ...colourLines(),
         legendLine(lineMark(1.6, [[1, 8, 17, 8]]),
             state.rates === 'raw' ? 'its radial speed, 0.5 s long' : 'its radial speed over ground, 0.5 s long'),
         ...foldedLines(), ...latencyLines(),

@@ -483,4 +483,15 @@ function drawTargets() {
         labelAge();
     }
     labelObjects();
+    tellOutside();
+}
+
+// Says how many targets lie beyond the edges of the map; a click brings them into view.
+function tellOutside() {
+    let count = 0;
+    eachTarget(state.frame, (scan, target) => {
+        count += onScreen(toScreen(targetPlace(scan, target)), 0) ? 0 : 1;
+    });
+    control('outside').hidden = count === 0;
+    setText(control('outside'), `${plural(count, 'target')} off the map`);
 }

@@ -129,17 +129,7 @@ function openingOf(number) {
         best = found.score > best.score ? found : best;
     }
     const frame = frames[best.row];
-    return {...best, focus: frame === undefined ? [] : rareTargets(frame, effects).concat(nearTargets(frame))};
-}
-
-// The nearer half of a frame's targets.
-function nearTargets(frame) {
-    const {begin, end} = scansOf(frame);
-    const first = starts('scan_targets');
-    const ranges = column('target_range_m');
-    const all = Array.from({length: first[end] - first[begin]}, (_, i) => first[begin] + i)
-        .filter(target => kindOf(target) === 'body').sort((a, b) => ranges[a] - ranges[b]);
-    return all.slice(0, Math.ceil(all.length / 2));
+    return {...best, focus: frame === undefined ? [] : rareTargets(frame, effects)};
 }
 
 // Of the targets that the scene is about, those that are few beside the others.

@@ -233,7 +233,7 @@ function setScene(number, place) {
     state.object = open.object;
     showRow(open.row);
     state.focus = open.focus || [];
-    fitView();
+    openView();
     state.focus = [];
     showTimeline();
     refresh();
@@ -321,6 +321,7 @@ function connectButtons() {
     click('closer', () => zoomMiddle(1.4));
     click('farther', () => zoomMiddle(1 / 1.4));
     click('fit', fitView);
+    click('outside', fitTargets);
     click('theme', () => setTheme(!isDark()));
 }
 
@@ -344,6 +345,7 @@ const keyActions = {
     '=': () => zoomMiddle(1.25),
     '-': () => zoomMiddle(0.8),
     '0': fitView,
+    'a': fitTargets,
     'n': () => chooseNext(1),
     'b': () => chooseNext(-1),
     'c': () => cycle('colour'),
@@ -359,7 +361,7 @@ const keyActions = {
     'ArrowUp': () => chooseRow(-1),
     'o': () => sortTable((table.sort + 1) % tableColumns.length),
     'y': copyTable,
-    'h': () => control('legend').querySelector('input').focus(),
+    'h': () => { control('legend').open = true; control('legend').querySelector('input').focus(); },
     'g': () => control('goto').select(),
     'l': () => setLoop(!state.loop),
     'PageDown': () => stepScene(1),
@@ -434,6 +436,8 @@ function start() {
     state.amplitudes = extremes('target_amplitude_db', false);
     setRates('raw');
     showNotice();
+    foldLegend();
+    smallScreen.addEventListener('change', foldLegend);
     showLegend();
     followLink();
 }

@@ -39,7 +39,7 @@ function drawBand() {
         const tall = (height - 2) * count / most;
         bandContext.fillRect(x - step / 2 - 0.5, height - tall, step + 1, tall);
     });
-    control('most').textContent = plural(most, 'target');
+    control('most').textContent = `up to ${plural(most, 'target')}`;
 }
 
 function showTimeline() {
