@@ -1,7 +1,5 @@
 /* Whether a stream is what it claims to be. */
 #include <inttypes.h>
-#include <math.h>
-#include <string.h>
 
 #include "frame/frame_order.h"
 #include "frame/frame_sequence.h"

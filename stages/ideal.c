@@ -1,7 +1,5 @@
 /* The ideal target list: exact range, azimuth, range rate and cross section of every reflector that
  * a sensor sees (MODEL 2.2 to 2.5, 5). */
-#include <math.h>
-
 #include "ideal/direct_echoes.h"
 #include "ideal/ghost_echoes.h"
 #include "ideal/look.h"

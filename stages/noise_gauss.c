@@ -1,5 +1,4 @@
 /* The textbook sensor: independent Gaussian noise on range, azimuth and range rate. */
-
 #include "base/elementary.h"
 #include "base/random.h"
 #include "base/units.h"

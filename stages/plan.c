@@ -1,11 +1,9 @@
 /* A plan: the pipeline that frames need. Tries every stage of the chain on every frame, and beside
  * it the simpler stage that may stand in for it, and prints which stages and effects were needed.
  * Or, with a bound or for a table, measures what accuracy costs on a sample of the frames. */
-#include <string.h>
-
+#include "run/plan.h"
 #include "run/cost_text.h"
 #include "run/fused.h"
-#include "run/plan.h"
 #include "run/suite_choice.h"
 #include "run/tool.h"
 #include "text/output.h"

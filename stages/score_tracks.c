@@ -1,6 +1,4 @@
 /* Scores of a tracker: how far its tracks are from the objects of the frames. */
-#include <string.h>
-
 #include "base/intern.h"
 #include "documents/vehicle.h"
 #include "frame/frame_sequence.h"

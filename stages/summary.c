@@ -1,6 +1,5 @@
 /* A summary for people: what the sensors reported, and what became of the other reflectors. */
 #include <inttypes.h>
-#include <string.h>
 
 #include "base/sort.h"
 #include "base/text.h"

@@ -1,7 +1,5 @@
 /* Traffic of CommonRoad: the obstacles of a scenario in XML, 2018b or 2020a. */
 /* needs: expat */
-#include <math.h>
-
 #include "base/elementary.h"
 #include "traffic/recording.h"
 #include "xml_rows.h"

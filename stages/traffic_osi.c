@@ -1,7 +1,6 @@
 /* Traffic of OSI: the ground truth of a trace, message by message, also while it is written. */
 /* needs: libprotobuf-c */
 #include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 
 #include "run/stage.h"

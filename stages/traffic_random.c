@@ -1,7 +1,6 @@
 /* Random traffic: independent snapshots, each a scene of one frame, or moving scenes of some
  * seconds. Its number determines a scene. */
 #include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 
 #include "base/elementary.h"

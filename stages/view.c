@@ -1,7 +1,5 @@
 /* A view for people: an HTML page that plays the stream and tells where every target came from, or
  * one frame as an SVG still. */
-#include <string.h>
-
 #include "frame/frame_sequence.h"
 #include "run/stage.h"
 #include "text/document.h"

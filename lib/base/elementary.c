@@ -1,9 +1,6 @@
 #include "base/elementary.h"
 
 #include <float.h>
-#include <math.h>
-#include <stdint.h>
-#include <string.h>
 
 #if FLT_EVAL_METHOD != 0 || defined __FAST_MATH__
 #error "every operation must round once, to double, as written: with -ffast-math, or registers \

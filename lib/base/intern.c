@@ -1,7 +1,5 @@
 #include "base/intern.h"
 
-#include <string.h>
-
 #include "base/text.h"
 
 /* A name with its ends: they are the whole of a name of up to 16 bytes; first is the whole of one

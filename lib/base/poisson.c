@@ -1,7 +1,5 @@
 #include "base/poisson.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 
 #define NEGLIGIBLE 0x1p-75

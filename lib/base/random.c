@@ -1,7 +1,5 @@
 #include "base/random.h"
 
-#include <math.h>
-
 #include <Random123/philox.h>
 
 #include "base/elementary.h"

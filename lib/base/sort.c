@@ -1,7 +1,6 @@
 #include "base/sort.h"
 
 #include <stdbool.h>
-#include <string.h>
 
 /* The addresses of the items in the order reached so far, and where each run in order ends. */
 struct sorting {

@@ -1,7 +1,5 @@
 #include "base/units.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 
 /* Doubles from here on are whole, and infinity is among them: there is nothing to round. */

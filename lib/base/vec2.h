@@ -2,7 +2,6 @@
  * trigonometry and needs no wrapping. Counter-clockwise is positive. */
 #pragma once
 
-#include <math.h>
 #include <stdbool.h>
 
 #include "base/elementary.h"

@@ -1,7 +1,5 @@
 #include "documents/contour.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/units.h"
 #include "radar/radar_equation.h"

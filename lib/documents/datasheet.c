@@ -1,7 +1,5 @@
 #include "documents/datasheet.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/units.h"
 #include "radar/detection.h"

@@ -1,8 +1,5 @@
 #include "documents/suite.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "base/elementary.h"
 #include "base/units.h"
 #include "radar/interferer.h"

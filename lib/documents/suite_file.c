@@ -1,7 +1,6 @@
 #include "documents/suite_file.h"
 
 #include <stdio.h>
-#include <string.h>
 
 #include "base/hash.h"
 #include "base/intern.h"

@@ -1,7 +1,6 @@
 #include "documents/vehicle.h"
 
 #include <stdio.h>
-#include <string.h>
 
 #include "base/hash.h"
 #include "text/document.h"

@@ -1,7 +1,6 @@
 #include "effects/effect.h"
 
 #include <complex.h>
-#include <math.h>
 
 #include "base/units.h"
 #include "radar/interferer.h"

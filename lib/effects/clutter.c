@@ -2,8 +2,6 @@
  * object "clutter", which is no object of the frame, with numbers from 1. */
 #include "effects/effect.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/poisson.h"
 #include "frame/draw_address.h"

@@ -1,7 +1,5 @@
 #include "effects/effect.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "frame/draw_address.h"
 

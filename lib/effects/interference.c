@@ -3,8 +3,6 @@
  * not in the frame, or is the ego, is not heard. */
 #include "effects/effect.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/units.h"
 #include "geometry/sensor_pose.h"

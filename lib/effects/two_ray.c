@@ -2,8 +2,6 @@
  * limbs. Ghosts and clutter have no height. */
 #include "effects/effect.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/units.h"
 #include "radar/road_mirror.h"

@@ -1,7 +1,5 @@
 #include "frame/conditions.h"
 
-#include <string.h>
-
 static const char *const roads[] = {
     [ROAD_UNKNOWN] = "unknown", [ROAD_ASPHALT] = "asphalt", [ROAD_CONCRETE] = "concrete", NULL};
 

@@ -1,7 +1,5 @@
 #include "frame/effects.h"
 
-#include <string.h>
-
 #include "base/suggestion.h"
 
 const char *const effects_names[] = {

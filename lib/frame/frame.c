@@ -1,10 +1,8 @@
 #include "frame/frame.h"
 
 #include <complex.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/elementary.h"
 #include "base/units.h"

@@ -13,8 +13,6 @@
  * end in _db. */
 #pragma once
 
-#include <string.h>
-
 #include "frame/conditions.h"
 #include "frame/effects.h"
 #include "frame/margins.h"

@@ -1,7 +1,5 @@
 #include "frame/frame_account.h"
 
-#include <string.h>
-
 #include "base/hash_table.h"
 #include "base/intern.h"
 #include "frame/frame_order.h"

@@ -1,8 +1,5 @@
 #include "frame/frame_check.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "frame/frame_order.h"
 #include "text/document.h"
 #include "text/field_check.h"

@@ -1,7 +1,5 @@
 #include "frame/frame_order.h"
 
-#include <string.h>
-
 #include "base/sort.h"
 
 /* As strcmp, which is called only if neither the pointers nor the first bytes decide; NULL is the

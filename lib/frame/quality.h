@@ -3,8 +3,6 @@
  * It is what the sensor itself knows, from its report and its document, but for exact labels. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "text/field.h"
 
 /* Members that are known together. */

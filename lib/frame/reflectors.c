@@ -1,7 +1,5 @@
 #include "frame/reflectors.h"
 
-#include <string.h>
-
 #include "base/elementary.h"
 #include "base/hash_table.h"
 #include "base/units.h"

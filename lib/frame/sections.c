@@ -1,7 +1,5 @@
 #include "frame/sections.h"
 
-#include <math.h>
-
 #include "base/suggestion.h"
 #include "frame/frame.h"
 

@@ -1,7 +1,5 @@
 #include "geometry/azimuth_index.h"
 
-#include <math.h>
-
 /* Narrow sectors separate many bodies far off. For up to FEW bodies four sectors share a set. */
 enum { SECTORS = 1024, FEW = 64, SHIFT_OF_FEW = 2 };
 

@@ -7,8 +7,6 @@
  * to a word: they are joined a word at a time and come out in ascending order. */
 #pragma once
 
-#include <stdint.h>
-
 #include "base/arena.h"
 #include "geometry/silhouette.h"
 

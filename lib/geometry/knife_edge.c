@@ -1,7 +1,5 @@
 #include "geometry/knife_edge.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/units.h"
 

@@ -11,8 +11,6 @@
  * velocity is the velocity of the image. Metres and metres per second, in one plane. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "geometry/motion.h"
 
 struct mirror {

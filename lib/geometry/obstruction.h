@@ -9,7 +9,6 @@
  * grazes a top. */
 #pragma once
 
-#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/vec2.h"

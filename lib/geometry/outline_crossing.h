@@ -7,7 +7,6 @@
  * that. */
 #pragma once
 
-#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/vec2.h"

@@ -1,8 +1,5 @@
 #include "geometry/predicates.h"
 
-#include <math.h>
-#include <stdbool.h>
-
 enum { TERMS = 12 };
 
 /* An exact sum: terms that do not overlap, smallest first, zeros allowed. */

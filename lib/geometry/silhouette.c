@@ -1,7 +1,5 @@
 #include "geometry/silhouette.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 
 /* 1 beyond the positive end, -1 beyond the negative end, 0 between both. */

@@ -4,8 +4,6 @@
  * lines between both answers need the exact test (outline_crossing.h). */
 #pragma once
 
-#include <stdbool.h>
-
 #include "base/vec2.h"
 
 /* Boxes are enlarged by this to every side, far more than the rounding of a place. */

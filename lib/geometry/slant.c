@@ -1,7 +1,5 @@
 #include "geometry/slant.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 
 #define LN_2 0.693147180559945309417

@@ -14,8 +14,6 @@
  * a kilometre, is part of the scene. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "base/vec2.h"
 
 /* True if the specular point exists; sets foot. along is the unit vector from a to b. A segment of

@@ -1,7 +1,5 @@
 #include "geometry/visibility_range.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/units.h"
 

@@ -6,8 +6,6 @@
  * cosine, which falls from the start, and 0 beyond zero_rad. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "base/vec2.h"
 
 enum visibility_shape {

@@ -1,7 +1,5 @@
 #include "ideal/direct_echoes.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "geometry/specular_point.h"
 #include "ideal/line_of_sight.h"

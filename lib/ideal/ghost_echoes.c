@@ -1,7 +1,5 @@
 #include "ideal/ghost_echoes.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/units.h"
 #include "geometry/ghost_path.h"

@@ -1,7 +1,5 @@
 #include "ideal/line_of_sight.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "geometry/knife_edge.h"
 #include "geometry/outline_crossing.h"

@@ -1,13 +1,9 @@
 #include "ideal/look.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "base/elementary.h"
 #include "base/hash_table.h"
 #include "base/units.h"
 #include "frame/frame_order.h"
-#include "geometry/kinematics.h"
 #include "geometry/knife_edge.h"
 #include "geometry/outline_crossing.h"
 #include "geometry/predicates.h"

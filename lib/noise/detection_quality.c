@@ -1,7 +1,5 @@
 #include "noise/detection_quality.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/units.h"
 #include "geometry/sensor_pose.h"

@@ -1,7 +1,5 @@
 #include "noise/target_list.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/sort.h"
 #include "base/units.h"

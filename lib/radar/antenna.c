@@ -1,7 +1,5 @@
 #include "radar/antenna.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/units.h"
 

@@ -1,7 +1,5 @@
 #include "radar/boresight_error.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/units.h"
 

@@ -1,7 +1,5 @@
 #include "radar/carrier.h"
 
-#include <math.h>
-
 #include "base/units.h"
 #include "base/vec2.h"
 

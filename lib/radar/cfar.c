@@ -1,7 +1,5 @@
 #include "radar/cfar.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 
 /* The probability with which noise passes under CFAR_ORDERED. */

@@ -1,6 +1,5 @@
 #include "radar/detection.h"
 
-#include <math.h>
 #include <stdbool.h>
 
 #include "base/elementary.h"

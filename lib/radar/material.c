@@ -1,7 +1,5 @@
 #include "radar/material.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 
 const char *const material_names[] = {

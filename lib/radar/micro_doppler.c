@@ -1,7 +1,5 @@
 #include "radar/micro_doppler.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/poisson.h"
 #include "base/units.h"

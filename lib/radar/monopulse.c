@@ -1,7 +1,5 @@
 #include "radar/monopulse.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 
 /* Below this part of |delta| |sum|, Im(delta conj(sum)) is rounding and has no sign. */

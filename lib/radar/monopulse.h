@@ -3,8 +3,6 @@
  * |delta|/|sum| has the size of the azimuth, the phase between both its sign (MODEL 7.2, 7.4). */
 #pragma once
 
-#include <stdbool.h>
-
 #include "radar/antenna.h"
 
 enum monopulse_estimator {

@@ -1,7 +1,5 @@
 #include "radar/point_response.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/units.h"
 

@@ -1,7 +1,5 @@
 #include "radar/radar_equation.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 
 /* The cross section of a reflector with an ERCS of 1 (MODEL 3). */

@@ -1,8 +1,5 @@
 #include "radar/resolution.h"
 
-#include <math.h>
-#include <stdint.h>
-
 #include "base/elementary.h"
 #include "base/sort.h"
 

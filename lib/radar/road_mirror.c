@@ -1,6 +1,5 @@
 #include "radar/road_mirror.h"
 
-#include <math.h>
 #include <stdbool.h>
 
 #include "base/elementary.h"

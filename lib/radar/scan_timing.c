@@ -1,7 +1,6 @@
 #include "radar/scan_timing.h"
 
 #include <float.h>
-#include <math.h>
 #include <stdbool.h>
 
 #include "base/elementary.h"

@@ -1,7 +1,5 @@
 #include "radar/snr_sigma.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 
 double snr_sigma_of(const struct snr_sigma *quantity, double snr)

@@ -1,7 +1,5 @@
 #include "radar/swerling.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/random.h"
 #include "base/units.h"

@@ -1,8 +1,5 @@
 #include "run/cost.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "base/elementary.h"
 #include "base/sort.h"
 #include "effects/effect.h"

@@ -1,8 +1,6 @@
 #include "run/cost_text.h"
 
 #include <inttypes.h>
-#include <math.h>
-#include <string.h>
 
 #include "run/plan.h"
 

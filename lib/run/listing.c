@@ -1,7 +1,5 @@
 #include "run/listing.h"
 
-#include <string.h>
-
 #include "base/suggestion.h"
 #include "documents/vehicle.h"
 #include "effects/effect.h"

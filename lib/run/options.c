@@ -1,7 +1,6 @@
 #include "run/options.h"
 
 #include <stdio.h>
-#include <string.h>
 
 #include "base/suggestion.h"
 #include "run/stage.h"

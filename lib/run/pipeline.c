@@ -1,7 +1,6 @@
 #include "run/pipeline.h"
 
 #include <stdbool.h>
-#include <string.h>
 
 #include "base/text.h"
 

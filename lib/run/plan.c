@@ -1,7 +1,6 @@
 #include "run/plan.h"
 
 #include <inttypes.h>
-#include <string.h>
 
 #include "effects/effect.h"
 #include "frame/frame_text.h"

@@ -1,7 +1,5 @@
 #include "run/runner.h"
 
-#include <string.h>
-
 #include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "frame/frame_account.h"

@@ -1,7 +1,5 @@
 #include "run/schema.h"
 
-#include <string.h>
-
 #include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "frame/frame.h"

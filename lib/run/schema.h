@@ -2,8 +2,6 @@
  * every document. */
 #pragma once
 
-#include <stddef.h>
-
 #include "base/text.h"
 
 /* The name of a schema, "frame" and so on, by its number from 0; NULL after the last. */

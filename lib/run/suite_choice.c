@@ -1,7 +1,5 @@
 #include "run/suite_choice.h"
 
-#include <string.h>
-
 #include "frame/frame_check.h"
 
 static const struct field suite_choice_fields[] = {SUITE_CHOICE_AFTER_IDEAL, {0}};

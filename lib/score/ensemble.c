@@ -1,8 +1,6 @@
 #include "score/ensemble.h"
 
 #include <inttypes.h>
-#include <math.h>
-#include <string.h>
 
 #include "base/random_sequence.h"
 #include "base/sort.h"

@@ -1,6 +1,5 @@
 #include "score/error_statistics.h"
 
-#include <math.h>
 #include <stdbool.h>
 
 #include "base/elementary.h"

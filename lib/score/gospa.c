@@ -1,7 +1,5 @@
 #include "score/gospa.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "score/assignment.h"
 

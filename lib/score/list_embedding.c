@@ -1,7 +1,5 @@
 #include "score/list_embedding.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/sort.h"
 

@@ -1,9 +1,7 @@
 #include "score/reference_stream.h"
 
 #include <inttypes.h>
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "frame/frame_check.h"
 #include "frame/frame_order.h"

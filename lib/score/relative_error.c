@@ -1,7 +1,5 @@
 #include "score/relative_error.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/random_sequence.h"
 #include "base/sort.h"

@@ -1,8 +1,5 @@
 #include "score/score.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "base/elementary.h"
 #include "base/sort.h"
 #include "frame/frame_order.h"

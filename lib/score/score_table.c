@@ -1,9 +1,7 @@
 #include "score/score_table.h"
 
 #include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/units.h"
 

@@ -1,8 +1,5 @@
 #include "score/target_score.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "base/sort.h"
 #include "base/units.h"
 

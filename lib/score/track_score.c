@@ -1,8 +1,5 @@
 #include "score/track_score.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "base/sort.h"
 #include "geometry/kinematics.h"
 #include "geometry/sensor_pose.h"

@@ -1,7 +1,6 @@
 #include "sensor/cell_margins.h"
 
 #include <complex.h>
-#include <math.h>
 
 #include "base/elementary.h"
 #include "radar/resolution.h"

@@ -1,7 +1,5 @@
 #include "sensor/received_echo.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "effects/effect.h"
 

@@ -1,12 +1,10 @@
 #include "sensor/resolution_cell.h"
 
 #include <complex.h>
-#include <math.h>
 
 #include "base/elementary.h"
 #include "base/units.h"
 #include "frame/frame_order.h"
-#include "radar/resolution.h"
 
 int resolution_cell_compare(const void *left, const void *right)
 {

@@ -1,7 +1,6 @@
 #include "sensor/smear.h"
 
 #include <complex.h>
-#include <math.h>
 
 #include "base/elementary.h"
 #include "radar/point_response.h"

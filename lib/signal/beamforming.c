@@ -1,6 +1,5 @@
 #include "signal/beamforming.h"
 
-#include <math.h>
 #include <stdbool.h>
 
 #include "base/elementary.h"

@@ -1,7 +1,5 @@
 #include "signal/detections.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/units.h"
 #include "noise/false_alarm_cells.h"

@@ -1,7 +1,5 @@
 #include "signal/peak_accuracy.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "radar/monopulse.h"
 #include "radar/snr_sigma.h"

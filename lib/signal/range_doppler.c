@@ -1,7 +1,5 @@
 #include "signal/range_doppler.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/sort.h"
 

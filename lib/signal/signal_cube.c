@@ -1,8 +1,6 @@
 #include "signal/signal_cube.h"
 
 #include <complex.h>
-#include <math.h>
-#include <string.h>
 
 #include "base/elementary.h"
 #include "base/units.h"

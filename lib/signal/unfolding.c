@@ -1,7 +1,5 @@
 #include "signal/unfolding.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "radar/folding.h"
 

@@ -1,14 +1,12 @@
 #include "text/csv_table.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include <csv.h>
 
 #include "base/intern.h"
 #include "base/number.h"
 #include "text/field.h"
-#include "text/input.h"
 #include "text/json_scan.h"
 
 struct reader {

@@ -7,9 +7,6 @@
  * line breaks inside quotes do not) and, for a cell, its column. */
 #pragma once
 
-#include <stddef.h>
-#include <stdint.h>
-
 #include "base/arena.h"
 #include "base/diag.h"
 #include "text/input.h"

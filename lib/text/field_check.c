@@ -1,7 +1,5 @@
 #include "text/field_check.h"
 
-#include <string.h>
-
 /* Structs at equal distances, size bytes from one to the next: list items, or structs embedded in
  * them. at is set to the index of the first faulty one. */
 struct items {

@@ -1,8 +1,6 @@
 #include "text/json_scan.h"
 
-#include <stdint.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/number.h"
 #include "base/text.h"

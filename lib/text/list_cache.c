@@ -1,7 +1,5 @@
 #include "text/list_cache.h"
 
-#include <string.h>
-
 /* The cached list to try next: frames repeat their lists in the same order, so the search begins
  * behind the list found last. */
 static struct list_cache_entry *candidate(const struct list_cache *cache, size_t tries)

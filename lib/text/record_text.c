@@ -1,7 +1,6 @@
 #include "text/record_text.h"
 
 #include <stdio.h>
-#include <string.h>
 
 #include "base/intern.h"
 #include "base/number.h"

@@ -1,7 +1,6 @@
 #include "text/same_file.h"
 
 #include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #include "base/arena.h"

@@ -1,7 +1,6 @@
 #include "text/variation.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/hash.h"
 #include "base/number.h"

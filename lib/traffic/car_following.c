@@ -1,7 +1,5 @@
 #include "traffic/car_following.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 
 double car_following_acceleration_mps2(const struct car_following *driver, double speed_mps,

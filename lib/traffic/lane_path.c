@@ -1,7 +1,5 @@
 #include "traffic/lane_path.h"
 
-#include <math.h>
-
 #include "base/elementary.h"
 #include "base/units.h"
 

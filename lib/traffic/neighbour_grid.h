@@ -2,8 +2,6 @@
  * places, and a question in proportion to those in the nine cells around it. */
 #pragma once
 
-#include <stdint.h>
-
 #include "base/arena.h"
 #include "base/vec2.h"
 

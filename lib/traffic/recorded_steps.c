@@ -1,6 +1,5 @@
 #include "traffic/recorded_steps.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "base/sort.h"

@@ -1,7 +1,6 @@
 #include "traffic/recorded_store.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/intern.h"
 #include "base/sort.h"

@@ -1,7 +1,6 @@
 #include "traffic/road_traffic.h"
 
 #include <inttypes.h>
-#include <math.h>
 
 #include "base/elementary.h"
 #include "base/hash.h"

@@ -1,7 +1,5 @@
 #include "traffic/scenario.h"
 
-#include <string.h>
-
 #include "base/elementary.h"
 #include "base/intern.h"
 #include "base/units.h"

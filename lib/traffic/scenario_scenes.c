@@ -1,7 +1,6 @@
 #include "traffic/scenario_scenes.h"
 
 #include <inttypes.h>
-#include <math.h>
 
 #include "base/elementary.h"
 #include "frame/frame.h"

@@ -1,7 +1,5 @@
 #include "view/view_columns.h"
 
-#include <string.h>
-
 static const struct {
     const char *key;
     char kind;

@@ -3,8 +3,6 @@
  * the columns hold. */
 #pragma once
 
-#include <stdint.h>
-
 #include "base/text.h"
 #include "text/field.h"
 

@@ -1,7 +1,5 @@
 #include "view/view_comparison.h"
 
-#include <string.h>
-
 #include "score/target_score.h"
 
 /* The number of a target in its sensor's list, from 1. */

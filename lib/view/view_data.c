@@ -1,8 +1,5 @@
 #include "view/view_data.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "base/sort.h"
 
 /* A lost echo in a pattern. */

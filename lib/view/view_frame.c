@@ -1,7 +1,5 @@
 #include "view/view_frame.h"
 
-#include <string.h>
-
 struct view_scan view_frame_scan(const struct frame *frame, const struct sensor_view *sensor)
 {
     struct view_scan scan = {.age_s = sensor->age_s};

@@ -1,7 +1,5 @@
 #include "view/view_head.h"
 
-#include <string.h>
-
 #include "text/record_text.h"
 
 struct reason {

@@ -1,8 +1,5 @@
 #include "view/view_svg.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "base/elementary.h"
 #include "base/units.h"
 
