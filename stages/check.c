@@ -173,14 +173,11 @@ static int check_run(void *state, struct runner *runner)
 }
 
 static const struct field check_options[] = {
-    {FIELD_FLAG_OF(struct check, partial, "scenes may lack frames, and come in any order"),
-     FIELD_OPTIONAL},
-    {FIELD_NAME_OF(struct check, sensors, "path of the suite, if it is not found by its name"),
-     FIELD_OPTIONAL},
-    {FIELD_NAME_OF(
-         struct check, extract,
-         "the stage that wrote the reflectors, extract-3gpp for instance; absent: extract"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_FLAG(struct check, partial, "scenes may lack frames, and come in any order")},
+    {OPTIONAL_NAME(struct check, sensors, "path of the suite, if it is not found by its name")},
+    {OPTIONAL_NAME(
+        struct check, extract,
+        "the stage that wrote the reflectors, extract-3gpp for instance; absent: extract")},
     {0},
 };
 

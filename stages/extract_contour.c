@@ -23,9 +23,9 @@ static int extract_contour_step(void *state, struct frame *frame, struct runner 
 
 static const struct field extract_contour_options[] = {
     EXTRACTION_OPTIONS,
-    {FIELD_REAL_IN(struct extract_contour, spacing_m, 0.02, 100,
+    {OPTIONAL_REAL(struct extract_contour, spacing_m, 0.02, 100,
                    "distance from one scatterer to the next, at most; absent: 0.1 m"),
-     FIELD_OPTIONAL, .absent = 0.1},
+     .absent = 0.1},
     {0},
 };
 

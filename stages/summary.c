@@ -170,9 +170,9 @@ static int summary_run(void *state, struct runner *runner)
 }
 
 static const struct field summary_options[] = {
-    {FIELD_NAME_OF(struct summary, copy,
+    {OPTIONAL_NAME(struct summary, copy,
                    "also write the frames to this file, as -o of a stage does"),
-     FIELD_OPTIONAL, .word = "FILE"},
+     .word = "FILE"},
     {0},
 };
 

@@ -49,10 +49,9 @@ static int tables_run(void *state, struct runner *runner)
 
 static const struct field tables_options[] = {
     {FIELD_NAME_OF(struct tables_state, folder, "the folder that gets the five tables")},
-    {FIELD_FLAG_OF(struct tables_state, plain, "write .csv instead of .csv.gz"), FIELD_OPTIONAL},
-    {FIELD_INTEGER_IN(struct tables_state, part, 0, 9e6,
-                      "number of this part of a set: its keys begin at so many times 1e9"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_FLAG(struct tables_state, plain, "write .csv instead of .csv.gz")},
+    {OPTIONAL_INTEGER(struct tables_state, part, 0, 9e6,
+                      "number of this part of a set: its keys begin at so many times 1e9")},
     {0},
 };
 

@@ -121,10 +121,10 @@ static void traffic_release(void *state)
 static const struct field traffic_options[] = {
     {FIELD_NAME_OF(struct traffic, source,
                    "a scenario (a name in data/scenarios/, or a path), or a recorded table")},
-    {FIELD_NAME_OF(struct traffic, scenes,
+    {OPTIONAL_NAME(struct traffic, scenes,
                    "play scenes A to B - 1 of a scenario, each with draws of its own; absent: 0:1"),
-     FIELD_OPTIONAL, .word = "A:B"},
-    {FIELD_RECORD_OF(struct traffic, options, &recording_options_record, ""), FIELD_OPTIONAL},
+     .word = "A:B"},
+    {OPTIONAL_RECORD(struct traffic, options, &recording_options_record, "")},
     {0},
 };
 

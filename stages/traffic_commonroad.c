@@ -432,8 +432,7 @@ static void traffic_commonroad_release(void *state)
 static const struct field traffic_commonroad_fields[] = {
     {FIELD_NAME_OF(struct traffic_commonroad, source,
                    "a scenario of CommonRoad, plain or gzip; - is standard input")},
-    {FIELD_RECORD_OF(struct traffic_commonroad, options, &recording_options_record, ""),
-     FIELD_OPTIONAL},
+    {OPTIONAL_RECORD(struct traffic_commonroad, options, &recording_options_record, "")},
     {0},
 };
 

@@ -388,13 +388,11 @@ static void traffic_osi_release(void *state)
 static const struct field traffic_osi_fields[] = {
     {FIELD_NAME_OF(struct traffic_osi, source,
                    "an OSI trace (.osi), plain or gzip; - is standard input")},
-    {FIELD_RECORD_OF(struct traffic_osi, options, &recording_options_record, ""), FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct traffic_osi, rear_axle_velocity,
-                   "velocities are those of rear axles, as esmini's; absent: of centres of boxes"),
-     FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct traffic_osi, live,
-                   "write the frame of a message before the next message is there"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_RECORD(struct traffic_osi, options, &recording_options_record, "")},
+    {OPTIONAL_FLAG(struct traffic_osi, rear_axle_velocity,
+                   "velocities are those of rear axles, as esmini's; absent: of centres of boxes")},
+    {OPTIONAL_FLAG(struct traffic_osi, live,
+                   "write the frame of a message before the next message is there")},
     {0},
 };
 

@@ -243,13 +243,12 @@ static void traffic_sumo_release(void *state)
 static const struct field traffic_sumo_fields[] = {
     {FIELD_NAME_OF(struct traffic_sumo, source,
                    "the XML that sumo --fcd-output writes, plain or gzip; - is standard input")},
-    {FIELD_RECORD_OF(struct traffic_sumo, options, &recording_options_record, ""), FIELD_OPTIONAL},
-    {FIELD_NAME_OF(struct traffic_sumo, types,
+    {OPTIONAL_RECORD(struct traffic_sumo, options, &recording_options_record, "")},
+    {OPTIONAL_NAME(struct traffic_sumo, types,
                    "a file of routes with the vTypes; absent: SUMO's own sizes of classes"),
-     FIELD_OPTIONAL, .word = "FILE"},
-    {FIELD_FLAG_OF(struct traffic_sumo, live,
-                   "write the frame of a step before the next step is there"),
-     FIELD_OPTIONAL},
+     .word = "FILE"},
+    {OPTIONAL_FLAG(struct traffic_sumo, live,
+                   "write the frame of a step before the next step is there")},
     {0},
 };
 

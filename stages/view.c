@@ -132,17 +132,17 @@ static int view_stop(void *state, struct runner *runner)
 }
 
 static const struct field view_fields[] = {
-    {FIELD_FLAG_OF(struct view, svg, "write one frame as an SVG still"), FIELD_OPTIONAL},
-    {FIELD_INTEGER_IN(struct view, frame, 0, 0x1p53,
+    {OPTIONAL_FLAG(struct view, svg, "write one frame as an SVG still")},
+    {OPTIONAL_INTEGER(struct view, frame, 0, 0x1p53,
                       "the page opens at this frame, the still shows it"),
-     FIELD_OPTIONAL, .absent = -1},
-    {FIELD_NAME_OF(struct view, scene, "only this scene"), FIELD_OPTIONAL},
-    {FIELD_NAME_OF(struct view, vehicles, "the folder given to glint-extract, if one was"),
-     FIELD_OPTIONAL, .word = "DIR"},
-    {FIELD_NAME_OF(struct view, truth, "frames to compare with: what is missed and false in them"),
-     FIELD_OPTIONAL, .word = "FILE"},
-    {FIELD_NAME_OF(struct view, tracks, "what a tracker says, as for glint-score-tracks"),
-     FIELD_OPTIONAL, .word = "FILE"},
+     .absent = -1},
+    {OPTIONAL_NAME(struct view, scene, "only this scene")},
+    {OPTIONAL_NAME(struct view, vehicles, "the folder given to glint-extract, if one was"),
+     .word = "DIR"},
+    {OPTIONAL_NAME(struct view, truth, "frames to compare with: what is missed and false in them"),
+     .word = "FILE"},
+    {OPTIONAL_NAME(struct view, tracks, "what a tracker says, as for glint-score-tracks"),
+     .word = "FILE"},
     {0},
 };
 

@@ -8,33 +8,34 @@ static const char *const windows[] = {
 static const char *const cfars[] = {[CFAR_ORDERED] = "ordered", [CFAR_MEAN] = "mean", NULL};
 
 #define INTEGER(member, low, high, help) FIELD_INTEGER_IN(struct waveform, member, low, high, help)
-#define REAL(member, low, high, help) FIELD_REAL_IN(struct waveform, member, low, high, help)
-#define CHOICE(member, choices, help) FIELD_CHOICE_OF(struct waveform, member, choices, help)
+#define OPTIONAL(member, low, high, help) OPTIONAL_INTEGER(struct waveform, member, low, high, help)
 
 static const struct field waveform_fields[] = {
-    {CHOICE(kind, kinds, "a chirp that is mixed with its echo, or a pulse")},
+    {FIELD_CHOICE_OF(struct waveform, kind, kinds,
+                     "a chirp that is mixed with its echo, or a pulse")},
     {INTEGER(samples, 16, 4096, "range bins: one to a range cell for chirps, four for pulses")},
     {INTEGER(repetitions, 16, 4096, "chirps or pulses of a train, as many as range rate cells")},
-    {INTEGER(stagger, 2, 64,
-             "n: a second train, 1 + 1/n as long, tells n folds of range rate apart; absent: none"),
-     FIELD_OPTIONAL},
-    {INTEGER(elements, 2, 64, "receivers in a row; absent: the antenna's sum and delta channel"),
-     FIELD_OPTIONAL},
-    {REAL(spacing, 0.1, 100, "distance between elements, in wavelengths"), FIELD_OPTIONAL,
+    {OPTIONAL(
+        stagger, 2, 64,
+        "n: a second train, 1 + 1/n as long, tells n folds of range rate apart; absent: none")},
+    {OPTIONAL(elements, 2, 64, "receivers in a row; absent: the antenna's sum and delta channel")},
+    {OPTIONAL_REAL(struct waveform, spacing, 0.1, 100, "distance between elements, in wavelengths"),
      .absent = 0.5},
-    {CHOICE(window, windows, "window of the Fourier transforms"), FIELD_OPTIONAL},
-    {CHOICE(cfar, cfars, "noise level of a cell: the neighbour of cfar_rank, or the mean of all"),
-     FIELD_OPTIONAL},
-    {INTEGER(cfar_cells, 2, CFAR_MOST_CELLS,
-             "neighbours in range rate, half of them on each side; every third with Hann's window"),
-     FIELD_OPTIONAL, .absent = 16},
-    {INTEGER(cfar_guard, 0, 64, "cells between a cell and its neighbours, on each side"),
-     FIELD_OPTIONAL, .absent = 2},
-    {INTEGER(cfar_rank, 1, CFAR_MOST_CELLS,
-             "ordered: rank of the neighbour, from 1 for the weakest"),
-     FIELD_OPTIONAL, .absent = 12},
-    {REAL(cfar_false_alarm, 1e-12, 0.5, "probability that noise alone passes the threshold"),
-     FIELD_OPTIONAL, .absent = 1e-4},
+    {OPTIONAL_CHOICE(struct waveform, window, windows, "window of the Fourier transforms")},
+    {OPTIONAL_CHOICE(struct waveform, cfar, cfars,
+                     "noise level of a cell: the neighbour of cfar_rank, or the mean of all")},
+    {OPTIONAL(
+         cfar_cells, 2, CFAR_MOST_CELLS,
+         "neighbours in range rate, half of them on each side; every third with Hann's window"),
+     .absent = 16},
+    {OPTIONAL(cfar_guard, 0, 64, "cells between a cell and its neighbours, on each side"),
+     .absent = 2},
+    {OPTIONAL(cfar_rank, 1, CFAR_MOST_CELLS,
+              "ordered: rank of the neighbour, from 1 for the weakest"),
+     .absent = 12},
+    {OPTIONAL_REAL(struct waveform, cfar_false_alarm, 1e-12, 0.5,
+                   "probability that noise alone passes the threshold"),
+     .absent = 1e-4},
     {0},
 };
 

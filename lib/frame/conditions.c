@@ -14,12 +14,10 @@ static const struct field interferer_fields[] = {
 static const struct record interferer_record = {FIELD_TABLE(
     struct interferer, interferer_fields, "interferer", "An object with a radar of its own.")};
 
-#define NUMBER(member, most, help, ...)                                                            \
-    {FIELD_REAL_IN(struct conditions, member, 0, most, help), FIELD_OPTIONAL},
+#define NUMBER(member, most, help, ...) {OPTIONAL_REAL(struct conditions, member, 0, most, help)},
 #define CHOICE(member, choices, help, ...)                                                         \
-    {FIELD_CHOICE_OF(struct conditions, member, choices, help), FIELD_OPTIONAL},
-#define LIST(member, record, help, ...)                                                            \
-    {FIELD_LIST_OF(struct conditions, member, record, help), FIELD_OPTIONAL},
+    {OPTIONAL_CHOICE(struct conditions, member, choices, help)},
+#define LIST(member, record, help, ...) {OPTIONAL_LIST(struct conditions, member, record, help)},
 static const struct field condition_fields[] = {
 #include "frame/conditions.def"
     {0},
@@ -27,9 +25,9 @@ static const struct field condition_fields[] = {
 
 #define UNSAID (-1)
 #define NUMBER(member, most, help, ...)                                                            \
-    {FIELD_REAL_IN(struct conditions, member, 0, most, help), FIELD_OPTIONAL, .absent = UNSAID},
+    {OPTIONAL_REAL(struct conditions, member, 0, most, help), .absent = UNSAID},
 #define CHOICE(member, choices, help, ...)                                                         \
-    {FIELD_CHOICE_OF(struct conditions, member, choices, help), FIELD_OPTIONAL, .absent = UNSAID},
+    {OPTIONAL_CHOICE(struct conditions, member, choices, help), .absent = UNSAID},
 #define LIST(...)
 static const struct field change_fields[] = {
 #include "frame/conditions.def"

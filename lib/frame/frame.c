@@ -70,13 +70,11 @@ static const enum effect_id losing_effects[] = {
 #define REPORTED_RATE(owner, member) FIELD_REAL_IN(owner, member, -1e6, 1e6, "as reported")
 #define NAME(owner, member, help) FIELD_NAME_OF(owner, member, help)
 #define UNDECIDED(owner)                                                                           \
-    FIELD_FLAG_OF(owner, sign_undecided,                                                           \
-                  "the phase between the channels does not tell left from right"),                 \
-        FIELD_OPTIONAL
+    OPTIONAL_FLAG(owner, sign_undecided,                                                           \
+                  "the phase between the channels does not tell left from right")
 #define EFFECTS(owner, help) FIELD_SET_OF(owner, effects, effects_names, help), FIELD_OPTIONAL
 #define MARGINS(owner)                                                                             \
-    FIELD_RECORD_OF(owner, margins, &margins_record, "distances from other decisions"),            \
-        FIELD_OPTIONAL
+    OPTIONAL_RECORD(owner, margins, &margins_record, "distances from other decisions")
 #define EXTRA(owner) FIELD_RAW_OF(owner, extra, "the user's own, passed on byte for byte")
 #define ECHO_ID(owner, member, kind_, help_)                                                       \
     FIELD_NAMED(member), .kind = (kind_), .offset = offsetof(owner, id.member), .help = (help_)
@@ -123,9 +121,8 @@ const struct record object_record = {
 static const struct field class_document_fields[] = {
     {NAME(struct class_document, class, "name of the vehicle document")},
     {NAME(struct class_document, digest, "digest of the document")},
-    {FIELD_REAL_IN(struct class_document, rear_axle_x_m, -1e3, 1e3,
-                   "from the centre of the box; absent: 5/18 of the length behind it"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_REAL(struct class_document, rear_axle_x_m, -1e3, 1e3,
+                   "from the centre of the box; absent: 5/18 of the length behind it")},
     {0},
 };
 
@@ -142,17 +139,14 @@ static const struct field sensor_view_fields[] = {
     {RANGE(struct sensor_view, range_max_m, "greatest range")},
     {FIELD_REAL_IN(struct sensor_view, cell_range_m, 0, 2e6, "resolution cell, full width")},
     {FIELD_REAL_IN(struct sensor_view, cell_range_rate_mps, 0, 2e5, "resolution cell, full width")},
-    {FIELD_REAL_IN(struct sensor_view, azimuth_cell_rad, 0, 2 * PI,
-                   "cell in azimuth of scores; absent: a twentieth of the field of view"),
-     FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct sensor_view, carrier_hz, 0, 1e12, "carrier frequency"), FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct sensor_view, cycle_s, 0, 1e6,
-                   "time from scan to scan; absent: a scan in every frame"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_REAL(struct sensor_view, azimuth_cell_rad, 0, 2 * PI,
+                   "cell in azimuth of scores; absent: a twentieth of the field of view")},
+    {OPTIONAL_REAL(struct sensor_view, carrier_hz, 0, 1e12, "carrier frequency")},
+    {OPTIONAL_REAL(struct sensor_view, cycle_s, 0, 1e6,
+                   "time from scan to scan; absent: a scan in every frame")},
     {FIELD_FLAG_OF(struct sensor_view, measured, "does the frame have a scan of this sensor?")},
-    {FIELD_REAL_IN(struct sensor_view, age_s, 0, 1e6,
-                   "how long before the frame's time was what the scan shows"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_REAL(struct sensor_view, age_s, 0, 1e6,
+                   "how long before the frame's time was what the scan shows")},
     {0},
 };
 
@@ -162,8 +156,7 @@ const struct record sensor_view_record = {
 static const struct field sensors_fields[] = {
     {NAME(struct sensors, suite, "name of the suite document, without folder and .json")},
     {NAME(struct sensors, digest, "digest of the suite's document and the tables it names")},
-    {FIELD_NAME_OF(struct sensors, effects, "selection given to glint-ideal; absent: auto"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_NAME(struct sensors, effects, "selection given to glint-ideal; absent: auto")},
     {FIELD_LIST_OF(struct sensors, list, &sensor_view_record, "sensors by name")},
     {0},
 };
@@ -175,25 +168,19 @@ static const struct field echo_fields[] = {
     {NAME(struct echo, sensor, "name in the suite")},
     ECHO_NAMES(struct echo),
     IDEAL_VALUES(struct echo),
-    {FIELD_REAL_IN(
-         struct echo, departure_rad, -PI, PI,
-         "azimuth of the wave's departure less that of its arrival, on paths that go by a "
-         "wall in one direction"),
-     FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct echo, height_m, 0, 1e7,
-                   "height of the reflector over the road; absent: not known"),
-     FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct echo, extent_m, 0, 1e7,
-                   "from the reflector's lowest to its highest part; absent: a point"),
-     FIELD_OPTIONAL},
-    {FIELD_CHOICE_OF(struct echo, moving_part, reflectors_moving_parts,
-                     "part of the object that turns or swings there"),
-     FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct echo, ground_rate_mps, -1e5, 1e5,
-                   "part of the range rate that the object's motion over ground makes"),
-     FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct echo, heading_rad, -PI, PI, "heading of the object, from boresight"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_REAL(
+        struct echo, departure_rad, -PI, PI,
+        "azimuth of the wave's departure less that of its arrival, on paths that go by a "
+        "wall in one direction")},
+    {OPTIONAL_REAL(struct echo, height_m, 0, 1e7,
+                   "height of the reflector over the road; absent: not known")},
+    {OPTIONAL_REAL(struct echo, extent_m, 0, 1e7,
+                   "from the reflector's lowest to its highest part; absent: a point")},
+    {OPTIONAL_CHOICE(struct echo, moving_part, reflectors_moving_parts,
+                     "part of the object that turns or swings there")},
+    {OPTIONAL_REAL(struct echo, ground_rate_mps, -1e5, 1e5,
+                   "part of the range rate that the object's motion over ground makes")},
+    {OPTIONAL_REAL(struct echo, heading_rad, -PI, PI, "heading of the object, from boresight")},
     {EFFECTS(struct echo, "effects that changed one of these values")},
     {MARGINS(struct echo)},
     {EXTRA(struct echo)},
@@ -225,9 +212,8 @@ static const struct field cell_fields[] = {
     {POINTER(struct cell, delta_re, "delta channel without noise")},
     {POINTER(struct cell, delta_im, "delta channel without noise")},
     {UNDECIDED(struct cell)},
-    {FIELD_REAL_IN(struct cell, interference, 0, 1e300,
-                   "power of other radars over that of the sensor's own noise"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_REAL(struct cell, interference, 0, 1e300,
+                   "power of other radars over that of the sensor's own noise")},
     {EFFECTS(struct cell, "effects that changed a value of the cell or of a member")},
     {FIELD_LIST_OF(struct cell, members, &contributor_record, "the leader first")},
     {MARGINS(struct cell)},
@@ -254,8 +240,7 @@ static const struct field target_fields[] = {
     {EFFECTS(struct target, "effects that changed a value of the target or of a contributor")},
     {FIELD_LIST_OF(struct target, contributors, &contributor_record, "the leader first")},
     {MARGINS(struct target)},
-    {FIELD_RECORD_OF(struct target, quality, &quality_record, "what the sensor tells of it"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_RECORD(struct target, quality, &quality_record, "what the sensor tells of it")},
     {EXTRA(struct target)},
     {0},
 };
@@ -265,12 +250,11 @@ const struct record target_record = {
 
 static const struct field lost_echo_fields[] = {
     ECHO_NAMES(struct lost_echo),
-    {FIELD_REAL_IN(struct lost_echo, range_m, 0, 1e8, "of the echo, or of a reflector without one"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_REAL(struct lost_echo, range_m, 0, 1e8,
+                   "of the echo, or of a reflector without one")},
     {AZIMUTH(struct lost_echo, azimuth_rad, "of the same"), FIELD_OPTIONAL},
-    {FIELD_NAME_OF(struct lost_echo, by, "id of the object that blocks it"), FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct lost_echo, shortfall_db, 0, 1e5, "threshold over amplitude"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_NAME(struct lost_echo, by, "id of the object that blocks it")},
+    {OPTIONAL_REAL(struct lost_echo, shortfall_db, 0, 1e5, "threshold over amplitude")},
     {MARGINS(struct lost_echo)},
     {0},
 };
@@ -284,9 +268,9 @@ static const struct field lost_group_fields[] = {
     {NAME(struct lost_group, reason,
           "why they are part of no target, or a word of the stage's own"),
      .choices = losses},
-    {FIELD_CHOICE_OF(struct lost_group, effect, effects_names,
+    {OPTIONAL_CHOICE(struct lost_group, effect, effects_names,
                      "effect to which the reason belongs"),
-     FIELD_OPTIONAL, .absent = EFFECT_NONE},
+     .absent = EFFECT_NONE},
     {FIELD_LIST_OF(struct lost_group, echoes, &lost_echo_record, "by object, reflector, path")},
     {0},
 };
@@ -325,21 +309,18 @@ static const struct field frame_fields[] = {
     {INSTANT(struct frame, time_s, "end of the interval that the frame stands for")},
     {FIELD_REAL_IN(struct frame, interval_s, 1e-9, 1e6,
                    "the frame stands for (time_s - interval_s, time_s]")},
-    {FIELD_FLAG_OF(struct frame, last, "is this the scene's last frame?"), FIELD_OPTIONAL},
+    {OPTIONAL_FLAG(struct frame, last, "is this the scene's last frame?")},
     {FIELD_SEED_OF(struct frame, seed, "seed of all random numbers, 64 bits, decimal")},
     {NAME(struct frame, ego, "id of the object that carries the sensors")},
-    {FIELD_REAL_IN(struct frame, origin_x_m, -1e9, 1e9,
-                   "origin of the frame's coordinates in those of the source"),
-     FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct frame, origin_y_m, -1e9, 1e9,
-                   "origin of the frame's coordinates in those of the source"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_REAL(struct frame, origin_x_m, -1e9, 1e9,
+                   "origin of the frame's coordinates in those of the source")},
+    {OPTIONAL_REAL(struct frame, origin_y_m, -1e9, 1e9,
+                   "origin of the frame's coordinates in those of the source")},
     {FIELD_SET_OF(struct frame, sections, sections_names,
                   "what it carries by choice, now or once it is made; absent: objects"),
      FIELD_OPTIONAL, .absent = CARRY_BY_DEFAULT},
-    {FIELD_RECORD_OF(struct frame, conditions, &conditions_record,
-                     "road, weather and other radars"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_RECORD(struct frame, conditions, &conditions_record,
+                     "road, weather and other radars")},
     {FIELD_LIST_OF(struct frame, objects, &object_record, "objects, the ego among them: truth"),
      SECTION(SECTION_OBJECTS)},
     {FIELD_LIST_OF(struct frame, vehicles, &class_document_record,

@@ -19,22 +19,19 @@ const char *const reflectors_moving_parts[] = {
 #define FRACTION(owner, member, help) FIELD_REAL_IN(owner, member, -1, 1, help)
 
 #define HEIGHT(owner)                                                                              \
-    {FIELD_REAL_IN(owner, z, 1e-3, 2,                                                              \
-                   "height, as a fraction of the object's; absent: the sensor's"),                 \
-     FIELD_OPTIONAL},                                                                              \
+    {OPTIONAL_REAL(owner, z, 1e-3, 2,                                                              \
+                   "height, as a fraction of the object's; absent: the sensor's")},                \
     {                                                                                              \
-        FIELD_REAL_IN(owner, extent, 0, 2,                                                         \
+        OPTIONAL_REAL(owner, extent, 0, 2,                                                         \
                       "from its lowest to its highest part, as a fraction of the height; absent: " \
-                      "a point"),                                                                  \
-            FIELD_OPTIONAL                                                                         \
+                      "a point")                                                                   \
     }
 
 #define SEEN_FROM(owner)                                                                           \
     {FIELD_REAL_IN(owner, facing_rad, -PI, PI, "middle of the visibility range, object frame")},   \
         {FIELD_REAL_IN(owner, full_rad, 0, PI, "fully visible up to this angle off the facing")},  \
         {FIELD_REAL_IN(owner, zero_rad, 0, PI, "invisible from this angle off the facing")},       \
-        {FIELD_CHOICE_OF(owner, shape, shapes, "how visibility falls from full to zero"),          \
-         FIELD_OPTIONAL},                                                                          \
+        {OPTIONAL_CHOICE(owner, shape, shapes, "how visibility falls from full to zero")},         \
     {                                                                                              \
         FIELD_REAL_IN(owner, ercs, 0, 1e3, "equivalent radar cross section, a linear amplitude")   \
     }
@@ -43,12 +40,10 @@ static const struct field lobe_fields[] = {
     {FIELD_REAL_IN(struct lobe, width_rad, 0, 4 * PI,
                    "in azimuth around the facing, 3 dB down at both ends; absent: all around"),
      FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct lobe, zenith_rad, 0, PI, "its middle, from straight up"), FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct lobe, zenith_width_rad, 0, 4 * PI,
-                   "the same upright; absent: at every height"),
-     FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct lobe, depth_db, 0, 100, "the most that it is below its middle"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_REAL(struct lobe, zenith_rad, 0, PI, "its middle, from straight up")},
+    {OPTIONAL_REAL(struct lobe, zenith_width_rad, 0, 4 * PI,
+                   "the same upright; absent: at every height")},
+    {OPTIONAL_REAL(struct lobe, depth_db, 0, 100, "the most that it is below its middle")},
     {0},
 };
 
@@ -61,18 +56,14 @@ static const struct field point_fields[] = {
     {FRACTION(struct point_reflector, x, "place, as a fraction of the length from the centre")},
     {FRACTION(struct point_reflector, y, "place, as a fraction of the width from the centre")},
     HEIGHT(struct point_reflector),
-    {FIELD_REAL_IN(struct point_reflector, inset_m, 0, 10, "depth behind the place"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_REAL(struct point_reflector, inset_m, 0, 10, "depth behind the place")},
     SEEN_FROM(struct point_reflector),
-    {FIELD_CHOICE_OF(struct point_reflector, moving_part, reflectors_moving_parts,
-                     "what turns or swings there, for sensors with micro_motion"),
-     FIELD_OPTIONAL},
-    {FIELD_REAL_IN(
-         struct point_reflector, under_vehicles, 0, 1,
-         "part of the cross section that is left when only raised vehicles are in the way"),
-     FIELD_OPTIONAL},
-    {FIELD_RECORD_OF(struct point_reflector, lobe, &lobe_record, "of ercs; absent: none"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_CHOICE(struct point_reflector, moving_part, reflectors_moving_parts,
+                     "what turns or swings there, for sensors with micro_motion")},
+    {OPTIONAL_REAL(
+        struct point_reflector, under_vehicles, 0, 1,
+        "part of the cross section that is left when only raised vehicles are in the way")},
+    {OPTIONAL_RECORD(struct point_reflector, lobe, &lobe_record, "of ercs; absent: none")},
     {0},
 };
 
@@ -84,15 +75,12 @@ static const struct field plane_fields[] = {
     {FRACTION(struct plane_reflector, to_x, "end")},
     {FRACTION(struct plane_reflector, to_y, "end")},
     HEIGHT(struct plane_reflector),
-    {FIELD_REAL_IN(struct plane_reflector, margin_m, 0, 10, "not flat this far from both ends"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_REAL(struct plane_reflector, margin_m, 0, 10, "not flat this far from both ends")},
     {FIELD_REAL_IN(struct plane_reflector, ercs, 0, 1e3, "equivalent radar cross section")},
-    {FIELD_REAL_IN(struct plane_reflector, profile_radius_m, 1e-3, 1e6,
-                   "of curvature from below to above; absent: of constant cross section"),
-     FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct plane_reflector, radius_m, 1e-3, 1e6,
-                   "of curvature along the side; absent: straight"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_REAL(struct plane_reflector, profile_radius_m, 1e-3, 1e6,
+                   "of curvature from below to above; absent: of constant cross section")},
+    {OPTIONAL_REAL(struct plane_reflector, radius_m, 1e-3, 1e6,
+                   "of curvature along the side; absent: straight")},
     {0},
 };
 
@@ -101,21 +89,17 @@ static const struct field mirror_fields[] = {
     {FRACTION(struct mirror_plane, from_y, "start")},
     {FRACTION(struct mirror_plane, to_x, "end")},
     {FRACTION(struct mirror_plane, to_y, "end")},
-    {FIELD_REAL_IN(struct mirror_plane, reflection, 1e-6, 1,
-                   "part of an amplitude that is reflected, at all angles; absent: the material's"),
-     FIELD_OPTIONAL},
-    {FIELD_CHOICE_OF(struct mirror_plane, material, material_names,
-                     "whose permittivity reflects by angle and polarization; absent: reflection"),
-     FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct mirror_plane, profile_radius_m, 1e-3, 1e6,
-                   "of curvature from below to above; absent: straight"),
-     FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct mirror_plane, radius_m, 1e-3, 1e6,
-                   "of curvature along the side; absent: straight"),
-     FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct mirror_plane, bottom, 0, 1,
-                   "lower edge, as a fraction of the object's height; absent: on the road"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_REAL(
+        struct mirror_plane, reflection, 1e-6, 1,
+        "part of an amplitude that is reflected, at all angles; absent: the material's")},
+    {OPTIONAL_CHOICE(struct mirror_plane, material, material_names,
+                     "whose permittivity reflects by angle and polarization; absent: reflection")},
+    {OPTIONAL_REAL(struct mirror_plane, profile_radius_m, 1e-3, 1e6,
+                   "of curvature from below to above; absent: straight")},
+    {OPTIONAL_REAL(struct mirror_plane, radius_m, 1e-3, 1e6,
+                   "of curvature along the side; absent: straight")},
+    {OPTIONAL_REAL(struct mirror_plane, bottom, 0, 1,
+                   "lower edge, as a fraction of the object's height; absent: on the road")},
     {0},
 };
 
@@ -139,17 +123,14 @@ static const struct field row_fields[] = {
 static const struct field reflector_set_fields[] = {
     {FIELD_NAME_OF(struct reflector_set, model, "the class that the vehicle document describes")},
     {FIELD_NAMES_OF(struct reflector_set, objects, "ids of the objects that reflect like this")},
-    {FIELD_FLAG_OF(struct reflector_set, blocks, "does the outline stop sight lines?"),
-     FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct reflector_set, raised, "can a radar look under it?"), FIELD_OPTIONAL},
-    {FIELD_LIST_OF(struct reflector_set, points, &point_record, "corners, wheel houses, poles"),
-     FIELD_OPTIONAL, FIELD_STEADY},
-    {FIELD_LIST_OF(struct reflector_set, planes, &plane_record, "flat sides"), FIELD_OPTIONAL,
+    {OPTIONAL_FLAG(struct reflector_set, blocks, "does the outline stop sight lines?")},
+    {OPTIONAL_FLAG(struct reflector_set, raised, "can a radar look under it?")},
+    {OPTIONAL_LIST(struct reflector_set, points, &point_record, "corners, wheel houses, poles"),
      FIELD_STEADY},
-    {FIELD_LIST_OF(struct reflector_set, rows, &row_record, "rows of posts"), FIELD_OPTIONAL,
+    {OPTIONAL_LIST(struct reflector_set, planes, &plane_record, "flat sides"), FIELD_STEADY},
+    {OPTIONAL_LIST(struct reflector_set, rows, &row_record, "rows of posts"), FIELD_STEADY},
+    {OPTIONAL_LIST(struct reflector_set, mirrors, &mirror_record, "flat sides that show ghosts"),
      FIELD_STEADY},
-    {FIELD_LIST_OF(struct reflector_set, mirrors, &mirror_record, "flat sides that show ghosts"),
-     FIELD_OPTIONAL, FIELD_STEADY},
     {0},
 };
 

@@ -6,23 +6,21 @@
 
 static const char *const levels[] = {"v0-40", "v40-60", "v60-80", "v80-100", NULL};
 
-#define COUNTED(member, help) FIELD_INTEGER_IN(struct sighting, member, 0, 1e12, help)
+#define OPTIONAL_COUNT(member, help) OPTIONAL_INTEGER(struct sighting, member, 0, 1e12, help)
 
 static const struct field sighting_fields[] = {
     {FIELD_NAME_OF(struct sighting, sensor, "name in the suite")},
     {FIELD_NAME_OF(struct sighting, object, "id of the object")},
-    {COUNTED(reflectors, "reflectors of it that the sensor looked for"), FIELD_OPTIONAL},
-    {COUNTED(in_range, "of these, those that send towards the sensor and are in range"),
-     FIELD_OPTIONAL},
-    {COUNTED(in_view, "of these, those in the field of view"), FIELD_OPTIONAL},
-    {FIELD_REAL_IN(struct sighting, blocked_share, 0, 1, "share of these that a body hides"),
-     FIELD_OPTIONAL},
-    {FIELD_CHOICE_OF(struct sighting, visibility, levels,
+    {OPTIONAL_COUNT(reflectors, "reflectors of it that the sensor looked for")},
+    {OPTIONAL_COUNT(in_range, "of these, those that send towards the sensor and are in range")},
+    {OPTIONAL_COUNT(in_view, "of these, those in the field of view")},
+    {OPTIONAL_REAL(struct sighting, blocked_share, 0, 1, "share of these that a body hides")},
+    {OPTIONAL_CHOICE(struct sighting, visibility, levels,
                      "share that is not hidden, in the levels of nuScenes; absent: none in view"),
-     FIELD_OPTIONAL, .absent = 4},
-    {COUNTED(detections, "targets with an echo of it, where it is"), FIELD_OPTIONAL},
-    {COUNTED(merged, "of the detections, those with an echo of something else"), FIELD_OPTIONAL},
-    {COUNTED(ghosts, "targets with an echo of it by way of a mirror"), FIELD_OPTIONAL},
+     .absent = 4},
+    {OPTIONAL_COUNT(detections, "targets with an echo of it, where it is")},
+    {OPTIONAL_COUNT(merged, "of the detections, those with an echo of something else")},
+    {OPTIONAL_COUNT(ghosts, "targets with an echo of it by way of a mirror")},
     {0},
 };
 

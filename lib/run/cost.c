@@ -44,12 +44,12 @@ static const struct field chain_fields[] = {
     {FIELD_REAL_IN(struct ladder_chain, us_per_frame, 0, 1e300,
                    "CPU time of a frame here, with reading and writing its line")},
     {FIELD_REAL_IN(struct ladder_chain, targets_per_scan, 0, 1e300, "mean number in a list")},
-    {FIELD_RECORD_OF(struct ladder_chain, energy, &interval_record,
+    {OPTIONAL_RECORD(struct ladder_chain, energy, &interval_record,
                      "energy distance from the reference, absent for itself"),
-     FIELD_OPTIONAL, .section = LADDER_ENERGY},
-    {FIELD_RECORD_OF(struct ladder_chain, error, &interval_record,
+     .section = LADDER_ENERGY},
+    {OPTIONAL_RECORD(struct ladder_chain, error, &interval_record,
                      "energy over that of ideal echoes, absent where that may be 0"),
-     FIELD_OPTIONAL, .section = LADDER_ERROR},
+     .section = LADDER_ERROR},
     {0},
 };
 
@@ -65,7 +65,7 @@ static const struct field cost_fields[] = {
     {FIELD_INTEGER_IN(struct cost, seen_frames, 0, 0x1p53, "of the stream")},
     {FIELD_INTEGER_IN(struct cost, scenes, 0, 0x1p53, "of the sample")},
     {FIELD_INTEGER_IN(struct cost, blocks, 0, 0x1p53, "which the intervals resample")},
-    {FIELD_NAME_OF(struct cost, chosen, "the chain that was found for a bound"), FIELD_OPTIONAL},
+    {OPTIONAL_NAME(struct cost, chosen, "the chain that was found for a bound")},
     {FIELD_LIST_OF(struct cost, chains, &chain_record, "in the order in which they were measured")},
     {0},
 };

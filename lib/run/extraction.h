@@ -16,9 +16,9 @@ struct extraction {
 };
 #define EXTRACTION_OPTIONS                                                                         \
     {                                                                                              \
-        FIELD_NAME_OF(struct extraction, vehicles,                                                 \
+        OPTIONAL_NAME(struct extraction, vehicles,                                                 \
                       "folder of your own vehicle documents, before the shipped ones"),            \
-            FIELD_OPTIONAL, .word = "DIR"                                                          \
+            .word = "DIR"                                                                          \
     }
 extern const struct record extraction_record;
 

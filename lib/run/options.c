@@ -8,32 +8,30 @@
 const struct record no_options_record = {.name = "stage", .fields = field_none};
 
 static const struct field common_fields[] = {
-    {FIELD_NAME_OF(
+    {OPTIONAL_NAME(
          struct common_options, output,
          "write to this file instead of standard output, compressed if it ends in .gz; the file is "
          "there when it is whole, and one that was there keeps its mode, owner and links"),
-     FIELD_OPTIONAL, .word = "FILE"},
-    {FIELD_NAME_OF(
+     .word = "FILE"},
+    {OPTIONAL_NAME(
          struct common_options, sections,
          "what frames carry from here on: all, none, or words with commas, -WORD to leave one out; "
          "words: objects, reflectors, echoes, cells, account (account:every=10 for every tenth "
          "frame), margins, quality, visibility; absent: as the frames say, objects at a source"),
-     FIELD_OPTIONAL, .word = "LIST"},
+     .word = "LIST"},
     {FIELD_SEED_OF(struct common_options, seed,
                    "seed of the random numbers from here on; absent: 1, or the frames' own"),
      FIELD_OPTIONAL, .absent = 1},
-    {FIELD_NAME_OF(
+    {OPTIONAL_NAME(
          struct common_options, explain,
          "append to this file which effects were simulated or left out, why, and their time"),
-     FIELD_OPTIONAL, .word = "FILE"},
-    {FIELD_FLAG_OF(struct common_options, table,
-                   "write the lines of --explain as a table for people"),
-     FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct common_options, complete,
-                   "fail unless there is a scene, and each has all frames from 0 to its last"),
-     FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct common_options, help, "print this help"), FIELD_OPTIONAL},
-    {FIELD_FLAG_OF(struct common_options, version, "print the version"), FIELD_OPTIONAL},
+     .word = "FILE"},
+    {OPTIONAL_FLAG(struct common_options, table,
+                   "write the lines of --explain as a table for people")},
+    {OPTIONAL_FLAG(struct common_options, complete,
+                   "fail unless there is a scene, and each has all frames from 0 to its last")},
+    {OPTIONAL_FLAG(struct common_options, help, "print this help")},
+    {OPTIONAL_FLAG(struct common_options, version, "print the version")},
     {0},
 };
 

@@ -25,13 +25,12 @@ extern const struct record suite_choice_record;
             "effects to simulate: auto, all, none, or names with commas, -NAME to "                \
             "leave one out: all,-ghosts; absent: those of the suite, or auto")
 #define SUITE_CHOICE_AFTER_IDEAL                                                                   \
-    {FIELD_NAME_OF(struct suite_choice, sensors,                                                   \
-                   "path of the suite given to glint-ideal, if it is not found by its name"),      \
-     FIELD_OPTIONAL},                                                                              \
+    {OPTIONAL_NAME(struct suite_choice, sensors,                                                   \
+                   "path of the suite given to glint-ideal, if it is not found by its name")},     \
         SUITE_CHOICE_EFFECTS("the effects given to glint-ideal; others are refused")
 #define SUITE_CHOICE_EFFECTS(help_)                                                                \
     {                                                                                              \
-        FIELD_NAME_OF(struct suite_choice, effects, help_), FIELD_OPTIONAL, .word = "LIST"         \
+        OPTIONAL_NAME(struct suite_choice, effects, help_), .word = "LIST"                         \
     }
 
 /* What ideal writes into every frame: name and digest of the suite, and the text of the effects,

@@ -32,8 +32,7 @@ static const struct record differences_record = {
                         .help = (help_)
 
 static const struct field score_fields[] = {
-    {FIELD_NAME_OF(struct score, sensor, "name of the sensor; absent: all sensors"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_NAME(struct score, sensor, "name of the sensor; absent: all sensors")},
     {COUNT(struct score, scans,
            "pairs of lists: of one sensor in one frame, or the tracks of one frame")},
     {COUNT(struct score, true_count, "items of the true lists")},
@@ -92,9 +91,8 @@ const struct record score_line_record = {FIELD_TABLE(struct score_line, line_fie
 static const struct field summary_fields[] = {
     SUMMARY_HEAD(struct score_summary),
     {FIELD_REAL_IN(struct score_summary, cutoff, 0, 1e6, "cut-off distance, in cells")},
-    {FIELD_REAL_IN(struct score_summary, azimuth_cell_rad, 0, 10,
-                   "size of a cell in azimuth; absent: a twentieth of each field of view"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_REAL(struct score_summary, azimuth_cell_rad, 0, 10,
+                   "size of a cell in azimuth; absent: a twentieth of each field of view")},
     {FIELD_RECORD_OF(struct score_summary, all, &score_record, "score over all sensors")},
     {FIELD_LIST_OF(struct score_summary, sensors, &score_record,
                    "scores of the sensors that measured, by name")},

@@ -23,8 +23,8 @@ static const struct record track_record = {
 static const struct field list_fields[] = {
     {FIELD_NAME_OF(struct track_list, scene, "scene of the frame")},
     {FIELD_INTEGER_IN(struct track_list, frame, 0, 0x1p53, "number of the frame in its scene")},
-    {FIELD_REAL_IN(struct track_list, time_s, -1e10, 1e10, "time of the frame; compared if given"),
-     FIELD_OPTIONAL, .section = TRACK_TIME},
+    {OPTIONAL_REAL(struct track_list, time_s, -1e10, 1e10, "time of the frame; compared if given"),
+     .section = TRACK_TIME},
     {FIELD_LIST_OF(struct track_list, tracks, &track_record,
                    "the tracks, in any order; may be empty")},
     {FIELD_RAW_OF(struct track_list, extra, "any value, for your own use; not read")},

@@ -112,6 +112,18 @@ extern const struct field field_none[];
     FIELD_NAMED(member), .kind = FIELD_RAW, .offset = FIELD_AT(const char *, owner, member),       \
                          .optional = true, .help = (help_)
 #define FIELD_OPTIONAL .optional = true
+#define OPTIONAL_REAL(owner, member, low, high, help)                                              \
+    FIELD_REAL_IN(owner, member, low, high, help), FIELD_OPTIONAL
+#define OPTIONAL_INTEGER(owner, member, low, high, help)                                           \
+    FIELD_INTEGER_IN(owner, member, low, high, help), FIELD_OPTIONAL
+#define OPTIONAL_FLAG(owner, member, help) FIELD_FLAG_OF(owner, member, help), FIELD_OPTIONAL
+#define OPTIONAL_NAME(owner, member, help) FIELD_NAME_OF(owner, member, help), FIELD_OPTIONAL
+#define OPTIONAL_CHOICE(owner, member, choices, help)                                              \
+    FIELD_CHOICE_OF(owner, member, choices, help), FIELD_OPTIONAL
+#define OPTIONAL_RECORD(owner, member, record, help)                                               \
+    FIELD_RECORD_OF(owner, member, record, help), FIELD_OPTIONAL
+#define OPTIONAL_LIST(owner, member, record, help)                                                 \
+    FIELD_LIST_OF(owner, member, record, help), FIELD_OPTIONAL
 #define FIELD_STEADY .steady = true
 
 /* The member of the struct at base, and a new value for it. By memcpy, because a table does not

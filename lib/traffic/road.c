@@ -3,8 +3,8 @@
 #include "text/document.h"
 
 #define REAL(owner, member, low, high, help) FIELD_REAL_IN(owner, member, low, high, help)
-#define OPTIONAL_REAL(owner, member, low, high, missing, help)                                     \
-    FIELD_REAL_IN(owner, member, low, high, help), FIELD_OPTIONAL, .absent = (missing)
+#define REAL_OR(owner, member, low, high, missing, help)                                           \
+    OPTIONAL_REAL(owner, member, low, high, help), .absent = (missing)
 
 static const struct field point_fields[] = {
     {REAL(struct road_point, x_m, -1e9, 1e9, "of the road's line")},
@@ -19,8 +19,7 @@ static const struct field signal_fields[] = {
     {REAL(struct road_signal, at_m, 0, 1e6, "place of the stop line along the lane")},
     {REAL(struct road_signal, green_s, 0, 1e6, "how long it is green")},
     {REAL(struct road_signal, red_s, 0, 1e6, "how long it is red behind that")},
-    {OPTIONAL_REAL(struct road_signal, offset_s, 0, 1e6, 0,
-                   "when warmup_s begins, this long green")},
+    {REAL_OR(struct road_signal, offset_s, 0, 1e6, 0, "when warmup_s begins, this long green")},
     {0},
 };
 
@@ -31,21 +30,19 @@ static const struct field arrivals_fields[] = {
     {FIELD_NAME_OF(struct road_arrivals, class, "names the vehicle document")},
     {REAL(struct road_arrivals, flow_per_h, 0, 1e4,
           "how many come in an hour, as a Poisson process")},
-    {OPTIONAL_REAL(struct road_arrivals, length_m, 0, 100, 0, "0: the default of the class")},
-    {OPTIONAL_REAL(struct road_arrivals, width_m, 0, 100, 0, "0: the default of the class")},
-    {OPTIONAL_REAL(struct road_arrivals, height_m, 0, 100, 0, "0: the default of the class")},
-    {OPTIONAL_REAL(struct road_arrivals, speed_mps, 0.1, 100, 100,
-                   "wanted where the limit is higher; absent: 100 m/s")},
-    {OPTIONAL_REAL(struct road_arrivals, headway_s, 0, 100, 1.6, "IDM's T; absent: 1.6 s")},
-    {OPTIONAL_REAL(struct road_arrivals, gap_m, 0.5, 100, 2, "IDM's s0; absent: 2 m")},
-    {OPTIONAL_REAL(struct road_arrivals, acceleration_mps2, 0.1, 10, 0.73,
-                   "IDM's a; absent: 0.73 m/s²")},
-    {OPTIONAL_REAL(struct road_arrivals, deceleration_mps2, 0.1, 10, 1.67,
-                   "IDM's b; absent: 1.67 m/s²")},
-    {OPTIONAL_REAL(struct road_arrivals, spread, 0, 0.5, 0.1,
-                   "size, speed, T, a and b are each within this share of theirs; absent: 0.1")},
-    {OPTIONAL_REAL(struct road_arrivals, ego_m, 0, 1e6, -1,
-                   "after warmup_s the first to come by here is the ego, at time 0; absent: none")},
+    {REAL_OR(struct road_arrivals, length_m, 0, 100, 0, "0: the default of the class")},
+    {REAL_OR(struct road_arrivals, width_m, 0, 100, 0, "0: the default of the class")},
+    {REAL_OR(struct road_arrivals, height_m, 0, 100, 0, "0: the default of the class")},
+    {REAL_OR(struct road_arrivals, speed_mps, 0.1, 100, 100,
+             "wanted where the limit is higher; absent: 100 m/s")},
+    {REAL_OR(struct road_arrivals, headway_s, 0, 100, 1.6, "IDM's T; absent: 1.6 s")},
+    {REAL_OR(struct road_arrivals, gap_m, 0.5, 100, 2, "IDM's s0; absent: 2 m")},
+    {REAL_OR(struct road_arrivals, acceleration_mps2, 0.1, 10, 0.73, "IDM's a; absent: 0.73 m/s²")},
+    {REAL_OR(struct road_arrivals, deceleration_mps2, 0.1, 10, 1.67, "IDM's b; absent: 1.67 m/s²")},
+    {REAL_OR(struct road_arrivals, spread, 0, 0.5, 0.1,
+             "size, speed, T, a and b are each within this share of theirs; absent: 0.1")},
+    {REAL_OR(struct road_arrivals, ego_m, 0, 1e6, -1,
+             "after warmup_s the first to come by here is the ego, at time 0; absent: none")},
     {0},
 };
 
@@ -56,12 +53,11 @@ static const struct record arrivals_record = {
 static const struct field lane_fields[] = {
     {REAL(struct road_lane, offset_m, -100, 100,
           "of its middle from the road's line, left positive")},
-    {FIELD_FLAG_OF(struct road_lane, oncoming, "it leads from the last point to the first"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_FLAG(struct road_lane, oncoming, "it leads from the last point to the first")},
     {REAL(struct road_lane, limit_mps, 0.1, 100, "what drivers want to drive")},
     {FIELD_LIST_OF(struct road_lane, arrivals, &arrivals_record,
                    "who comes; who finds no safe gap waits outside")},
-    {FIELD_LIST_OF(struct road_lane, signals, &signal_record, "lights"), FIELD_OPTIONAL},
+    {OPTIONAL_LIST(struct road_lane, signals, &signal_record, "lights")},
     {0},
 };
 
@@ -70,8 +66,8 @@ static const struct record lane_record = {FIELD_TABLE(
 
 static const struct field road_fields[] = {
     {FIELD_NAME_OF(struct roadway, id, "its vehicles are ID.LANE.NUMBER, from 0")},
-    {OPTIONAL_REAL(struct roadway, radius_m, 3, 1e6, 1e6,
-                   "of the arcs at corners, at most; legs leave room for less")},
+    {REAL_OR(struct roadway, radius_m, 3, 1e6, 1e6,
+             "of the arcs at corners, at most; legs leave room for less")},
     {FIELD_LIST_OF(struct roadway, points, &point_record, "the line")},
     {FIELD_LIST_OF(struct roadway, lanes, &lane_record, "beside the line")},
     {0},

@@ -8,11 +8,7 @@
 #include "text/variation.h"
 
 #define REAL(owner, member, low, high, help) FIELD_REAL_IN(owner, member, low, high, help)
-#define OPTIONAL_REAL(owner, member, low, high, help)                                              \
-    FIELD_REAL_IN(owner, member, low, high, help), FIELD_OPTIONAL
 #define NAME(owner, member, help) FIELD_NAME_OF(owner, member, help)
-#define OPTIONAL_LIST(owner, member, record, help)                                                 \
-    FIELD_LIST_OF(owner, member, record, help), FIELD_OPTIONAL
 
 static const struct field segment_fields[] = {
     {REAL(struct segment, duration_s, 0, 1e6, "the next segment begins after this time")},
@@ -58,8 +54,7 @@ static const struct field scenario_fields[] = {
     {NAME(struct scenario, ego, "id of the object that carries the sensors")},
     {REAL(struct scenario, rate_hz, 0.1, 1e4, "frames in a second")},
     {REAL(struct scenario, duration_s, 0, 1e6, "the last frame is not later")},
-    {FIELD_RECORD_OF(struct scenario, conditions, &conditions_record, "road and weather"),
-     FIELD_OPTIONAL},
+    {OPTIONAL_RECORD(struct scenario, conditions, &conditions_record, "road and weather")},
     {FIELD_LIST_OF(struct scenario, objects, &actor_record,
                    "all objects, the ego too unless it is one of roads")},
     {OPTIONAL_LIST(struct scenario, roads, &roadway_record,
