@@ -196,6 +196,8 @@ module.exports = ({stream, view, withPage, targetOnMap, clickMap, panelText, clo
         async 'the band over the slider is highest where most targets are'() {
             await withPage(view(intersection), async page => {
                 assert.strictEqual(await page.innerText('#most'), `up to ${busy.targets.length} targets`);
+                const [bars, most] = [await page.locator('#band').boundingBox(), await page.locator('#most').boundingBox()];
+                assert.ok(most.x >= bars.x + bars.width, 'the number lies over the band');
                 const poor = intersection.findIndex(one => one.targets.length < busy.targets.length / 3);
                 const [tall, low] = await page.evaluate(rows => {
                     const {data, width, height} = bandContext.getImageData(0, 0, band.width, band.height);

@@ -116,6 +116,35 @@ const tests = {
         });
     },
 
+    async 'the first look says what to click, the click tells the cell and puts the target on top'() {
+        await withPage(view(corner, '--frame', '114'), async page => {
+            assert.match(await panelText(page), /Click a target to see what it is made of/);
+            await page.click('#panel .row >> nth=0');
+            const frame = corner.find(one => one.frame === 114);
+            const target = frame.targets.find(one => one.sensor === 'left');
+            const {cell_range_m: range, cell_range_rate_mps: rate} = frame.sensors.list.find(one => one.name === 'left');
+            assert.ok((await panelText(page)).includes(`The radar’s cell: ${range} m (dashed arcs on the map) by ${rate} m/s`));
+            const near = frame.targets.find(one => one.sensor === 'right');
+            const [at, other] = [await targetOnMap(page, frame, target), await targetOnMap(page, frame, near)];
+            assert.ok(Math.hypot(at.x - other.x, at.y - other.y) < 6); // they lie over each other
+            assert.deepStrictEqual(await pixelAt(page, at), [0x00, 0x72, 0xb2, 255]);
+            await page.keyboard.press('Escape');
+            assert.doesNotMatch(await panelText(page), /Click a target to see/);
+        });
+    },
+
+    async 'help opens at its beginning, however low the window is'() {
+        for (const height of [400, 800]) {
+            await withPage(view(corner), async page => {
+                await page.click('#help');
+                assert.strictEqual(await page.evaluate(() => control('keys').scrollTop), 0);
+                assert.strictEqual(await page.evaluate(() => document.activeElement.textContent), 'What you see');
+                await page.keyboard.press('Escape');
+                assert.ok(await page.isHidden('#keys'));
+            }, {viewport: {width: 1280, height}});
+        }
+    },
+
     async 'a tap on a target does the same'() {
         const frame = richFrame(corner);
         const target = frame.targets.find(one => one.sensor === 'left');

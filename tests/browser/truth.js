@@ -358,14 +358,14 @@ module.exports = ({stream, view, withPage, panelText}) => {
 
         async 'a sentence says what the frame shows'() {
             const numbers = ['No', 'One', 'Two', 'Three', 'Four'];
-            for (const name of ['intersection', 'two-vehicles', 'clutter', 'ghosts', 'snow']) {
+            for (const name of ['intersection', 'two-vehicles', 'clutter', 'ghosts', 'snow', 'coherence']) {
                 const frames = streamOf(name);
                 await withPage(view(frames), async page => {
                     for (const frame of someOf(frames)) {
                         await showFrame(page, frame);
                         const kindOf = one => one.contributors[0].path;
                         const bodies = frame.targets.filter(one => !['clutter', 'false_alarm'].includes(kindOf(one)));
-                        const objects = new Set(bodies.map(one => one.contributors[0].object)).size;
+                        const objects = new Set(bodies.flatMap(one => one.contributors.map(part => part.object))).size;
                         const merged = bodies.filter(one => new Set(one.contributors.map(part => part.object)).size > 1);
                         const ghosts = bodies.filter(one => /wall/.test(kindOf(one))).length;
                         const count = kind => frame.targets.filter(one => kindOf(one) === kind).length;
@@ -476,6 +476,32 @@ module.exports = ({stream, view, withPage, panelText}) => {
                 assert.ok(words.filter(word => /^[−\d]+$/.test(word)).length >= 6, words.join());
                 assert.ok(words.includes('axes: m ahead and left of the ego'));
             });
+        },
+
+        async 'labels of bodies lie over no other body where there is room beside them'() {
+            for (const name of ['3gpp', 'snow', 'intersection']) {
+                const frames = streamOf(name);
+                await withPage(view(frames), async page => {
+                    const labels = await page.evaluate(() => {
+                        const found = [];
+                        const whole = labelObject;
+                        labelObject = (box, text, colour) => {
+                            const before = taken.length;
+                            whole(box, text, colour);
+                            found.push(...taken.slice(before).map(label => ({label, own: boundsOf(box)})));
+                        };
+                        draw();
+                        labelObject = whole;
+                        const {begin, end} = objectsOf(state.frame);
+                        const all = Array.from({length: end - begin}, (_, i) => boundsOf(boxOf(begin + i)));
+                        const meet = (a, b) => a.x < b.x + b.width && b.x < a.x + a.width &&
+                            a.y < b.y + b.height && b.y < a.y + a.height;
+                        return found.map(({label, own}) =>
+                            all.filter(one => JSON.stringify(one) !== JSON.stringify(own) && meet(label, one)).length);
+                    });
+                    assert.ok(labels.length >= 4 && labels.every(count => count === 0), `${name}: ${labels}`);
+                });
+            }
         },
 
         async 'with nothing chosen losses are counted by reason, and drawn on demand'() {

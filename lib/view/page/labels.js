@@ -1,9 +1,41 @@
-// Labels of the map. Each takes the first free place around the thing it names.
+// Labels of the map. Each takes the first free place around the thing it names, if there is one beside
+// all other bodies.
 let taken = [];
+let bodies = []; // boxes around the objects in view
+
+function overlap(box, other) {
+    return box.x < other.x + other.width && other.x < box.x + box.width &&
+        box.y < other.y + other.height && other.y < box.y + box.height;
+}
 
 function isFree(box) {
-    return !taken.some(other => box.x < other.x + other.width && other.x < box.x + box.width &&
-        box.y < other.y + other.height && other.y < box.y + box.height);
+    return !taken.some(other => overlap(box, other));
+}
+
+// The upright box around an object on the screen.
+function boundsOf(box) {
+    const corners = outlineOf(box).map(toScreen);
+    const x = spreadOf(corners, 'x');
+    const y = spreadOf(corners, 'y');
+    return {x: x.low, y: y.low, width: x.high - x.low, height: y.high - y.low};
+}
+
+// Notes where bodies are, but for those that fill little of the box around them, as slanted walls do.
+function noteBodies() {
+    bodies = [];
+    const {begin, end} = objectsOf(state.frame);
+    for (let row = begin; row < end; row++) {
+        const box = boxOf(row);
+        const bounds = boundsOf(box);
+        if (isClassShown(row) && bounds.width * bounds.height < 3 * box.length * box.width * camera.scale ** 2) {
+            bodies.push(bounds);
+        }
+    }
+}
+
+// True if a label of the thing at a place would lie over another body.
+function hidesBody(label, at) {
+    return bodies.some(body => overlap(label, body) && !overlap({...at, width: 0, height: 0}, body));
 }
 
 function takeAround(at, radius) {
@@ -11,6 +43,7 @@ function takeAround(at, radius) {
 }
 
 function freeBox(at, width, height) {
+    let second = null;
     for (let reach = 14; reach < 130; reach += 12) {
         for (const angle of [-0.7, 0.7, -2.4, 2.4, -1.5, 1.5, 0, 3.1]) {
             const x = at.x + reach * Math.cos(angle) - (Math.cos(angle) < -0.1 ? width : 0);
@@ -19,11 +52,17 @@ function freeBox(at, width, height) {
             const inView = x > 2 && y > 2 && x + width < canvas.clientWidth - 46 &&
                 y + height < canvas.clientHeight - 2;
             if (inView && isFree(box)) {
-                return box;
+                if (!hidesBody(box, at)) {
+                    return box;
+                }
+                second = second || box;
             }
         }
+        if (second && reach > 60) {
+            break;
+        }
     }
-    return null;
+    return second;
 }
 
 function shorten(text) {
@@ -42,7 +81,7 @@ function putLabel(text, at, colour, bold) {
     taken.push(box);
     const x = Math.max(box.x, Math.min(at.x, box.x + box.width));
     const y = Math.max(box.y, Math.min(at.y, box.y + box.height));
-    if (Math.hypot(at.x - x, at.y - y) > 16) {
+    if (Math.hypot(at.x - x, at.y - y) > 12) {
         context.strokeStyle = colour;
         context.lineWidth = 0.8;
         line(at, {x, y});

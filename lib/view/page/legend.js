@@ -66,7 +66,7 @@ function colourLines() {
     if (state.colour === 'amplitude') {
         const {low, high} = state.amplitudes;
         const levels = [0, 0.25, 0.5, 0.75, 1].map(part => amplitudeColour(low + part * (high - low)));
-        return [legendLine(gradient(levels), `${round(low, 1)} … ${round(high, 1)} dB`)];
+        return [legendLine(gradient(levels), `amplitude ${round(low, 1)} … ${round(high, 1)} dB`)];
     }
     if (state.colour === 'object') {
         return [legendLine(markCanvas(drawing => {

@@ -429,9 +429,10 @@ function placesOfCause() {
 
 function reserveRoom() {
     taken = [];
-    const legend = document.getElementById('legend');
-    taken.push({x: legend.offsetLeft, y: legend.offsetTop, width: legend.offsetWidth,
-        height: legend.offsetHeight});
+    for (const {offsetLeft, offsetTop, offsetWidth, offsetHeight} of [control('legend'), control('outside')]) {
+        taken.push({x: offsetLeft, y: offsetTop, width: offsetWidth, height: offsetHeight});
+    }
+    noteBodies();
     eachTarget(state.frame, (scan, target) => takeAround(toScreen(targetPlace(scan, target)), 7));
 }
 
@@ -475,8 +476,13 @@ function drawTargets() {
         drawCellRing(scan, state.target);
         drawContributors(scan, state.target, true);
     }
-    eachTarget(state.frame, drawTarget);
+    eachTarget(state.frame, (scan, target) => {
+        if (target !== state.target) {
+            drawTarget(scan, target);
+        }
+    });
     if (state.target >= 0) {
+        drawTarget(scanOfTarget(state.frame, state.target), state.target); // over all others
         labelContributors(state.target);
     } else {
         labelFates();

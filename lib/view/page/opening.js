@@ -40,7 +40,7 @@ function targetsAbout(frame, effects) {
 
 // Counts, for each object of a frame with targets, the most targets of one sensor, lost echoes, and
 // targets merged with other objects (foreign); beside is true if a sensor has at least three
-// targets of it and lost another echo.
+// targets of it and lost another echo; range is that of its nearest target, m.
 function countsByObject(frame) {
     const counts = new Map();
     const {begin, end} = scansOf(frame);
@@ -57,9 +57,10 @@ function countTargets(scan, counts) {
     for (let target = begin; target < end; target++) {
         const object = objectOfTarget(target);
         targetsHere.set(object, (targetsHere.get(object) || 0) + 1);
-        const known = counts.get(object) || {targets: 0, lost: 0, foreign: 0, beside: false};
+        const known = counts.get(object) || {targets: 0, lost: 0, foreign: 0, beside: false, range: Infinity};
         known.targets = Math.max(known.targets, targetsHere.get(object));
         known.foreign += isMerged(target) ? 1 : 0;
+        known.range = Math.min(known.range, column('target_range_m')[target]);
         counts.set(object, known);
     }
     return targetsHere;
@@ -89,14 +90,14 @@ function countLost(scan, counts, targetsHere) {
 }
 
 // The score of an object's counts: best where one sensor has three targets of it and lacks a
-// fourth.
-function scoreOf({targets, lost, foreign, beside}, row) {
+// fourth, less beyond 50 m, where the map must show bodies small.
+function scoreOf({targets, lost, foreign, beside, range}, row) {
     if (row < 0) {
         return 0;
     }
     const many = spotsOf(column('object_id')[row]).size >= 6;
     return 3 * Math.min(targets, 3) + (lost > 0 ? 4 : 0) - 0.5 * Math.max(0, lost - 2) -
-        2 * foreign + (beside ? 2 : 0) + (many ? 6 : 0);
+        2 * foreign + (beside ? 2 : 0) + (many ? 6 : 0) - Math.max(0, range - 50) / 25;
 }
 
 // The best object of a frame, and its score with that of the effects that the frame shows.

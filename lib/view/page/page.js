@@ -5,6 +5,7 @@ const state = {
     row: 0, // index among the scene's frames
     frame: -1, // index among all frames of the stream; -1: none
     ego: null,
+    fresh: true, // nobody has chosen anything yet
     object: -1, // chosen object, by the number of its id in names; -1: none
     reflector: null,
     echo: null, // the one echo of the chosen reflector that was clicked; null: all
@@ -62,6 +63,7 @@ function refresh() {
 // Choosing.
 
 function chooseTarget(target) {
+    state.fresh = false;
     state.target = target;
     state.reflector = null;
     state.echo = null;
@@ -72,6 +74,7 @@ function chooseTarget(target) {
 }
 
 function chooseReflector(reflector, object, echo) {
+    state.fresh = false;
     state.target = -1;
     state.reflector = reflector;
     state.echo = echo || null;
@@ -82,6 +85,7 @@ function chooseReflector(reflector, object, echo) {
 }
 
 function chooseObject(object) {
+    state.fresh = false;
     state.target = -1;
     state.reflector = null;
     state.echo = null;

@@ -245,7 +245,7 @@ function objectNotes() {
     if (names[state.object] === names[head.scenes[state.scene].ego]) {
         return ['The ego carries the sensors. It neither reflects nor blocks.'];
     }
-    const notes = [];
+    const notes = state.fresh ? ['Click a target to see what it is made of.'] : [];
     if (!column('frame_account')[state.frame] && hasSensors()) {
         notes.push('The frame does not tell what was lost: give --sections account to glint-ideal.');
     }
@@ -399,7 +399,13 @@ function showTarget() {
     const rows = order.slice(0, 40).map(i => contributorRow(scan, state.target, i));
     panel.replaceChildren(backButton(), title, valuesTable(scan, state.target),
         ...targetNotes(scan), ...qualitySection(state.target), ...section(`Made of ${plural(order.length, 'reflection centre')}`, rows),
-        ...moreLine(order.length - rows.length));
+        ...moreLine(order.length - rows.length), make('p', cellWords(sensorOf(scan)), 'soft'));
+}
+
+// The resolution cell that is drawn around a chosen target.
+function cellWords(sensor) {
+    return `The radar’s cell: ${metres(sensor.cell_range_m)} m (dashed arcs on the map) by ` +
+        `${metres(sensor.cell_range_rate_mps)} m/s (a box in range over rate).`;
 }
 
 function targetNotes(scan) {

@@ -93,18 +93,18 @@ function drawAxes(drawing, size, axes, unit) {
     for (let x = Math.ceil(low / step) * step; x <= high; x += step) {
         const at = plotPlace(size, axes, x, 0);
         plotRule(drawing, at, plotPlace(size, axes, x, axes.top), x === 0);
-        plotText(drawing, String(Number(x.toPrecision(3))), at.x, at.y + 9, 'center');
+        plotText(drawing, metres(x), at.x, at.y + 11, 'center');
     }
     const stride = roundStep(axes.top, 4);
     for (let range = 0; range <= axes.top; range += stride) {
         const at = plotPlace(size, axes, axes.left, range);
         plotRule(drawing, at, plotPlace(size, axes, axes.right, range), range === 0);
-        plotText(drawing, String(Number(range.toPrecision(3))), at.x - 4, at.y, 'right');
+        plotText(drawing, metres(range), at.x - 4, at.y, 'right');
     }
     const middle = plotPlace(size, axes, (axes.left + axes.right) / 2, 0);
     plotText(drawing, unit === '°' ? '° from the vehicle’s heading'
         : state.rates === 'raw' ? 'm/s, receding is right' : 'm/s over ground',
-        middle.x, size.height - 8, 'center');
+        middle.x, size.height - 7, 'center');
 }
 
 function plotTarget(plot, kind, drawing, size, axes, scan, target) {
@@ -180,7 +180,9 @@ function drawPlot(kind) {
         plotCell(kind, drawing, size, axes, scan, target);
         plotEchoes(kind, drawing, size, axes, scan, target);
     });
-    eachTarget(state.frame, (scan, target) => plotTarget(plot, kind, drawing, size, axes, scan, target));
+    const order = [[], []]; // the chosen one over all others
+    eachTarget(state.frame, (scan, target) => order[Number(target === state.target)].push([scan, target]));
+    order.flat().forEach(one => plotTarget(plot, kind, drawing, size, axes, ...one));
     drawing.restore();
 }
 

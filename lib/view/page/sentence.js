@@ -29,7 +29,12 @@ function sceneWords() {
     return names[name].endsWith(end) ? names[name].slice(0, -end.length) : names[name];
 }
 
-// How many targets of a frame are of each kind, how many objects they are of, and how many have
+function eachObjectOf(target, visit) {
+    const {begin, end} = contributorsOf(target);
+    column('contributor_object').slice(begin, end).forEach(visit);
+}
+
+// How many targets of a frame are of each kind, how many objects sent their echoes, and how many have
 // echoes of several.
 function countTargetKinds(frame) {
     const found = {body: 0, ghost: 0, clutter: 0, false_alarm: 0, merged: 0, objects: new Set()};
@@ -39,7 +44,7 @@ function countTargetKinds(frame) {
         const kind = kindOf(target);
         found[kind]++;
         if (kind === 'body' || kind === 'ghost') {
-            found.objects.add(objectOfTarget(target));
+            eachObjectOf(target, object => found.objects.add(object));
             found.merged += isMerged(target) ? 1 : 0;
         }
     }
