@@ -203,6 +203,16 @@ void runner_free(struct runner *runner)
     arena_free(&runner->arena);
 }
 
+/* The stage that writes a section, unless another one stands in its place. */
+static const char *writer_of(unsigned section)
+{
+    return section == SECTION_OBJECTS                            ? "traffic"
+           : section == SECTION_REFLECTORS                       ? "extract"
+           : (section & (SECTION_SENSORS | SECTION_ECHOES)) != 0 ? "ideal"
+           : section == SECTION_CELLS                            ? "sensor"
+                                                                 : "noise";
+}
+
 static int check_sections(struct runner *runner, const struct frame *frame)
 {
     unsigned missing = runner->program.reads & ~frame->present;
@@ -211,8 +221,8 @@ static int check_sections(struct runner *runner, const struct frame *frame)
                          "objects: missing; --sections left them out of the stream");
     if (missing != 0)
         return diag_fail(&runner->diag, DIAG_DATA,
-                         "%s: missing; the stage that writes it must stand before this one",
-                         frame_section_name(missing & -missing));
+                         "%s: missing; expected glint-%s, or a stage in its place, before this one",
+                         frame_section_name(missing & -missing), writer_of(missing & -missing));
     unsigned added = SECTION_LOST | SECTION_COUNTS | SECTION_VEHICLES | SECTION_VISIBILITY;
     unsigned doubled = runner->program.writes & ~runner->program.reads & frame->present & ~added;
     if (doubled != 0)
@@ -411,7 +421,10 @@ struct output *runner_output_beside(struct runner *runner, const char *path)
 
 struct output *runner_output_in(struct runner *runner, const char *folder, const char *name)
 {
-    return add_output(runner, arena_format(&runner->arena, "%s/%s", folder, name));
+    if (document_check_folder("DIR", folder, &runner->diag) == 0)
+        return add_output(runner, arena_format(&runner->arena, "%s/%s", folder, name));
+    runner->diag.code = DIAG_CANNOT_CREATE;
+    return NULL;
 }
 
 int runner_close_outputs(struct runner *runner, bool whole)

@@ -34,7 +34,8 @@ const struct file_format *file_format_of(const char *bytes, size_t length)
     for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++) {
         const struct file_format *format = &formats[i];
         size_t sign = strlen(format->begins);
-        if (length - begin >= sign && memcmp(bytes + begin, format->begins, sign) == 0 &&
+        size_t at = (unsigned char)format->begins[0] < 0x80 ? begin : 0;
+        if (length - at >= sign && memcmp(bytes + at, format->begins, sign) == 0 &&
             has(bytes, length, format->has[0]) && has(bytes, length, format->has[1]))
             return format;
     }

@@ -14,7 +14,7 @@
 struct file_format {
     const char *kind, *name;
     const char *use;    /* a clause: what reads it, or what to do with it */
-    const char *begins; /* after white space, a byte order mark and the length of a message */
+    const char *begins; /* text: after white space, a byte order mark and the length of a message */
     const char *has[2]; /* words among the first bytes, or NULL */
 };
 

@@ -253,12 +253,13 @@ static void fill(struct recording *recording, const struct recorded_state *state
 static int check_egos(const struct recording *recording, struct diag *diag)
 {
     const struct recorded_format *format = recording->steps.reader.format;
+    bool cut = recording->options->from_s > -9e9 || recording->options->to_s < 9e9;
     for (uint32_t i = 0; i < recording->wanted.list.count; i++) {
         uint32_t number;
         const struct intern_name *name = &recording->wanted.list.items[i];
         if (!intern_find(&recording->ids, name->text, name->length, &number))
-            return diag_fail(diag, DIAG_DATA, "--ego: \"%s\" is no %s", name->text,
-                             format->id_name);
+            return diag_fail(diag, DIAG_DATA, "--ego: \"%s\" is no %s%s", name->text,
+                             format->id_name, cut ? " between --from-s and --to-s" : "");
     }
     if (recording->all && recording->egos.count == 0)
         return diag_fail(diag, DIAG_DATA, "--ego: there are no vehicles");

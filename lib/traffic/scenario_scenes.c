@@ -56,9 +56,9 @@ static int begin_roads(struct scenario_scenes *scenes, uint64_t seed, struct dia
                                     &scenes->arena, diag);
     scenes->on_road = scenario_object(scenario, scenario->ego) == NULL;
     if (result == 0 && scenes->on_road && !road_traffic_has(&scenes->roads, scenario->ego))
-        result =
-            diag_fail(diag, DIAG_CONFIG, "ego: \"%s\" is neither an object nor on a road at time 0",
-                      scenario->ego);
+        result = diag_fail(diag, scenes->ego != NULL ? DIAG_USAGE : DIAG_CONFIG,
+                           "%s: \"%s\" is neither an object nor on a road at time 0",
+                           scenes->ego != NULL ? "--ego" : "ego", scenario->ego);
     return result == 0 ? 0 : diag_prefix(diag, "%s: ", scenes->document.path);
 }
 

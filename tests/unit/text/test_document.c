@@ -216,7 +216,7 @@ static void text_that_is_not_a_document_is_refused_with_its_line(void **state)
                  {"\n\n{\"origin\": }", ":3: "},
                  {"{\"origin\": \"a\",\n\"origin\": \"b\"}", ":2: duplicate object key"},
                  {"{} {}", ":1: end of file expected"},
-                 {"\xef\xbb\xbf{}", ":1: "},
+                 {"\xef\xbb\xbf{}", ": JSON behind a byte order mark"},
                  {"{\"origin\": \"\\u0000\"}", ":1: "},
                  {"{\"origin\": \"\xff\"}", ":1: "},
                  {"{\"length_m\": 1e999}", ":1: "},

@@ -42,6 +42,17 @@ static void a_file_that_cannot_be_read_is_of_no_format(void **state)
     assert_false(explains("frame", "<fcd-export>", DIAG_NO_INPUT, &diag));
 }
 
+static void encodings_that_no_reader_takes_are_named_before_what_they_hold(void **state)
+{
+    (void)state;
+    struct diag diag;
+    assert_true(explains("frame", "\xef\xbb\xbf{\"version\":0}", DIAG_DATA, &diag));
+    assert_string_equal(diag.text, "JSON behind a byte order mark; tail -c +4 leaves the mark out");
+    assert_string_equal(file_format_of("\xff\xfe{\0\"\0", 6)->name, "text in UTF-16");
+    assert_string_equal(file_format_of("\xfe\xff\0{\0\"", 6)->name, "text in UTF-16");
+    assert_null(file_format_of("\n\xff\xfe{\0", 5));
+}
+
 static void words_count_only_behind_the_right_beginning(void **state)
 {
     (void)state;
@@ -77,6 +88,7 @@ int main(void)
         cmocka_unit_test(another_format_is_named_and_the_code_stays),
         cmocka_unit_test(a_reader_keeps_its_message_for_its_own_format_and_for_unknown_ones),
         cmocka_unit_test(a_file_that_cannot_be_read_is_of_no_format),
+        cmocka_unit_test(encodings_that_no_reader_takes_are_named_before_what_they_hold),
         cmocka_unit_test(words_count_only_behind_the_right_beginning),
         cmocka_unit_test(a_message_of_osi_stands_behind_its_length),
         cmocka_unit_test(cut_bytes_are_read_no_further),
