@@ -24,7 +24,7 @@ struct plan_state {
     const char *error, *within;
     const char *request; /* the effects that were asked for; "auto" if all may be simulated */
     int64_t frames;      /* of the sample */
-    int reference;       /* enum cost_reference */
+    int reference;       /* enum cost_reference; -1: not given */
     struct plan plan;
     struct runner *extract, *tried[PLAN_POSITIONS], *stand_in[PLAN_POSITIONS];
     struct cost measured;
@@ -109,8 +109,8 @@ static int read_bound(const char *option, const char *text, const char *unit, do
         *bound *= scale;
         return 0;
     }
-    return diag_fail(diag, DIAG_USAGE, "--%s: \"%s\"; expected a number in %s, at least 0", option,
-                     text, unit);
+    return diag_fail(diag, DIAG_USAGE, "--%s: \"%s\"; expected a number with its unit, as 10%s",
+                     option, text, unit);
 }
 
 static int begin_cost(struct plan_state *own, struct runner *runner)
@@ -127,15 +127,20 @@ static int begin_cost(struct plan_state *own, struct runner *runner)
         (own->within != NULL && read_bound("within", own->within, "us", 1, &own->bound, diag) != 0))
         return -1;
     own->cost = own->cost || bounded;
-    if (!own->cost && (own->brief || own->json || own->frames > 0))
-        return diag_fail(diag, DIAG_USAGE, "--brief, --json and --frames: only with --cost");
+    if (!own->cost && (own->brief || own->json || own->frames > 0 || own->reference >= 0))
+        return diag_fail(diag, DIAG_USAGE,
+                         "--brief, --json, --frames and --reference: only with --cost");
     own->measured = (struct cost){
         .runner = runner,
         .suite = own->choice.sensors,
-        .reference = (enum cost_reference)own->reference,
+        .reference = own->reference == COST_ALL ? COST_ALL : COST_SIGNAL,
         .brief = own->brief,
     };
-    return own->cost ? cost_begin(&own->measured, own->frames) : 0;
+    if (own->cost && cost_begin(&own->measured, own->frames) != 0)
+        return -1;
+    if (own->cost && own->reference == COST_SIGNAL && own->measured.no_signal != NULL)
+        return diag_fail(diag, DIAG_USAGE, "--reference: signal: %s", own->measured.no_signal);
+    return 0;
 }
 
 /* Finds the effects that the frames of the sample call for. */
@@ -229,7 +234,8 @@ static const struct field plan_options[] = {
         struct plan_state, frames, 1, 1e6,
         "how many frames are measured at most; absent: 250, or fewer where the signal takes long")},
     {OPTIONAL_CHOICE(struct plan_state, reference, cost_references,
-                     "what errors are measured from; absent: the signal where there is one")},
+                     "what errors are measured from; absent: the signal where there is one"),
+     .absent = -1},
     {OPTIONAL_FLAG(struct plan_state, brief, "measure no chains that leave out an effect")},
     {OPTIONAL_FLAG(struct plan_state, json, "write the costs as a line of JSON")},
     {0},

@@ -1,6 +1,7 @@
 #include "frame/frame_sequence.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 
 /* Two numbers that tell one thing from another, without padding. */
 struct pair {
@@ -52,8 +53,11 @@ int frame_sequence_follow(struct frame_sequence *sequence, const struct frame *f
     struct scene_progress *scene = &sequence->scenes.items[number];
     if (frame->frame > scene->frame && scene->closed)
         return refuse(frame, "comes after its last one", diag);
-    if (frame->frame > scene->frame + 1)
-        return refuse(frame, "is out of order", diag);
+    if (frame->frame > scene->frame + 1) {
+        char why[80];
+        snprintf(why, sizeof why, "is out of order; expected %" PRId64, scene->frame + 1);
+        return refuse(frame, why, diag);
+    }
     scene->closed = frame->last;
     return ascend(scene, frame, diag);
 }

@@ -20,9 +20,10 @@ int suite_choice_request(const struct suite_choice *choice, const struct suite *
     struct selection selection;
     if (effects_read(request->effects, &selection, diag) == 0)
         return 0;
-    if (choice->effects != NULL)
-        diag->code = DIAG_USAGE;
-    return -1;
+    if (choice->effects == NULL)
+        return -1;
+    diag->code = DIAG_USAGE;
+    return diag_prefix(diag, "--");
 }
 
 /* A sensor that only the frame knows would lose its echoes without a word. */

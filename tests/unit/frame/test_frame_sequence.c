@@ -73,8 +73,8 @@ static void gaps_repetitions_and_what_comes_after_the_end_are_refused(void **sta
         bool last;
         const char *message;
     } cases[] = {
-        {1, 2, false, "frame: 1 of scene \"a\" with seed 1 is out of order"},
-        {0, 2, false, "frame: 2 of scene \"a\" with seed 1 is out of order"},
+        {1, 2, false, "frame: 1 of scene \"a\" with seed 1 is out of order; expected 0"},
+        {0, 2, false, "frame: 2 of scene \"a\" with seed 1 is out of order; expected 1"},
         {0, 0, false,
          "frame: 0 of scene \"a\" with seed 1 comes behind frame 0; that scene began at a.jsonl:1"},
         {0, 1, true, "frame: 1 of scene \"a\" with seed 1 comes after its last one"},
