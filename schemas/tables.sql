@@ -1,8 +1,9 @@
 -- The tables of glint-tables for DuckDB: FROM detections('FOLDER').
 -- With reals := 'FLOAT', real numbers are in single precision, except times and origins.
+-- The dialect is not detected: DuckDB would take the name ' for a quotation mark.
 
 CREATE OR REPLACE MACRO detections(folder, reals := 'DOUBLE') AS TABLE
-FROM read_csv(folder || '/detections.csv*', header = true, columns = {
+FROM read_csv(folder || '/detections.csv*', header = true, auto_detect = false, columns = {
     "detection_key": 'BIGINT', -- number of this row
     "scan_key": 'BIGINT', -- row of scans
     "detection": 'BIGINT', -- place in the sensor's list, from 0
@@ -65,7 +66,7 @@ FROM read_csv(folder || '/detections.csv*', header = true, columns = {
 });
 
 CREATE OR REPLACE MACRO objects(folder, reals := 'DOUBLE') AS TABLE
-FROM read_csv(folder || '/objects.csv*', header = true, columns = {
+FROM read_csv(folder || '/objects.csv*', header = true, auto_detect = false, columns = {
     "object_key": 'BIGINT', -- number of this row
     "frame_key": 'BIGINT', -- number of the frame
     "scene": 'VARCHAR', -- unique in a set: source, ego, variant
@@ -86,7 +87,7 @@ FROM read_csv(folder || '/objects.csv*', header = true, columns = {
 });
 
 CREATE OR REPLACE MACRO scans(folder, reals := 'DOUBLE') AS TABLE
-FROM read_csv(folder || '/scans.csv*', header = true, columns = {
+FROM read_csv(folder || '/scans.csv*', header = true, auto_detect = false, columns = {
     "scan_key": 'BIGINT', -- number of this row
     "frame_key": 'BIGINT', -- number of the frame
     "scene": 'VARCHAR', -- unique in a set: source, ego, variant
@@ -120,7 +121,7 @@ FROM read_csv(folder || '/scans.csv*', header = true, columns = {
 });
 
 CREATE OR REPLACE MACRO contributors(folder, reals := 'DOUBLE') AS TABLE
-FROM read_csv(folder || '/contributors.csv*', header = true, columns = {
+FROM read_csv(folder || '/contributors.csv*', header = true, auto_detect = false, columns = {
     "detection_key": 'BIGINT', -- row of detections
     "contributor": 'BIGINT', -- place in the label, from 0; the leader of the cell is the first
     "object_key": 'BIGINT', -- row of objects
@@ -138,7 +139,7 @@ FROM read_csv(folder || '/contributors.csv*', header = true, columns = {
 });
 
 CREATE OR REPLACE MACRO lost(folder, reals := 'DOUBLE') AS TABLE
-FROM read_csv(folder || '/lost.csv*', header = true, columns = {
+FROM read_csv(folder || '/lost.csv*', header = true, auto_detect = false, columns = {
     "scan_key": 'BIGINT', -- row of scans
     "object_key": 'BIGINT', -- row of objects
     "sensor": 'VARCHAR', -- name in the suite

@@ -225,6 +225,13 @@ async function run(name, commands) {
     return rows;
 }
 
+// DuckDB must not take its dialect from names.
+async function runNamed(folder, name) {
+    const commands = `glint-traffic cut-in --scene "${name}" | ${CHAIN.replace('ACCOUNT', '')}`;
+    await compare(commands, folder, await make(commands, folder));
+}
+
+await runNamed(`${work}/apostrophe`, "'");
 await run('accounted', stream(2000, '--sections account', 1));
 const rows = await run('plain', stream(Math.ceil(most / DETECTIONS_A_FRAME), '', 2));
 check(rows.detections >= most, `${rows.detections} detections, expected ${most}`);
