@@ -45,7 +45,7 @@ static bool remake(struct check *own, const struct frame *frame, struct frame *a
     struct diag *diag = runner_diag(own->runner);
     *again = *frame;
     frame_drop(again, ~(unsigned)(SECTION_OBJECTS | SECTION_REFLECTORS | SECTION_VEHICLES));
-    again->sections = CARRY_BY_DEFAULT;
+    again->sections = CARRY_BY_DEFAULT | (frame->sections & CARRY_ACCOUNT);
     begin_ideal(own, frame);
     bool made = own->ideal != NULL &&
                 ((frame->present & SECTION_REFLECTORS) != 0 ||
@@ -67,12 +67,15 @@ static int check_value(const char *member, double told, double truth, struct dia
 /* Sensors must be those of the suite. */
 static int check_views(const struct frame *frame, const struct frame *again, struct diag *diag)
 {
-    for (size_t i = 0; i < frame->sensors.list.count && i < again->sensors.list.count; i++)
+    for (size_t i = 0; i < frame->sensors.list.count && i < again->sensors.list.count; i++) {
+        if (frame->sensors.list.items[i].measured != again->sensors.list.items[i].measured)
+            return diag_fail(diag, DIAG_DATA, "sensors.list[%zu].measured: not as by its cycle", i);
         for (const struct field *field = sensor_view_record.fields; field->name != NULL; field++)
             if (field->kind == FIELD_REAL &&
                 check_value(field->name, FIELD_LOAD(double, field, &frame->sensors.list.items[i]),
                             FIELD_LOAD(double, field, &again->sensors.list.items[i]), diag) != 0)
                 return diag_prefix(diag, "sensors.list[%zu].", i);
+    }
     return 0;
 }
 
@@ -114,11 +117,40 @@ static int check_target(const struct target *target, const struct frame *again, 
     return diag_fail(diag, DIAG_DATA, "contributors: weights sum to %.17g; expected 1", weights);
 }
 
+static int check_group(const struct lost_group *told, const struct lost_group *due,
+                       struct diag *diag)
+{
+    bool same = due != NULL && frame_order_lost_groups(told, due) == 0 &&
+                told->echoes.count == due->echoes.count;
+    for (size_t i = 0; same && i < told->echoes.count; i++) {
+        const struct lost_echo *one = &told->echoes.items[i], *truth = &due->echoes.items[i];
+        same = frame_order_echo_ids(one->id, truth->id) == 0;
+        if (same && (check_value("range_m", one->range_m, truth->range_m, diag) != 0 ||
+                     check_value("azimuth_rad", one->azimuth_rad, truth->azimuth_rad, diag) != 0))
+            return diag_prefix(diag, "echoes[%zu].", i);
+    }
+    return same ? 0 : diag_fail(diag, DIAG_DATA, "echoes: of these objects, ideal loses others");
+}
+
+/* What never became an echo is known from the objects: `again` has the losses of ideal alone. */
+static int check_losses(const struct frame *frame, const struct frame *again, struct diag *diag)
+{
+    size_t known = 0;
+    for (size_t i = 0; i < frame->lost.count; i++) {
+        const struct lost_group *due = known < again->lost.count ? &again->lost.items[known] : NULL;
+        bool of_ideal = strcmp(frame->lost.items[i].stage, "ideal") == 0;
+        if (of_ideal && check_group(&frame->lost.items[i], due, diag) != 0)
+            return diag_prefix(diag, "lost[%zu].", i);
+        known += of_ideal;
+    }
+    return known == again->lost.count ? 0 : diag_fail(diag, DIAG_DATA, "lost: ideal loses more");
+}
+
 static int check_labels(struct check *own, const struct frame *frame, struct diag *diag)
 {
     struct frame again;
     bool known = frame->objects.count > 0 && remake(own, frame, &again);
-    if (known && check_views(frame, &again, diag) != 0)
+    if (known && (check_views(frame, &again, diag) != 0 || check_losses(frame, &again, diag) != 0))
         return -1;
     for (size_t i = 0; i < frame->targets.count; i++)
         if (check_target(&frame->targets.items[i], known ? &again : NULL, own, diag) != 0)
@@ -186,9 +218,9 @@ const struct tool tool_check = {
     .summary = "Check that a stream is whole and its labels agree with its truth.",
     .details =
         "Every line is held to the schema and its bounds, every scene to its frames from 0 to\n"
-        "the last, every account to its sum. Echoes are made again from the objects, and labels\n"
-        "held to their range, azimuth, range rate and time, to 1e-9. The first fault ends the\n"
-        "check, with the exit status 65. scripts/check-set checks tables and sets.",
+        "the last, every account to its sum. Echoes are made again from the objects: labels are\n"
+        "held to their range, azimuth, range rate and time, losses to reason and place, to 1e-9.\n"
+        "The first fault ends the check with status 65. scripts/check-set checks tables and sets.",
     .options = STAGE_OPTIONS(struct check, check_options),
     .reads = SECTION_SENSORS | SECTION_TARGETS,
     .run = check_run,

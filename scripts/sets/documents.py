@@ -5,7 +5,7 @@ import shlex
 import subprocess
 
 from durable import digest_of_file
-from plan import BAD_DATA, FROM_FILES, NO_INPUT, ROOT, Fault, kind_of, read_json
+from plan import BAD_DATA, FROM_FILES, NO_INPUT, ROOT, Fault, kind_of, read_json, refuse
 
 BIN = os.path.join(ROOT, os.environ.get("BUILD", "build"), "bin")
 DOCUMENTS = "documents"
@@ -49,7 +49,9 @@ def suite_name(word):
 
 
 def copies_of_suites(plan, plan_folder):
+    names = [suite_name(word) for word in plan["suites"]]
     for word in plan["suites"]:
+        refuse(names.count(suite_name(word)) > 1, "/suites", f"{suite_name(word)} is there twice")
         path = path_of(word, "suite", plan_folder)
         yield f"{DOCUMENTS}/sensors/{suite_name(word)}.json", path
         for sensor in read_json(path).get("sensors", []):

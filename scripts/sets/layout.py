@@ -8,10 +8,10 @@ import sys
 import tempfile
 
 from documents import copies, described, environment, files_of, path_of, program_version, suite_name
-from durable import (canonical, digest_of, digest_of_file, make_folder, remove_temporaries, sync_folder, whole_file,
+from durable import (canonical, digest_of, make_folder, remove_temporaries, sync_folder, whole_file,
                      write_whole)
-from plan import BAD_DATA, CANNOT_CREATE, ROOT, Fault, check_once, read_json
-from traffic import command_of, packed, stretches_of
+from plan import BAD_DATA, CANNOT_CREATE, ROOT, Fault, check_once, kind_of, read_json, refuse
+from traffic import command_of, first_scenes, packed, source_command, stretches_of
 
 WORK, LAYOUT = "work", "work/layout.json"
 
@@ -37,6 +37,8 @@ def shards_of(plan, plan_folder):
         for source in plan["sources"]:
             for split, stretches in stretches_of(plan, source, seed, size, plan_folder).items():
                 by_split.setdefault(split, []).extend(stretches)
+    for split, stretches in by_split.items():
+        refuse(not stretches, "/splits/shares", f"{split} gets no scene")
     return [shard_of(stretches, split, suite_name(suite), number, plan, plan_folder)
             for split, all_stretches in by_split.items() for suite in plan["suites"]
             for number, stretches in enumerate(packed(all_stretches, size))]
@@ -44,7 +46,7 @@ def shards_of(plan, plan_folder):
 
 def lay_out(plan, plan_folder):
     """Layout and copies of a plan. The identity of the layout is a digest of all that decides the set's bytes."""
-    check_once(plan, lambda word, kind: path_of(word, kind, plan_folder), digest_of_file)
+    check_once(plan, lambda word, kind: path_of(word, kind, plan_folder))
     copied, shards = copies(plan, plan_folder), shards_of(plan, plan_folder)
     inputs = sorted({name for shard in shards for name in shard["inputs"]})
     layout = {"program": program_version(), "plan": plan, "documents": described(copied),
@@ -60,10 +62,27 @@ def copy_documents(copied, folder, work):
             shutil.copyfileobj(source, file)
 
 
-def rehearse(plan, copied):
-    """Sends a random frame through the chain of each suite: a wrong word is found before a folder is there."""
+def check_drawn(plan, plan_folder, trial):
+    """Refuses to split a scenario whose first scenes are alike, as it draws nothing."""
+    for i, source in enumerate(plan["sources"] if "splits" in plan else []):
+        if kind_of(source) == "scenario":
+            command = source_command(first_scenes(source, plan.get("seeds", [1])[0]))
+            played = subprocess.run(["glint", "-c", command], cwd=plan_folder, env=environment(trial), check=False,
+                                    stdout=subprocess.PIPE).stdout
+            scenes = {}
+            for frame in map(json.loads, played.splitlines()):
+                scenes.setdefault(frame["scene"], []).append(frame["objects"])
+            first, *others = scenes.values() or [None]
+            refuse(others and all(other == first for other in others), f"/sources/{i}",
+                   "its scenes are alike, as it draws nothing: split, they leak")
+
+
+def rehearse(plan, plan_folder, copied):
+    """Plays the first scenes of what is split, and sends a random frame through the chain of each suite: what leaks and
+    what is wrong is found before a folder is there."""
     with tempfile.TemporaryDirectory() as trial:
         copy_documents(copied, trial, trial)
+        check_drawn(plan, plan_folder, trial)
         for suite in map(suite_name, plan["suites"]):
             chain = plan["chain"].replace("{suite}", suite)
             words = ["glint", "-c", f"glint-traffic-random --frames 1 | {chain} | glint-summary"]
@@ -128,7 +147,7 @@ def prepare(plan, plan_folder, folder):
     """Writes all but the shards: layout, documents, folders, and the Makefile last."""
     layout, copied = lay_out(plan, plan_folder)
     check_folder(folder, layout)
-    rehearse(plan, copied)
+    rehearse(plan, plan_folder, copied)
     work = os.path.join(folder, WORK)
     make_folder(work)
     remove_temporaries(work)

@@ -1,4 +1,6 @@
 """Reads the plan of a data set and refuses what would leak or could not be made."""
+import gzip
+import hashlib
 import json
 import os
 import re
@@ -17,6 +19,7 @@ KINDS = {"random": ({"random", "frames"}, set()),
 FROM_FILES = ("scenario", "recording")
 # How a kind can be split.
 SPLIT_BY = {"random": {"scene"}, "moving": {"scene"}, "scenario": {"scene"}, "recording": {"time", "recording"}}
+OWN_FOLDERS = ("documents", "work")
 # Options of sources that the plan's own members give.
 OWN_OPTIONS = {"--first", "--frames", "--density", "--seed", "--scene", "--scenes", "--ego", "--from-s", "--to-s",
                "--rate-hz", "--seconds", "--output", "-o", "--complete"}
@@ -69,6 +72,13 @@ def kind_of(source):
     return "moving" if kinds == ["random"] and "seconds" in source else kinds[0]
 
 
+def words_of(text, path):
+    try:
+        return shlex.split(text)
+    except ValueError as error:
+        raise Fault(BAD_DATA, f"{path}: {error}") from error
+
+
 def check_source(source, path):
     kind = kind_of(source)
     refuse(kind is None, path, "expected one of random, scenario, recording")
@@ -77,7 +87,7 @@ def check_source(source, path):
         refuse(True, path, f"{name} is missing: a {kind} source needs it")
     for name in source.keys() - needed - taken - {"program", "options"}:
         refuse(True, f"{path}/{name}", f"a {kind} source has none")
-    for word in shlex.split(source.get("options", "")):
+    for word in words_of(source.get("options", ""), f"{path}/options"):
         refuse(word.split("=")[0] in OWN_OPTIONS or word in "|<>&;", f"{path}/options", f"{word} is the plan's to say")
     for name in ("from_s", "to_s"):
         refuse("block_s" in source and name not in source, path, f"{name} is missing: blocks need it")
@@ -91,7 +101,7 @@ def check_chain(chain):
     programs = [part.split()[0] if part.split() else "" for part in chain.split("|")]
     for program in programs:
         refuse(not program.startswith("glint-"), "/chain", f"{program!r} is no program of glint")
-    for option in re.findall(r"(?<=\s)(-o|--output|--vehicles)(?=[\s=])", chain):
+    for option in re.findall(r"(?<=\s)(-o|--output|--seed|--vehicles)(?=[\s=])", chain):
         refuse(True, "/chain", f"{option} is not the chain's to say")
     refuse(">" in chain or "<" in chain, "/chain", "redirects")
     refuse("#" in chain, "/chain", "has a comment, which would hide what follows it")
@@ -115,16 +125,28 @@ def check_splits(plan):
     refuse(shares and abs(whole - 1) > 1e-9, "/splits/shares", f"{whole} in sum; expected 1")
     refuse((by == "time") != ("gap_s" in splits) and by, "/splits/gap_s",
            "missing: without a gap, traffic of one split is in the next" if by == "time" else "is for splits by time")
-    for name in shares:
+    for name in [*shares, *(source["split"] for source in plan["sources"] if "split" in source)]:
         refuse(not re.fullmatch("[a-z0-9][a-z0-9_-]*", name), "/splits/shares", f"{name!r} is no name of a folder")
+        refuse(name in OWN_FOLDERS, "/splits", f"{name!r} is a folder of every set")
 
 
-def check_once(plan, path_of, digest_of):
+def digest_of_traffic(path):
+    """Alike for a table and its compressed copy, and however its lines end."""
+    digest = hashlib.sha256()
+    with open(path, "rb") as file:
+        packed = file.read(2) == b"\x1f\x8b"
+    with (gzip.open if packed else open)(path, "rb") as file:
+        for line in file:
+            digest.update(line.rstrip(b"\r\n") + b"\n")
+    return digest.digest()
+
+
+def check_once(plan, path_of):
     """Refuses traffic that comes twice: in two splits it leaks, and in one its draws are not independent."""
     seen, names = {}, []
     for i, source in enumerate(plan["sources"]):
         kind = kind_of(source)
-        traffic = digest_of(path_of(source[kind], kind)) if kind in FROM_FILES else scene_of(source)
+        traffic = digest_of_traffic(path_of(source[kind], kind)) if kind in FROM_FILES else scene_of(source)
         if traffic in seen:
             other = plan["sources"][seen[traffic]]
             leaks = other.get("split") != source.get("split")

@@ -72,6 +72,11 @@ def stretches_of(plan, source, seed, size, plan_folder):
     return {split: [Stretch(source, seed, None, *part, frames)] for split, part in parts.items() if part[0] < part[1]}
 
 
+def first_scenes(source, seed, most=8):
+    first, end = source["scenes"]
+    return Stretch(source, seed, None, first, min(end, first + most), 1)
+
+
 def frames_of_block(source, block, size):
     """How many frames a block has; the size of a shard where nobody says so."""
     if "rate_hz" not in source or None in block or source["egos"] == ["all"]:

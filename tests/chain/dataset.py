@@ -192,13 +192,20 @@ def leaks_are_refused(folder):
     one, two = {"recording": "highway", "egos": ["1"]}, {"recording": "highway", "egos": ["7"], "scene": "other"}
     copied = {"recording": recording(folder, "copied.csv", slice(1, None)), "egos": ["7"]}
     by_recording = {"splits": {"by": "recording"}}
+    with open(os.path.join(folder, copied["recording"]), "rb") as table, \
+            gzip.open(os.path.join(folder, "traffic", "packed.csv.gz"), "wb") as file:
+        file.write(table.read().replace(b"\n", b"\r\n"))
+    packed = {"recording": "traffic/packed.csv.gz", "egos": ["7"]}
     medium = {"random": "medium", "frames": 20}
+    alike = {"scenario": "cut-in", "scenes": [0, 30]}
     timed = one | {"from_s": 0, "to_s": 10}
     cases = [
         (plan_of([one], splits={"by": "ego"}), '/splits/by: "ego" leaks: egos of one recording see the same traffic'),
         (snapshots(9, splits={"by": "seed"}), '/splits/by: "seed" leaks: another seed is the same traffic'),
         (plan_of([one | {"split": "train"}, two | {"split": "test"}], **by_recording), "another split (train): it leaks"),
         (plan_of([one | {"split": "train"}, copied | {"split": "test"}], **by_recording), "another split (train): it leaks"),
+        (plan_of([one | {"split": "train"}, packed | {"split": "test"}], **by_recording), "another split (train): it leaks"),
+        (plan_of([alike], splits={"by": "scene", "shares": SHARES}), "/sources/0: its scenes are alike"),
         (plan_of([medium, medium]), "/sources/1: the same traffic as /sources/0"),
         (plan_of([one], splits={"by": "scene", "shares": SHARES}), "cannot be split by scene"),
         (plan_of([medium], **by_recording), "cannot be split by recording"),
@@ -219,6 +226,11 @@ def what_cannot_be_made_is_refused(folder):
         (snapshots(9, colour="red"), "/colour: unknown member"),
         (snapshots(9, chain="cat"), "/chain: names no suite"),
         (snapshots(9, chain=CHAIN + " # a comment"), "/chain: has a comment"),
+        (snapshots(9, chain=CHAIN + " --seed 3"), "/chain: --seed is not the chain's to say"),
+        (snapshots(9, suites=[SUITE, f"{ROOT}/data/sensors/{SUITE}.json"]), f"/suites: {SUITE} is there twice"),
+        (snapshots(9, splits={"by": "scene", "shares": {"train": 0.99, "test": 0.01}}), "test gets no scene"),
+        (snapshots(9, splits={"by": "scene", "shares": {"train": 0.5, "work": 0.5}}), "'work' is a folder of every set"),
+        (plan_of([medium | {"options": "'"}]), "/sources/0/options: No closing quotation"),
         (snapshots(9, chain=CHAIN + " > list"), "/chain: redirects"),
         (snapshots(9, chain="cat | " + CHAIN), "'cat' is no program of glint"),
         (plan_of([medium | {"scenario": "cut-in"}]), "expected one of random, scenario, recording"),
