@@ -138,6 +138,22 @@ FROM read_csv(folder || '/contributors.csv*', header = true, auto_detect = false
     "weight": reals, -- share of the cell's amplitude
 });
 
+CREATE OR REPLACE MACRO sightings(folder, reals := 'DOUBLE') AS TABLE
+FROM read_csv(folder || '/sightings.csv*', header = true, auto_detect = false, columns = {
+    "scan_key": 'BIGINT', -- row of scans
+    "object_key": 'BIGINT', -- row of objects
+    "sensor": 'VARCHAR', -- name in the suite
+    "object": 'VARCHAR', -- id of the object
+    "reflectors": 'BIGINT', -- reflectors of it that the sensor looked for
+    "in_range": 'BIGINT', -- of these, those that send towards the sensor and are in range
+    "in_view": 'BIGINT', -- of these, those in the field of view
+    "blocked_share": reals, -- share of these that a body hides
+    "visibility": 'VARCHAR', -- share that is not hidden, in the levels of nuScenes; absent: none in view
+    "detections": 'BIGINT', -- targets with an echo of it, where it is
+    "merged": 'BIGINT', -- of the detections, those with an echo of something else
+    "ghosts": 'BIGINT', -- targets with an echo of it by way of a mirror
+});
+
 CREATE OR REPLACE MACRO lost(folder, reals := 'DOUBLE') AS TABLE
 FROM read_csv(folder || '/lost.csv*', header = true, auto_detect = false, columns = {
     "scan_key": 'BIGINT', -- row of scans

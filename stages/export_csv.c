@@ -45,7 +45,7 @@ static void export_csv_release(void *state)
 const struct stage stage_export_csv = {
     .name = "export-csv",
     .summary = "Write targets as CSV, one row each, with their labels.",
-    .details = "This is the table of detections that glint-tables writes beside four others; its\n"
+    .details = "This is the table of detections that glint-tables writes beside five others; its\n"
                "table of scans has scans without targets too.",
     .options = STAGE_OPTIONS(struct export_csv, field_none),
     .sink = true,

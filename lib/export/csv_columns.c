@@ -82,6 +82,16 @@ static void add_cell(const struct field *field, const void *base, struct text *r
         text_add_word(row, FIELD_LOAD(bool, field, base) ? "true" : "false");
 }
 
+/* Is there a value to write? Flags are always there, numbers where columns are to have zeros. */
+static bool has_value(const struct csv_columns *columns, const struct csv_column *column,
+                      const void *owner)
+{
+    enum field_kind kind = column->field->kind;
+    return !column->field->optional || kind == FIELD_FLAG ||
+           (columns->zeros && (kind == FIELD_REAL || kind == FIELD_INTEGER)) ||
+           field_present(column->record, column->field, owner);
+}
+
 static void end_cell(struct text *row)
 {
     *text_room(row, 1) = ',';
@@ -102,15 +112,13 @@ void csv_columns_write(const struct csv_columns *columns, const void *base, stru
     bool there = true;
     for (size_t i = 0; i < columns->list.count; i++) {
         const struct csv_column *column = &columns->list.items[i];
-        const struct field *field = column->field;
         const void *owner = (const char *)base + column->offset;
         if (column->embedded != embedded) {
             embedded = column->embedded;
             there = embedded == NULL || field_present(column->record, embedded, base);
         }
-        if (there && (!field->optional || field->kind == FIELD_FLAG ||
-                      field_present(column->record, field, owner)))
-            add_cell(field, owner, row);
+        if (there && has_value(columns, column, owner))
+            add_cell(column->field, owner, row);
         end_cell(row);
     }
 }

@@ -4,8 +4,8 @@
  * choices, seeds and sets, whose words stand in one cell with blanks between them. The members of
  * an embedded struct are columns as well, with its name before theirs (margins_sight_m). Lists and
  * raw members are no columns. A cell is empty where a line of JSON would lack the member
- * (record_text.h); a flag is always true or false. Numbers are the shortest that read back to the
- * same double. */
+ * (record_text.h), unless zeros says otherwise; a flag is always true or false. Numbers are the
+ * shortest that read back to the same double. */
 #pragma once
 
 #include "base/text.h"
@@ -23,6 +23,7 @@ struct csv_column {
 /* All zero before the first member. */
 struct csv_columns {
     LIST_OF(struct csv_column) list;
+    bool zeros; /* numbers that a line of JSON would lack are written as 0 */
 };
 
 /* Appends the columns of a record, but those of the names in without, which ends with NULL. */

@@ -6,8 +6,8 @@
 #include "geometry/sensor_pose.h"
 
 const char *const detection_tables_names[] = {
-    [TABLE_DETECTIONS] = "detections",     [TABLE_OBJECTS] = "objects", [TABLE_SCANS] = "scans",
-    [TABLE_CONTRIBUTORS] = "contributors", [TABLE_LOST] = "lost",
+    [TABLE_DETECTIONS] = "detections",     [TABLE_OBJECTS] = "objects",     [TABLE_SCANS] = "scans",
+    [TABLE_CONTRIBUTORS] = "contributors", [TABLE_SIGHTINGS] = "sightings", [TABLE_LOST] = "lost",
 };
 
 /* What rows have beside the members of the frame. Each table takes its columns from this struct by
@@ -109,12 +109,12 @@ static const struct field part_fields[] = {
 };
 static const struct record part_record = RECORD(part_fields);
 
-static const struct field loss_fields[] = {
+static const struct field of_scan_fields[] = {
     KEY(scan_key, "row of scans"),
     KEY(object_key, "row of objects"),
     {0},
 };
-static const struct record loss_record = RECORD(loss_fields);
+static const struct record of_scan_record = RECORD(of_scan_fields);
 
 static const char *const all[] = {NULL};
 /* Columns that stand elsewhere in the row, or say the same for every row. */
@@ -138,7 +138,28 @@ static const struct {
                      {&pose_record, all},
                      {&sensor_view_record, known_of_scan}},
     [TABLE_CONTRIBUTORS] = {{&part_record, all}, {&contributor_record, all}},
-    [TABLE_LOST] = {{&loss_record, all}, {&lost_group_record, all}, {&lost_echo_record, all}},
+    [TABLE_SIGHTINGS] = {{&of_scan_record, all}, {&sighting_record, all}},
+    [TABLE_LOST] = {{&of_scan_record, all}, {&lost_group_record, all}, {&lost_echo_record, all}},
+};
+
+#define PRIMARY(columns) ",\n   \"primaryKey\": " columns
+#define FOREIGN(joins) ",\n   \"foreignKeys\": [\n    " joins "]"
+#define JOIN(key, table)                                                                           \
+    "{\"fields\": \"" key "\", \"reference\": {\"resource\": \"" table "\", \"fields\": \"" key    \
+    "\"}}"
+#define OF_OBJECT JOIN("object_key", "objects")
+#define OF_SCAN_AND_OBJECT FOREIGN(JOIN("scan_key", "scans") ",\n    " OF_OBJECT)
+#define OF_DETECTION_AND_OBJECT FOREIGN(JOIN("detection_key", "detections") ",\n    " OF_OBJECT)
+
+/* The columns that tell a table's rows apart, and those that join others, as members of its schema.
+ * Lost echoes may be alike. */
+static const char *const keys[] = {
+    [TABLE_DETECTIONS] = PRIMARY("\"detection_key\"") OF_SCAN_AND_OBJECT,
+    [TABLE_OBJECTS] = PRIMARY("\"object_key\""),
+    [TABLE_SCANS] = PRIMARY("\"scan_key\""),
+    [TABLE_CONTRIBUTORS] = PRIMARY("[\"detection_key\", \"contributor\"]") OF_DETECTION_AND_OBJECT,
+    [TABLE_SIGHTINGS] = PRIMARY("[\"scan_key\", \"object\"]") OF_SCAN_AND_OBJECT,
+    [TABLE_LOST] = OF_SCAN_AND_OBJECT,
 };
 
 void detection_tables_begin(struct detection_tables *tables, int64_t first_key, struct arena *arena)
@@ -151,6 +172,7 @@ void detection_tables_begin(struct detection_tables *tables, int64_t first_key, 
         for (int i = 0; i < DETECTION_TABLES_STRUCTS && structs[table][i].record != NULL; i++) {
             struct csv_columns *columns = &tables->columns[table][i];
             csv_columns_add(columns, structs[table][i].record, structs[table][i].without, arena);
+            columns->zeros = structs[table][i].record == &sighting_record;
             if (rows != NULL)
                 csv_columns_write_names(columns, rows);
         }
@@ -172,7 +194,11 @@ static void write_json_column(const struct csv_column *column, struct text *text
         text_format(text, ", \"unit\": \"%s\"", field_unit(field->name));
     text_add_word(text, ", \"description\": ");
     text_add_json(text, field->help, strlen(field->help));
-    text_add_word(text, "}");
+    bool is_choice = field->kind == FIELD_CHOICE;
+    for (int i = 0; is_choice && field->choices[i] != NULL; i++)
+        text_format(text, "%s\"%s\"", i == 0 ? ", \"constraints\": {\"enum\": [" : ", ",
+                    field->choices[i]);
+    text_add_word(text, is_choice ? "]}}" : "}");
 }
 
 void detection_tables_write_schema(struct text *text)
@@ -186,7 +212,7 @@ void detection_tables_write_schema(struct text *text)
         for (int i = 0; i < DETECTION_TABLES_STRUCTS; i++)
             for (size_t j = 0; j < tables.columns[table][i].list.count; j++)
                 write_json_column(&tables.columns[table][i].list.items[j], text);
-        text_add_word(text, "]}");
+        text_format(text, "]%s}", keys[table]);
     }
     text_add_word(text, "\n}\n");
     arena_free(&arena);
@@ -313,6 +339,19 @@ static void write_detection(struct writing *writing, const struct target *target
                                                        writing->has_pose ? row : NULL});
 }
 
+static void write_sightings(struct writing *writing, const struct sensor_view *sensor)
+{
+    const struct frame *frame = writing->frame;
+    for (size_t i = 0; i < frame->visibility.count; i++) {
+        const struct sighting *sighting = &frame->visibility.items[i];
+        if (!frame_same_name(sighting->sensor, sensor->name))
+            continue;
+        find_object(writing, sighting->object);
+        write_row(writing, TABLE_SIGHTINGS,
+                  (const void *[DETECTION_TABLES_STRUCTS]){&writing->row, sighting});
+    }
+}
+
 /* A sensor's lost echoes stand in groups of its name. */
 static void write_lost(struct writing *writing, const struct sensor_view *sensor)
 {
@@ -373,6 +412,7 @@ static void write_scan(struct writing *writing, const struct sensor_view *sensor
     } else {
         row->scan_key = NO_KEY;
     }
+    write_sightings(writing, sensor);
     write_lost(writing, sensor);
 }
 

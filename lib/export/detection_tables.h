@@ -4,12 +4,14 @@
  *     objects        a row for each object of each frame: truth
  *     scans          a row for each sensor that measured in a frame, without targets too
  *     contributors   a row for each echo in a target's label
+ *     sightings      a row for each object that a sensor looked for, if the frames tell visibility
  *     lost           a row for each echo in no target, if the frames keep account
  *
  * Members of the frame are columns of the same names (csv_columns.h). A column that ends in _key
  * numbers rows from first_key on: frame_key, scan_key, object_key and detection_key. A key is empty
  * where there is nothing to join, as clutter and false alarms are of no object. The label of a
- * detection is its contributor of the greatest weight.
+ * detection is its contributor of the greatest weight. Numbers of a sighting are 0 where a line
+ * lacks them.
  *
  * Keys stay below first_key + DETECTION_TABLES_KEYS. Nothing of a frame is kept. */
 #pragma once
@@ -23,6 +25,7 @@ enum table {
     TABLE_OBJECTS,
     TABLE_SCANS,
     TABLE_CONTRIBUTORS,
+    TABLE_SIGHTINGS,
     TABLE_LOST,
     TABLE_COUNT,
 };
@@ -52,5 +55,5 @@ void detection_tables_begin(struct detection_tables *tables, int64_t first_key,
 int detection_tables_add(struct detection_tables *tables, struct frame *frame, struct diag *diag);
 
 /* Appends a JSON object with a Frictionless Table Schema for each table: names, types, units and
- * what the columns mean. */
+ * what the columns mean, the keys that tell rows apart, and those that join tables. */
 void detection_tables_write_schema(struct text *text);

@@ -25,9 +25,14 @@ def schema_path(name):
 
 
 def schemas_of(layout):
-    """The Table Schemas of what the set has, by the paths that they get."""
+    """The Table Schemas of what the set has, by the paths that they get.
+
+    A foreign key names a resource. It is left out here, as every shard has resources of its own by the same schema.
+    """
     of_tables = read_json(os.path.join(ROOT, "schemas", "tables.json")) if layout["plan"].get("tables") else {}
-    return {schema_path(name): fields for name, fields in {FRAME: frame_fields(), **of_tables}.items()}
+    for schema in of_tables.values():
+        schema.pop("foreignKeys", None)
+    return {schema_path(name): schema for name, schema in {FRAME: frame_fields(), **of_tables}.items()}
 
 
 def kind_of_file(path):

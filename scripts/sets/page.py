@@ -101,8 +101,8 @@ printed = sprintf("%d %d", numel(lines), count)
 ```
 """
 TABLES = """
-- The tables of a shard (CSV, gzip) are in `SPLIT/SUITE/NUMBER/`. Whole numbers join them: columns that end in `_key`, whose
-  values are unique in the set."""
+- The tables of a shard (CSV, gzip) are in `SPLIT/SUITE/NUMBER/`. Whole numbers that are unique in the set join
+  them: `scan_key` is a row of `scans`, `object_key` of `objects`, `detection_key` of `detections`."""
 LEAKS = {None: "The set is one split.",
          "scene": "Splits share no scene: scenes were drawn one by one.",
          "time": "Splits are blocks of time; {gap_s} s between two of them are left out.",

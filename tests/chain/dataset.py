@@ -150,12 +150,15 @@ def tables_have_the_targets_of_their_lines(folder):
     of_lines = [(frame["scene"], target["range_m"]) for frame in frames for target in frame["targets"]]
     assert of_tables == of_lines and len(keys) == len(of_lines) > 100
     facts = {resource["path"]: resource for resource in manifest(place)["resources"]}
-    assert len(facts) == 6 * 6, "lines and five tables of six shards"
+    names = {resource["name"] for resource in facts.values()}
+    assert len(facts) == 6 * 7, "lines and six tables of six shards"
     assert sum(fact["rows"] for path, fact in facts.items() if path.startswith("train/") and "detections" in path) == len(of_lines)
     for path, fact in facts.items():
         packed = files(place)[path]
         assert sha256(packed) == fact["hash"] and sha256(gzip.decompress(packed)) == fact["content_hash"]
         assert fact["schema"] in files(place), f"{path}: there is no {fact['schema']}"
+        joins = json.loads(files(place)[fact["schema"]]).get("foreignKeys", [])
+        assert all(join["reference"]["resource"] in names for join in joins), f"{path}: joins what is no resource"
 
 
 # --- splits ---------------------------------------------------------------------------------------

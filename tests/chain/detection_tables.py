@@ -3,7 +3,8 @@
 Usage: python3 tests/chain/detection_tables.py BIN_DIR        exit status 1 if any check fails
 
 Rows are made here from the JSON lines, member by member, and must be those of the tables: the same names, the same
-numbers, in the same order. Sensor poses are integrated here along the ego's path.
+numbers, in the same order. Sensor poses are integrated here along the ego's path. The keys that tables.json names
+tell rows apart, and each of them finds the row that it joins.
 """
 import csv
 import gzip
@@ -16,17 +17,18 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-TABLES = ["detections", "objects", "scans", "contributors", "lost"]
+TABLES = ["detections", "objects", "scans", "contributors", "sightings", "lost"]
 AWKWARD = 'with "quotes", commas and\u00a0blanks '
 CHAIN = "glint-extract | glint-ideal --sensors {} | glint-sensor | glint-noise"
 STREAMS = [
     f"glint-traffic side-crossing --scene '{AWKWARD}' | " + CHAIN.format("srr24-pair"),
-    "glint-traffic walled-road | " + CHAIN.format("radarscenes77-full --sections account,margins,quality"),
-    "glint-traffic gravel --conditions '{\"rain_mmph\": 10}' | " + CHAIN.format("lrr77-full --sections account"),
+    "glint-traffic walled-road | " + CHAIN.format("radarscenes77-full --sections account,margins,quality,visibility"),
+    "glint-traffic gravel --conditions '{\"rain_mmph\": 10}' | " + CHAIN.format("lrr77-full --sections account,visibility"),
     "glint-traffic-random --frames 20 --density dense | " + CHAIN.format("corner77-uncompensated --sections account"),
 ]
 # Members that stand elsewhere in a row or say the same for every row, and those that no column shows.
 OF_SCAN = {"name", "measured", "age_s"}
+COUNTS = ("reflectors", "in_range", "in_view", "blocked_share", "detections", "merged", "ghosts")
 OF_LABEL = ["object", "reflector", "path", "mirror", "number", "weight"]
 faults = []
 
@@ -131,6 +133,8 @@ def expected(frames, first=0):
                 rows["contributors"] += [
                     {"detection_key": key, "contributor": index, "object_key": keys.get(part["object"], ""),
                      **values(part)} for index, part in enumerate(target["contributors"])]
+            rows["sightings"] += [{"scan_key": scan, "object_key": keys[one["object"]], **dict.fromkeys(COUNTS, 0), **one}
+                                  for one in frame.get("visibility", []) if one["sensor"] == name]
             rows["lost"] += [{"scan_key": scan, "object_key": keys.get(echo["object"], ""), **values(group),
                               **values(echo)}
                              for group in frame.get("lost", []) if group["sensor"] == name for echo in group["echoes"]]
@@ -159,13 +163,42 @@ def compare(table, rows, wanted, columns, stream):
             return
 
 
+def check_keys(tables, schema, stream):
+    """Keys as tables.json says: none of a table's primary keys comes twice or is empty, and each other one finds its row."""
+    found = {table: {column: {row[column] for row in rows} for column in rows[0]} if rows else {}
+             for table, rows in tables.items()}
+    for table, rows in tables.items():
+        primary = schema[table].get("primaryKey", [])
+        primary = [primary] if isinstance(primary, str) else primary
+        keys = {tuple(row[column] for column in primary) for row in rows}
+        check(not primary or len(keys) == len(rows), f"{stream}: rows of {table} share a primary key")
+        check(not primary or not any("" in key for key in keys), f"{stream}: a primary key of {table} is empty")
+        joins = {key["fields"]: key["reference"] for key in schema[table].get("foreignKeys", [])}
+        named = {*primary, *joins, "frame_key"}
+        for column in (field["name"] for field in schema[table]["fields"] if field["name"].endswith("_key")):
+            check(column in named, f"tables.json does not say what {table}.{column} joins")
+        for column, reference in joins.items():
+            there = found[reference["resource"]].get(reference["fields"], set()) | {""}
+            check(found[table].get(column, set()) <= there, f"{stream}: {table}.{column} finds no row of {reference['resource']}")
+
+
+def check_choices(rows, fields, table):
+    """Words are among those that tables.json lists."""
+    for field in fields:
+        words = {row[field["name"]] for row in rows} - {""}
+        allowed = field.get("constraints", {}).get("enum", words)
+        check(words <= set(allowed), f"{table}.{field['name']} has {words - set(allowed)}")
+
+
 def check_stream(stream, schema, bin_dir, seen):
     frames = run(stream, bin_dir)
     wanted = expected([json.loads(line) for line in frames.splitlines()])
     with tempfile.TemporaryDirectory() as folder:
         run(f"glint-tables {folder}", bin_dir, frames)
-        for table in TABLES:
-            rows = read(f"{folder}/{table}.csv.gz")
+        tables = {table: read(f"{folder}/{table}.csv.gz") for table in TABLES}
+        check_keys(tables, schema, stream)
+        for table, rows in tables.items():
+            check_choices(rows, schema[table]["fields"], table)
             columns = [field["name"] for field in schema[table]["fields"]]
             check(not rows or list(rows[0]) == columns, f"{stream}: the columns of {table} are not those of tables.json")
             compare(table, rows, wanted[table], columns, stream)

@@ -52,10 +52,10 @@ static const struct record outer_record = {
 
 static const char *const none[] = {NULL};
 
-static void check_row(const struct outer *outer, const char *const *without, const char *expected)
+static void check_columns(struct csv_columns columns, const struct outer *outer,
+                          const char *const *without, const char *expected)
 {
     struct arena arena = {0};
-    struct csv_columns columns = {0};
     struct text row = {0};
     csv_columns_add(&columns, &outer_record, without, &arena);
     if (outer != NULL)
@@ -67,6 +67,11 @@ static void check_row(const struct outer *outer, const char *const *without, con
     assert_string_equal(row.bytes, expected);
     text_free(&row);
     arena_free(&arena);
+}
+
+static void check_row(const struct outer *outer, const char *const *without, const char *expected)
+{
+    check_columns((struct csv_columns){0}, outer, without, expected);
 }
 
 static void members_are_columns_and_those_of_structs_have_its_name_before_theirs(void **state)
@@ -92,6 +97,16 @@ static void values_are_written_as_in_json_and_absent_ones_not_at_all(void **stat
                            .set = 5,
                            .inner.weight = 2};
     check_row(&outer, none, "-0.0,1e-07,0,0,true,plain,red,18446744073709551615,wheel roof,,2\n");
+}
+
+static void
+zeros_stand_for_absent_numbers_where_they_are_wanted_but_not_in_an_absent_struct(void **state)
+{
+    (void)state;
+    check_columns((struct csv_columns){.zeros = true}, &(struct outer){0}, none,
+                  "0,0,0,0,false,,none,0,,,\n");
+    check_columns((struct csv_columns){.zeros = true}, &(struct outer){.inner.weight = 2}, none,
+                  "0,0,0,0,false,,none,0,,0,2\n");
 }
 
 static void names_are_quoted_where_they_must_be(void **state)
@@ -120,6 +135,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(members_are_columns_and_those_of_structs_have_its_name_before_theirs),
         cmocka_unit_test(values_are_written_as_in_json_and_absent_ones_not_at_all),
+        cmocka_unit_test(
+            zeros_stand_for_absent_numbers_where_they_are_wanted_but_not_in_an_absent_struct),
         cmocka_unit_test(names_are_quoted_where_they_must_be),
         cmocka_unit_test(the_longest_name_has_room_if_all_of_it_is_quotes),
     };

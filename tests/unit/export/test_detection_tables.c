@@ -82,6 +82,24 @@ static void keys_count_on_from_frame_to_frame_and_join_rows(void **state)
                                        "1003,1005,right,", NULL});
 }
 
+static void a_sighting_joins_its_scan_and_its_object_and_its_counts_are_never_empty(void **state)
+{
+    struct sheet *sheet = *state;
+    struct frame frame = ordered_frame(sheet);
+    *list_add(&frame.visibility, frame.arena) =
+        (struct sighting){.sensor = "left", .object = "a", .visibility = 4};
+    *list_add(&frame.visibility, frame.arena) =
+        (struct sighting){"left", "b", 4, 3, 2, 1, 0.5, 1, 2, 1, 0, 0, 0};
+    *list_add(&frame.visibility, frame.arena) =
+        (struct sighting){.sensor = "right", .object = "gone", .visibility = 4};
+    detection_tables_begin(&sheet->tables, 0, &sheet->arena);
+    assert_int_equal(detection_tables_add(&sheet->tables, &frame, &sheet->diag), 0);
+    check_begins(&sheet->rows[TABLE_SIGHTINGS],
+                 (const char *const[]){"0,2,left,a,0,0,0,0,,0,0,0\n",
+                                       "0,1,left,b,4,3,2,0.5,v40-60,2,1,0\n",
+                                       "1,,right,gone,0,0,0,0,,0,0,0\n", NULL});
+}
+
 static void what_is_of_no_object_has_no_key_of_one(void **state)
 {
     struct sheet *sheet = *state;
@@ -126,6 +144,7 @@ int main(void)
 #define TEST(name) cmocka_unit_test_setup_teardown(name, begin, end)
     const struct CMUnitTest tests[] = {
         TEST(keys_count_on_from_frame_to_frame_and_join_rows),
+        TEST(a_sighting_joins_its_scan_and_its_object_and_its_counts_are_never_empty),
         TEST(what_is_of_no_object_has_no_key_of_one),
         TEST(a_sensor_that_did_not_measure_has_no_scan),
         TEST(a_part_that_runs_out_of_keys_is_refused),
