@@ -37,11 +37,3 @@ double random_sequence_sign(struct random_sequence *sequence)
 {
     return random_sequence_chance(sequence, 0.5) ? 1 : -1;
 }
-
-double random_sequence_margin(struct random_sequence *sequence, double largest)
-{
-    if (random_sequence_chance(sequence, 0.125))
-        return 0;
-    double sign = random_sequence_sign(sequence);
-    return sign * largest * elementary_pow(10, -6 * random_sequence_next(sequence));
-}

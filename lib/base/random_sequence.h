@@ -28,7 +28,3 @@ bool random_sequence_chance(struct random_sequence *sequence, double probability
 
 /* -1 or 1. */
 double random_sequence_sign(struct random_sequence *sequence);
-
-/* A signed distance from a border at which decisions change: 0 once in eight, else of either sign,
- * with its size spread evenly in the logarithm over the six decades up to largest. */
-double random_sequence_margin(struct random_sequence *sequence, double largest);

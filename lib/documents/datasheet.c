@@ -49,7 +49,7 @@ static double reach_m(const struct sensor *sensor, double azimuth_rad, double er
 
 static void add_ranges(const struct sensor *sensor, struct datasheet *sheet)
 {
-    struct detection detection = {
+    struct detection_law detection = {
         .fluctuation = sensor->fluctuation,
         .fluctuation_sigma_db = sensor->fluctuation_sigma_db,
         .threshold = sensor->threshold,

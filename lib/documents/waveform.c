@@ -47,7 +47,8 @@ double waveform_range_step_m(const struct waveform *waveform, double cell_range_
     return waveform->kind == WAVEFORM_PULSE ? cell_range_m / 4 : cell_range_m;
 }
 
-size_t waveform_independent_bins(const struct waveform *waveform)
+/* Bins of the transform over this distance or more have independent noise. */
+static size_t independent_bins(const struct waveform *waveform)
 {
     return waveform->window == POINT_RESPONSE_HANN ? 3 : 1;
 }
@@ -56,7 +57,7 @@ size_t waveform_independent_bins(const struct waveform *waveform)
 static int check_rates(const struct waveform *waveform, struct diag *diag)
 {
     struct cfar cfar = waveform_cfar(waveform, 1, 1);
-    long long apart = (long long)waveform_independent_bins(waveform);
+    long long apart = (long long)independent_bins(waveform);
     long long guard = waveform->cfar_guard, repetitions = waveform->repetitions;
     if (guard + 1 < apart)
         return diag_fail(diag, DIAG_CONFIG,
@@ -104,7 +105,7 @@ struct cfar waveform_cfar(const struct waveform *waveform, size_t padding, size_
         .kind = waveform->cfar,
         .cells = cells,
         .nearest = padding * ((size_t)waveform->cfar_guard + 1),
-        .spacing = padding * waveform_independent_bins(waveform),
+        .spacing = padding * independent_bins(waveform),
         .rank = rank,
         .factor =
             cfar_factor(waveform->cfar, cells, rank, waveform->cfar_false_alarm / (double)beams),

@@ -32,9 +32,6 @@ double waveform_range_step_m(const struct waveform *waveform, double cell_range_
 int waveform_check(const struct waveform *waveform, double cell_range_m, double range_max_m,
                    struct diag *diag);
 
-/* Bins of the transform over this distance or more have independent noise. */
-size_t waveform_independent_bins(const struct waveform *waveform);
-
 /* The search in a spectrum of `padding` cells to a bin. Its windows take neighbours whose noise is
  * independent. Each beam has its share of the probability of a false alarm. */
 struct cfar waveform_cfar(const struct waveform *waveform, size_t padding, size_t beams);

@@ -458,6 +458,17 @@ struct motion frame_motion(const struct object *object, double age_s)
     return age_s == 0 ? now : motion_after(now, -age_s);
 }
 
+struct object frame_object_in(struct object object, struct motion motion)
+{
+    object.x_m = motion.position_m.x;
+    object.y_m = motion.position_m.y;
+    object.yaw_rad = motion.yaw_rad;
+    object.vx_mps = motion.velocity_mps.x;
+    object.vy_mps = motion.velocity_mps.y;
+    object.yaw_rate_radps = motion.yaw_rate_radps;
+    return object;
+}
+
 /* One of the items in canonical order that begin with this name, or NULL. */
 static void *find_named(const void *items, size_t count, size_t size, const char *name)
 {

@@ -308,6 +308,9 @@ bool frame_detects(const struct frame *frame, const char *object);
  */
 struct motion frame_motion(const struct object *object, double age_s);
 
+/* The object with the place, heading and velocity of this motion. */
+struct object frame_object_in(struct object object, struct motion motion);
+
 /* The sensor with this name in the frame's suite, or NULL. This and the functions below need the
  * sections in canonical order. */
 const struct sensor_view *frame_view(const struct frame *frame, const char *sensor);

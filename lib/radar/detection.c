@@ -40,7 +40,7 @@ static double log_normal_mean_db(double sigma_db)
 }
 
 /* How likely a fluctuating power is, per decibel. */
-static double density(const struct detection *detection, double power_db)
+static double density(const struct detection_law *detection, double power_db)
 {
     double power = elementary_pow(10, power_db / 10), sigma_db = detection->fluctuation_sigma_db;
     double deviations = (power_db - log_normal_mean_db(sigma_db)) / sigma_db;
@@ -52,7 +52,7 @@ static double density(const struct detection *detection, double power_db)
 }
 
 /* An echo that meets the first threshold, at the final one. */
-static double passes(const struct detection *detection, double amplitude)
+static double passes(const struct detection_law *detection, double amplitude)
 {
     if (detection->final_threshold == 0)
         return 1;
@@ -61,7 +61,8 @@ static double passes(const struct detection *detection, double amplitude)
 
 /* Simpson's rule over the power in decibels, with steps that grow from 0: the final threshold
  * decides close to the first one. */
-static double integral(const struct detection *detection, double amplitude, double from, double to)
+static double integral(const struct detection_law *detection, double amplitude, double from,
+                       double to)
 {
     enum { STEPS = 256 };
     double sum = 0;
@@ -74,7 +75,7 @@ static double integral(const struct detection *detection, double amplitude, doub
     return (to - from) * sum / (3 * STEPS);
 }
 
-double detection_probability(const struct detection *detection, double amplitude)
+double detection_probability(const struct detection_law *detection, double amplitude)
 {
     double sigma_db = detection->fluctuation_sigma_db, least = detection->threshold / amplitude;
     bool log_normal = detection->fluctuation == FLUCTUATION_LOG_NORMAL;
@@ -92,7 +93,7 @@ double detection_probability(const struct detection *detection, double amplitude
     return integral(detection, amplitude, from, to) + cut;
 }
 
-double detection_amplitude(const struct detection *detection, double probability)
+double detection_amplitude(const struct detection_law *detection, double probability)
 {
     double highest = elementary_max(detection->threshold, detection->final_threshold);
     double low = 1e-3 * highest, high = 1e4 * highest;

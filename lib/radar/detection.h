@@ -8,7 +8,7 @@
 #include "radar/swerling.h"
 
 /* All amplitudes are linear and of one unit. */
-struct detection {
+struct detection_law {
     enum fluctuation_law fluctuation;
     double fluctuation_sigma_db; /* of the log-normal law */
     double threshold;            /* without noise; 0: none */
@@ -21,7 +21,7 @@ struct detection {
 double detection_in_noise(double amplitude, double threshold, double noise);
 
 /* The probability that an echo of this mean amplitude > 0 is detected, within 1e-6. */
-double detection_probability(const struct detection *detection, double amplitude);
+double detection_probability(const struct detection_law *detection, double amplitude);
 
 /* The least mean amplitude that is detected with this probability in (0, 1), within 1e-6 of it. */
-double detection_amplitude(const struct detection *detection, double probability);
+double detection_amplitude(const struct detection_law *detection, double probability);

@@ -24,7 +24,8 @@ struct chain {
     struct progress progress;
 };
 
-void chain_complain(const struct runner *runner)
+/* "glint-NAME: MESSAGE" to stderr. */
+static void complain(const struct runner *runner)
 {
     char program[128];
     snprintf(program, sizeof program, "glint-%s", runner->program.name);
@@ -251,7 +252,7 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
     int code = DIAG_OK;
     for (size_t i = 0; i < count; i++)
         if (failed(&runners[i])) {
-            chain_complain(&runners[i]);
+            complain(&runners[i]);
             code = (int)runners[i].diag.code;
         }
     frame_stream_close(&chain.input);
@@ -271,7 +272,7 @@ static int print_about(struct runner *runner)
     output_print(text.bytes, text.length, &runner->diag);
     text_free(&text);
     if (failed(runner))
-        chain_complain(runner);
+        complain(runner);
     return (int)runner->diag.code;
 }
 
@@ -284,7 +285,7 @@ static int run_alone(struct runner *runner)
     } else if (!failed(runner)) {
         code = chain_run(runner, 1, NULL);
     } else {
-        chain_complain(runner);
+        complain(runner);
         code = (int)runner->diag.code;
     }
     runner_free(runner);

@@ -24,6 +24,3 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times);
 /* The main of a stage's program, and of a tool's. */
 int chain_main(const struct stage *stage, int count, char **words);
 int chain_main_tool(const struct tool *tool, int count, char **words);
-
-/* "glint-NAME: MESSAGE" to stderr. */
-void chain_complain(const struct runner *runner);

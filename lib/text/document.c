@@ -233,14 +233,3 @@ int document_bytes(const char *path, struct text *text, struct diag *diag)
     input_close(input);
     return result == 0 ? 0 : diag_prefix(diag, "%s: ", path);
 }
-
-int document_read(const char *path, const struct record *record, void *base, struct arena *arena,
-                  struct diag *diag)
-{
-    struct text text = {0};
-    int result = document_bytes(path, &text, diag);
-    if (result == 0)
-        result = document_parse(path, &text, record, base, arena, diag);
-    text_free(&text);
-    return result;
-}

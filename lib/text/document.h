@@ -65,12 +65,8 @@ int document_list(const char *kind, const char *ending, struct document_names *l
 /* What a document says under "origin"; NULL if it is no document, or says nothing there. */
 const char *document_origin(const char *path, struct arena *arena);
 
-/* Reads a document (standard input for "-") into the struct that the record describes; all of it
- * lies in the arena. Messages are "PATH: objects[2].x_m: ...". */
-int document_read(const char *path, const struct record *record, void *base, struct arena *arena,
-                  struct diag *diag);
-
-/* The two halves of document_read, for documents whose bytes are needed as well. */
+/* The bytes of a document (standard input for "-"); then what they say, in the struct that the
+ * record describes; all of it lies in the arena. Messages are "PATH: objects[2].x_m: ...". */
 int document_bytes(const char *path, struct text *bytes, struct diag *diag);
 int document_parse(const char *path, const struct text *bytes, const struct record *record,
                    void *base, struct arena *arena, struct diag *diag);

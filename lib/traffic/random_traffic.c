@@ -55,11 +55,6 @@ const char *random_traffic_class_name(enum random_traffic_class class)
     return profiles[class].name;
 }
 
-double random_traffic_class_share(enum random_traffic_class class)
-{
-    return profiles[class].share;
-}
-
 static enum random_traffic_class draw_class(struct random_sequence *sequence)
 {
     double left = random_sequence_next(sequence);

@@ -35,9 +35,6 @@ enum random_traffic_class {
 };
 
 const char *random_traffic_class_name(enum random_traffic_class class);
-double random_traffic_class_share(
-    enum random_traffic_class class); /* of all objects; the shares sum to
-                                       * 1 */
 
 /* Size and reflectors of a class, from its vehicle document. */
 struct random_traffic_model {

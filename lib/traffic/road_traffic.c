@@ -257,20 +257,13 @@ static struct object object_of(const struct road_queue *queue, const struct road
     car_following_move(&front_m, &speed_mps, vehicle->acceleration_mps2, within_s);
     struct motion motion =
         lane_path_motion(&queue->path, front_m - vehicle->length_m / 2, speed_mps);
-    return (struct object){
-        .id = vehicle->id,
-        .class = vehicle->arrivals->class,
-        .x_m = motion.position_m.x,
-        .y_m = motion.position_m.y,
-        .yaw_rad = motion.yaw_rad,
-        .vx_mps = motion.velocity_mps.x,
-        .vy_mps = motion.velocity_mps.y,
-        .yaw_rate_radps = motion.yaw_rate_radps,
-        .length_m = vehicle->length_m,
-        .width_m = vehicle->size * vehicle->arrivals->width_m,
-        .height_m = vehicle->size * vehicle->arrivals->height_m,
-        .travelled_m = front_m - vehicle->length_m,
-    };
+    return frame_object_in((struct object){.id = vehicle->id,
+                                           .class = vehicle->arrivals->class,
+                                           .length_m = vehicle->length_m,
+                                           .width_m = vehicle->size * vehicle->arrivals->width_m,
+                                           .height_m = vehicle->size * vehicle->arrivals->height_m,
+                                           .travelled_m = front_m - vehicle->length_m},
+                           motion);
 }
 
 void road_traffic_fill(const struct road_traffic *traffic, struct frame *frame)

@@ -432,20 +432,13 @@ static struct object object_of(const struct actor *actor, double time_s)
 {
     double travelled_m;
     struct motion motion = scenario_motion(actor, time_s, &travelled_m);
-    return (struct object){
-        .id = actor->id,
-        .class = actor->class,
-        .x_m = motion.position_m.x,
-        .y_m = motion.position_m.y,
-        .yaw_rad = motion.yaw_rad,
-        .vx_mps = motion.velocity_mps.x,
-        .vy_mps = motion.velocity_mps.y,
-        .yaw_rate_radps = motion.yaw_rate_radps,
-        .length_m = actor->length_m,
-        .width_m = actor->width_m,
-        .height_m = actor->height_m,
-        .travelled_m = travelled_m,
-    };
+    return frame_object_in((struct object){.id = actor->id,
+                                           .class = actor->class,
+                                           .length_m = actor->length_m,
+                                           .width_m = actor->width_m,
+                                           .height_m = actor->height_m,
+                                           .travelled_m = travelled_m},
+                           motion);
 }
 
 void scenario_fill(const struct scenario *scenario, int64_t number, struct frame *frame)

@@ -28,6 +28,14 @@ struct spot {
     double range_m, azimuth_rad, range_rate_mps;
 };
 
+double adversarial_traffic_margin(struct random_sequence *sequence, double largest)
+{
+    if (random_sequence_chance(sequence, 0.125))
+        return 0;
+    double sign = random_sequence_sign(sequence);
+    return sign * largest * elementary_pow(10, -6 * random_sequence_next(sequence));
+}
+
 static struct vec2 direction_to(const struct builder *builder, double azimuth_rad)
 {
     return vec2_turn(vec2_heading(azimuth_rad), builder->pose.boresight);
@@ -152,7 +160,7 @@ static void build_threshold(struct builder *builder)
         spots[i].range_rate_mps = spots[0].range_rate_mps;
     }
     double wanted = builder->sensor->threshold *
-                    (1 + random_sequence_margin(&builder->sequence, AMPLITUDE_MARGIN));
+                    (1 + adversarial_traffic_margin(&builder->sequence, AMPLITUDE_MARGIN));
     for (int i = 0; i < 8 && !move_to_sum(builder, spots, count, wanted); i++)
         for (int k = 0; k < count; k++)
             spots[k].azimuth_rad /= 2;
@@ -185,7 +193,7 @@ static void build_tie(struct builder *builder)
 {
     struct spot first = draw_spot(builder), second = draw_spot(builder);
     double wanted = amplitude(builder, &first) *
-                    (1 + random_sequence_margin(&builder->sequence, AMPLITUDE_MARGIN));
+                    (1 + adversarial_traffic_margin(&builder->sequence, AMPLITUDE_MARGIN));
     if (random_sequence_chance(&builder->sequence, 0.5)) {
         second.class = first.class;
         second.range_rate_mps = first.range_rate_mps;
@@ -207,7 +215,8 @@ static void add_chain(struct builder *builder, double half_cell, bool in_rate)
     int count = (int)random_sequence_whole(&builder->sequence, 2, 3);
     add_spot(builder, &spot);
     for (int i = 1; i < count; i++) {
-        double step = half_cell * (1 + random_sequence_margin(&builder->sequence, SPACING_MARGIN));
+        double step =
+            half_cell * (1 + adversarial_traffic_margin(&builder->sequence, SPACING_MARGIN));
         if (in_rate) {
             spot.range_rate_mps += step;
             spot.range_m += beside * builder->sensor->half_range_m;
@@ -234,14 +243,14 @@ static void build_symmetry(struct builder *builder)
 {
     struct spot spot = draw_spot(builder);
     add_spot(builder, &spot);
-    spot.azimuth_rad = -spot.azimuth_rad + random_sequence_margin(&builder->sequence, 1e-9);
+    spot.azimuth_rad = -spot.azimuth_rad + adversarial_traffic_margin(&builder->sequence, 1e-9);
     add_spot(builder, &spot);
 }
 
 static void build_view(struct builder *builder)
 {
     struct spot spot = draw_spot(builder);
-    double margin_rad = random_sequence_margin(&builder->sequence, 1e-7);
+    double margin_rad = adversarial_traffic_margin(&builder->sequence, 1e-7);
     bool border = random_sequence_chance(&builder->sequence, 0.6);
     spot.azimuth_rad = border ? copysign(suite_border_rad(builder->sensor), spot.azimuth_rad) : 0;
     spot.azimuth_rad += margin_rad;
@@ -253,7 +262,7 @@ static void build_reach(struct builder *builder)
     struct spot spot = draw_spot(builder);
     bool largest = random_sequence_chance(&builder->sequence, 0.5);
     spot.range_m = largest ? builder->sensor->range_max_m : builder->sensor->range_min_m;
-    spot.range_m *= 1 + random_sequence_margin(&builder->sequence, 1e-9);
+    spot.range_m *= 1 + adversarial_traffic_margin(&builder->sequence, 1e-9);
     add_spot(builder, &spot);
 }
 
@@ -280,7 +289,7 @@ static void build_grazing(struct builder *builder)
         add_grazing_box(builder, &spot, -side);
     }
     spot.range_m *= random_sequence_between(&builder->sequence, 1.05, 1.5);
-    spot.azimuth_rad += random_sequence_margin(&builder->sequence, 1e-9);
+    spot.azimuth_rad += adversarial_traffic_margin(&builder->sequence, 1e-9);
     add_spot(builder, &spot);
 }
 
@@ -323,7 +332,7 @@ static void build_facing(struct builder *builder)
     double edge_rad =
         random_sequence_chance(&builder->sequence, 0.5) ? point->full_rad : point->zero_rad;
     double off_rad = random_sequence_sign(&builder->sequence) *
-                     (edge_rad + random_sequence_margin(&builder->sequence, 1e-6));
+                     (edge_rad + adversarial_traffic_margin(&builder->sequence, 1e-6));
     add_box(builder, TRAFFIC_CAR, elementary_atan2(-line.y, -line.x) - point->facing_rad - off_rad,
             point->x, point->y, place_at(builder, spot.range_m, spot.azimuth_rad));
 }
@@ -333,7 +342,7 @@ static void build_foot(struct builder *builder)
     struct spot spot = draw_spot(builder);
     struct vec2 line = direction_to(builder, spot.azimuth_rad);
     struct vec2 aside =
-        vec2_scale(random_sequence_margin(&builder->sequence, 1e-9), vec2_left(line));
+        vec2_scale(adversarial_traffic_margin(&builder->sequence, 1e-9), vec2_left(line));
     struct vec2 end = vec2_add(place_at(builder, spot.range_m, spot.azimuth_rad), aside);
     add_box(builder, TRAFFIC_CAR, elementary_atan2(line.y, line.x), -0.5,
             random_sequence_sign(&builder->sequence) * 0.5, end);
@@ -346,7 +355,7 @@ static void build_against(struct builder *builder)
     add_box(builder, TRAFFIC_CAR, elementary_atan2(line.y, line.x), -0.5,
             random_sequence_between(&builder->sequence, -0.4, 0.4),
             place_at(builder, spot.range_m, spot.azimuth_rad));
-    spot.range_m += random_sequence_margin(&builder->sequence, 1e-8);
+    spot.range_m += adversarial_traffic_margin(&builder->sequence, 1e-8);
     add_spot(builder, &spot);
 }
 

@@ -14,10 +14,10 @@
  *     foot        a car whose specular point is at the end of its rear
  *     against     a point at the rear of a car, on either side of it
  *
- * Each case misses its decision by a margin (random_sequence_margin): 0, or down to a millionth of
- * the largest margin. The largest is 1e-3 of amplitudes, 1e-6 of distances in a cell and of facing
- * angles, 1e-7 of borders of view and 1e-9 to 1e-8 of others. Cases are built for scans at the end
- * of the frame. */
+ * Each case misses its decision by a margin (adversarial_traffic_margin): 0, or down to a millionth
+ * of the largest margin. The largest is 1e-3 of amplitudes, 1e-6 of distances in a cell and of
+ * facing angles, 1e-7 of borders of view and 1e-9 to 1e-8 of others. Cases are built for scans at
+ * the end of the frame. */
 #pragma once
 
 #include "documents/suite.h"
@@ -27,3 +27,7 @@
  * are "CASE-NUMBER-OBJECT", for instance "touch-2-1". */
 void adversarial_traffic_add(const struct random_traffic *traffic, const struct suite *suite,
                              int64_t number, struct frame *frame);
+
+/* A signed distance from a border at which decisions change: 0 once in eight, else of either sign,
+ * with its size spread evenly in the logarithm over the six decades up to largest. */
+double adversarial_traffic_margin(struct random_sequence *sequence, double largest);

@@ -47,7 +47,7 @@ static void without_noise_the_threshold_decides(void **state)
     assert_close(detection_in_noise(2, 2, 0), 1, 0);
     assert_close(detection_in_noise(1.999, 2, 0), 0, 0);
     assert_close(detection_in_noise(1.999, 2, 1e-6), 0, 0);
-    struct detection detection = {.threshold = 2, .final_threshold = 2, .noise = 0};
+    struct detection_law detection = {.threshold = 2, .final_threshold = 2, .noise = 0};
     assert_close(detection_probability(&detection, 2), 1, 0);
     assert_close(detection_probability(&detection, 1.999), 0, 0);
 }
@@ -67,7 +67,7 @@ static void fluctuating_echoes_are_detected_as_published(void **state)
     static const double snr_db[] = {6, 10, 15};
     for (size_t i = 0; i < COUNT(cases); i++)
         for (size_t k = 0; k < COUNT(snr_db); k++) {
-            struct detection detection = {
+            struct detection_law detection = {
                 .fluctuation = cases[i].law, .final_threshold = sqrt(NOISE_THRESHOLD2), .noise = 1};
             assert_close(detection_probability(&detection, amplitude_of(snr_db[k])),
                          cases[i].probability[k], 1.5e-6);
@@ -79,7 +79,7 @@ static void without_a_final_threshold_the_laws_tails_decide(void **state)
     (void)state;
     for (double amplitude = 0.3; amplitude < 30; amplitude *= 1.7) {
         double power = 4 / (amplitude * amplitude);
-        struct detection detection = {.fluctuation = FLUCTUATION_SWERLING_1, .threshold = 2};
+        struct detection_law detection = {.fluctuation = FLUCTUATION_SWERLING_1, .threshold = 2};
         assert_close(detection_probability(&detection, amplitude), exp(-power), 1e-6);
         detection.fluctuation = FLUCTUATION_SWERLING_3;
         assert_close(detection_probability(&detection, amplitude),
@@ -104,7 +104,7 @@ static void both_thresholds_together_are_those_of_drawn_echoes(void **state)
                                                 FLUCTUATION_LOG_NORMAL};
     static const double noises[] = {0.25, 1};
     for (int i = 0; i < 6; i++) {
-        struct detection detection = {laws[i / 2], 3.41, 2, 2, noises[i % 2]};
+        struct detection_law detection = {laws[i / 2], 3.41, 2, 2, noises[i % 2]};
         double amplitude = 1.5 + 0.5 * i;
         int64_t found = 0;
         for (int k = 0; k < DRAWS; k++) {
@@ -125,7 +125,7 @@ static void both_thresholds_together_are_those_of_drawn_echoes(void **state)
 static void the_amplitude_of_a_probability_is_detected_with_it(void **state)
 {
     (void)state;
-    struct detection detection = {FLUCTUATION_SWERLING_1, 0, 2, 2, 0.25};
+    struct detection_law detection = {FLUCTUATION_SWERLING_1, 0, 2, 2, 0.25};
     double probability = detection_probability(&detection, 5);
     assert_near(detection_amplitude(&detection, probability), 5.0, 1e-6);
     /* A steady echo just above the first threshold passes the final one with more than 0.5. */

@@ -19,6 +19,17 @@ struct scratch {
     struct arena arena;
 };
 
+static int read_document(const char *path, const struct record *record, void *base,
+                         struct arena *arena, struct diag *diag)
+{
+    struct text bytes = {0};
+    int result = document_bytes(path, &bytes, diag);
+    if (result == 0)
+        result = document_parse(path, &bytes, record, base, arena, diag);
+    text_free(&bytes);
+    return result;
+}
+
 static int make_scratch(void **state)
 {
     struct scratch *scratch = calloc(1, sizeof *scratch);
@@ -150,7 +161,7 @@ static void a_document_fills_its_struct(void **state)
     struct vehicle vehicle;
     write_document(scratch, vehicle_text);
     assert_int_equal(
-        document_read(scratch->path, &vehicle_record, &vehicle, &scratch->arena, &diag), 0);
+        read_document(scratch->path, &vehicle_record, &vehicle, &scratch->arena, &diag), 0);
     assert_string_equal(vehicle.origin, "a test");
     assert_close(vehicle.length_m, 4, 0);
     assert_true(vehicle.reflectors.blocks && !vehicle.reflectors.raised);
@@ -201,7 +212,7 @@ static void faults_are_named_with_path_member_and_expectation(void **state)
         write_changed(scratch, cases[i].from, cases[i].to);
         snprintf(message, sizeof message, "%s: %s", scratch->path, cases[i].message);
         assert_int_equal(
-            document_read(scratch->path, &vehicle_record, &vehicle, &scratch->arena, &diag), -1);
+            read_document(scratch->path, &vehicle_record, &vehicle, &scratch->arena, &diag), -1);
         assert_string_equal(diag.text, message);
         assert_int_equal(diag.code, DIAG_CONFIG);
     }
@@ -228,7 +239,7 @@ static void text_that_is_not_a_document_is_refused_with_its_line(void **state)
         write_document(scratch, cases[i].text);
         int length = snprintf(begin, sizeof begin, "%s%s", scratch->path, cases[i].message);
         assert_int_equal(
-            document_read(scratch->path, &vehicle_record, &vehicle, &scratch->arena, &diag), -1);
+            read_document(scratch->path, &vehicle_record, &vehicle, &scratch->arena, &diag), -1);
         if (strncmp(diag.text, begin, (size_t)length) != 0)
             fail_msg("\"%s\" does not begin with \"%s\"", diag.text, begin);
         assert_int_equal(diag.code, DIAG_CONFIG);
@@ -244,9 +255,9 @@ static void notes_are_strings(void **state)
     char nothing;
     struct diag diag = {0};
     write_document(scratch, "{\"sources\": {\"a\": \"b\", \"c\": \"d\"}}");
-    assert_int_equal(document_read(scratch->path, &record, &nothing, &scratch->arena, &diag), 0);
+    assert_int_equal(read_document(scratch->path, &record, &nothing, &scratch->arena, &diag), 0);
     write_document(scratch, "{\"sources\": {\"a\": \"b\", \"c\": 1}}");
-    assert_int_equal(document_read(scratch->path, &record, &nothing, &scratch->arena, &diag), -1);
+    assert_int_equal(read_document(scratch->path, &record, &nothing, &scratch->arena, &diag), -1);
     assert_non_null(strstr(diag.text, "mine.json: sources.c: a number; expected a string"));
 }
 
@@ -256,12 +267,12 @@ static void a_missing_document_is_named(void **state)
     struct vehicle vehicle;
     struct diag diag = {0};
     assert_int_equal(
-        document_read("/nonexistent/a.json", &vehicle_record, &vehicle, &scratch->arena, &diag),
+        read_document("/nonexistent/a.json", &vehicle_record, &vehicle, &scratch->arena, &diag),
         -1);
     assert_string_equal(diag.text, "/nonexistent/a.json: No such file or directory");
     diag = (struct diag){0};
     assert_int_equal(
-        document_read(scratch->directory, &vehicle_record, &vehicle, &scratch->arena, &diag), -1);
+        read_document(scratch->directory, &vehicle_record, &vehicle, &scratch->arena, &diag), -1);
     assert_non_null(strstr(diag.text, ": Is a directory"));
 }
 

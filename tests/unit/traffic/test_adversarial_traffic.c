@@ -10,6 +10,9 @@
 #include "traffic/scenario.h"
 
 #define SNAPSHOTS 4000
+#define DRAWS 100000
+
+static const struct random_address ADDRESS = {.seed = 1, .scene = 2, .frame = 3, .item = 4};
 
 struct bench {
     struct arena documents, scratch;
@@ -307,11 +310,45 @@ static void points_of_a_chain_are_seen_side_by_side(void **state)
     assert_true(in_line < 0.05 * made);
 }
 
+/* One in eight is 0; of the others a sixth lies in each decade, half of them on either side. */
+static void margins_reach_down_six_decades_on_both_sides(void **state)
+{
+    (void)state;
+    struct random_sequence draws = random_sequence_at(ADDRESS, RANDOM_TRAFFIC);
+    double zeros = 0, negative = 0, decade[6] = {0};
+    for (int i = 0; i < DRAWS; i++) {
+        double margin = adversarial_traffic_margin(&draws, 1e-3), size = fabs(margin);
+        assert_true(size <= 1e-3 && (size == 0 || size >= 1e-9));
+        zeros += size == 0;
+        negative += margin < 0;
+        if (size > 0)
+            decade[(int)fmin(-log10(size) - 3, 5)]++;
+    }
+    assert_close(zeros, DRAWS / 8.0, 5 * sqrt(DRAWS / 8.0));
+    assert_close(negative, DRAWS * 7 / 16.0, 5 * sqrt(DRAWS / 4.0));
+    for (int i = 0; i < 6; i++)
+        assert_close(decade[i], DRAWS * 7 / 48.0, 5 * sqrt(DRAWS * 7 / 48.0));
+}
+
+/* To a thousandth. */
+static void one_margin_in_eight_is_0(void **state)
+{
+    (void)state;
+    enum { MANY = 4000000 };
+    struct random_sequence draws = random_sequence_at(ADDRESS, RANDOM_TRAFFIC);
+    double zeros = 0;
+    for (int i = 0; i < MANY; i++)
+        zeros += adversarial_traffic_margin(&draws, 1) == 0;
+    assert_close(zeros / MANY, 1 / 8.0, 1e-3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_case_is_as_hard_as_it_says),
         cmocka_unit_test(points_of_a_chain_are_seen_side_by_side),
+        cmocka_unit_test(margins_reach_down_six_decades_on_both_sides),
+        cmocka_unit_test(one_margin_in_eight_is_0),
     };
     return cmocka_run_group_tests(tests, make_bench, remove_bench);
 }
