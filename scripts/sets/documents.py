@@ -48,16 +48,29 @@ def suite_name(word):
     return os.path.splitext(os.path.basename(word))[0]
 
 
+def copies_of_tables(suite):
+    """The tables that a suite names. In the set they lie as they do here, seen from the suite."""
+    for sensor in read_json(suite)["sensors"]:
+        for table in filter(None, map(sensor.get, ("antenna_table", "amplitude_table"))):
+            place, path = os.path.normpath(f"{DOCUMENTS}/sensors/{table}"), os.path.join(os.path.dirname(suite), table)
+            refuse(os.path.isabs(table) or not place.startswith(DOCUMENTS + "/"), suite,
+                   f"{table}: expected a table in or below the folder above this one, by its path from here")
+            if not os.path.isfile(path):
+                raise Fault(NO_INPUT, f"{suite}: {path}: no such file")
+            yield place, path
+
+
 def copies_of_suites(plan, plan_folder):
     names = [suite_name(word) for word in plan["suites"]]
-    for word in plan["suites"]:
-        refuse(names.count(suite_name(word)) > 1, "/suites", f"{suite_name(word)} is there twice")
+    for name, word in zip(names, plan["suites"]):
+        refuse(not re.fullmatch(r"\w[\w-]*", name), "/suites", f"{word}: expected a file name of letters, digits, _ and -")
+        refuse([one.lower() for one in names].count(name.lower()) > 1, "/suites", f"{name} is there twice")
         path = path_of(word, "suite", plan_folder)
-        yield f"{DOCUMENTS}/sensors/{suite_name(word)}.json", path
-        for sensor in read_json(path).get("sensors", []):
-            table = sensor.get("antenna_table", "")
-            if "/" in table:
-                yield os.path.normpath(f"{DOCUMENTS}/sensors/{table}"), os.path.join(os.path.dirname(path), table)
+        yield f"{DOCUMENTS}/sensors/{name}.json", path
+        try:
+            yield from list(copies_of_tables(path))
+        except (AttributeError, KeyError, TypeError) as error:
+            raise Fault(BAD_DATA, f"{path}: expected a suite of sensors") from error
 
 
 def copies_of_vehicles(plan, plan_folder):

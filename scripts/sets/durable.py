@@ -1,8 +1,10 @@
 """Files that are whole and on the disk, or not there."""
 import contextlib
+import fcntl
 import hashlib
 import json
 import os
+import re
 import shutil
 import socket
 
@@ -69,7 +71,16 @@ def whole_file(path, work):
 
 def write_whole(path, work, text):
     with whole_file(path, work) as file:
-        file.write(text.encode())
+        file.write(text.encode(errors="surrogateescape"))  # paths may have bytes that are no UTF-8
+
+
+@contextlib.contextmanager
+def alone(work):
+    """While the block runs, no other process is in such a block of this folder, where the file system has locks."""
+    with open(os.path.join(work, "lock"), "ab") as lock:
+        with contextlib.suppress(OSError):
+            fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
 
 
 def running(process):
@@ -84,12 +95,11 @@ def running(process):
 
 
 def remove_temporaries(work, of_all=False):
-    """Removes what killed processes of this host left in a folder, or whatever any process left."""
+    """Removes what killed processes of this host left in a folder, and on request what those of other hosts did."""
     for name in os.listdir(work):
-        if not name.endswith(TEMPORARY):
-            continue
-        path, (host, process) = os.path.join(work, name), name[:-len(TEMPORARY)].split(".")[-2:]
-        if of_all or (host == HOST and not running(int(process))):
+        maker = re.fullmatch(rf".*\.([^.]+)\.(\d+){re.escape(TEMPORARY)}", name, re.DOTALL)
+        if maker and (not running(int(maker[2])) if maker[1] == HOST else of_all):
+            path = os.path.join(work, name)
             shutil.rmtree(path, ignore_errors=True)
             with contextlib.suppress(FileNotFoundError):
                 os.remove(path)

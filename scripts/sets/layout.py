@@ -8,7 +8,7 @@ import sys
 import tempfile
 
 from documents import copies, described, environment, files_of, path_of, program_version, suite_name
-from durable import (canonical, digest_of, make_folder, remove_temporaries, sync_folder, whole_file,
+from durable import (alone, canonical, digest_of, make_folder, remove_temporaries, sync_folder, whole_file,
                      write_whole)
 from plan import BAD_DATA, CANNOT_CREATE, ROOT, Fault, check_once, kind_of, read_json, refuse
 from traffic import command_of, first_scenes, packed, source_command, stretches_of
@@ -38,7 +38,7 @@ def shards_of(plan, plan_folder):
             for split, stretches in stretches_of(plan, source, seed, size, plan_folder).items():
                 by_split.setdefault(split, []).extend(stretches)
     for split, stretches in by_split.items():
-        refuse(not stretches, "/splits/shares", f"{split} gets no scene")
+        refuse(not stretches, "/splits/shares" if "splits" in plan else "/sources", f"{split} gets no scene")
     return [shard_of(stretches, split, suite_name(suite), number, plan, plan_folder)
             for split, all_stretches in by_split.items() for suite in plan["suites"]
             for number, stretches in enumerate(packed(all_stretches, size))]
@@ -99,6 +99,7 @@ MAKEFILE = """\
 #   make part-7     makes one shard
 #   make missing    names what is missing
 #   make slurm      has Slurm make what is missing
+hash := \\#
 dataset = {program} --in . --plan-folder {plan_folder}
 MAKEFLAGS += --keep-going --no-print-directory --no-builtin-rules
 
@@ -118,17 +119,23 @@ work/part-%.json:
 """
 
 
+def word_of_make(path):
+    """A path as a word of the shell, in a variable of make."""
+    return shlex.quote(path).replace("$", "$$").replace("#", "$(hash)")
+
+
 def makefile_of(layout, plan_folder):
     shards = layout["shards"]
     rules = "\n".join(f"parts part-{i}: work/part-{i}.json  # {shard['path']}" for i, shard in enumerate(shards))
     return MAKEFILE.format(name=layout["plan"]["name"], count=len(shards), rules=rules,
-                           program=os.path.join(ROOT, "scripts", "dataset"), plan_folder=shlex.quote(plan_folder))
+                           program=word_of_make(os.path.join(ROOT, "scripts", "dataset")),
+                           plan_folder=word_of_make(plan_folder))
 
 
 def read_layout(folder):
     """The layout of a folder, if it is what was written."""
     layout = read_json(os.path.join(folder, LAYOUT))
-    identity = layout.pop("identity", None)
+    identity = layout.pop("identity", None) if isinstance(layout, dict) else None
     if identity != digest_of(canonical(layout).encode()):
         raise Fault(BAD_DATA, f"{folder}/{LAYOUT}: not as it was written; remove the folder and make the set again")
     return layout | {"identity": identity}
@@ -143,13 +150,8 @@ def check_folder(folder, layout):
         raise Fault(CANNOT_CREATE, f"{folder}: holds other files; name a new folder")
 
 
-def prepare(plan, plan_folder, folder):
-    """Writes all but the shards: layout, documents, folders, and the Makefile last."""
-    layout, copied = lay_out(plan, plan_folder)
-    check_folder(folder, layout)
-    rehearse(plan, plan_folder, copied)
+def fill_folder(layout, copied, plan_folder, folder):
     work = os.path.join(folder, WORK)
-    make_folder(work)
     remove_temporaries(work)
     write_whole(os.path.join(folder, LAYOUT), work, json.dumps(layout, indent=1, ensure_ascii=False) + "\n")
     copy_documents(copied, folder, work)
@@ -157,5 +159,17 @@ def prepare(plan, plan_folder, folder):
         make_folder(os.path.dirname(os.path.join(folder, path)))
     write_whole(os.path.join(folder, "Makefile"), work, makefile_of(layout, os.path.abspath(plan_folder)))
     sync_folder(folder)
+
+
+def prepare(plan, plan_folder, folder):
+    """Writes all but the shards: layout, documents, folders, and the Makefile last."""
+    refuse("\n" in os.path.abspath(plan_folder), repr(plan_folder), "a path of several lines is none for make")
+    layout, copied = lay_out(plan, plan_folder)
+    check_folder(folder, layout)
+    rehearse(plan, plan_folder, copied)
+    make_folder(os.path.join(folder, WORK))
+    with alone(os.path.join(folder, WORK)):
+        check_folder(folder, layout)
+        fill_folder(layout, copied, plan_folder, folder)
     print(f"dataset: {folder}: {len(layout['shards'])} shards; make -C {shlex.quote(folder)} -jN", file=sys.stderr)
     return layout

@@ -4,7 +4,7 @@ import os
 
 import page
 from documents import DOCUMENTS
-from durable import digest_of, digest_of_file, make_folder, remove_temporaries, sync_folder, write_whole
+from durable import alone, digest_of, digest_of_file, make_folder, remove_temporaries, sync_folder, write_whole
 from layout import WORK
 from plan import ROOT, read_json
 from shard import BEGUN, MANIFEST, record_path
@@ -86,7 +86,11 @@ def documents_of(layout, folder):
 
 def finish(layout, folder):
     """Writes page and manifest of a set whose shards are all there."""
-    work = os.path.join(folder, WORK)
+    with alone(os.path.join(folder, WORK)):
+        return finish_alone(layout, folder, os.path.join(folder, WORK))
+
+
+def finish_alone(layout, folder, work):
     records = [read_json(record_path(folder, part)) for part in range(len(layout["shards"]))]
     for path, fields in schemas_of(layout).items():
         make_folder(os.path.dirname(os.path.join(folder, path)))

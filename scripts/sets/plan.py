@@ -7,6 +7,7 @@ import re
 import shlex
 
 import schema
+from durable import canonical
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 USAGE, BAD_DATA, NO_INPUT, CANNOT_CREATE, IO = 64, 65, 66, 73, 74
@@ -62,6 +63,8 @@ def read_json(path):
         raise Fault(BAD_DATA, f"{path}:{error.lineno}: {error.msg}") from error
     except ValueError as error:
         raise Fault(BAD_DATA, f"{path}: {error}") from error
+    except RecursionError as error:
+        raise Fault(BAD_DATA, f"{path}: nested too deep") from error
 
 
 def kind_of(source):
@@ -92,6 +95,8 @@ def check_source(source, path):
     for name in ("from_s", "to_s"):
         refuse("block_s" in source and name not in source, path, f"{name} is missing: blocks need it")
     refuse(source.get("from_s", 0) >= source.get("to_s", float("inf")), f"{path}/to_s", "expected later than from_s")
+    refuse(kind == "moving" and not 1 <= source.get("rate_hz", 20) <= 10000, f"{path}/rate_hz",
+           "expected a number in [1, 10000] for moving scenes")
     scenes = source.get("scenes", [0, 1])
     refuse(scenes[0] >= scenes[1], f"{path}/scenes", "expected a first scene before the last")
 
@@ -180,6 +185,7 @@ def read_plan(path):
     try:
         by = plan["splits"]["by"] if isinstance(plan, dict) and isinstance(plan.get("splits"), dict) else None
         refuse(isinstance(by, str) and by in LEAKS, "/splits/by", f'"{by}" {LEAKS.get(by)}')
+        refuse(re.search("[\ud800-\udfff]", canonical(plan)), "/", "half a character, \\ud800 to \\udfff")
         fault = schema.fault_of(plan, read_json(os.path.join(ROOT, "schemas", "dataset.json")))
         if fault:
             raise Fault(BAD_DATA, fault)

@@ -13,7 +13,7 @@ import time
 import zlib
 
 from documents import environment, program_version
-from durable import (digest_of, digest_of_file, remove_temporaries, sync_folder, temporary_folder, whole_file,
+from durable import (alone, digest_of, digest_of_file, remove_temporaries, sync_folder, temporary_folder, whole_file,
                      write_whole)
 from layout import WORK
 from plan import BAD_DATA, IO, NO_INPUT, USAGE, Fault, read_json
@@ -222,7 +222,11 @@ def missing(layout, folder):
 def verify(layout, folder):
     """Before a run: what is left of killed runs goes, and what is there is held to its records. A manifest stands
     beside whole sets alone."""
-    work = os.path.join(folder, WORK)
+    with alone(os.path.join(folder, WORK)):
+        return verify_alone(layout, folder, os.path.join(folder, WORK))
+
+
+def verify_alone(layout, folder, work):
     remove_temporaries(work)
     left = missing(layout, folder)
     if left and os.path.exists(os.path.join(folder, MANIFEST)):

@@ -7,6 +7,7 @@ from documents import path_of
 from plan import BAD_DATA, FROM_FILES, Fault, kind_of, read_json, scene_of
 
 US = 1_000_000  # of a second
+MOST_BLOCKS = 1_000_000
 
 # Scenes [first, end) of a source, of `frames` frames each; a block of a recording is one such scene.
 Stretch = collections.namedtuple("Stretch", "source seed block first end frames")
@@ -43,8 +44,10 @@ def times_of(plan, source):
 def blocks_of(source, begin, end):
     """A split of a recording as scenes of at most block_s."""
     if "block_s" not in source:
-        return [(begin, end)]
+        return [] if begin is not None and begin == end else [(begin, end)]
     step = round(source["block_s"] * US)
+    if (end - begin) // step > MOST_BLOCKS:
+        raise Fault(BAD_DATA, f"/block_s: {source['block_s']}: more than {MOST_BLOCKS} blocks of {source['recording']}")
     return [(at, min(at + step, end)) for at in range(begin, end, step)]
 
 
@@ -55,9 +58,13 @@ def scene_frames(source, size, plan_folder):
         return 1
     if kind == "moving":
         return max(1, math.ceil(source["seconds"] * source.get("rate_hz", 20) - 1e-9))
-    document = read_json(path_of(source["scenario"], "scenario", plan_folder))
-    drawn = isinstance(document["duration_s"], dict) or isinstance(document["rate_hz"], dict)
-    return size if drawn else int(document["duration_s"] * document["rate_hz"] + 1e-9) + 1
+    path = path_of(source["scenario"], "scenario", plan_folder)
+    document = read_json(path)
+    try:
+        drawn = isinstance(document["duration_s"], dict) or isinstance(document["rate_hz"], dict)
+        return size if drawn else int(document["duration_s"] * document["rate_hz"] + 1e-9) + 1
+    except (KeyError, TypeError, OverflowError) as error:
+        raise Fault(BAD_DATA, f"{path}: expected a scenario with duration_s and rate_hz") from error
 
 
 def stretches_of(plan, source, seed, size, plan_folder):
@@ -113,11 +120,16 @@ def text_of(value):
     return repr(value)
 
 
+def operand(path):
+    """A path that no program takes for an option."""
+    return "./" + path if path.startswith("-") else path
+
+
 def words_of_recording(stretch):
     """The end of a block is the next one's begin: the microsecond before it is the last that is played."""
     source, (begin, end) = stretch.source, stretch.block
     name = scene_of(source) + (f"@{seconds(begin)}" if begin is not None else "")
-    words = [source["recording"], "--ego", ",".join(source["egos"]), "--scene", name]
+    words = [operand(source["recording"]), "--ego", ",".join(source["egos"]), "--scene", name]
     words += ["--from-s", seconds(begin)] if begin is not None else []
     words += ["--to-s", seconds(end - 1)] if end is not None else []
     return words + (["--rate-hz", text_of(source["rate_hz"])] if "rate_hz" in source else [])
@@ -129,7 +141,7 @@ def source_words(stretch):
         return words_of_recording(stretch)
     scenes = ["--scenes", f"{stretch.first}:{stretch.end}"] if "scenes" in source else []
     if kind == "scenario":
-        return [source["scenario"], *scenes]
+        return [operand(source["scenario"]), *scenes]
     if kind == "random":
         frames = ["--first", str(stretch.first), "--frames", str(stretch.end - stretch.first)]
         return ["--density", source["random"], *frames]

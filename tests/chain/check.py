@@ -210,13 +210,22 @@ def sets(bin_dir):
         check(done.returncode == 65 and f"{shard['path']}: bytes: {shard['bytes'] - 1}" in done.stdout.decode(),
               f"a cut shard: {done.stdout.decode()}")
         shutil.copy(f"{folder}/kept", path)
+        stranger = os.path.join(os.path.dirname(path), "99999.jsonl.gz")
+        shutil.copy(path, stranger)
+        done = run(f"BUILD={build} scripts/check-set {folder}/set", bin_dir)
+        check(done.returncode == 65 and "99999.jsonl.gz: not in the manifest" in done.stdout.decode(),
+              f"a shard of another set: {done.stdout.decode()}")
+        os.remove(stranger)
+        done = run(f"BUILD={build} scripts/check-set {folder}/set >/dev/full", bin_dir)
+        check(done.returncode == 74 and b"stdout: No space left" in done.stderr, f"a full disk: {done.stderr.decode()}")
         other_table(folder, package)
         done = run(f"BUILD={build} scripts/check-set {folder}/set", bin_dir)
         check(done.returncode == 65 and "other rows than those of the stream" in done.stdout.decode(),
               f"a table of another stream: {done.stdout.decode()}")
         os.remove(path)
+        os.mkfifo(path)
         done = run(f"BUILD={build} scripts/check-set {folder}/set", bin_dir)
-        check(done.returncode == 65 and "No such file" in done.stdout.decode(), f"a shard that is gone: {done.stdout.decode()}")
+        check(done.returncode == 65 and "no such file" in done.stdout.decode(), f"a shard that is gone: {done.stdout.decode()}")
     return f"{cut} truncations of 20 files and {flipped} flipped bits of 5 were found"
 
 

@@ -217,6 +217,9 @@ def leaks_are_refused(folder):
         (plan_of([one], splits={"by": "time", "shares": SHARES, "gap_s": 1}), "splits by time need from_s and to_s"),
         (plan_of([{"scenario": "cut-in"}], splits={"by": "scene", "shares": SHARES}), "it is one scene"),
         (snapshots(9, splits={"by": "scene", "shares": {"train": 0.8, "test": 0.1}}), "expected 1"),
+        (snapshots(9, splits={"by": "scene", "shares": {"train": 0.99, "test": 0.01}}), "test gets no scene"),
+        (plan_of([timed], splits={"by": "time", "shares": SHARES, "gap_s": 1e-9}), "/splits/gap_s: 1e-09; expected at least"),
+        (plan_of([timed | {"to_s": 1e-7}]), "all gets no scene"),
     ]
     refusals(folder, cases, 65)
 
@@ -231,7 +234,6 @@ def what_cannot_be_made_is_refused(folder):
         (snapshots(9, chain=CHAIN + " # a comment"), "/chain: has a comment"),
         (snapshots(9, chain=CHAIN + " --seed 3"), "/chain: --seed is not the chain's to say"),
         (snapshots(9, suites=[SUITE, f"{ROOT}/data/sensors/{SUITE}.json"]), f"/suites: {SUITE} is there twice"),
-        (snapshots(9, splits={"by": "scene", "shares": {"train": 0.99, "test": 0.01}}), "test gets no scene"),
         (snapshots(9, splits={"by": "scene", "shares": {"train": 0.5, "work": 0.5}}), "'work' is a folder of every set"),
         (plan_of([medium | {"options": "'"}]), "/sources/0/options: No closing quotation"),
         (snapshots(9, chain=CHAIN + " > list"), "/chain: redirects"),
@@ -240,6 +242,15 @@ def what_cannot_be_made_is_refused(folder):
         (plan_of([{"random": "medium"}]), "frames is missing"),
         (plan_of([medium | {"options": "--seed 3"}]), "--seed is the plan's to say"),
         (plan_of([medium | {"egos": ["1"]}]), "a random source has none"),
+        (plan_of([medium | {"options": "'"}]), "/sources/0/options: No closing quotation"),
+        (plan_of([{"random": "medium", "seconds": 1, "scenes": [0, 2], "rate_hz": 0.5}]), "expected a number in [1, 10000]"),
+        (plan_of([{"recording": "highway", "egos": ["1"], "from_s": 0, "to_s": 9e9, "block_s": 1e-6}]), "more than 1000000 blocks"),
+        (snapshots(9, chain=CHAIN + " --seed 7"), "/chain: --seed is not the chain's to say"),
+        (snapshots(9, origin="\ud800"), "half a character"),
+        (snapshots(9, suites=[SUITE, f"{ROOT}/data/sensors/{SUITE}.json"]), f"/suites: {SUITE} is there twice"),
+        (snapshots(9, suites=["./my radar.json"]), "./my radar.json: expected a file name of letters"),
+        (snapshots(9, suites=[f"{ROOT}/schemas/sensors.json"]), "expected a suite of sensors"),
+        (plan_of([{"scenario": f"{ROOT}/schemas/frame.json"}]), "expected a scenario with duration_s and rate_hz"),
     ], 65)
     refusals(folder, [(plan_of([{"recording": "nowhere.csv", "egos": ["1"]}]), "no such file"),
                       (snapshots(9, suites=["nowhere"]), "no such file")], 66)
@@ -264,6 +275,35 @@ def refusals(folder, cases, code):
         assert not os.path.exists(place), f"{message}: leaves a folder"
 
 
+def tables_of_a_suite_stand_in_the_set_or_are_refused(folder):
+    for name in ("sensors", "antennas"):
+        shutil.copytree(os.path.join(ROOT, "data", name), os.path.join(folder, "radars", name))
+    shutil.copy(os.path.join(folder, "radars/antennas/corner77.csv"), os.path.join(folder, "outside.csv"))
+    shutil.copy(os.path.join(folder, "outside.csv"), os.path.join(folder, "radars/sensors/beside.csv"))
+    with open(os.path.join(folder, "radars", "sensors", SUITE + ".json"), encoding="utf-8") as file:
+        suite = file.read()
+
+    def with_table(table):
+        with open(os.path.join(folder, "radars/sensors/mine.json"), "w", encoding="utf-8") as file:
+            file.write(suite.replace("../antennas/corner77.csv", table))
+        return snapshots(9, suites=["radars/sensors/mine.json"])
+
+    place = made(folder, with_table("beside.csv"))
+    assert "documents/sensors/beside.csv" in files(place), list(files(place))
+    for table in ("../../outside.csv", folder + "/outside.csv"):
+        refusals(folder, [(with_table(table), f"mine.json: {table}: expected a table in or below the folder above")], 65)
+    refusals(folder, [(with_table("nowhere.csv"), "nowhere.csv: no such file")], 66)
+
+
+def paths_may_have_any_letters(folder):
+    """A plan's folder with letters that mean something to make and the shell, and a table that looks like an option."""
+    home = os.path.join(folder, "it's $(my) #1 \"plan\"")
+    os.mkdir(home)
+    shutil.move(os.path.join(folder, recording(folder, "-table.csv", slice(1, None))), home)
+    place = made(home, plan_of([{"recording": "-table.csv", "egos": ["7"], "to_s": 1}]))
+    assert manifest(place)["frames"] > 0
+
+
 # --- nothing lost ---------------------------------------------------------------------------------
 
 def another_plan_in_the_folder_is_refused(folder):
@@ -277,6 +317,33 @@ def another_plan_in_the_folder_is_refused(folder):
     os.makedirs(os.path.join(folder, "full", "of things"))
     _, done = begin(folder, snapshots(20), "full")
     assert done.returncode == 73 and "holds other files" in done.stdout, done.stdout
+
+
+def at_once(commands):
+    """Runs commands beside each other; their exit codes and what they print."""
+    runs = [subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) for words in commands]
+    printed = [process.communicate(timeout=PATIENCE_S)[0] for process in runs]
+    return [process.returncode for process in runs], printed
+
+
+def two_plans_at_once_make_one_set(folder):
+    for seed in (1, 2):
+        with open(os.path.join(folder, f"{seed}.json"), "w", encoding="utf-8") as file:
+            json.dump(snapshots(9, seeds=[seed]), file)
+    for attempt in range(3):
+        place = os.path.join(folder, f"set{attempt}")
+        codes, printed = at_once([[DATASET, f"{folder}/{seed}.json", "--out", place] for seed in (1, 2)])
+        assert sorted(codes) == [0, 73], printed
+        assert make(place).returncode == 0 and manifest(place)["plan"]["seeds"] == [codes.index(0) + 1]
+
+
+def who_finishes_at_once_disturbs_nobody(folder):
+    place = made(folder, snapshots(20))
+    right = files(place)
+    for _ in range(8):
+        os.remove(os.path.join(place, "datapackage.json"))
+        codes, printed = at_once([[DATASET, "--in", place, "--plan-folder", folder, "--finish"]] * 4)
+        assert codes == [0] * 4 and files(place) == right, printed
 
 
 def what_is_damaged_is_made_again(folder):
@@ -450,7 +517,9 @@ def jobs_without_a_number_are_refused(folder):
 CHECKS = [shards_join_to_the_bytes_of_one_run, scenes_and_seeds_are_played_whole, the_manifest_says_what_is_there,
           tables_have_the_targets_of_their_lines,
           blocks_of_time_keep_their_gap, leaks_are_refused, what_cannot_be_made_is_refused,
-          scenes_of_one_name_are_refused, another_plan_in_the_folder_is_refused, what_is_damaged_is_made_again, one_failing_scene_stops_no_other,
+          scenes_of_one_name_are_refused, tables_of_a_suite_stand_in_the_set_or_are_refused, paths_may_have_any_letters,
+          another_plan_in_the_folder_is_refused, two_plans_at_once_make_one_set, who_finishes_at_once_disturbs_nobody,
+          what_is_damaged_is_made_again, one_failing_scene_stops_no_other,
           a_chain_that_fails_is_named, a_full_disk_loses_nothing, parallel_makes_the_same_bytes,
           jobs_without_a_number_are_refused]
 
