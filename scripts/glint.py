@@ -11,7 +11,8 @@ copying (`numpy.asarray(column)`, `torch.frombuffer(column, dtype=torch.float64)
         print(frame["time_s"], list(glint.detections(frame)["x_m"]))
 
 Places are in one of three coordinate systems: "world", x and y as the traffic has them; "ego", x ahead and y left
-of the middle of the ego's box; "sensor", x along its axis. Yaw turns from x to y.
+of the middle of the ego's box; "sensor", x along its axis. Yaw turns from x to y. A sensor with a cycle or a latency
+measures `age_s` before the frame's time: its detections are placed from where the ego was then.
 """
 import array
 import glob
@@ -25,27 +26,40 @@ import sys
 MEASURED = ("range_m", "azimuth_rad", "range_rate_mps", "amplitude_db")
 
 
-def frames(*sources):
-    """The frames of files one after another: plain or .gz, "-" or none for standard input."""
+class BadFrame(ValueError):
+    """What is wrong with a line, and where it stands."""
+
+
+def frames(*sources, needs=()):
+    """The frames of files one after another: plain or .gz, "-" or none for standard input. needs: members that
+    every frame must have."""
     for source in sources or ("-",):
-        yield from _frames_of(source)
+        yield from _frames_of(source, needs)
 
 
-def _frames_of(source):
+def _frames_of(source, needs):
     if source == "-":
-        yield from _parsed(sys.stdin, "standard input")
+        yield from _parsed(sys.stdin.buffer, "standard input", needs)
         return
     opener = gzip.open if str(source).endswith(".gz") else open
-    with opener(source, "rt", encoding="utf-8") as lines:
-        yield from _parsed(lines, source)
+    with opener(source, "rb") as lines:
+        yield from _parsed(lines, source, needs)
 
 
-def _parsed(lines, source):
-    for number, line in enumerate(lines, 1):
+def _parsed(lines, source, needs):
+    number, line = 0, b""
+    while line is not None:
+        number += 1
         try:
-            yield json.loads(line)
-        except json.JSONDecodeError as error:
-            raise ValueError(f"{source}:{number}: {error}; expected a frame, one line of JSON") from None
+            line = next(lines, None)
+            frame = line is not None and json.loads(line)
+        except (ValueError, RecursionError, EOFError, gzip.BadGzipFile) as error:
+            raise BadFrame(f"{source}:{number}: {error}; expected a frame, one line of JSON") from None
+        if line is not None:
+            missing = [name for name in needs if name not in frame] if isinstance(frame, dict) else ["member"]
+            if missing:
+                raise BadFrame(f"{source}:{number}: no {missing[0]}; expected a frame, one line of JSON")
+            yield frame
 
 
 def write(frame, out=None):
@@ -56,15 +70,38 @@ def write(frame, out=None):
 def stage(change):
     """Is a stage: change(frame) returns the frame to write, or None for none. Names of files stand in the
     command line; without them frames come from standard input."""
-    for frame in frames(*sys.argv[1:]):
-        changed = change(frame)
-        if changed is not None:
-            write(changed)
+    changed = map(change, frames(*sys.argv[1:]))
+    program(write, ((frame,) for frame in changed if frame is not None))
 
 
-def ego(frame):
-    """The object that carries the sensors."""
-    return next(one for one in frame["objects"] if one["id"] == frame["ego"])
+def program(write_one, results):
+    """Is a program: calls write_one(*result) for each result. Bad input ends it with a message and a status of sysexits,
+    without a trace."""
+    try:
+        for result in results:
+            write_one(*result)
+        sys.stdout.flush()
+    except BrokenPipeError:  # who reads has enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(74)
+    except (BadFrame, OSError) as error:
+        print(f"{os.path.basename(sys.argv[0])}: {error}", file=sys.stderr)
+        sys.exit(65 if isinstance(error, BadFrame) else 66)
+
+
+def ego(frame, age_s=0):
+    """The object that carries the sensors; with age_s as it was so long before, along its arc."""
+    carrier = next((one for one in frame.get("objects", ()) if one["id"] == frame["ego"]), None)
+    if carrier is None:
+        raise BadFrame(f"{frame['scene']}, frame {frame['frame']}: without its ego; --sections objects carries it")
+    if not age_s:
+        return carrier
+    turn = -age_s * carrier["yaw_rate_radps"]
+    chord = -age_s * (math.sin(turn / 2) / (turn / 2) if turn else 1)
+    dx, dy = turned(carrier["vx_mps"], carrier["vy_mps"], turn / 2)
+    vx, vy = turned(carrier["vx_mps"], carrier["vy_mps"], turn)
+    return dict(carrier, x_m=carrier["x_m"] + chord * dx, y_m=carrier["y_m"] + chord * dy,
+                yaw_rad=carrier["yaw_rad"] + turn, vx_mps=vx, vy_mps=vy)
 
 
 def sensor(frame, name):
@@ -72,36 +109,42 @@ def sensor(frame, name):
     return next(one for one in frame["sensors"]["list"] if one["name"] == name)
 
 
+def carrier_of(frame, target):
+    """The ego when the target was measured."""
+    return ego(frame, sensor(frame, target["sensor"]).get("age_s", 0))
+
+
 def turned(x, y, angle):
     return x * math.cos(angle) - y * math.sin(angle), x * math.sin(angle) + y * math.cos(angle)
 
 
-def to_world(frame, x, y):
-    """From the ego's coordinates to the world's."""
-    carrier = ego(frame)
+def to_world(frame, x, y, carrier=None):
+    """From the ego's coordinates to the world's; carrier: the ego at another time."""
+    carrier = carrier or ego(frame)
     x, y = turned(x, y, carrier["yaw_rad"])
     return (x + carrier["x_m"] + frame.get("origin_x_m", 0), y + carrier["y_m"] + frame.get("origin_y_m", 0))
 
 
 def place(frame, target, system="world"):
-    """x and y of a target in a coordinate system."""
+    """x and y of a target in a coordinate system, when it was measured."""
     x, y = turned(target["range_m"], 0, target["azimuth_rad"])
     if system == "sensor":
         return x, y
     mount = sensor(frame, target["sensor"])
     x, y = turned(x, y, mount["mount_yaw_rad"])
     x, y = x + mount["mount_x_m"], y + mount["mount_y_m"]
-    return (x, y) if system == "ego" else to_world(frame, x, y)
+    return (x, y) if system == "ego" else to_world(frame, x, y, carrier_of(frame, target))
 
 
 def direction(frame, target):
     """The angle in the world under which the sensor sees a target."""
-    return target["azimuth_rad"] + sensor(frame, target["sensor"])["mount_yaw_rad"] + ego(frame)["yaw_rad"]
+    yaw_rad = carrier_of(frame, target)["yaw_rad"]
+    return target["azimuth_rad"] + sensor(frame, target["sensor"])["mount_yaw_rad"] + yaw_rad
 
 
 def rate_over_ground(frame, target):
     """The range rate that a sensor at rest would measure there: 0 of what stands."""
-    carrier, mount = ego(frame), sensor(frame, target["sensor"])
+    carrier, mount = carrier_of(frame, target), sensor(frame, target["sensor"])
     x, y = turned(mount["mount_x_m"], mount["mount_y_m"], carrier["yaw_rad"])
     vx = carrier["vx_mps"] - carrier["yaw_rate_radps"] * y
     vy = carrier["vy_mps"] + carrier["yaw_rate_radps"] * x

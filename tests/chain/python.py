@@ -43,6 +43,46 @@ def places_are_in_the_system_that_is_asked_for(folder):
     near([glint.rate_over_ground(TURNING_FRAME, AHEAD)], [0])
 
 
+def detections_are_placed_from_where_the_ego_was(folder):
+    """As the quality of targets says, of a car in a bend whose radar has a latency."""
+    with open(os.path.join(ROOT, "data/sensors/corner77.json"), encoding="utf-8") as file:
+        suite = json.load(file)
+    for sensor in suite["sensors"]:
+        sensor["latency_s"] = 0.05
+        sensor["antenna_table"] = os.path.abspath(os.path.join(ROOT, "data/antennas/corner77.csv"))
+    scene = {"origin": "For tests.", "ego": "ego", "rate_hz": 25, "duration_s": 2, "objects": [
+        {"id": "ego", "class": "car", "x_m": 0, "y_m": 0, "speed_mps": 12,
+         "segments": [{"duration_s": 2, "yaw_rate_radps": 0.4}]},
+        {"id": "other", "class": "car", "x_m": 20, "y_m": 12, "speed_mps": 3}]}
+    for name, document in (("suite.json", suite), ("scene.json", scene)):
+        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+            json.dump(document, file)
+    shell("glint-traffic ./scene.json | glint-extract | glint-ideal --sensors ./suite.json --sections quality"
+          " | glint-sensor | glint-noise >late.jsonl", folder)
+    seen = 0
+    for frame in glint.frames(os.path.join(folder, "late.jsonl")):
+        for target in frame["targets"]:
+            told = target["quality"]
+            assert math.dist(glint.place(frame, target), (told["x_world_m"], told["y_world_m"])) < 1e-3
+            assert abs(glint.rate_over_ground(frame, target) - told["range_rate_over_ground_mps"]) < 1e-3
+            seen += 1
+    assert seen > 20, seen
+
+
+def bad_input_is_told_without_a_trace(folder):
+    good = shell(f"glint-traffic cut-in | {EXACT}", folder).splitlines()[0].encode() + b"\n"
+    for bad, status, message in ((b"\n", 65, "bad.jsonl:2: "), (b"5\n", 65, "bad.jsonl:2: no member"),
+                                 (b"\xff\n", 65, "bad.jsonl:2: 'utf-8' codec"), (good[:99], 65, "bad.jsonl:2: "),
+                                 (b'{"scene":"s","frame":0,"time_s":0}\n', 65, "bad.jsonl:2: no sensors"),
+                                 (good.replace(b'"objects"', b'"extra"'), 65, "without its ego"), (None, 66, "No such file")):
+        if bad is not None:
+            with open(os.path.join(folder, "bad.jsonl"), "wb") as file:
+                file.write(good + bad)
+        done = subprocess.run([SCRIPTS + "/tracker", "bad.jsonl" if bad is not None else "nowhere.jsonl"], cwd=folder,
+                              env=ENVIRONMENT, capture_output=True, text=True, check=False)
+        assert done.returncode == status and message in done.stderr and "Traceback" not in done.stderr, (bad, done)
+
+
 def what_stands_has_no_rate_over_ground(folder):
     scene = {"origin": "For tests.", "ego": "ego", "rate_hz": 10, "duration_s": 2, "objects": [
         {"id": "ego", "class": "car", "x_m": 0, "y_m": 0, "speed_mps": 9,
@@ -121,7 +161,8 @@ def the_tracker_follows_most_of_what_is_detected(folder):
 def main():
     for test in (places_are_in_the_system_that_is_asked_for, what_stands_has_no_rate_over_ground,
                  frames_are_read_from_files_of_both_kinds, a_stage_that_changes_nothing_changes_no_byte_of_the_list,
-                 columns_have_the_numbers_of_quality,
+                 columns_have_the_numbers_of_quality, detections_are_placed_from_where_the_ego_was,
+                 bad_input_is_told_without_a_trace,
                  workers_share_the_shards_of_a_set, the_tracker_follows_most_of_what_is_detected):
         with tempfile.TemporaryDirectory() as folder:
             test(folder)
