@@ -12,6 +12,8 @@ from written import RADARS, changes, measured, pick, spent_more
 
 BLUE, ORANGE, GREY = "#0072b2", "#d55e00", "#888888"
 SIZE, WIDTH = 13, 880  # of the font and of a picture, in pixels
+# Marks of points by their colour, so that nobody needs to see the colour, and their signs in a legend.
+MARKS = {BLUE: ("points pt 7 ps 0.6", "●"), ORANGE: ("points pt 4 ps 0.7 lw 1.6", "□")}
 
 
 def power(value):
@@ -114,7 +116,8 @@ class Panel:
         self.blocks.append((name, rows))
         return name
 
-    def series(self, points, colour, style="points pt 7 ps 0.6", title=None):
+    def series(self, points, colour, style=None, title=None):
+        style = style or MARKS[colour][0]
         name = self.data([f"{self.x.at(x):.6g} {self.y.at(y):.6g}" for x, y in points])
         self.plots.append(f'{name} using 1:2 with {style} lc rgb "{colour}" notitle')
         if title:
@@ -163,7 +166,8 @@ class Panel:
         self.write(title, left, high + 42)
         self.write(ylabel, left, high + 22)
         for row, (text, colour) in enumerate(self.legend):
-            self.write(text, right, high + 42 - 20 * row, "right", colour)
+            sign = f"{MARKS[colour][1]} " if colour in MARKS else "··· "
+            self.write(sign + text, right, high + 42 - 20 * row, "right", colour)
 
     def write(self, text, x, y, side="left", colour="black"):
         width, height = self.page
@@ -222,7 +226,7 @@ def models_panel(rows, radar, size, frame):
     best = front(own)
     steps = [point for one, after in zip(best, best[1:]) for point in
              ((one["us"], one["error"]), (after["us"], one["error"]))] + [(best[-1]["us"], best[-1]["error"])]
-    panel.series(steps, GREY, "lines lw 1 dt 2", "no cheaper chain is nearer")
+    panel.series(steps, GREY, "lines lw 1 dt 2", "no cheaper chain is nearer the signal")
     bars = panel.bars([(row["us"], row["error"], row["low"], row["high"]) for row in own], BLUE, True)
     bars += [around(panel.pixel(*one), panel.pixel(*after)) for one, after in zip(steps, steps[1:])]
     panel.series([(row["us"], row["error"]) for row in own], BLUE, title="chain, with its 95 % interval")
@@ -253,7 +257,7 @@ def effect_panels(rows, radar, size, frames):
     names = sorted(best, key=lambda name: -best[name])
     ends = [row[key] for row in own for key in ("gain_low", "gain_high")]
     gains = Panel(size, frames[0], Signed(ends), Rows(names),
-                  ("Error that an effect takes away, with its 95 % interval", "points", ""))
+                  ("Error that an effect takes away, with its 95 % interval", "percentage points", ""))
     cost = {id(row): spent_more(rows, row) for row in own}
     costs = Panel(size, frames[1], Logarithmic(list(cost.values()), 1), Rows(["" for _ in names]),
                   ("Time that it takes", "CPU time of a frame, µs", ""))
@@ -306,7 +310,7 @@ def tracker_page(rows, path):
     ladder.series([(row["gospa"], place) for place, row in enumerate(rungs)], BLUE)
     effects = Panel(size, Box(170, 830, 60, middle),
                     Signed([row[key] for row in own for key in ("change_low", "change_high")] or [1]), Rows(names),
-                    ("What an effect adds to it, with its 95 % interval", "m", ""))
+                    ("What an effect adds to it, with its 95 % interval", "GOSPA of its tracks, m", ""))
     effect_series(effects, own, names, "change")
     effects.legend += [(title, colour) for _, colour, _, title in EFFECT_GROUPS]
     page(path, size, [ladder, effects])
