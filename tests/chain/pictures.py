@@ -1,4 +1,4 @@
-"""Pictures of the pages: all drawn by scripts/figures, readable, and no text over another.
+"""Pictures of the pages: all drawn by scripts/figures, readable without colours, and no text over another.
 
 Usage: python3 tests/chain/pictures.py [PICTURE.svg ...]        exit status 1 if any check fails
 
@@ -81,6 +81,18 @@ def fill_of(node, root):
     return node.get("fill", of_class.group(1) if of_class else "").lower()
 
 
+def colours_of_marks(root):
+    """{mark of gnuplot: its colours}, but for pale greys and what is nearly black."""
+    found = {}
+    for node in root.iter():
+        colour = re.match(r"rgb\(\s*(\d+),\s*(\d+),\s*(\d+)\)", node.get("color", ""))
+        if node.tag.endswith("}use") and colour:
+            channels = tuple(map(int, colour.groups()))
+            if max(channels) - min(channels) > 30:
+                found.setdefault(node.get("{http://www.w3.org/1999/xlink}href"), set()).add(channels)
+    return found
+
+
 def check_picture(path, shown):
     """shown: how wide a page makes the picture."""
     name = os.path.basename(path)
@@ -88,6 +100,9 @@ def check_picture(path, shown):
     width, height = (float(root.get(side)) for side in ("width", "height"))
     ground = [node for node in root.iter() if node.tag.endswith("}rect") or node.tag.endswith("}polygon")]
     check(ground and fill_of(ground[0], root) in ("#fff", "#ffffff"), f"{name} has no ground of its own")
+    for mark, colours in colours_of_marks(root).items():
+        named = "fig07" in name  # both sensors have their names beside them
+        check(len(colours) == 1 or named, f"{name}: colour alone tells {len(colours)} kinds of {mark}")
     found = texts(root)
     check(len(found) > 0, f"{name} has no text")
     for number, (text, box, size) in enumerate(found):

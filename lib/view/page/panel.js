@@ -513,6 +513,17 @@ function showCause(cause) {
     }
 }
 
+// The objects of the frame that are in no target; a click tells why.
+function silentObjects() {
+    const seen = new Set([head.scenes[state.scene].ego]);
+    eachTarget(state.frame, (scan, target) => eachObjectOf(target, object => seen.add(object)));
+    const {begin, end} = objectsOf(state.frame);
+    const silent = [...column('object_id').slice(begin, end)].filter(object => !seen.has(object));
+    const rows = silent.slice(0, 24).map(object =>
+        rowButton('–', [objectTitle(object)], '', () => chooseObject(object)));
+    return section('Objects without a target: click to see why', rows).concat(moreLine(silent.length - rows.length));
+}
+
 function showFrame() {
     const parts = [make('h2', 'This frame')];
     parts.push(make('p', hasSensors() ? 'Click a target, a reflection centre or an object.'
@@ -532,6 +543,7 @@ function showFrame() {
         }
         parts.push(...moreLine(count - 300));
     }
+    parts.push(...(hasSensors() ? silentObjects() : []));
     panel.replaceChildren(...parts);
 }
 
