@@ -133,15 +133,18 @@ const tests = {
         });
     },
 
-    async 'help opens at its beginning, however low the window is'() {
-        for (const height of [400, 800]) {
+    async 'help opens at its beginning and within the window, however small that is'() {
+        for (const [width, height] of [[1280, 400], [1280, 800], [320, 640], [400, 800]]) {
             await withPage(view(corner), async page => {
                 await page.click('#help');
                 assert.strictEqual(await page.evaluate(() => control('keys').scrollTop), 0);
                 assert.strictEqual(await page.evaluate(() => document.activeElement.textContent), 'What you see');
+                const sheet = await page.locator('#keys').boundingBox();
+                assert.ok(sheet.x >= 0 && sheet.x + sheet.width <= width);
+                assert.ok(await page.evaluate(() => control('keys').scrollWidth <= control('keys').clientWidth));
                 await page.keyboard.press('Escape');
                 assert.ok(await page.isHidden('#keys'));
-            }, {viewport: {width: 1280, height}});
+            }, {viewport: {width, height}});
         }
     },
 

@@ -504,6 +504,23 @@ module.exports = ({stream, view, withPage, panelText}) => {
             }
         },
 
+        async 'the ego has its name, however small it is'() {
+            for (const name of ['ghosts', 'ambiguity', 'snow']) {
+                for (const viewport of [{width: 1280, height: 800}, {width: 400, height: 800}]) {
+                    await withPage(view(streamOf(name)), async page => {
+                        const words = await page.evaluate(() => {
+                            const found = [];
+                            context.fillText = text => found.push(text);
+                            draw();
+                            delete context.fillText;
+                            return found;
+                        });
+                        assert.ok(words.includes('ego'), `${name}: ${words}`);
+                    }, {viewport});
+                }
+            }
+        },
+
         async 'with nothing chosen objects without a target are listed, and tell why by keyboard alone'() {
             const frames = streamOf('intersection');
             const frame = withMany(frames);

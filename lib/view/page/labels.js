@@ -101,7 +101,7 @@ function objectLabel(row) {
 }
 
 function isWorthLabel(row, box) {
-    if (hasTarget(column('object_id')[row])) {
+    if (hasTarget(column('object_id')[row]) || column('object_id')[row] === head.scenes[state.scene].ego) {
         return onScreen(toScreen(box), 0);
     }
     const size = Math.max(box.length, box.width) * camera.scale;
