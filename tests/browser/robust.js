@@ -104,6 +104,7 @@ module.exports = ({work, stream, view, withPage}) => {
                     const map = await page.locator('#map').boundingBox();
                     assert.ok(map.y < 60, `${map.y}`);
                     assert.ok(map.height > 0.4 * height, `${map.height}`);
+                    await page.keyboard.press('End');
                     const footer = await page.locator('footer').boundingBox();
                     assert.ok(footer.height < 90, `controls in two rows: ${footer.height}`);
                     await page.click('#more');

@@ -504,6 +504,27 @@ module.exports = ({stream, view, withPage, panelText}) => {
             }
         },
 
+        async 'numbers of rulers are whole, or not there'() {
+            for (const name of ['side', 'road-mirror', 'intersection']) {
+                await withPage(view(streamOf(name)), async page => {
+                    const {tops, low, size} = await page.evaluate(() => {
+                        const found = [];
+                        const whole = rulerText;
+                        rulerText = (text, x, y) => {
+                            const before = taken.length;
+                            whole(text, x, y);
+                            found.push(...taken.slice(before));
+                        };
+                        draw();
+                        rulerText = whole;
+                        return {tops: found.map(one => one.y), low: found.map(one => one.y + one.height),
+                            size: canvas.clientHeight};
+                    });
+                    assert.ok(tops.length > 6 && tops.every(y => y >= 0) && low.every(y => y <= size), `${name}: ${tops}`);
+                });
+            }
+        },
+
         async 'the ego has its name, however small it is'() {
             for (const name of ['ghosts', 'ambiguity', 'snow']) {
                 for (const viewport of [{width: 1280, height: 800}, {width: 400, height: 800}]) {

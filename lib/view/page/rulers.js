@@ -23,12 +23,13 @@ function metres(value) {
     return String(Number(value.toPrecision(3))).replace('-', '−');
 }
 
-// Writes a number on the map where it fits and no other one is, and keeps labels away from it.
+// Writes a number on the map where it is whole and over no other one, and keeps labels away from it.
 function rulerText(text, x, y) {
     context.font = rulerFont;
     const width = context.measureText(text).width;
     const box = {x: x - width / 2 - 3, y: y - 7, width: width + 6, height: 14};
-    if (!isFree(box) || box.x < 0 || box.x + box.width > canvas.clientWidth) {
+    if (!isFree(box) || box.x < 0 || box.y < 0 || box.x + box.width > mapSize.width ||
+        box.y + box.height > mapSize.height) {
         return;
     }
     taken.push(box);
