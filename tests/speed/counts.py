@@ -89,7 +89,7 @@ def read_dump(path):
 def instructions(binary, job):
     """Instructions per frame, from frame FIRST to the last but one: {"all": ...} and every part. Callgrind
     dumps its counts wherever a frame begins."""
-    begins = "runner_next" if job[1] == os.devnull else "runner_step"
+    begins = "runner_next" if job[1] == os.devnull else "frame_text_read"
     with tempfile.TemporaryDirectory() as folder:
         profile = os.path.join(folder, "callgrind")
         run("callgrind", binary, job, f"--callgrind-out-file={profile}", f"--dump-before={begins}")

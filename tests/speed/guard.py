@@ -4,18 +4,21 @@ Instructions per frame of a few chains must be within 3 % of tests/speed/instruc
 compiler, its options and C library are those of the record; elsewhere they are only printed. A gain beyond
 that fails too: --renew writes down the instructions of this build. No chain may allocate anything after its
 first frames, anywhere. A chain that ends in tables takes at most 1.5 times the instructions of one that ends in lines.
+Leaving out effects saves more than half of the instructions at the intersection, as README.md says.
 """
 import json
 import os
 import subprocess
 
 import counts
+import effects
 import scenes
 
 RECORD = os.path.join("tests", "speed", "instructions.json")
 BUDGET = 0.03
 FRAMES = 12
 TABLES_SHARE = 1.5
+LEAST_GAIN = 2
 CHAINS = [("highway", 20, 1, "default"), ("highway", 20, 1, "account"),
           ("intersection", 20, 4, "default"), ("in-view", 100, 1, "default")]
 PIPED = CHAINS[0]
@@ -58,6 +61,15 @@ def tables_share(glint, folder):
     return tables / lines
 
 
+def effects_gain(glint, folder):
+    """The instructions of all effects at the intersection, over those of the effects that it calls for."""
+    path = os.path.join(folder, "rain")
+    effects.write_frames(glint, effects.SCENES["intersection"], path)
+    every, needed = counts.side_by_side(lambda words: effects.instructions(glint, path, words)["end to end"],
+                                        ["all", "auto"])
+    return every / needed
+
+
 def compare(found, record):
     """A line for every chain, and the names of the chains that leave the budget."""
     outside = []
@@ -93,6 +105,10 @@ def run(glint, renew, folder):
     print(f"tables take {share:.2f} times the instructions of lines")
     if share > TABLES_SHARE:
         grown.append(f"tables take {share:.2f} times the instructions of lines; at most {TABLES_SHARE} are expected")
+    gain = effects_gain(glint, folder)
+    print(f"leaving out effects saves a factor of {gain:.2f}")
+    if gain < LEAST_GAIN:
+        grown.append(f"leaving out effects saves a factor of {gain:.2f}; at least {LEAST_GAIN} is expected")
     for told in grown:
         print(f"bench: {told}")
     foreign = [key for key, value in platform.items() if record[key] != value]
