@@ -1,7 +1,7 @@
 /* Names, each kept once and known by its number. Numbers are 0, 1, 2, ... in the order in which the
  * names first came.
  *
- * A name is any bytes, so a record of numbers gets a number the same way. A zeroed struct is empty.
+ * A name may hold any bytes, those of a struct of numbers for instance. A zeroed struct is empty.
  * All memory is the arena's, which must be the same one at every call. */
 #pragma once
 

@@ -1,4 +1,4 @@
-/* Frames as rows of tables that whole numbers join.
+/* Frames as rows of tables that are joined by keys.
  *
  *     detections     a row for each target: its values, its label, the sensor's pose
  *     objects        a row for each object of each frame: truth

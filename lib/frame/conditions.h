@@ -1,4 +1,4 @@
-/* Road and weather of a scene, and radars of others.
+/* Road and weather of a scene, and other vehicles' radars.
  *
  * They are those of the scene's document or of the source's options. What is absent there does not
  * exist: no road that mirrors, no rain, no other radar. */

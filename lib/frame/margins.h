@@ -1,4 +1,4 @@
-/* Distances of an entry's values from other decisions (MODEL 11.1).
+/* Distances of an entry from the borders of its decisions (MODEL 11.1).
  *
  * Echoes, cells, targets and lost echoes each have margins. A margin is the least distance from the
  * border of all decisions of one kind that the entry depends on, and is 0 on the border itself. It

@@ -1,5 +1,5 @@
-/* A chain of stages, alone between pipes or fused. A tool stands alone or at the end, and takes its
- * frames from the stages before it.
+/* Runs one stage between pipes, or several in one process. A tool stands alone or at the end, and
+ * takes its frames from the stages before it.
  *
  * Both are the same loop over the same runners, so both give the same bytes and the same exit code:
  * like a shell with pipefail, a chain ends with the code of its rightmost failing stage, and the

@@ -1,11 +1,12 @@
-/* Range rates told from those that fold alike.
+/* Which of the range rates that fold alike is true.
  *
  * The hypotheses are the range rates v + 2 k v_u within the folds of the waveform that put the peak
  * at a range the sensor measures: a chirp reads the range R of an echo as R + carrier_hz v/slope,
- * so that each has a range of its own. Each foretells where the echo is in every repetition of the
- * second train, whose rates fold elsewhere, and so how strong it is there when its phases are
- * turned back. The hypothesis with the amplitude nearest to that in the first train is chosen; of
- * equal ones the slowest (MODEL 11.3). */
+ * so that each has a range of its own. A hypothesis foretells the place and the phase of the echo
+ * in every repetition of the second train, in which rates fold at another interval. With these
+ * phases taken off, the second train's samples add up to an amplitude. The hypothesis whose
+ * amplitude is nearest to that in the first train is chosen; of equal ones the slowest
+ * (MODEL 11.3). */
 #pragma once
 
 #include "signal/signal_cube.h"

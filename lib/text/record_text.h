@@ -2,7 +2,7 @@
  *
  * The writer makes no tree and no white space; keys come in table order. The reader takes any key
  * order and any spelling of a number. It refuses unknown, missing and repeated keys and anything
- * out of bounds, and names the path: "echoes[3].range_m: -1 is outside [0, 1e+06] m". */
+ * out of bounds, and names the path: "echoes[3].range_m: -1 is outside [0, 1e6] m". */
 #pragma once
 
 #include "base/text.h"

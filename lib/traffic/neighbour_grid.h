@@ -1,5 +1,5 @@
-/* Places within a radius of another, by a grid. Filling takes time in proportion to the
- * places, and a question in proportion to those in the nine cells around it. */
+/* Finds places within a radius by a grid. Filling takes time in proportion to the number of places,
+ * and a search in proportion to the number in the nine cells around its point. */
 #pragma once
 
 #include "base/arena.h"

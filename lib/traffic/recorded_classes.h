@@ -1,4 +1,4 @@
-/* Our classes by a recording's words for road users. */
+/* Classes of vehicle documents by a recording's own words. */
 #pragma once
 
 #include "base/intern.h"

@@ -5,9 +5,9 @@
  * and the last step of a road user they are differences of two. So a step waits for the next one.
  * Live, they are differences to the step before, and nothing waits.
  *
- * A road user that is missing from a step has left; with its id a new visit begins. So it is with
- * one that moves faster than RECORDED_STEPS_FASTEST_MPS from one step to the next, as those do that
- * SUMO teleports. Memory is that of three steps. */
+ * A road user that is missing from a step has left, and if its id comes again, a new visit begins.
+ * A new visit begins, too, where a road user moves faster than RECORDED_STEPS_FASTEST_MPS from one
+ * step to the next, as those do that SUMO teleports. Memory is that of three steps. */
 #pragma once
 
 #include "base/vec2.h"

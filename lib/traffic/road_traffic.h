@@ -1,11 +1,12 @@
 /* Traffic on roads: arrivals, car following, and where everybody is.
  *
  * Every lane is a queue of its own. Arrival number n of a lane is drawn by the address of the lane
- * and n: class, size, driver, and the time since arrival n - 1. Who finds no gap that needs less
- * than comfortable braking waits outside, and so does who comes later. On the lane all follow the
- * Intelligent Driver Model; a red light is a leader that stands, for whoever can stop with twice
- * the comfortable deceleration. Speeds change linearly within steps of 1/16 s, and frames take
- * places and speeds at their own time in a step, so their rate does not change the traffic. */
+ * and n: class, size, driver, and the time since arrival n - 1. A vehicle waits outside until it
+ * can enter without more than comfortable braking, and all later ones wait behind it. On the lane
+ * all follow the Intelligent Driver Model. A red light acts as a leader that stands on every
+ * vehicle that can stop with at most twice the comfortable deceleration. Speeds change linearly
+ * within steps of 1/16 s, and frames take places and speeds at their own time in a step, so their
+ * rate does not change the traffic. */
 #pragma once
 
 #include "base/random.h"
