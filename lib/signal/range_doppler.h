@@ -7,9 +7,9 @@
  * A peak is a cell that none of its eight neighbours exceeds in the power of its strongest beam. In
  * one of its beams it must exceed the CFAR threshold (cfar.h) among the range rates of its range;
  * along range, walls and rows of posts would hide themselves. Its place is interpolated between the
- * cells, and its amplitude is that at this place (point_response.h). A peak outside the main lobe of
- * a stronger peak is taken for one of its side lobes, unless it is at least twice as high as a side
- * lobe can be at that place. */
+ * cells, and its amplitude is that at this place (point_response.h). A peak outside the main lobe
+ * of a stronger peak is taken for one of its side lobes, unless it is at least twice as high as a
+ * side lobe can be at that place. */
 #pragma once
 
 #include <stdbool.h>
