@@ -107,8 +107,9 @@ def members(session):
             with open(f"/proc/{process}/cmdline", encoding="utf-8") as words, \
                     open(f"/proc/{process}/status", encoding="utf-8") as status:
                 peak = [int(line.split()[1]) for line in status if line.startswith("VmHWM:")]
-                if peak:  # it has not ended
-                    yield kind_of(words.read().split("\0")), peak[0]
+                called = words.read()
+                if called and peak:  # it has not ended
+                    yield kind_of(called.split("\0")), peak[0]
         except (FileNotFoundError, ProcessLookupError):
             continue
 
@@ -126,20 +127,29 @@ def peaks(command):
     return found
 
 
-def measure_memory(folder):
+def of_scenes(frames):
+    """Moving scenes of 100 frames."""
+    return {"random": "medium", "seconds": 100 / RATE_HZ, "scenes": [0, frames // 100], "rate_hz": RATE_HZ}
+
+
+def of_snapshots(frames):
+    return {"random": "medium", "frames": frames}
+
+
+def measure_memory(folder, title, source_of):
     """A row for every process of make, a column for every size of a shard."""
     columns = []
     for frames in SHARDS:
-        place = lay_out(folder, frames // 100, 1, sources=[
-            {"random": "medium", "seconds": 100 / RATE_HZ, "scenes": [0, frames // 100], "rate_hz": RATE_HZ}],
-            frames_per_shard=frames, tables=True)
+        place = lay_out(folder, 1, 1, sources=[source_of(frames)], frames_per_shard=frames, tables=True)
         columns.append(peaks(["make", "-s", "-C", place, "-j2"]))
-    print("\npeak MB of each process, for a shard of" + "".join(f"{frames:10,}" for frames in SHARDS) + " frames and its tables")
+    print(f"\npeak MB of each process, by frames of a shard with tables, {title}\n"
+          f"{'':16}" + "".join(f"{frames:10,}" for frames in SHARDS))
     for kind in sorted(set().union(*columns)):
-        print(f"{kind:39}" + "".join(f"{column.get(kind, 0) / 1e3:10.1f}" for column in columns))
+        print(f"{kind:16}" + "".join(f"{column.get(kind, 0) / 1e3:10.1f}" for column in columns), flush=True)
 
 
 def run(glint, folder, repeat):
     os.environ["BUILD"] = os.path.dirname(os.path.dirname(os.path.abspath(glint)))
     compare(folder, repeat)
-    measure_memory(folder)
+    measure_memory(folder, "in scenes of 100 frames", of_scenes)
+    measure_memory(folder, "in snapshots, each of them a scene", of_snapshots)
