@@ -1,7 +1,7 @@
 /* Traffic of CommonRoad: the obstacles of a scenario in XML, 2018b or 2020a. */
 /* needs: expat */
 #include "base/elementary.h"
-#include "traffic/recording.h"
+#include "recorded_source.h"
 #include "xml_rows.h"
 
 #define UNSAID ((double)NAN)
@@ -41,10 +41,8 @@ struct document {
 };
 
 struct traffic_commonroad {
-    const char *source;
-    struct recording_options options;
+    struct recorded_source recorded; /* first: its options are the stage's */
     struct document document;
-    struct recording recording;
 };
 
 static const struct state no_state = {{UNSAID, UNSAID}, {UNSAID, UNSAID}, {UNSAID, UNSAID},
@@ -397,42 +395,27 @@ static int traffic_commonroad_start(void *state, struct runner *runner)
     struct traffic_commonroad *own = state;
     struct document *document = &own->document;
     struct diag *diag = runner_diag(runner);
-    struct input *input = runner_input(runner, own->source);
+    struct input *input = recorded_source_input(&own->recorded, runner);
     if (input == NULL)
-        return diag_prefix(diag, "%s: ", own->source);
+        return -1;
     xml_rows_begin(&document->xml, "commonroad", input, document);
     XML_SetElementHandler(document->xml.parser, on_begin, on_end);
     XML_SetCharacterDataHandler(document->xml.parser, on_text);
     document->xml.fail_at_end = fail_at_end;
     document->arena = runner_arena(runner);
     struct recorded_reader reader = {&format, document};
-    return recording_open(&own->recording, reader, own->source, &own->options, false,
-                          document->arena, diag);
-}
-
-static int traffic_commonroad_next(void *state, struct frame *frame, struct runner *runner)
-{
-    struct traffic_commonroad *own = state;
-    return recording_next(&own->recording, frame, runner_diag(runner));
-}
-
-static int traffic_commonroad_locate_fault(void *state, const struct frame *frame,
-                                           struct runner *runner)
-{
-    const struct traffic_commonroad *own = state;
-    return recording_check(&own->recording, frame, runner_diag(runner));
+    return recording_open(&own->recorded.recording, reader, own->recorded.source,
+                          &own->recorded.options, false, document->arena, diag);
 }
 
 static void traffic_commonroad_release(void *state)
 {
     struct traffic_commonroad *own = state;
-    recording_close(&own->recording);
+    recording_close(&own->recorded.recording);
 }
 
 static const struct field traffic_commonroad_fields[] = {
-    {FIELD_NAME_OF(struct traffic_commonroad, source,
-                   "a scenario of CommonRoad, plain or gzip; - is standard input")},
-    {OPTIONAL_RECORD(struct traffic_commonroad, options, &recording_options_record, "")},
+    RECORDED_SOURCE("a scenario of CommonRoad, plain or gzip; - is standard input"),
     {0},
 };
 
@@ -459,7 +442,7 @@ const struct stage stage_traffic_commonroad = {
     .operand = "SOURCE",
     .writes = SECTION_OBJECTS,
     .start = traffic_commonroad_start,
-    .next = traffic_commonroad_next,
-    .locate_fault = traffic_commonroad_locate_fault,
+    .next = recorded_source_next,
+    .locate_fault = recorded_source_locate_fault,
     .release = traffic_commonroad_release,
 };

@@ -3,10 +3,9 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "run/stage.h"
+#include "recorded_source.h"
 #include "text/file_format.h"
 #include "text/input.h"
-#include "traffic/recording.h"
 #include "traffic_osi.pb-c.h"
 
 enum { LENGTH_SIZE = 4, PIECE = 64 * 1024, LONGEST = 1 << 27 };
@@ -32,11 +31,9 @@ struct trace {
 };
 
 struct traffic_osi {
-    const char *source;
-    struct recording_options options;
+    struct recorded_source recorded; /* first: its options are the stage's */
     bool live, rear_axle_velocity;
     struct trace trace;
-    struct recording recording;
 };
 
 /* ---- objects become rows ---- */
@@ -351,44 +348,30 @@ static int traffic_osi_start(void *state, struct runner *runner)
     struct trace *trace = &own->trace;
     struct arena *arena = runner_arena(runner);
     struct diag *diag = runner_diag(runner);
-    trace->input = runner_input(runner, own->source);
+    trace->input = recorded_source_input(&own->recorded, runner);
     if (trace->input == NULL)
-        return diag_prefix(diag, "%s: ", own->source);
+        return -1;
     trace->rear_axle = own->rear_axle_velocity;
     if (read_message(trace, diag) < 0) {
         explain(trace, diag);
-        return diag_prefix(diag, "%s: ", own->source);
+        return diag_prefix(diag, "%s: ", own->recorded.source);
     }
-    if (own->options.ego == NULL && trace->host != NULL)
-        own->options.ego = arena_format(arena, "%" PRIu64, trace->host->value);
-    return recording_open(&own->recording, (struct recorded_reader){&format, trace}, own->source,
-                          &own->options, own->live, arena, diag);
-}
-
-static int traffic_osi_next(void *state, struct frame *frame, struct runner *runner)
-{
-    struct traffic_osi *own = state;
-    return recording_next(&own->recording, frame, runner_diag(runner));
-}
-
-static int traffic_osi_locate_fault(void *state, const struct frame *frame, struct runner *runner)
-{
-    const struct traffic_osi *own = state;
-    return recording_check(&own->recording, frame, runner_diag(runner));
+    if (own->recorded.options.ego == NULL && trace->host != NULL)
+        own->recorded.options.ego = arena_format(arena, "%" PRIu64, trace->host->value);
+    return recording_open(&own->recorded.recording, (struct recorded_reader){&format, trace},
+                          own->recorded.source, &own->recorded.options, own->live, arena, diag);
 }
 
 static void traffic_osi_release(void *state)
 {
     struct traffic_osi *own = state;
-    if (own->recording.steps.reader.format == NULL) /* it was never opened */
+    if (own->recorded.recording.steps.reader.format == NULL) /* it was never opened */
         close_trace(&own->trace);
-    recording_close(&own->recording);
+    recording_close(&own->recorded.recording);
 }
 
 static const struct field traffic_osi_fields[] = {
-    {FIELD_NAME_OF(struct traffic_osi, source,
-                   "an OSI trace (.osi), plain or gzip; - is standard input")},
-    {OPTIONAL_RECORD(struct traffic_osi, options, &recording_options_record, "")},
+    RECORDED_SOURCE("an OSI trace (.osi), plain or gzip; - is standard input"),
     {OPTIONAL_FLAG(struct traffic_osi, rear_axle_velocity,
                    "velocities are those of rear axles, as esmini's; absent: of centres of boxes")},
     {OPTIONAL_FLAG(struct traffic_osi, live,
@@ -416,7 +399,7 @@ const struct stage stage_traffic_osi = {
     .operand = "SOURCE",
     .writes = SECTION_OBJECTS,
     .start = traffic_osi_start,
-    .next = traffic_osi_next,
-    .locate_fault = traffic_osi_locate_fault,
+    .next = recorded_source_next,
+    .locate_fault = recorded_source_locate_fault,
     .release = traffic_osi_release,
 };

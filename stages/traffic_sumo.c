@@ -1,8 +1,8 @@
 /* Traffic of SUMO: floating car data as XML, also from a pipe while SUMO runs, or as a table. */
 /* needs: expat */
 #include "base/units.h"
+#include "recorded_source.h"
 #include "traffic/recorded_table.h"
-#include "traffic/recording.h"
 #include "xml_rows.h"
 
 /* A document of SUMO that is being read: floating car data, or types. */
@@ -15,12 +15,10 @@ struct document {
 };
 
 struct traffic_sumo {
-    const char *source;
-    struct recording_options options;
+    struct recorded_source recorded; /* first: its options are the stage's */
     const char *types;
     bool live;
     struct document document, types_document;
-    struct recording recording;
 };
 
 /* ---- attributes ---- */
@@ -191,7 +189,7 @@ static int read_types(struct traffic_sumo *own, struct runner *runner)
     struct input *input = runner_input(runner, own->types);
     if (input == NULL)
         return diag_prefix(diag, "--types: %s: ", own->types);
-    document->classes = &own->recording.steps.classes;
+    document->classes = &own->recorded.recording.steps.classes;
     xml_rows_begin(&document->xml, "routes", input, document);
     XML_SetStartElementHandler(document->xml.parser, on_type);
     while (xml_rows_parse(&document->xml))
@@ -206,44 +204,30 @@ static int traffic_sumo_start(void *state, struct runner *runner)
 {
     struct traffic_sumo *own = state;
     struct diag *diag = runner_diag(runner);
-    struct input *input = runner_input(runner, own->source);
+    struct input *input = recorded_source_input(&own->recorded, runner);
     if (input == NULL)
-        return diag_prefix(diag, "%s: ", own->source);
+        return -1;
     xml_rows_begin(&own->document.xml, "floating car data", input, &own->document);
     own->document.xml.fail_at_end = fail_at_end;
     own->document.xml.advice = "; sumo needs --no-step-log where it writes to a pipe";
     XML_SetElementHandler(own->document.xml.parser, on_begin, on_end);
     XML_SetCommentHandler(own->document.xml.parser, on_comment);
     struct recorded_reader reader = {&format, &own->document};
-    if (recording_open(&own->recording, reader, own->source, &own->options, own->live,
-                       runner_arena(runner), diag) != 0)
+    if (recording_open(&own->recorded.recording, reader, own->recorded.source,
+                       &own->recorded.options, own->live, runner_arena(runner), diag) != 0)
         return -1;
     return own->types != NULL ? read_types(own, runner) : 0;
-}
-
-static int traffic_sumo_next(void *state, struct frame *frame, struct runner *runner)
-{
-    struct traffic_sumo *own = state;
-    return recording_next(&own->recording, frame, runner_diag(runner));
-}
-
-static int traffic_sumo_locate_fault(void *state, const struct frame *frame, struct runner *runner)
-{
-    const struct traffic_sumo *own = state;
-    return recording_check(&own->recording, frame, runner_diag(runner));
 }
 
 static void traffic_sumo_release(void *state)
 {
     struct traffic_sumo *own = state;
     xml_rows_close(&own->types_document);
-    recording_close(&own->recording);
+    recording_close(&own->recorded.recording);
 }
 
 static const struct field traffic_sumo_fields[] = {
-    {FIELD_NAME_OF(struct traffic_sumo, source,
-                   "the XML that sumo --fcd-output writes, plain or gzip; - is standard input")},
-    {OPTIONAL_RECORD(struct traffic_sumo, options, &recording_options_record, "")},
+    RECORDED_SOURCE("the XML that sumo --fcd-output writes, plain or gzip; - is standard input"),
     {OPTIONAL_NAME(struct traffic_sumo, types,
                    "a file of routes with the vTypes; absent: SUMO's own sizes of classes"),
      .word = "FILE"},
@@ -273,7 +257,7 @@ const struct stage stage_traffic_sumo = {
     .operand = "SOURCE",
     .writes = SECTION_OBJECTS,
     .start = traffic_sumo_start,
-    .next = traffic_sumo_next,
-    .locate_fault = traffic_sumo_locate_fault,
+    .next = recorded_source_next,
+    .locate_fault = recorded_source_locate_fault,
     .release = traffic_sumo_release,
 };

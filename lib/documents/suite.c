@@ -47,6 +47,7 @@ static const char *const fluctuations[] = {
 
 #define REAL(member, low, high, help) FIELD_REAL_IN(struct sensor, member, low, high, help)
 #define OPTIONAL(member, low, high, help) OPTIONAL_REAL(struct sensor, member, low, high, help)
+#define OPTIONAL_WORD(member, words, help) OPTIONAL_CHOICE(struct sensor, member, words, help)
 #define CHOICE(member, choices, help) FIELD_CHOICE_OF(struct sensor, member, choices, help)
 
 static const struct field sensor_fields[] = {
@@ -71,11 +72,9 @@ static const struct field sensor_fields[] = {
     {OPTIONAL(latency_s, 0, 10, "the scan shows the world this much earlier")},
     {OPTIONAL_INTEGER(struct sensor, bounces, 0, 3,
                       "2: ghosts by a mirror on the way out or back; 3: also on both ways")},
-    {OPTIONAL_CHOICE(struct sensor, polarization, polarizations,
-                     "of both antennas; absent: vertical"),
+    {OPTIONAL_WORD(polarization, polarizations, "of both antennas; absent: vertical"),
      .absent = POLARIZATION_VERTICAL},
-    {OPTIONAL_CHOICE(struct sensor, fluctuation, fluctuations,
-                     "how echoes vary from scan to scan")},
+    {OPTIONAL_WORD(fluctuation, fluctuations, "how echoes vary from scan to scan")},
     {OPTIONAL(fluctuation_sigma_db, 0, 30,
               "standard deviation of the log-normal law; absent: 3.41"),
      .absent = 3.41},
@@ -84,8 +83,8 @@ static const struct field sensor_fields[] = {
               "faster echoes fold to within +- this; absent: none do")},
     {OPTIONAL(receiver_bandwidth_hz, 1, 1e12,
               "highest beat that the receiver passes; absent: other radars are not heard")},
-    {OPTIONAL_CHOICE(
-        struct sensor, if_sampling, samplings,
+    {OPTIONAL_WORD(
+        if_sampling, samplings,
         "are beats sampled as real values, so that the image band folds onto them, or as "
         "complex?")},
     {OPTIONAL(noise_figure_db, 0, 100,
@@ -109,13 +108,12 @@ static const struct field sensor_fields[] = {
     {OPTIONAL(
         azimuth_cell_rad, 1e-6, 2 * PI,
         "azimuths this far apart count as one cell in scores; absent: a twentieth of the view")},
-    {OPTIONAL_CHOICE(struct sensor, cell_extent, extents,
-                     "does the cell's size mean its width or half of it?")},
-    {OPTIONAL_CHOICE(struct sensor, cell_phase, phases,
-                     "do echoes of a cell add in phase, at random or by their paths?")},
-    {OPTIONAL_CHOICE(struct sensor, range_migration, migrations,
-                     "window under which echoes that walk through range cells fade and widen, or "
-                     "compensated: they do not")},
+    {OPTIONAL_WORD(cell_extent, extents, "does the cell's size mean its width or half of it?")},
+    {OPTIONAL_WORD(cell_phase, phases,
+                   "do echoes of a cell add in phase, at random or by their paths?")},
+    {OPTIONAL_WORD(range_migration, migrations,
+                   "window under which echoes that walk through range cells fade and widen, or "
+                   "compensated: they do not")},
     {CHOICE(antenna_pattern, patterns, "the paper's two dipoles, or a table")},
     {OPTIONAL_NAME(struct sensor, antenna_table, "CSV file with azimuth_rad, sum, delta")},
     {CHOICE(phase_reference, references, "where phases count from; equation (6) has the element")},
@@ -126,8 +124,8 @@ static const struct field sensor_fields[] = {
     {REAL(azimuth_sigma_rad, 0, PI, "noise on azimuth, for glint-noise-gauss")},
     {OPTIONAL(azimuth_floor_rad, 0, PI,
               "adds to the angle's noise in quadrature, for glint-noise")},
-    {OPTIONAL_CHOICE(
-        struct sensor, sigma_law, laws,
+    {OPTIONAL_WORD(
+        sigma_law, laws,
         "noise on range and range rate: constant, proportional to threshold/amplitude, or by "
         "window_factor and amplitude/pointer_sigma, with the sigmas as floors")},
     {OPTIONAL(window_factor, 1e-3, 1e3,

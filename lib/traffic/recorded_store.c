@@ -1,7 +1,5 @@
 #include "traffic/recorded_store.h"
 
-#include <math.h>
-
 #include "base/intern.h"
 #include "base/sort.h"
 
