@@ -9,6 +9,7 @@ import csv
 import glob
 import gzip
 import hashlib
+import io
 import json
 import os
 import random
@@ -159,6 +160,22 @@ def tables_have_the_targets_of_their_lines(folder):
         assert fact["schema"] in files(place), f"{path}: there is no {fact['schema']}"
         joins = json.loads(files(place)[fact["schema"]]).get("foreignKeys", [])
         assert all(join["reference"]["resource"] in names for join in joins), f"{path}: joins what is no resource"
+
+
+def rows_are_counted_wherever_a_table_is_cut(_):
+    """Ends of lines within quotes are no ends of rows."""
+    sys.path.insert(0, os.path.join(ROOT, "scripts", "sets"))
+    import shard
+    cells = ["plain", 'a "word"', "two\nlines", '"', "", "\n", ',"\n"']
+    with io.StringIO(newline="") as table:
+        csv.writer(table, lineterminator="\n").writerows([cells[i:], cells[:i]] for i in range(len(cells)))
+        csv.writer(table, lineterminator="\n").writerows([cells] * 3)
+        text = table.getvalue().encode()
+    for cut in range(len(text)):
+        rows = shard.Rows()
+        rows.add(text[:cut])
+        rows.add(text[cut:])
+        assert rows.count == len(cells) + 3, f"cut at {cut}: {rows.count} rows"
 
 
 # --- splits ---------------------------------------------------------------------------------------
@@ -515,7 +532,7 @@ def jobs_without_a_number_are_refused(folder):
 
 
 CHECKS = [shards_join_to_the_bytes_of_one_run, scenes_and_seeds_are_played_whole, the_manifest_says_what_is_there,
-          tables_have_the_targets_of_their_lines,
+          tables_have_the_targets_of_their_lines, rows_are_counted_wherever_a_table_is_cut,
           blocks_of_time_keep_their_gap, leaks_are_refused, what_cannot_be_made_is_refused,
           scenes_of_one_name_are_refused, tables_of_a_suite_stand_in_the_set_or_are_refused, paths_may_have_any_letters,
           another_plan_in_the_folder_is_refused, two_plans_at_once_make_one_set, who_finishes_at_once_disturbs_nobody,
