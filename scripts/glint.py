@@ -21,6 +21,7 @@ import json
 import math
 import os
 import sys
+import zlib
 
 # Numbers of a target that are there in every list.
 MEASURED = ("range_m", "azimuth_rad", "range_rate_mps", "amplitude_db")
@@ -46,14 +47,21 @@ def _frames_of(source, needs):
         yield from _parsed(lines, source, needs)
 
 
+def _refuse(word):
+    raise ValueError(f"{word} is no number of JSON")
+
+
+_DECODER = json.JSONDecoder(parse_constant=_refuse)
+
+
 def _parsed(lines, source, needs):
     number, line = 0, b""
     while line is not None:
         number += 1
         try:
             line = next(lines, None)
-            frame = line is not None and json.loads(line)
-        except (ValueError, RecursionError, EOFError, gzip.BadGzipFile) as error:
+            frame = line is not None and _DECODER.decode(line.decode())
+        except (ValueError, RecursionError, EOFError, gzip.BadGzipFile, zlib.error) as error:
             raise BadFrame(f"{source}:{number}: {error}; expected a frame, one line of JSON") from None
         if line is not None:
             missing = [name for name in needs if name not in frame] if isinstance(frame, dict) else ["member"]
@@ -86,7 +94,8 @@ def program(write_one, results):
         sys.exit(74)
     except (BadFrame, OSError) as error:
         print(f"{os.path.basename(sys.argv[0])}: {error}", file=sys.stderr)
-        sys.exit(65 if isinstance(error, BadFrame) else 66)
+        sys.stderr.flush()
+        os._exit(65 if isinstance(error, BadFrame) else 66 if error.filename else 74)  # without what a full disk refuses
 
 
 def ego(frame, age_s=0):

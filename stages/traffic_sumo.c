@@ -69,7 +69,7 @@ static void add_row(struct document *document, const char **attributes, const ch
         return;
     }
     row.time_ns = document->time_ns;
-    row.place = (size_t)XML_GetCurrentByteIndex(document->xml.parser);
+    row.place = xml_rows_line(&document->xml);
     row.id = read_name(document, attributes, "id", &document->xml.arena);
     if (row.id == NULL || !read_number(document, attributes, "x", -1e9, 1e9, &row.x_m) ||
         !read_number(document, attributes, "y", -1e9, 1e9, &row.y_m) ||
@@ -115,7 +115,7 @@ static void on_end(void *context, const char *name)
     struct xml_event *event = list_add(&document->xml.events, &document->xml.arena);
     event->kind = RECORDED_STEP;
     event->row.time_ns = document->time_ns;
-    event->row.place = (size_t)XML_GetCurrentByteIndex(document->xml.parser);
+    event->row.place = xml_rows_line(&document->xml);
     document->in_step = false;
     document->has_step = true;
     document->whole_ns = document->time_ns;
@@ -172,7 +172,7 @@ static void fail_at_end(struct xml_rows *xml)
 static const struct recorded_format format = {
     .name = "floating car data",
     .id_name = "id",
-    .place = "byte",
+    .place = "line",
     .by_time = true,
     .marks_steps = true,
     .words = sumo_table_words,

@@ -73,7 +73,8 @@ def bad_input_is_told_without_a_trace(folder):
     good = shell(f"glint-traffic cut-in | {EXACT}", folder).splitlines()[0].encode() + b"\n"
     for bad, status, message in ((b"\n", 65, "bad.jsonl:2: "), (b"5\n", 65, "bad.jsonl:2: no member"),
                                  (b"\xff\n", 65, "bad.jsonl:2: 'utf-8' codec"), (good[:99], 65, "bad.jsonl:2: "),
-                                 (b'{"scene":"s","frame":0,"time_s":0}\n', 65, "bad.jsonl:2: no sensors"),
+                                 (b'{"scene":"s","seed":"1","frame":0,"time_s":0}\n', 65, "bad.jsonl:2: no sensors"),
+                                 (good.replace(b'"time_s":0', b'"time_s":NaN'), 65, "bad.jsonl:2: NaN is no number"),
                                  (good.replace(b'"objects"', b'"extra"'), 65, "without its ego"), (None, 66, "No such file")):
         if bad is not None:
             with open(os.path.join(folder, "bad.jsonl"), "wb") as file:
@@ -81,6 +82,25 @@ def bad_input_is_told_without_a_trace(folder):
         done = subprocess.run([SCRIPTS + "/tracker", "bad.jsonl" if bad is not None else "nowhere.jsonl"], cwd=folder,
                               env=ENVIRONMENT, capture_output=True, text=True, check=False)
         assert done.returncode == status and message in done.stderr and "Traceback" not in done.stderr, (bad, done)
+    with open(os.path.join(folder, "bad.jsonl.gz"), "wb") as file:
+        file.write(gzip.compress(b"")[:10] + b"\xff" * 16)
+    with open(os.path.join(folder, "good.jsonl"), "wb") as file:
+        file.write(good)
+    for command, status, message in (("tracker bad.jsonl.gz", 65, "bad.jsonl.gz:1: Error -3"),
+                                     ("tracker good.jsonl >/dev/full", 74, "No space left")):
+        done = subprocess.run(f"{SCRIPTS}/{command}", shell=True, cwd=folder, env=ENVIRONMENT, stderr=subprocess.PIPE,
+                              text=True, check=False)
+        assert done.returncode == status and message in done.stderr and "Traceback" not in done.stderr, done
+
+
+def scenes_of_two_seeds_share_no_tracks(folder):
+    text = shell(f"glint-traffic cut-in | {EXACT}", folder)
+    with open(os.path.join(folder, "two.jsonl"), "w") as file:
+        file.write(text + text.replace('"seed":"1"', '"seed":"2"'))
+    tracks = [[one["x_m"] for one in json.loads(line)["tracks"]]
+              for line in shell(f"{sys.executable} {SCRIPTS}/tracker two.jsonl", folder).splitlines()]
+    half = len(tracks) // 2
+    assert any(tracks) and tracks[:half] == tracks[half:]
 
 
 def what_stands_has_no_rate_over_ground(folder):
@@ -162,7 +182,7 @@ def main():
     for test in (places_are_in_the_system_that_is_asked_for, what_stands_has_no_rate_over_ground,
                  frames_are_read_from_files_of_both_kinds, a_stage_that_changes_nothing_changes_no_byte_of_the_list,
                  columns_have_the_numbers_of_quality, detections_are_placed_from_where_the_ego_was,
-                 bad_input_is_told_without_a_trace,
+                 bad_input_is_told_without_a_trace, scenes_of_two_seeds_share_no_tracks,
                  workers_share_the_shards_of_a_set, the_tracker_follows_most_of_what_is_detected):
         with tempfile.TemporaryDirectory() as folder:
             test(folder)
