@@ -104,7 +104,7 @@ int recorded_classes_refuse(const struct recorded_classes *classes, const char *
         text_format(&list, "%s, ", classes->words.items[i].word);
     text_format(&list, "or a class:");
     for (size_t i = 0; i < classes->vehicles.names.count; i++)
-        text_format(&list, " %s", classes->vehicles.names.items[i]);
+        text_format(&list, "%s %s", i > 0 ? "," : "", classes->vehicles.names.items[i]);
     diag_fail(diag, DIAG_DATA,
               "unknown class \"%.80s\"; expected one of %.*s; --class-map %.80s=CLASS or "
               "--class-default CLASS names one",
