@@ -79,9 +79,10 @@ static int check_views(const struct frame *frame, const struct frame *again, str
     return 0;
 }
 
-static int check_contributor(const struct contributor *told, struct echo_span echoes,
-                             struct check *own, struct diag *diag)
+static int check_contributor(const struct contributor *told, const char *sensor,
+                             const struct frame *again, struct check *own, struct diag *diag)
 {
+    struct echo_span echoes = frame_echoes_of(again, sensor);
     for (size_t i = 0; i < echoes.count; i++) {
         const struct echo *echo = &echoes.items[i];
         if (frame_order_echo_ids(echo->id, told->id) != 0)
@@ -94,7 +95,9 @@ static int check_contributor(const struct contributor *told, struct echo_span ec
             check_value("time_s", told->time_s, echo->time_s, diag) == 0;
         return same ? 0 : -1;
     }
-    if (told->id.path >= PATH_WHEEL) /* made after ideal */
+    bool made_later = told->id.path >= PATH_WHEEL; /* than by ideal: of a body, or of none */
+    if (made_later &&
+        (frame_object(again, told->id.object) != NULL) == frame_shows_object(told->id.path))
         return 0;
     return diag_fail(diag, DIAG_DATA, "reflector: the objects make no echo of \"%s\", \"%s\", %s",
                      told->id.object, told->id.reflector, frame_path_name(told->id.path));
@@ -108,8 +111,7 @@ static int check_target(const struct target *target, const struct frame *again, 
     for (size_t i = 0; i < target->contributors.count; i++) {
         const struct contributor *told = &target->contributors.items[i];
         weights += told->weight;
-        if (again != NULL &&
-            check_contributor(told, frame_echoes_of(again, target->sensor), own, diag) != 0)
+        if (again != NULL && check_contributor(told, target->sensor, again, own, diag) != 0)
             return diag_prefix(diag, "contributors[%zu].", i);
     }
     if (fabs(weights - 1) <= tolerance)

@@ -10,6 +10,7 @@ import json
 import os
 import shlex
 import subprocess
+import sys
 
 import chains
 import scenes
@@ -52,7 +53,8 @@ def scored(cache, lists, command):
     def write(path):
         text = (f"gzip -dc {lists} | {command} | {chains.BIN}/glint-score-tracks --tracks - {lists} "
                 f"--objects in_view --classes {ROAD_USERS} -o {path}")
-        subprocess.run(["bash", "-o", "pipefail", "-c", text], check=True)
+        if subprocess.run(["bash", "-o", "pipefail", "-c", text], check=False).returncode != 0:
+            sys.exit(f"accuracy-cost: this fails: {text}")
     key = [tracker_digest(command), chains.program_digest("glint-score-tracks"), ROAD_USERS, os.path.basename(lists)]
     return [json.loads(line) for line in chains.content(cache.file(".tracks", key, write)).splitlines()]
 

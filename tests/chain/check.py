@@ -110,6 +110,8 @@ def truth(bin_dir, text):
     plant("no last frame", lambda frames: frames[:-1], "last")
     plant("two frames swapped", lambda frames: [frames[1], frames[0], *frames[2:]], "frame")
     plant("a loss that is missing", lambda frames: frames[0]["lost"][0]["echoes"].pop() and None, "account")
+    for path in ("clutter", "false_alarm"):
+        plant(path, lambda frames, path=path: seen(frames)[1].update(path=path), "no echo of")
     plant("another reason", lambda frames: frames[0]["lost"][0].update(reason="list_limit"), "lost[0].echoes: of these objects")
     plant("a loss elsewhere", lambda frames: frames[0]["lost"][0]["echoes"][0].update(range_m=1), "lost[0].echoes[0].range_m")
     plant("a loss of nobody", lambda frames: frames[0]["lost"][0]["echoes"][0].update(object="nobody"), "lost[0].echoes: of these")

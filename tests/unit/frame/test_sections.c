@@ -55,11 +55,11 @@ static void what_is_no_section_is_refused(void **state)
     static const struct {
         const char *text, *message;
     } cases[] = {
-        {"acount", "\"acount\" is no section (did you mean account?); expected all, none"},
+        {"acount", "\"acount\" is no section (did you mean account?); expected objects, "},
         {"-echos", "\"-echos\" is no section (did you mean -echoes?)"},
         {"", "\"\" is no section; expected"},
         {"account,", "\"\" is no section; expected"},
-        {"account,all", "\"all\" is no section; expected"},
+        {"account,all", "\"all\" is no section; expected objects"},
         {"targets", "\"targets\" is no section; expected"},
         {"-account:every=2", "\"-account:every=2\" is no section"},
         {"account:every=0", "account:every=0; expected a whole number in [1, 1e9]"},
