@@ -504,6 +504,25 @@ module.exports = ({stream, view, withPage, panelText}) => {
             }
         },
 
+        async 'a target of many centres names its strongest ones and says how many more there are'() {
+            const frames = streamOf('contour');
+            const frame = withMany(frames);
+            await withPage(view(frames), async page => {
+                await showFrame(page, frame);
+                const rows = await page.locator('h3:has-text("front") ~ .row:not(.lost, .silent) .what').allInnerTexts();
+                const listed = frame.targets.map(({contributors: parts}) => {
+                    const sorted = [...parts].sort((a, b) => b.weight - a.weight);
+                    const more = parts.length > 5 ? parts.length - 4 : 0;
+                    return [sorted[0].object, more];
+                });
+                assert.ok(listed.some(([, more]) => more > 0));
+                listed.forEach(([object, more], i) => {
+                    assert.ok(rows[i].includes(object), rows[i]);
+                    assert.strictEqual((/ and (\d+) more$/.exec(rows[i]) || [0, '0'])[1], String(more), rows[i]);
+                });
+            });
+        },
+
         async 'numbers of rulers are whole, or not there'() {
             for (const name of ['side', 'road-mirror', 'intersection']) {
                 await withPage(view(streamOf(name)), async page => {

@@ -137,7 +137,9 @@ function partsText(target, object) {
         });
     }
     parts.sort((a, b) => b.weight - a.weight);
-    return parts.map(part => `${part.text} ${Math.round(100 * part.weight)} %`).join(' + ');
+    const shown = parts.slice(0, parts.length > 5 ? 4 : 5); // a contour has hundreds
+    return shown.map(part => `${part.text} ${Math.round(100 * part.weight)} %`).join(' + ') +
+        (parts.length > shown.length ? ` and ${parts.length - shown.length} more` : '');
 }
 
 function targetRow(scan, target, number, object) {
