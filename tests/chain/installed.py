@@ -51,7 +51,7 @@ def check_headers(folder):
     """Each header compiles by itself, as plain C11 and with no other package's headers."""
     run("""cd $(pkg-config --variable=includedir glint)
         for header in */*.h; do
-            cp $header "$OLDPWD/header.c"
+            echo "#include \\"$header\\"" >"$OLDPWD/header.c"
             cc -std=c11 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I. "$OLDPWD/header.c" || exit 1
         done""", folder)
 
