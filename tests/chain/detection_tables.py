@@ -178,6 +178,8 @@ def check_keys(tables, schema, stream):
         for column in (field["name"] for field in schema[table]["fields"] if field["name"].endswith("_key")):
             check(column in named, f"tables.json does not say what {table}.{column} joins")
         for column, reference in joins.items():
+            home = schema[reference["resource"]].get("primaryKey")
+            check(reference["fields"] == column == home, f"tables.json: {table}.{column} joins {reference}")
             there = found[reference["resource"]].get(reference["fields"], set()) | {""}
             check(found[table].get(column, set()) <= there, f"{stream}: {table}.{column} finds no row of {reference['resource']}")
 
