@@ -32,9 +32,21 @@ def make_folder(folder):
         sync_folder(above)
 
 
+def began(process):
+    """When a process of this host began, in ticks since the boot, where the system tells it; else 0, and where only its
+    exit status is left. Numbers of processes come again; together with this they do not."""
+    try:
+        with open(f"/proc/{process}/stat", "rb") as stat:
+            state, *numbers = stat.read().rsplit(b") ", 1)[1].split()
+    except OSError:
+        return 0
+    return 0 if state in b"ZX" else int(numbers[18])
+
+
 def temporary_name(path, work):
     """A name in the folder `work` that no other process of any host takes."""
-    return os.path.join(work, f"{os.path.basename(path)}.{HOST}.{os.getpid()}{TEMPORARY}")
+    maker = f"{HOST}.{os.getpid()}-{began(os.getpid())}"
+    return os.path.join(work, f"{os.path.basename(path)}.{maker}{TEMPORARY}")
 
 
 @contextlib.contextmanager
@@ -83,22 +95,22 @@ def alone(work):
         yield
 
 
-def running(process):
-    """Is there a process of that number on this host?"""
+def running(process, since):
+    """Is there a process of that number on this host that began then?"""
     try:
         os.kill(process, 0)
     except ProcessLookupError:
         return False
     except PermissionError:
-        return True
-    return True
+        pass
+    return began(process) == since
 
 
 def remove_temporaries(work, of_all=False):
     """Removes what killed processes of this host left in a folder, and on request what those of other hosts did."""
     for name in os.listdir(work):
-        maker = re.fullmatch(rf".*\.([^.]+)\.(\d+){re.escape(TEMPORARY)}", name, re.DOTALL)
-        if maker and (not running(int(maker[2])) if maker[1] == HOST else of_all):
+        maker = re.fullmatch(rf".*\.([^.]+)\.(\d+)-(\d+){re.escape(TEMPORARY)}", name, re.DOTALL)
+        if maker and (not running(int(maker[2]), int(maker[3])) if maker[1] == HOST else of_all):
             path = os.path.join(work, name)
             shutil.rmtree(path, ignore_errors=True)
             with contextlib.suppress(FileNotFoundError):
