@@ -1,4 +1,5 @@
-"""Pictures of the pages: all drawn by scripts/figures, readable without colours, and no text over another.
+"""Pictures of the pages: all drawn by scripts/figures, readable without colours, no text over another, no target
+outside the fields of view.
 
 Usage: python3 tests/chain/pictures.py [PICTURE.svg ...]        exit status 1 if any check fails
 
@@ -18,6 +19,7 @@ from labels import Box, text_box  # noqa: E402
 
 PAGE, HALF = 830, 415  # pixels of a picture by itself, and of one of two in a table
 SMALLEST = 11  # pixels of a font, where it is shown
+KEY = 60  # pixels that a key of marks takes at the top
 BOLD = 1.12  # times as wide as plain letters
 failed = False
 
@@ -93,6 +95,30 @@ def colours_of_marks(root):
     return found
 
 
+def corners(polygon):
+    return [tuple(map(float, pair.split(","))) for pair in polygon.get("points").split()]
+
+
+def holds(polygon, x, y):
+    """Does a line to the right of the place cross the polygon an odd number of times?"""
+    crossed = 0
+    for (x1, y1), (x2, y2) in zip(polygon, polygon[1:] + polygon[:1]):
+        crossed += (y1 > y) != (y2 > y) and x < x1 + (y - y1) * (x2 - x1) / (y2 - y1)
+    return crossed % 2 == 1
+
+
+def check_targets_in_view(name, root):
+    """Every target of a drawn scene lies in a shaded field of view; the key is above the scene."""
+    views = [corners(node) for node in root if node.get("class") == "beam"]
+    stars = [corners(node) for node in root if node.get("class") in ("left", "ghost")]
+    places = [[sum(axis) / len(star) for axis in zip(*star)] for star in stars]
+    places += [(float(node.get("cx")), float(node.get("cy"))) for node in root if node.get("class") == "right"]
+    places = [(x, y) for x, y in places if y > KEY]
+    check(not views or places, f"{name} shows a field of view and no target")
+    for x, y in places if views else []:
+        check(any(holds(view, x, y) for view in views), f"{name}: a target at {x:.0f}, {y:.0f} lies in no field of view")
+
+
 def check_picture(path, shown):
     """shown: how wide a page makes the picture."""
     name = os.path.basename(path)
@@ -103,6 +129,7 @@ def check_picture(path, shown):
     for mark, colours in colours_of_marks(root).items():
         named = "fig07" in name  # both sensors have their names beside them
         check(len(colours) == 1 or named, f"{name}: colour alone tells {len(colours)} kinds of {mark}")
+    check_targets_in_view(name, root)
     found = texts(root)
     check(len(found) > 0, f"{name} has no text")
     for number, (text, box, size) in enumerate(found):
