@@ -17,9 +17,11 @@ static const struct field recording_fields[] = {
     {OPTIONAL_REAL(struct recording_options, rate_hz, 1e-3, 1e6,
                    "resample to this rate; absent: the source's own steps"),
      .absent = -1},
-    {OPTIONAL_REAL(struct recording_options, from_s, -9e9, 9e9, "begin at this time of the source"),
+    {OPTIONAL_REAL(struct recording_options, from_s, -9e9, 9e9,
+                   "begin at this time of the source, to the microsecond"),
      .absent = -9e9},
-    {OPTIONAL_REAL(struct recording_options, to_s, -9e9, 9e9, "end at this time of the source"),
+    {OPTIONAL_REAL(struct recording_options, to_s, -9e9, 9e9,
+                   "end at this time of the source, inclusive"),
      .absent = 9e9},
     {OPTIONAL_NAME(struct recording_options, class_map,
                    "what words of the source mean: WORD=CLASS,WORD=CLASS,..."),
@@ -105,18 +107,29 @@ const char *recording_name(const char *source, struct arena *arena)
     return length == 0 ? "scene" : arena_text(arena, base, length);
 }
 
+/* Options give times in microseconds, and a frame is at the microsecond that its own time rounds
+ * to. So a part that ends at one microsecond and a part that begins at the next have each frame
+ * once. */
+static int64_t microsecond_ns(double time_s)
+{
+    return (int64_t)round(time_s * 1e6) * 1000;
+}
+
 int recording_open(struct recording *recording, struct recorded_reader reader, const char *source,
                    const struct recording_options *options, bool live, struct arena *arena,
                    struct diag *diag)
 {
     *recording = (struct recording){.source = source, .options = options, .arena = arena};
     recording->name = recording_name(source, arena);
-    recording->from_ns = recorded_row_time_ns(options->from_s, 1);
+    recording->from_ns = microsecond_ns(options->from_s) - 500;
+    int64_t to_ns = microsecond_ns(options->to_s) + 499;
     recording->steps.reader = reader;
     recording->steps.live = live;
-    recording->steps.to_ns = recorded_row_time_ns(options->to_s, 1);
-    recording->resampling = (struct resampling){
-        .steps = &recording->steps, .rate_hz = options->rate_hz, .from_ns = recording->from_ns};
+    recording->steps.to_ns = options->rate_hz > 0 ? INT64_MAX : to_ns;
+    recording->resampling = (struct resampling){.steps = &recording->steps,
+                                                .rate_hz = options->rate_hz,
+                                                .from_ns = recording->from_ns,
+                                                .to_ns = to_ns};
     bool ready = reader.format != NULL && prepare(recording, diag) == 0;
     return ready ? 0 : diag_prefix(diag, "%s: ", source);
 }

@@ -2,10 +2,32 @@
 
 #include "base/units.h"
 
-static int64_t instant_ns(const struct resampling *resampling)
+/* A recording may last longer than an int64_t has nanoseconds, but not longer than a uint64_t. */
+static int64_t instant_ns(const struct resampling *resampling, int64_t number)
 {
-    double since_begin = (double)resampling->made_count * 1e9 / resampling->rate_hz;
-    return resampling->begin_ns + (int64_t)round(since_begin);
+    uint64_t since_begin = (uint64_t)round((double)number * 1e9 / resampling->rate_hz);
+    return (int64_t)((uint64_t)resampling->begin_ns + since_begin);
+}
+
+static int64_t next_instant_ns(const struct resampling *resampling)
+{
+    return instant_ns(resampling, resampling->first + (int64_t)resampling->made_count);
+}
+
+/* Instant 0 is at this time. The quotient finds the first instant that is made, but for rounding.
+ */
+static void begin(struct resampling *resampling, int64_t begin_ns)
+{
+    const int64_t from_ns = resampling->from_ns;
+    resampling->begin_ns = begin_ns;
+    if (from_ns <= begin_ns)
+        return;
+    double ahead_ns = (double)((uint64_t)from_ns - (uint64_t)begin_ns);
+    resampling->first = (int64_t)(ahead_ns * 1e-9 * resampling->rate_hz);
+    while (resampling->first > 0 && instant_ns(resampling, resampling->first - 1) >= from_ns)
+        resampling->first--;
+    while (instant_ns(resampling, resampling->first) < from_ns)
+        resampling->first++;
 }
 
 /* The place on the cubic from 0 to rise with these slopes at its ends, share of length_s along. */
@@ -56,33 +78,40 @@ static void interpolate(const struct resampling *resampling, struct recorded_ste
     }
 }
 
-static int make_instant(struct resampling *resampling)
+static int read_step(struct resampling *resampling)
 {
-    const struct recorded_step **to = &resampling->to;
-    while (*to == NULL || (*to)->time_ns < resampling->from_ns ||
-           instant_ns(resampling) > (*to)->time_ns) {
-        resampling->from = *to;
-        int more = recorded_steps_next(resampling->steps, to, &resampling->fault);
-        if (more <= 0)
-            return more;
-        if (resampling->made_count == 0)
-            resampling->begin_ns = (*to)->time_ns;
-    }
+    resampling->from = resampling->to;
+    int more = recorded_steps_next(resampling->steps, &resampling->to, &resampling->fault);
+    if (more > 0 && resampling->from == NULL)
+        begin(resampling, resampling->to->time_ns);
+    return more;
+}
+
+/* False behind the last instant, and where a fault ends the recording. */
+static bool make_instant(struct resampling *resampling)
+{
+    int more = resampling->to == NULL ? read_step(resampling) : 1;
+    int64_t time_ns = 0;
+    while (more > 0 && (time_ns = next_instant_ns(resampling)) <= resampling->to_ns &&
+           time_ns > resampling->to->time_ns)
+        more = read_step(resampling);
+    if (more <= 0 || time_ns > resampling->to_ns)
+        return false;
     struct recorded_step *made = &resampling->made[resampling->made_count % 2];
     struct arena arena = made->arena;
     arena_clear(&arena);
-    *made = (struct recorded_step){.arena = arena, .time_ns = instant_ns(resampling)};
+    *made = (struct recorded_step){.arena = arena, .time_ns = time_ns};
     made->interval_ns = (int64_t)round(1e9 / resampling->rate_hz);
     interpolate(resampling, made);
     resampling->made_count++;
-    return 1;
+    return true;
 }
 
 int resampling_next(struct resampling *resampling, const struct recorded_step **step,
                     struct diag *diag)
 {
     while (!resampling->ended && resampling->made_count < resampling->given + 2)
-        resampling->ended = make_instant(resampling) <= 0;
+        resampling->ended = !make_instant(resampling);
     bool whole = resampling->fault.code == DIAG_OK;
     if (resampling->given == resampling->made_count) {
         if (!whole)

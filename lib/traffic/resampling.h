@@ -2,7 +2,8 @@
  *
  * Places and velocities follow the cubic Hermite curve between two steps, yaws the shorter arc,
  * yaw rates and ways travelled the straight line; class and sizes are held. A road user is there
- * from its first step to its last. Instant 0 is the first step that is not before from_ns. */
+ * from its first step to its last. Instant 0 is the first step of the recording, whatever from_ns
+ * is, so that the parts of a recording that is cut by time have the instants of the whole. */
 #pragma once
 
 #include "traffic/recorded_steps.h"
@@ -10,7 +11,8 @@
 struct resampling {
     struct recorded_steps *steps;
     double rate_hz;
-    int64_t from_ns, begin_ns;             /* begin_ns: of instant 0 */
+    int64_t from_ns, to_ns;                /* no instant is before from_ns or after to_ns */
+    int64_t begin_ns, first;               /* time of instant 0, and the first that is made */
     const struct recorded_step *from, *to; /* around the next instant; NULL: not read yet */
     struct recorded_step made[2];          /* instants */
     size_t made_count, given;

@@ -1,5 +1,5 @@
 """One motion, written in every format of recorded traffic: the same frames, and mirrored a mirrored target list. So it is
-of mirrored scenarios.
+of mirrored scenarios. The parts of a file that is cut by time have every frame of the whole once.
 
 Usage: python3 tests/chain/same_motion.py BIN_DIR
 
@@ -9,6 +9,7 @@ add one, write such a function and such a row.
 import json
 import math
 import os
+import random
 import subprocess
 import sys
 import tempfile
@@ -400,6 +401,40 @@ def mirrors(kind, folder, frames, mirrored_frames):
             check(close, f"{kind.name}: mirrored, {one} and {other} at {step}")
 
 
+# ---- parts --------------------------------------------------------------------------------------------
+
+
+def body_of(line):
+    """What a frame says whatever scene it is in: each part is a scene of its own, which begins with frame 0."""
+    frame = json.loads(line)
+    return {key: value for key, value in frame.items() if key not in ("scene", "frame", "last")}
+
+
+def parts_have_every_frame_once(kind, path, words, draw):
+    """Cuts at random microseconds and at times of frames, at the source's own rate and at others: the parts are the whole."""
+    for rate in (None, 2 * RATE_HZ, 7, 3, 1.7, 61.3):
+        words_of_rate = [*words, "--ego", "1"] + (["--rate-hz", str(rate)] if rate else [])
+        whole = glint(kind.program, path, *words_of_rate).splitlines()
+        first, last = (json.loads(line)["time_s"] for line in (whole[0], whole[-1]))
+        check(rate is None or len(whole) == math.floor((last - first) * rate + 1e-6) + 1, f"{kind.name}: {len(whole)} frames")
+        times = [draw.uniform(first, last), draw.uniform(first, last), json.loads(draw.choice(whole[1:]))["time_s"]]
+        cuts = sorted(round(time_s * 1e6) for time_s in times)
+        parts = []
+        for begin, end in zip([None, *cuts], [*cuts, None]):
+            times = ([] if begin is None else ["--from-s", f"{begin / 1e6:.6f}"]) + (
+                [] if end is None else ["--to-s", f"{(end - 1) / 1e6:.6f}"])
+            done = subprocess.run([os.path.join(BIN, kind.program), path, *words_of_rate, *times], capture_output=True,
+                                  check=False, timeout=60)
+            check(done.returncode == 0 or b"between --from-s and --to-s" in done.stderr, done.stderr.decode())
+            part = done.stdout.splitlines()
+            check([json.loads(line)["frame"] for line in part] == list(range(len(part))), f"{kind.name}: numbers of a part")
+            check([json.loads(line).get("last", False) for line in part] == [False] * (len(part) - 1) + [True] * (part != []),
+                  f"{kind.name}: the last frame of a part")
+            parts += part
+        check([body_of(line) for line in parts] == [body_of(line) for line in whole],
+              f"{kind.name} at {rate} Hz, cut at {cuts} us: {len(parts)} frames of {len(whole)}")
+
+
 MIRRORED = ("y_m", "offset_m", "yaw_rad", "yaw_rate_radps")
 SCENARIOS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "data", "scenarios")
 
@@ -433,7 +468,7 @@ def mirrors_scenario(name, *words):
 
 
 def main():
-    written = 0
+    written, draw = 0, random.Random(25)
     mirrors_scenario("rush-hour", "--scenes", "0:1", "--radius-m", "150")
     mirrors_scenario("varied-cut-in", "--scenes", "0:5")
     for kind in FORMATS:
@@ -449,6 +484,8 @@ def main():
                          for word in kind.options]
                 streams.append(glint(kind.program, path, "--ego", "1", *words))
                 compare(kind, world, [json.loads(line) for line in streams[-1].splitlines()])
+                if world is users:
+                    parts_have_every_frame_once(kind, path, words, draw)
         mirrors(kind, None, *streams)
         written += 1
     print(f"same_motion: {recorded.checks} checks of {written} formats hold")
