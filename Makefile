@@ -262,7 +262,7 @@ man: all
 	    help2man --no-info -n "$$name" -o $(BUILD)/man/$$t.1 $(BUILD)/bin/$$t || exit 1; done
 
 # Pages about data and pipelines go with them; the others, with their pictures, go to share/doc.
-doc_pages = README.md CHANGES.md MODEL.md LICENSE $(wildcard stages/README.md tests/*/README.md)
+doc_pages = README.md CHANGES.md MODEL.md LICENSE $(wildcard lib/*/MODEL.md stages/README.md tests/*/README.md)
 # One file under the names of several programs, without what only a debugger reads.
 bin = $(DESTDIR)$(PREFIX)/bin
 install_as_one = install -s -m 755 $(firstword $(1)) $(bin) && \
