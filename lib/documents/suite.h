@@ -7,8 +7,8 @@
 
 #include "documents/waveform.h"
 #include "frame/effects.h"
+#include "propagation/carrier.h"
 #include "radar/antenna.h"
-#include "radar/carrier.h"
 #include "radar/monopulse.h"
 #include "radar/radar_equation.h"
 #include "radar/swerling.h"

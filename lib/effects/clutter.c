@@ -6,7 +6,7 @@
 #include "base/poisson.h"
 #include "frame/draw_address.h"
 #include "geometry/sensor_pose.h"
-#include "radar/ground_return.h"
+#include "propagation/ground_return.h"
 
 /* A scan has no more points than this. Those with higher numbers are left out, which thins clutter
  * alike everywhere. */

@@ -4,7 +4,7 @@
 
 #include "base/units.h"
 #include "frame/draw_address.h"
-#include "radar/carrier.h"
+#include "propagation/carrier.h"
 
 static bool described(const struct effect_scan *scan)
 {

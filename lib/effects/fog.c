@@ -1,7 +1,7 @@
 /* Attenuation by fog by ITU-R P.840 (MODEL 14.15), at 10 degrees Celsius. */
 #include "effects/effect.h"
 
-#include "radar/attenuation.h"
+#include "propagation/attenuation.h"
 
 static bool described(const struct effect_scan *scan)
 {

@@ -4,7 +4,7 @@
 #include "base/elementary.h"
 #include "effects/moving_part.h"
 #include "frame/draw_address.h"
-#include "radar/micro_doppler.h"
+#include "propagation/micro_doppler.h"
 
 static bool described(const struct effect_scan *scan)
 {

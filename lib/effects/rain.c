@@ -1,7 +1,7 @@
 /* Attenuation by rain by ITU-R P.838-3 (MODEL 14.15). */
 #include "effects/effect.h"
 
-#include "radar/attenuation.h"
+#include "propagation/attenuation.h"
 
 static bool described(const struct effect_scan *scan)
 {

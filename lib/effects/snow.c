@@ -2,7 +2,7 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
-#include "radar/attenuation.h"
+#include "propagation/attenuation.h"
 
 static bool described(const struct effect_scan *scan)
 {

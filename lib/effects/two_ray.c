@@ -4,7 +4,7 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
-#include "radar/road_mirror.h"
+#include "propagation/road_mirror.h"
 
 static bool described(const struct effect_scan *scan)
 {

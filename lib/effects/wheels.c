@@ -3,7 +3,7 @@
 
 #include "effects/moving_part.h"
 #include "frame/draw_address.h"
-#include "radar/micro_doppler.h"
+#include "propagation/micro_doppler.h"
 
 static bool described(const struct effect_scan *scan)
 {

@@ -9,7 +9,7 @@
 #include "geometry/box.h"
 #include "geometry/lobe.h"
 #include "geometry/visibility_range.h"
-#include "radar/material.h"
+#include "propagation/material.h"
 #include "text/field.h"
 
 /* The part of an object at a point that moves against the body. */

@@ -7,8 +7,8 @@
 #include "geometry/specular_point.h"
 #include "ideal/line_of_sight.h"
 #include "ideal/sight_margins.h"
-#include "radar/curved_surface.h"
-#include "radar/material.h"
+#include "propagation/curved_surface.h"
+#include "propagation/material.h"
 
 /* A path has so many bounces if it takes the mirror one way, or both ways. */
 enum { BOUNCES_ONE_WAY = 2, BOUNCES_BOTH_WAYS = 3 };

@@ -10,7 +10,7 @@
 #include "geometry/slant.h"
 #include "geometry/specular_point.h"
 #include "ideal/sight_margins.h"
-#include "radar/curved_surface.h"
+#include "propagation/curved_surface.h"
 
 /* No leg of an echo is longer than this times the sensor's range: a ghost in range that returns
  * straight is at most twice that far away by the mirror. */

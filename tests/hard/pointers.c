@@ -12,7 +12,7 @@
 #include "frame/frame_order.h"
 #include "frame/frame_text.h"
 #include "ideal/direct_echoes.h"
-#include "radar/carrier.h"
+#include "propagation/carrier.h"
 #include "run/runner.h"
 #include "sensor/resolution_cell.h"
 

@@ -6,7 +6,7 @@
 #include "base/random.h"
 #include "base/units.h"
 #include "documents/contour.h"
-#include "radar/carrier.h"
+#include "propagation/carrier.h"
 #include "radar/radar_equation.h"
 #include "text/field_check.h"
 

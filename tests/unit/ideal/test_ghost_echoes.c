@@ -9,7 +9,7 @@
 #include "geometry/obstruction.h"
 #include "ideal/direct_echoes.h"
 #include "ideal/ghost_echoes.h"
-#include "radar/curved_surface.h"
+#include "propagation/curved_surface.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])

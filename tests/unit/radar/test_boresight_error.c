@@ -1,8 +1,8 @@
 #include "check.h"
 
 #include "base/units.h"
+#include "propagation/ground_return.h"
 #include "radar/boresight_error.h"
-#include "radar/ground_return.h"
 #include "sample.h"
 
 #define DEGREE (PI / 180)

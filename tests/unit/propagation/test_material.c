@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "radar/material.h"
+#include "propagation/material.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])

@@ -13,8 +13,8 @@
 
 #include <complex.h>
 
-#include "radar/carrier.h"
-#include "radar/material.h"
+#include "propagation/carrier.h"
+#include "propagation/material.h"
 
 /* A road's surface. Dry asphalt has about 5 - j 0.25 and 1 mm, concrete 5.24 - j 0.42 at 24 GHz,
  * 5.24 - j 0.32 at 77 GHz, and 0.3 mm. */

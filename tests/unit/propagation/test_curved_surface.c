@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "radar/curved_surface.h"
+#include "propagation/curved_surface.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])

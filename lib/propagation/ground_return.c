@@ -1,4 +1,4 @@
-#include "radar/ground_return.h"
+#include "propagation/ground_return.h"
 
 #include "base/elementary.h"
 

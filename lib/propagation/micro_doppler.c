@@ -1,4 +1,4 @@
-#include "radar/micro_doppler.h"
+#include "propagation/micro_doppler.h"
 
 #include "base/elementary.h"
 #include "base/poisson.h"

@@ -1,4 +1,4 @@
-#include "radar/attenuation.h"
+#include "propagation/attenuation.h"
 
 #include "base/elementary.h"
 #include "base/units.h"

@@ -1,4 +1,4 @@
-#include "radar/road_mirror.h"
+#include "propagation/road_mirror.h"
 
 #include <stdbool.h>
 

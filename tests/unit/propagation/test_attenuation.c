@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "radar/attenuation.h"
+#include "propagation/attenuation.h"
 
 #define DEGREE (PI / 180)
 

@@ -2,7 +2,7 @@
 
 #include "base/random.h"
 #include "base/units.h"
-#include "radar/micro_doppler.h"
+#include "propagation/micro_doppler.h"
 #include "sample.h"
 
 #define DEGREE (PI / 180)

@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "radar/carrier.h"
+#include "propagation/carrier.h"
 #include "sample.h"
 
 #define LIGHT_MPS 299792458

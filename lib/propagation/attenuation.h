@@ -6,7 +6,7 @@
  * of one way (MODEL 14.15). */
 #pragma once
 
-#include "radar/carrier.h"
+#include "propagation/carrier.h"
 
 /* The law of rain for one carrier frequency and polarization. */
 struct attenuation_law {

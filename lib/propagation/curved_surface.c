@@ -1,4 +1,4 @@
-#include "radar/curved_surface.h"
+#include "propagation/curved_surface.h"
 
 #include <math.h>
 

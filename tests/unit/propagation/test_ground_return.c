@@ -3,7 +3,7 @@
 #include "base/units.h"
 #include "geometry/kinematics.h"
 #include "geometry/motion.h"
-#include "radar/ground_return.h"
+#include "propagation/ground_return.h"
 #include "sample.h"
 
 #define DEGREE (PI / 180)

@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "radar/road_mirror.h"
+#include "propagation/road_mirror.h"
 #include "sample.h"
 
 #define DEGREE (PI / 180)

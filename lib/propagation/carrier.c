@@ -1,4 +1,4 @@
-#include "radar/carrier.h"
+#include "propagation/carrier.h"
 
 #include "base/units.h"
 #include "base/vec2.h"

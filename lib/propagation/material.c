@@ -1,4 +1,4 @@
-#include "radar/material.h"
+#include "propagation/material.h"
 
 #include "base/elementary.h"
 
