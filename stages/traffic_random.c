@@ -1,7 +1,6 @@
 /* Random traffic: independent snapshots, each a scene of one frame, or moving scenes of some
  * seconds. Its number determines a scene. */
 #include <inttypes.h>
-#include <stdio.h>
 
 #include "base/elementary.h"
 #include "documents/vehicle.h"
@@ -15,9 +14,9 @@ struct traffic_random {
     enum random_traffic_density density;
     int64_t frames, first; /* -1: not given */
     double rate_hz, seconds;
-    const char *scenes;
+    const char *scene, *scenes;
     bool conditions;
-    struct random_traffic scene;
+    struct random_traffic snapshot;
     int64_t made;
     struct scenario_scenes moving; /* with --seconds */
 };
@@ -26,7 +25,7 @@ struct traffic_random {
 static const char *const densities[] = {"sparse", "medium", "dense", NULL};
 
 /* Moving scenes are those of a scenario with roads, whose every value is drawn. */
-static int start_moving(struct traffic_random *traffic, struct runner *runner)
+static int start_moving(struct traffic_random *traffic, const char *name, struct runner *runner)
 {
     static const double flows[] = {
         [TRAFFIC_SPARSE] = 0.3, [TRAFFIC_MEDIUM] = 1, [TRAFFIC_DENSE] = 2};
@@ -37,6 +36,7 @@ static int start_moving(struct traffic_random *traffic, struct runner *runner)
                          "--%s: with --seconds, --scenes A:B says which scenes to make",
                          traffic->frames >= 0 ? "frames" : "first");
     *moving = (struct scenario_scenes){
+        .name = name,
         .radius_m = RADIUS_M,
         .flow = flows[traffic->density],
         .rate_hz = traffic->rate_hz,
@@ -51,23 +51,27 @@ static int start_moving(struct traffic_random *traffic, struct runner *runner)
 static int traffic_random_start(void *state, struct runner *runner)
 {
     struct traffic_random *traffic = state;
+    const char *name =
+        arena_format(runner_arena(runner), "%s-%s", traffic->seconds > 0 ? "moving" : "random",
+                     random_traffic_densities[traffic->density]);
+    traffic->scene = traffic->scene != NULL ? traffic->scene : name;
     if (traffic->seconds > 0)
-        return start_moving(traffic, runner);
+        return start_moving(traffic, name, runner);
     if (traffic->scenes != NULL)
         return diag_fail(runner_diag(runner), DIAG_USAGE,
                          "--scenes: for moving scenes, of --seconds; --first and --frames say "
                          "which snapshots to make");
     traffic->frames = traffic->frames >= 0 ? traffic->frames : 100;
     traffic->first = traffic->first >= 0 ? traffic->first : 0;
-    struct random_traffic *scene = &traffic->scene;
-    scene->density = traffic->density;
+    struct random_traffic *snapshot = &traffic->snapshot;
+    snapshot->density = traffic->density;
     for (enum random_traffic_class class = 0; class < TRAFFIC_CLASSES; class ++) {
         const struct vehicle *vehicle =
             runner_vehicle(runner, NULL, random_traffic_class_name(class));
         if (vehicle == NULL)
             return -1;
-        scene->models[class] = (struct random_traffic_model){vehicle->length_m, vehicle->width_m,
-                                                             &vehicle->reflectors};
+        snapshot->models[class] = (struct random_traffic_model){vehicle->length_m, vehicle->width_m,
+                                                                &vehicle->reflectors};
     }
     runner_expect(runner, traffic->frames);
     return 0;
@@ -78,27 +82,15 @@ static int traffic_random_start(void *state, struct runner *runner)
 static int next_moving(struct traffic_random *traffic, struct frame *frame, struct runner *runner)
 {
     struct scenario_scenes *moving = &traffic->moving;
-    int64_t number = moving->number;
-    moving->title = arena_format(frame->arena, "moving-%s/%" PRIu64,
-                                 random_traffic_densities[traffic->density], frame->seed);
+    moving->title = arena_format(frame->arena, "%s/%" PRIu64, traffic->scene, frame->seed);
     int more = scenario_scenes_next(moving, frame, runner_diag(runner));
     if (more != 1)
         return more;
     runner_expect(runner, scenario_scenes_frames(moving));
     if (traffic->conditions)
-        random_traffic_conditions(&traffic->scene, number, frame);
+        random_traffic_conditions(moving->draws, frame);
     frame->conditions.interferers.count = 0;
     return 1;
-}
-
-static const char *name_of(const struct traffic_random *traffic, const struct frame *frame,
-                           int64_t number)
-{
-    enum { SIZE = 80 };
-    char *name = arena_get(frame->arena, SIZE);
-    snprintf(name, SIZE, "random-%s/%" PRIu64 "/%" PRId64,
-             random_traffic_densities[traffic->density], frame->seed, number);
-    return name;
 }
 
 static int traffic_random_next(void *state, struct frame *frame, struct runner *runner)
@@ -109,13 +101,15 @@ static int traffic_random_next(void *state, struct frame *frame, struct runner *
     if (traffic->made == traffic->frames)
         return 0;
     int64_t number = traffic->first + traffic->made++;
-    frame->scene = name_of(traffic, frame, number);
+    frame->scene =
+        arena_format(frame->arena, "%s/%" PRIu64 "/%" PRId64, traffic->scene, frame->seed, number);
     frame->time_s = (double)number / traffic->rate_hz;
     frame->interval_s = 1 / traffic->rate_hz;
     frame->last = true;
-    random_traffic_fill(&traffic->scene, number, frame);
+    random_traffic_fill(&traffic->snapshot, number, frame);
     if (traffic->conditions)
-        random_traffic_conditions(&traffic->scene, number, frame);
+        random_traffic_conditions(random_traffic_address(&traffic->snapshot, frame->seed, number),
+                                  frame);
     return 1;
 }
 
@@ -143,6 +137,8 @@ static const struct field traffic_random_options[] = {
      .absent = -1},
     {OPTIONAL_REAL(struct traffic_random, seconds, 0, 1e5,
                    "make moving scenes of this length in place of snapshots")},
+    {OPTIONAL_NAME(struct traffic_random, scene,
+                   "the scenes' name, before seed and number; absent: as moving-medium")},
     {OPTIONAL_NAME(struct traffic_random, scenes, "make moving scenes A to B - 1; absent: 0:10"),
      .word = "A:B"},
     {OPTIONAL_REAL(struct traffic_random, rate_hz, 1, 1e4,

@@ -289,10 +289,8 @@ static void draw_condition(struct random_sequence *sequence, const struct condit
         *(double *)member = draw_number(sequence, draw);
 }
 
-void random_traffic_conditions(const struct random_traffic *traffic, int64_t number,
-                               struct frame *frame)
+void random_traffic_conditions(struct random_address address, struct frame *frame)
 {
-    struct random_address address = random_traffic_address(traffic, frame->seed, number);
     struct random_sequence sequence = random_sequence_at(address, RANDOM_CONDITIONS);
     bool has = false;
     for (size_t i = 0; i < conditions_draw_count; i++) {

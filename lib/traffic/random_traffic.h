@@ -57,9 +57,8 @@ struct random_address random_traffic_address(const struct random_traffic *traffi
  * the origin along x, so that places can be exact. */
 void random_traffic_fill(const struct random_traffic *traffic, int64_t number, struct frame *frame);
 
-/* Draws road, weather and the objects with a radar for snapshot number, by an address of their own
- * and as the rows of frame/conditions.def say. Interferers are fewer where there are not that many
- * objects beside the ego; each has 0 to 40 dBm, chirps of 1 to 50 MHz/us up or down, and hits up to
- * 30 % of the chirps. */
-void random_traffic_conditions(const struct random_traffic *traffic, int64_t number,
-                               struct frame *frame);
+/* Draws road, weather and the objects with a radar at the address of a snapshot or of a moving
+ * scene, as the rows of frame/conditions.def say. Interferers are fewer where there are not that
+ * many objects beside the ego; each has 0 to 40 dBm, chirps of 1 to 50 MHz/us up or down, and hits
+ * up to 30 % of the chirps. */
+void random_traffic_conditions(struct random_address address, struct frame *frame);

@@ -404,11 +404,10 @@ static struct vec2 ego_place(const struct scenario *scenario)
     return (struct vec2){point->x_m, point->y_m};
 }
 
-struct scenario *scenario_draw(const struct scenario_document *document, uint64_t seed,
-                               int64_t number, const char *ego, struct arena *arena,
+struct scenario *scenario_draw(const struct scenario_document *document,
+                               struct random_address address, const char *ego, struct arena *arena,
                                struct diag *diag)
 {
-    struct random_address address = {.seed = seed, .scene = (uint64_t)number};
     struct scenario *scenario = arena_get(arena, sizeof *scenario);
     const char *line = variation_draw(document->line, address, arena, diag);
     if (line == NULL) {

@@ -10,6 +10,7 @@
  * nothing is stepped, so no error accumulates. */
 #pragma once
 
+#include "base/random.h"
 #include "frame/frame.h"
 #include "geometry/motion.h"
 #include "traffic/road.h"
@@ -81,11 +82,11 @@ struct scenario_document {
 int scenario_read(const char *name, struct scenario_document *document, struct arena *arena,
                   struct diag *diag);
 
-/* Scene number >= 0 of the document, whose values are drawn with this seed, checked and shifted to
- * the origin of its frames. ego: in place of the scenario's own, unless NULL. All of it lies in the
- * arena; NULL after a message (DIAG_CONFIG). */
-struct scenario *scenario_draw(const struct scenario_document *document, uint64_t seed,
-                               int64_t number, const char *ego, struct arena *arena,
+/* A scene of the document, whose values are drawn at the address (text/variation.h), checked and
+ * shifted to the origin of its frames. ego: in place of the scenario's own, unless NULL. All of it
+ * lies in the arena; NULL after a message (DIAG_CONFIG). */
+struct scenario *scenario_draw(const struct scenario_document *document,
+                               struct random_address address, const char *ego, struct arena *arena,
                                struct diag *diag);
 
 /* The origin of frames with an ego that begins here: in whole metres near it if it is more than a

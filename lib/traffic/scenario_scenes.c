@@ -3,6 +3,7 @@
 #include <inttypes.h>
 
 #include "base/elementary.h"
+#include "base/hash.h"
 #include "frame/frame.h"
 
 enum { SCENES = 1000000000 };
@@ -47,12 +48,11 @@ static void change_scenario(const struct scenario_scenes *scenes)
 }
 
 /* Fills the roads of the scene, and looks for its ego. */
-static int begin_roads(struct scenario_scenes *scenes, uint64_t seed, struct diag *diag)
+static int begin_roads(struct scenario_scenes *scenes, struct diag *diag)
 {
     const struct scenario *scenario = scenes->scenario;
-    struct random_address address = {.seed = seed, .scene = (uint64_t)scenes->number};
     int result = road_traffic_begin(&scenes->roads, scenario->roads.items, scenario->roads.count,
-                                    scenario->warmup_s, scenario->arriving_ego, address,
+                                    scenario->warmup_s, scenario->arriving_ego, scenes->draws,
                                     &scenes->arena, diag);
     scenes->on_road = scenario_object(scenario, scenario->ego) == NULL;
     if (result == 0 && scenes->on_road && !road_traffic_has(&scenes->roads, scenario->ego))
@@ -66,11 +66,12 @@ static int begin_scene(struct scenario_scenes *scenes, uint64_t seed, struct dia
 {
     struct arena *arena = &scenes->arena;
     arena_clear(arena);
-    scenes->scenario =
-        scenario_draw(&scenes->document, seed, scenes->number, scenes->ego, arena, diag);
+    const char *place = arena_format(arena, "%s/%" PRId64, scenes->name, scenes->number);
+    scenes->draws = (struct random_address){.seed = seed, .scene = hash_text(HASH_START, place)};
+    scenes->scenario = scenario_draw(&scenes->document, scenes->draws, scenes->ego, arena, diag);
     if (scenes->scenario != NULL)
         change_scenario(scenes);
-    if (scenes->scenario == NULL || begin_roads(scenes, seed, diag) != 0)
+    if (scenes->scenario == NULL || begin_roads(scenes, diag) != 0)
         return scenes->numbered ? diag_prefix(diag, "scene %" PRId64 ": ", scenes->number) : -1;
     scenes->scene = scenes->title != NULL
                         ? scenes->title

@@ -1,8 +1,9 @@
 /* Scenes of a scenario: each one is drawn and played.
  *
- * A scene is determined by its number and the seed, so any split of the numbers gives the same
- * frames. Within a scene frames come one after another, and the last is that where the ego leaves
- * its road, or that at the end of the scenario. */
+ * A scene is determined by the source's name, its number and the seed, so any split of the numbers
+ * gives the same frames, and two sources share no draw. Within a scene frames come one after
+ * another, and the last is that where the ego leaves its road, or that at the end of the scenario.
+ */
 #pragma once
 
 #include "traffic/road_traffic.h"
@@ -10,18 +11,19 @@
 
 struct scenario_scenes {
     struct scenario_document document;
-    const char *ego;            /* of all scenes; NULL: each one's own */
-    const char *name;           /* of scenes, before the ego's */
-    const char *title;          /* of scenes, in place of both; or NULL */
-    double radius_m;            /* objects farther from the ego are left out; below 0: none are */
-    double flow;                /* factor of all arrivals */
-    double rate_hz, duration_s; /* in place of the scenario's own, unless the rate is 0 */
-    bool numbered;              /* does the number follow in a scene's name? */
-    int64_t first, end;         /* numbers of the scenes, end not included */
-    int64_t number;             /* of the scene that plays, or else of the next */
-    struct scenario *scenario;  /* the scene that plays; NULL: none */
-    const char *scene;          /* its name */
-    int64_t frame, frames;      /* its next frame, and how many it has */
+    const char *ego;             /* of all scenes; NULL: each one's own */
+    const char *name;            /* of the source, at which its scenes are drawn */
+    const char *title;           /* of scenes; NULL: the source's name and the ego's */
+    double radius_m;             /* objects farther from the ego are left out; below 0: none are */
+    double flow;                 /* factor of all arrivals */
+    double rate_hz, duration_s;  /* in place of the scenario's own, unless the rate is 0 */
+    bool numbered;               /* does the number follow in a scene's name? */
+    int64_t first, end;          /* numbers of the scenes, end not included */
+    int64_t number;              /* of the scene that plays, or else of the next */
+    struct random_address draws; /* address of the scene that plays */
+    struct scenario *scenario;   /* the scene that plays; NULL: none */
+    const char *scene;           /* its name */
+    int64_t frame, frames;       /* its next frame, and how many it has */
     struct road_traffic roads;
     bool on_road;       /* is the ego one of their vehicles? */
     struct arena arena; /* of the scene */

@@ -45,7 +45,8 @@ static struct scenario *open_scene(struct scratch *scratch, double rate_hz)
     struct scenario_document document;
     struct scenario *scene = NULL;
     if (scenario_read(scratch->path, &document, &scratch->arena, &diag) == 0)
-        scene = scenario_draw(&document, 1, 0, NULL, &scratch->arena, &diag);
+        scene = scenario_draw(&document, (struct random_address){.seed = 1}, NULL, &scratch->arena,
+                              &diag);
     if (scene == NULL)
         fail_msg("%s", diag.text);
     assert_int_equal(scenario_frames(scene), FRAMES);

@@ -58,7 +58,8 @@ static int traffic_adversarial_next(void *state, struct frame *frame, struct run
     random_traffic_fill(&traffic->scene, number, frame);
     adversarial_traffic_add(&traffic->scene, traffic->suite, number, frame);
     if (traffic->conditions)
-        random_traffic_conditions(&traffic->scene, number, frame);
+        random_traffic_conditions(random_traffic_address(&traffic->scene, frame->seed, number),
+                                  frame);
     return 1;
 }
 

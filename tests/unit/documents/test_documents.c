@@ -93,7 +93,7 @@ static struct scenario *scene_of(const char *name, struct arena *arena, struct d
 {
     struct scenario_document document;
     return scenario_read(name, &document, arena, diag) == 0
-               ? scenario_draw(&document, 1, 0, NULL, arena, diag)
+               ? scenario_draw(&document, (struct random_address){.seed = 1}, NULL, arena, diag)
                : NULL;
 }
 

@@ -239,7 +239,7 @@ static const struct frame *in_conditions(struct bench *bench, enum random_traffi
                                          int64_t number)
 {
     snapshot(bench, density, 1, number);
-    random_traffic_conditions(&bench->scene, number, &bench->frame);
+    random_traffic_conditions(random_traffic_address(&bench->scene, 1, number), &bench->frame);
     return &bench->frame;
 }
 
