@@ -6,6 +6,7 @@ CREATE OR REPLACE MACRO detections(folder, reals := 'DOUBLE') AS TABLE
 FROM read_csv(folder || '/detections.csv*', header = true, auto_detect = false, columns = {
     "detection_key": 'BIGINT', -- number of this row
     "scan_key": 'BIGINT', -- row of scans
+    "frame_key": 'BIGINT', -- row of frames
     "detection": 'BIGINT', -- place in the sensor's list, from 0
     "scene": 'VARCHAR', -- unique in a set: source, ego, variant
     "frame": 'BIGINT', -- number in the scene, from 0
@@ -68,7 +69,7 @@ FROM read_csv(folder || '/detections.csv*', header = true, auto_detect = false, 
 CREATE OR REPLACE MACRO objects(folder, reals := 'DOUBLE') AS TABLE
 FROM read_csv(folder || '/objects.csv*', header = true, auto_detect = false, columns = {
     "object_key": 'BIGINT', -- number of this row
-    "frame_key": 'BIGINT', -- number of the frame
+    "frame_key": 'BIGINT', -- row of frames
     "scene": 'VARCHAR', -- unique in a set: source, ego, variant
     "frame": 'BIGINT', -- number in the scene, from 0
     "time_s": 'DOUBLE', -- s: end of the interval that the frame stands for
@@ -89,7 +90,7 @@ FROM read_csv(folder || '/objects.csv*', header = true, auto_detect = false, col
 CREATE OR REPLACE MACRO scans(folder, reals := 'DOUBLE') AS TABLE
 FROM read_csv(folder || '/scans.csv*', header = true, auto_detect = false, columns = {
     "scan_key": 'BIGINT', -- number of this row
-    "frame_key": 'BIGINT', -- number of the frame
+    "frame_key": 'BIGINT', -- row of frames
     "scene": 'VARCHAR', -- unique in a set: source, ego, variant
     "frame": 'BIGINT', -- number in the scene, from 0
     "time_s": 'DOUBLE', -- s: end of the interval that the frame stands for
@@ -178,4 +179,19 @@ FROM read_csv(folder || '/lost.csv*', header = true, auto_detect = false, column
     "margins_sign": reals, -- sine of the phase between sum and delta; 0 is undecided
     "margins_limit_db": reals, -- dB: from the list's limit, in a list by amplitude
     "margins_limit_m": reals, -- m: from the list's limit, in a list by range
+});
+
+CREATE OR REPLACE MACRO frames(folder, reals := 'DOUBLE') AS TABLE
+FROM read_csv(folder || '/frames.csv*', header = true, auto_detect = false, columns = {
+    "frame_key": 'BIGINT', -- number of this row
+    "scene": 'VARCHAR', -- unique in a set: source, ego, variant
+    "frame": 'BIGINT', -- number in the scene, from 0
+    "time_s": 'DOUBLE', -- s: end of the interval that the frame stands for
+    "seed": 'UBIGINT', -- seed of all random numbers
+    "interval_s": 'DOUBLE', -- s: length of that interval
+    "last": 'BOOLEAN', -- is this the scene's last frame?
+    "ego": 'VARCHAR', -- id of the object that carries the sensors
+    "origin_x_m": 'DOUBLE', -- m: origin of the frame's coordinates in those of the source
+    "origin_y_m": 'DOUBLE', -- m: origin of the frame's coordinates in those of the source
+    "suite": 'VARCHAR', -- name of the suite document
 });

@@ -1,4 +1,4 @@
-/* A stream as tables: detections, objects, scans, contributors, sightings and lost echoes. */
+/* A stream as tables: detections, objects, scans, contributors, sightings, lost echoes, frames. */
 #include "export/detection_tables.h"
 #include "run/tool.h"
 #include "text/output.h"
@@ -48,7 +48,7 @@ static int tables_run(void *state, struct runner *runner)
 }
 
 static const struct field tables_options[] = {
-    {FIELD_NAME_OF(struct tables_state, folder, "the folder that gets the six tables")},
+    {FIELD_NAME_OF(struct tables_state, folder, "the folder that gets the seven tables")},
     {OPTIONAL_FLAG(struct tables_state, plain, "write .csv instead of .csv.gz")},
     {OPTIONAL_INTEGER(struct tables_state, part, 0, 9e6,
                       "number of this part of a set: its keys begin at so many times 1e9")},
@@ -57,7 +57,8 @@ static const struct field tables_options[] = {
 
 const struct tool tool_tables = {
     .name = "tables",
-    .summary = "Write tables of detections, objects, scans, contributors, sightings and losses.",
+    .summary =
+        "Write tables of detections, objects, scans, contributors, sightings, losses and frames.",
     .details =
         "The files are detections.csv.gz and so on. Columns are the members of the frame, with\n"
         "the same names and units; columns that end in _key are whole numbers that join rows.\n"

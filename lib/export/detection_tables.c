@@ -6,8 +6,10 @@
 #include "geometry/sensor_pose.h"
 
 const char *const detection_tables_names[] = {
-    [TABLE_DETECTIONS] = "detections",     [TABLE_OBJECTS] = "objects",     [TABLE_SCANS] = "scans",
-    [TABLE_CONTRIBUTORS] = "contributors", [TABLE_SIGHTINGS] = "sightings", [TABLE_LOST] = "lost",
+    [TABLE_DETECTIONS] = "detections", [TABLE_OBJECTS] = "objects",
+    [TABLE_SCANS] = "scans",           [TABLE_CONTRIBUTORS] = "contributors",
+    [TABLE_SIGHTINGS] = "sightings",   [TABLE_LOST] = "lost",
+    [TABLE_FRAMES] = "frames",
 };
 
 /* What rows have beside the members of the frame. Each table takes its columns from this struct by
@@ -50,6 +52,7 @@ enum { NO_KEY = -1 };
 static const struct field detection_fields[] = {
     KEY(detection_key, "number of this row"),
     KEY(scan_key, "row of scans"),
+    KEY(frame_key, "row of frames"),
     {WHOLE(detection, "place in the sensor's list, from 0")},
     WHEN,
     {0},
@@ -77,7 +80,7 @@ static const struct record label_record = RECORD(label_fields);
 
 static const struct field truth_fields[] = {
     KEY(object_key, "number of this row"),
-    KEY(frame_key, "number of the frame"),
+    KEY(frame_key, "row of frames"),
     WHEN,
     {0},
 };
@@ -85,8 +88,16 @@ static const struct record truth_record = RECORD(truth_fields);
 
 static const struct field scan_fields[] = {
     KEY(scan_key, "number of this row"),
-    KEY(frame_key, "number of the frame"),
+    KEY(frame_key, "row of frames"),
     WHEN,
+    {0},
+};
+static const struct record scan_record = RECORD(scan_fields);
+
+static const struct field frame_row_fields[] = {KEY(frame_key, "number of this row"), WHEN, {0}};
+static const struct record frame_row_record = RECORD(frame_row_fields);
+
+static const struct field of_frame_fields[] = {
     {FIELD_SEED_OF(struct row, seed, "seed of all random numbers")},
     {REAL(interval_s, "length of that interval")},
     {FIELD_FLAG_OF(struct row, last, "is this the scene's last frame?")},
@@ -94,12 +105,17 @@ static const struct field scan_fields[] = {
     {REAL(origin_x_m, "origin of the frame's coordinates in those of the source")},
     {REAL(origin_y_m, "origin of the frame's coordinates in those of the source")},
     {WORD(suite, "name of the suite document")},
+    {0},
+};
+static const struct record of_frame_record = RECORD(of_frame_fields);
+
+static const struct field measurement_fields[] = {
     {WORD(sensor, "name in the suite")},
     {REAL(measured_s, "instant of the measurement")},
     {WHOLE(detections, "targets of this scan")},
     {0},
 };
-static const struct record scan_record = RECORD(scan_fields);
+static const struct record measurement_record = RECORD(measurement_fields);
 
 static const struct field part_fields[] = {
     KEY(detection_key, "row of detections"),
@@ -135,11 +151,14 @@ static const struct {
                           {&pose_record, all}},
     [TABLE_OBJECTS] = {{&truth_record, all}, {&object_record, all}},
     [TABLE_SCANS] = {{&scan_record, all},
+                     {&of_frame_record, all},
+                     {&measurement_record, all},
                      {&pose_record, all},
                      {&sensor_view_record, known_of_scan}},
     [TABLE_CONTRIBUTORS] = {{&part_record, all}, {&contributor_record, all}},
     [TABLE_SIGHTINGS] = {{&of_scan_record, all}, {&sighting_record, all}},
     [TABLE_LOST] = {{&of_scan_record, all}, {&lost_group_record, all}, {&lost_echo_record, all}},
+    [TABLE_FRAMES] = {{&frame_row_record, all}, {&of_frame_record, all}},
 };
 
 #define PRIMARY(columns) ",\n   \"primaryKey\": " columns
@@ -148,18 +167,21 @@ static const struct {
     "{\"fields\": \"" key "\", \"reference\": {\"resource\": \"" table "\", \"fields\": \"" key    \
     "\"}}"
 #define OF_OBJECT JOIN("object_key", "objects")
+#define OF_FRAME JOIN("frame_key", "frames")
 #define OF_SCAN_AND_OBJECT FOREIGN(JOIN("scan_key", "scans") ",\n    " OF_OBJECT)
+#define OF_ALL FOREIGN(JOIN("scan_key", "scans") ",\n    " OF_OBJECT ",\n    " OF_FRAME)
 #define OF_DETECTION_AND_OBJECT FOREIGN(JOIN("detection_key", "detections") ",\n    " OF_OBJECT)
 
 /* The columns that tell a table's rows apart, and those that join others, as members of its schema.
  * Lost echoes may be alike. */
 static const char *const keys[] = {
-    [TABLE_DETECTIONS] = PRIMARY("\"detection_key\"") OF_SCAN_AND_OBJECT,
-    [TABLE_OBJECTS] = PRIMARY("\"object_key\""),
-    [TABLE_SCANS] = PRIMARY("\"scan_key\""),
+    [TABLE_DETECTIONS] = PRIMARY("\"detection_key\"") OF_ALL,
+    [TABLE_OBJECTS] = PRIMARY("\"object_key\"") FOREIGN(OF_FRAME),
+    [TABLE_SCANS] = PRIMARY("\"scan_key\"") FOREIGN(OF_FRAME),
     [TABLE_CONTRIBUTORS] = PRIMARY("[\"detection_key\", \"contributor\"]") OF_DETECTION_AND_OBJECT,
     [TABLE_SIGHTINGS] = PRIMARY("[\"scan_key\", \"object\"]") OF_SCAN_AND_OBJECT,
     [TABLE_LOST] = OF_SCAN_AND_OBJECT,
+    [TABLE_FRAMES] = PRIMARY("\"frame_key\""),
 };
 
 void detection_tables_begin(struct detection_tables *tables, int64_t first_key, struct arena *arena)
@@ -405,9 +427,9 @@ static void write_scan(struct writing *writing, const struct sensor_view *sensor
         write_contributors(writing, target);
     }
     if (sensor->measured || row->detections > 0) {
-        write_row(
-            writing, TABLE_SCANS,
-            (const void *[DETECTION_TABLES_STRUCTS]){row, writing->has_pose ? row : NULL, sensor});
+        write_row(writing, TABLE_SCANS,
+                  (const void *[DETECTION_TABLES_STRUCTS]){row, row, row,
+                                                           writing->has_pose ? row : NULL, sensor});
         writing->tables->scan_key++;
     } else {
         row->scan_key = NO_KEY;
@@ -455,6 +477,8 @@ int detection_tables_add(struct detection_tables *tables, struct frame *frame, s
         .by_id = frame_order_objects(frame),
         .row = row_of(frame, tables->frame_key++),
     };
+    write_row(&writing, TABLE_FRAMES,
+              (const void *[DETECTION_TABLES_STRUCTS]){&writing.row, &writing.row});
     write_objects(&writing);
     for (size_t i = 0; i < frame->sensors.list.count; i++)
         write_scan(&writing, &frame->sensors.list.items[i]);

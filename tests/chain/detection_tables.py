@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-TABLES = ["detections", "objects", "scans", "contributors", "sightings", "lost"]
+TABLES = ["detections", "objects", "scans", "contributors", "sightings", "lost", "frames"]
 AWKWARD = 'with "quotes", commas and\u00a0blanks '
 CHAIN = "glint-extract | glint-ideal --sensors {} | glint-sensor | glint-noise"
 STREAMS = [
@@ -109,16 +109,17 @@ def expected(frames, first=0):
             keys[one["id"]] = first + len(rows["objects"])
             rows["objects"].append({"object_key": keys[one["id"]], "frame_key": first + number, **when, **values(one)})
         classes = {one["id"]: one["class"] for one in frame["objects"]}
+        whole = {"seed": frame["seed"], "interval_s": frame["interval_s"], "last": frame.get("last", False),
+                 "ego": frame["ego"], "origin_x_m": frame.get("origin_x_m", 0), "origin_y_m": frame.get("origin_y_m", 0),
+                 "suite": frame["sensors"]["suite"]}
+        rows["frames"].append({"frame_key": first + number, **when, **whole})
         for sensor in frame["sensors"]["list"]:
             here, name = pose(frame, sensor), sensor["name"]
             targets = [one for one in frame["targets"] if one["sensor"] == name]
             scan = first + len(rows["scans"])
             if sensor["measured"]:
                 rows["scans"].append({
-                    "scan_key": scan, "frame_key": first + number, **when, "seed": frame["seed"],
-                    "interval_s": frame["interval_s"], "last": frame.get("last", False), "ego": frame["ego"],
-                    "origin_x_m": frame.get("origin_x_m", 0), "origin_y_m": frame.get("origin_y_m", 0),
-                    "suite": frame["sensors"]["suite"], "sensor": name,
+                    "scan_key": scan, "frame_key": first + number, **when, **whole, "sensor": name,
                     "measured_s": frame["time_s"] - sensor.get("age_s", 0), "detections": len(targets), **here,
                     **values(sensor, OF_SCAN)})
             for place, target in enumerate(targets):
@@ -126,7 +127,7 @@ def expected(frames, first=0):
                 best = max(target["contributors"], key=lambda part: part["weight"])
                 label = {column: best.get(column, "") for column in OF_LABEL}
                 rows["detections"].append({
-                    "detection_key": key, "scan_key": scan, "detection": place, **when, **values(target),
+                    "detection_key": key, "scan_key": scan, "frame_key": first + number, "detection": place, **when, **values(target),
                     "sign_undecided": target.get("sign_undecided", False), **merged(target), "object_key": keys.get(best["object"], ""),
                     "class": classes.get(best["object"], ""), "contributors": len(target["contributors"]),
                     "radar_ghost_label": ghost_label(best["path"], classes.get(best["object"])), **label, **here})
@@ -174,7 +175,7 @@ def check_keys(tables, schema, stream):
         check(not primary or len(keys) == len(rows), f"{stream}: rows of {table} share a primary key")
         check(not primary or not any("" in key for key in keys), f"{stream}: a primary key of {table} is empty")
         joins = {key["fields"]: key["reference"] for key in schema[table].get("foreignKeys", [])}
-        named = {*primary, *joins, "frame_key"}
+        named = {*primary, *joins}
         for column in (field["name"] for field in schema[table]["fields"] if field["name"].endswith("_key")):
             check(column in named, f"tables.json does not say what {table}.{column} joins")
         for column, reference in joins.items():

@@ -63,6 +63,7 @@ static void keys_count_on_from_frame_to_frame_and_join_rows(void **state)
     detection_tables_begin(&sheet->tables, 1000, &sheet->arena);
     for (int i = 0; i < 2; i++)
         assert_int_equal(detection_tables_add(&sheet->tables, &frame, &sheet->diag), 0);
+    check_begins(&sheet->rows[TABLE_FRAMES], (const char *const[]){"1000,s,", "1001,s,", NULL});
     check_begins(&sheet->rows[TABLE_OBJECTS],
                  (const char *const[]){"1000,1000,s,", "1001,1000,s,", "1002,1000,s,",
                                        "1003,1001,s,", "1004,1001,s,", "1005,1001,s,", NULL});
@@ -70,8 +71,8 @@ static void keys_count_on_from_frame_to_frame_and_join_rows(void **state)
                  (const char *const[]){"1000,1000,s,", "1001,1000,s,", "1002,1001,s,",
                                        "1003,1001,s,", NULL});
     check_begins(&sheet->rows[TABLE_DETECTIONS],
-                 (const char *const[]){"1000,1000,0,", "1001,1001,0,", "1002,1002,0,",
-                                       "1003,1003,0,", NULL});
+                 (const char *const[]){"1000,1000,1000,0,", "1001,1001,1000,0,",
+                                       "1002,1002,1001,0,", "1003,1003,1001,0,", NULL});
     /* The objects are e, b and a: the leader of each target is of b, and the loss of a. */
     check_begins(&sheet->rows[TABLE_CONTRIBUTORS],
                  (const char *const[]){"1000,0,1001,b,", "1000,1,1002,a,", "1001,0,1001,b,",
@@ -122,7 +123,7 @@ static void a_sensor_that_did_not_measure_has_no_scan(void **state)
     detection_tables_begin(&sheet->tables, 0, &sheet->arena);
     assert_int_equal(detection_tables_add(&sheet->tables, &frame, &sheet->diag), 0);
     check_begins(&sheet->rows[TABLE_SCANS], (const char *const[]){"0,0,s,", NULL});
-    check_begins(&sheet->rows[TABLE_DETECTIONS], (const char *const[]){"0,0,0,", NULL});
+    check_begins(&sheet->rows[TABLE_DETECTIONS], (const char *const[]){"0,0,0,0,", NULL});
     check_begins(&sheet->rows[TABLE_LOST], (const char *const[]){",2,left,", "0,2,right,", NULL});
 }
 
