@@ -14,7 +14,10 @@
 #include "text/input.h"
 #include "traffic/recorded_row.h"
 
-enum { XML_ROWS_PIECE = 64 * 1024 };
+/* The bytes that are parsed at once, and those that a tag or a comment may have. expat parses one
+ * that has not ended again with every piece, so the next piece is as long as what there is of it.
+ */
+enum { XML_ROWS_PIECE = 64 * 1024, XML_ROWS_TOKEN = 4 * 1024 * 1024 };
 
 /* A row, or the end of a step. */
 struct xml_event {
@@ -31,7 +34,8 @@ struct xml_rows {
     void (*fail_at_end)(struct xml_rows *xml); /* refuses a file that ends within its root */
     LIST_OF(struct xml_event) events;          /* of the piece that was parsed last */
     size_t taken;
-    struct arena arena; /* of events and their names */
+    int64_t bytes, open; /* parsed so far, and of those: of a tag or comment without its end */
+    struct arena arena;  /* of events and their names */
     bool in_root, ended;
 };
 
@@ -122,9 +126,12 @@ static inline const char *xml_rows_name(struct xml_rows *xml, const char *what, 
 /* Parses a piece more; false at the end and after a fault. */
 static inline bool xml_rows_parse(struct xml_rows *xml)
 {
-    void *buffer = xml_rows_granted(XML_GetBuffer(xml->parser, XML_ROWS_PIECE));
+    int64_t left = XML_ROWS_TOKEN + 1 - xml->open;
+    int piece = xml->open > XML_ROWS_PIECE ? (int)xml->open : XML_ROWS_PIECE;
+    piece = piece < left ? piece : (int)left;
+    void *buffer = xml_rows_granted(XML_GetBuffer(xml->parser, piece));
     struct diag damage = {0};
-    long got = input_read(xml->input, buffer, XML_ROWS_PIECE, &damage);
+    long got = input_read(xml->input, buffer, (size_t)piece, &damage);
     bool done = XML_ParseBuffer(xml->parser, got > 0 ? (int)got : 0, got <= 0) == XML_STATUS_OK;
     enum XML_Error error = XML_GetErrorCode(xml->parser);
     if (error == XML_ERROR_NO_MEMORY)
@@ -138,7 +145,13 @@ static inline bool xml_rows_parse(struct xml_rows *xml)
         xml->fault.code = damage.code;
         diag_prefix(&xml->fault, "%s: ", damage.text);
     }
-    return done && got > 0;
+    xml->bytes += got;
+    xml->open = xml->bytes - XML_GetCurrentByteIndex(xml->parser);
+    if (done && got > 0 && xml->open > XML_ROWS_TOKEN)
+        diag_fail(&xml->fault, DIAG_DATA,
+                  "line %zu: a tag or comment of more than %d MB; expected its end before",
+                  xml_rows_line(xml), XML_ROWS_TOKEN >> 20);
+    return xml->fault.code == DIAG_OK && got > 0;
 }
 
 /* Tells the fault, or the format of a file that is of another one; returns -1. */

@@ -6,15 +6,24 @@ static const char *after_pair(const char *pair)
     return pair[length] == ',' ? pair + length + 1 : NULL;
 }
 
+static void add(struct recorded_classes *classes, const struct recorded_word *word)
+{
+    uint32_t number = intern_word(&classes->known, word->word, classes->arena);
+    if (number == classes->words.count)
+        list_add(&classes->words, classes->arena);
+    classes->words.items[number] = *word;
+}
+
 int recorded_classes_begin(struct recorded_classes *classes, const struct recorded_format *format,
                            const char *map, const char *otherwise, struct arena *arena,
                            struct diag *diag)
 {
-    *classes = (struct recorded_classes){.map = map, .otherwise = otherwise, .arena = arena};
+    *classes = (struct recorded_classes){
+        .map = map, .otherwise = otherwise, .own = format->words, .arena = arena};
     if (document_list("vehicles", ".json", &classes->vehicles, arena, diag) != 0)
         return -1;
     for (const struct recorded_word *word = format->words; word->word != NULL; word++)
-        *list_add(&classes->words, arena) = *word;
+        add(classes, word);
     for (const char *pair = map; pair != NULL; pair = after_pair(pair)) {
         size_t word = strcspn(pair, "=,"), length = strcspn(pair, ",");
         if (word == 0 || word + 1 >= length)
@@ -24,16 +33,13 @@ int recorded_classes_begin(struct recorded_classes *classes, const struct record
     return 0;
 }
 
-/* The latest of that name; NULL if there is none. */
+/* NULL if there is none of that name. */
 static const struct recorded_word *known(const struct recorded_classes *classes, const char *word,
                                          size_t length)
 {
-    for (size_t i = classes->words.count; i-- > 0;) {
-        const struct recorded_word *each = &classes->words.items[i];
-        if (strncmp(each->word, word, length) == 0 && each->word[length] == '\0')
-            return each;
-    }
-    return NULL;
+    uint32_t number;
+    return intern_find(&classes->known, word, length, &number) ? &classes->words.items[number]
+                                                               : NULL;
 }
 
 static const char *class_of(const struct recorded_classes *classes,
@@ -51,10 +57,10 @@ static const char *class_of(const struct recorded_classes *classes,
     return NULL;
 }
 
-static struct recorded_word answer_to(const struct recorded_classes *classes, const char *word)
+static struct recorded_word answer_to(const struct recorded_classes *classes, const char *word,
+                                      const struct recorded_word *found)
 {
     size_t length = strlen(word);
-    const struct recorded_word *found = known(classes, word, length);
     const char *class = class_of(classes, found, word, length);
     if (class == NULL && word[strcspn(word, "@")] == '@') {
         length = strcspn(word, "@");
@@ -62,9 +68,10 @@ static struct recorded_word answer_to(const struct recorded_classes *classes, co
         class = class_of(classes, found, word, length);
     }
     struct recorded_word answer = {.class = class != NULL ? class : classes->otherwise};
-    for (size_t i = 0; i < classes->words.count && found == NULL && answer.class != NULL; i++)
-        if (strcmp(classes->words.items[i].class, answer.class) == 0)
-            found = &classes->words.items[i];
+    const struct recorded_word *own = found == NULL && answer.class != NULL ? classes->own : NULL;
+    for (; own != NULL && own->word != NULL && found == NULL; own++)
+        if (strcmp(own->class, answer.class) == 0)
+            found = own;
     if (found != NULL) {
         answer.length_m = found->length_m;
         answer.width_m = found->width_m;
@@ -78,7 +85,8 @@ const struct recorded_word *recorded_classes_find(struct recorded_classes *class
 {
     uint32_t number = intern_word(&classes->asked, word, classes->arena);
     if (number == classes->answers.count)
-        *list_add(&classes->answers, classes->arena) = answer_to(classes, word);
+        *list_add(&classes->answers, classes->arena) =
+            answer_to(classes, word, known(classes, word, strlen(word)));
     const struct recorded_word *answer = &classes->answers.items[number];
     return answer->class != NULL ? answer : NULL;
 }
@@ -86,14 +94,17 @@ const struct recorded_word *recorded_classes_find(struct recorded_classes *class
 void recorded_classes_add(struct recorded_classes *classes, const char *word, const char *like,
                           double length_m, double width_m, double height_m)
 {
-    struct recorded_word added = answer_to(classes, like);
+    const struct recorded_word *own = classes->own;
+    while (own->word != NULL && strcmp(own->word, like) != 0)
+        own++;
+    struct recorded_word added = answer_to(classes, like, own->word != NULL ? own : NULL);
     if (added.class == NULL)
         return;
     added.word = word;
     added.length_m = length_m != 0 ? length_m : added.length_m;
     added.width_m = width_m != 0 ? width_m : added.width_m;
     added.height_m = height_m != 0 ? height_m : added.height_m;
-    *list_add(&classes->words, classes->arena) = added;
+    add(classes, &added);
 }
 
 int recorded_classes_refuse(const struct recorded_classes *classes, const char *word,

@@ -7,7 +7,9 @@
 
 struct recorded_classes {
     const char *map, *otherwise;           /* --class-map, --class-default, or NULL */
-    LIST_OF(struct recorded_word) words;   /* that the source adds, then those of the format */
+    const struct recorded_word *own;       /* those of the format */
+    struct intern known;                   /* words of the format, then those that are added */
+    LIST_OF(struct recorded_word) words;   /* by the number of the word */
     struct document_names vehicles;        /* the classes that there are */
     struct intern asked;                   /* words */
     LIST_OF(struct recorded_word) answers; /* by the number of the word; class NULL: none */
@@ -21,13 +23,13 @@ int recorded_classes_begin(struct recorded_classes *classes, const struct record
                            struct diag *diag);
 
 /* Adds a word that means the same as one of the format's, with sizes of its own where they are not
- * 0. It goes before words of that name. */
+ * 0. It takes the place of a word of that name. */
 void recorded_classes_add(struct recorded_classes *classes, const char *word, const char *like,
                           double length_m, double width_m, double height_m);
 
 /* The class of a word: by the map, else the words, else the class of this name in data/vehicles/,
  * else otherwise; NULL if none knows it. Nor are the words known, what stands before an "@" is
- * asked for. The sizes are those of the word, or of the first word with this class. */
+ * asked for. The sizes are those of the word, or of the format's first word with this class. */
 const struct recorded_word *recorded_classes_find(struct recorded_classes *classes,
                                                   const char *word);
 

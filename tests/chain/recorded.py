@@ -427,6 +427,35 @@ def bad_input(folder):
     check("SUMO's floating car data; glint-traffic-sumo reads it" in text, text)
 
 
+def a_tag_has_an_end(folder):
+    """expat parses an unfinished tag or comment again with every piece: one of more than 4 MB is refused, from pipes too."""
+    path, step = os.path.join(folder, "long.xml"), '<timestep time="0"><vehicle id="a" x="0" y="0" angle="90"/></timestep>'
+    for fits, text in ((True, f"<!--{'> ' * 2000000}-->\n<fcd-export>{step}</fcd-export>"),
+                       (True, f"<fcd-export>{' ' * 6000000}{step}<![CDATA[{'y' * 6000000}]]></fcd-export>"),
+                       (False, f"<!--{'> ' * 3000000}-->\n<fcd-export>{step}</fcd-export>"),
+                       (False, f"<fcd-export>\n{step.replace('angle', 'lane=' + chr(34) + 'y' * 5000000 + chr(34) + ' angle')}")):
+        with open(path, "w", encoding="ascii") as file:
+            file.write(text)
+        for source, data in ((path, None), ("-", text.encode())):
+            if fits:
+                check(len(run("glint-traffic-sumo", source, "--ego", "a", data=data)) == 1, "a comment of 4 MB, other text of 6 MB")
+                continue
+            said, _ = run("glint-traffic-sumo", source, "--ego", "a", data=data, fails=65)
+            line = 1 + text[:text.index("y" * 9 if "y" * 9 in text else "<!--")].count("\n")
+            check(f": line {line}: a tag or comment of more than 4 MB; expected its end before" in said, said)
+
+
+def a_type_has_the_sizes_of_its_class(folder):
+    """A type that says no length has that of its vClass, also where another type has the name of the class."""
+    types = os.path.join(folder, "named.rou.xml")
+    with open(types, "w", encoding="utf-8") as file:
+        file.write('<routes><vType id="truck" vClass="truck" length="14"/><vType id="own" vClass="truck"/></routes>')
+    data = '<fcd-export><timestep time="0"><vehicle id="a" x="0" y="0" angle="90" type="{}"/></timestep></fcd-export>'
+    for word, length in (("truck", 14), ("own", 7.1)):
+        frame = run("glint-traffic-sumo", "-", "--ego", "a", "--types", types, data=data.format(word).encode())[0]
+        check(frame["objects"][0]["length_m"] == length, f"length of {word}: {frame}")
+
+
 def files_of_other_programs_are_named():
     """Whoever reads frames names each file of another program, and what reads that."""
     names = [name for folder in ("sumo", "csv", "esmini", "osi", "commonroad") for name in
@@ -607,6 +636,8 @@ with tempfile.TemporaryDirectory() as place:
         tables_of_sumo(place)
         places_reach_to_their_bound()
         early_ends(place)
+        a_tag_has_an_end(place)
+        a_type_has_the_sizes_of_its_class(place)
         bad_input(place)
     else:
         print("glint-traffic-sumo is not there: it needs expat")

@@ -101,9 +101,26 @@ def users(_, folder, size):
     return f"glint-traffic {write(folder, f'users-{size}.csv', ','.join(header), ','.join(row))} --ego u0"
 
 
+def tag(_, folder, size):
+    """Bytes of one tag of XML."""
+    path = write(folder, f"tag-{size}.xml", "<fcd-export>", '<timestep time="0">',
+                 f'<vehicle id="a" x="0" y="0" angle="90" note="{"x" * size}"/></timestep></fcd-export>')
+    return f"glint-traffic-sumo {path} --ego a"
+
+
+def types(_, folder, size):
+    """Types of SUMO's vehicles."""
+    path = write(folder, "types.xml", '<fcd-export><timestep time="0"><vehicle id="a" x="0" y="0" angle="90" type="t0"/>'
+                 "</timestep></fcd-export>")
+    routes = write(folder, f"types-{size}.xml", "<routes>", *(f'<vType id="t{i}" length="9"/>' for i in range(size)),
+                   "</routes>")
+    return f"glint-traffic-sumo {path} --types {routes} --ego a"
+
+
 # Each with the size that the bench times and the size from which the guard doubles twice.
 CASES = [(objects, 16000, 1000), (objects_in_full, 4000, 500), (speeds, 8000, 1000), (cells, 8000, 1000),
-         (sensors, 10000, 100), (ids, 3000, 1000), (columns, 3000, 3000), (users, 1000, 250)]
+         (sensors, 10000, 100), (ids, 3000, 1000), (columns, 3000, 3000), (users, 1000, 250),
+         (tag, 4000000, 1000000), (types, 40000, 2000)]
 
 
 def cpu_s(glint, text):
