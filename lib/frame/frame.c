@@ -629,6 +629,14 @@ void frame_count_pairs(struct frame *frame, const char *sensor, int64_t pairs)
     count_of(frame, sensor)->pairs += pairs;
 }
 
+int64_t frame_counted_echoes(const struct count *count, enum path path)
+{
+    int64_t echoes = 0;
+    for (size_t i = 0; i < count->paths.count; i++)
+        echoes += count->paths.items[i].path == path ? count->paths.items[i].echoes : 0;
+    return echoes;
+}
+
 struct target *frame_add_target(struct frame *frame, const struct cell *cell, double amplitude_db)
 {
     struct target *target = list_add(&frame->targets, frame->arena);

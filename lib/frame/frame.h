@@ -97,6 +97,7 @@ enum path {
     PATH_LIMB,             /* direct, from an arm or a leg */
     PATH_CLUTTER,          /* direct, from the ground */
     PATH_FALSE_ALARM,      /* no echo but noise */
+    PATH_COUNT,
 };
 
 /* Tells one echo from all others of a sensor's scan. */
@@ -356,6 +357,9 @@ void frame_lose_cell(struct frame *frame, const char *stage, const struct cell *
  * counts those of one sensor after those of another. */
 void frame_count_echoes(struct frame *frame, const char *sensor, enum path path, int64_t echoes);
 void frame_count_pairs(struct frame *frame, const char *sensor, int64_t pairs);
+
+/* The echoes that a count has along a path. */
+int64_t frame_counted_echoes(const struct count *count, enum path path);
 
 /* Appends a target with the cell as its label; the target's own values and margins are the cell's,
  * without noise. */

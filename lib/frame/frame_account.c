@@ -27,7 +27,8 @@ struct account_check {
         uint64_t hash;
     } object;              /* cache of the last hash, as echoes of one object stand together */
     struct intern sensors; /* those with counts first, in their order */
-    int64_t *entries;      /* of each sensor with counts; the last number is that of the others */
+    /* By path, of each sensor with counts; the last numbers are those of the others. */
+    int64_t (*entries)[PATH_COUNT];
     struct {
         const char *text;
         uint32_t number;
@@ -126,19 +127,19 @@ static struct account_check begin(const struct frame *frame)
         .outcomes = arena_room(frame->arena, count * sizeof(struct outcome)),
         .numbers = hash_table_begin(count, frame->arena),
         .sensors = intern_begin(counted, frame->arena),
-        .entries = arena_get(frame->arena, (counted + 1) * sizeof(int64_t)),
+        .entries = arena_get(frame->arena, (counted + 1) * sizeof(int64_t[PATH_COUNT])),
     };
     for (size_t i = 0; i < counted; i++)
         sensor_number(&check, frame->counts.items[i].sensor, frame->arena);
     return check;
 }
 
-/* The number of entries of a sensor with a count, or of all others together. */
+/* The numbers of entries of a sensor with a count, or of all others together. */
 static int64_t *entries_of(struct account_check *check, const char *sensor)
 {
     const struct frame *frame = check->frame;
     size_t number = sensor_number(check, sensor, frame->arena), counted = frame->counts.count;
-    return &check->entries[number < counted ? number : counted];
+    return check->entries[number < counted ? number : counted];
 }
 
 static void collect_members(struct account_check *check, const char *sensor, size_t place,
@@ -146,7 +147,7 @@ static void collect_members(struct account_check *check, const char *sensor, siz
 {
     int64_t *entries = entries_of(check, sensor);
     for (size_t i = 0; i < count; i++)
-        *entries += note(check, (struct outcome){sensor, members[i].id, place});
+        entries[members[i].id.path] += note(check, (struct outcome){sensor, members[i].id, place});
 }
 
 static void collect_kept(struct account_check *check)
@@ -165,7 +166,8 @@ static void collect_kept(struct account_check *check)
     else
         for (size_t i = 0; i < frame->echoes.count; i++) {
             int64_t *entries = entries_of(check, echo[i].sensor);
-            *entries += note(check, (struct outcome){echo[i].sensor, echo[i].id, 0});
+            entries[echo[i].id.path] +=
+                note(check, (struct outcome){echo[i].sensor, echo[i].id, 0});
         }
 }
 
@@ -175,37 +177,44 @@ static void collect_lost(struct account_check *check)
     for (size_t i = 0; i < frame->lost.count; i++) {
         const struct lost_group *group = &frame->lost.items[i];
         int64_t *entries = entries_of(check, group->sensor);
-        for (size_t j = 0; j < group->echoes.count; j++)
-            *entries +=
-                note(check, (struct outcome){group->sensor, group->echoes.items[j].id, LOST});
+        for (size_t j = 0; j < group->echoes.count; j++) {
+            const struct echo_id *id = &group->echoes.items[j].id;
+            entries[id->path] += note(check, (struct outcome){group->sensor, *id, LOST});
+        }
     }
 }
 
-/* Echoes of all other paths than the direct one, which the pairs cover. */
-static int64_t made_indirectly(const struct count *count)
+/* Along the direct path every pair has an entry, whether it made an echo or not. */
+static int64_t due_along(enum path path, const struct count *count)
 {
-    int64_t made = 0;
-    for (size_t i = 0; i < count->paths.count; i++)
-        if (count->paths.items[i].path != PATH_DIRECT)
-            made += count->paths.items[i].echoes;
-    return made;
+    return path == PATH_DIRECT ? count->pairs : frame_counted_echoes(count, path);
+}
+
+static int compare(const int64_t *entries, const struct count *counted, struct diag *diag)
+{
+    for (enum path path = 0; path < PATH_COUNT; path++) {
+        int64_t due = due_along(path, counted);
+        if (entries[path] != due)
+            return diag_fail(
+                diag, DIAG_DATA, "account: sensor \"%s\" has %lld entries of path %s; %lld are due",
+                counted->sensor, (long long)entries[path], frame_path_name(path), (long long)due);
+    }
+    return 0;
 }
 
 static int compare_with_counts(const struct account_check *check, struct diag *diag)
 {
     const struct frame *frame = check->frame;
-    for (size_t i = 0; i < frame->counts.count; i++) {
-        const struct count *counted = &frame->counts.items[i];
-        int64_t due = counted->pairs + made_indirectly(counted);
-        if (check->entries[i] != due)
-            return diag_fail(diag, DIAG_DATA,
-                             "account: sensor \"%s\" has %lld entries; %lld are due",
-                             counted->sensor, (long long)check->entries[i], (long long)due);
-    }
-    if (check->entries[frame->counts.count] != 0)
-        return diag_fail(diag, DIAG_DATA, "account: %lld entries of sensors without a count",
-                         (long long)check->entries[frame->counts.count]);
-    return 0;
+    int64_t others = 0;
+    for (size_t i = 0; i < frame->counts.count; i++)
+        if (compare(check->entries[i], &frame->counts.items[i], diag) != 0)
+            return -1;
+    for (enum path path = 0; path < PATH_COUNT; path++)
+        others += check->entries[frame->counts.count][path];
+    return others == 0
+               ? 0
+               : diag_fail(diag, DIAG_DATA, "account: %lld entries of sensors without a count",
+                           (long long)others);
 }
 
 int frame_account_check(const struct frame *frame, struct diag *diag)

@@ -4,8 +4,8 @@
  * target's label or in lost; every echo of another path that was made must have one too. Before
  * there are targets, cells or echoes stand for them. Frames that carry an account (sections.h) are
  * checked after the stage that writes targets, and by sinks and tools that read them from another
- * process. The check knows how many entries are due, not which: a missing entry together with an
- * invented one would pass. */
+ * process. The check knows how many entries each path is due, not which: a missing entry together
+ * with an invented one would pass. */
 #pragma once
 
 #include "frame/frame.h"

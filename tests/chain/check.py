@@ -29,7 +29,7 @@ SOUND = [
     ("glint-traffic-random --frames 60 --density dense | glint-extract --vehicles data/detailed/vehicles --sections "
      "reflectors | glint-ideal --sensors corner77-uncompensated | glint-sensor | glint-noise", ""),
 ]
-PLANTED = "glint-traffic side-crossing | " + CHAIN.format("srr24-pair --sections account")
+PLANTED = "glint-traffic side-crossing | " + CHAIN.format("srr24-pair --sections account,visibility")
 FLIPS = 300
 faults, checks = [], 0
 
@@ -111,10 +111,16 @@ def truth(bin_dir, text):
     plant("two frames swapped", lambda frames: [frames[1], frames[0], *frames[2:]], "frame")
     plant("a loss that is missing", lambda frames: frames[0]["lost"][0]["echoes"].pop() and None, "account")
     for path in ("clutter", "false_alarm"):
-        plant(path, lambda frames, path=path: seen(frames)[1].update(path=path), "no echo of")
+        plant(path, lambda frames, path=path: seen(frames)[1].update(path=path), "entries of path direct")
     plant("another reason", lambda frames: frames[0]["lost"][0].update(reason="list_limit"), "lost[0].echoes: of these objects")
     plant("a loss elsewhere", lambda frames: frames[0]["lost"][0]["echoes"][0].update(range_m=1), "lost[0].echoes[0].range_m")
     plant("a loss of nobody", lambda frames: frames[0]["lost"][0]["echoes"][0].update(object="nobody"), "lost[0].echoes: of these")
+    plant("a count", lambda frames: frames[0]["counts"][1]["paths"][0].update(echoes=99), "counts[1].paths: direct echoes: 99;")
+    plant("pairs", lambda frames: frames[0]["counts"][0].update(pairs=1), "entries of path direct; 1 are due")
+    plant("a path", lambda frames: frames[0]["counts"][0]["paths"].append({"path": "wheel", "echoes": 1}), "path wheel; 1 are due")
+    for member in ("reflectors", "in_range", "in_view", "detections"):
+        plant(member, lambda frames, member=member: frames[5]["visibility"][0].update({member: 77}), f"visibility[0].{member}: 77;")
+    plant("an echo's cross section", lambda frames: seen(frames)[1].update(ercs=9), "ercs: 9; recomputed")
     plant("no measurement", lambda frames: frames[0]["sensors"]["list"][0].update(measured=False), "list[0].measured")
     plant("a value out of bounds", lambda frames: seen(frames)[0]["targets"][0].update(range_m=-1), "outside")
     done = run("glint-check --partial", bin_dir, b"".join(reversed(text.splitlines(keepends=True))))

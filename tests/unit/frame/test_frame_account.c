@@ -57,7 +57,8 @@ static void before_there_are_targets_cells_or_echoes_stand_for_them(void **state
         else
             frame.cells.items[1].members.count--;
         assert_int_equal(frame_account_check(&frame, &diag), -1);
-        assert_string_equal(diag.text, "account: sensor \"left\" has 2 entries; 3 are due");
+        assert_string_equal(diag.text,
+                            "account: sensor \"left\" has 2 entries of path direct; 3 are due");
         arena_free(&arena);
     }
 }
@@ -121,19 +122,20 @@ static void planted_faults_in_the_account_are_caught(void **state)
     static const struct {
         void (*plant)(struct frame *frame);
         const char *message;
-    } cases[] = {{forget_one, "account: sensor \"right\" has 2 entries; 3 are due"},
-                 {forget_a_loss, "account: sensor \"left\" has 2 entries; 3 are due"},
-                 {double_one_in_a_target,
-                  "account: sensor \"left\", object \"b\", reflector \"corner\" has two entries"},
-                 {double_one_between_target_and_lost,
-                  "account: sensor \"left\", object \"a\", reflector \"rear\" has two entries"},
-                 {double_three,
-                  "account: sensor \"left\", object \"a\", reflector \"corner\" has two entries"},
-                 {double_one_of_each_sensor,
-                  "account: sensor \"left\", object \"a\", reflector \"rear\" has two entries"},
-                 {add_a_foreign_one, "account: sensor \"right\" has 4 entries; 3 are due"},
-                 {add_one_of_a_foreign_sensor, "account: 1 entries of sensors without a count"},
-                 {count_one_more, "account: sensor \"left\" has 3 entries; 4 are due"}};
+    } cases[] = {
+        {forget_one, "account: sensor \"right\" has 2 entries of path direct; 3 are due"},
+        {forget_a_loss, "account: sensor \"left\" has 2 entries of path direct; 3 are due"},
+        {double_one_in_a_target,
+         "account: sensor \"left\", object \"b\", reflector \"corner\" has two entries"},
+        {double_one_between_target_and_lost,
+         "account: sensor \"left\", object \"a\", reflector \"rear\" has two entries"},
+        {double_three,
+         "account: sensor \"left\", object \"a\", reflector \"corner\" has two entries"},
+        {double_one_of_each_sensor,
+         "account: sensor \"left\", object \"a\", reflector \"rear\" has two entries"},
+        {add_a_foreign_one, "account: sensor \"right\" has 4 entries of path direct; 3 are due"},
+        {add_one_of_a_foreign_sensor, "account: 1 entries of sensors without a count"},
+        {count_one_more, "account: sensor \"left\" has 3 entries of path direct; 4 are due"}};
     for (size_t i = 0; i < COUNT(cases); i++) {
         struct arena arena = {0};
         struct frame frame = accounted_frame(&arena);
@@ -156,7 +158,8 @@ static void echoes_of_other_paths_are_due_beyond_the_pairs(void **state)
     frame_count_echoes(&frame, "left", PATH_WHEEL, 2);
     frame_count_echoes(&frame, "left", PATH_WALL_OBJECT, 1);
     assert_int_equal(frame_account_check(&frame, &diag), -1);
-    assert_string_equal(diag.text, "account: sensor \"left\" has 3 entries; 6 are due");
+    assert_string_equal(diag.text,
+                        "account: sensor \"left\" has 0 entries of path wall_object; 1 are due");
     struct lost_echo lost[] = {
         {.id = {.object = "a", .reflector = "rear", .path = PATH_WHEEL, .number = 1}},
         {.id = {.object = "a", .reflector = "rear", .path = PATH_WHEEL, .number = 2}},
@@ -165,6 +168,12 @@ static void echoes_of_other_paths_are_due_beyond_the_pairs(void **state)
     for (size_t i = 0; i < 3; i++)
         frame_lose(&frame, "sensor", "left", LOSS_BELOW_THRESHOLD, &lost[i]);
     assert_int_equal(frame_account_check(&frame, &diag), 0);
+    frame_count_echoes(&frame, "left", PATH_WHEEL, -1);
+    frame_count_echoes(&frame, "left", PATH_LIMB, 1);
+    diag = (struct diag){0};
+    assert_int_equal(frame_account_check(&frame, &diag), -1);
+    assert_string_equal(diag.text,
+                        "account: sensor \"left\" has 2 entries of path wheel; 1 are due");
     arena_free(&arena);
 }
 
@@ -182,7 +191,9 @@ static void echoes_that_differ_in_one_member_are_two_entries(void **state)
         struct arena arena = {0};
         struct frame frame = {.arena = &arena, .sections = CARRY_ACCOUNT};
         struct diag diag = {0};
-        frame_count_pairs(&frame, "s", 2);
+        bool same_path = i == COUNT(others) || others[i].path == one.path;
+        frame_count_echoes(&frame, "s", one.path, 1 + same_path);
+        frame_count_echoes(&frame, "s", PATH_OBJECT_WALL, !same_path);
         frame_lose(&frame, "sensor", "s", LOSS_NO_ANGLE, &(struct lost_echo){.id = one});
         frame_lose(&frame, "noise", "s", LOSS_NO_ANGLE,
                    &(struct lost_echo){.id = i < COUNT(others) ? others[i] : one});
