@@ -37,7 +37,7 @@ static int64_t clock_ns(const struct chain *chain)
     if (chain->times == NULL)
         return 0;
     struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
 }
 

@@ -8,7 +8,7 @@
 
 #include "run/runner.h"
 
-/* Where the time of a chain went: nanoseconds of this process's CPU time, without those that
+/* Where the time of a chain went: nanoseconds of this thread's CPU time, without those that
  * reading the clock takes. */
 struct chain_times {
     int64_t frames, bytes_read, bytes_written;
