@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "effects/effect.h"
 #include "run/runner.h"
-#include "text/same_file.h"
+#include "text/path.h"
 
 static int64_t clock_ns(void)
 {
@@ -83,7 +83,7 @@ static bool is_option(const char *path, const struct field *fields, const char *
     for (const struct field *field = fields; field->name != NULL; field++) {
         const char *const *value = (const void *)(base + field->offset);
         bool name = field->kind == FIELD_NAME && *value != NULL;
-        if (name && same_file(path, strcmp(*value, "-") == 0 ? "/dev/stdin" : *value))
+        if (name && path_same_file(path, strcmp(*value, "-") == 0 ? "/dev/stdin" : *value))
             return true;
         if (field->kind == FIELD_RECORD &&
             is_option(path, field->record->fields, base + field->offset))
@@ -97,11 +97,11 @@ static bool is_input(const char *path, const struct runner *runner, bool first)
     const struct common_options *common = &runner->common;
     for (size_t i = 0; i < common->files.count; i++) {
         const char *file = common->files.items[i];
-        if (same_file(path, strcmp(file, "-") == 0 ? "/dev/stdin" : file))
+        if (path_same_file(path, strcmp(file, "-") == 0 ? "/dev/stdin" : file))
             return true;
     }
     bool standard = first && common->files.count == 0 && runner->program.takes_files;
-    return (standard && same_file(path, "/dev/stdin")) ||
+    return (standard && path_same_file(path, "/dev/stdin")) ||
            is_option(path, runner->program.options->fields, runner->state);
 }
 

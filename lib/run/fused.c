@@ -14,7 +14,7 @@
 #include "text/file_format.h"
 #include "text/input.h"
 #include "text/output.h"
-#include "text/same_file.h"
+#include "text/path.h"
 
 static const char usage[] =
     "Usage: glint FILE\n"
@@ -82,7 +82,7 @@ static bool is_own(const char *program, struct arena *arena)
     if (slash == NULL)
         return true;
     const char *own = arena_format(arena, "%s%s", document_own_folder(arena), slash + 1);
-    return access(own, X_OK) == 0 && same_file(program, own);
+    return access(own, X_OK) == 0 && path_same_file(program, own);
 }
 
 /* False if this build has no such stage or tool. A runner whose command line is refused is prepared

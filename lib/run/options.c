@@ -11,7 +11,8 @@ static const struct field common_fields[] = {
     {OPTIONAL_NAME(
          struct common_options, output,
          "write to this file instead of standard output, compressed if it ends in .gz; the file is "
-         "there when it is whole, and one that was there keeps its mode, owner and links"),
+         "there when it is whole, and takes the place of one that was there, with its mode and "
+         "owner"),
      .word = "FILE"},
     {OPTIONAL_NAME(
          struct common_options, sections,

@@ -10,8 +10,7 @@
  *
  * The runner owns the outputs. None of them takes its name before all of them are whole and on the
  * disk; after a failure, or if the program is killed, the files that had these names before are
- * unchanged and no others are left (text/output.h). What goes to standard output cannot be taken
- * back.
+ * unchanged (text/output.h). What goes to standard output cannot be taken back.
  *
  * Functions return 0, or -1 after a message in the runner's diag. Beside those below, tools may
  * call runner_arena, runner_diag and the like (stage.h). */

@@ -2,19 +2,17 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <limits.h>
 #include <poll.h>
 #include <stdlib.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <zlib.h>
 
 #include "base/arena.h"
+#include "text/path.h"
 #include "text/whole_file.h"
 
-/* Bytes that a pipe takes at once, and links that Linux follows for one path. */
-enum { PIECE_SIZE = 64 * 1024, LINKS = 40 };
+enum { PIECE_SIZE = 64 * 1024 }; /* bytes that a pipe takes at once */
 
 struct output {
     int fd;
@@ -31,57 +29,6 @@ static char *copy(const char *text)
     return memcpy(memory_get(size), text, size);
 }
 
-/* The descriptor that the path stands for, which a shell's > would write to as well; -1: none. */
-static int descriptor_of(const char *path)
-{
-    static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/", "/proc/thread-self/fd/"};
-    if (strcmp(path, "-") == 0 || strcmp(path, "/dev/stdout") == 0)
-        return STDOUT_FILENO;
-    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
-        size_t length = strlen(folders[i]),
-               digits = strspn(path + strnlen(path, length), "0123456789");
-        if (strncmp(path, folders[i], length) == 0 && digits > 0 && path[length + digits] == '\0')
-            return (int)strtol(path + length, NULL, 10);
-    }
-    return -1;
-}
-
-static bool is_special(const char *path)
-{
-    struct stat status;
-    return stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
-}
-
-/* The path that the link leads to. */
-static char *lead_on(const char *path, const char *target)
-{
-    const char *slash = target[0] != '/' ? strrchr(path, '/') : NULL;
-    size_t folder = slash != NULL ? (size_t)(slash + 1 - path) : 0;
-    size_t length = strlen(target);
-    char *next = memory_get(folder + length + 1);
-    memcpy(next, path, folder);
-    memcpy(next + folder, target, length + 1);
-    return next;
-}
-
-/* The path at the end of a chain of links, so that none of them is replaced. There need be no file
- * of that name. */
-static char *follow_links(const char *path)
-{
-    char *at = copy(path);
-    for (int i = 0; i < LINKS && descriptor_of(at) < 0 && !is_special(at); i++) {
-        char target[PATH_MAX];
-        ssize_t length = readlink(at, target, sizeof target - 1);
-        if (length < 0)
-            break;
-        target[length] = '\0';
-        char *next = lead_on(at, target);
-        free(at);
-        at = next;
-    }
-    return at;
-}
-
 static void discard(struct output *output)
 {
     free(output->name);
@@ -91,7 +38,13 @@ static void discard(struct output *output)
 
 static int cannot_create(const char *name, struct diag *diag)
 {
-    return diag_fail(diag, diag_code_by_errno(DIAG_CANNOT_CREATE), "%s: %s", name, strerror(errno));
+    int why = errno;
+    bool kept = (why == EACCES || why == EPERM || why == EBUSY) && access(name, W_OK) == 0;
+    errno = why;
+    return diag_fail(diag, diag_code_by_errno(DIAG_CANNOT_CREATE), "%s: %s%s", name, strerror(why),
+                     kept ? "; no new file can take the place of this one: name another one, or "
+                            "let the shell write into it (>)"
+                          : "");
 }
 
 static const char *shown_name(const struct output *output)
@@ -123,10 +76,10 @@ static int open_descriptor(struct output *output, int number, struct diag *diag)
 
 static int open_path(struct output *output, const char *path, struct diag *diag)
 {
-    int number = descriptor_of(path);
+    int number = path_descriptor(path);
     if (number >= 0)
         return open_descriptor(output, number, diag);
-    if (is_special(path))
+    if (path_is_special(path))
         output->fd = open(path, O_WRONLY | O_TRUNC | O_CLOEXEC);
     else if ((output->file = whole_file_make(path)) != NULL)
         output->fd = whole_file_descriptor(output->file);
@@ -150,7 +103,7 @@ struct output *output_open(const char *path, struct diag *diag)
 {
     struct output *output = memory_get(sizeof *output);
     *output = (struct output){.fd = -1, .name = copy(path)};
-    char *target = follow_links(path);
+    char *target = path_target(path);
     int result = open_path(output, target, diag);
     size_t length = strlen(target);
     if (result == 0 && length > 3 && strcmp(target + length - 3, ".gz") == 0)

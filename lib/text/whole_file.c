@@ -1,126 +1,173 @@
 #define _GNU_SOURCE /* NOLINT(bugprone-reserved-identifier): for O_TMPFILE, which is Linux's */
 #include "text/whole_file.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <signal.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <sys/random.h>
+#include <sys/file.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
+#include <sys/utsname.h>
 #include <unistd.h>
 
 #include "base/arena.h"
+#include "base/text.h"
+#include "text/path.h"
+
+#define MARK ".glint-"
+enum { DESCRIPTORS = 100 }; /* that are looked at when a signal ends the process */
 
 struct whole_file {
     int fd;
-    char *path, *temporary;
-    bool named;     /* the file is called temporary */
-    bool copied;    /* the bytes go into the file that is there */
-    pid_t remover;  /* 0: none is needed */
-    int remover_fd; /* closed when this process ends */
+    char *path, *folder;
+    struct text temporary;
+    bool named; /* the file is called temporary */
 };
 
-/* Sets a new temporary name in the folder of the path. */
-static void choose_name(struct whole_file *file)
+static void choose_name(struct whole_file *file, int number)
 {
-    const char *slash = strrchr(file->path, '/');
-    int folder = slash != NULL ? (int)(slash + 1 - file->path) : 0;
-    uint64_t digits = 0;
-    while (getrandom(&digits, sizeof digits, 0) < 0 && errno == EINTR)
-        continue;
-    snprintf(file->temporary, (size_t)folder + sizeof ".glint-0123456789abcdef",
-             "%.*s.glint-%016llx", folder, file->path, (unsigned long long)digits);
+    struct utsname system;
+    uname(&system);
+    file->temporary.length = 0;
+    text_format(&file->temporary, "%s/" MARK "%ld-%d@%s", file->folder, (long)getpid(), number,
+                system.nodename);
 }
 
-/* Opens a new file without a name in the path's folder; -1 where the file system has none. It gets
- * its name through /proc later. */
-static int open_unnamed(const char *path)
+static bool has_name(int fd, int folder, const char *name)
 {
-    int fd = -1;
-#ifdef O_TMPFILE
-    const char *slash = strrchr(path, '/');
-    size_t length = slash == path ? 1 : slash != NULL ? (size_t)(slash - path) : 0;
-    char *folder = memory_get(length + 2);
-    snprintf(folder, length + 2, "%.*s", (int)length, length > 0 ? path : "");
-    if (access("/proc/self/fd", X_OK) == 0)
-        fd = open(length > 0 ? folder : ".", O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
-    free(folder);
-#endif
+    struct stat open, named;
+    return fstat(fd, &open) == 0 && fstatat(folder, name, &named, AT_SYMLINK_NOFOLLOW) == 0 &&
+           open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+}
+
+/* Removes an open temporary file, unless another process holds its lock. */
+static void remove_unlocked(int fd, int folder, const char *name)
+{
+    if (flock(fd, LOCK_EX | LOCK_NB) == 0 && has_name(fd, folder, name))
+        unlinkat(folder, name, 0);
+}
+
+/* Removes what processes of this host that were killed left in the folder. */
+static void remove_leftovers(const char *folder)
+{
+    struct utsname system;
+    uname(&system);
+    DIR *list = opendir(folder);
+    for (const struct dirent *entry; list != NULL && (entry = readdir(list)) != NULL;) {
+        const char *name = entry->d_name, *host = strrchr(name, '@');
+        bool ours = host != NULL && strncmp(name, MARK, sizeof MARK - 1) == 0 &&
+                    strcmp(host + 1, system.nodename) == 0;
+        int fd = ours ? openat(dirfd(list), name, O_RDWR | O_NOFOLLOW | O_NONBLOCK) : -1;
+        if (fd >= 0) {
+            remove_unlocked(fd, dirfd(list), name);
+            close(fd);
+        }
+    }
+    if (list != NULL)
+        closedir(list);
+}
+
+/* Removes the temporary files that this process has open, and lets the signal end it. */
+static void end_by(int signal)
+{
+    char link[] = "/proc/self/fd/00", path[PATH_MAX];
+    for (int fd = STDERR_FILENO + 1; fd < DESCRIPTORS; fd++) {
+        char *digit = link + sizeof "/proc/self/fd/" - 1;
+        if (fd >= 10)
+            *digit++ = (char)('0' + fd / 10);
+        *digit++ = (char)('0' + fd % 10);
+        *digit = '\0';
+        ssize_t length = readlink(link, path, sizeof path - 1);
+        path[length > 0 ? length : 0] = '\0';
+        if (strncmp(path_name(path), MARK, sizeof MARK - 1) == 0)
+            remove_unlocked(fd, AT_FDCWD, path);
+    }
+    raise(signal);
+}
+
+/* From here on a signal that would end the process removes its temporary files first. */
+static void expect_signals(void)
+{
+    static const int signals[] = {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM, SIGXCPU, SIGXFSZ};
+    struct sigaction end = {.sa_handler = end_by, .sa_flags = (int)SA_RESETHAND}, before;
+    sigfillset(&end.sa_mask);
+    for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++)
+        if (sigaction(signals[i], NULL, &before) == 0 && before.sa_handler == SIG_DFL)
+            sigaction(signals[i], &end, NULL);
+}
+
+/* Tells other processes to leave the file alone. False: one that found it unlocked is about to
+ * remove it. Where there are no locks none does. */
+static bool lock(int fd)
+{
+    return flock(fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+/* Opens a new file without a name, which it gets through /proc later; -1 where the file system has
+ * none. */
+static int open_unnamed(const char *folder)
+{
+    bool later = access("/proc/self/fd", X_OK) == 0;
+    int fd = later ? open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666) : -1;
+    if (fd >= 0)
+        lock(fd);
     return fd;
-}
-
-/* Waits, deaf to signals, until the other end of the pipe is closed, and removes the file. */
-static _Noreturn void remove_at_end(int pipe_end, const char *name)
-{
-    char byte;
-    setsid();
-    dup2(pipe_end, STDIN_FILENO);
-    close_range(STDIN_FILENO + 1, ~0U, 0);
-    if (read(STDIN_FILENO, &byte, 1) == 0)
-        unlink(name);
-    _exit(0);
-}
-
-/* Starts the process that removes the file. Where none can be started, a killed run leaves the file
- * behind. */
-static void start_remover(struct whole_file *file)
-{
-    int ends[2];
-    sigset_t all, before;
-    if (pipe2(ends, O_CLOEXEC) != 0)
-        return;
-    sigfillset(&all);
-    sigprocmask(SIG_SETMASK, &all, &before);
-    file->remover = fork();
-    if (file->remover == 0)
-        remove_at_end(ends[0], file->temporary);
-    sigprocmask(SIG_SETMASK, &before, NULL);
-    close(ends[0]);
-    if (file->remover > 0)
-        file->remover_fd = ends[1];
-    else
-        close(ends[1]);
 }
 
 static int open_named(struct whole_file *file)
 {
-    int fd;
-    do {
-        choose_name(file);
-        fd = open(file->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    } while (fd < 0 && errno == EEXIST);
-    file->named = fd >= 0;
-    if (file->named)
-        start_remover(file);
+    int fd = -1;
+    expect_signals();
+    for (int number = 1; !file->named; number++) {
+        choose_name(file, number);
+        fd = open(file->temporary.bytes, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (fd < 0 && errno != EEXIST)
+            return -1;
+        file->named = fd >= 0 && lock(fd) && has_name(fd, AT_FDCWD, file->temporary.bytes);
+        if (fd >= 0 && !file->named)
+            close(fd);
+    }
     return fd;
 }
 
-/* Is the path free, or a file that may be written? Decides how a file that is there is kept. */
-static bool may_write(struct whole_file *file, struct stat *there)
+/* Is the path free, or a file that may be written and replaced? Else errno says why not. In a
+ * sticky folder only the owners of file and folder may replace a file. */
+static bool may_take(const struct whole_file *file, struct stat *there)
 {
-    if (stat(file->path, there) != 0)
+    struct stat folder;
+    struct statx mount = {0};
+    if (stat(file->path, there) != 0 || stat(file->folder, &folder) != 0)
         return errno == ENOENT;
-    if (S_ISDIR(there->st_mode))
-        errno = EISDIR;
-    file->copied = there->st_nlink > 1;
-    return !S_ISDIR(there->st_mode) && access(file->path, W_OK) == 0;
+    if (!S_ISDIR(there->st_mode) && access(file->path, W_OK) != 0)
+        return false;
+    statx(AT_FDCWD, file->path, 0, 0, &mount);
+    bool kept = (folder.st_mode & S_ISVTX) != 0 && geteuid() != 0 && there->st_uid != geteuid() &&
+                folder.st_uid != geteuid();
+    errno = S_ISDIR(there->st_mode)                               ? EISDIR
+            : (mount.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0 ? EBUSY
+            : kept                                                ? EPERM
+                                                                  : 0;
+    return errno == 0;
 }
 
+/* Opens a file with the mode of the one that is there, which would give rights of its owner where
+ * the new one gets another. */
 static int open_file(struct whole_file *file)
 {
     struct stat there = {0};
-    if (!may_write(file, &there))
+    if (!may_take(file, &there))
         return -1;
-    int fd = open_unnamed(file->path);
-    if (fd < 0)
-        fd = open_named(file);
-    if (fd >= 0 && there.st_nlink > 0 &&
-        (fchown(fd, there.st_uid, there.st_gid) != 0 || fchmod(fd, there.st_mode & 07777) != 0))
-        file->copied = true;
-    return fd;
+    remove_leftovers(file->folder);
+    file->fd = open_unnamed(file->folder);
+    if (file->fd < 0)
+        file->fd = open_named(file);
+    if (file->fd < 0 || there.st_nlink == 0)
+        return file->fd;
+    mode_t kept = fchown(file->fd, there.st_uid, there.st_gid) == 0 ? 07777 : 0777;
+    return fchmod(file->fd, there.st_mode & kept);
 }
 
 struct whole_file *whole_file_make(const char *path)
@@ -128,11 +175,11 @@ struct whole_file *whole_file_make(const char *path)
     size_t size = strlen(path) + 1;
     struct whole_file *file = memory_get(sizeof *file);
     *file = (struct whole_file){
+        .fd = -1,
         .path = memcpy(memory_get(size), path, size),
-        .temporary = memory_get(size + sizeof ".glint-0123456789abcdef"),
+        .folder = path_folder(path),
     };
-    file->fd = open_file(file);
-    if (file->fd >= 0)
+    if (open_file(file) >= 0)
         return file;
     int why = errno;
     whole_file_close(file);
@@ -149,43 +196,14 @@ int whole_file_descriptor(const struct whole_file *file)
 static int name_file(struct whole_file *file)
 {
     char source[64];
-    int result = 0;
     snprintf(source, sizeof source, "/proc/self/fd/%d", file->fd);
-    while (result == 0 && !file->named) {
-        choose_name(file);
-        file->named = linkat(AT_FDCWD, source, AT_FDCWD, file->temporary, AT_SYMLINK_FOLLOW) == 0;
-        result = file->named || errno == EEXIST ? 0 : -1;
+    for (int number = 1; !file->named; number++) {
+        choose_name(file, number);
+        file->named =
+            linkat(AT_FDCWD, source, AT_FDCWD, file->temporary.bytes, AT_SYMLINK_FOLLOW) == 0;
+        if (!file->named && errno != EEXIST)
+            return -1;
     }
-    return result;
-}
-
-/* Writes the bytes into the file that is there, as a shell's > would. */
-static int copy_into(const struct whole_file *file)
-{
-    char bytes[16 * 1024];
-    off_t at = 0;
-    ssize_t got = 1;
-    int fd = open(file->path, O_WRONLY | O_TRUNC | O_CLOEXEC);
-    while (fd >= 0 && got > 0) {
-        got = pread(file->fd, bytes, sizeof bytes, at);
-        for (ssize_t done = 0, more = 0; done < got && got > 0; done += more) {
-            more = write(fd, bytes + done, (size_t)(got - done));
-            if (more < 0)
-                got = -1;
-        }
-        at += got;
-    }
-    bool whole = fd >= 0 && got == 0 && fsync(fd) == 0;
-    return fd >= 0 && close(fd) == 0 && whole ? 0 : -1;
-}
-
-static int replace(struct whole_file *file)
-{
-    if (name_file(file) != 0)
-        return -1;
-    if (rename(file->temporary, file->path) != 0)
-        return -1;
-    file->named = false;
     return 0;
 }
 
@@ -194,10 +212,8 @@ int whole_file_take_name(struct whole_file *file)
     sigset_t all, before;
     sigfillset(&all);
     sigprocmask(SIG_SETMASK, &all, &before);
-    int result = file->copied ? copy_into(file) : replace(file);
-    if (result != 0 && errno == EBUSY) /* a file that is mounted by itself */
-        result = copy_into(file);
-    int why = errno;
+    int result = name_file(file) == 0 ? rename(file->temporary.bytes, file->path) : -1, why = errno;
+    file->named = file->named && result != 0;
     sigprocmask(SIG_SETMASK, &before, NULL);
     errno = why;
     return result;
@@ -206,15 +222,11 @@ int whole_file_take_name(struct whole_file *file)
 int whole_file_close(struct whole_file *file)
 {
     if (file->named)
-        unlink(file->temporary);
+        unlink(file->temporary.bytes);
     int result = file->fd >= 0 ? close(file->fd) : 0, why = errno;
-    if (file->remover > 0) {
-        close(file->remover_fd);
-        while (waitpid(file->remover, NULL, 0) < 0 && errno == EINTR)
-            continue;
-    }
+    text_free(&file->temporary);
     free(file->path);
-    free(file->temporary);
+    free(file->folder);
     free(file);
     errno = why;
     return result;

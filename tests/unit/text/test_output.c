@@ -9,10 +9,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
-#include <sys/random.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/utsname.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,10 +21,10 @@
 #include "text/output.h"
 
 /* Replace functions of the system (Makefile). A test can have a file system without files without
- * names, random names that it knows, and a file that is mounted by itself. */
+ * names, one without locks, and a file that cannot be replaced. */
 static bool names_only;
-static uint64_t next_name; /* 0: random */
-static bool mounted;
+static bool lockless;
+static bool irreplaceable;
 
 /* True if the file system of the scratch folder has files without names. */
 static bool has_unnamed(const char *folder)
@@ -44,16 +45,13 @@ int __wrap_open(const char *path, int flags, ...)
     return __real_open(path, flags, 0666);
 }
 
-ssize_t __real_getrandom(void *bytes, size_t size, unsigned flags);
-ssize_t __wrap_getrandom(void *bytes, size_t size, unsigned flags);
+int __real_flock(int fd, int operation);
+int __wrap_flock(int fd, int operation);
 
-ssize_t __wrap_getrandom(void *bytes, size_t size, unsigned flags)
+int __wrap_flock(int fd, int operation)
 {
-    if (next_name == 0)
-        return __real_getrandom(bytes, size, flags);
-    memcpy(bytes, &next_name, size);
-    next_name++;
-    return (ssize_t)size;
+    errno = ENOLCK;
+    return lockless ? -1 : __real_flock(fd, operation);
 }
 
 int __real_rename(const char *from, const char *to);
@@ -62,7 +60,7 @@ int __wrap_rename(const char *from, const char *to);
 int __wrap_rename(const char *from, const char *to)
 {
     errno = EBUSY;
-    return mounted ? -1 : __real_rename(from, to);
+    return irreplaceable ? -1 : __real_rename(from, to);
 }
 
 struct scratch {
@@ -257,14 +255,6 @@ static void a_file_that_is_replaced_keeps_its_mode(void **state)
     names_only = false;
 }
 
-/* The process that removes a temporary file does so soon after the writer's end. */
-static void wait_until_files_are(const struct scratch *scratch, int count)
-{
-    for (int i = 0; i < 10000 && files_in(scratch->directory) != count; i++)
-        usleep(1000);
-    assert_int_equal(files_in(scratch->directory), count);
-}
-
 static void expect_bytes(const char *path, const char *bytes)
 {
     struct text back = read_all(path);
@@ -282,36 +272,103 @@ static void write_word(const char *path, const char *word)
     text_free(&text);
 }
 
+/* A process that has written a file but not named it, and then ends: by the signal or, for 0, by
+ * itself. Returns its number. */
+static pid_t end_early(const char *path, int signal)
+{
+    int code = 0;
+    pid_t child = fork();
+    if (child == 0) {
+        struct diag diag = {0};
+        /* A run in the background inherits that SIGINT or SIGHUP is ignored. */
+        if (signal != 0 && signal != SIGKILL)
+            sigaction(signal, &(struct sigaction){.sa_handler = SIG_DFL}, NULL);
+        struct output *output = output_open(path, &diag);
+        output_write(output, "half", 4, &diag);
+        output_finish(output, &diag);
+        if (signal != 0)
+            raise(signal);
+        output_close(output, false, &diag);
+        _exit(DIAG_MEMORY);
+    }
+    assert_int_equal(waitpid(child, &code, 0), child);
+    assert_int_equal(signal, WIFSIGNALED(code) ? WTERMSIG(code) : 0);
+    return child;
+}
+
+/* "DIRECTORY/.glint-PROCESS-NUMBER@HOST" */
+static const char *temporary(const struct scratch *scratch, pid_t process, int number)
+{
+    static char path[256];
+    struct utsname system;
+    uname(&system);
+    snprintf(path, sizeof path, "%s/.glint-%d-%d@%s", scratch->directory, (int)process, number,
+             system.nodename);
+    return path;
+}
+
 static void a_run_that_is_ended_leaves_the_folder_as_it_was(void **state)
 {
     struct scratch *scratch = *state;
-    static const int signals[] = {SIGTERM, SIGINT, SIGHUP, SIGKILL, 0};
-    struct text new = sample_text(100000);
+    static const int signals[] = {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU, 0};
     write_word(scratch->path, "old");
     int before = files_in(scratch->directory);
-    for (int i = 0; i < 10; i++) {
+    for (int i = 0; i < 14; i++) {
         names_only = i % 2 == 1;
-        int signal = signals[i / 2], code = 0;
-        pid_t child = fork();
-        if (child == 0) {
-            struct diag diag = {0};
-            struct output *output = output_open(scratch->path, &diag);
-            output_write(output, new.bytes, new.length, &diag);
-            output_finish(output, &diag);
-            /* A run in the background inherits that SIGINT or SIGHUP is ignored. */
-            if (signal != 0 && signal != SIGKILL)
-                sigaction(signal, &(struct sigaction){.sa_handler = SIG_DFL}, NULL);
-            if (signal != 0)
-                raise(signal);
-            _exit(DIAG_MEMORY);
-        }
-        assert_int_equal(waitpid(child, &code, 0), child);
-        assert_int_equal(signal, WIFSIGNALED(code) ? WTERMSIG(code) : 0);
-        wait_until_files_are(scratch, before);
+        end_early(scratch->path, signals[i / 2]);
+        assert_int_equal(files_in(scratch->directory), before);
         expect_bytes(scratch->path, "old");
     }
     names_only = false;
-    text_free(&new);
+    end_early(scratch->path, SIGKILL);
+    if (has_unnamed(scratch->directory))
+        assert_int_equal(files_in(scratch->directory), before);
+}
+
+static void what_a_killed_run_leaves_is_named_plainly_and_removed_by_the_next(void **state)
+{
+    struct scratch *scratch = *state;
+    struct diag diag = {0};
+    write_word(scratch->path, "old");
+    unlink(scratch->packed);
+    int before = files_in(scratch->directory);
+    for (int i = 0; i < 2; i++) {
+        names_only = true;
+        struct output *running = output_open(scratch->packed, &diag);
+        pid_t killed = end_early(scratch->path, SIGKILL);
+        assert_int_equal(access(temporary(scratch, killed, 1), F_OK), 0);
+        expect_bytes(scratch->path, "old");
+        names_only = i == 0;
+        write_word(scratch->path, "new");
+        assert_int_equal(access(temporary(scratch, killed, 1), F_OK), -1);
+        assert_int_equal(access(temporary(scratch, getpid(), 1), F_OK), 0);
+        assert_int_equal(output_close(running, true, &diag), 0);
+        unlink(scratch->packed);
+        assert_int_equal(files_in(scratch->directory), before);
+        write_word(scratch->path, "old");
+    }
+    names_only = false;
+}
+
+/* Whose file another host's temporary is, nobody here can know, and without locks nobody at all. */
+static void a_temporary_file_that_may_be_in_use_stays(void **state)
+{
+    struct scratch *scratch = *state;
+    char foreign[128];
+    snprintf(foreign, sizeof foreign, "%s/.glint-1-1@elsewhere", scratch->directory);
+    names_only = true;
+    write_word(scratch->path, "old");
+    write_word(foreign, "another host's");
+    lockless = true;
+    pid_t killed = end_early(scratch->path, SIGKILL);
+    write_word(scratch->path, "new");
+    assert_int_equal(unlink(temporary(scratch, killed, 1)), 0);
+    lockless = false;
+    write_word(scratch->path, "newer");
+    expect_bytes(scratch->path, "newer");
+    expect_bytes(foreign, "another host's");
+    names_only = false;
+    unlink(foreign);
 }
 
 static void a_full_disk_leaves_the_folder_as_it_was(void **state)
@@ -346,19 +403,16 @@ static void a_full_disk_leaves_the_folder_as_it_was(void **state)
 static void a_planted_link_is_neither_followed_nor_removed(void **state)
 {
     struct scratch *scratch = *state;
-    char planted[128], victim[128];
-    snprintf(planted, sizeof planted, "%s/.glint-0000000000000001", scratch->directory);
+    char victim[128];
     snprintf(victim, sizeof victim, "%s/victim", scratch->directory);
     write_word(victim, "precious");
+    const char *planted = temporary(scratch, getpid(), 1);
     assert_int_equal(symlink("victim", planted), 0);
     for (int i = 0; i < 2; i++) {
         names_only = i == 1;
         write_word(scratch->path, "old");
         int before = files_in(scratch->directory);
-        next_name = 1;
         write_word(scratch->path, "new");
-        assert_true(next_name > 2);
-        next_name = 0;
         expect_bytes(scratch->path, "new");
         expect_bytes(victim, "precious");
         expect_bytes(planted, "precious");
@@ -389,33 +443,106 @@ static void two_writers_of_one_name_each_leave_a_whole_file(void **state)
     names_only = false;
 }
 
-static void a_file_of_two_names_stays_one_file(void **state)
+static void the_other_name_of_a_file_that_is_replaced_keeps_the_old_bytes(void **state)
 {
     struct scratch *scratch = *state;
     char twin[128];
     snprintf(twin, sizeof twin, "%s/twin", scratch->directory);
-    write_word(scratch->path, "older");
-    assert_int_equal(link(scratch->path, twin), 0);
-    write_word(scratch->path, "new");
-    expect_bytes(twin, "new");
-    struct diag diag = {0};
-    struct output *output = output_open(scratch->path, &diag);
-    assert_int_equal(output_write(output, "half", 4, &diag), 0);
-    assert_int_equal(output_close(output, false, &diag), 0);
-    expect_bytes(twin, "new");
-    unlink(twin);
+    for (int i = 0; i < 2; i++) {
+        names_only = i == 1;
+        write_word(scratch->path, "old");
+        assert_int_equal(link(scratch->path, twin), 0);
+        end_early(scratch->path, 0);
+        expect_bytes(scratch->path, "old");
+        write_word(scratch->path, "new");
+        expect_bytes(scratch->path, "new");
+        expect_bytes(twin, "old");
+        unlink(twin);
+    }
+    names_only = false;
 }
 
-static void a_file_that_is_mounted_by_itself_is_written(void **state)
+static void a_file_that_turns_out_to_be_irreplaceable_keeps_its_bytes(void **state)
 {
     struct scratch *scratch = *state;
-    write_word(scratch->path, "older");
+    write_word(scratch->path, "old");
     int before = files_in(scratch->directory);
-    mounted = true;
-    write_word(scratch->path, "new");
-    mounted = false;
+    for (int i = 0; i < 2; i++) {
+        struct diag diag = {0};
+        names_only = i == 1;
+        struct output *output = output_open(scratch->path, &diag);
+        assert_int_equal(output_write(output, "new", 3, &diag), 0);
+        irreplaceable = true;
+        assert_int_equal(output_close(output, true, &diag), -1);
+        irreplaceable = false;
+        assert_int_equal(diag.code, DIAG_CANNOT_CREATE);
+        assert_non_null(strstr(diag.text, "busy; no new file can take the place of this one"));
+        expect_bytes(scratch->path, "old");
+        assert_int_equal(files_in(scratch->directory), before);
+    }
+    names_only = false;
+}
+
+/* What a user without rights finds: the message, and the old bytes. */
+static void expect_refused(const struct scratch *scratch, const char *message)
+{
+    int code = -1;
+    pid_t child = fork();
+    if (child == 0) {
+        struct diag diag = {0};
+        bool ordinary = geteuid() != 0 || setuid(65534) == 0;
+        bool refused = output_open(scratch->path, &diag) == NULL;
+        _exit(ordinary && refused && strstr(diag.text, message) ? 0 : 1);
+    }
+    assert_int_equal(waitpid(child, &code, 0), child);
+    assert_int_equal(code, 0);
+    expect_bytes(scratch->path, "old");
+}
+
+static void a_file_that_may_be_written_but_not_replaced_is_refused_at_once(void **state)
+{
+    struct scratch *scratch = *state;
+    write_word(scratch->path, "old");
+    assert_int_equal(chmod(scratch->path, 0666), 0);
+    assert_int_equal(chmod(scratch->directory, 0555), 0);
+    expect_refused(scratch, ": Permission denied; no new file can take the place of this one: ");
+    if (geteuid() == 0) {
+        assert_int_equal(chmod(scratch->directory, 01777), 0);
+        expect_refused(scratch, ": Operation not permitted; no new file can take the place of ");
+    } else {
+        print_message("left out, for it takes root: somebody else's file in a sticky folder\n");
+    }
+    assert_int_equal(chmod(scratch->directory, 0700), 0);
+    unlink(scratch->path);
+}
+
+/* The user who replaces it owns the new one, which gives no rights of the old owner's. */
+static void somebody_elses_file_is_replaced(void **state)
+{
+    struct scratch *scratch = *state;
+    struct stat status;
+    if (geteuid() != 0) {
+        print_message("left out, for it takes root: somebody else's file\n");
+        return;
+    }
+    write_word(scratch->path, "old");
+    assert_int_equal(chmod(scratch->path, 06766), 0);
+    assert_int_equal(chmod(scratch->directory, 0777), 0);
+    int code = -1;
+    pid_t child = fork();
+    if (child == 0) {
+        bool ordinary = setgid(65533) == 0 && setuid(65534) == 0;
+        write_word(scratch->path, "new");
+        _exit(!ordinary);
+    }
+    assert_int_equal(waitpid(child, &code, 0), child);
+    assert_int_equal(code, 0);
     expect_bytes(scratch->path, "new");
-    assert_int_equal(files_in(scratch->directory), before);
+    assert_int_equal(stat(scratch->path, &status), 0);
+    assert_int_equal(status.st_uid, 65534);
+    assert_int_equal(status.st_mode & 07777, 0766);
+    assert_int_equal(chmod(scratch->directory, 0700), 0);
+    unlink(scratch->path);
 }
 
 static void a_file_that_may_not_be_written_is_refused_at_once(void **state)
@@ -424,16 +551,8 @@ static void a_file_that_may_not_be_written_is_refused_at_once(void **state)
     write_word(scratch->path, "old");
     assert_int_equal(chmod(scratch->path, 0444), 0);
     assert_int_equal(chmod(scratch->directory, 0777), 0);
-    int code = -1;
-    pid_t child = fork();
-    if (child == 0) {
-        struct diag diag = {0};
-        bool ordinary = geteuid() != 0 || setuid(65534) == 0;
-        bool refused = output_open(scratch->path, &diag) == NULL;
-        _exit(ordinary && refused && strstr(diag.text, "Permission denied") ? 0 : 1);
-    }
-    assert_int_equal(waitpid(child, &code, 0), child);
-    assert_int_equal(code, 0);
+    expect_refused(scratch, ": Permission denied");
+    assert_int_equal(chmod(scratch->directory, 0700), 0);
     unlink(scratch->path);
 }
 
@@ -626,11 +745,15 @@ int main(void)
         cmocka_unit_test(the_name_is_taken_only_when_the_file_is_complete),
         cmocka_unit_test(a_file_that_is_replaced_keeps_its_mode),
         cmocka_unit_test(a_run_that_is_ended_leaves_the_folder_as_it_was),
+        cmocka_unit_test(what_a_killed_run_leaves_is_named_plainly_and_removed_by_the_next),
+        cmocka_unit_test(a_temporary_file_that_may_be_in_use_stays),
         cmocka_unit_test(a_full_disk_leaves_the_folder_as_it_was),
         cmocka_unit_test(a_planted_link_is_neither_followed_nor_removed),
         cmocka_unit_test(two_writers_of_one_name_each_leave_a_whole_file),
-        cmocka_unit_test(a_file_of_two_names_stays_one_file),
-        cmocka_unit_test(a_file_that_is_mounted_by_itself_is_written),
+        cmocka_unit_test(the_other_name_of_a_file_that_is_replaced_keeps_the_old_bytes),
+        cmocka_unit_test(a_file_that_turns_out_to_be_irreplaceable_keeps_its_bytes),
+        cmocka_unit_test(a_file_that_may_be_written_but_not_replaced_is_refused_at_once),
+        cmocka_unit_test(somebody_elses_file_is_replaced),
         cmocka_unit_test(a_file_that_may_not_be_written_is_refused_at_once),
         cmocka_unit_test(a_link_to_nothing_makes_the_file_that_it_names),
         cmocka_unit_test(a_name_may_be_as_long_as_the_file_system_allows),
