@@ -127,9 +127,11 @@ static int begin_cost(struct plan_state *own, struct runner *runner)
         (own->within != NULL && read_bound("within", own->within, "us", 1, &own->bound, diag) != 0))
         return -1;
     own->cost = own->cost || bounded;
+    own->json = own->json || runner_output_ends(runner, ".json");
     if (!own->cost && (own->brief || own->json || own->frames > 0 || own->reference >= 0))
         return diag_fail(diag, DIAG_USAGE,
-                         "--brief, --json, --frames and --reference: only with --cost");
+                         "--brief, --json or an --output of .json, --frames and --reference: only with "
+                         "--cost");
     own->measured = (struct cost){
         .runner = runner,
         .suite = own->choice.sensors,
@@ -237,7 +239,8 @@ static const struct field plan_options[] = {
                      "what errors are measured from; absent: the signal where there is one"),
      .absent = -1},
     {OPTIONAL_FLAG(struct plan_state, brief, "measure no chains that leave out an effect")},
-    {OPTIONAL_FLAG(struct plan_state, json, "write the costs as a line of JSON")},
+    {OPTIONAL_FLAG(struct plan_state, json,
+                   "write the costs as a line of JSON, as to an --output that ends in .json")},
     {0},
 };
 

@@ -135,7 +135,7 @@ static const struct field traffic_random_options[] = {
     {OPTIONAL_INTEGER(struct traffic_random, first, 0, 1e9,
                       "number of the first snapshot; absent: 0"),
      .absent = -1},
-    {OPTIONAL_REAL(struct traffic_random, seconds, 0, 1e5,
+    {OPTIONAL_REAL(struct traffic_random, seconds, 1e-4, 1e5,
                    "make moving scenes of this length in place of snapshots")},
     {OPTIONAL_NAME(struct traffic_random, scene,
                    "the scenes' name, before seed and number; absent: as moving-medium")},

@@ -36,9 +36,13 @@ static int view_start(void *state, struct runner *runner)
     if (view->vehicles != NULL &&
         document_check_folder("--vehicles", view->vehicles, runner_diag(runner)) != 0)
         return -1;
+    if (view->svg && runner_output_ends(runner, ".html"))
+        return diag_fail(runner_diag(runner), DIAG_USAGE,
+                         "--svg: --output is a page by its name; expected one that ends in .svg");
+    view->svg = view->svg || runner_output_ends(runner, ".svg");
     if (view->svg && (view->truth != NULL || view->tracks != NULL))
         return diag_fail(runner_diag(runner), DIAG_USAGE,
-                         "--svg: the still shows neither --truth nor --tracks");
+                         "--svg or an --output of .svg: the still shows neither --truth nor --tracks");
     return open_beside(view->truth, &view->comparison.truth, runner) != 0
                ? -1
                : open_beside(view->tracks, &view->comparison.tracks, runner);
@@ -132,7 +136,8 @@ static int view_stop(void *state, struct runner *runner)
 }
 
 static const struct field view_fields[] = {
-    {OPTIONAL_FLAG(struct view, svg, "write one frame as an SVG still")},
+    {OPTIONAL_FLAG(struct view, svg,
+                   "write one frame as an SVG still, as for an --output that ends in .svg")},
     {OPTIONAL_INTEGER(struct view, frame, 0, 0x1p53,
                       "the page opens at this frame, the still shows it"),
      .absent = -1},

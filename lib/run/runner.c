@@ -9,8 +9,8 @@
 #include "run/suite_choice.h"
 #include "score/reference_stream.h"
 #include "text/document.h"
+#include "text/path.h"
 #include "text/record_text.h"
-#include "text/same_file.h"
 
 struct arena *runner_arena(struct runner *runner)
 {
@@ -400,6 +400,15 @@ static struct output *add_output(struct runner *runner, const char *path)
     return output;
 }
 
+bool runner_output_ends(const struct runner *runner, const char *ending)
+{
+    const char *path = runner->common.output != NULL ? runner->common.output : "";
+    size_t length = strlen(path), end = strlen(ending);
+    if (length > 3 && strcmp(path + length - 3, ".gz") == 0)
+        length -= 3;
+    return length > end && strncmp(path + length - end, ending, end) == 0;
+}
+
 struct output *runner_output(struct runner *runner)
 {
     return add_output(runner, runner->common.output != NULL ? runner->common.output : "-");
@@ -408,7 +417,8 @@ struct output *runner_output(struct runner *runner)
 bool runner_writes_to(const struct runner *runner, const char *path)
 {
     const char *output = runner->common.output;
-    return same_file(path, output == NULL || strcmp(output, "-") == 0 ? "/dev/stdout" : output);
+    return path_same_file(path,
+                          output == NULL || strcmp(output, "-") == 0 ? "/dev/stdout" : output);
 }
 
 struct output *runner_output_beside(struct runner *runner, const char *path)
@@ -419,10 +429,22 @@ struct output *runner_output_beside(struct runner *runner, const char *path)
     return NULL;
 }
 
+/* Refuses an output that one of the runners appends its explanations to. */
+static bool is_explained(struct runner *runner, const char *path)
+{
+    for (const struct runner *from = runner; from != NULL; from = from->before)
+        if (from->common.explain != NULL && path_same_file(path, from->common.explain))
+            diag_fail(&runner->diag, DIAG_USAGE,
+                      "%s: --explain of glint-%s is the same file; expected another one", path,
+                      from->program.name);
+    return runner->diag.code != DIAG_OK;
+}
+
 struct output *runner_output_in(struct runner *runner, const char *folder, const char *name)
 {
+    const char *path = arena_format(&runner->arena, "%s/%s", folder, name);
     if (document_check_folder("DIR", folder, &runner->diag) == 0)
-        return add_output(runner, arena_format(&runner->arena, "%s/%s", folder, name));
+        return is_explained(runner, path) ? NULL : add_output(runner, path);
     runner->diag.code = DIAG_CANNOT_CREATE;
     return NULL;
 }
