@@ -129,9 +129,10 @@ static int begin_cost(struct plan_state *own, struct runner *runner)
     own->cost = own->cost || bounded;
     own->json = own->json || runner_output_ends(runner, ".json");
     if (!own->cost && (own->brief || own->json || own->frames > 0 || own->reference >= 0))
-        return diag_fail(diag, DIAG_USAGE,
-                         "--brief, --json or an --output of .json, --frames and --reference: only with "
-                         "--cost");
+        return diag_fail(
+            diag, DIAG_USAGE,
+            "--brief, --json or an --output of .json, --frames and --reference: only with "
+            "--cost");
     own->measured = (struct cost){
         .runner = runner,
         .suite = own->choice.sensors,

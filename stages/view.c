@@ -41,8 +41,9 @@ static int view_start(void *state, struct runner *runner)
                          "--svg: --output is a page by its name; expected one that ends in .svg");
     view->svg = view->svg || runner_output_ends(runner, ".svg");
     if (view->svg && (view->truth != NULL || view->tracks != NULL))
-        return diag_fail(runner_diag(runner), DIAG_USAGE,
-                         "--svg or an --output of .svg: the still shows neither --truth nor --tracks");
+        return diag_fail(
+            runner_diag(runner), DIAG_USAGE,
+            "--svg or an --output of .svg: the still shows neither --truth nor --tracks");
     return open_beside(view->truth, &view->comparison.truth, runner) != 0
                ? -1
                : open_beside(view->tracks, &view->comparison.tracks, runner);
