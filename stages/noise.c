@@ -4,6 +4,7 @@
 #include "base/units.h"
 #include "noise/false_alarm_cells.h"
 #include "noise/measurement_noise.h"
+#include "radar/interferer.h"
 #include "run/suite_choice.h"
 
 /* Measures all cells and keeps those that are still a target after noise. Returns their number. */
@@ -16,7 +17,7 @@ static size_t measure_cells(struct frame *frame, const struct effect_scan *conte
         const struct cell *cell = &cells.items[i];
         struct effect_measurement *measurement = &measurements[count];
         bool has_angle = measurement_noise_read(context, cell, measurement);
-        double threshold = suite_threshold(context->sensor, cell->interference);
+        double threshold = context->sensor->threshold * interferer_noise_factor(cell->interference);
         if (tested && measurement->amplitude < threshold)
             frame_lose_cell(frame, "noise", cell, LOSS_BELOW_FINAL,
                             units_shortfall_db(threshold, measurement->amplitude),

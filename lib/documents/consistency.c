@@ -3,12 +3,6 @@
 #include "base/elementary.h"
 #include "base/units.h"
 
-double consistency_dwell_s(const struct sensor *sensor)
-{
-    return units_wavelength_m(sensor->carrier_hz) /
-           (2 * suite_cell_width(sensor, sensor->cell_range_rate_mps));
-}
-
 double consistency_fold_mps(const struct sensor *sensor)
 {
     const struct waveform *waveform = &sensor->waveform;
@@ -28,10 +22,8 @@ double consistency_beam_rad(const struct sensor *sensor)
  * false alarms times azimuths, of which there is one without an azimuth_cell_rad. */
 static double cells(const struct sensor *sensor)
 {
-    double ranges = (sensor->range_max_m - sensor->range_min_m) /
-                    suite_cell_width(sensor, sensor->cell_range_m);
-    double rates = 2 * sensor->false_alarm_range_rate_mps /
-                   suite_cell_width(sensor, sensor->cell_range_rate_mps);
+    double ranges = (sensor->range_max_m - sensor->range_min_m) / (2 * sensor->half_range_m);
+    double rates = 2 * sensor->false_alarm_range_rate_mps / (2 * sensor->half_range_rate_mps);
     double azimuths =
         sensor->azimuth_cell_rad > 0 ? sensor->field_of_view_rad / sensor->azimuth_cell_rad : 1;
     return elementary_max(ranges, 1) * elementary_max(rates, 1) * elementary_max(azimuths, 1);
@@ -50,7 +42,7 @@ static double signal_alarms(const struct sensor *sensor)
 /* The mean number of cells that noise alone carries over the threshold in a scan (MODEL 14.9). */
 static double noise_alarms(const struct sensor *sensor)
 {
-    double ratio = units_amplitude_from_db(sensor->threshold_db) / sensor->pointer_sigma;
+    double ratio = sensor->threshold / sensor->pointer_sigma;
     return cells(sensor) * elementary_exp(-elementary_min(ratio * ratio, 600));
 }
 
@@ -77,7 +69,7 @@ static size_t add_strict(const struct sensor *sensor, struct consistency *checks
 {
     size_t count = 0;
     double alarm_rate_mps = sensor->false_alarms > 0 ? sensor->false_alarm_range_rate_mps : 0;
-    double dwell_s = consistency_dwell_s(sensor), stagger = (double)sensor->waveform.stagger;
+    double dwell_s = sensor->dwell_s, stagger = (double)sensor->waveform.stagger;
     double trains = stagger > 0 ? 2 + 1 / stagger : 0;
     ADD(STRICT, S, "dwell, wavelength/(2 cell_range_rate_mps)", dwell_s, "cycle_s", sensor->cycle_s,
         "cell_range_rate_mps");
@@ -94,10 +86,10 @@ static size_t add_signal(const struct sensor *sensor, struct consistency *checks
 {
     double sweep_hz = fabs(sensor->chirp_slope_hzps) * sensor->chirp_s;
     double sweep_m = sweep_hz > 0 ? SPEED_OF_LIGHT_MPS / (2 * sweep_hz) : 0;
-    double rate_mps = sensor->unambiguous_rate_mps, dwell_s = consistency_dwell_s(sensor);
+    double rate_mps = sensor->unambiguous_rate_mps, dwell_s = sensor->dwell_s;
     double repetition_s =
         rate_mps > 0 ? units_wavelength_m(sensor->carrier_hz) / (4 * rate_mps) : 0;
-    double cell_m = suite_cell_width(sensor, sensor->cell_range_m);
+    double cell_m = 2 * sensor->half_range_m;
     double walk_m = sensor->range_migration == MIGRATION_COMPENSATED ? 0 : rate_mps * dwell_s;
     LIMIT(MPS, "unambiguous_rate_mps", rate_mps, "signal, by repetitions and stagger",
           consistency_fold_mps(sensor));
@@ -116,8 +108,8 @@ static size_t add_signal(const struct sensor *sensor, struct consistency *checks
 
 static size_t add_accuracy(const struct sensor *sensor, struct consistency *checks, size_t count)
 {
-    double cell_m = suite_cell_width(sensor, sensor->cell_range_m);
-    double cell_mps = suite_cell_width(sensor, sensor->cell_range_rate_mps), even = 1 / sqrt(12);
+    double cell_m = 2 * sensor->half_range_m;
+    double cell_mps = 2 * sensor->half_range_rate_mps, even = 1 / sqrt(12);
     double factor = sensor->sigma_law == SIGMA_BY_SNR ? sensor->window_factor : 0;
     LIMIT(M, "range_sigma_m", sensor->range_sigma_m, "cell_range_m/sqrt(12)", cell_m * even);
     LIMIT(MPS, "range_rate_sigma_mps", sensor->range_rate_sigma_mps, "cell_range_rate_mps/sqrt(12)",

@@ -41,11 +41,8 @@ size_t consistency_list(const struct sensor *sensor, struct consistency *checks)
 bool consistency_holds(const struct consistency *check);
 
 /* Refuses the impossible (DIAG_CONFIG), with the paths of both members; index is the sensor's in
- * its suite. Derived members are not needed. */
+ * its suite. */
 int consistency_check(const struct sensor *sensor, size_t index, struct diag *diag);
-
-/* The time that the signal of a scan takes to part range rates by a cell, wavelength/(2 cell). */
-double consistency_dwell_s(const struct sensor *sensor);
 
 /* Range rates within +- this are read right from the signal of the waveform (MODEL 11.3); 0 without
  * one. */

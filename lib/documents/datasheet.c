@@ -17,12 +17,10 @@ static struct datasheet_accuracy accuracy_at(const struct sensor *sensor, double
     double ratio = amplitude / sensor->pointer_sigma;
     struct datasheet_accuracy accuracy = {
         .snr_db = units_amplitude_db(ratio),
-        .range_sigma_m = with_rounding(
-            suite_sigma(sensor, amplitude, sensor->cell_range_m, sensor->range_sigma_m),
-            sensor->range_step_m),
+        .range_sigma_m = with_rounding(measurement_sigma_at(&sensor->range_error, amplitude),
+                                       sensor->range_step_m),
         .range_rate_sigma_mps =
-            with_rounding(suite_sigma(sensor, amplitude, sensor->cell_range_rate_mps,
-                                      sensor->range_rate_sigma_mps),
+            with_rounding(measurement_sigma_at(&sensor->range_rate_error, amplitude),
                           sensor->range_rate_step_mps),
     };
     for (int i = 0; i < DATASHEET_AZIMUTHS; i++) {
@@ -71,11 +69,14 @@ void datasheet_of(const struct sensor *sensor, struct datasheet *sheet)
 {
     *sheet = (struct datasheet){.echo_dbsm = {0, 10, 20}};
     for (int i = 0; i < DATASHEET_AZIMUTHS; i++)
-        sheet->azimuth_rad[i] = suite_border_rad(sensor) * i / (DATASHEET_AZIMUTHS - 1);
+        sheet->azimuth_rad[i] =
+            antenna_border_rad(sensor->field_of_view_rad) * i / (DATASHEET_AZIMUTHS - 1);
     for (int i = 0; i < DATASHEET_LEVELS; i++)
         sheet->accuracy[i] = accuracy_at(
             sensor, sensor->threshold * units_amplitude_from_db(10 * i), sheet->azimuth_rad);
     add_ranges(sensor, sheet);
-    double ercs = sensor->threshold / suite_amplitude(sensor, sensor->range_max_m, 0, 1);
+    double ercs =
+        sensor->threshold / (radar_strength(&sensor->amplitude_law, sensor->range_max_m, 1) *
+                             antenna_gain(&sensor->antenna, 0));
     sheet->weakest_dbsm = 10 * elementary_log10(radar_cross_section_m2(ercs));
 }

@@ -17,8 +17,8 @@ static void add_update(const struct sensor *sensor, struct text *text)
         text_format(text, "every %.4g ms", 1e3 * sensor->cycle_s);
     else
         text_add_word(text, "in every frame");
-    text_format(text, ", from a dwell of %.3g ms; latency %.4g ms\n",
-                1e3 * consistency_dwell_s(sensor), 1e3 * sensor->latency_s);
+    text_format(text, ", from a dwell of %.3g ms; latency %.4g ms\n", 1e3 * sensor->dwell_s,
+                1e3 * sensor->latency_s);
 }
 
 static void add_ambiguity(const struct sensor *sensor, struct text *text)

@@ -1,14 +1,9 @@
 #include "documents/suite.h"
 
-#include "base/elementary.h"
-#include "base/units.h"
-#include "radar/interferer.h"
-#include "radar/scan_timing.h"
-#include "radar/snr_sigma.h"
+#include <math.h>
 
-/* A field of view ends this much before its border, so that the foot on a wall parallel to
- * boresight, at 90 degrees but for its rounding, is outside. */
-#define BORDER_RAD 1e-9
+#include "base/units.h"
+#include "radar/scan_timing.h"
 
 static const char *const extents[] = {
     [CELL_WIDTH] = "width", [CELL_HALF_WIDTH] = "half_width", NULL};
@@ -194,18 +189,12 @@ const struct sensor *suite_sensor(const struct suite *suite, const char *name)
     return NULL;
 }
 
-double suite_instant_s(const struct sensor *sensor, double time_s, double interval_s, bool late)
-{
-    double instant_s = time_s;
-    scan_timing_instant_s(sensor->cycle_s, time_s, interval_s, &instant_s);
-    return instant_s - (late ? sensor->latency_s : 0);
-}
-
 void suite_derive(struct sensor *sensor)
 {
-    double part = sensor->cell_extent == CELL_WIDTH ? 0.5 : 1;
-    sensor->half_range_m = part * sensor->cell_range_m;
-    sensor->half_range_rate_mps = part * sensor->cell_range_rate_mps;
+    sensor->half_range_m = resolution_half_width(sensor->cell_extent, sensor->cell_range_m);
+    sensor->half_range_rate_mps =
+        resolution_half_width(sensor->cell_extent, sensor->cell_range_rate_mps);
+    sensor->dwell_s = scan_timing_dwell_s(sensor->carrier_hz, 2 * sensor->half_range_rate_mps);
     sensor->threshold = units_amplitude_from_db(sensor->threshold_db);
     sensor->antenna.pattern = sensor->antenna_pattern;
     sensor->antenna.phase = sensor->phase_reference;
@@ -215,38 +204,17 @@ void suite_derive(struct sensor *sensor)
     sensor->amplitude_law.calibration_range_m = sensor->calibration_range_m;
     sensor->amplitude_law.range_floor_m = sensor->range_floor_m;
     sensor->amplitude_law.threshold = sensor->threshold;
-}
-
-double suite_cell_width(const struct sensor *sensor, double cell)
-{
-    return sensor->cell_extent == CELL_HALF_WIDTH ? 2 * cell : cell;
-}
-
-double suite_border_rad(const struct sensor *sensor)
-{
-    return sensor->field_of_view_rad / 2 - BORDER_RAD;
-}
-
-double suite_threshold(const struct sensor *sensor, double interference)
-{
-    return sensor->threshold * interferer_noise_factor(interference);
-}
-
-double suite_amplitude(const struct sensor *sensor, double range_m, double azimuth_rad, double ercs)
-{
-    return radar_reference_amplitude(&sensor->amplitude_law, range_m) * ercs *
-           antenna_gain(&sensor->antenna, azimuth_rad);
-}
-
-double suite_sigma(const struct sensor *sensor, double amplitude, double cell, double sigma)
-{
-    double ratio = amplitude / sensor->pointer_sigma;
-    struct snr_sigma law = {.cell = cell, .factor = sensor->window_factor, .floor = sigma};
-    if (sensor->sigma_law == SIGMA_BY_SNR)
-        return snr_sigma_of(&law, ratio * ratio);
-    if (sensor->sigma_law == SIGMA_BY_AMPLITUDE)
-        return elementary_min(sensor->threshold / amplitude, 1) * sigma;
-    return sigma;
+    sensor->range_error = (struct measurement_sigma){
+        .law = sensor->sigma_law,
+        .sigma = sensor->range_sigma_m,
+        .cell = sensor->cell_range_m,
+        .factor = sensor->window_factor,
+        .threshold = sensor->threshold,
+        .noise = sensor->pointer_sigma,
+    };
+    sensor->range_rate_error = sensor->range_error;
+    sensor->range_rate_error.sigma = sensor->range_rate_sigma_mps;
+    sensor->range_rate_error.cell = sensor->cell_range_rate_mps;
 }
 
 /* Refuses chirps that would take longer than from one repetition to the next. */

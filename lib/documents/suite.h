@@ -9,14 +9,14 @@
 #include "frame/effects.h"
 #include "propagation/carrier.h"
 #include "radar/antenna.h"
+#include "radar/measurement_sigma.h"
 #include "radar/monopulse.h"
 #include "radar/radar_equation.h"
+#include "radar/resolution.h"
 #include "radar/swerling.h"
 #include "text/field.h"
 
-enum cell_extent { CELL_WIDTH, CELL_HALF_WIDTH };
 enum cell_phase { CELL_IN_PHASE, CELL_RANDOM_PHASE, CELL_PHASE_BY_PATH };
-enum sigma_law { SIGMA_FIXED, SIGMA_BY_AMPLITUDE, SIGMA_BY_SNR };
 enum if_sampling { IF_REAL, IF_COMPLEX };
 enum range_migration {
     MIGRATION_NONE,
@@ -83,8 +83,10 @@ struct sensor {
 
     struct radar_equation amplitude_law;
     struct antenna antenna;
+    struct measurement_sigma range_error, range_rate_error;
     double threshold;                         /* linear, on the amplitude */
-    double half_range_m, half_range_rate_mps; /* half the size of a cell */
+    double half_range_m, half_range_rate_mps; /* half the width of a cell */
+    double dwell_s;                           /* of a scan's signal */
     struct suite_prior prior;
 };
 
@@ -103,34 +105,10 @@ extern const struct record sensor_record, suite_record;
 /* The sensor of that name, or NULL. */
 const struct sensor *suite_sensor(const struct suite *suite, const char *name);
 
-/* The instant whose world the sensor shows in a frame of this time and interval: that of its scan,
- * less its latency if late is true. */
-double suite_instant_s(const struct sensor *sensor, double time_s, double interval_s, bool late);
-
-/* Fills a sensor's derived members, but for the suite's prior, from the document's; the tables that
- * it names must be in place already. */
+/* Fills a sensor's derived members from the document's, but for the suite's prior and the rows of
+ * tables. */
 void suite_derive(struct sensor *sensor);
 
 /* Refuses combinations of members that contradict each other; each member alone is checked by its
  * field. */
 int suite_check(const struct sensor *sensor, struct diag *diag);
-
-/* The full width of a resolution cell of which the document says this size (cell_extent). */
-double suite_cell_width(const struct sensor *sensor, double cell);
-
-/* Azimuths from this on, to either side, are outside the sensor's field of view. */
-double suite_border_rad(const struct sensor *sensor);
-
-/* The detection threshold on an amplitude. It rises with interference, the ratio of the power of
- * other radars to the sensor's own noise. */
-double suite_threshold(const struct sensor *sensor, double interference);
-
-/* The amplitude of a direct echo without effects, A_ref(R) ERCS A_phi (equation (2) of the paper,
- * MODEL 4). */
-double suite_amplitude(const struct sensor *sensor, double range_m, double azimuth_rad,
-                       double ercs);
-
-/* The standard deviation of range or range rate at an amplitude > 0, by sigma_law (MODEL 9, 14.7),
- * of that size of a cell: sigma itself, the document's; threshold/amplitude of it, at most 1; or
- * that of radar/snr_sigma.h at the ratio (amplitude/pointer_sigma)^2, with sigma as floor. */
-double suite_sigma(const struct sensor *sensor, double amplitude, double cell, double sigma);

@@ -14,11 +14,10 @@ static bool set_sigmas(const struct effect_scan *scan, struct effect_measurement
     const struct sensor *sensor = scan->sensor;
     const struct cell *cell = measurement->cell;
     double amplitude = cell->amplitude / interferer_noise_factor(cell->interference);
-    double range_m = sensor->range_sigma_m, rate_mps = sensor->range_rate_sigma_mps;
-    measurement->range_sigma_m = suite_sigma(sensor, amplitude, sensor->cell_range_m, range_m);
-    measurement->range_rate_sigma_mps =
-        suite_sigma(sensor, amplitude, sensor->cell_range_rate_mps, rate_mps);
-    return measurement->range_sigma_m != range_m || measurement->range_rate_sigma_mps != rate_mps;
+    measurement->range_sigma_m = measurement_sigma_at(&sensor->range_error, amplitude);
+    measurement->range_rate_sigma_mps = measurement_sigma_at(&sensor->range_rate_error, amplitude);
+    return measurement->range_sigma_m != sensor->range_sigma_m ||
+           measurement->range_rate_sigma_mps != sensor->range_rate_sigma_mps;
 }
 
 const struct effect effect_accuracy = {

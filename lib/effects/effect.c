@@ -2,6 +2,7 @@
 
 #include "base/elementary.h"
 #include "frame/draw_address.h"
+#include "radar/scan_timing.h"
 
 #define EFFECT(id, name) extern const struct effect effect_##name;
 #include "frame/effects.def"
@@ -45,14 +46,22 @@ static void add_effect(struct effect_scan *scan, enum effect_id id)
     effect->begin(scan, scan->constants[id]);
 }
 
+/* The instant whose world the sensor shows: that of its scan, less its latency. */
+static double shown_instant_s(const struct frame *frame, const struct sensor *sensor,
+                              const struct selection *selection)
+{
+    double instant_s = frame->time_s;
+    scan_timing_instant_s(sensor->cycle_s, frame->time_s, frame->interval_s, &instant_s);
+    return instant_s - (effects_enabled(selection, EFFECT_LATENCY) ? sensor->latency_s : 0);
+}
+
 struct effect_scan effect_begin(const struct frame *frame, const struct sensor *sensor,
                                 const struct selection *selection, enum effect_home home)
 {
     struct effect_scan scan = {
         .frame = frame,
         .sensor = sensor,
-        .time_s = suite_instant_s(sensor, frame->time_s, frame->interval_s,
-                                  effects_enabled(selection, EFFECT_LATENCY)),
+        .time_s = shown_instant_s(frame, sensor, selection),
         .address = draw_address_of_scan(frame, sensor->name),
     };
     if (home == EFFECT_HOME_SENSOR)
@@ -85,7 +94,8 @@ void effect_add(const struct effect_scan *scan, struct effect_echoes *echoes,
 {
     const struct sensor *sensor = scan->sensor;
     if (echo->range_m > 0 && echo->range_m >= sensor->range_min_m &&
-        echo->range_m <= sensor->range_max_m && fabs(echo->azimuth_rad) < suite_border_rad(sensor))
+        echo->range_m <= sensor->range_max_m &&
+        fabs(echo->azimuth_rad) < antenna_border_rad(sensor->field_of_view_rad))
         *list_add(&echoes->list, scan->frame->arena) = *echo;
 }
 

@@ -3,7 +3,7 @@
  * glint-sensor-signal has the walk in its samples instead. */
 #include "effects/effect.h"
 
-#include "documents/consistency.h"
+#include "radar/point_response.h"
 
 /* Effects before this one may add echoes that walk where those of ideal stand. */
 static bool some_echo_walks(const struct effect_scan *scan)
@@ -26,7 +26,7 @@ static bool described(const struct effect_scan *scan)
 static void begin(const struct effect_scan *scan, double *cells_per_mps)
 {
     const struct sensor *sensor = scan->sensor;
-    *cells_per_mps = consistency_dwell_s(sensor) / suite_cell_width(sensor, sensor->cell_range_m);
+    *cells_per_mps = sensor->dwell_s / (2 * sensor->half_range_m);
 }
 
 static bool receive(const struct effect_scan *scan, struct effect_reception *reception)

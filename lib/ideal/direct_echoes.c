@@ -133,13 +133,13 @@ static bool in_reach(struct look *look, const struct look_body *body, struct can
     double azimuth = fabs(read->azimuth_rad);
     double reach_m = fabs(
         elementary_min(read->range_m - sensor->range_min_m, sensor->range_max_m - read->range_m));
-    double view_m = read->range_m * fabs(suite_border_rad(sensor) - azimuth);
+    double view_m = read->range_m * fabs(antenna_border_rad(sensor->field_of_view_rad) - azimuth);
     if (!(read->range_m > 0 && read->range_m >= sensor->range_min_m &&
           read->range_m <= sensor->range_max_m)) {
         lose(look, body, candidate->reflector, candidate->place, LOSS_OUT_OF_RANGE, NULL, reach_m);
         return false;
     }
-    if (!(azimuth < suite_border_rad(sensor))) {
+    if (!(azimuth < antenna_border_rad(sensor->field_of_view_rad))) {
         lose(look, body, candidate->reflector, candidate->place, LOSS_OUT_OF_VIEW, NULL, view_m);
         return false;
     }

@@ -216,14 +216,16 @@ static bool is_within_limits(const struct sensor *sensor, const struct kinematic
                              double departure_rad)
 {
     return read->range_m >= sensor->range_min_m && read->range_m <= sensor->range_max_m &&
-           fabs(read->azimuth_rad) < suite_border_rad(sensor) && fabs(departure_rad) <= PI / 2;
+           fabs(read->azimuth_rad) < antenna_border_rad(sensor->field_of_view_rad) &&
+           fabs(departure_rad) <= PI / 2;
 }
 
 static double limits_margin_m(const struct sensor *sensor, const struct kinematics *read,
                               double departure_rad)
 {
-    double view_rad = elementary_min(suite_border_rad(sensor) - fabs(read->azimuth_rad),
-                                     PI / 2 - fabs(departure_rad));
+    double view_rad =
+        elementary_min(antenna_border_rad(sensor->field_of_view_rad) - fabs(read->azimuth_rad),
+                       PI / 2 - fabs(departure_rad));
     return elementary_min(
         elementary_min(read->range_m - sensor->range_min_m, sensor->range_max_m - read->range_m),
         read->range_m * view_rad);

@@ -168,7 +168,8 @@ static void index_blockers(struct look *look)
 
 static void set_view_borders(struct look *look)
 {
-    double border_rad = suite_border_rad(look->sensor), lifted = look->height_m > 0 ? LIFTED : 1;
+    double border_rad = antenna_border_rad(look->sensor->field_of_view_rad),
+           lifted = look->height_m > 0 ? LIFTED : 1;
     double sine = border_rad < PI / 2 ? lifted * elementary_sin(border_rad) + SLACK : 1;
     if (!(sine < 1))
         return;

@@ -33,8 +33,8 @@ static void estimate_range(const struct detection_source *source,
     double range_m = sensor->range_sigma_m, rate_mps = sensor->range_rate_sigma_mps;
     bool noisy = effect_simulates(source->scan, EFFECT_RANGE_NOISE);
     if (effect_simulates(source->scan, EFFECT_ACCURACY)) {
-        range_m = suite_sigma(sensor, strength, sensor->cell_range_m, range_m);
-        rate_mps = suite_sigma(sensor, strength, sensor->cell_range_rate_mps, rate_mps);
+        range_m = measurement_sigma_at(&sensor->range_error, strength);
+        rate_mps = measurement_sigma_at(&sensor->range_rate_error, strength);
     }
     measurement->range_sigma_m = noisy ? range_m : 0;
     measurement->range_rate_sigma_mps = noisy ? rate_mps : 0;
@@ -105,7 +105,8 @@ static void add_strength(const struct detection_source *source,
     double ratio = measurement->amplitude / source->noise;
     double expected = units_amplitude_from_db(sensor->prior.snr_db);
     double azimuth_rad = elementary_min(fabs(measurement->azimuth_rad), PI / 2);
-    double reference = suite_amplitude(sensor, measurement->range_m, azimuth_rad, 1);
+    double reference = radar_strength(&sensor->amplitude_law, measurement->range_m, 1) *
+                       antenna_gain(&sensor->antenna, azimuth_rad);
     struct existence existence = source->existence;
     if (reference > 0) {
         quality->rcs_dbsm =

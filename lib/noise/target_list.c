@@ -4,6 +4,7 @@
 #include "base/sort.h"
 #include "base/units.h"
 #include "frame/frame_order.h"
+#include "radar/interferer.h"
 
 void target_list_note_margins(const struct sensor *sensor, const struct cell *cell,
                               struct antenna_pointers pointers, double amplitude,
@@ -11,7 +12,8 @@ void target_list_note_margins(const struct sensor *sensor, const struct cell *ce
 {
     if (final_threshold)
         margins_note(margins, MARGIN_THRESHOLD,
-                     margins_between_db(amplitude, suite_threshold(sensor, cell->interference)));
+                     margins_between_db(amplitude, sensor->threshold * interferer_noise_factor(
+                                                                           cell->interference)));
     margins_note_sign(margins, sensor->angle_estimator, pointers);
 }
 

@@ -161,6 +161,11 @@ double antenna_beam_rad(const struct antenna *antenna)
     return 2 * azimuth_rad;
 }
 
+double antenna_border_rad(double field_of_view_rad)
+{
+    return field_of_view_rad / 2 - 1e-9;
+}
+
 double antenna_azimuth_rad(const struct antenna *antenna, double delta, double sum)
 {
     /* Scaling by a power of two changes neither the ratio nor any rounding. */

@@ -52,6 +52,11 @@ double antenna_gain(const struct antenna *antenna, double azimuth_rad);
  * least such azimuth to the left, within 5e-5 rad; PI if there is none. */
 double antenna_beam_rad(const struct antenna *antenna);
 
+/* Azimuths from this on, to either side, are outside a field of view of that full width. It ends
+ * 1e-9 rad before its border, so that the foot on a wall parallel to boresight, at 90 degrees but
+ * for its rounding, is outside (MODEL 2.5). */
+double antenna_border_rad(double field_of_view_rad);
+
 /* The azimuth at which the antenna has this ratio of delta to sum: equation (7) inverted (MODEL
  * 7.2). sum >= 0, delta is signed, not both are zero. The result is in [-pi/2, pi/2], or within the
  * ends of a table; for the dipole pair it is within 4 ulp (hard case 7). */

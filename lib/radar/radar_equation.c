@@ -49,6 +49,11 @@ static double table_range_m(const struct radar_equation *equation, double amplit
     return 0;
 }
 
+double radar_strength(const struct radar_equation *equation, double range_m, double ercs)
+{
+    return radar_reference_amplitude(equation, range_m) * ercs;
+}
+
 double radar_detection_range_m(const struct radar_equation *equation, double gain, double ercs)
 {
     if (equation->law == RADAR_TABLE)

@@ -31,6 +31,10 @@ struct radar_equation {
  * goes on as between the last two. */
 double radar_reference_amplitude(const struct radar_equation *equation, double range_m);
 
+/* The strength G of an echo before the antenna, A_ref · ERCS; its amplitude is G · A_phi, equation
+ * (2). */
+double radar_strength(const struct radar_equation *equation, double range_m, double ercs);
+
 /* The range up to which A_ref · gain · ercs meets the threshold (MODEL 4.1): by the power law
  * calibration_range_m (ercs · gain / calibration_ercs)^(1/exponent), by a table where its amplitude
  * falls below the threshold for good: 0 if it is so everywhere, infinity if the table does not fall

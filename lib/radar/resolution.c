@@ -3,6 +3,11 @@
 #include "base/elementary.h"
 #include "base/sort.h"
 
+double resolution_half_width(enum cell_extent extent, double size)
+{
+    return extent == CELL_WIDTH ? 0.5 * size : size;
+}
+
 #define NO_CELL SIZE_MAX
 
 static bool shares_cell(const struct resolution_echo *leader, const struct resolution_echo *echo,

@@ -11,6 +11,12 @@
 
 #include "base/arena.h"
 
+/* What the stated size of a cell means. */
+enum cell_extent { CELL_WIDTH, CELL_HALF_WIDTH };
+
+/* Half the width of a cell of that size. */
+double resolution_half_width(enum cell_extent extent, double size);
+
 struct resolution_echo {
     double range_m;
     double range_rate_mps;

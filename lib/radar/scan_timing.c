@@ -4,6 +4,12 @@
 #include <stdbool.h>
 
 #include "base/elementary.h"
+#include "base/units.h"
+
+double scan_timing_dwell_s(double carrier_hz, double cell_mps)
+{
+    return units_wavelength_m(carrier_hz) / (2 * cell_mps);
+}
 
 /* The number of the latest instant at or before time_s, counted from 0; -1 before the first. */
 static double latest_instant(double cycle_s, double time_s)

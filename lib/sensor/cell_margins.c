@@ -3,6 +3,7 @@
 #include <complex.h>
 
 #include "base/elementary.h"
+#include "radar/interferer.h"
 #include "radar/resolution.h"
 
 /* By how many half cells the other echo is beyond the edge of the leader's cell; negative inside.
@@ -107,6 +108,7 @@ struct margins *cell_margins_of(const struct sensor *sensor, const struct cluste
 void cell_margins_add(const struct sensor *sensor, struct cell *cell)
 {
     margins_note(&cell->margins, MARGIN_THRESHOLD,
-                 margins_between_db(cell->amplitude, suite_threshold(sensor, cell->interference)));
+                 margins_between_db(cell->amplitude, sensor->threshold * interferer_noise_factor(
+                                                                             cell->interference)));
     margins_note_sign(&cell->margins, sensor->angle_estimator, frame_cell_pointers(cell));
 }

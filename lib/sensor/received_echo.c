@@ -26,8 +26,8 @@ struct received_echo received_echo_in_free_space(const struct sensor *sensor,
         .margins = &echo->margins,
     };
     double gain = antenna_gain(&sensor->antenna, echo->azimuth_rad);
-    received.strength = radar_reference_amplitude(&sensor->amplitude_law, echo->range_m) *
-                        echo->ercs * departure_factor(&sensor->antenna, echo, gain);
+    received.strength = radar_strength(&sensor->amplitude_law, echo->range_m, echo->ercs) *
+                        departure_factor(&sensor->antenna, echo, gain);
     received.amplitude = received.strength * gain;
     return received;
 }

@@ -5,6 +5,7 @@
 #include "noise/false_alarm_cells.h"
 #include "noise/target_list.h"
 #include "radar/folding.h"
+#include "radar/interferer.h"
 #include "sensor/cell_margins.h"
 #include "signal/peak_accuracy.h"
 #include "signal/unfolding.h"
@@ -70,7 +71,9 @@ struct detections detections_of(const struct signal_cube *signal,
         .spectrum = spectrum,
         .cfar = waveform_cfar(&signal->sensor->waveform, SIGNAL_CUBE_PADDING, spectrum->beams),
         .noise = noise,
-        .least = noise > 0 ? 0 : suite_threshold(signal->sensor, context->interference),
+        .least = noise > 0
+                     ? 0
+                     : signal->sensor->threshold * interferer_noise_factor(context->interference),
         .time_s = context->time_s,
     };
     struct range_doppler_peak *peaks;

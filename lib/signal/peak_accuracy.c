@@ -1,8 +1,8 @@
 #include "signal/peak_accuracy.h"
 
 #include "base/elementary.h"
+#include "radar/measurement_sigma.h"
 #include "radar/monopulse.h"
-#include "radar/snr_sigma.h"
 
 #define CRAMER_RAO 0.389848400616838 /* sqrt(6)/(2 pi) */
 
@@ -18,19 +18,20 @@ static double element_sigma_rad(const struct beamforming_array *array, double az
                                 double snr)
 {
     double count = (double)array->elements;
-    struct snr_sigma sine = {.cell = 1 / (count * array->spacing), .factor = CRAMER_RAO};
-    return snr_sigma_of(&sine, snr * (1 - 1 / (count * count))) / elementary_cos(azimuth_rad);
+    struct measurement_sigma sine = {.cell = 1 / (count * array->spacing), .factor = CRAMER_RAO};
+    return measurement_sigma_at_snr(&sine, snr * (1 - 1 / (count * count))) /
+           elementary_cos(azimuth_rad);
 }
 
 struct peak_accuracy peak_accuracy_of(const struct signal_cube *signal, double azimuth_rad,
                                       struct peak_snr snr)
 {
     const struct sensor *sensor = signal->sensor;
-    struct snr_sigma range = {.cell = sensor->cell_range_m,
-                              .factor = factors[signal->range_response]};
-    struct snr_sigma rate = {.cell = sensor->cell_range_rate_mps,
-                             .factor = factors[sensor->waveform.window]};
-    double rate_mps = snr_sigma_of(&rate, snr.found);
+    struct measurement_sigma range = {.cell = sensor->cell_range_m,
+                                      .factor = factors[signal->range_response]};
+    struct measurement_sigma rate = {.cell = sensor->cell_range_rate_mps,
+                                     .factor = factors[sensor->waveform.window]};
+    double rate_mps = measurement_sigma_at_snr(&rate, snr.found);
     double coupled_m = signal->coupling * signal->range_step_m * rate_mps, azimuth;
     if (signal->array.elements > 0)
         azimuth = element_sigma_rad(&signal->array, azimuth_rad, snr.in_beam);
@@ -38,7 +39,7 @@ struct peak_accuracy peak_accuracy_of(const struct signal_cube *signal, double a
         azimuth = monopulse_sigma_rad(&sensor->antenna, sensor->angle_estimator, azimuth_rad,
                                       snr.in_beam);
     return (struct peak_accuracy){
-        .range_sigma_m = elementary_hypot(snr_sigma_of(&range, snr.found), coupled_m),
+        .range_sigma_m = elementary_hypot(measurement_sigma_at_snr(&range, snr.found), coupled_m),
         .range_rate_sigma_mps = rate_mps,
         .azimuth_sigma_rad = elementary_min(azimuth, sensor->field_of_view_rad / sqrt(12)),
     };

@@ -84,7 +84,8 @@ static struct object *add_box(struct builder *builder, enum random_traffic_class
 static double amplitude(const struct builder *builder, const struct spot *spot)
 {
     double ercs = builder->models[spot->class].reflectors->points.items[0].ercs;
-    return suite_amplitude(builder->sensor, spot->range_m, spot->azimuth_rad, ercs);
+    return radar_strength(&builder->sensor->amplitude_law, spot->range_m, ercs) *
+           antenna_gain(&builder->sensor->antenna, spot->azimuth_rad);
 }
 
 static enum random_traffic_class draw_point_class(struct random_sequence *sequence)
@@ -98,7 +99,7 @@ static struct spot draw_spot(struct builder *builder)
 {
     double nearest_m = builder->sensor->range_min_m + 3;
     double farthest_m = elementary_min(0.8 * builder->sensor->range_max_m, 30);
-    double border = 0.8 * suite_border_rad(builder->sensor);
+    double border = 0.8 * antenna_border_rad(builder->sensor->field_of_view_rad);
     struct spot spot = {
         .class = draw_point_class(&builder->sequence),
         .range_m = random_sequence_between(&builder->sequence,
@@ -174,7 +175,7 @@ static bool turn_to_amplitude(const struct builder *builder, struct spot *spot, 
 {
     struct spot turned = *spot;
     double side = copysign(1, spot->azimuth_rad), strong_rad = 0,
-           weak_rad = suite_border_rad(builder->sensor);
+           weak_rad = antenna_border_rad(builder->sensor->field_of_view_rad);
     double middle_rad = weak_rad / 2;
     while (middle_rad > strong_rad && middle_rad < weak_rad) {
         turned.azimuth_rad = side * middle_rad;
@@ -183,7 +184,8 @@ static bool turn_to_amplitude(const struct builder *builder, struct spot *spot, 
         weak_rad = strong ? weak_rad : middle_rad;
         middle_rad = strong_rad + (weak_rad - strong_rad) / 2;
     }
-    if (strong_rad < 1e-3 || strong_rad > 0.99 * suite_border_rad(builder->sensor))
+    if (strong_rad < 1e-3 ||
+        strong_rad > 0.99 * antenna_border_rad(builder->sensor->field_of_view_rad))
         return false;
     spot->azimuth_rad = side * strong_rad;
     return true;
@@ -252,7 +254,9 @@ static void build_view(struct builder *builder)
     struct spot spot = draw_spot(builder);
     double margin_rad = adversarial_traffic_margin(&builder->sequence, 1e-7);
     bool border = random_sequence_chance(&builder->sequence, 0.6);
-    spot.azimuth_rad = border ? copysign(suite_border_rad(builder->sensor), spot.azimuth_rad) : 0;
+    spot.azimuth_rad =
+        border ? copysign(antenna_border_rad(builder->sensor->field_of_view_rad), spot.azimuth_rad)
+               : 0;
     spot.azimuth_rad += margin_rad;
     add_spot(builder, &spot);
 }
@@ -314,7 +318,9 @@ static void build_touch(struct builder *builder)
 {
     const struct object *ego = &builder->frame->objects.items[0];
     bool exact = ego->x_m == 0 && ego->y_m == 0 && ego->yaw_rad == 0;
-    if (exact && fabs(builder->sensor->mount_yaw_rad) < suite_border_rad(builder->sensor) &&
+    if (exact &&
+        fabs(builder->sensor->mount_yaw_rad) <
+            antenna_border_rad(builder->sensor->field_of_view_rad) &&
         random_sequence_chance(&builder->sequence, 0.5))
         build_along_side(builder);
     else

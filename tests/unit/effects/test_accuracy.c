@@ -4,7 +4,7 @@ static struct contributor leader = {.id = {.object = "o", .reflector = "r"}};
 
 static void prepare(struct effect_bench *bench)
 {
-    bench->sensor.threshold = 2;
+    bench->sensor.threshold_db = units_amplitude_db(2);
     bench->sensor.pointer_sigma = 0.5;
     bench->sensor.cell_range_m = 0.3;
     bench->sensor.cell_range_rate_mps = 0.5;

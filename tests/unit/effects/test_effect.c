@@ -170,7 +170,7 @@ static void an_added_echo_is_in_range_and_in_view(void **state)
 {
     struct effect_bench *bench = *state;
     struct effect_scan scan = effect_bench_begin(bench, 0, EFFECT_HOME_SENSOR);
-    double border_rad = suite_border_rad(&bench->sensor);
+    double border_rad = antenna_border_rad(bench->sensor.field_of_view_rad);
     static const double ranges_m[] = {0, 0.999, 1, 200, 200.001};
     struct effect_echoes echoes = {0};
     for (size_t i = 0; i < COUNT(ranges_m); i++) {

@@ -188,7 +188,7 @@ static void noise_that_is_not_simulated_has_no_deviation(void **state)
     sensor->range_sigma_m = 0.1;
     sensor->range_rate_sigma_mps = 0.2;
     sensor->sigma_law = SIGMA_BY_AMPLITUDE;
-    sensor->threshold = 3;
+    sensor->threshold_db = units_amplitude_db(3);
     uint64_t without = EVERY_EFFECT & ~EFFECT_BIT(EFFECT_ANGLE_NOISE);
     struct effect_measurement known = estimated(bench, &source, 30, without);
     assert_near(known.range_sigma_m, 0.01, 1e-12);
@@ -206,7 +206,7 @@ static void false_alarms_are_expected_where_they_are_made(void **state)
     struct detection_source source;
     sensor->false_alarms = 0.5;
     sensor->final_threshold = true;
-    sensor->threshold = 3;
+    sensor->threshold_db = units_amplitude_db(3);
     estimated(bench, &source, 30, EVERY_EFFECT);
     assert_close(source.existence.false_alarms, 0.5, 0);
     assert_close(source.existence.least_false_alarm, 9, 1e-12);
