@@ -230,7 +230,7 @@ def exactness(folder):
         file.write(NEW.encode())
     compare(run(PROGRAM, new + ".gz", "--ego", "30"), expected_of(NEW), "30")
     if DATA is None:
-        print("GLINT_TEST_DATA is not set: no scenarios of CommonRoad to read")
+        print("skipped  scenarios of CommonRoad: GLINT_TEST_DATA is not set")
         return
     for name in ("DEU_A9-3_1_T-1.xml", "FRA_Anglet-1_1_T-1.xml"):
         with open(f"{DATA}/commonroad/{name}", encoding="utf-8") as file:
@@ -382,5 +382,5 @@ with tempfile.TemporaryDirectory() as place:
         memory_is_64_bytes_a_row(place)
         bad_input(place)
     else:
-        print(f"{PROGRAM} is not there: it needs expat")
+        print(f"skipped  {PROGRAM}: it is not there, as it needs expat")
 print(f"commonroad: {recorded.checks} checks hold")

@@ -448,7 +448,7 @@ def a_full_disk_loses_nothing(folder):
         json.dump(plan, file)
     done = run(["unshare", "-rm", "bash", "-c", script])
     if done.returncode in (1, 99) and "made" not in done.stdout:
-        print("    left out: this machine lets nobody mount a small disk")
+        print("skipped  a full disk loses nothing: this machine lets nobody mount a small disk")
         return
     assert "No space left on device" in done.stdout and "shards are missing" in done.stdout, done.stdout
     assert "made 2" in done.stdout and ".tmp\n" not in done.stdout, done.stdout

@@ -303,7 +303,7 @@ def states_of(truths):
 
 def real_traces(folder):
     if DATA is None or shutil.which("protoc") is None:
-        print("GLINT_TEST_DATA is not set, or there is no protoc: no traces of OSI to read")
+        print(f"skipped  traces of OSI: {'there is no protoc' if DATA else 'GLINT_TEST_DATA is not set'}")
         return
     for name in ("acc-test", "pedestrian"):
         path = f"{DATA}/osi/{name}.osi"
@@ -358,5 +358,5 @@ with tempfile.TemporaryDirectory() as place:
         real_traces(place)
         the_interface_is_part_of_the_standard()
     else:
-        print(f"{PROGRAM} is not there: it needs libprotobuf-c and protoc-c")
+        print(f"skipped  {PROGRAM}: it is not there, as it needs libprotobuf-c and protoc-c")
 print(f"osi: {recorded.checks} checks hold")

@@ -14,7 +14,8 @@ import xml.etree.ElementTree as xml
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(ROOT, "tests", "accuracy"))
+sys.path[:0] = [os.path.join(ROOT, "tests", "accuracy"), os.path.join(ROOT, "tests", "support")]
+import tree  # noqa: E402
 from labels import Box, text_box  # noqa: E402
 
 PAGE, HALF = 830, 415  # pixels of a picture by itself, and of one of two in a table
@@ -34,8 +35,7 @@ def check(good, text):
 def pictures_of_pages():
     """{picture: page}, paths from the root."""
     found = {}
-    pages = subprocess.run(["git", "ls-files", "*.md"], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True)
-    for page in pages.stdout.splitlines():
+    for page in tree.files("*.md"):
         with open(os.path.join(ROOT, page), encoding="utf-8") as file:
             for path in re.findall(r"!\[[^]]*\]\(([^)]+)\)|<img[^>]*src=\"([^\"]+)\"", file.read()):
                 found[os.path.normpath(os.path.join(os.path.dirname(page), "".join(path)))] = page

@@ -197,7 +197,7 @@ def exactness(folder):
     mapped = run("glint-traffic-sumo", path, "--ego", "late", "--class-map", "bus=truck")
     check(mapped[0]["objects"][-1]["class"] == "truck", "--class-map")
     if DATA is None:
-        print("GLINT_TEST_DATA is not set: no files of SUMO to read")
+        print("skipped  files of SUMO: GLINT_TEST_DATA is not set")
         return
     with gzip.open(f"{DATA}/sumo/grid.fcd.xml.gz", "rt", encoding="utf-8") as file:
         text = file.read()
@@ -640,9 +640,11 @@ with tempfile.TemporaryDirectory() as place:
         a_type_has_the_sizes_of_its_class(place)
         bad_input(place)
     else:
-        print("glint-traffic-sumo is not there: it needs expat")
+        print("skipped  glint-traffic-sumo: it is not there, as it needs expat")
     if "--sumo" not in sys.argv[2:]:
         resampling_error(place)
         if DATA is not None:
             files_of_other_programs_are_named()
+        else:
+            print("skipped  files of other programs are named: GLINT_TEST_DATA is not set")
 print(f"recorded: {recorded.checks} checks hold")

@@ -473,7 +473,7 @@ def main():
     mirrors_scenario("varied-cut-in", "--scenes", "0:5")
     for kind in FORMATS:
         if not os.path.exists(os.path.join(BIN, kind.program)):
-            print(f"same_motion: {kind.program} is not there")
+            print(f"skipped  the same motion by {kind.program}: it is not there")
             continue
         users = [user for user in USERS if user.kind in kind.classes]
         streams = []

@@ -108,7 +108,7 @@ def compare(frames, states, ego):
 
 def real_files():
     if DATA is None:
-        print("tables: GLINT_TEST_DATA is not set: no recorded tables to read")
+        print("skipped  recorded tables: GLINT_TEST_DATA is not set")
         return
     compare(play(f"{DATA}/csv/01_tracks.csv", "--ego", "5"), highd_states(f"{DATA}/csv", "01"), "5")
     compare(play(f"{DATA}/csv/00_tracks.csv.gz", "--ego", "5"), ind_states(f"{DATA}/csv", "00"), "5")

@@ -4,7 +4,6 @@
 #include "support/scratch.h"
 
 #include <locale.h>
-#include <sys/stat.h>
 
 #include <csv.h>
 #include <jansson.h>
@@ -444,17 +443,21 @@ static void ambiguous_json_is_refused(void **state)
     hard_case("61", "twins, NUL, BOM, trailing text, depth", "wrong", naive, ours, 0);
 }
 
-/* The name of a locale with a decimal comma: one that is installed, or one made for the test. */
-static bool set_german(const char *path)
+/* Makes a locale with a decimal comma in a folder, and sets it. The sources are written here, as a
+ * bare system has none; localedef is part of the C library, and warns of all that they do not say.
+ */
+static bool set_german(const char *folder)
 {
-    char command[256];
-    if (setlocale(LC_ALL, "de_DE.UTF-8") != NULL)
-        return true;
-    snprintf(command, sizeof command, "localedef -i de_DE -f UTF-8 %s/de_DE.UTF-8 2>/dev/null",
-             path);
-    if (mkdir(path, 0700) != 0 || system(command) != 0 || setenv("LOCPATH", path, 1) != 0)
-        return false;
-    return setlocale(LC_ALL, "de_DE.UTF-8") != NULL;
+    static const char charmap[] = "<escape_char> /\nCHARMAP\n<U0000>..<U007F> /x00\nEND CHARMAP",
+                      numbers[] = "escape_char /\nLC_NUMERIC\ndecimal_point \"<U002C>\"\n"
+                                  "thousands_sep \"<U002E>\"\ngrouping 3;3\nEND LC_NUMERIC";
+    char command[1024];
+    snprintf(command, sizeof command,
+             "mkdir '%s' && cd '%s' && echo '%s' >charmap && echo '%s' >numbers && "
+             "localedef -c -f ./charmap -i ./numbers ./de_DE 2>warnings",
+             folder, folder, charmap, numbers);
+    return system(command) >= 0 && setenv("LOCPATH", folder, 1) == 0 &&
+           setlocale(LC_NUMERIC, "de_DE") != NULL;
 }
 
 static void the_locale_is_not_consulted(void **state)
@@ -480,9 +483,10 @@ static void the_locale_is_not_consulted(void **state)
     unsetenv("LOCPATH");
     snprintf(command, sizeof command, "rm -rf '%s'", scratch->path);
     assert_int_equal(system(command), 0);
-    if (!german)
-        skip();
-    hard_case("62", "numbers under de_DE (naive: printf, strtod)", "wrong", naive, ours, 0);
+    if (german)
+        hard_case("62", "numbers under de_DE (naive: printf, strtod)", "wrong", naive, ours, 0);
+    else
+        skip_because("localedef made no locale with a decimal comma");
 }
 
 static void only_whole_numbers_of_json_are_taken(void **state)

@@ -279,7 +279,7 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__.split("\n\n")[1])
     if not (Path(sys.argv[1]) / "glint-sensor-signal").exists():
-        print("the signal: left out, as this build has no glint-sensor-signal")
+        print("skipped  the signal: there is no glint-sensor-signal")
         return
     with tempfile.TemporaryDirectory() as scratch:
         bench = model.Bench(sys.argv[1], scratch)

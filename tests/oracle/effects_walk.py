@@ -107,7 +107,7 @@ NEAR_DB = {"hann": 0.5, "rectangular": 1.4}
 def one_echo_of_the_signal(bench):
     """Levels are means over the places in a cell. What the signal's radar compensates does not fade."""
     if not (bench.bin / SIGNAL).exists():
-        print("  no glint-sensor-signal in this build")
+        print("skipped  one echo of the signal: there is no glint-sensor-signal")
         return
     for window in WINDOWS:
         frames = numbered([scene(cells, (0.25 * n,)) for cells in WALKS for n in range(4)])

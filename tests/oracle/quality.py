@@ -274,7 +274,7 @@ WAVEFORMS = {
 def of_the_signal(bench):
     """The signal's errors at 20 dB, wherever an echo stands in its cell."""
     if not (bench.bin / "glint-sensor-signal").exists():
-        print("  skipped: this build has no glint-sensor-signal")
+        print("skipped  the signal's errors: there is no glint-sensor-signal")
         return
     for name, waveform in WAVEFORMS.items():
         frames = signal.spread(800, 2.0)

@@ -522,7 +522,7 @@ def main():
     if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--long"]):
         sys.exit(__doc__.split("\n\n")[1])
     if not (Path(sys.argv[1]) / "glint-sensor-signal").exists():
-        print("the signal alone: left out, as this build has no glint-sensor-signal")
+        print("skipped  the signal alone: there is no glint-sensor-signal")
         return
     with tempfile.TemporaryDirectory() as scratch:
         program = Program(sys.argv[1], scratch)

@@ -31,8 +31,7 @@ PARTS = {"traffic": "traffic_next", "extract": "extract_step", "ideal": "ideal_s
 
 def available():
     if shutil.which("valgrind") is None:
-        print("bench: no valgrind here, so no instructions; scripts/deps --test installs it",
-              file=sys.stderr)
+        print("skipped  instructions: there is no valgrind; scripts/deps --test installs it", file=sys.stderr)
     return shutil.which("valgrind") is not None
 
 

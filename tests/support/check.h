@@ -1,5 +1,5 @@
-/* cmocka, and comparisons in double precision, since its assert_float_equal compares in single
- * precision. */
+/* cmocka, comparisons in double precision, since its assert_float_equal compares in single
+ * precision, and tests that cannot run here. */
 #pragma once
 
 #include <math.h>
@@ -26,3 +26,10 @@ static inline void check_close(double actual, double expected, double tolerance,
         _fail(file, line);
     }
 }
+
+/* Ends a test that cannot run here, with a line that make shows. */
+#define skip_because(reason)                                                                       \
+    do {                                                                                           \
+        print_message("skipped  %s: %s\n", __func__, reason);                                      \
+        skip();                                                                                    \
+    } while (0)
