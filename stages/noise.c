@@ -59,6 +59,7 @@ const struct stage stage_noise = {
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_CELLS,
     .writes = SECTION_TARGETS | SECTION_LOST | SECTION_COUNTS | SECTION_VISIBILITY,
+    .step = suite_choice_step,
     .visit = list_targets,
     .locate_fault = suite_choice_locate_fault,
 };

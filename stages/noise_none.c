@@ -25,6 +25,7 @@ const struct stage stage_noise_none = {
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_CELLS,
     .writes = SECTION_TARGETS | SECTION_LOST | SECTION_VISIBILITY,
+    .step = suite_choice_step,
     .visit = list_targets,
     .locate_fault = suite_choice_locate_fault,
 };

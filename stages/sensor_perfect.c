@@ -37,6 +37,7 @@ const struct stage stage_sensor_perfect = {
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_CELLS | SECTION_LOST,
+    .step = suite_choice_step,
     .visit = sense,
     .locate_fault = suite_choice_locate_fault,
 };

@@ -67,6 +67,7 @@ const struct stage stage_sensor_smear = {
     .options = &suite_choice_record,
     .reads = SECTION_SENSORS | SECTION_ECHOES,
     .writes = SECTION_CELLS | SECTION_LOST | SECTION_COUNTS,
+    .step = suite_choice_step,
     .visit = sense,
     .locate_fault = suite_choice_locate_fault,
 };

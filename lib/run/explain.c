@@ -8,8 +8,7 @@
 
 #include "base/text.h"
 #include "effects/effect.h"
-#include "run/runner.h"
-#include "text/path.h"
+#include "run/options.h"
 
 static int64_t clock_ns(void)
 {
@@ -75,53 +74,6 @@ static int append(const char *path, const struct text *text, struct diag *diag)
     if (close(file) != 0)
         diag_fail(diag, DIAG_IO, "%s: %s", path, strerror(errno));
     return diag->code == DIAG_OK ? 0 : -1;
-}
-
-/* Is the file one that an option or the operand of the stage names? */
-static bool is_option(const char *path, const struct field *fields, const char *base)
-{
-    for (const struct field *field = fields; field->name != NULL; field++) {
-        const char *const *value = (const void *)(base + field->offset);
-        bool name = field->kind == FIELD_NAME && *value != NULL;
-        if (name && path_same_file(path, strcmp(*value, "-") == 0 ? "/dev/stdin" : *value))
-            return true;
-        if (field->kind == FIELD_RECORD &&
-            is_option(path, field->record->fields, base + field->offset))
-            return true;
-    }
-    return false;
-}
-
-static bool is_input(const char *path, const struct runner *runner, bool first)
-{
-    const struct common_options *common = &runner->common;
-    for (size_t i = 0; i < common->files.count; i++) {
-        const char *file = common->files.items[i];
-        if (path_same_file(path, strcmp(file, "-") == 0 ? "/dev/stdin" : file))
-            return true;
-    }
-    bool standard = first && common->files.count == 0 && runner->program.takes_files;
-    return (standard && path_same_file(path, "/dev/stdin")) ||
-           is_option(path, runner->program.options->fields, runner->state);
-}
-
-static void refuse_used(struct runner *runner, struct runner *runners, size_t count)
-{
-    const char *path = runner->common.explain;
-    const char *use = runner_writes_to(&runners[count - 1], path) ? "the output" : NULL;
-    for (size_t i = 0; i < count && use == NULL; i++)
-        if (is_input(path, &runners[i], i == 0))
-            use = "an input";
-    if (use != NULL)
-        diag_fail(&runner->diag, DIAG_USAGE, "--explain: %s is %s; expected another file", path,
-                  use);
-}
-
-void explain_refuse_used(struct runner *runners, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        if (runners[i].common.explain != NULL)
-            refuse_used(&runners[i], runners, count);
 }
 
 int explain_check(const char *path, struct diag *diag)

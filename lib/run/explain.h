@@ -4,14 +4,9 @@
 #include "frame/effects.h"
 
 struct common_options;
-struct runner;
 
 /* An empty log whose times are measured. */
 struct effect_log *explain_begin(struct arena *arena);
-
-/* Refuses files of --explain that one of the runners of a pipeline reads or writes, by the options
- * and arguments of all of them: a message in the diag of the runner that was told to explain. */
-void explain_refuse_used(struct runner *runners, size_t count);
 
 /* Creates the file if it is not there, so that one that cannot be written is refused before the run
  * and not after it. */

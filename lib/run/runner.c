@@ -17,6 +17,11 @@ struct arena *runner_arena(struct runner *runner)
     return &runner->arena;
 }
 
+const struct stage *runner_stage(const struct runner *runner)
+{
+    return runner->stage;
+}
+
 struct diag *runner_diag(struct runner *runner)
 {
     return &runner->diag;
@@ -336,10 +341,7 @@ int runner_step(struct runner *runner, struct frame *frame)
     const struct stage *stage = runner->stage;
     if (take_frame(runner, frame) != 0)
         return -1;
-    int result = stage->visit != NULL
-                     ? suite_choice_visit(runner->state, frame, runner, stage->visit)
-                     : stage->step(runner->state, frame, runner);
-    if (ensure_message(runner, result) != 0)
+    if (ensure_message(runner, stage->step(runner->state, frame, runner)) != 0)
         return -1;
     return stage->sink ? 0 : finish_step(runner, frame);
 }

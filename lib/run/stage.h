@@ -44,8 +44,8 @@ struct stage {
     int (*start)(void *state, struct runner *runner);
     int (*next)(void *state, struct frame *frame, struct runner *runner);
     int (*step)(void *state, struct frame *frame, struct runner *runner);
-    /* In place of step, for a stage after ideal whose state is a suite_choice (suite_choice.h): the
-     * part of a step for one sensor, called for every sensor of the suite. */
+    /* The part of a step for one sensor, where step is suite_choice_step (suite_choice.h), which
+     * calls it for every sensor of the suite. */
     void (*visit)(struct frame *frame, const struct sensor *sensor,
                   const struct selection *selection);
     /* Called on a stage whose frame is refused. Returns -1 after a message that names the place in
@@ -70,6 +70,8 @@ extern const struct record no_options_record;
 struct arena *runner_arena(struct runner *runner);
 
 struct diag *runner_diag(struct runner *runner);
+
+const struct stage *runner_stage(const struct runner *runner);
 
 /* Where the stage notes which effects it simulates and leaves out; NULL without --explain. */
 struct effect_log *runner_log(struct runner *runner);

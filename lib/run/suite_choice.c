@@ -85,11 +85,9 @@ int suite_choice_effects(const struct suite_choice *choice, const struct frame *
     return 0;
 }
 
-int suite_choice_visit(const struct suite_choice *choice, struct frame *frame,
-                       struct runner *runner,
-                       void (*visit)(struct frame *frame, const struct sensor *sensor,
-                                     const struct selection *selection))
+int suite_choice_step(void *state, struct frame *frame, struct runner *runner)
 {
+    const struct suite_choice *choice = state;
     struct selection selection;
     const struct suite *suite = suite_choice_suite(choice, frame, runner);
     if (suite == NULL || suite_choice_effects(choice, frame, runner, &selection) != 0)
@@ -97,7 +95,7 @@ int suite_choice_visit(const struct suite_choice *choice, struct frame *frame,
     for (size_t i = 0; i < suite->sensors.count; i++) {
         const struct sensor *sensor = &suite->sensors.items[i];
         selection.log = frame_view(frame, sensor->name)->measured ? runner_log(runner) : NULL;
-        visit(frame, sensor, &selection);
+        runner_stage(runner)->visit(frame, sensor, &selection);
         effects_count_scan(&selection);
     }
     return 0;

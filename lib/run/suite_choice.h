@@ -47,11 +47,9 @@ const struct suite *suite_choice_suite(const struct suite_choice *choice, const 
 int suite_choice_effects(const struct suite_choice *choice, const struct frame *frame,
                          struct runner *runner, struct selection *selection);
 
-/* The step of a stage that visits every sensor of the suite (stage.h). */
-int suite_choice_visit(const struct suite_choice *choice, struct frame *frame,
-                       struct runner *runner,
-                       void (*visit)(struct frame *frame, const struct sensor *sensor,
-                                     const struct selection *selection));
+/* The step of a stage after ideal with a suite_choice as its state: calls the stage's visit for
+ * every sensor of the suite. */
+int suite_choice_step(void *state, struct frame *frame, struct runner *runner);
 
 /* For locate_fault of ideal and the stages after it: a speed, an amplitude or the like that is out
  * of bounds comes from extreme values of an object or of the suite. */
