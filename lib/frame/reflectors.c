@@ -256,6 +256,11 @@ const struct reflectors_shape *reflectors_shape(const struct reflector_set *set,
         shape->share = farthest(shape->share, row->from_x, row->from_y);
         shape->share = farthest(shape->share, row->to_x, row->to_y);
     }
+    for (size_t i = 0; i < set->mirrors.count; i++) {
+        const struct mirror_plane *mirror = &set->mirrors.items[i];
+        shape->share = farthest(shape->share, mirror->from_x, mirror->from_y);
+        shape->share = farthest(shape->share, mirror->to_x, mirror->to_y);
+    }
     return shape;
 }
 

@@ -82,8 +82,8 @@ struct reflector_set {
     const struct reflectors_shape *shape; /* the document's, or NULL */
 };
 
-/* Values that follow from a set's lists. All its reflectors lie within share times an object's box,
- * and inset_m beyond. */
+/* Values that follow from a set's lists. All its reflectors and mirrors lie within share times an
+ * object's box, and inset_m beyond. */
 struct reflectors_shape {
     struct reflectors_face *faces; /* one for each point */
     double share;                  /* at least 1 */

@@ -3,26 +3,20 @@
 #include "geometry/predicates.h"
 
 /* The unit normal towards the outer side; zero for a wall of length zero. */
-static struct vec2 normal_of(const struct mirror *mirror)
+static struct vec2 normal_of(struct vec2 a, struct vec2 b)
 {
-    struct vec2 along = vec2_sub(mirror->b, mirror->a);
+    struct vec2 along = vec2_sub(b, a);
     double length_m = vec2_length(along);
     if (length_m == 0)
         return (struct vec2){0, 0};
     return (struct vec2){along.y / length_m, -along.x / length_m};
 }
 
-/* The point's height over the wall, measured from the wall's middle, so that a mirrored wall has
- * the mirrored image to the last bit. */
-static double height_m(const struct mirror *mirror, struct vec2 normal, struct vec2 point_m)
-{
-    struct vec2 middle = vec2_scale(0.5, vec2_add(mirror->a, mirror->b));
-    return vec2_dot_accurate(vec2_sub(point_m, middle), normal);
-}
-
+/* Measured from the wall's middle, so that a mirrored wall has the mirrored image to the last bit.
+ */
 double mirror_height_m(const struct mirror *mirror, struct vec2 point_m)
 {
-    return height_m(mirror, normal_of(mirror), point_m);
+    return vec2_dot_accurate(vec2_sub(point_m, mirror->middle), mirror->normal);
 }
 
 static struct vec2 flipped(struct vec2 vector, double height, struct vec2 normal)
@@ -30,11 +24,27 @@ static struct vec2 flipped(struct vec2 vector, double height, struct vec2 normal
     return vec2_sub(vector, vec2_scale(2 * height, normal));
 }
 
+struct mirror mirror_of(struct vec2 a, struct vec2 b, struct motion body, struct vec2 sensor_m)
+{
+    struct mirror mirror = {.a = a,
+                            .b = b,
+                            .body = body,
+                            .sensor_m = sensor_m,
+                            .middle = vec2_scale(0.5, vec2_add(a, b)),
+                            .normal = normal_of(a, b)};
+    double height_m = mirror_height_m(&mirror, sensor_m);
+    if (predicates_orientation(a, b, sensor_m) < 0 && height_m > 0) {
+        mirror.sensor_height_m = height_m;
+        mirror.eye_m = flipped(sensor_m, height_m, mirror.normal);
+    }
+    return mirror;
+}
+
 struct mirror_image mirror_image(const struct mirror *mirror, struct vec2 point_m,
                                  struct vec2 point_mps)
 {
-    struct vec2 normal = normal_of(mirror);
-    struct vec2 place_m = flipped(point_m, height_m(mirror, normal, point_m), normal);
+    struct vec2 normal = mirror->normal;
+    struct vec2 place_m = flipped(point_m, mirror_height_m(mirror, point_m), normal);
     struct vec2 seen_mps = vec2_sub(point_mps, motion_velocity_at(&mirror->body, point_m));
     struct vec2 image_mps = flipped(seen_mps, vec2_dot_accurate(seen_mps, normal), normal);
     return (struct mirror_image){
@@ -43,36 +53,31 @@ struct mirror_image mirror_image(const struct mirror *mirror, struct vec2 point_
     };
 }
 
-bool mirror_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec2 point_m,
-                   struct vec2 *bounce_m)
+bool mirror_bounce(const struct mirror *mirror, struct vec2 point_m, struct vec2 *bounce_m)
 {
-    struct vec2 a = mirror->a, b = mirror->b;
-    if (predicates_orientation(a, b, sensor_m) >= 0 || predicates_orientation(a, b, point_m) >= 0)
+    struct vec2 a = mirror->a, b = mirror->b, sensor_m = mirror->sensor_m;
+    if (mirror->sensor_height_m == 0 || predicates_orientation(a, b, point_m) >= 0)
         return false;
-    struct vec2 normal = normal_of(mirror);
-    double sensor_height_m = height_m(mirror, normal, sensor_m);
-    double point_height_m = height_m(mirror, normal, point_m);
+    double height_m = mirror_height_m(mirror, point_m);
     /* A point exactly, but less than a rounding, before an oblique wall has the rounded height
      * 0. */
-    if (sensor_height_m <= 0 || point_height_m <= 0)
+    if (height_m <= 0)
         return false;
-    struct vec2 image_m = flipped(point_m, point_height_m, normal);
+    struct vec2 image_m = flipped(point_m, height_m, mirror->normal);
     if (predicates_orientation(sensor_m, image_m, a) < 0 ||
         predicates_orientation(sensor_m, image_m, b) > 0)
         return false;
-    double part = sensor_height_m / (sensor_height_m + point_height_m);
+    double part = mirror->sensor_height_m / (mirror->sensor_height_m + height_m);
     *bounce_m = vec2_add(sensor_m, vec2_scale(part, vec2_sub(image_m, sensor_m)));
     return true;
 }
 
-bool mirror_may_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec2 centre_m,
-                       double radius_m)
+bool mirror_may_bounce(const struct mirror *mirror, struct vec2 centre_m, double radius_m)
 {
-    struct vec2 a = mirror->a, b = mirror->b;
-    if (predicates_orientation(a, b, sensor_m) >= 0)
+    struct vec2 a = mirror->a, b = mirror->b, sensor_m = mirror->sensor_m;
+    if (mirror->sensor_height_m == 0)
         return false;
-    struct vec2 normal = normal_of(mirror);
-    double height = height_m(mirror, normal, centre_m);
+    double height = vec2_dot(vec2_sub(centre_m, mirror->middle), mirror->normal);
     /* The slack is thousands of times the rounding of what follows: each step costs a few 2^-53 of
      * this scale. */
     double scale_m =
@@ -81,7 +86,7 @@ bool mirror_may_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct
     if (height < -reach_m)
         return false;
     struct vec2 to_a = vec2_sub(a, sensor_m), to_b = vec2_sub(b, sensor_m);
-    struct vec2 to_image = vec2_sub(flipped(centre_m, height, normal), sensor_m);
+    struct vec2 to_image = vec2_sub(flipped(centre_m, height, mirror->normal), sensor_m);
     return vec2_cross(to_a, to_image) <= reach_m * vec2_length(to_a) &&
            vec2_cross(to_b, to_image) >= -reach_m * vec2_length(to_b);
 }

@@ -13,14 +13,21 @@
 
 #include "geometry/motion.h"
 
+/* A wall and one sensor. mirror_of sets what follows from both. */
 struct mirror {
-    struct vec2 a, b;   /* a != b */
+    struct vec2 a, b;
     struct motion body; /* {0} for a wall that stands */
+    struct vec2 sensor_m;
+    struct vec2 middle, normal; /* the unit normal towards the outer side; zero if a == b */
+    double sensor_height_m;     /* of the sensor, 0 unless the wall may have a bounce for it */
+    struct vec2 eye_m;          /* the sensor's image, if it has a height */
 };
 
 struct mirror_image {
     struct vec2 place_m, velocity_mps;
 };
+
+struct mirror mirror_of(struct vec2 a, struct vec2 b, struct motion body, struct vec2 sensor_m);
 
 /* Height of a point over the wall's line, positive on the outer side; 0 for a wall of length zero.
  */
@@ -36,11 +43,9 @@ struct mirror_image mirror_image(const struct mirror *mirror, struct vec2 point_
  * There is no bounce for a wall of length zero, nor for a sensor or point that lies behind the wall
  * or on its line, exactly or after its height is rounded; so no division is by zero. A mirrored
  * scene has the mirrored answer to the last bit. */
-bool mirror_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec2 point_m,
-                   struct vec2 *bounce_m);
+bool mirror_bounce(const struct mirror *mirror, struct vec2 point_m, struct vec2 *bounce_m);
 
 /* False only if mirror_bounce is false for every point within radius_m of the centre, so that a
  * whole body and a wall can be passed over at once. Sound under rounding for coordinates up to 1e7
  * m; unnecessarily true where the disc passes narrowly by an end of the wall. */
-bool mirror_may_bounce(const struct mirror *mirror, struct vec2 sensor_m, struct vec2 centre_m,
-                       double radius_m);
+bool mirror_may_bounce(const struct mirror *mirror, struct vec2 centre_m, double radius_m);

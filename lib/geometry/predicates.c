@@ -39,8 +39,12 @@ static int sign_of_sum(const struct expansion *sum)
     return sign_of(sum->term[last]);
 }
 
+/* A difference is rounded to 0 only if it is 0, so two products with such a factor each are 0. A
+ * product that is 0 need not be: it may have underflown. */
 int predicates_exact_sign(struct vec2 a, struct vec2 b, struct vec2 c)
 {
+    if ((a.x == c.x || b.y == c.y) && (a.y == c.y || b.x == c.x))
+        return 0;
     struct expansion sum = {.count = 0};
     add_product(&sum, a.x, b.y);
     add_product(&sum, -a.y, b.x);

@@ -16,72 +16,108 @@ enum { BOUNCES_ONE_WAY = 2, BOUNCES_BOTH_WAYS = 3 };
 /* So many posts of a row are tested against a mirror at once. */
 enum { POSTS_AT_ONCE = 8 };
 
-/* A mirror in the world. */
+/* Bodies with a mirror in line that ends where a mirror begins, or begins where it ends. */
+struct mirror_joints {
+    bool known;
+    const struct look_body *before, *after;
+    bool shares_end; /* does one begin there bit by bit? */
+};
+
+/* A mirror in the world whose outer face is turned to the sensor. */
 struct mirror_face {
     const struct look_body *body;
-    int64_t number;
+    int64_t number; /* among the body's mirrors, from 1 */
     struct mirror mirror;
     struct vec2 along; /* unit vector from a to b */
     const struct mirror_plane *plane;
     struct material_permittivity permittivity; /* of its material at the sensor's carrier */
-    /* Bodies with a mirror in line that ends where this one begins, or begins where it ends. */
-    const struct look_body *before, *after;
-    bool shares_end; /* is b, bit by bit, where another mirror in line begins? */
+    bool in_view;                              /* false: surely out of the field of view */
+    struct mirror_joints *joints;              /* looked for where the first wave bounces */
 };
 
 struct mirror_faces {
-    struct mirror_face *items;
-    size_t count;
+    LIST_OF(struct mirror_face) list;
 };
 
-static struct mirror_face mirror_face_of(const struct look *look, const struct look_body *body,
-                                         size_t index)
+/* Adds a mirror of a body that is turned to the sensor. */
+static void add_face(const struct look *look, const struct look_body *body, size_t index,
+                     bool in_view, struct mirror_faces *faces)
 {
     const struct mirror_plane *plane = &body->set->reflectors->mirrors.items[index];
-    return (struct mirror_face){
+    struct mirror mirror = mirror_of(box_place(&body->box, plane->from_x, plane->from_y),
+                                     box_place(&body->box, plane->to_x, plane->to_y),
+                                     body->box.motion, look->pose.position_m);
+    if (mirror.sensor_height_m == 0)
+        return;
+    *list_add(&faces->list, look->frame->arena) = (struct mirror_face){
         .body = body,
         .number = (int64_t)index + 1,
-        .mirror = {.a = box_place(&body->box, plane->from_x, plane->from_y),
-                   .b = box_place(&body->box, plane->to_x, plane->to_y),
-                   .body = body->box.motion},
+        .mirror = mirror,
         .along = box_along(&body->box, plane->from_x, plane->from_y, plane->to_x, plane->to_y),
         .plane = plane,
         .permittivity = material_permittivity(plane->material, look->sensor->carrier_hz),
+        .in_view = in_view,
+        .joints = arena_get(look->frame->arena, sizeof(struct mirror_joints)),
     };
 }
 
-static size_t mirrors_of(const struct look_body *body)
-{
-    return body->set != NULL ? body->set->reflectors->mirrors.count : 0;
-}
-
-static void join_faces(struct mirror_faces *faces)
-{
-    for (size_t i = 0; i < faces->count; i++)
-        for (size_t j = 0; j < faces->count; j++) {
-            struct mirror_face *first = &faces->items[i], *second = &faces->items[j];
-            struct vec2 gap = vec2_sub(second->mirror.a, first->mirror.b);
-            if (vec2_length(gap) <= LINE_OF_SIGHT_JOINT_M &&
-                vec2_same(first->along, second->along)) {
-                first->after = second->body;
-                second->before = first->body;
-                first->shares_end |= vec2_same(first->mirror.b, second->mirror.a);
-            }
-        }
-}
-
+/* Every path touches its mirror within the sensor's range. */
 static struct mirror_faces mirror_faces_of(const struct look *look)
 {
+    bool all = effects_forced(look->selection, EFFECT_GHOSTS);
     struct mirror_faces faces = {0};
-    size_t count = 0;
-    for (size_t i = 0; i < look->body_count; i++)
-        count += mirrors_of(&look->bodies[i]);
-    faces.items = arena_get(look->frame->arena, (count + 1) * sizeof *faces.items);
-    for (size_t i = 0; i < look->body_count; i++)
-        for (size_t j = 0; j < mirrors_of(&look->bodies[i]); j++)
-            faces.items[faces.count++] = mirror_face_of(look, &look->bodies[i], j);
-    join_faces(&faces);
+    for (size_t i = 0; i < look->body_count; i++) {
+        const struct look_body *body = &look->bodies[i];
+        if (body->set == NULL)
+            continue;
+        struct look_extent extent = look_reflectors_extent(look, body, body->set);
+        if (!all && look_out_of_range(look, &extent.silhouette))
+            continue;
+        bool in_view = all || !look_out_of_view(look, &extent.silhouette);
+        for (size_t j = 0; j < body->set->reflectors->mirrors.count; j++)
+            add_face(look, body, j, in_view, &faces);
+    }
     return faces;
+}
+
+/* May a mirror of the body begin or end within reach_m of a place? */
+static bool may_meet(const struct look_body *body, struct vec2 place, double reach_m)
+{
+    struct vec2 way = vec2_sub(place, body->box.motion.position_m);
+    reach_m += body->set->shape->share * body->radius_m;
+    return fabs(way.x) <= reach_m && fabs(way.y) <= reach_m;
+}
+
+/* Takes down what a mirror of the body has to do with the ends of a face. */
+static void join(const struct mirror_face *face, const struct look_body *body,
+                 const struct mirror_plane *plane)
+{
+    struct vec2 a = box_place(&body->box, plane->from_x, plane->from_y);
+    struct vec2 b = box_place(&body->box, plane->to_x, plane->to_y);
+    if (!vec2_same(face->along,
+                   box_along(&body->box, plane->from_x, plane->from_y, plane->to_x, plane->to_y)))
+        return;
+    if (vec2_length(vec2_sub(a, face->mirror.b)) <= LINE_OF_SIGHT_JOINT_M) {
+        face->joints->after = body;
+        face->joints->shares_end |= vec2_same(a, face->mirror.b);
+    }
+    if (vec2_length(vec2_sub(face->mirror.a, b)) <= LINE_OF_SIGHT_JOINT_M)
+        face->joints->before = body;
+}
+
+static const struct mirror_joints *joints_of(const struct look *look,
+                                             const struct mirror_face *face)
+{
+    struct vec2 a = face->mirror.a, b = face->mirror.b, middle = face->mirror.middle;
+    double reach_m = 0.5 * vec2_length(vec2_sub(b, a)) + 10 * LINE_OF_SIGHT_JOINT_M;
+    for (size_t i = 0; i < look->body_count && !face->joints->known; i++) {
+        const struct look_body *body = &look->bodies[i];
+        if (body->set != NULL && may_meet(body, middle, reach_m))
+            for (size_t j = 0; j < body->set->reflectors->mirrors.count; j++)
+                join(face, body, &body->set->reflectors->mirrors.items[j]);
+    }
+    face->joints->known = true;
+    return face->joints;
 }
 
 /* A route between the sensor and a reflector: the direct one, or that by the mirror. */
@@ -137,12 +173,11 @@ static struct ghost_candidate candidate_of(const struct look *look, const struct
 static bool has_bounce(const struct look *look, const struct mirror_face *face, struct vec2 place,
                        struct vec2 *bounce)
 {
-    if (!mirror_bounce(&face->mirror, look->pose.position_m, place, bounce))
+    if (!mirror_bounce(&face->mirror, place, bounce))
         return false;
-    if (!face->shares_end)
-        return true;
     struct vec2 image = mirror_image(&face->mirror, place, (struct vec2){0, 0}).place_m;
-    return predicates_orientation(look->pose.position_m, image, face->mirror.b) != 0;
+    return predicates_orientation(look->pose.position_m, image, face->mirror.b) != 0 ||
+           !joints_of(look, face)->shares_end;
 }
 
 /* How near the bounce was to vanishing: its distance from the mirror's ends, and the distances of
@@ -192,7 +227,6 @@ static double upright_margin_m(const struct look *look, const struct mirror_face
 static bool pass_by_mirror(const struct look *look, struct ghost_candidate *candidate)
 {
     const struct mirror_face *face = candidate->face;
-    const struct look_body *touched[] = {face->body, face->before, face->after, candidate->body};
     double out_m = vec2_length(vec2_sub(candidate->bounce, look->pose.position_m));
     double onward_m = vec2_length(vec2_sub(candidate->place, candidate->bounce));
     double height_m =
@@ -203,8 +237,12 @@ static bool pass_by_mirror(const struct look *look, struct ghost_candidate *cand
                                    height_m};
     struct obstruction_line onward = {candidate->bounce, candidate->place, height_m,
                                       candidate->height_m};
-    if (!(route->factor > 0 && within_m >= 0) || !pass_leg(look, route, out, touched, 3) ||
-        !pass_leg(look, route, onward, touched, 4))
+    if (!(route->factor > 0 && within_m >= 0))
+        return false;
+    const struct mirror_joints *joints = joints_of(look, face);
+    const struct look_body *touched[] = {face->body, joints->before, joints->after,
+                                         candidate->body};
+    if (!pass_leg(look, route, out, touched, 3) || !pass_leg(look, route, onward, touched, 4))
         return false;
     if (frame_carries(look->frame, CARRY_MARGINS))
         route->margin_m = elementary_min(
@@ -282,7 +320,7 @@ static double bounce_factor(const struct look *look, const struct ghost_candidat
 {
     const struct mirror_face *face = candidate->face;
     const struct mirror_plane *plane = face->plane;
-    double sensor_m = mirror_height_m(&face->mirror, look->pose.position_m);
+    double sensor_m = face->mirror.sensor_height_m;
     double place_m = mirror_height_m(&face->mirror, candidate->place);
     double way_m = candidate->mirrored.read.range_m;
     double share = sensor_m / (sensor_m + place_m), cosine = (sensor_m + place_m) / way_m;
@@ -384,15 +422,13 @@ static void add_points(struct look *look, const struct mirror_face *face,
 }
 
 /* May the mirror have a bounce for any of the posts from first to last? */
-static bool may_mirror_posts(const struct look *look, const struct mirror_face *face,
-                             const struct look_body *body, const struct post_row *row,
-                             int64_t first, int64_t last)
+static bool may_mirror_posts(const struct mirror_face *face, const struct look_body *body,
+                             const struct post_row *row, int64_t first, int64_t last)
 {
     struct vec2 from = reflectors_post_place(&body->box, row, first);
     struct vec2 to = reflectors_post_place(&body->box, row, last);
     struct vec2 centre = vec2_scale(0.5, vec2_add(from, to));
-    return mirror_may_bounce(&face->mirror, look->pose.position_m, centre,
-                             0.5 * vec2_length(vec2_sub(to, from)) + 1e-6);
+    return mirror_may_bounce(&face->mirror, centre, 0.5 * vec2_length(vec2_sub(to, from)) + 1e-6);
 }
 
 static void add_post(struct look *look, const struct mirror_face *face,
@@ -418,7 +454,7 @@ static void add_row(struct look *look, const struct mirror_face *face, const str
                             &first, &end);
     for (int64_t next; first < end; first = next) {
         next = first + POSTS_AT_ONCE < end ? first + POSTS_AT_ONCE : end;
-        if (all || may_mirror_posts(look, face, body, row, first, next - 1))
+        if (all || may_mirror_posts(face, body, row, first, next - 1))
             for (int64_t number = first; number < next; number++)
                 add_post(look, face, body, row, facing, number);
     }
@@ -428,9 +464,7 @@ static void add_plane(struct look *look, const struct mirror_face *face,
                       const struct look_body *body, const struct plane_reflector *plane)
 {
     const struct side side = line_of_sight_side(body, plane);
-    struct vec2 eye =
-        mirror_image(&face->mirror, look->pose.position_m, (struct vec2){0, 0}).place_m;
-    struct vec2 foot, bounce;
+    struct vec2 eye = face->mirror.eye_m, foot, bounce;
     if (!specular_point_foot(side.from, side.to, side.along, plane->margin_m, eye, &foot) ||
         !has_bounce(look, face, foot, &bounce))
         return;
@@ -460,22 +494,25 @@ static void add_body(struct look *look, const struct mirror_face *face,
         add_row(look, face, body, &set->rows.items[i]);
 }
 
+/* A path is no shorter than twice the way to the body. It arrives by way of the mirror, or leaves
+ * so and arrives straight from the body: one of the two is in view. */
 static void add_ghosts_of(struct look *look, const struct mirror_faces *faces,
                           const struct look_body *body)
 {
     const struct selection *selection = look->selection;
     bool all = effects_forced(selection, EFFECT_GHOSTS);
-    struct vec2 centre = body->box.motion.position_m;
     double radius_m = look_reflectors_radius_m(body, body->set);
-    for (size_t i = 0; i < faces->count; i++) {
-        const struct mirror_face *face = &faces->items[i];
-        if (face->body == body)
+    struct look_extent extent = look_reflectors_extent(look, body, body->set);
+    bool in_view = all || !look_out_of_reach(look, body, &extent.silhouette);
+    if (!in_view && look_out_of_range(look, &extent.silhouette))
+        return;
+    for (size_t i = 0; i < faces->list.count; i++) {
+        const struct mirror_face *face = &faces->list.items[i];
+        if (face->body == body || !(in_view || face->in_view) ||
+            !(all || mirror_may_bounce(&face->mirror, body->box.motion.position_m, radius_m)))
             continue;
-        bool reach =
-            all || mirror_may_bounce(&face->mirror, look->pose.position_m, centre, radius_m);
-        effects_note(selection, EFFECT_GHOSTS, reach);
-        if (reach)
-            add_body(look, face, body);
+        effects_note(selection, EFFECT_GHOSTS, true);
+        add_body(look, face, body);
     }
 }
 
@@ -487,7 +524,7 @@ void ghost_echoes_add(struct look *look)
         return;
     int64_t start_ns = effects_clock_ns(selection);
     struct mirror_faces faces = mirror_faces_of(look);
-    for (size_t i = 0; i < look->body_count && faces.count > 0; i++)
+    for (size_t i = 0; i < look->body_count && faces.list.count > 0; i++)
         if (look->bodies[i].set != NULL)
             add_ghosts_of(look, &faces, &look->bodies[i]);
     effects_count_time(selection, EFFECT_GHOSTS, start_ns);

@@ -214,14 +214,23 @@ struct look_extent look_reflectors_extent(const struct look *look, const struct 
                          : extent_around(body, set->shape->share, set->shape->inset_m);
 }
 
+bool look_out_of_range(const struct look *look, const struct silhouette *silhouette)
+{
+    return silhouette->nearest_m > look->sensor->range_max_m + SLACK;
+}
+
+bool look_out_of_view(const struct look *look, const struct silhouette *silhouette)
+{
+    return silhouette_outside(silhouette, look->view_right, look->view_left);
+}
+
 bool look_out_of_reach(const struct look *look, const struct look_body *body,
                        const struct silhouette *silhouette)
 {
     double rise_m =
         look->height_m > 0 ? elementary_max(look->height_m, 2 * body->object->height_m) : 0;
-    return silhouette->nearest_m > look->sensor->range_max_m + SLACK ||
-           (silhouette->nearest_m > LEVEL * rise_m &&
-            silhouette_outside(silhouette, look->view_right, look->view_left));
+    return look_out_of_range(look, silhouette) ||
+           (silhouette->nearest_m > LEVEL * rise_m && look_out_of_view(look, silhouette));
 }
 
 double look_top_m(const struct look *look, const struct look_body *body)

@@ -94,12 +94,17 @@ struct kinematics look_slant(const struct look *look, double reflector_m, struct
 double look_plane_ercs(const struct look *look, const struct plane_reflector *plane, double range_m,
                        uint64_t *effects);
 
-/* Radius of a circle around the body's centre that holds all its reflectors of the set. */
+/* Radius of a circle around the body's centre that holds all its reflectors and mirrors of the set.
+ */
 double look_reflectors_radius_m(const struct look_body *body, const struct look_set *set);
 
-/* Extent of all reflectors of the set on a body. */
+/* Extent of all reflectors and mirrors of the set on a body. */
 struct look_extent look_reflectors_extent(const struct look *look, const struct look_body *body,
                                           const struct look_set *set);
+
+/* True only if nothing within the silhouette can be in range, or in view at low elevations. */
+bool look_out_of_range(const struct look *look, const struct silhouette *silhouette);
+bool look_out_of_view(const struct look *look, const struct silhouette *silhouette);
 
 /* True only if nothing of the body within the silhouette can be in range and in view. */
 bool look_out_of_reach(const struct look *look, const struct look_body *body,

@@ -1,16 +1,9 @@
 /* Permittivity of materials, and Fresnel's reflection at their surface.
  *
- * ITU-R P.2040-3, table 3, gives a material's relative permittivity eps' and conductivity s = c f^d
- * S/m, with f in GHz; then eps'' = 17.98 s/f. Its fits hold from 1 to 100 GHz, brick's to 40 GHz,
- * glass's from 0.1 GHz.
- *
- * A plane wave meets the smooth surface of a half space at an angle of incidence of cosine c, from
- * the normal. With eps = eps' - j eps'' and r = sqrt(eps - 1 + c^2) the surface reflects
- *
- *     TE: (c - r)/(c + r),   TM: (eps c - r)/(eps c + r).
- *
- * The electric field is parallel to the surface (TE) or lies in the plane of incidence (TM). So an
- * upright field is TE at a wall and TM at the road (MODEL 14.1, 14.10). */
+ * Permittivities are those of ITU-R P.2040-3, table 3. Its fits hold from 1 to 100 GHz, brick's to
+ * 40 GHz, glass's from 0.1 GHz. The surface is that of a half space, the angle of incidence counts
+ * from the normal (MODEL 14.1). The electric field is parallel to the surface (TE) or lies in the
+ * plane of incidence (TM): an upright field is TE at a wall and TM at the road (MODEL 14.10). */
 #pragma once
 
 #include <complex.h>

@@ -1,14 +1,7 @@
-/* Two-ray propagation over a reflecting road (MODEL 14.10).
+/* Two-ray propagation over a reflecting road.
  *
  * Each way, there and back, the wave goes straight and also by the road; the four paths interfere
- * in one range cell. The echo's amplitude is multiplied by F^2 and its power by F^4, with
- *
- *     F^2 = |1 + g (R1/R2) exp(-j 2 pi delta/lambda)|^2.
- *
- * R1 is the length of the direct path, R2 of the path by the road, delta their difference. The
- * road's reflection coefficient g is Fresnel's (material.h) for an angle of incidence of cosine
- * sin psi, psi the grazing angle, times Rayleigh's factor exp(-8 (pi h sin psi/lambda)^2) of a road
- * whose height has the deviation h. */
+ * in one range cell. The echo's amplitude is multiplied by F^2 of MODEL 14.10, its power by F^4. */
 #pragma once
 
 #include <complex.h>

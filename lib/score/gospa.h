@@ -1,18 +1,8 @@
-/* GOSPA and OSPA of order 2 between two lists.
+/* GOSPA and OSPA of order 2 between two lists (MODEL 11.2).
  *
- * GOSPA (Rahmathullah, Garcia-Fernandez, Svensson 2017) with alpha = 2 is the least, over all ways
- * to pair true items with listed ones, of
- *
- *     sqrt(sum over pairs of d^2 + c^2/2 for every unpaired true item + c^2/2 for every unpaired
- * listed one),
- *
- * so it separates what is misplaced from what is missed and what is false. It is not divided by the
- * number of items. OSPA (Schuhmacher, Vo, Vo 2008) is
- *
- *     sqrt((sum over pairs of d^2 + c^2 for each unpaired item of the longer list) / longer),
- *
- * an average that never exceeds c. Both are metrics if d is. The same pairs serve both: all are
- * closer than the cut-off c. */
+ * GOSPA with alpha = 2 separates what is misplaced from what is missed and what is false; it is not
+ * divided by the number of items. OSPA is an average that never exceeds the cut-off. Both are
+ * metrics if d is. The same pairs serve both: all are closer than the cut-off. */
 #pragma once
 
 #include "base/arena.h"

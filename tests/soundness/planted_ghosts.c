@@ -2,17 +2,15 @@
 #include "geometry/mirror.h"
 #include "planted.h"
 
-bool __wrap_mirror_may_bounce(const struct mirror *mirror, struct vec2 sensor_m,
-                              struct vec2 centre_m, double radius_m);
+bool __wrap_mirror_may_bounce(const struct mirror *mirror, struct vec2 centre_m, double radius_m);
 
 void planted_begin(void)
 {
 }
 
-bool __wrap_mirror_may_bounce(const struct mirror *mirror, struct vec2 sensor_m,
-                              struct vec2 centre_m, double radius_m)
+bool __wrap_mirror_may_bounce(const struct mirror *mirror, struct vec2 centre_m, double radius_m)
 {
     (void)radius_m;
     struct vec2 bounce;
-    return mirror_bounce(mirror, sensor_m, centre_m, &bounce);
+    return mirror_bounce(mirror, centre_m, &bounce);
 }

@@ -24,9 +24,16 @@ static struct kinematics look_at(const struct scene *scene, const struct mirror_
                          thing->place_m, thing->velocity_mps);
 }
 
+static struct mirror mirror_in(const struct scene *scene)
+{
+    const struct mirror *mirror = &scene->mirror;
+    return mirror_of(mirror->a, mirror->b, mirror->body, scene->sensor.position_m);
+}
+
 static struct mirror_image image_in(const struct scene *scene)
 {
-    return mirror_image(&scene->mirror, scene->object.place_m, scene->object.velocity_mps);
+    struct mirror mirror = mirror_in(scene);
+    return mirror_image(&mirror, scene->object.place_m, scene->object.velocity_mps);
 }
 
 static double power_db(const struct ghost_path *ghost, const struct kinematics *direct)
@@ -124,9 +131,9 @@ enum { OUT, BOTH, PATHS };
 static bool measure(const struct scene *scene, double range_m[PATHS])
 {
     struct vec2 sensor = scene->sensor.position_m, object = scene->object.place_m, bounce;
-    if (leg_m(scene->mirror.a, scene->mirror.b) < 5 ||
-        !mirror_bounce(&scene->mirror, sensor, object, &bounce) || leg_m(sensor, object) < 2 ||
-        leg_m(object, bounce) < 1 || leg_m(sensor, bounce) < 1)
+    struct mirror mirror = mirror_in(scene);
+    if (leg_m(scene->mirror.a, scene->mirror.b) < 5 || !mirror_bounce(&mirror, object, &bounce) ||
+        leg_m(sensor, object) < 2 || leg_m(object, bounce) < 1 || leg_m(sensor, bounce) < 1)
         return false;
     range_m[OUT] = (leg_m(sensor, bounce) + leg_m(bounce, object) + leg_m(object, sensor)) / 2;
     range_m[BOTH] = leg_m(sensor, bounce) + leg_m(bounce, object);

@@ -6,7 +6,16 @@
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 /* The example of MODEL 14.1: the wall y = 4, mirroring downwards. */
-static const struct mirror WALL = {.a = {-10, 4}, .b = {50, 4}};
+static struct mirror mirror_between(struct vec2 a, struct vec2 b)
+{
+    return mirror_of(a, b, (struct motion){0}, (struct vec2){0, 0});
+}
+
+/* The same mirror for another sensor. */
+static struct mirror seen_from(struct vec2 sensor, const struct mirror *mirror)
+{
+    return mirror_of(mirror->a, mirror->b, mirror->body, sensor);
+}
 
 static struct vec2 random_place(uint64_t *sample, double bound_m)
 {
@@ -16,23 +25,24 @@ static struct vec2 random_place(uint64_t *sample, double bound_m)
 
 static struct mirror random_mirror(uint64_t *sample)
 {
-    struct mirror mirror = {.a = random_place(sample, 40), .b = random_place(sample, 40)};
-    mirror.body.position_m = random_place(sample, 40);
-    mirror.body.velocity_mps = random_place(sample, 30);
-    mirror.body.yaw_rate_radps = sample_between(sample, -1, 1);
-    return mirror;
+    struct vec2 a = random_place(sample, 40), b = random_place(sample, 40);
+    struct motion body = {.position_m = random_place(sample, 40)};
+    body.velocity_mps = random_place(sample, 30);
+    body.yaw_rate_radps = sample_between(sample, -1, 1);
+    return mirror_of(a, b, body, random_place(sample, 40));
 }
 
 static void the_example_of_the_model_has_its_image_and_its_bounce(void **state)
 {
     (void)state;
-    struct mirror_image image = mirror_image(&WALL, (struct vec2){30, -2}, (struct vec2){-5, 0});
+    struct mirror wall = mirror_between((struct vec2){-10, 4}, (struct vec2){50, 4});
+    struct mirror_image image = mirror_image(&wall, (struct vec2){30, -2}, (struct vec2){-5, 0});
     assert_close(image.place_m.x, 30, 0);
     assert_close(image.place_m.y, 10, 0);
     assert_close(image.velocity_mps.x, -5, 0);
     assert_close(image.velocity_mps.y, 0, 0);
     struct vec2 bounce;
-    assert_true(mirror_bounce(&WALL, (struct vec2){0, 0}, (struct vec2){30, -2}, &bounce));
+    assert_true(mirror_bounce(&wall, (struct vec2){30, -2}, &bounce));
     assert_close(bounce.x, 12, 1e-14);
     assert_close(bounce.y, 4, 1e-15);
 }
@@ -81,14 +91,15 @@ static void known_walls_mirror_or_do_not(void **state)
         {{0, 0}, {9, 9}, {5, 0}, {9, 0}, true, {45. / 14, 45. / 14}},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
-        struct mirror mirror = {.a = cases[i].a, .b = cases[i].b};
+        struct mirror mirror =
+            mirror_of(cases[i].a, cases[i].b, (struct motion){0}, cases[i].sensor);
         struct vec2 bounce = {-1e9, -1e9};
-        bool exists = mirror_bounce(&mirror, cases[i].sensor, cases[i].point, &bounce);
+        bool exists = mirror_bounce(&mirror, cases[i].point, &bounce);
         assert_int_equal(exists, cases[i].exists);
         if (exists) {
             assert_close(bounce.x, cases[i].bounce.x, 8e-15);
             assert_close(bounce.y, cases[i].bounce.y, 8e-15);
-            assert_true(mirror_may_bounce(&mirror, cases[i].sensor, cases[i].point, 0));
+            assert_true(mirror_may_bounce(&mirror, cases[i].point, 0));
         }
     }
 }
@@ -100,11 +111,11 @@ static void a_bounce_lies_on_the_wall_and_its_legs_add_up_to_the_image(void **st
     int found = 0;
     for (int i = 0; i < 200000; i++) {
         struct mirror mirror = random_mirror(&sample);
-        struct vec2 sensor = random_place(&sample, 40), point = random_place(&sample, 40);
+        struct vec2 sensor = mirror.sensor_m, point = random_place(&sample, 40);
         struct vec2 along = vec2_sub(mirror.b, mirror.a);
         double length_m = vec2_length(along);
         struct vec2 bounce;
-        if (length_m < 1 || !mirror_bounce(&mirror, sensor, point, &bounce))
+        if (length_m < 1 || !mirror_bounce(&mirror, point, &bounce))
             continue;
         found++;
         struct vec2 image = mirror_image(&mirror, point, (struct vec2){0, 0}).place_m;
@@ -128,7 +139,7 @@ static void the_bounce_is_the_shortest_way_by_the_wall(void **state)
     int inside = 0, outside = 0;
     for (int i = 0; i < 5000; i++) {
         struct mirror mirror = random_mirror(&sample);
-        struct vec2 sensor = random_place(&sample, 40), point = random_place(&sample, 40);
+        struct vec2 sensor = mirror.sensor_m, point = random_place(&sample, 40);
         struct vec2 along = vec2_sub(mirror.b, mirror.a);
         if (vec2_length(along) < 1 || vec2_cross(along, vec2_sub(sensor, mirror.a)) >= 0 ||
             vec2_cross(along, vec2_sub(point, mirror.a)) >= 0)
@@ -153,7 +164,7 @@ static void the_bounce_is_the_shortest_way_by_the_wall(void **state)
             continue;
         struct vec2 bounce;
         bool expected = shortest > 0 && shortest < 1;
-        assert_int_equal(mirror_bounce(&mirror, sensor, point, &bounce), expected);
+        assert_int_equal(mirror_bounce(&mirror, point, &bounce), expected);
         inside += expected;
         outside += !expected;
     }
@@ -173,11 +184,14 @@ static void a_joint_of_two_pieces_along_an_axis_never_loses_the_bounce(void **st
         double side_m = (double)sample_integer(&sample, 1) * 0x1p-30;
         struct vec2 sensor = {joint - offset + 2 * side_m, wall - height};
         struct vec2 point = {joint + offset, wall - height};
-        struct mirror before = {.a = {joint - 1.7, wall}, .b = {joint, wall}};
-        struct mirror after = {.a = {joint, wall}, .b = {joint + 0.3, wall}};
+        struct vec2 shared = {joint, wall};
+        struct mirror before = mirror_between((struct vec2){joint - 1.7, wall}, shared);
+        struct mirror after = mirror_between(shared, (struct vec2){joint + 0.3, wall});
+        before = seen_from(sensor, &before);
+        after = seen_from(sensor, &after);
         struct vec2 bounce;
-        assert_int_equal(mirror_bounce(&before, sensor, point, &bounce), side_m <= 0);
-        assert_int_equal(mirror_bounce(&after, sensor, point, &bounce), side_m >= 0);
+        assert_int_equal(mirror_bounce(&before, point, &bounce), side_m <= 0);
+        assert_int_equal(mirror_bounce(&after, point, &bounce), side_m >= 0);
     }
 }
 
@@ -188,7 +202,7 @@ static void a_mirrored_scene_has_the_mirrored_answer_to_the_last_bit(void **stat
     int found = 0;
     for (int i = 0; i < 100000; i++) {
         struct mirror mirror = random_mirror(&sample), other = mirror;
-        struct vec2 sensor = random_place(&sample, 40), point = random_place(&sample, 40);
+        struct vec2 sensor = mirror.sensor_m, point = random_place(&sample, 40);
         struct vec2 velocity = random_place(&sample, 30);
         other.a = (struct vec2){mirror.b.x, -mirror.b.y};
         other.b = (struct vec2){mirror.a.x, -mirror.a.y};
@@ -196,9 +210,10 @@ static void a_mirrored_scene_has_the_mirrored_answer_to_the_last_bit(void **stat
         other.body.velocity_mps.y *= -1;
         other.body.yaw_rate_radps *= -1;
         struct vec2 there = {0, 0}, here = {0, 0};
-        struct vec2 sensor_there = {sensor.x, -sensor.y}, point_there = {point.x, -point.y};
-        bool exists = mirror_bounce(&mirror, sensor, point, &here);
-        assert_int_equal(mirror_bounce(&other, sensor_there, point_there, &there), exists);
+        other = seen_from((struct vec2){sensor.x, -sensor.y}, &other);
+        struct vec2 point_there = {point.x, -point.y};
+        bool exists = mirror_bounce(&mirror, point, &here);
+        assert_int_equal(mirror_bounce(&other, point_there, &there), exists);
         assert_true(there.x == here.x && there.y == -here.y);
         struct mirror_image image = mirror_image(&mirror, point, velocity);
         struct mirror_image image_there =
@@ -223,6 +238,7 @@ static struct vec2 image_after(const struct mirror *mirror, struct vec2 point, s
                        vec2_turn(vec2_sub(mirror->a, mirror->body.position_m), turn));
     moved.b = vec2_add(moved.body.position_m,
                        vec2_turn(vec2_sub(mirror->b, mirror->body.position_m), turn));
+    moved = seen_from(mirror->sensor_m, &moved);
     return mirror_image(&moved, vec2_add(point, vec2_scale(t, velocity)), velocity).place_m;
 }
 
@@ -256,22 +272,22 @@ static void no_wall_that_mirrors_a_point_of_the_disc_is_left_out(void **state)
     uint64_t sample = 76;
     int mirrored = 0, left_out = 0, needless = 0;
     for (int i = 0; i < 1000000; i++) {
-        struct mirror mirror = {.a = random_place(&sample, 40), .b = random_place(&sample, 40)};
+        struct vec2 a = random_place(&sample, 40), b = random_place(&sample, 40);
         if (i % 4 == 0) /* short pieces, far from the origin */
-            mirror.b = vec2_add(mirror.a, random_place(&sample, 1));
+            b = vec2_add(a, random_place(&sample, 1));
         struct vec2 shift = {i % 3 == 0 ? 1e6 : 0, i % 3 == 0 ? -3e6 : 0};
-        mirror.a = vec2_add(mirror.a, shift);
-        mirror.b = vec2_add(mirror.b, shift);
         struct vec2 sensor = vec2_add(random_place(&sample, 40), shift);
+        struct mirror mirror =
+            mirror_of(vec2_add(a, shift), vec2_add(b, shift), (struct motion){0}, sensor);
         struct vec2 centre = vec2_add(random_place(&sample, 40), shift);
         double radius_m = i % 5 == 0 ? 0 : sample_between(&sample, 0, 6);
-        bool may = mirror_may_bounce(&mirror, sensor, centre, radius_m), does = false;
+        bool may = mirror_may_bounce(&mirror, centre, radius_m), does = false;
         for (int k = 0; k < 4; k++) { /* k = 0: on the rim, the decisive case */
             double part_m = k == 0 ? radius_m : sample_between(&sample, 0, radius_m);
             struct vec2 arm = vec2_scale(part_m * (1 - 0x1p-50),
                                          vec2_heading(sample_between(&sample, -3.2, 3.2)));
             struct vec2 bounce;
-            does |= mirror_bounce(&mirror, sensor, vec2_add(centre, arm), &bounce);
+            does |= mirror_bounce(&mirror, vec2_add(centre, arm), &bounce);
         }
         assert_true(may || !does);
         mirrored += does;
@@ -289,8 +305,9 @@ static void a_disc_that_touches_the_mirrored_sector_is_not_left_out(void **state
     (void)state;
     uint64_t sample = 77;
     for (int i = 0; i < 100000; i++) {
-        struct mirror mirror = {.a = {0, 4}, .b = {sample_between(&sample, 1, 30), 4}};
+        struct vec2 b = {sample_between(&sample, 1, 30), 4};
         struct vec2 sensor = {sample_between(&sample, -30, 30), sample_between(&sample, -30, 3.9)};
+        struct mirror mirror = mirror_of((struct vec2){0, 4}, b, (struct motion){0}, sensor);
         /* A point that the sensor sees by way of the end, and a disc beyond it through it. */
         struct vec2 end = i % 2 ? mirror.a : mirror.b;
         struct vec2 received = vec2_sub(end, sensor);
@@ -299,9 +316,9 @@ static void a_disc_that_touches_the_mirrored_sector_is_not_left_out(void **state
         double radius_m = sample_between(&sample, 0, 3);
         struct vec2 outwards = {i % 2 ? -received.y : received.y, i % 2 ? -received.x : received.x};
         struct vec2 aside = vec2_scale(radius_m / vec2_length(received), outwards);
-        assert_true(mirror_may_bounce(&mirror, sensor, vec2_add(point, aside), radius_m));
-        assert_false(mirror_may_bounce(&mirror, sensor, vec2_add(point, aside),
-                                       radius_m * (1 - 1e-6) - 1e-6));
+        assert_true(mirror_may_bounce(&mirror, vec2_add(point, aside), radius_m));
+        assert_false(
+            mirror_may_bounce(&mirror, vec2_add(point, aside), radius_m * (1 - 1e-6) - 1e-6));
     }
 }
 

@@ -274,6 +274,8 @@ static void two_walls_in_line_are_one(void **state)
         clear_scene(scene);
         add_standard_pole(scene);
         add_wall(scene, "v", -12, 12, 4);
+        add_object(scene, "va", 12, 4.25, 0, 0.5);
+        add_right_mirror(scene, add_set(scene, "va", false), 0.9); /* without length */
         add_wall(scene, "w", 12, 36, 4);
         /* As the pole moves, its bounce crosses the joint. */
         scene->frame.objects.items[1].x_m = 30 + (double)step * 0x1p-48;
@@ -548,6 +550,19 @@ static int64_t stopped_clock_ns(void)
     return 0;
 }
 
+/* Reach and view end among the bodies, some of which rise high over the sensor. */
+static void limit_sensor(struct scene *scene, uint64_t *sample)
+{
+    struct sensor *sensor = &scene->sensor;
+    sensor->range_max_m = sample_between(sample, 5, 60);
+    sensor->field_of_view_rad = sample_between(sample, 0.1, PI);
+    sensor->mount_z_m = sample_between(sample, 0.3, 3);
+    for (size_t i = 0; i < scene->frame.objects.count; i++)
+        scene->frame.objects.items[i].height_m = sample_between(sample, 0.5, 8);
+    for (size_t i = 0; i < scene->frame.reflectors.count; i++)
+        scene->frame.reflectors.items[i].points.items->z = sample_between(sample, 0.1, 2);
+}
+
 static void auto_leaves_out_no_ghost(void **state)
 {
     struct scene *scene = *state;
@@ -557,6 +572,8 @@ static void auto_leaves_out_no_ghost(void **state)
     for (int round = 0; round < 500; round++) {
         clear_scene(scene);
         add_random_bodies(scene, &sample);
+        if (round % 2 == 1)
+            limit_sensor(scene, &sample);
         ghosts_at(scene, 10);
         size_t count = scene->frame.echoes.count;
         struct echo *all = arena_get(&scene->arena, (count + 1) * sizeof *all);
@@ -580,6 +597,57 @@ static void auto_leaves_out_no_ghost(void **state)
     scene->selection.log = &log;
     ghosts_at(scene, 10);
     assert_true(log.simulated == 0 && log.left_out == EFFECT_BIT(EFFECT_GHOSTS));
+}
+
+/* A wall of 2 m whose middle mirrors the pole to the sensor. */
+static void auto_leaves_out_mirrors_and_bodies_out_of_reach_and_view(void **state)
+{
+    static const struct {
+        double x_m, y_m;             /* of the pole, whose box reaches 0.1 m nearer */
+        double bounce_x_m, wall_y_m; /* of the wall's middle */
+        double range_m, half_view_deg;
+        int paths;
+        bool simulated;
+        double yaw_deg; /* of the sensor */
+    } cases[] = {
+        /* One way 30.84 m, both ways 31.62 m, from -3.81 and 18.43 degrees. */
+        {30, -2, 12, 4, 100, 90, OUT | BACK | BOTH, true, 0},
+        {30, -2, 12, 4, 31, 90, OUT | BACK, true, 0},
+        {30, -2, 12, 4, 30, 90, 0, true, 0},
+        {30, -2, 12, 4, 29.9, 90, 0, false, 0},
+        {30, -2, 12, 4, 100, 18, OUT, true, 0}, /* the wall is in view from 17.1 degrees on */
+        {30, -2, 12, 4, 100, 17, OUT, true, 0},
+        {30, -2, 12, 4, 100, 3.7, 0, true, 0}, /* the pole's box is in view, from 3.6 degrees on */
+        {30, -2, 12, 4, 100, 3.5, 0, false, 0},
+        /* One way 42.58 m, both ways 80.16 m; the wall is 40 m away. */
+        {5, 0, 2.5, 40, 43, 90, OUT | BACK, true, 0},
+        {5, 0, 2.5, 40, 41, 90, 0, true, 0},
+        {5, 0, 2.5, 40, 39.9, 90, 0, false, 0},
+        /* A sensor that looks at the wall sees a pole behind it by way of the wall alone, from 29.1
+         * degrees; the wall's box is in view from 15.2 degrees on. */
+        {5, -1, 20. / 9, 4, 100, 90, BOTH, true, 90},
+        {5, -1, 20. / 9, 4, 100, 29, 0, true, 90},
+        {5, -1, 20. / 9, 4, 100, 15.1, 0, false, 90},
+        /* The wall is behind the sensor. */
+        {-10, -2, -20. / 3, 4, 100, 80, 0, false, 0},
+    };
+    struct scene *scene = *state;
+    struct effect_log log = {.clock_ns = stopped_clock_ns};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        clear_scene(scene);
+        add_object(scene, "o", cases[i].x_m, cases[i].y_m, 0.2, 0.2);
+        add_point(scene, add_set(scene, "o", true));
+        add_wall(scene, "w", cases[i].bounce_x_m - 1, cases[i].bounce_x_m + 1, cases[i].wall_y_m);
+        scene->sensor.range_max_m = cases[i].range_m;
+        scene->sensor.field_of_view_rad = 2 * cases[i].half_view_deg * DEGREE;
+        scene->sensor.mount_yaw_rad = cases[i].yaw_deg * DEGREE;
+        assert_int_equal(paths_of(scene), cases[i].paths);
+        scene->selection.automatic = true;
+        scene->selection.log = &log;
+        log.simulated = 0;
+        assert_int_equal(paths_of(scene), cases[i].paths);
+        assert_int_equal((log.simulated & EFFECT_BIT(EFFECT_GHOSTS)) != 0, cases[i].simulated);
+    }
 }
 
 static void margins_tell_how_near_a_ghost_is_to_vanishing(void **state)
@@ -759,6 +827,7 @@ int main(void)
         TEST(posts_have_ghosts_by_their_names),
         TEST(rates_are_derivatives_of_ranges),
         TEST(auto_leaves_out_no_ghost),
+        TEST(auto_leaves_out_mirrors_and_bodies_out_of_reach_and_view),
         TEST(margins_tell_how_near_a_ghost_is_to_vanishing),
         TEST(a_ghost_in_a_wall_that_moved_has_the_label_latency),
         TEST(heights_count_on_every_leg),
