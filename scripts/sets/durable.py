@@ -5,12 +5,14 @@ import hashlib
 import json
 import os
 import re
+import secrets
 import shutil
 import socket
 
 TEMPORARY = ".tmp"
-CHUNK = 1 << 20
-HOST = socket.gethostname().replace(".", "-")
+MACHINE = socket.gethostname().replace(".", "-")
+with contextlib.suppress(OSError), open("/proc/sys/kernel/random/boot_id", encoding="ascii") as boot:
+    MACHINE = boot.read().strip()  # containers of one machine share it, whatever their host names
 
 
 def sync_folder(folder):
@@ -32,48 +34,46 @@ def make_folder(folder):
         sync_folder(above)
 
 
-def began(process):
-    """When a process of this host began, in ticks since the boot, where the system tells it; else 0, and where only its
-    exit status is left. Numbers of processes come again; together with this they do not."""
-    try:
-        with open(f"/proc/{process}/stat", "rb") as stat:
-            state, *numbers = stat.read().rsplit(b") ", 1)[1].split()
-    except OSError:
-        return 0
-    return 0 if state in b"ZX" else int(numbers[18])
-
-
-def temporary_name(path, work):
-    """A name in the folder `work` that no other process of any host takes."""
-    maker = f"{HOST}.{os.getpid()}-{began(os.getpid())}"
-    return os.path.join(work, f"{os.path.basename(path)}.{maker}{TEMPORARY}")
+def create(path, work, folder=False):
+    """A new file or folder in the folder `work` under a name that no other process takes, and its open descriptor. The
+    descriptor's lock says that its maker lives, to other containers and machines too where the file system has locks."""
+    while True:
+        temporary = os.path.join(work, f"{os.path.basename(path)}.{MACHINE}.{secrets.token_hex(8)}{TEMPORARY}")
+        os.mkdir(temporary) if folder else open(temporary, "xb").close()
+        with contextlib.suppress(FileNotFoundError):  # another process removed it before it was locked
+            descriptor = os.open(temporary, os.O_RDONLY if folder else os.O_WRONLY)
+            with contextlib.suppress(OSError):
+                fcntl.flock(descriptor, fcntl.LOCK_EX)
+            if os.path.exists(temporary):
+                return temporary, descriptor
+            os.close(descriptor)
 
 
 @contextlib.contextmanager
 def temporary_folder(path, work):
     """A folder for files that get their names elsewhere."""
-    temporary = temporary_name(path, work)
-    os.mkdir(temporary)
+    temporary, descriptor = create(path, work, folder=True)
     try:
         yield temporary
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
+        os.close(descriptor)
 
 
 @contextlib.contextmanager
 def whole_file(path, work):
     """A binary file that gets its name when the block ends well, and vanishes when it does not.
 
-    Until then it lies in the folder `work` of the same file system, under a name that holds host and process: two
-    processes that make one file never write into each other's, and the later one replaces a file of the same bytes.
+    Until then it lies in the folder `work` of the same file system, under a name of its own: two processes that make
+    one file never write into each other's, and the later one replaces a file of the same bytes.
     """
-    temporary = temporary_name(path, work)
+    temporary, descriptor = create(path, work)
     try:
-        with open(temporary, "wb") as file:
+        with open(temporary, "wb", opener=lambda *_: descriptor) as file:
             yield file
             file.flush()
             os.fsync(file.fileno())
-        os.rename(temporary, path)
+            os.rename(temporary, path)
         sync_folder(os.path.dirname(path))
     except BaseException:
         with contextlib.suppress(OSError):
@@ -95,26 +95,23 @@ def alone(work):
         yield
 
 
-def running(process, since):
-    """Is there a process of that number on this host that began then?"""
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    except PermissionError:
-        pass
-    return began(process) == since
+def remove_if_left(path):
+    """Removes a file or folder unless its maker lives, who has its lock, or unless there are no locks."""
+    with contextlib.suppress(OSError):
+        descriptor = os.open(path, os.O_RDONLY if os.path.isdir(path) else os.O_RDWR)
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            shutil.rmtree(path) if os.path.isdir(path) else os.remove(path)
+        finally:
+            os.close(descriptor)
 
 
 def remove_temporaries(work, of_all=False):
-    """Removes what killed processes of this host left in a folder, and on request what those of other hosts did."""
+    """Removes what killed processes of this machine left in a folder, and on request what those of other machines did."""
     for name in os.listdir(work):
-        maker = re.fullmatch(rf".*\.([^.]+)\.(\d+)-(\d+){re.escape(TEMPORARY)}", name, re.DOTALL)
-        if maker and (not running(int(maker[2]), int(maker[3])) if maker[1] == HOST else of_all):
-            path = os.path.join(work, name)
-            shutil.rmtree(path, ignore_errors=True)
-            with contextlib.suppress(FileNotFoundError):
-                os.remove(path)
+        maker = re.fullmatch(rf".*\.([^.]+)\.[^.]+{re.escape(TEMPORARY)}", name, re.DOTALL)
+        if maker and (of_all or maker[1] == MACHINE):
+            remove_if_left(os.path.join(work, name))
 
 
 def digest_of(data):
@@ -122,11 +119,8 @@ def digest_of(data):
 
 
 def digest_of_file(path):
-    digest = hashlib.sha256()
     with open(path, "rb") as file:
-        while chunk := file.read(CHUNK):
-            digest.update(chunk)
-    return "sha256:" + digest.hexdigest()
+        return "sha256:" + hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def canonical(value):

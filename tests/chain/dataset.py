@@ -16,7 +16,6 @@ import random
 import re
 import shutil
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
@@ -392,14 +391,36 @@ def what_is_damaged_is_made_again(folder):
     assert "datapackage.json" not in files(place)
 
 
-def numbers_of_processes_come_again(folder):
-    """What a killed process left goes, also if another process has its number now, as this one here."""
-    place = made(folder, snapshots(8))
-    right = files(place)
-    host = socket.gethostname().replace(".", "-")
-    with open(os.path.join(place, "work", f"left.{host}.{os.getpid()}-1.tmp"), "wb"):
-        pass
-    assert make(place).returncode == 0 and files(place) == right
+HOLDER = """
+import sys
+sys.path.insert(0, sys.argv[1])
+import durable
+with durable.whole_file("{place}/file", "{place}"), durable.temporary_folder("folder", "{place}"):
+    print("begun", flush=True)
+    sys.stdin.read()
+"""
+
+
+def temporaries_of_the_living_stay(folder):
+    """Also those of another container with this host name; those of the killed go, whatever has their numbers now."""
+    sets = os.path.join(ROOT, "scripts", "sets")
+    sys.path.insert(0, sets)
+    import durable
+    alone = ["unshare", "-rpf", "--mount-proc", "--kill-child", sys.executable]
+    if run([*alone, "-c", ""]).returncode != 0:
+        print("    left out: this machine lets nobody begin a namespace; tried without one")
+        alone = [sys.executable]
+    with subprocess.Popen([*alone, "-c", HOLDER.format(place=folder), sets], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                          text=True) as holder:
+        assert holder.stdout.readline() == "begun\n"
+        for of_all in (False, True):
+            durable.remove_temporaries(folder, of_all=of_all)
+            assert len(os.listdir(folder)) == 2, f"{os.listdir(folder)} are left of two temporaries in use"
+        holder.kill()
+        holder.wait()
+        holder.stdout.read()
+    durable.remove_temporaries(folder)
+    assert not os.listdir(folder), f"{os.listdir(folder)} are left of a killed process"
 
 
 def one_failing_scene_stops_no_other(folder):
@@ -549,7 +570,7 @@ CHECKS = [shards_join_to_the_bytes_of_one_run, scenes_and_seeds_are_played_whole
           blocks_of_time_keep_their_gap, leaks_are_refused, what_cannot_be_made_is_refused,
           scenes_of_one_name_are_refused, tables_of_a_suite_stand_in_the_set_or_are_refused, paths_may_have_any_letters,
           another_plan_in_the_folder_is_refused, two_plans_at_once_make_one_set, who_finishes_at_once_disturbs_nobody,
-          what_is_damaged_is_made_again, numbers_of_processes_come_again, one_failing_scene_stops_no_other,
+          what_is_damaged_is_made_again, temporaries_of_the_living_stay, one_failing_scene_stops_no_other,
           a_chain_that_fails_is_named, a_full_disk_loses_nothing, parallel_makes_the_same_bytes,
           jobs_without_a_number_are_refused]
 
