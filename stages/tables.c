@@ -57,8 +57,7 @@ static const struct field tables_options[] = {
 
 const struct tool tool_tables = {
     .name = "tables",
-    .summary =
-        "Write tables of detections, objects, scans, contributors, sightings, losses and frames.",
+    .summary = "Write tables of targets, labels, objects, scans, sightings, losses and frames.",
     .details =
         "The files are detections.csv.gz and so on. Columns are the members of the frame, with\n"
         "the same names and units; columns that end in _key are whole numbers that join rows.\n"

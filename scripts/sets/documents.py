@@ -2,9 +2,10 @@
 import os
 import re
 import shlex
+import shutil
 import subprocess
 
-from durable import digest_of_file
+from durable import digest_of_file, make_folder, whole_file
 from plan import BAD_DATA, FROM_FILES, NO_INPUT, ROOT, Fault, kind_of, read_json, refuse
 
 BIN = os.path.join(ROOT, os.environ.get("BUILD", "build"), "bin")
@@ -107,12 +108,19 @@ def copies(plan, plan_folder):
     return dict(sorted(found.items()))
 
 
+def copy_documents(copied, folder, work):
+    for name, path in copied.items():
+        make_folder(os.path.dirname(os.path.join(folder, name)))
+        with open(path, "rb") as source, whole_file(os.path.join(folder, name), work) as file:
+            shutil.copyfileobj(source, file)
+
+
 def files_of(source, plan_folder):
     """The files that a source reads in the plan's folder: traffic, its meta files, and those that options name."""
     kind = kind_of(source)
     words = shlex.split(source.get("options", "").replace("=", " "))
     names = [word for word in words if not is_name(word) and os.path.isfile(os.path.join(plan_folder, word))]
-    if kind in FROM_FILES and not is_name(source[kind]):
+    if kind in FROM_FILES and path_of(source[kind], kind, plan_folder) and not is_name(source[kind]):
         names.append(source[kind])
         folder, name = os.path.split(source[kind])
         recorded = re.fullmatch(r"(.*)_tracks\.csv(\.gz)?", name)

@@ -2,16 +2,13 @@
 import json
 import os
 import shlex
-import shutil
-import subprocess
 import sys
-import tempfile
 
-from documents import copies, described, environment, files_of, path_of, program_version, suite_name
-from durable import (alone, canonical, digest_of, make_folder, remove_temporaries, sync_folder, whole_file,
-                     write_whole)
-from plan import BAD_DATA, CANNOT_CREATE, ROOT, Fault, check_once, kind_of, read_json, refuse
-from traffic import command_of, first_scenes, packed, source_command, stretches_of
+from documents import copies, copy_documents, described, files_of, program_version, suite_name
+from durable import alone, canonical, digest_of, make_folder, remove_temporaries, sync_folder, write_whole
+from plan import BAD_DATA, CANNOT_CREATE, ROOT, Fault, read_json, refuse
+from rehearsal import rehearse
+from traffic import chain_of, packed, source_command, stretches_of
 
 WORK, LAYOUT = "work", "work/layout.json"
 
@@ -25,7 +22,7 @@ def shard_of(stretches, split, suite, number, plan, plan_folder):
     return {"path": place + ".jsonl.gz", "split": split, "suite": suite,
             "tables": [f"{place}/{name}.csv.gz" for name in table_names() if plan.get("tables")],
             "inputs": sorted({name for stretch in stretches for name in files_of(stretch.source, plan_folder)}),
-            "commands": [command_of(stretch, plan["chain"].replace("{suite}", suite)) for stretch in stretches]}
+            "commands": [f"{source_command(plan, stretch, suite)} | {chain_of(plan, suite)}" for stretch in stretches]}
 
 
 def shards_of(plan, plan_folder):
@@ -46,49 +43,12 @@ def shards_of(plan, plan_folder):
 
 def lay_out(plan, plan_folder):
     """Layout and copies of a plan. The identity of the layout is a digest of all that decides the set's bytes."""
-    check_once(plan, lambda word, kind: path_of(word, kind, plan_folder))
     copied, shards = copies(plan, plan_folder), shards_of(plan, plan_folder)
     inputs = sorted({name for shard in shards for name in shard["inputs"]})
     layout = {"program": program_version(), "plan": plan, "documents": described(copied),
               "inputs": described({name: name for name in inputs}, plan_folder), "shards": shards}
     layout["identity"] = digest_of(canonical(layout).encode())
     return layout, copied
-
-
-def copy_documents(copied, folder, work):
-    for name, path in copied.items():
-        make_folder(os.path.dirname(os.path.join(folder, name)))
-        with open(path, "rb") as source, whole_file(os.path.join(folder, name), work) as file:
-            shutil.copyfileobj(source, file)
-
-
-def check_drawn(plan, plan_folder, trial):
-    """Refuses to split a scenario whose first scenes are alike, as it draws nothing."""
-    for i, source in enumerate(plan["sources"] if "splits" in plan else []):
-        if kind_of(source) == "scenario":
-            command = source_command(first_scenes(source, plan.get("seeds", [1])[0]))
-            played = subprocess.run(["glint", "-c", command], cwd=plan_folder, env=environment(trial), check=False,
-                                    stdout=subprocess.PIPE).stdout
-            scenes = {}
-            for frame in map(json.loads, played.splitlines()):
-                scenes.setdefault(frame["scene"], []).append(frame["objects"])
-            first, *others = scenes.values() or [None]
-            refuse(others and all(other == first for other in others), f"/sources/{i}",
-                   "its scenes are alike, as it draws nothing: split, they leak")
-
-
-def rehearse(plan, plan_folder, copied):
-    """Plays the first scenes of what is split, and sends a random frame through the chain of each suite: what leaks and
-    what is wrong is found before a folder is there."""
-    with tempfile.TemporaryDirectory() as trial:
-        copy_documents(copied, trial, trial)
-        check_drawn(plan, plan_folder, trial)
-        for suite in map(suite_name, plan["suites"]):
-            chain = plan["chain"].replace("{suite}", suite)
-            words = ["glint", "-c", f"glint-traffic-random --frames 1 | {chain} | glint-summary"]
-            code = subprocess.run(words, env=environment(trial), stdout=subprocess.DEVNULL).returncode
-            if code != 0:
-                raise Fault(code, f"/chain: this fails: {shlex.join(words)}")
 
 
 # --- the folder of the set ------------------------------------------------------------------------

@@ -3,10 +3,10 @@ import json
 import os
 
 import page
-from documents import DOCUMENTS
-from durable import alone, digest_of, digest_of_file, make_folder, remove_temporaries, sync_folder, write_whole
+from documents import DOCUMENTS, described
+from durable import alone, digest_of, make_folder, remove_temporaries, sync_folder, write_whole
 from layout import WORK
-from plan import ROOT, read_json
+from plan import ROOT, kind_of, read_json
 from shard import BEGUN, MANIFEST, record_path
 
 PAGE, FRAME = "README.md", "frame"
@@ -17,7 +17,7 @@ def frame_fields():
     frame = read_json(os.path.join(ROOT, "schemas", "frame.json"))
     fields = [{"name": name, "type": member.get("type", "any"), "description": member.get("description", "")}
               for name, member in frame["properties"].items()]
-    return {"fields": fields, "primaryKey": ["scene", "seed", "frame"]}
+    return {"fields": fields, "primaryKey": ["scene", "frame"]}
 
 
 def schema_path(name):
@@ -59,10 +59,19 @@ def content_hash(resources):
     return digest_of("".join(lines).encode())
 
 
+def origins_of(sources):
+    """Licences and sources of recordings, if there are any, in the words of Frictionless."""
+    recorded = [source for source in sources if kind_of(source) == "recording"]
+    found = {"licenses": [{"name": name} for name in sorted({source["licence"] for source in recorded})],
+             "sources": [{"title": title} for title in sorted({source["source"] for source in recorded})]}
+    return found if recorded else {}
+
+
 def package_of(layout, records, documents):
     plan = layout["plan"]
     resources = [resource_of(file, layout["shards"][record["part"]]) for record in records for file in record["files"]]
     return {"profile": "data-package", "name": plan["name"], "description": plan["origin"],
+            **origins_of(plan["sources"]),
             "program": layout["program"], "identity": layout["identity"], "plan": plan,
             "frames": sum(record["files"][0]["rows"] for record in records),
             "rows": sum(resource["rows"] for resource in resources),
@@ -80,26 +89,22 @@ def manifest_of(package):
 
 def documents_of(layout, folder):
     names = [document["path"] for document in layout["documents"]] + [*schemas_of(layout), PAGE]
-    return [{"path": name, "bytes": os.path.getsize(os.path.join(folder, name)),
-             "hash": digest_of_file(os.path.join(folder, name))} for name in names]
+    return described({name: name for name in names}, folder)
 
 
 def finish(layout, folder):
     """Writes page and manifest of a set whose shards are all there."""
-    with alone(os.path.join(folder, WORK)):
-        return finish_alone(layout, folder, os.path.join(folder, WORK))
-
-
-def finish_alone(layout, folder, work):
-    records = [read_json(record_path(folder, part)) for part in range(len(layout["shards"]))]
-    for path, fields in schemas_of(layout).items():
-        make_folder(os.path.dirname(os.path.join(folder, path)))
-        write_whole(os.path.join(folder, path), work, json.dumps(fields, indent=1, ensure_ascii=False) + "\n")
-    write_whole(os.path.join(folder, PAGE), work, page.page_of(layout, records))
-    package = package_of(layout, records, documents_of(layout, folder))
-    if os.path.exists(os.path.join(work, BEGUN)):
-        os.remove(os.path.join(work, BEGUN))
-    remove_temporaries(work, of_all=True)
-    sync_folder(work)
-    write_whole(os.path.join(folder, MANIFEST), work, manifest_of(package))
-    return package
+    work = os.path.join(folder, WORK)
+    with alone(work):
+        records = [read_json(record_path(folder, part)) for part in range(len(layout["shards"]))]
+        for path, fields in schemas_of(layout).items():
+            make_folder(os.path.dirname(os.path.join(folder, path)))
+            write_whole(os.path.join(folder, path), work, json.dumps(fields, indent=1, ensure_ascii=False) + "\n")
+        write_whole(os.path.join(folder, PAGE), work, page.page_of(layout, records))
+        package = package_of(layout, records, documents_of(layout, folder))
+        if os.path.exists(os.path.join(work, BEGUN)):
+            os.remove(os.path.join(work, BEGUN))
+        remove_temporaries(work, of_all=True)
+        sync_folder(work)
+        write_whole(os.path.join(folder, MANIFEST), work, manifest_of(package))
+        return package

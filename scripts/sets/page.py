@@ -2,39 +2,45 @@
 import collections
 import os
 
+from plan import kind_of, scene_of
+
 PAGE = """\
 # {name}
 
 {origin}
 
-{rows} frames in {shards} shards, with {targets} targets, by {program}. `datapackage.json` describes every file
+{rows} frames in {shards} shards, with {targets} targets of all kinds, by {program}. `datapackage.json` describes every file
 (Frictionless): rows, bytes, SHA-256 of the file (`hash`) and of its uncompressed bytes (`content_hash`), and the command
 lines that made it. Its last line is the SHA-256 of all bytes before that line.
 
 {table}
 
-| class of the object that made most of a target | {splits} |
+| what made most of a target: a class of objects, or else | {splits} |
 |---|{rules}|
 {classes}
+
+Targets are made by glint from models: no radar has measured them. The traffic:
+
+{traffic}
 
 ## Conventions
 
 - A shard is `SPLIT/SUITE/NUMBER.jsonl.gz`: gzip, one frame a line. `documents/schemas/` lists members and columns.{tables}
 - SI units and radians; the unit is in the name of a member. Axes follow ISO 8855: x forward, y left, angles
   counter-clockwise. Azimuth counts from boresight, left positive; range rate is positive when receding.
-- A frame is known by `scene`, `seed` and `frame`. `objects` is the truth. A target's `contributors` are its label: `object`,
-  `reflector`, `path` and `weight`, 1 in sum; the first is not always the strongest. `cell_...` are values without noise.
+- A frame is known by `scene` and `frame`: a scene's name is unique in the set. `objects` is the truth. A target's
+  `contributors` are its label: `object`, `reflector`, `path` and `weight`, 1 in sum; the first is not always the
+  strongest. `cell_...` are values without noise.
 - A scan without targets is a frame all the same. `seed` is text, as it may have 64 bits.
 - `documents/` has the radars and vehicles. `GLINT_DATA=documents glint -c '...'` repeats a command line; paths of recordings
   are from the folder of the plan.
 - {leak}
-- Frames are made by glint from models; there is no measured data in them.
 
 ## Loading
 
 Run in the folder of the set.
 
-pandas{pandas_tested}:
+pandas (tested):
 
 ```python
 import pandas
@@ -45,7 +51,7 @@ strongest = targets["contributors"].map(lambda parts: max(parts, key=lambda part
 print(len(frames), len(targets), strongest.nunique())
 ```
 
-DuckDB{duckdb_tested}:
+DuckDB (tested):
 
 ```sql
 select scene, frame, target.sensor, target.range_m, target.azimuth_rad, target.range_rate_mps
@@ -53,7 +59,7 @@ from (select scene, frame, unnest(targets) as target from read_json('{split}/*/*
 order by scene, frame;
 ```
 
-PyTorch{torch_tested}:
+PyTorch (tested):
 
 ```python
 import glob
@@ -86,7 +92,7 @@ loader = torch.utils.data.DataLoader(Frames("{split}/*/*.jsonl.gz"), batch_size=
 print(sum(len(targets) for targets, objects in loader))
 ```
 
-MATLAB{matlab_tested}:
+MATLAB (tested with GNU Octave):
 
 ```matlab
 folder = tempname();
@@ -102,7 +108,8 @@ printed = sprintf("%d %d", numel(lines), count)
 """
 TABLES = """
 - The tables of a shard (CSV, gzip) are in `SPLIT/SUITE/NUMBER/`. Whole numbers that are unique in the set join
-  them: `scan_key` is a row of `scans`, `object_key` of `objects`, `detection_key` of `detections`."""
+  them: `frame_key` is a row of `frames`, `scan_key` of `scans`, `object_key` of `objects`, `detection_key` of
+  `detections`."""
 LEAKS = {None: "The set is one split.",
          "scene": "Splits share no scene: scenes were drawn one by one.",
          "time": "Splits are blocks of time; {gap_s} s between two of them are left out.",
@@ -140,17 +147,23 @@ def class_table(counts):
     return "\n".join(f"| {' | '.join(row)} |" for row in rows)
 
 
+def traffic_of(source):
+    """Where the traffic of a source comes from."""
+    kind = kind_of(source)
+    if kind == "recording":
+        return f"- `{scene_of(source)}`: a recording, by {source['source']}; licence: {source['licence']}"
+    made = {"random": "snapshots that glint has drawn", "moving": "moving scenes that glint has drawn"}
+    return f"- `{scene_of(source)}`: {made.get(kind, 'a scenario, played by glint')}"
+
+
 def page_of(layout, records):
     plan, counts = layout["plan"], classes_by_split(layout, records)
     splits = plan.get("splits", {})
     first = layout["shards"][0]
-    tested = " (tested)"
     return PAGE.format(
         name=plan["name"], origin=plan["origin"], program=layout["program"], shards=len(records),
         rows=counted(sum(record["files"][0]["rows"] for record in records)),
         targets=counted(sum(sum(record["targets"].values()) for record in records)),
         table=split_table(layout, records), splits=" | ".join(counts), rules="|".join("---:" for _ in counts),
-        classes=class_table(counts), leak=LEAKS[splits.get("by")].format(gap_s=splits.get("gap_s")),
-        tables=TABLES if plan.get("tables") else "", first=first["path"], split=os.path.dirname(os.path.dirname(first["path"])),
-        pandas_tested=tested, duckdb_tested=tested, torch_tested=tested,
-        matlab_tested=" (tested with GNU Octave)")
+        classes=class_table(counts), traffic="\n".join(map(traffic_of, plan["sources"])), leak=LEAKS[splits.get("by")].format(gap_s=splits.get("gap_s")),
+        tables=TABLES if plan.get("tables") else "", first=first["path"], split=os.path.dirname(os.path.dirname(first["path"])))

@@ -9,7 +9,7 @@ BOUNDS = {"minimum": ("at least", lambda value, bound: value >= bound),
           "minItems": ("at least this many items:", lambda value, bound: len(value) >= bound),
           "maxItems": ("at most this many items:", lambda value, bound: len(value) <= bound),
           "minProperties": ("at least this many members:", lambda value, bound: len(value) >= bound),
-          "pattern": ("a text like", lambda value, bound: re.search(bound, value)),
+          "pattern": ("a text like", lambda value, bound: re.fullmatch(bound, value)),
           "enum": ("one of", lambda value, bound: value in bound),
           "uniqueItems": ("no item twice:", lambda value, _: len(set(map(str, value))) == len(value))}
 
@@ -37,6 +37,8 @@ def fault_of(value, schema, path=""):
     """The first fault of a value, as path, value and expectation; None if there is none."""
     if "type" in schema and not has_type(value, schema["type"]):
         return f"{path or '/'}: {value!r}; expected {schema['type']}"
+    if isinstance(value, str) and re.search("[\0-\x1f\x7f\ud800-\udfff]", value):
+        return f"{path}: {value!r}; expected one line, without control characters and halves of characters"
     for word, (text, holds) in BOUNDS.items():
         if word in schema and not holds(value, schema[word]):
             return f"{path or '/'}: {value!r}; expected {text} {schema[word]}"

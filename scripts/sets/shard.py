@@ -14,7 +14,7 @@ import time
 import zlib
 
 from documents import environment, program_version
-from durable import (alone, digest_of, digest_of_file, remove_temporaries, sync_folder, temporary_folder, whole_file,
+from durable import (alone, digest_of_file, remove_temporaries, sync_folder, temporary_folder, whole_file,
                      write_whole)
 from layout import WORK
 from plan import BAD_DATA, IO, NO_INPUT, USAGE, Fault, read_json
@@ -92,10 +92,10 @@ def ask(words, folder):
     return done.stdout
 
 
-def targets_by_class(counts):
-    """What glint-summary has counted."""
-    block = re.search(r"\ntargets by class.*\n((?: .*\n)+)", counts)
-    rows = re.findall(r" *(\d+) +[\d.]+ % +(.*)\n", block[1]) if block else []
+def targets_by_kind(counts):
+    """What glint-summary has counted: by the class of the object that made most of a target, or as ghosts and the like."""
+    blocks = re.findall(r"\ntargets (?:by class|that show no object).*\n((?: .*\n)+)", counts)
+    rows = re.findall(r" *(\d+) +[\d.]+ % +(.*)\n", "".join(blocks))
     return collections.Counter({name: int(count) for count, name in rows})
 
 
@@ -154,14 +154,14 @@ def check_inputs(layout, shard, folder, plan_folder):
 
 
 def make_files(shard, part, folder, plan_folder):
-    """The files of a shard, and its targets by class."""
+    """The files of a shard, and its targets by kind."""
     frames, targets = 0, collections.Counter()
     with whole_file(os.path.join(folder, shard["path"]), os.path.join(folder, WORK)) as file:
         gzip_file = Gzip(file)
         for command in shard["commands"]:
             counts = run_into(gzip_file, command, folder, plan_folder)
             frames += int(counts.split()[0])
-            targets += targets_by_class(counts)
+            targets += targets_by_kind(counts)
         gzip_file.close()
         file.flush()
         tables = make_tables(shard, part, file.name, folder)
@@ -221,17 +221,14 @@ def missing(layout, folder, by_digest=True):
 def verify(layout, folder):
     """Before a run: what is left of killed runs goes, and what is there is held to its records. A manifest stands
     beside whole sets alone."""
-    with alone(os.path.join(folder, WORK)):
-        return verify_alone(layout, folder, os.path.join(folder, WORK))
-
-
-def verify_alone(layout, folder, work):
-    remove_temporaries(work)
-    left = missing(layout, folder)
-    if left and os.path.exists(os.path.join(folder, MANIFEST)):
-        os.remove(os.path.join(folder, MANIFEST))
-    write_whole(os.path.join(work, BEGUN), work, json.dumps({"time_s": time.time(), "missing": len(left)}))
-    return left
+    work = os.path.join(folder, WORK)
+    with alone(work):
+        remove_temporaries(work)
+        left = missing(layout, folder)
+        if left and os.path.exists(os.path.join(folder, MANIFEST)):
+            os.remove(os.path.join(folder, MANIFEST))
+        write_whole(os.path.join(work, BEGUN), work, json.dumps({"time_s": time.time(), "missing": len(left)}))
+        return left
 
 
 def clear_progress():

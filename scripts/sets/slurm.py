@@ -7,7 +7,7 @@ import sys
 
 from durable import make_folder, write_whole
 from layout import WORK
-from plan import Fault
+from plan import Fault, refuse
 
 UNAVAILABLE = 69
 BATCH = """\
@@ -60,8 +60,10 @@ def arrays(parts, most):
 
 
 def place_of(folder):
-    """Where scripts and outputs of jobs lie."""
-    return os.path.join(os.path.abspath(folder), WORK, "slurm")
+    """Where scripts and outputs of jobs lie. Slurm reads % and \\ in the path of an output."""
+    place = os.path.join(os.path.abspath(folder), WORK, "slurm")
+    refuse(re.search(r"[%\\]", place), place, "a path with % or \\ is none for Slurm")
+    return place
 
 
 def array_words(folder, first, tasks):

@@ -125,36 +125,48 @@ def operand(path):
     return "./" + path if path.startswith("-") else path
 
 
-def words_of_recording(stretch):
+def words_of_recording(source, block, title):
     """The end of a block is the next one's begin: the microsecond before it is the last that is played."""
-    source, (begin, end) = stretch.source, stretch.block
-    name = scene_of(source) + (f"@{seconds(begin)}" if begin is not None else "")
+    begin, end = block
+    name = title + (f"@{seconds(begin)}" if begin is not None else "")
     words = [operand(source["recording"]), "--ego", ",".join(source["egos"]), "--scene", name]
     words += ["--from-s", seconds(begin)] if begin is not None else []
     words += ["--to-s", seconds(end - 1)] if end is not None else []
     return words + (["--rate-hz", text_of(source["rate_hz"])] if "rate_hz" in source else [])
 
 
-def source_words(stretch):
+def source_words(stretch, title):
     source, kind = stretch.source, kind_of(stretch.source)
     if kind == "recording":
-        return words_of_recording(stretch)
+        return words_of_recording(source, stretch.block, title)
     scenes = ["--scenes", f"{stretch.first}:{stretch.end}"] if "scenes" in source else []
+    scenes += ["--scene", title] if title != scene_of(source) else []
     if kind == "scenario":
         return [operand(source["scenario"]), *scenes]
     if kind == "random":
         frames = ["--first", str(stretch.first), "--frames", str(stretch.end - stretch.first)]
-        return ["--density", source["random"], *frames]
+        return ["--density", source["random"], *frames, *scenes]
     rate = ["--rate-hz", text_of(source["rate_hz"])] if "rate_hz" in source else []
     return ["--density", source["random"], "--seconds", text_of(source["seconds"]), *scenes, *rate]
 
 
-def source_command(stretch):
-    source = stretch.source
+def command_words(source, words):
+    """The command that plays a source."""
     program = source.get("program", "glint-traffic" if kind_of(source) in FROM_FILES else "glint-traffic-random")
-    more = shlex.split(source.get("options", ""))
-    return shlex.join([program, *source_words(stretch), "--seed", str(stretch.seed), *more])
+    return [program, *words, *shlex.split(source.get("options", ""))]
 
 
-def command_of(stretch, chain):
-    return f"{source_command(stretch)} | {chain}"
+def title_of(plan, stretch, suite):
+    """How the names of scenes begin. Each scene of a set has a name of its own, also if several radars see its traffic, or
+    several seeds play it; random scenes have their seed in their names anyway."""
+    with_suite, with_seed = len(plan["suites"]) > 1, len(plan.get("seeds", [1])) > 1 and kind_of(stretch.source) in FROM_FILES
+    return "/".join([scene_of(stretch.source), *[suite] * with_suite, *[str(stretch.seed)] * with_seed])
+
+
+def source_command(plan, stretch, suite):
+    words = source_words(stretch, title_of(plan, stretch, suite))
+    return shlex.join(command_words(stretch.source, [*words, "--seed", str(stretch.seed)]))
+
+
+def chain_of(plan, suite):
+    return plan["chain"].replace("{suite}", suite)

@@ -31,9 +31,11 @@ CHAIN = "glint-extract | glint-ideal --sensors {suite} --sections account | glin
 SUITE = "corner77-every-frame"
 SHARES = {"train": 0.8, "validation": 0.1, "test": 0.1}
 PATIENCE_S = 600
+RECORDED = {"licence": "MIT", "source": "glint, scripts/make-highway"}
 
 
 def plan_of(sources, **members):
+    sources = [RECORDED | source if "recording" in source else source for source in sources]
     return {"name": "set", "origin": "Made for a test.", "sources": sources, "chain": CHAIN, "suites": [SUITE],
             "frames_per_shard": 10} | members
 
@@ -106,9 +108,9 @@ def shards_join_to_the_bytes_of_one_run(folder):
 def scenes_and_seeds_are_played_whole(folder):
     sources = [{"scenario": "cut-in"}, {"scenario": "varied-cut-in", "scenes": [3, 8]},
                {"random": "medium", "seconds": 2, "scenes": [4, 9], "rate_hz": 10}]
-    words = ("glint-traffic cut-in", "glint-traffic varied-cut-in --scenes 3:8",
+    words = ("glint-traffic cut-in --scene cut-in/{seed}", "glint-traffic varied-cut-in --scenes 3:8 --scene varied-cut-in/{seed}",
              "glint-traffic-random --density medium --seconds 2 --scenes 4:9 --rate-hz 10")
-    right = "".join(run(["glint", "-c", f"{source} --seed {seed} | {CHAIN.format(suite=SUITE)}"]).stdout
+    right = "".join(run(["glint", "-c", f"{source.format(seed=seed)} --seed {seed} | {CHAIN.format(suite=SUITE)}"]).stdout
                     for seed in (1, 2) for source in words)
     for size, count in ((10000, 1), (300, 8), (100, 14)):
         place = made(folder, plan_of(sources, seeds=[1, 2], frames_per_shard=size), f"by-{size}")
@@ -152,7 +154,7 @@ def tables_have_the_targets_of_their_lines(folder):
     assert of_tables == of_lines and len(keys) == len(of_lines) > 100
     facts = {resource["path"]: resource for resource in manifest(place)["resources"]}
     names = {resource["name"] for resource in facts.values()}
-    assert len(facts) == 6 * 7, "lines and six tables of six shards"
+    assert len(facts) == 6 * 8, "lines and seven tables of six shards"
     assert sum(fact["rows"] for path, fact in facts.items() if path.startswith("train/") and "detections" in path) == len(of_lines)
     for path, fact in facts.items():
         packed = files(place)[path]
@@ -178,6 +180,88 @@ def rows_are_counted_wherever_a_table_is_cut(_):
         assert rows.count == len(cells) + 3, f"cut at {cut}: {rows.count} rows"
 
 
+def every_table_joins_every_other(folder):
+    """In a set of two seeds and two radars on one recording, by the keys that tables.json names; and the tracker reads it."""
+    source = {"recording": "highway", "egos": ["1", "7"], "from_s": 0, "to_s": 1, "block_s": 0.5}
+    chain = CHAIN.replace("account", "account,visibility")
+    place = made(folder, plan_of([source, {"random": "medium", "frames": 5}], seeds=[1, 2], suites=[SUITE, "lrr77-every-frame"], tables=True,
+                                 chain=chain))
+    frames = [json.loads(line) for line in frames_of(place, "all/*").splitlines()]
+    assert len({(frame["scene"], frame["frame"]) for frame in frames}) == len(frames), "two scenes of one name"
+    with open(os.path.join(ROOT, "schemas", "tables.json"), encoding="utf-8") as file:
+        schemas = json.load(file)
+    tables = {name: [row for path in sorted(glob.glob(f"{place}/all/*/*/{name}.csv.gz"))
+                     for row in csv.DictReader(gzip.open(path, "rt", encoding="utf-8", newline=""))] for name in schemas}
+    assert len(tables["frames"]) == len(frames)
+    reached = {name: {join["reference"]["resource"] for join in schema.get("foreignKeys", [])} for name, schema in schemas.items()}
+    whole = {"frames"}
+    while more := {name for name, others in reached.items() if others & whole} - whole:
+        whole |= more
+    assert whole == schemas.keys(), f"no keys lead from {schemas.keys() - whole} to frames"
+    for name, schema in schemas.items():
+        primary = schema.get("primaryKey", [])
+        primary = [primary] if isinstance(primary, str) else primary
+        assert not primary or len({tuple(map(row.get, primary)) for row in tables[name]}) == len(tables[name]) > 0, name
+        for join in schema.get("foreignKeys", []):
+            key, other = join["fields"], join["reference"]["resource"]
+            rows = {row[key]: row for row in tables[other]}
+            for row in tables[name]:
+                there = rows[row[key]] if row[key] else row
+                assert all(row[column] == there[column] for column in ("scene", "frame", "time_s") if column in row.keys() & there.keys()
+                           and name != "contributors"), f"{name}.{key} joins another world"
+    lines = os.path.join(folder, "test.jsonl.gz")
+    done = run(["bash", "-e", "-o", "pipefail", "-c", f"cat {place}/*/*/*.jsonl.gz > {lines}; scripts/tracker {lines}"
+                f" | glint-score-tracks --tracks - {lines} --table"], cwd=ROOT)
+    assert done.returncode == 0 and f"{len(frames)} frames;" in done.stdout, done.stdout
+
+
+def kind_of_target(frame, target):
+    """What made most of it: the class of an object where it is, or what else."""
+    most = max(target["contributors"], key=lambda part: part["weight"])
+    if most["path"] in ("clutter", "false_alarm"):
+        return most["path"].replace("_", " ")
+    if most["path"] not in ("direct", "wheel", "limb"):
+        return "ghost"
+    return next(one["class"] for one in frame["objects"] if one["id"] == most["object"])
+
+
+def counts_of_the_page_add_up(folder):
+    """All targets by kind, as the lines have them; and the page says where the traffic comes from."""
+    sources = [{"random": "dense", "frames": 200, "options": "--conditions"}]
+    place = made(folder, plan_of(sources, suites=["lrr77-full"], splits={"by": "scene", "shares": SHARES}, frames_per_shard=50))
+    with open(os.path.join(place, "README.md"), encoding="utf-8") as file:
+        page = file.read()
+    counted = {}
+    for split in SHARES:
+        for frame in map(json.loads, frames_of(place, f"{split}/*").splitlines()):
+            for target in frame["targets"]:
+                kind = kind_of_target(frame, target)
+                counted.setdefault(kind, dict.fromkeys(SHARES, 0))[split] += 1
+    assert {"ghost", "clutter", "false alarm", "car"} <= counted.keys(), counted
+    for kind, counts in counted.items():
+        row = " | ".join(f"{counts[split]:,}" for split in SHARES)
+        assert f"\n| {kind} | {row} |\n" in page, f"{kind}: {row}: {page}"
+    sums = {split: sum(counts[split] for counts in counted.values()) for split in SHARES}
+    assert f" {sum(sums.values()):,} targets of all kinds" in page
+    for split, count in sums.items():
+        assert re.search(rf"\n\| `{split}/lrr77-full` \| \d+ \| [\d,]+ \| {count:,} \|", page), page
+    assert "no radar has measured them" in page and "- `random-dense`: snapshots that glint has drawn" in page
+
+
+def recordings_tell_licence_and_source(folder):
+    source = {"recording": "highway", "egos": ["1"]}
+    for name in RECORDED:
+        plan = plan_of([source])
+        del plan["sources"][0][name]
+        refusals(folder, [(plan, f"/sources/0: {name} is missing: a recording source needs it")], 65)
+    place = made(folder, plan_of([source]))
+    with open(os.path.join(place, "README.md"), encoding="utf-8") as page:
+        assert "- `highway`: a recording, by glint, scripts/make-highway; licence: MIT\n" in page.read()
+    package = manifest(place)
+    assert package["licenses"] == [{"name": "MIT"}] and package["sources"] == [{"title": RECORDED["source"]}]
+    assert package["plan"]["sources"][0].items() >= RECORDED.items()
+
+
 # --- splits ---------------------------------------------------------------------------------------
 
 def times_of(place, split):
@@ -196,6 +280,46 @@ def blocks_of_time_keep_their_gap(folder):
         assert of_ego == [[at for at in steps if at < 5.4], [at for at in steps if at >= 6.6]], f"ego {ego}: {of_ego}"
     assert len({scene for scene, _ in train}) == 8 and len({scene for scene, _ in test}) == 6
     assert not {scene for scene, _ in train} & {scene for scene, _ in test}
+
+
+def blocks_of_a_resampled_recording_have_all_frames(folder):
+    source = {"recording": "highway", "egos": ["1", "7"], "from_s": 0.1, "to_s": 10.1, "block_s": 1.3, "rate_hz": 40}
+    place = made(folder, plan_of([source]))
+    played = run(["glint-traffic", "highway", "--ego", "1,7", "--rate-hz", "40", "--from-s", "0.1", "--to-s", "10.099999"]).stdout
+    right = sorted((frame["ego"], frame["time_s"]) for frame in map(json.loads, played.splitlines()))
+    frames = map(json.loads, frames_of(place, "all/*").splitlines())
+    assert sorted((frame["ego"], frame["time_s"]) for frame in frames) == right and len(right) == 800, len(right)
+
+
+def numbers_of(frame):
+    """What was drawn of a frame: numbers that no document has."""
+    places = [one[name] for one in frame["objects"] for name in ("x_m", "y_m", "vx_mps")]
+    weather = [value for value in frame.get("conditions", {}).values() if isinstance(value, float)]
+    return {value for value in places + weather if abs(value - round(value, 3)) > 1e-9}
+
+
+def no_two_scenes_share_a_draw(folder):
+    """Of every kind of source beside every other: random snapshots and moving scenes with their weather, and scenarios."""
+    with open(os.path.join(ROOT, "data", "scenarios", "random-roads.json"), encoding="utf-8") as file:
+        roads = json.load(file)
+    with open(os.path.join(folder, "mine.json"), "w", encoding="utf-8") as file:
+        json.dump(roads | {"origin": "A copy."}, file)
+    scenarios = [{"scenario": name, "scenes": [0, 12]} for name in ("varied-cut-in", "random-roads", "./mine.json")]
+    drawn = [{"random": density, **more, "options": "--conditions"} for density in ("sparse", "medium", "dense")
+             for more in ({"frames": 12}, {"seconds": 1, "scenes": [0, 12]})]
+    place, done = begin(folder, plan_of([*drawn, *scenarios], seeds=[1, 2], frames_per_shard=10000,
+                                        splits={"by": "scene", "shares": {"train": 0.5, "test": 0.5}}))
+    assert done.returncode == 0, done.stdout
+    with open(os.path.join(place, "work", "layout.json"), encoding="utf-8") as file:
+        commands = [command.split(" | ")[0] for shard in json.load(file)["shards"] for command in shard["commands"]]
+    first, owner = {}, {}
+    for command in commands:
+        for frame in map(json.loads, run(["glint", "-c", command], cwd=folder).stdout.splitlines()):
+            first.setdefault(frame["scene"], frame)
+    assert len(first) == 2 * 12 * 9, len(first)
+    for scene, frame in first.items():
+        for number in numbers_of(frame):
+            assert owner.setdefault(number, scene) == scene, f"{scene} and {owner[number]} have {number}"
 
 
 def recording(folder, name, rows):
@@ -222,11 +346,11 @@ def leaks_are_refused(folder):
     cases = [
         (plan_of([one], splits={"by": "ego"}), '/splits/by: "ego" leaks: egos of one recording see the same traffic'),
         (snapshots(9, splits={"by": "seed"}), '/splits/by: "seed" leaks: another seed is the same traffic'),
-        (plan_of([one | {"split": "train"}, two | {"split": "test"}], **by_recording), "another split (train): it leaks"),
-        (plan_of([one | {"split": "train"}, copied | {"split": "test"}], **by_recording), "another split (train): it leaks"),
-        (plan_of([one | {"split": "train"}, packed | {"split": "test"}], **by_recording), "another split (train): it leaks"),
-        (plan_of([alike], splits={"by": "scene", "shares": SHARES}), "/sources/0: its scenes are alike"),
-        (plan_of([medium, medium]), "/sources/1: the same traffic as /sources/0"),
+        (plan_of([one | {"split": "train"}, two | {"split": "test"}], **by_recording), "in another split: it leaks"),
+        (plan_of([one | {"split": "train"}, copied | {"split": "test"}], **by_recording), "in another split: it leaks"),
+        (plan_of([one | {"split": "train"}, packed | {"split": "test"}], **by_recording), "in another split: it leaks"),
+        (plan_of([alike], splits={"by": "scene", "shares": SHARES}), "/sources/0: its scenes are alike, cut-in/ego/0 and cut-in/ego/1"),
+        (plan_of([medium, medium]), "/sources/1: its scenes have the names of those of /sources/0"),
         (plan_of([one], splits={"by": "scene", "shares": SHARES}), "cannot be split by scene"),
         (plan_of([medium], **by_recording), "cannot be split by recording"),
         (plan_of([timed], splits={"by": "time", "shares": SHARES}), "/splits/gap_s: missing: without a gap"),
@@ -263,7 +387,12 @@ def what_cannot_be_made_is_refused(folder):
         (plan_of([{"random": "medium", "seconds": 1, "scenes": [0, 2], "rate_hz": 0.5}]), "expected a number in [1, 10000]"),
         (plan_of([{"recording": "highway", "egos": ["1"], "from_s": 0, "to_s": 9e9, "block_s": 1e-6}]), "more than 1000000 blocks"),
         (snapshots(9, chain=CHAIN + " --seed 7"), "/chain: --seed is not the chain's to say"),
-        (snapshots(9, origin="\ud800"), "half a character"),
+        (snapshots(9, chain=CHAIN + ' "--seed" 7'), "/chain: --seed is not the chain's to say"),
+        (snapshots(9, chain=CHAIN + " --se'ed=7'"), "/chain: --seed=7 is not the chain's to say"),
+        (snapshots(9, name="small\n"), "/name: 'small\\n'; expected one line"),
+        (plan_of([{"recording": "traffic/a\nb.csv", "egos": ["1"]}]), "/sources/0/recording: 'traffic/a\\nb.csv'; expected one line"),
+        (snapshots(9, name="small "), "/name: 'small '; expected a text like"),
+        (snapshots(9, origin="\ud800"), "/origin: '\\ud800'; expected one line"),
         (snapshots(9, suites=[SUITE, f"{ROOT}/data/sensors/{SUITE}.json"]), f"/suites: {SUITE} is there twice"),
         (snapshots(9, suites=["./my radar.json"]), "./my radar.json: expected a file name of letters"),
         (snapshots(9, suites=[f"{ROOT}/schemas/sensors.json"]), "expected a suite of sensors"),
@@ -272,6 +401,60 @@ def what_cannot_be_made_is_refused(folder):
     refusals(folder, [(plan_of([{"recording": "nowhere.csv", "egos": ["1"]}]), "no such file"),
                       (snapshots(9, suites=["nowhere"]), "no such file")], 66)
     refusals(folder, [(snapshots(9, chain=CHAIN.replace("--sections account", "--acount")), "/chain: this fails: glint -c")], 64)
+
+
+def copied(folder, name, change, ids=range(1, 15), begin_s=0, end_s=20):
+    """A part of the shipped recording with other ids, its rows changed: the plan's path of it."""
+    path = os.path.join(folder, recording(folder, name, slice(1, None)))
+    with open(path, encoding="utf-8", newline="") as table:
+        head, *rows = csv.reader(table)
+    rows = [dict(zip(head, row)) for row in rows]
+    with open(path, "w", encoding="utf-8", newline="") as table:
+        writer = csv.DictWriter(table, head)
+        writer.writeheader()
+        writer.writerows({**row, "track_id": 1000 + int(row["track_id"]), **change(row)} for row in rows
+                         if int(row["track_id"]) in ids and begin_s <= int(row["timestamp_ms"]) / 1000 <= end_s)
+    return "traffic/" + name
+
+
+def copies_of_a_recording_are_known(folder):
+    """Whatever their names, origins and times, whole or in part; other bodies of the same roads are no copy."""
+    def moved(x_m, y_m, digits=6, time_ms=0):
+        return lambda row: {"x": f"{float(row['x']) + x_m:.{digits}f}", "y": f"{float(row['y']) + y_m:.{digits}f}",
+                            "timestamp_ms": int(row["timestamp_ms"]) + time_ms}
+
+    one = {"recording": "highway", "egos": ["all"], "split": "train"}
+    ways = [(moved(0, 0), {}), (moved(691000.5, -5334000.25), {}), (moved(12.345678, 0.5, digits=3), {}), (moved(0, 0, time_ms=30000), {}),
+            (moved(3, 4), {"begin_s": 4, "end_s": 8}), (moved(3, 4), {"ids": (3, 9)})]
+    for i, (change, part) in enumerate(ways):
+        two = {"recording": copied(folder, f"{i}.csv", change, **part), "egos": ["all"], "split": "test"}
+        leak = "/sources/1: bodies that move as those of /sources/0, which is in another split: it leaks"
+        place, done = begin(folder, plan_of([one, two], splits={"by": "recording"}), "refused")
+        assert done.returncode == 65 and leak in done.stdout and not os.path.exists(place), f"{i}: {done.stdout}"
+    timed = [{"recording": name, "egos": ["all"], "from_s": 0, "to_s": 10} for name in ("highway", "traffic/1.csv")]
+    refusals(folder, [(plan_of(timed, splits={"by": "time", "shares": {"train": 0.5, "test": 0.5}, "gap_s": 1}), leak)], 65)
+    halves = [{"recording": copied(folder, f"{name}.csv", moved(0, 0), ids=ids), "egos": ["all"], "split": name}
+              for name, ids in (("train", range(1, 8)), ("test", range(8, 15)))]
+    assert begin(folder, plan_of(halves, splits={"by": "recording"}))[1].returncode == 0
+
+
+def what_no_frame_of_a_rehearsal_meets_is_refused(folder):
+    timed = {"recording": "highway", "egos": ["1", "7"], "from_s": 0.1, "to_s": 10, "block_s": 2}
+    late = {"recording": copied(folder, "late.csv", lambda row: {}, begin_s=0), "egos": ["1001", "1007"]}
+    with open(os.path.join(folder, late["recording"]), encoding="utf-8") as file:
+        rows = [line for line in file if not line.startswith("1007,") or int(line.split(",")[2]) < 6000]
+    with open(os.path.join(folder, late["recording"]), "w", encoding="utf-8") as file:
+        file.writelines(rows)
+    moving = {"random": "medium", "seconds": 1, "scenes": [0, 2]}
+    refusals(folder, [
+        (plan_of([{"random": "medium", "frames": 9}, timed | late]), '/sources/1/egos: "1007" has no frame in the block that begins at 6.1 s'),
+        (plan_of([timed | {"egos": ["1", "nobody"]}]), '/sources/0: this fails: glint-traffic highway --ego 1,nobody'),
+        (plan_of([timed | {"options": "--class-map car=carr"}]), "/chain: this fails: glint -c"),
+        (plan_of([moving | {"options": "--conditions=7"}]), "/sources/0: this fails: glint -c"),
+        (plan_of([moving | {"options": "--colour red"}]), "/sources/0: this fails: glint -c"),
+        (plan_of([moving | {"rate_hz": 5}], suites=["corner77"]), "/chain: this fails: glint -c"),
+        (plan_of([timed], suites=["corner77"]), "/chain: this fails: glint -c"),
+    ], None)
 
 
 def scenes_of_one_name_are_refused(folder):
@@ -288,7 +471,8 @@ def scenes_of_one_name_are_refused(folder):
 def refusals(folder, cases, code):
     for plan, message in cases:
         place, done = begin(folder, plan, "refused")
-        assert done.returncode == code and message in done.stdout, f"{message}: {done.returncode}: {done.stdout}"
+        assert done.returncode == code or code is None and done.returncode, f"{message}: {done.returncode}: {done.stdout}"
+        assert message in done.stdout, f"{message}: {done.stdout}"
         assert not os.path.exists(place), f"{message}: leaves a folder"
 
 
@@ -444,12 +628,20 @@ def one_failing_scene_stops_no_other(folder):
 
 
 def a_chain_that_fails_is_named(folder):
-    names = [recording(folder, f"{i}.csv", slice(1 + 100 * i, 101 + 100 * i)) for i in range(3)]
-    plan = plan_of([{"recording": name, "egos": ["nobody" if name == names[1] else "all"]} for name in names])
-    place, _ = begin(folder, plan)
+    """By a class without a document, which the rehearsal does not meet."""
+    body = {"id": "ego", "class": {"choice": ["car"] * 8 + ["unicycle"]}, "speed_mps": 5}
+    with open(os.path.join(folder, "mine.json"), "w", encoding="utf-8") as file:
+        json.dump({"origin": "a test", "ego": "ego", "rate_hz": 10, "duration_s": 1, "objects": [body]}, file)
+    place, done = begin(folder, plan_of([{"scenario": "./mine.json", "scenes": [0, 20]}]))
+    assert done.returncode == 0, done.stdout
+    played = run(["glint-traffic", "./mine.json", "--scenes", "0:20"], cwd=folder).stdout
+    wrong = sorted({int(frame["scene"].split("/")[2]) for frame in map(json.loads, played.splitlines())
+                    if frame["objects"][0]["class"] == "unicycle"})
     done = make(place)
-    assert done.returncode != 0 and "part-1, all/" in done.stdout and "exit status 65: glint -c" in done.stdout, done.stdout
-    assert "1 of 3 shards are missing: part-1;" in done.stdout
+    assert wrong and done.returncode != 0 and "exit status 65: glint -c" in done.stdout, done.stdout
+    assert all(f"part-{part}, all/" in done.stdout for part in wrong), done.stdout
+    missing = " ".join(f"part-{part}" for part in wrong)
+    assert f"{len(wrong)} of 20 shards are missing: {missing};" in done.stdout, done.stdout
 
 
 def a_full_disk_loses_nothing(folder):
@@ -548,26 +740,38 @@ def parallel_makes_the_same_bytes(folder):
     assert done.returncode == 0 and files(os.path.join(folder, "small")) == right, done.stdout
 
 
+def program(folder, name, text):
+    """A folder with a program of one's own, and the environment that has it."""
+    place = os.path.join(folder, "tools")
+    os.makedirs(place, exist_ok=True)
+    with open(os.path.join(place, name), "w", encoding="ascii") as file:
+        file.write(text)
+    os.chmod(os.path.join(place, name), 0o755)
+    return os.environ | {"PATH": place + os.pathsep + os.environ["PATH"]}
+
+
 def jobs_without_a_number_are_refused(folder):
     """Programs that stand for Slurm's: an sbatch that prints no id, one whose array gets no number, and one that fails."""
     place, _ = begin(folder, snapshots(20))
-    tools = os.path.join(folder, "tools")
-    os.mkdir(tools)
     for sbatch, message in (("true", "sbatch printed '' instead of the id"), ("false", "exit status 1: sbatch"),
                             ("echo Submitted batch job 7", "instead of the id")):
-        for name, text in (("scontrol", "echo MaxArraySize = 1001"), ("sbatch", sbatch)):
-            with open(os.path.join(tools, name), "w", encoding="ascii") as file:
-                file.write(f"#!/bin/sh\n{text}\n")
-            os.chmod(os.path.join(tools, name), 0o755)
-        done = run(["make", "-s", "-C", place, "slurm"], env=os.environ | {"PATH": tools + ":" + os.environ["PATH"]})
+        program(folder, "scontrol", "#!/bin/sh\necho MaxArraySize = 1001\n")
+        tools = program(folder, "sbatch", f"#!/bin/sh\n{sbatch}\n")
+        done = run(["make", "-s", "-C", place, "slurm"], env=tools)
         assert done.returncode == 2 and message in done.stdout, done.stdout
     done = run(["sh", os.path.join(place, "work/slurm/part.sh")], env=os.environ | {"SLURM_ARRAY_TASK_ID": ""})
     assert done.returncode != 0 and "SLURM_ARRAY_TASK_ID: is empty" in done.stdout, done.stdout
+    for letter in "%\\":
+        done = run([DATASET, f"{folder}/set.json", "--out", f"{folder}/100{letter}", "--slurm"])
+        assert done.returncode == 65 and "a path with % or \\ is none for Slurm" in done.stdout, done.stdout
+        assert not os.path.exists(f"{folder}/100{letter}")
 
 
 CHECKS = [shards_join_to_the_bytes_of_one_run, scenes_and_seeds_are_played_whole, the_manifest_says_what_is_there,
-          tables_have_the_targets_of_their_lines, rows_are_counted_wherever_a_table_is_cut,
-          blocks_of_time_keep_their_gap, leaks_are_refused, what_cannot_be_made_is_refused,
+          tables_have_the_targets_of_their_lines, every_table_joins_every_other, counts_of_the_page_add_up,
+          recordings_tell_licence_and_source, rows_are_counted_wherever_a_table_is_cut,
+          blocks_of_time_keep_their_gap, blocks_of_a_resampled_recording_have_all_frames, no_two_scenes_share_a_draw,
+          leaks_are_refused, copies_of_a_recording_are_known, what_no_frame_of_a_rehearsal_meets_is_refused, what_cannot_be_made_is_refused,
           scenes_of_one_name_are_refused, tables_of_a_suite_stand_in_the_set_or_are_refused, paths_may_have_any_letters,
           another_plan_in_the_folder_is_refused, two_plans_at_once_make_one_set, who_finishes_at_once_disturbs_nobody,
           what_is_damaged_is_made_again, temporaries_of_the_living_stay, one_failing_scene_stops_no_other,

@@ -1,0 +1,46 @@
+"""Tells whether two recordings have the same traffic: by how bodies move, whatever names, files and origins they have."""
+import collections
+import itertools
+import math
+
+STEPS = 25  # of a piece of motion
+STEP_M, SHIFT_M, SHIFT_S = 1e-2, 1, 0.1  # how closely steps agree, and the shifts of all bodies of a copy
+SHARE, FEWEST = 1 / 20, 2  # of the bodies of the smaller recording that are in both if they are copies
+
+
+def whole(value, unit):
+    """In whole units. Decimals lie off the borders, so that another origin rounds them alike."""
+    return math.floor(value / unit + 0.37)
+
+
+def pieces_of(frames):
+    """From frames of egos alone: time and place of each body at pieces of its motion: at the first, at the last, and at one in eight of the others."""
+    pieces, ways, places, known = collections.defaultdict(dict), {}, {}, set()
+    for frame in frames:
+        name, (body,) = frame["scene"], frame["objects"]
+        place = frame.get("origin_x_m", 0) + body["x_m"], frame.get("origin_y_m", 0) + body["y_m"]
+        dx, dy = (whole(here - there, STEP_M) for here, there in zip(place, places.get(name, place)))
+        places[name] = place
+        way = ways.setdefault(name, collections.deque(maxlen=STEPS))
+        way.append(dx << 32 ^ dy)
+        piece = hash(tuple(way))
+        if frame.get("last") or len(way) == STEPS and (name not in known or piece % 8 == 0):
+            if any(way):
+                known.add(name)
+                pieces[piece].setdefault(name, (frame["time_s"], *place))
+    return pieces
+
+
+def bodies_in(pieces):
+    return len(set().union(*pieces.values()))
+
+
+def same_traffic(one, other):
+    """Are enough bodies of the smaller recording in both, all of them shifted alike in time and place?"""
+    shifted = collections.defaultdict(set)
+    for piece in one.keys() & other.keys():
+        for here, (name, there) in itertools.product(one[piece].values(), other[piece].items()):
+            shift = (whole(b - a, unit) for a, b, unit in zip(here, there, (SHIFT_S, SHIFT_M, SHIFT_M)))
+            shifted[tuple(shift)].add(name)
+    bodies = min(bodies_in(one), bodies_in(other))
+    return max(map(len, shifted.values()), default=0) >= max(min(FEWEST, bodies), SHARE * bodies, 1)
