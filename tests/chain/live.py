@@ -7,6 +7,7 @@ of a run over a file. An answer that has not come after a minute counts as never
 """
 import os
 import select
+import shutil
 import socket
 import subprocess
 import sys
@@ -164,10 +165,36 @@ def late_truth(frames, folder):
 
 
 def simulator():
-    shown = [run([sys.executable, f"{ROOT}/pipelines/live.py", program]) for program in ("bash", "glint")]
+    shown = [run([sys.executable, f"{ROOT}/pipelines/live.py", *program]) for program in ([], ["glint"])]
     speed_mps, gap_m = (float(shown[0].split()[at]) for at in (-4, -2))
     good = shown[0] == shown[1] and 20 < speed_mps < 21 and 30 < gap_m < 40
     yield "pipelines/live.py", None if good else f"ends with {shown[0].splitlines()[-1]} in bash"
+
+
+def simulator_of_a_broken_radar(folder):
+    """A stage in the middle that cannot start, dies after some frames, or is killed: the simulator ends as it does."""
+    os.makedirs(f"{folder}/sensors")
+    with open(f"{folder}/sensors/lrr77-every-frame.json", "w", encoding="utf-8") as suite:
+        suite.write("{}")
+    bad_suite, path = {"GLINT_DATA": folder}, {"PATH": folder + os.pathsep + os.environ["PATH"]}
+    sensor, real = os.path.join(folder, "glint-sensor"), shutil.which("glint-sensor")
+    for name, program, script, environment, code, message in (
+            ("a bad suite", [], None, bad_suite, 78, f"glint-ideal: {folder}/sensors/"),
+            ("a bad suite, glint", ["glint"], None, bad_suite, 78, f"glint-ideal: {folder}/sensors/"),
+            ("a stage that fails", [], f"sed -u 5q | {real}; echo mine: no more >&2; exit 65", path, 65, "mine: no more"),
+            ("a stage that is killed", [], "read -r; kill -9 $$", path, None, "")):
+        if script:
+            with open(sensor, "w", encoding="utf-8") as file:
+                file.write("#!/bin/bash\n" + script + "\n")
+            os.chmod(sensor, 0o755)
+        try:
+            done = subprocess.run([sys.executable, f"{ROOT}/pipelines/live.py", *program], capture_output=True, text=True,
+                                  env={**os.environ, **environment}, timeout=PATIENCE_S, check=False)
+            good = (done.returncode == code if code else done.returncode > 0) and message in done.stderr
+            fault = None if good and "Traceback" not in done.stderr else f"exit {done.returncode}: {done.stderr[-300:]}"
+        except subprocess.TimeoutExpired:
+            fault = "hangs"
+        yield f"pipelines/live.py, {name}", fault
 
 
 def main():
@@ -178,9 +205,10 @@ def main():
     frames = run(["glint-traffic", "cut-in"]).splitlines(True)[:FRAMES]
     faults = 0
     with tempfile.TemporaryDirectory() as folder:
-        for checks in (ways(frames, folder), sinks(frames[:8], folder), late_truth(frames, folder), simulator()):
+        for checks in (ways(frames, folder), sinks(frames[:8], folder), late_truth(frames, folder), simulator(),
+                       simulator_of_a_broken_radar(folder)):
             for name, fault in checks:
-                print(f"{name}: {fault or 'every answer comes before the next frame'}")
+                print(f"{name}: {fault or 'no frame waits'}")
                 faults += fault is not None
     sys.exit(1 if faults else 0)
 
