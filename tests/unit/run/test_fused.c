@@ -1,0 +1,157 @@
+#include "captured.h"
+
+#include <stdlib.h>
+
+#include "run/fused.h"
+
+/* Runs glint with these words, up to NULL. */
+static int run_glint(const void *with)
+{
+    const char *const *words = with;
+    char *copies[8] = {(char[]){"glint"}};
+    int count = 1;
+    for (; words[count - 1] != NULL; count++)
+        copies[count] = strdup(words[count - 1]);
+    return fused_main(count, copies);
+}
+
+static struct captured *glint(const char *option, const char *value)
+{
+    static struct captured captured;
+    capture(&captured, run_glint, (const char *[]){option, value, NULL});
+    return &captured;
+}
+
+static void expect_refused(const char *pipeline, int code, const char *message)
+{
+    struct captured *captured = glint("-c", pipeline);
+    assert_int_equal(captured->code, code);
+    assert_string_equal(captured->err, message);
+    assert_string_equal(captured->out, "");
+}
+
+static void a_program_has_the_name_behind_glint(void **state)
+{
+    (void)state;
+    assert_string_equal(fused_name("glint-plan"), "plan");
+    assert_string_equal(fused_name("/usr/bin/glint-sensor-signal"), "sensor-signal");
+    assert_null(fused_name("glint"));
+    assert_null(fused_name("/glint-plan/other"));
+}
+
+static void every_stage_and_every_tool_is_found_by_its_name_alone(void **state)
+{
+    (void)state;
+    for (size_t i = 0; stages[i] != NULL; i++) {
+        assert_ptr_equal(fused_stage(stages[i]->name), stages[i]);
+        assert_null(fused_tool(stages[i]->name));
+    }
+    for (size_t i = 0; tools[i] != NULL; i++) {
+        assert_ptr_equal(fused_tool(tools[i]->name), tools[i]);
+        assert_null(fused_stage(tools[i]->name));
+    }
+    assert_null(fused_stage("sens"));
+    assert_null(fused_tool(""));
+}
+
+static void a_pipeline_runs_in_one_process(void **state)
+{
+    (void)state;
+    struct captured *captured =
+        glint("-c", "set -o pipefail\nglint-traffic-random --frames 3 | glint-extract # twice\n");
+    assert_int_equal(captured->code, 0);
+    assert_string_equal(captured->err, "");
+    size_t lines = 0;
+    for (const char *at = captured->out; (at = strchr(at, '\n')) != NULL; at++)
+        lines++;
+    assert_int_equal(lines, 3);
+    assert_non_null(strstr(captured->out, "\"reflectors\":"));
+}
+
+static void programs_out_of_place_are_refused(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {
+        {"glint-extract | glint-traffic a.json",
+         "glint: -c:1: glint-traffic is a source and can only stand first; run it with bash\n"},
+        {"glint-extract |\n glint-schema folder", "glint: -c:2: glint-schema reads no frames, so "
+                                                  "it can only stand first; run it with bash\n"},
+        {"glint-extract | glint-noise list.jsonl",
+         "glint: -c:1: glint-noise reads files, so it can only stand first; run it with bash\n"},
+        {"glint-plan --sensors a | glint-noise",
+         "glint: -c:1: glint-plan writes no frames, so it can only stand last; run it with bash\n"},
+        {"glint-export-csv | glint-noise", "glint: -c:1: glint-export-csv writes no frames, so it "
+                                           "can only stand last; run it with bash\n"},
+        {"glint-extract -o a | glint-noise",
+         "glint: -c:1: glint-extract writes to a file, so it can "
+         "only stand last; run it with bash\n"},
+        {"glint-extract --help",
+         "glint: -c:1: glint-extract was asked for --help or --version; run it with bash\n"},
+        {"glint-nois", "glint: -c:1: glint-nois is no stage or tool of this build (did you mean "
+                       "glint-noise?); run it with bash\n"},
+        {"./glint-noise", "glint: -c:1: ./glint-noise is no stage or tool of this build (did you "
+                          "mean glint-noise?); run it with bash\n"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        expect_refused(cases[i][0], 64, cases[i][1]);
+}
+
+/* As bash does it under pipefail. */
+static void the_exit_code_is_that_of_the_rightmost_program_that_fails(void **state)
+{
+    (void)state;
+    assert_int_equal(glint("-c", "glint-traffic nowhere | glint-extract")->code, 78);
+    assert_int_equal(glint("-c", "glint-traffic nowhere | glint-noise --sensor 3")->code, 64);
+}
+
+static void times_of_every_part_go_to_stderr(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/glint-fused-XXXXXX";
+    static const char pipeline[] = "glint-traffic-random --frames 2 | glint-extract\n";
+    int file = mkstemp(path);
+    assert_int_equal(write(file, pipeline, sizeof pipeline - 1), sizeof pipeline - 1);
+    close(file);
+    struct captured *captured = glint("--times", path);
+    unlink(path);
+    assert_int_equal(captured->code, 0);
+    static const char *const parts[] = {
+        "{\"part\":\"traffic-random\",\"frames\":2,", "{\"part\":\"extract\",\"frames\":2,",
+        "{\"part\":\"write\",\"frames\":2,", "{\"part\":\"bytes\",\"read\":0,\"written\":"};
+    const char *at = captured->err;
+    for (size_t i = 0; i < 4; i++) {
+        assert_memory_equal(at, parts[i], strlen(parts[i]));
+        at = strchr(at, '\n') + 1;
+    }
+    assert_string_equal(at, "");
+    char written[32];
+    snprintf(written, sizeof written, "\"written\":%zu}\n", strlen(captured->out));
+    assert_non_null(strstr(captured->err, written));
+}
+
+static void what_glint_does_not_know_is_refused_with_what_it_does(void **state)
+{
+    (void)state;
+    assert_int_equal(glint("--lisst", "stages")->code, 64);
+    assert_string_equal(glint("--lisst", "stages")->err,
+                        "glint: unknown option --lisst (did you mean --list?); see --help\n");
+    assert_string_equal(glint("-c", NULL)->err,
+                        "glint: expected a FILE, -c TEXT or an option; see --help\n");
+    assert_int_equal(glint("no-such-pipeline", NULL)->code, 78);
+    assert_int_equal(glint("--help", NULL)->code, 0);
+    assert_memory_equal(glint("--help", NULL)->out, "Usage: glint FILE\n", 18);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_program_has_the_name_behind_glint),
+        cmocka_unit_test(every_stage_and_every_tool_is_found_by_its_name_alone),
+        cmocka_unit_test(a_pipeline_runs_in_one_process),
+        cmocka_unit_test(programs_out_of_place_are_refused),
+        cmocka_unit_test(the_exit_code_is_that_of_the_rightmost_program_that_fails),
+        cmocka_unit_test(times_of_every_part_go_to_stderr),
+        cmocka_unit_test(what_glint_does_not_know_is_refused_with_what_it_does),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
