@@ -3,7 +3,7 @@
 
 #include "effects/effect.h"
 #include "run/explain.h"
-#include "run_bench.h"
+#include "run/options.h"
 
 /* The file's content, with a NUL at the end. */
 static const char *content(const struct scratch *scratch)
@@ -89,44 +89,6 @@ static void a_file_that_cannot_be_written_is_refused(void **state)
     assert_int_equal(diag.code, DIAG_IO);
 }
 
-/* Prepares sensor --explain TOLD FILE | noise -o OUTPUT; what is refused. */
-static const char *refused(const struct scratch *scratch, const char *file, const char *output)
-{
-    static struct diag diag;
-    struct runner runners[2];
-    runner_prepare(&runners[0], fused_stage("sensor"), 3, WORDS("--explain", scratch->path, file));
-    runner_prepare(&runners[1], fused_stage("noise"), 2, WORDS("-o", output));
-    explain_refuse_used(runners, 2);
-    assert_int_equal(runners[1].diag.code, DIAG_OK);
-    diag = runners[0].diag;
-    runner_free(&runners[0]);
-    runner_free(&runners[1]);
-    assert_true(diag.code == DIAG_OK || diag.code == DIAG_USAGE);
-    return diag.code == DIAG_OK ? NULL : diag.text + strlen("--explain: ") + strlen(scratch->path);
-}
-
-static void no_file_of_the_pipeline_is_a_place_to_tell_also_through_links(void **state)
-{
-    struct scratch *scratch = *state;
-    char link[96], longer[96];
-    snprintf(link, sizeof link, "%s/link", scratch->directory);
-    snprintf(longer, sizeof longer, "%s/longer", scratch->directory);
-    assert_int_equal(symlink(SCRATCH_FILE, link), 0);
-    assert_int_equal(symlink(link, longer), 0);
-    for (int there = 0; there < 2; there++) {
-        assert_null(refused(scratch, "frames", "list"));
-        assert_string_equal(refused(scratch, "frames", scratch->path),
-                            " is the output; expected another file");
-        assert_string_equal(refused(scratch, "frames", longer),
-                            " is the output; expected another file");
-        assert_string_equal(refused(scratch, link, "list"), " is an input; expected another file");
-        if (!there)
-            fclose(fopen(scratch->path, "w"));
-    }
-    unlink(link);
-    unlink(longer);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -135,7 +97,6 @@ int main(void)
         TEST(a_stage_has_a_line_for_each_effect_that_is_at_home_there),
         TEST(stages_share_a_file_and_a_table_is_for_people),
         TEST(a_file_that_cannot_be_written_is_refused),
-        TEST(no_file_of_the_pipeline_is_a_place_to_tell_also_through_links),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -140,10 +140,11 @@ static void every_sensor_is_visited_once_and_only_scans_are_noted(void **state)
     (void)state;
     struct bench bench;
     struct effect_log log = {0};
+    static const struct stage stage = {.name = "visitor", .visit = visit};
     begin(&bench);
     bench.runner.log = &log;
-    assert_int_equal(
-        suite_choice_visit(&(struct suite_choice){0}, &bench.frame, &bench.runner, visit), 0);
+    bench.runner.stage = &stage;
+    assert_int_equal(suite_choice_step(&(struct suite_choice){0}, &bench.frame, &bench.runner), 0);
     assert_int_equal(bench.frame.sensors.list.count, 2);
     for (size_t i = 0; i < 2; i++)
         assert_close(bench.frame.sensors.list.items[i].cycle_s, 1, 0);
