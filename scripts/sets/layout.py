@@ -126,7 +126,8 @@ def prepare(plan, plan_folder, folder):
     refuse("\n" in os.path.abspath(plan_folder), repr(plan_folder), "a path of several lines is none for make")
     layout, copied = lay_out(plan, plan_folder)
     check_folder(folder, layout)
-    rehearse(plan, plan_folder, copied)
+    if not os.path.exists(os.path.join(folder, LAYOUT)):
+        rehearse(plan, plan_folder, copied)
     make_folder(os.path.join(folder, WORK))
     with alone(os.path.join(folder, WORK)):
         check_folder(folder, layout)

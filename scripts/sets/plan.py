@@ -155,7 +155,7 @@ def scene_of(source):
     kind = kind_of(source)
     if kind not in FROM_FILES:
         return f"{kind}-{source['random']}"
-    return source.get("scene", os.path.basename(source[kind]).split(".")[0])
+    return source.get("scene", os.path.basename(source[kind]).split(".")[0] or "scene")
 
 
 def read_plan(path):

@@ -1,6 +1,7 @@
 """The traffic of a data set: which split has which scenes, how they fill shards, and the commands that play them."""
 import collections
 import math
+import re
 import shlex
 
 from documents import path_of
@@ -129,7 +130,8 @@ def words_of_recording(source, block, title):
     """The end of a block is the next one's begin: the microsecond before it is the last that is played."""
     begin, end = block
     name = title + (f"@{seconds(begin)}" if begin is not None else "")
-    words = [operand(source["recording"]), "--ego", ",".join(source["egos"]), "--scene", name]
+    egos = ",".join(re.sub(r"([\\,])", r"\\\1", ego) for ego in source["egos"])
+    words = [operand(source["recording"]), "--ego", egos, "--scene", name]
     words += ["--from-s", seconds(begin)] if begin is not None else []
     words += ["--to-s", seconds(end - 1)] if end is not None else []
     return words + (["--rate-hz", text_of(source["rate_hz"])] if "rate_hz" in source else [])
