@@ -381,16 +381,21 @@ static void apply_visibility(const struct look *look, const struct ghost_candida
                                                  point->zero_rad, candidate->place, viewer);
 }
 
-/* A cheap test before all others: false if every path of the point is out of range, or the point
- * faces away from the bounce. The shortest path goes there by the mirror and straight back. */
+/* A cheap test before all others: false if every path of the point is out of range or, under auto,
+ * out of view, or the point faces away from the bounce. The shortest path goes there by the mirror
+ * and straight back. */
 static bool may_have_path(const struct look *look, const struct look_body *body,
                           const struct point_reflector *point, struct vec2 facing,
                           struct vec2 place, struct vec2 bounce)
 {
-    double out_m = vec2_length(vec2_sub(bounce, look->pose.position_m));
+    struct silhouette straight = silhouette_of_place(vec2_sub(place, look->pose.position_m));
+    struct silhouette mirrored = silhouette_of_place(vec2_sub(bounce, look->pose.position_m));
+    if (!effects_forced(look->selection, EFFECT_GHOSTS) && look_out_of_view(look, &mirrored) &&
+        look_out_of_reach(look, body, &straight))
+        return false;
     double onward_m = vec2_length(vec2_sub(place, bounce));
-    double direct_m = vec2_length(vec2_sub(place, look->pose.position_m));
-    return out_m + onward_m + direct_m <= 2 * look->sensor->range_max_m + 1e-6 &&
+    return mirrored.nearest_m + onward_m + straight.nearest_m <=
+               2 * look->sensor->range_max_m + 1e-6 &&
            (!effects_enabled(look->selection, EFFECT_VISIBILITY) ||
             reflectors_visibility(&body->box, point, facing, place, bounce) > 0);
 }

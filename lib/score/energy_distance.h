@@ -1,10 +1,7 @@
-/* Energy distance of two random lists, from samples of both.
+/* Energy distance of two random lists, from samples of both (MODEL 11.2).
  *
- * For lists X, X' of one law and Y, Y' of another, all independent,
- *     D = 2 E d(X, Y) - E d(X, X') - E d(Y, Y'),
- * which is 0 between equal laws and, for a distance d of strong negative type, between no others
- * (Szekely and Rizzo 2013; Lyons 2013). The estimate is the U-statistic: it is unbiased, so of
- * equal laws it is as often below 0 as above. */
+ * It is 0 between equal laws and, for a distance d of strong negative type, between no others. The
+ * estimate is the U-statistic: unbiased, so of equal laws as often below 0 as above. */
 #pragma once
 
 #include <stddef.h>

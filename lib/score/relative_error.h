@@ -1,18 +1,13 @@
 /* Error of a chain, relative to that of ideal echoes.
  *
  * The lists of a reference, of a chain and of ideal echoes are samples of random lists, over the
- * same scans. The error of the chain is
- *     D(chain, reference) / D(ideal, reference),
- * D the energy distance (energy_distance.h): 1 for ideal echoes, 0 for a chain that is not told
- * from the reference (MODEL 11.2).
+ * same scans. The error of the chain is that of MODEL 11.2: 1 for ideal echoes, 0 for a chain that
+ * is not told from the reference.
  *
  * Scans that follow each other are alike, so they are counted in blocks: whole scenes, or stretches
- * of one. The 95 % interval takes numerator and denominator together. It has two parts, whose
- * lengths are added as squares: a bootstrap over the blocks, drawn apart by what Student's
- * distribution is wider than the normal one (Hesterberg, The American Statistician 69, 2015), and
- * 1.96 standard errors by the jackknife over the seeds of the reference and of the chains. Both
- * have the scatter of single draws in them, so where nothing else scatters the interval is too
- * wide. */
+ * of one. The interval takes numerator and denominator together (Hesterberg, The American
+ * Statistician 69, 2015, has the factor of its bootstrap). Both its parts have the scatter of
+ * single draws in them, so where nothing else scatters the interval is too wide. */
 #pragma once
 
 #include "base/arena.h"

@@ -12,6 +12,7 @@ import subprocess
 import sys
 
 import counts
+import scenes
 
 MOST = 2.3
 SUITE = "srr24-pair-every-frame"
@@ -117,10 +118,18 @@ def types(_, folder, size):
     return f"glint-traffic-sumo {path} --types {routes} --ego a"
 
 
+def ghosts(glint, folder, size):
+    """Objects at one density, with ghosts."""
+    path = os.path.join(folder, f"ghosts-{size}.jsonl")
+    source, *rest = scenes.commands("highway", size, 1, 1, "full")
+    subprocess.run([glint, "-c", f"{source} -o {path}"], check=True)
+    return " | ".join([f"glint-extract {path}", *rest[1:]])
+
+
 # Each with the size that the bench times and the size from which the guard doubles twice.
 CASES = [(objects, 16000, 1000), (objects_in_full, 4000, 500), (speeds, 8000, 1000), (cells, 8000, 1000),
          (sensors, 10000, 100), (ids, 3000, 1000), (columns, 3000, 3000), (users, 1000, 250),
-         (tag, 4000000, 1000000), (types, 40000, 2000)]
+         (tag, 4000000, 1000000), (types, 40000, 2000), (ghosts, 2000, 500)]
 
 
 def cpu_s(glint, text):

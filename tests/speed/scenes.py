@@ -113,9 +113,9 @@ def suite_of(kind, sensors):
 
 
 def commands(kind, count, sensors, frames, labels):
-    """The five stages of the chain. labels: "default" or "account"."""
-    account = " --sections account" if labels == "account" else ""
-    suite = suite_of(kind, sensors)
+    """The five stages of the chain. labels: "default", "account", or for ghosts "full" and "full, all"."""
+    words = {"account": " --sections account", "full, all": " --effects all"}.get(labels, "")
+    suite = "lrr77-full" if labels.startswith("full") else suite_of(kind, sensors)
     again = f" --sensors {suite}" if "/" in suite else ""
     return [f"glint-traffic {write_scene(kind, count, frames)}", "glint-extract",
-            f"glint-ideal --sensors {suite}{account}", f"glint-sensor{again}", f"glint-noise{again}"]
+            f"glint-ideal --sensors {suite}{words}", f"glint-sensor{again}", f"glint-noise{again}"]
