@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "effects/effect.h"
 #include "run/options.h"
+#include "text/output.h"
 
 static int64_t clock_ns(void)
 {
@@ -63,13 +64,7 @@ static int append(const char *path, const struct text *text, struct diag *diag)
     if (file < 0)
         return diag_fail(diag, diag_code_by_errno(DIAG_CANNOT_CREATE), "%s: %s", path,
                          strerror(errno));
-    size_t written = 0;
-    ssize_t more = 0;
-    while (written < text->length && more >= 0) {
-        more = write(file, text->bytes + written, text->length - written);
-        written += more > 0 ? (size_t)more : 0;
-    }
-    if (more < 0)
+    if (output_write_all(file, text->bytes, text->length) != 0)
         diag_fail(diag, DIAG_IO, "%s: %s", path, strerror(errno));
     if (close(file) != 0)
         diag_fail(diag, DIAG_IO, "%s: %s", path, strerror(errno));

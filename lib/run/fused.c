@@ -54,8 +54,7 @@ static int complain(const struct diag *diag)
 
 const char *fused_name(const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    const char *name = slash != NULL ? slash + 1 : path;
+    const char *name = path_name(path);
     return strncmp(name, "glint-", 6) == 0 ? name + 6 : NULL;
 }
 

@@ -117,8 +117,7 @@ struct output *output_open(const char *path, struct diag *diag)
     return NULL;
 }
 
-/* Waits where there is no room, also if whoever opened the file asked not to. */
-static int write_all(int fd, const char *bytes, size_t length)
+int output_write_all(int fd, const char *bytes, size_t length)
 {
     struct pollfd file = {.fd = fd, .events = POLLOUT};
     while (length > 0) {
@@ -140,7 +139,7 @@ static int send_first(struct output *output, size_t length, struct diag *diag)
     errno = 0;
     bool good = length == 0 ||
                 (output->gzip != NULL ? gzwrite(output->gzip, held->bytes, (unsigned)length) > 0
-                                      : write_all(output->fd, held->bytes, length) == 0);
+                                      : output_write_all(output->fd, held->bytes, length) == 0);
     held->length -= length;
     if (held->length > 0)
         memmove(held->bytes, held->bytes + length, held->length);

@@ -44,5 +44,9 @@ int output_finish(struct output *output, struct diag *diag);
  * removed instead; what was written to standard output or to a device stays written. */
 int output_close(struct output *output, bool whole, struct diag *diag);
 
+/* Writes bytes to an open file: 0, or -1 with errno. Waits where there is no room, also if whoever
+ * opened the file asked not to. */
+int output_write_all(int fd, const char *bytes, size_t length);
+
 /* Writes bytes to standard output and closes it. */
 int output_print(const char *bytes, size_t length, struct diag *diag);

@@ -27,15 +27,6 @@ struct whole_file {
     bool named; /* the file is called temporary */
 };
 
-static void choose_name(struct whole_file *file, int number)
-{
-    struct utsname system;
-    uname(&system);
-    file->temporary.length = 0;
-    text_format(&file->temporary, "%s/" MARK "%ld-%d@%s", file->folder, (long)getpid(), number,
-                system.nodename);
-}
-
 static bool has_name(int fd, int folder, const char *name)
 {
     struct stat open, named;
@@ -73,13 +64,10 @@ static void remove_leftovers(const char *folder)
 /* Removes the temporary files that this process has open, and lets the signal end it. */
 static void end_by(int signal)
 {
-    char link[] = "/proc/self/fd/00", path[PATH_MAX];
+    char link[] = "/proc/self/fd/00", path[PATH_MAX], *digits = strrchr(link, '/') + 1;
     for (int fd = STDERR_FILENO + 1; fd < DESCRIPTORS; fd++) {
-        char *digit = link + sizeof "/proc/self/fd/" - 1;
-        if (fd >= 10)
-            *digit++ = (char)('0' + fd / 10);
-        *digit++ = (char)('0' + fd % 10);
-        *digit = '\0';
+        digits[0] = (char)('0' + (fd < 10 ? fd : fd / 10));
+        digits[1] = (char)(fd < 10 ? 0 : '0' + fd % 10);
         ssize_t length = readlink(link, path, sizeof path - 1);
         path[length > 0 ? length : 0] = '\0';
         if (strncmp(path_name(path), MARK, sizeof MARK - 1) == 0)
@@ -99,38 +87,33 @@ static void expect_signals(void)
             sigaction(signals[i], &end, NULL);
 }
 
-/* Tells other processes to leave the file alone. False: one that found it unlocked is about to
- * remove it. Where there are no locks none does. */
-static bool lock(int fd)
+/* Gives the file, which is made unless it is open without a name, the first temporary name that is
+ * free. The lock tells other processes to leave it alone; one that found it without may be about to
+ * remove it. */
+static int name_file(struct whole_file *file)
 {
-    return flock(fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
-}
-
-/* Opens a new file without a name, which it gets through /proc later; -1 where the file system has
- * none. */
-static int open_unnamed(const char *folder)
-{
-    bool later = access("/proc/self/fd", X_OK) == 0;
-    int fd = later ? open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666) : -1;
-    if (fd >= 0)
-        lock(fd);
-    return fd;
-}
-
-static int open_named(struct whole_file *file)
-{
-    int fd = -1;
-    expect_signals();
+    struct utsname system;
+    char source[64];
+    bool open_already = file->fd >= 0;
+    uname(&system);
+    snprintf(source, sizeof source, "/proc/self/fd/%d", file->fd);
     for (int number = 1; !file->named; number++) {
-        choose_name(file, number);
-        fd = open(file->temporary.bytes, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (fd < 0 && errno != EEXIST)
+        file->temporary.length = 0;
+        text_format(&file->temporary, "%s/" MARK "%ld-%d@%s", file->folder, (long)getpid(), number,
+                    system.nodename);
+        const char *name = file->temporary.bytes;
+        if (!open_already)
+            file->fd = open(name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        bool made = open_already ? linkat(AT_FDCWD, source, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0
+                                 : file->fd >= 0;
+        if (!made && errno != EEXIST)
             return -1;
-        file->named = fd >= 0 && lock(fd) && has_name(fd, AT_FDCWD, file->temporary.bytes);
-        if (fd >= 0 && !file->named)
-            close(fd);
+        bool locked = made && (flock(file->fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK);
+        file->named = locked && has_name(file->fd, AT_FDCWD, name);
+        if (made && !file->named && !open_already)
+            close(file->fd);
     }
-    return fd;
+    return 0;
 }
 
 /* Is the path free, or a file that may be written and replaced? Else errno says why not. In a
@@ -153,19 +136,24 @@ static bool may_take(const struct whole_file *file, struct stat *there)
     return errno == 0;
 }
 
-/* Opens a file with the mode of the one that is there, which would give rights of its owner where
- * the new one gets another. */
+/* Opens a file with the mode and the owner of the one that is there. Where it gets another owner,
+ * it runs with nobody's rights. */
 static int open_file(struct whole_file *file)
 {
     struct stat there = {0};
     if (!may_take(file, &there))
         return -1;
     remove_leftovers(file->folder);
-    file->fd = open_unnamed(file->folder);
-    if (file->fd < 0)
-        file->fd = open_named(file);
-    if (file->fd < 0 || there.st_nlink == 0)
-        return file->fd;
+    if (access("/proc/self/fd", X_OK) == 0) /* through which the file gets its name later */
+        file->fd = open(file->folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+    flock(file->fd, LOCK_EX | LOCK_NB);
+    if (file->fd < 0) {
+        expect_signals();
+        if (name_file(file) != 0)
+            return -1;
+    }
+    if (there.st_nlink == 0)
+        return 0;
     mode_t kept = fchown(file->fd, there.st_uid, there.st_gid) == 0 ? 07777 : 0777;
     return fchmod(file->fd, there.st_mode & kept);
 }
@@ -190,21 +178,6 @@ struct whole_file *whole_file_make(const char *path)
 int whole_file_descriptor(const struct whole_file *file)
 {
     return file->fd;
-}
-
-/* Gives a file without a name a temporary one. */
-static int name_file(struct whole_file *file)
-{
-    char source[64];
-    snprintf(source, sizeof source, "/proc/self/fd/%d", file->fd);
-    for (int number = 1; !file->named; number++) {
-        choose_name(file, number);
-        file->named =
-            linkat(AT_FDCWD, source, AT_FDCWD, file->temporary.bytes, AT_SYMLINK_FOLLOW) == 0;
-        if (!file->named && errno != EEXIST)
-            return -1;
-    }
-    return 0;
 }
 
 int whole_file_take_name(struct whole_file *file)
