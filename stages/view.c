@@ -38,7 +38,7 @@ static int view_start(void *state, struct runner *runner)
         return -1;
     if (view->svg && runner_output_ends(runner, ".html"))
         return diag_fail(runner_diag(runner), DIAG_USAGE,
-                         "--svg: --output is a page by its name; expected one that ends in .svg");
+                         "--svg: a still is no page, but --output ends in .html; expected .svg");
     view->svg = view->svg || runner_output_ends(runner, ".svg");
     if (view->svg && (view->truth != NULL || view->tracks != NULL))
         return diag_fail(
