@@ -3,6 +3,8 @@
 #include "run/tool.h"
 #include "text/output.h"
 
+#include <unistd.h>
+
 struct tables_state {
     const char *folder;
     bool plain;
@@ -11,12 +13,25 @@ struct tables_state {
     struct detection_tables tables;
 };
 
+/* Refuses a table beside that of another run, as readers take both. */
+static int refuse_other(const char *other, struct runner *runner)
+{
+    return access(other, F_OK) != 0
+               ? 0
+               : diag_fail(runner_diag(runner), DIAG_CANNOT_CREATE,
+                           "%s: a table of another run; remove it, or name another folder", other);
+}
+
 static int open_outputs(struct tables_state *own, struct runner *runner)
 {
     for (int i = 0; i < TABLE_COUNT; i++) {
-        const char *name = arena_format(runner_arena(runner), "%s.csv%s", detection_tables_names[i],
-                                        own->plain ? "" : ".gz");
-        own->outputs[i] = runner_output_in(runner, own->folder, name);
+        const char *name = arena_format(runner_arena(runner), "%s.csv", detection_tables_names[i]);
+        const char *packed = arena_format(runner_arena(runner), "%s.gz", name);
+        const char *other =
+            arena_format(runner_arena(runner), "%s/%s", own->folder, own->plain ? packed : name);
+        if (refuse_other(other, runner) != 0)
+            return -1;
+        own->outputs[i] = runner_output_in(runner, own->folder, own->plain ? name : packed);
         if (own->outputs[i] == NULL)
             return -1;
         own->tables.rows[i] = output_text(own->outputs[i]);
@@ -61,7 +76,8 @@ const struct tool tool_tables = {
     .details =
         "The files are detections.csv.gz and so on. Columns are the members of the frame, with\n"
         "the same names and units; columns that end in _key are whole numbers that join rows.\n"
-        "Parts of a set have keys of their own with --part. schemas/README.md says more.",
+        "Parts of a set have keys of their own with --part. schemas/README.md says more. Beside a\n"
+        "table of the other kind, packed or plain, none is written, as readers take both.",
     .options = STAGE_OPTIONS(struct tables_state, tables_options),
     .operand = "DIR",
     .into_folder = true,

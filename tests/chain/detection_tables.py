@@ -234,6 +234,33 @@ def check_ways(bin_dir):
     check(len(list(csv.DictReader(io.StringIO(table, newline="")))) > 100, "pipelines/table.sh writes no table")
 
 
+def check_one_run(bin_dir):
+    """A folder never holds tables of two runs: beside one of the other kind none is written, and what is there stays."""
+    stream, environment = "glint pipelines/two-vehicles.sh", dict(os.environ, GLINT_DATA=ROOT + "/data")
+    frames = run(stream, bin_dir)
+    for first, second, kind in (("", "--plain", ".csv.gz"), ("--plain", "", ".csv")):
+        with tempfile.TemporaryDirectory() as folder:
+            run(f"glint-tables {first} {folder}", bin_dir, frames)
+            with open(f"{folder}/notes.csv", "w", encoding="utf-8") as file:
+                file.write("mine\n")
+            before = {name: os.stat(f"{folder}/{name}").st_ino for name in os.listdir(folder)}
+            done = subprocess.run([f"{bin_dir}/glint-tables", *second.split(), folder], input=frames, env=environment,
+                                  capture_output=True, check=False)
+            check(done.returncode == 73 and f"{folder}/detections{kind}: a table of another run" in done.stderr.decode(),
+                  f"{second} after {first}: {done}")
+            check({name: os.stat(f"{folder}/{name}").st_ino for name in os.listdir(folder)} == before, "files have changed")
+            for table in TABLES[1:]:
+                os.remove(f"{folder}/{table}{kind}")
+            os.rename(f"{folder}/detections{kind}", f"{folder}/{TABLES[-1]}{kind}")
+            done = subprocess.run([f"{bin_dir}/glint-tables", *second.split(), folder], input=frames, env=environment,
+                                  capture_output=True, check=False)
+            check(done.returncode == 73 and sorted(os.listdir(folder)) == sorted(["notes.csv", TABLES[-1] + kind]),
+                  f"beside one table of {first}: {done} {os.listdir(folder)}")
+            os.remove(f"{folder}/{TABLES[-1]}{kind}")
+            for _ in (1, 2):
+                run(f"glint-tables {second} {folder}", bin_dir, frames)
+
+
 def check_memory(bin_dir):
     """Ten times the frames take no more memory."""
     most = []
@@ -258,6 +285,7 @@ def main():
     check(all(seen[name] > 0 for name in seen if name != "labels"), f"too little to see: {seen}")
     check({"0", "-2", "3111", "3122"} <= seen["labels"], f"labels are {seen['labels']}")
     check_ways(bin_dir)
+    check_one_run(bin_dir)
     check_memory(bin_dir)
     for text in faults[:10]:
         print(f"FAILED   {text}"[:2000])
