@@ -15,11 +15,13 @@ of the middle of the ego's box; "sensor", x along its axis. Yaw turns from x to 
 measures `age_s` before the frame's time: its detections are placed from where the ego was then.
 """
 import array
+import errno
 import glob
 import gzip
 import json
 import math
 import os
+import re
 import sys
 import zlib
 
@@ -31,48 +33,130 @@ class BadFrame(ValueError):
     """What is wrong with a line, and where it stands."""
 
 
+class Frame(dict):
+    """A frame that knows its place, as in list.jsonl:7."""
+    place = ""
+
+
+def number(low, high, of=(int, float)):
+    return lambda value: type(value) in of and low <= value <= high, f"a number in [{low:g}, {high:g}]"
+
+
+# Shapes of the members that this module reads: a test with what it expects, a list of one shape, or shapes by name.
+NAME = lambda value: type(value) is str and value != "", "a name"
+SEED = lambda value: type(value) is str and re.fullmatch("[0-9]{1,20}", value), "a string of digits"
+WHOLE = lambda value: type(value) in (int, float) and 0 <= value < 2 ** 53 and value % 1 == 0, "a whole number"
+QUALITY = (lambda value: type(value) is dict and all(map(number(-1e9, 1e9, (int, float, bool))[0], value.values())),
+           "an object of numbers")
+PLACE, ANGLE, SPEED, ORIGIN = (number(-most, most) for most in (1e7, 1e6, 1e4, 1e9))
+OBJECT = {"id": NAME, "x_m": PLACE, "y_m": PLACE, "yaw_rad": ANGLE, "vx_mps": SPEED, "vy_mps": SPEED,
+          "yaw_rate_radps": number(-1e3, 1e3)}
+SENSOR = {"name": NAME, "mount_x_m": PLACE, "mount_y_m": PLACE, "mount_yaw_rad": ANGLE, "age_s": number(0, 1e6)}
+TARGET = {"sensor": NAME, "range_m": number(0, 1e7), "azimuth_rad": number(-math.pi, math.pi),
+          "range_rate_mps": number(-1e6, 1e6), "amplitude_db": SPEED, "quality": QUALITY,
+          "contributors": [{"object": NAME, "reflector": NAME, "weight": number(0, 1)}]}
+FRAME = {"scene": NAME, "seed": SEED, "frame": WHOLE, "time_s": number(-1e10, 1e10), "ego": NAME, "origin_x_m": ORIGIN,
+         "origin_y_m": ORIGIN, "objects": [OBJECT], "sensors": {"list": [SENSOR]}, "targets": [TARGET]}
+OPTIONAL = {*FRAME, "age_s", "quality"}
+
+
+def fault(value, shape, optional=OPTIONAL):
+    """Where a value is not of a shape, what is there, and what is expected; None: it is."""
+    if isinstance(shape, tuple):
+        return None if shape[0](value) else f": {value!r:.60}; expected {shape[1]}"
+    if not isinstance(value, type(shape)):
+        return f": {value!r:.60}; expected {'an array' if isinstance(shape, list) else 'an object'}"
+    if isinstance(shape, list):
+        found = ((i, fault(one, shape[0], optional)) for i, one in enumerate(value))
+        return next((f"[{i}]{wrong}" for i, wrong in found if wrong), None)
+    for name, inner in shape.items():
+        if type(inner) is tuple and inner[0](value.get(name)) or name in optional and name not in value:
+            continue
+        wrong = fault(value[name], inner, optional) if name in value else ": missing"
+        if wrong:
+            return f".{name}{wrong}"
+    return None
+
+
+def _unjoined(frame):
+    """A name that joins nothing, or two things; None: there is none."""
+    ids = [one["id"] for one in frame.get("objects", ())]
+    names = [one["name"] for one in frame["sensors"]["list"]] if "sensors" in frame else []
+    if len({*ids}) + len({*names}) < len(ids) + len(names):
+        return "the name of an object or sensor stands twice"
+    if ids and frame.get("ego") not in ids:
+        return f"ego: {frame.get('ego')!r} is not among the objects"
+    return next((f"targets[{i}]: {one['sensor']!r:.60}; expected a sensor of sensors.list, and contributors"
+                 for i, one in enumerate(frame.get("targets", ())) if one["sensor"] not in names or not one["contributors"]),
+                None)
+
+
 def frames(*sources, needs=()):
-    """The frames of files one after another: plain or .gz, "-" or none for standard input. needs: members that
-    every frame must have."""
+    """The frames of files one after another: plain or packed, "-" or none for standard input. needs: members that
+    every frame must have. What is no JSON is refused (BadFrame), and what is wrong in members that this module reads;
+    glint-check holds frames to all that they must be."""
     for source in sources or ("-",):
-        yield from _frames_of(source, needs)
-
-
-def _frames_of(source, needs):
-    if source == "-":
-        yield from _parsed(sys.stdin.buffer, "standard input", needs)
-        return
-    opener = gzip.open if str(source).endswith(".gz") else open
-    with opener(source, "rb") as lines:
-        yield from _parsed(lines, source, needs)
+        name = "standard input" if source == "-" else str(source)
+        with open(0 if source == "-" else source, "rb", closefd=source != "-") as file:
+            yield from _parsed(file, name, needs)
 
 
 def _refuse(word):
-    raise ValueError(f"{word} is no number of JSON")
+    raise ValueError(f"{word} is no value")
 
 
-_DECODER = json.JSONDecoder(parse_constant=_refuse)
+def _once(members):
+    found = dict(members)
+    if len(found) < len(members):
+        raise ValueError("a key stands twice")
+    return found
 
 
-def _parsed(lines, source, needs):
-    number, line = 0, b""
-    while line is not None:
-        number += 1
-        try:
-            line = next(lines, None)
-            frame = line is not None and _DECODER.decode(line.decode())
-        except (ValueError, RecursionError, EOFError, gzip.BadGzipFile, zlib.error) as error:
-            raise BadFrame(f"{source}:{number}: {error}; expected a frame, one line of JSON") from None
-        if line is not None:
-            missing = [name for name in needs if name not in frame] if isinstance(frame, dict) else ["member"]
-            if missing:
-                raise BadFrame(f"{source}:{number}: no {missing[0]}; expected a frame, one line of JSON")
+_DECODER = json.JSONDecoder(parse_constant=_refuse, object_pairs_hook=_once)
+
+
+def decoded(line):
+    """What a text of JSON says, as strictly as glint reads it."""
+    value = _DECODER.decode(line.decode())
+    if b"\\u" in line and b"\\u0000" in json.dumps(value, ensure_ascii=False).encode():  # which refuses half characters
+        raise ValueError("a character 0")
+    return value
+
+
+def _parsed(file, name, needs):
+    number_of_line = 1
+    try:
+        head = file.peek(1)[:1]
+        if not head and name.endswith(".gz"):
+            raise ValueError("0 bytes")
+        for line in gzip.GzipFile(fileobj=file) if head == b"\x1f" else file:
+            frame = decoded(line)
+            wrong = fault(frame, FRAME, OPTIONAL - {*needs}) or _unjoined(frame)
+            if wrong:
+                raise BadFrame(wrong.lstrip(".: "))
+            frame = Frame(frame)
+            frame.place = f"{name}:{number_of_line}"
             yield frame
+            number_of_line += 1
+    except (ValueError, RecursionError, EOFError, gzip.BadGzipFile, zlib.error) as error:
+        expected = "" if isinstance(error, BadFrame) else "; expected a frame, one line of JSON"
+        raise BadFrame(f"{name}:{number_of_line}: {error}{expected}") from None
+    except OSError as error:
+        raise OSError(error.errno, f"{name}: {error.strerror}") from None
+
+
+def place_of(frame):
+    return getattr(frame, "place", "") or f"{frame.get('scene')}, frame {frame.get('frame')}"
 
 
 def write(frame, out=None):
     """Writes a frame as one line, at once: what stands behind this stage need not wait."""
-    print(json.dumps(frame, ensure_ascii=False, separators=(",", ":")), file=out or sys.stdout, flush=True)
+    try:
+        line = json.dumps(frame, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+        line.encode()
+    except (ValueError, RecursionError) as error:
+        raise BadFrame(f"{place_of(frame)}: cannot be written: {error}") from None
+    print(line, file=out or sys.stdout, flush=True)
 
 
 def stage(change):
@@ -86,14 +170,20 @@ def program(write_one, results):
     """Is a program: calls write_one(*result) for each result. Bad input ends it with a message and a status of sysexits,
     without a trace."""
     try:
+        if sys.stdout is None:
+            raise OSError(errno.EBADF, "stdout: it is closed")
+        sys.stdout.reconfigure(encoding="utf-8")
         for result in results:
             write_one(*result)
         sys.stdout.flush()
     except BrokenPipeError:  # who reads has enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(74)
+    except KeyboardInterrupt:
+        os._exit(130)
     except (BadFrame, OSError) as error:
-        print(f"{os.path.basename(sys.argv[0])}: {error}", file=sys.stderr)
+        told = error if isinstance(error, BadFrame) else ": ".join(filter(None, (error.filename, error.strerror)))
+        print(f"{os.path.basename(sys.argv[0])}: {told}", file=sys.stderr)
         sys.stderr.flush()
         os._exit(65 if isinstance(error, BadFrame) else 66 if error.filename else 74)  # without what a full disk refuses
 
@@ -102,7 +192,7 @@ def ego(frame, age_s=0):
     """The object that carries the sensors; with age_s as it was so long before, along its arc."""
     carrier = next((one for one in frame.get("objects", ()) if one["id"] == frame["ego"]), None)
     if carrier is None:
-        raise BadFrame(f"{frame['scene']}, frame {frame['frame']}: without its ego; --sections objects carries it")
+        raise BadFrame(f"{place_of(frame)}: without its ego; --sections objects carries it")
     if not age_s:
         return carrier
     turn = -age_s * carrier["yaw_rate_radps"]

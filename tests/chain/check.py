@@ -158,6 +158,48 @@ def fault_of(module, data, entry):
         return str(error)
 
 
+def forge(folder, package, text=None):
+    """Writes a manifest whose last line is the digest of the lines before it."""
+    text = text or json.dumps({name: value for name, value in package.items() if name != "digest"}, indent=1)
+    text = text.removesuffix("\n}") + ",\n"
+    with open(f"{folder}/set/datapackage.json", "w", encoding="utf-8") as file:
+        file.write(text + f' "digest": "sha256:{hashlib.sha256(text.encode()).hexdigest()}"}}\n')
+
+
+def forged(module, folder, package):
+    """A manifest of other values, whose digest is its own, is told from the set's, or says nothing that is checked."""
+    stream, table, document = package["resources"][0], package["resources"][1], package["documents"][0]
+    places = [(package, name) for name in package] + [(one, name) for one in (stream, table, document) for name in one]
+    free, tried = {"profile", "name", "description", "program", "identity", "plan", "inputs", "digest"}, 0
+    for record, name in places:
+        kept = record[name]
+        for value in (None, "", "x", "/etc/passwd", "../x", "a/../b", "a\0b", 0, -1, 1.5, float("inf"), 10 ** 400, [], [7], {}, True):
+            if value == kept or value == [] and name in ("commands", "documents"):  # says less, nothing false
+                continue
+            record[name] = value
+            forge(folder, package)
+            found, _ = module.check(f"{folder}/set")
+            checked = record is package and name not in free or name in module.PACKAGE["resources"][0]
+            check(found or not checked or record is document, f"{name}: {value!r:.40} of the manifest passes")
+            check(not any("Traceback" in line or "\n" in line for line in found), f"{name}: {value!r:.40}: {found}")
+            tried += 1
+        record[name] = kept
+    lists = {"a shard twice": [*package["resources"], stream], "no stream before its tables": package["resources"][1:],
+             "a shard left out": [one for one in package["resources"] if "00000" not in one["path"]],
+             "another table": [stream, dict(table, path=os.path.dirname(table["path"]) + "/others.csv.gz")]}
+    for name, resources in lists.items():
+        sums = {one: sum(entry[one] for entry in resources) for one in module.SUMS}
+        frames = sum(entry["rows"] for entry in resources if module.is_stream(entry))
+        forge(folder, {**package, **sums, "frames": frames, "resources": resources, "content_hash": module.content_hash(resources)})
+        check(module.check(f"{folder}/set")[0], f"{name} passes")
+    for text in ('{"a": ' + "[" * 9999 + "]" * 9999 + "\n}", '{"frames": 1' + "0" * 5000 + "\n}", '{"x": NaN\n}', "[1\n}"):
+        forge(folder, None, text)
+        check(module.check(f"{folder}/set")[0], f"{text[:20]} passes")
+    forge(folder, package)
+    check(module.check(f"{folder}/set")[0] == [], "the manifest itself")
+    return tried
+
+
 def other_table(folder, package):
     """Puts the table of one shard in the place of another's, and makes the manifest agree."""
     tables = [entry for entry in package["resources"] if entry["path"].endswith("/objects.csv.gz")]
@@ -168,10 +210,7 @@ def other_table(folder, package):
         package[name] = sum(entry[name] for entry in package["resources"])
     lines = "".join(f"{one['content_hash'].removeprefix('sha256:')}  {one['path']}\n" for one in package["resources"])
     package["content_hash"] = "sha256:" + hashlib.sha256(lines.encode()).hexdigest()
-    del package["digest"]
-    text = json.dumps(package, indent=1, ensure_ascii=False).removesuffix("\n}") + ",\n"
-    with open(f"{folder}/set/datapackage.json", "w", encoding="utf-8") as file:
-        file.write(text + f' "digest": "sha256:{hashlib.sha256(text.encode()).hexdigest()}"}}\n')
+    forge(folder, package)
 
 
 def sets(bin_dir):
@@ -209,6 +248,7 @@ def sets(bin_dir):
                     check(fault_of(module, bytes(other), entry), f"bit {bit} of {entry} may flip")
                     other[bit // 8] ^= 1 << bit % 8
                 flipped += 8 * len(data)
+        tried = forged(module, folder, package)
         # The same by the script: a shard that is cut, a table that is right by the manifest alone, a shard that is gone.
         shard = package["resources"][0]
         path = f"{folder}/set/{shard['path']}"
@@ -234,7 +274,7 @@ def sets(bin_dir):
         os.mkfifo(path)
         done = run(f"BUILD={build} scripts/check-set {folder}/set", bin_dir)
         check(done.returncode == 65 and "no such file" in done.stdout.decode(), f"a shard that is gone: {done.stdout.decode()}")
-    return f"{cut} truncations of 20 files and {flipped} flipped bits of 5 were found"
+    return f"{cut} truncations of 20 files and {flipped} flipped bits of 5 were found; {tried} forged manifests"
 
 
 def main():

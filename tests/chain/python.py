@@ -4,9 +4,12 @@ import gzip
 import json
 import math
 import os
+import re
+import runpy
 import subprocess
 import sys
 import tempfile
+import traceback
 
 sys.dont_write_bytecode = True
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
@@ -69,28 +72,128 @@ def detections_are_placed_from_where_the_ego_was(folder):
     assert seen > 20, seen
 
 
-def bad_input_is_told_without_a_trace(folder):
-    good = shell(f"glint-traffic cut-in | {EXACT}", folder).splitlines()[0].encode() + b"\n"
-    for bad, status, message in ((b"\n", 65, "bad.jsonl:2: "), (b"5\n", 65, "bad.jsonl:2: no member"),
-                                 (b"\xff\n", 65, "bad.jsonl:2: 'utf-8' codec"), (good[:99], 65, "bad.jsonl:2: "),
-                                 (b'{"scene":"s","seed":"1","frame":0,"time_s":0}\n', 65, "bad.jsonl:2: no sensors"),
-                                 (good.replace(b'"time_s":0', b'"time_s":NaN'), 65, "bad.jsonl:2: NaN is no number"),
-                                 (good.replace(b'"objects"', b'"extra"'), 65, "without its ego"), (None, 66, "No such file")):
-        if bad is not None:
-            with open(os.path.join(folder, "bad.jsonl"), "wb") as file:
-                file.write(good + bad)
-        done = subprocess.run([SCRIPTS + "/tracker", "bad.jsonl" if bad is not None else "nowhere.jsonl"], cwd=folder,
-                              env=ENVIRONMENT, capture_output=True, text=True, check=False)
-        assert done.returncode == status and message in done.stderr and "Traceback" not in done.stderr, (bad, done)
-    with open(os.path.join(folder, "bad.jsonl.gz"), "wb") as file:
-        file.write(gzip.compress(b"")[:10] + b"\xff" * 16)
-    with open(os.path.join(folder, "good.jsonl"), "wb") as file:
-        file.write(good)
-    for command, status, message in (("tracker bad.jsonl.gz", 65, "bad.jsonl.gz:1: Error -3"),
-                                     ("tracker good.jsonl >/dev/full", 74, "No space left")):
-        done = subprocess.run(f"{SCRIPTS}/{command}", shell=True, cwd=folder, env=ENVIRONMENT, stderr=subprocess.PIPE,
-                              text=True, check=False)
-        assert done.returncode == status and message in done.stderr and "Traceback" not in done.stderr, done
+# Values that some members may have, and others not.
+SHAPED = ("true", '""', '"x"', "[]", "{}", "[1]", "-1", "0.5", "1e308", "-1e999", "NaN", "1" + "0" * 400, '"\\ud800"',
+          '"a\\u0000"', '"\\u2028"')
+
+
+def tracker(path):
+    """Status and message of scripts/tracker, in a process without a start of its own."""
+    with tempfile.TemporaryFile() as told:
+        child = os.fork()
+        if child == 0:
+            try:
+                os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+                os.dup2(told.fileno(), 2)
+                sys.argv = ["tracker", *path.split()]
+                runpy.run_path(os.path.join(SCRIPTS, "tracker"), run_name="__main__")
+                os._exit(0)
+            except BaseException:
+                traceback.print_exc()
+            os._exit(70)
+        status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+        told.seek(0)
+        return status, told.read().decode()
+
+
+def read_status(path):
+    return subprocess.run(["glint-export-csv", path], env=ENVIRONMENT, capture_output=True, check=False).returncode
+
+
+def one_line(path, status, message):
+    """What a program says of bad input: its name, the file, the line, and nothing more."""
+    return status == 65 and re.fullmatch(rf"tracker: {re.escape(path)}:\d+: .*\n", message)
+
+
+def members(value, path=()):
+    """Paths of all members, of a list those of its first item."""
+    for key in value if isinstance(value, dict) else range(min(len(value), 1)) if isinstance(value, list) else ():
+        yield (*path, key)
+        yield from members(value[key], (*path, key))
+
+
+def shape_of(path):
+    """What glint.py expects there; None: it reads no such member."""
+    shape = glint.FRAME
+    for key in path:
+        shape = shape[0] if isinstance(shape, list) else shape.get(key) if isinstance(shape, dict) else None
+    return shape
+
+
+def changed(frame, path, value):
+    """The line with another text there; None takes the member away."""
+    copy = json.loads(json.dumps(frame))
+    record = copy
+    for key in path[:-1]:
+        record = record[key]
+    if value is None:
+        del record[path[-1]]
+        return json.dumps(copy).encode() + b"\n"
+    record[path[-1]] = "@"
+    return json.dumps(copy).replace('"@"', value).encode() + b"\n"
+
+
+def what_glint_refuses_the_tracker_refuses(folder):
+    """Every member of a frame is left out and replaced. Of those that glint.py reads it takes what glint takes, and no more."""
+    line = shell("glint-traffic cut-in | glint-extract | glint-ideal --sensors lrr77-full --sections quality"
+                 " | glint-sensor | glint-noise", folder).splitlines()[120]
+    frame, path, tried, taken = json.loads(line), os.path.join(folder, "bad.jsonl"), 0, []
+    deep, long = "[" * 600 + "]" * 600, "1" + "0" * 5000
+    assert sum(map(bool, map(shape_of, members(frame)))) > 30
+    for member in members(frame):
+        for value in (None, "null", "1e999", long, deep, *(SHAPED if shape_of(member) else ())):
+            with open(path, "wb") as file:
+                file.write(changed(frame, member, value))
+            status, message = tracker(path)
+            assert status == 0 or one_line(path, status, message), (member, value, status, message)
+            tried += 1
+            if status == 0 and shape_of(member) and read_status(path) != 0:
+                taken.append((member, value))
+    assert tried > 700 and not taken, (tried, taken)
+
+
+def bytes_that_glint_refuses_the_tracker_refuses(folder):
+    lines = shell(f"glint-traffic cut-in | {EXACT}", folder).encode().splitlines(keepends=True)[:3]
+    good, packed = b"".join(lines), gzip.compress(b"".join(lines))
+    first, extra = lines[0].replace, b'"extra":%b,"objects":['
+    cases = {"empty.jsonl": b"", "empty.gz": b"", "nothing.gz": gzip.compress(b""), "plain.gz": good, "packed.jsonl": packed,
+             "cut.gz": packed[:-5], "short.gz": packed[:99], "flipped.gz": packed[:-8] + b"\0" + packed[-7:],
+             "more.gz": packed + b"more", "two.gz": packed + gzip.compress(b""), "noise.gz": gzip.compress(b"")[:10] + b"\xff" * 16,
+             "mark": b"\xef\xbb\xbf" + good, "wide": good.decode().encode("utf-16"), "returns": good.replace(b"\n", b"\r\n"),
+             "nul": lines[0] + b"\0" + lines[1], "blank": lines[0] + b"\n" + lines[1], "end": good[:-1], "cut": good[:99],
+             "number": b"5\n", "array": b"[]\n", "latin": b"\xff\n", "behind": good[:-1] + b" x\n",
+             "key": first(b'"frame":0', b'"frame":0,"frame":0'), "plus": first(b'"frame":0', b'"frame":+0'),
+             "whole": first(b'"frame":0', b'"frame":0.0'), "share": first(b'"frame":0', b'"frame":0.5'),
+             "deep": first(b'"objects":[', extra % (b"[" * 5000 + b"]" * 5000)), "pair": first(b'"objects":[', extra % b'"\\ud83d\\ude00"'),
+             "half": first(b'"objects":[', extra % b'"\\ud83d"'), "control": first(b'"objects":[', extra % b'"\1"'),
+             "ego": first(b'"ego":"ego"', b'"ego":"who"'), "id": first(b'"id":"leader"', b'"id":"ego"'),
+             "sensor": good.replace(b'"targets":[{"sensor":"', b'"targets":[{"sensor":"x')}
+    for name, data in cases.items():
+        path = os.path.join(folder, name)
+        with open(path, "wb") as file:
+            file.write(data)
+        status, message = tracker(path)
+        assert status == read_status(path), (name, status, message)
+        assert status == 0 or one_line(path, status, message), (name, status, message)
+
+
+def faults_outside_the_input_have_a_line_and_a_status(folder):
+    with open(os.path.join(folder, "good.jsonl"), "w") as file:
+        file.write(shell(f"glint-traffic cut-in | {EXACT}", folder))
+    with open(os.path.join(folder, "nan.py"), "w") as file:
+        file.write("import glint\n\nglint.stage(lambda frame: dict(frame, time_s=float(frame['frame'] and 'nan')))\n")
+    for command, status, message in (("tracker nowhere.jsonl", 66, "tracker: nowhere.jsonl: No such file or directory"),
+                                     ("tracker .", 66, "tracker: .: Is a directory"),
+                                     ("tracker /proc/self/mem", 74, "tracker: /proc/self/mem: Input/output error"),
+                                     ("tracker good.jsonl >/dev/full", 74, "tracker: No space left on device"),
+                                     ("tracker good.jsonl >&-", 74, "tracker: stdout: it is closed"),
+                                     ("tracker <&-", 74, "tracker: Bad file descriptor"),
+                                     ("tracker good.jsonl good.jsonl", 65, "tracker: good.jsonl:1: frame: 0 at 0"),
+                                     ("tracker good.jsonl | head -1 >&2; exit ${PIPESTATUS[0]}", 74, '{"scene":"cut-in/ego","frame":0'),
+                                     ("python3 nan.py good.jsonl", 65, "nan.py: cut-in/ego, frame 1: cannot be")):
+        done = subprocess.run(["bash", "-c", command.replace("tracker", f"{SCRIPTS}/tracker", 1)],
+                              cwd=folder, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+        assert done.returncode == status and done.stderr.startswith(message) and done.stderr.count("\n") == 1, (command, done)
 
 
 def scenes_of_two_seeds_share_no_tracks(folder):
@@ -101,6 +204,11 @@ def scenes_of_two_seeds_share_no_tracks(folder):
               for line in shell(f"{sys.executable} {SCRIPTS}/tracker two.jsonl", folder).splitlines()]
     half = len(tracks) // 2
     assert any(tracks) and tracks[:half] == tracks[half:]
+    with open(os.path.join(folder, "mixed.jsonl"), "w") as file:
+        file.writelines(one + one.replace('"seed":"1"', '"seed":"2"') for one in text.splitlines(keepends=True))
+    mixed = [[one["x_m"] for one in json.loads(line)["tracks"]]
+             for line in shell(f"{sys.executable} {SCRIPTS}/tracker mixed.jsonl", folder).splitlines()]
+    assert mixed[::2] == mixed[1::2] == tracks[:half]
 
 
 def what_stands_has_no_rate_over_ground(folder):
@@ -164,6 +272,14 @@ def workers_share_the_shards_of_a_set(folder):
     read = [[frame["frame"] for frame in glint.Shards(os.path.join(folder, "set"), "train", worker=one, workers=2)]
             for one in (0, 1)]
     assert read == [[0, 2, 4], [1, 3]], read
+    with open(os.path.join(folder, "set", "train", "lrr77", "2.jsonl.gz"), "wb"):
+        pass
+    try:
+        list(glint.Shards(os.path.join(folder, "set")))
+    except glint.BadFrame as error:
+        assert "2.jsonl.gz:1: 0 bytes" in str(error), error
+    else:
+        raise AssertionError("an empty shard was read")
 
 
 def the_tracker_follows_most_of_what_is_detected(folder):
@@ -182,7 +298,8 @@ def main():
     for test in (places_are_in_the_system_that_is_asked_for, what_stands_has_no_rate_over_ground,
                  frames_are_read_from_files_of_both_kinds, a_stage_that_changes_nothing_changes_no_byte_of_the_list,
                  columns_have_the_numbers_of_quality, detections_are_placed_from_where_the_ego_was,
-                 bad_input_is_told_without_a_trace, scenes_of_two_seeds_share_no_tracks,
+                 what_glint_refuses_the_tracker_refuses, bytes_that_glint_refuses_the_tracker_refuses,
+                 faults_outside_the_input_have_a_line_and_a_status, scenes_of_two_seeds_share_no_tracks,
                  workers_share_the_shards_of_a_set, the_tracker_follows_most_of_what_is_detected):
         with tempfile.TemporaryDirectory() as folder:
             test(folder)
