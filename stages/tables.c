@@ -13,25 +13,19 @@ struct tables_state {
     struct detection_tables tables;
 };
 
-/* Refuses a table beside that of another run, as readers take both. */
-static int refuse_other(const char *other, struct runner *runner)
-{
-    return access(other, F_OK) != 0
-               ? 0
-               : diag_fail(runner_diag(runner), DIAG_CANNOT_CREATE,
-                           "%s: a table of another run; remove it, or name another folder", other);
-}
-
+/* Beside a table of the other kind none is written, as readers take both. */
 static int open_outputs(struct tables_state *own, struct runner *runner)
 {
     for (int i = 0; i < TABLE_COUNT; i++) {
-        const char *name = arena_format(runner_arena(runner), "%s.csv", detection_tables_names[i]);
-        const char *packed = arena_format(runner_arena(runner), "%s.gz", name);
+        const char *plain = arena_format(runner_arena(runner), "%s.csv", detection_tables_names[i]);
+        const char *packed = arena_format(runner_arena(runner), "%s.gz", plain);
         const char *other =
-            arena_format(runner_arena(runner), "%s/%s", own->folder, own->plain ? packed : name);
-        if (refuse_other(other, runner) != 0)
-            return -1;
-        own->outputs[i] = runner_output_in(runner, own->folder, own->plain ? name : packed);
+            arena_format(runner_arena(runner), "%s/%s", own->folder, own->plain ? packed : plain);
+        if (access(other, F_OK) == 0)
+            return diag_fail(runner_diag(runner), DIAG_CANNOT_CREATE,
+                             "%s: a table of another run; remove it, or name another folder",
+                             other);
+        own->outputs[i] = runner_output_in(runner, own->folder, own->plain ? plain : packed);
         if (own->outputs[i] == NULL)
             return -1;
         own->tables.rows[i] = output_text(own->outputs[i]);

@@ -57,13 +57,18 @@ static int check_views(const struct frame *frame, struct diag *diag)
     return 0;
 }
 
-static int check_listed(const struct frame *frame, const char *section, size_t index,
-                        const char *sensor, struct diag *diag)
+/* Sensors of a section, with whose names its structs begin, must be those of the suite. */
+static int check_listed(const struct frame *frame, const char *section, const void *items,
+                        size_t count, size_t size, struct diag *diag)
 {
-    if (frame_view(frame, sensor) != NULL)
-        return 0;
-    return diag_fail(diag, DIAG_DATA, "%s[%zu].sensor: \"%s\" is not in sensors.list", section,
-                     index, sensor);
+    for (size_t i = 0; i < count; i++) {
+        const void *item = (const char *)items + i * size;
+        const char *sensor = *(const char *const *)item;
+        if (frame_view(frame, sensor) == NULL)
+            return diag_fail(diag, DIAG_DATA, "%s[%zu].sensor: \"%s\" is not in sensors.list",
+                             section, i, sensor);
+    }
+    return 0;
 }
 
 static int check_echoes(const struct frame *frame, struct diag *diag)
@@ -77,10 +82,8 @@ static int check_echoes(const struct frame *frame, struct diag *diag)
         if (echo[i].id.path == PATH_FALSE_ALARM)
             return diag_fail(diag, DIAG_DATA,
                              "echoes[%zu].path: false_alarm; expected the path of a wave", i);
-        if (check_listed(frame, "echoes", i, echo[i].sensor, diag) != 0)
-            return -1;
     }
-    return 0;
+    return check_listed(frame, "echoes", echo, frame->echoes.count, sizeof *echo, diag);
 }
 
 static int check_cells(const struct frame *frame, struct diag *diag)
@@ -94,31 +97,18 @@ static int check_cells(const struct frame *frame, struct diag *diag)
                              "cells: sensor \"%s\" has two led by object \"%s\", reflector \"%s\"",
                              cell[i].sensor, cell[i].members.items[0].id.object,
                              cell[i].members.items[0].id.reflector);
-        if (check_listed(frame, "cells", i, cell[i].sensor, diag) != 0)
-            return -1;
     }
-    return 0;
+    return check_listed(frame, "cells", cell, frame->cells.count, sizeof *cell, diag);
 }
 
 static int check_targets(const struct frame *frame, struct diag *diag)
 {
     const struct target *target = frame->targets.items;
-    for (size_t i = 0; i < frame->targets.count; i++) {
+    for (size_t i = 0; i < frame->targets.count; i++)
         if (target[i].contributors.count == 0)
             return diag_fail(diag, DIAG_DATA, "targets[%zu].contributors: empty; expected a label",
                              i);
-        if (check_listed(frame, "targets", i, target[i].sensor, diag) != 0)
-            return -1;
-    }
-    return 0;
-}
-
-static int check_visibility(const struct frame *frame, struct diag *diag)
-{
-    int result = 0;
-    for (size_t i = 0; i < frame->visibility.count && result == 0; i++)
-        result = check_listed(frame, "visibility", i, frame->visibility.items[i].sensor, diag);
-    return result;
+    return check_listed(frame, "targets", target, frame->targets.count, sizeof *target, diag);
 }
 
 static int check_lost(const struct frame *frame, struct diag *diag)
@@ -143,7 +133,9 @@ static int check_sections(struct frame *frame, unsigned sections, struct diag *d
         return -1;
     bool good = ((sections & SECTION_REFLECTORS) == 0 || check_sets(frame, diag) == 0) &&
                 ((sections & SECTION_SENSORS) == 0 || check_views(frame, diag) == 0) &&
-                ((sections & SECTION_VISIBILITY) == 0 || check_visibility(frame, diag) == 0) &&
+                ((sections & SECTION_VISIBILITY) == 0 ||
+                 check_listed(frame, "visibility", frame->visibility.items, frame->visibility.count,
+                              sizeof *frame->visibility.items, diag) == 0) &&
                 ((sections & SECTION_LOST) == 0 || check_lost(frame, diag) == 0) &&
                 ((sections & SECTION_ECHOES) == 0 || check_echoes(frame, diag) == 0) &&
                 ((sections & SECTION_CELLS) == 0 || check_cells(frame, diag) == 0) &&
