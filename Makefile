@@ -125,9 +125,10 @@ $(interfaces:%.pb-c=%.o): %.o: %.pb-c.c
 registry = for n in $(2); do echo "extern const struct $(1) $(1)_$$n;"; done; \
     echo "const struct $(1) *const $(1)s[] = {"; \
     for n in $(2); do echo "    &$(1)_$$n,"; done; echo "    NULL,"; echo "};"
+# Several make may run at a time.
 write_registry = mkdir -p $(@D); { echo '\#include "run/fused.h"'; \
-    $(call registry,stage,$(filter-out $(tools),$(1))); $(call registry,tool,$(filter $(tools),$(1))); } >$@.new; \
-    cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+    $(call registry,stage,$(filter-out $(tools),$(1))); $(call registry,tool,$(filter $(tools),$(1))); } >$@.$$$$; \
+    cmp -s $@.$$$$ $@ && rm $@.$$$$ || mv $@.$$$$ $@
 $(BUILD)/registry.c: FORCE
 	@$(call write_registry,$(names))
 $(BUILD)/plain_registry.c: FORCE
