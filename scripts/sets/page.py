@@ -15,7 +15,7 @@ lines that made it. Its last line is the SHA-256 of all bytes before that line.
 
 {table}
 
-| what made most of a target: a class of objects, or else | {splits} |
+| targets, by what made most of each | {splits} |
 |---|{rules}|
 {classes}
 
@@ -165,5 +165,6 @@ def page_of(layout, records):
         rows=counted(sum(record["files"][0]["rows"] for record in records)),
         targets=counted(sum(sum(record["targets"].values()) for record in records)),
         table=split_table(layout, records), splits=" | ".join(counts), rules="|".join("---:" for _ in counts),
-        classes=class_table(counts), traffic="\n".join(map(traffic_of, plan["sources"])), leak=LEAKS[splits.get("by")].format(gap_s=splits.get("gap_s")),
+        classes=class_table(counts), traffic="\n".join(map(traffic_of, plan["sources"])),
+        leak=LEAKS[splits.get("by")].format(gap_s=splits.get("gap_s")),
         tables=TABLES if plan.get("tables") else "", first=first["path"], split=os.path.dirname(os.path.dirname(first["path"])))

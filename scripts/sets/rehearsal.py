@@ -9,7 +9,8 @@ import tempfile
 from documents import copy_documents, environment, suite_name
 from plan import Fault, kind_of, refuse
 from tracks import pieces_of, same_traffic
-from traffic import US, chain_of, command_words, first_scenes, operand, seconds, source_command, stretches_of, words_of_recording
+from traffic import (US, chain_of, command_words, first_scenes, operand, seconds, source_command, stretches_of,
+                     words_of_recording)
 
 FRAMES = 10  # of each source go through the chain of each suite
 

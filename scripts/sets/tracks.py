@@ -3,7 +3,7 @@ import collections
 import itertools
 import math
 
-STEPS = 25  # of a piece of motion
+STEPS, MOST = 25, 100  # steps of a piece of motion; bodies that are kept for one, as columns of alike ones have no end
 STEP_M, SHIFT_M, SHIFT_S = 1e-2, 1, 0.1  # how closely steps agree, and the shifts of all bodies of a copy
 SHARE, FEWEST = 1 / 20, 2  # of the bodies of the smaller recording that are in both if they are copies
 
@@ -14,20 +14,21 @@ def whole(value, unit):
 
 
 def pieces_of(frames):
-    """From frames of egos alone: time and place of each body at pieces of its motion: at the first, at the last, and at one in eight of the others."""
+    """Of frames of each body as an ego: its time and place at pieces of its motion, the first, the last, and one in eight
+    of the others."""
     pieces, ways, places, known = collections.defaultdict(dict), {}, {}, set()
     for frame in frames:
-        name, (body,) = frame["scene"], frame["objects"]
+        name, body = frame["scene"], next(one for one in frame["objects"] if one["id"] == frame["ego"])
         place = frame.get("origin_x_m", 0) + body["x_m"], frame.get("origin_y_m", 0) + body["y_m"]
         dx, dy = (whole(here - there, STEP_M) for here, there in zip(place, places.get(name, place)))
         places[name] = place
         way = ways.setdefault(name, collections.deque(maxlen=STEPS))
         way.append(dx << 32 ^ dy)
         piece = hash(tuple(way))
-        if frame.get("last") or len(way) == STEPS and (name not in known or piece % 8 == 0):
-            if any(way):
-                known.add(name)
-                pieces[piece].setdefault(name, (frame["time_s"], *place))
+        known_by = frame.get("last") or len(way) == STEPS and (name not in known or piece % 8 == 0)
+        if known_by and any(way) and len(pieces[piece]) < MOST:
+            known.add(name)
+            pieces[piece].setdefault(name, (frame["time_s"], *place))
     return pieces
 
 
