@@ -1,7 +1,5 @@
 #include "export/detection_tables.h"
 
-#include <stdlib.h>
-
 #include "frame/frame_order.h"
 #include "geometry/sensor_pose.h"
 
@@ -244,7 +242,6 @@ void detection_tables_write_schema(struct text *text)
 struct writing {
     struct detection_tables *tables;
     const struct frame *frame;
-    struct object *const *by_id;
     const char *id; /* that was looked for last, as echoes of one object stand together */
     const struct object *object; /* with that id, or NULL */
     struct row row;
@@ -266,22 +263,13 @@ static void write_row(const struct writing *writing, enum table table, const voi
     csv_columns_end_row(rows);
 }
 
-static int has_id(const void *id, const void *object)
-{
-    return strcmp(id, (*(struct object *const *)object)->id);
-}
-
 /* Finds the object of an echo and its key, which are NULL and none for the ground and for noise. */
 static void find_object(struct writing *writing, const char *id)
 {
     const struct frame *frame = writing->frame;
     if (writing->id == NULL || !frame_same_name(writing->id, id)) {
-        struct object *const *found = frame->objects.count == 0
-                                          ? NULL
-                                          : bsearch(id, writing->by_id, frame->objects.count,
-                                                    sizeof(struct object *), has_id);
         writing->id = id;
-        writing->object = found != NULL ? *found : NULL;
+        writing->object = frame_object(frame, id);
     }
     writing->row.object_key =
         writing->object == NULL
@@ -471,10 +459,10 @@ int detection_tables_add(struct detection_tables *tables, struct frame *frame, s
 {
     if (check_keys(tables, frame, diag) != 0)
         return -1;
+    frame_order_objects(frame);
     struct writing writing = {
         .tables = tables,
         .frame = frame,
-        .by_id = frame_order_objects(frame),
         .row = row_of(frame, tables->frame_key++),
     };
     write_row(&writing, TABLE_FRAMES,

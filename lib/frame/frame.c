@@ -428,9 +428,19 @@ void frame_drop(struct frame *frame, unsigned sections)
     frame->present &= ~sections;
 }
 
+static int has_id(const void *id, const void *object)
+{
+    return strcmp(id, (*(struct object *const *)object)->id);
+}
+
 struct object *frame_object(const struct frame *frame, const char *id)
 {
-    for (size_t i = 0; i < frame->objects.count; i++)
+    size_t count = frame->objects.count;
+    if (count > 0 && frame->by_id.count == count) {
+        struct object **found = bsearch(id, frame->by_id.items, count, sizeof *found, has_id);
+        return found != NULL ? *found : NULL;
+    }
+    for (size_t i = 0; i < count; i++)
         if (frame_same_name(frame->objects.items[i].id, id))
             return &frame->objects.items[i];
     return NULL;

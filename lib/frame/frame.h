@@ -293,7 +293,7 @@ const char *frame_loss_words(const struct lost_group *group, struct arena *arena
 /* Removes sections from the frame. */
 void frame_drop(struct frame *frame, unsigned sections);
 
-/* The object with this id, or NULL. */
+/* The object with this id, or NULL: by bisection once frame_order_objects has sorted them. */
 struct object *frame_object(const struct frame *frame, const char *id);
 
 /* False for the paths of ghosts, clutter and false alarms, which are where no object is. */

@@ -126,10 +126,18 @@ def ghosts(glint, folder, size):
     return " | ".join([f"glint-extract {path}", *rest[1:]])
 
 
+def losses(glint, folder, size):
+    """Objects on a page, with their lost echoes."""
+    path = os.path.join(folder, f"losses-{size}.jsonl")
+    text = " | ".join(scenes.commands("highway", size, 1, 1, "account"))
+    subprocess.run([glint, "-c", f"{text} -o {path}"], check=True)
+    return f"glint-view {path} -o {path}.html"
+
+
 # Each with the size that the bench times and the size from which the guard doubles twice.
 CASES = [(objects, 16000, 1000), (objects_in_full, 4000, 500), (speeds, 8000, 1000), (cells, 8000, 1000),
          (sensors, 10000, 100), (ids, 3000, 1000), (columns, 3000, 3000), (users, 1000, 250),
-         (tag, 4000000, 1000000), (types, 40000, 2000), (ghosts, 2000, 500)]
+         (tag, 4000000, 1000000), (types, 40000, 2000), (ghosts, 2000, 500), (losses, 3000, 500)]
 
 
 def cpu_s(glint, text):
