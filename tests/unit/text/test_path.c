@@ -1,0 +1,118 @@
+#define SCRATCH_FILE "file"
+#include "scratch.h"
+
+#include "text/path.h"
+
+static void a_path_may_stand_for_a_descriptor(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *path;
+        int descriptor;
+    } cases[] = {{"-", 1},           {"/dev/stdout", 1},      {"/dev/fd/12", 12},
+                 {"/dev/fd/", -1},   {"/proc/self/fd/0", 0},  {"/proc/thread-self/fd/7", 7},
+                 {"/dev/fd/1a", -1}, {"/dev/fd/1/more", -1},  {"dev/fd/1", -1},
+                 {"", -1},           {"/dev/stdout.txt", -1}, {"/dev/null", -1}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        assert_int_equal(path_descriptor(cases[i].path), cases[i].descriptor);
+}
+
+static void a_path_is_a_folder_and_a_name(void **state)
+{
+    (void)state;
+    static const char *const cases[][3] = {
+        {"a", ".", "a"}, {"/a", "/.", "a"}, {"b/c/a", "b/c/.", "a"}, {"b/", "b/.", ""}};
+    for (size_t i = 0; i < 4; i++) {
+        char *folder = path_folder(cases[i][0]);
+        assert_string_equal(folder, cases[i][1]);
+        assert_string_equal(path_name(cases[i][0]), cases[i][2]);
+        free(folder);
+    }
+}
+
+static void devices_and_pipes_are_special(void **state)
+{
+    struct scratch *scratch = *state;
+    assert_true(path_is_special("/dev/null"));
+    assert_false(path_is_special(scratch->directory));
+    assert_false(path_is_special(scratch->path));
+    fclose(fopen(scratch->path, "w"));
+    assert_false(path_is_special(scratch->path));
+}
+
+/* The path of a name in the scratch directory. */
+static const char *in(const struct scratch *scratch, const char *name)
+{
+    static char paths[4][128];
+    static int next;
+    next = (next + 1) % 4;
+    snprintf(paths[next], sizeof paths[next], "%s/%s", scratch->directory, name);
+    return paths[next];
+}
+
+/* file <- link <- longer, and other <- absolute; none of the files is there at first. */
+static void make_links(const struct scratch *scratch)
+{
+    assert_int_equal(symlink(SCRATCH_FILE, in(scratch, "link")), 0);
+    assert_int_equal(symlink("./link", in(scratch, "longer")), 0);
+    assert_int_equal(symlink(in(scratch, "other"), in(scratch, "absolute")), 0);
+}
+
+static void remove_links(const struct scratch *scratch)
+{
+    static const char *const names[] = {"link", "longer", "absolute", "twin"};
+    for (size_t i = 0; i < 4; i++)
+        unlink(in(scratch, names[i]));
+}
+
+static void links_lead_to_a_path_whether_its_file_is_there_or_not(void **state)
+{
+    struct scratch *scratch = *state;
+    make_links(scratch);
+    for (int there = 0; there < 2; there++) {
+        char *target = path_target(in(scratch, "longer"));
+        assert_true(path_same_file(target, scratch->path));
+        assert_string_equal(path_name(target), SCRATCH_FILE);
+        free(target);
+        target = path_target(in(scratch, "absolute"));
+        assert_string_equal(target, in(scratch, "other"));
+        free(target);
+        fclose(fopen(scratch->path, "w"));
+    }
+    remove_links(scratch);
+}
+
+static void two_paths_to_one_file_are_the_same_whether_it_is_there_or_not(void **state)
+{
+    struct scratch *scratch = *state;
+    static const char *const same[] = {"file", "./file", "link", "longer"};
+    static const char *const others[] = {"other", "absolute", "nowhere/file"};
+    make_links(scratch);
+    for (int there = 0; there < 2; there++) {
+        for (size_t i = 0; i < 4; i++) {
+            for (size_t j = 0; j < 4; j++)
+                assert_true(path_same_file(in(scratch, same[i]), in(scratch, same[j])));
+            for (size_t j = 0; j < 3; j++)
+                assert_false(path_same_file(in(scratch, same[i]), in(scratch, others[j])));
+        }
+        assert_true(path_same_file(in(scratch, "other"), in(scratch, "absolute")));
+        fclose(fopen(scratch->path, "w"));
+    }
+    assert_int_equal(link(scratch->path, in(scratch, "twin")), 0);
+    assert_true(path_same_file(in(scratch, "twin"), in(scratch, "longer")));
+    assert_false(path_same_file("/dev/null", "/dev/null"));
+    remove_links(scratch);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+#define TEST(function) cmocka_unit_test_setup_teardown(function, make_scratch, remove_scratch)
+        TEST(a_path_may_stand_for_a_descriptor),
+        TEST(a_path_is_a_folder_and_a_name),
+        TEST(devices_and_pipes_are_special),
+        TEST(links_lead_to_a_path_whether_its_file_is_there_or_not),
+        TEST(two_paths_to_one_file_are_the_same_whether_it_is_there_or_not),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
