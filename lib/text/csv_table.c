@@ -93,7 +93,7 @@ static void on_cell(void *text, size_t length, void *context)
     text_add(&reader->text, text, length + 1);
 }
 
-/* libcsv reports CR and LF of one line end as the ends of two rows. */
+/* libcsv reports CR and LF of one line end as the ends of two rows, the end of the text as -1. */
 static void on_row(int end, void *context)
 {
     struct reader *reader = context;
@@ -102,7 +102,11 @@ static void on_row(int end, void *context)
     reader->last_end = end;
     if (second_half || reader->diag->code != DIAG_OK)
         return;
-    if (!empty && reader->table->header == NULL)
+    if (end < 0)
+        diag_fail(reader->diag, DIAG_DATA,
+                  "row %zu: the file ends inside this row; expected a line end after the last row",
+                  reader->row);
+    else if (!empty && reader->table->header == NULL)
         take_header(reader);
     else if (!empty)
         take_row(reader);
@@ -130,8 +134,8 @@ static int finish(struct csv_parser *parser, struct reader *reader)
     if (csv_fini(parser, on_cell, on_row, reader) != 0)
         return diag_fail(reader->diag, DIAG_DATA,
                          "row %zu: a quote opens a cell and nothing closes it", reader->row);
-    if (reader->table->header == NULL)
-        return diag_fail(reader->diag, DIAG_DATA, "the table is empty; expected a header");
+    if (reader->table->header == NULL && reader->diag->code == DIAG_OK)
+        diag_fail(reader->diag, DIAG_DATA, "the table is empty; expected a header");
     return reader->diag->code == DIAG_OK ? 0 : -1;
 }
 
@@ -210,16 +214,12 @@ struct csv_table_rows {
     bool held;   /* was the first line a row? */
 };
 
-static bool begins_with(const char *line, size_t length, const char *word)
-{
-    size_t letters = strlen(word);
-    return length >= letters && memcmp(line, word, letters) == 0;
-}
-
 /* What the first line tells: what separates cells, and whether the header is in a later line. */
 static void look_at_first(struct csv_table_rows *rows, const char *line, size_t length)
 {
-    rows->before_header = rows->form != NULL && begins_with(line, length, rows->form->preamble);
+    const struct csv_table_form *form = rows->form;
+    rows->before_header =
+        form != NULL && strncmp(line, form->preamble, strlen(form->preamble)) == 0;
     if (rows->before_header || memchr(line, ',', length) != NULL)
         return;
     rows->reader.semicolons = memchr(line, ';', length) != NULL;
@@ -254,27 +254,29 @@ static void parse_line(struct csv_table_rows *rows)
     const char *line;
     size_t length;
     int more = input_line(rows->input, CSV_TABLE_SIZE, &line, &length, &rows->fault);
-    if (more > 0 && !rows->begun) {
+    rows->ended = more <= 0;
+    if (more == 0)
+        finish(&rows->parser, &rows->reader);
+    if (more <= 0)
+        return;
+    if (!rows->begun) {
         size_t mark = mark_length(line, length);
         line += mark;
         length -= mark;
         look_at_first(rows, line, length);
         rows->begun = true;
     }
-    if (more > 0 && rows->before_header)
-        rows->before_header = !begins_with(line, length, rows->form->header);
-    if (more > 0 && rows->before_header) {
+    bool whole = line[length] == '\n';
+    if (rows->before_header)
+        rows->before_header = strncmp(line, rows->form->header, strlen(rows->form->header)) != 0;
+    if (rows->before_header) {
         rows->reader.row++;
         return;
     }
-    if (more > 0 && rows->blanks)
+    if (rows->blanks)
         put_commas(rows, &line, &length);
-    if (more > 0)
-        more = parse(&rows->parser, &rows->reader, line, length) == 0 &&
-               parse(&rows->parser, &rows->reader, "\n", 1) == 0;
-    else if (more == 0)
-        finish(&rows->parser, &rows->reader);
-    rows->ended = more <= 0;
+    rows->ended = parse(&rows->parser, &rows->reader, line, length) != 0 ||
+                  parse(&rows->parser, &rows->reader, "\n", whole) != 0;
 }
 
 const struct csv_table *csv_table_next(struct csv_table_rows *rows, struct diag *diag)

@@ -1,7 +1,8 @@
 /* CSV tables with named columns, read and written.
  *
  * libcsv reads them in strict mode, plain or gzip. The first row names the columns; a byte order
- * mark before it and CRLF are accepted. Every row must have as many cells as the header. Rows
+ * mark before it and CRLF are accepted. Every row must have as many cells as the header, and a line
+ * end behind it: without one the last number of a file that was cut may pass for another. Rows
  * without any cell are skipped, and blanks around a cell without quotes do not belong to it.
  * Messages name the row as a spreadsheet shows it (the header is usually row 1, empty rows count,
  * line breaks inside quotes do not) and, for a cell, its column. */

@@ -240,6 +240,7 @@ int input_line(struct input *input, size_t limit, const char **line, size_t *len
                 return 0;
             begin = 0;
             end = held->length;
+            held->bytes[end] = '\0'; /* for which the read that found the end had room */
         }
         *line = held->bytes + begin;
         *length = end - begin;

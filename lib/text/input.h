@@ -47,7 +47,7 @@ long input_read(struct input *input, char *bytes, size_t size, struct diag *diag
 
 /* Reads the next line, without its newline; it is valid until the next call. Returns 1, 0 at the
  * end, -1 after a message (a line longer than limit bytes, or damaged input). The last line may
- * lack its newline. */
+ * lack its newline: there is a NUL behind it then. */
 int input_line(struct input *input, size_t limit, const char **line, size_t *length,
                struct diag *diag);
 

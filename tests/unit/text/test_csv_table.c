@@ -31,7 +31,7 @@ static void every_spelling_of_a_table_is_the_same_table(void **state)
 {
     static const char *const spellings[] = {
         "a,b\n1,2\n3,4\n",
-        "a,b\n1,2\n3,4",
+        "a,b\n1,2\n3,4\r",
         "a,b\r\n1,2\r\n3,4\r\n",
         "a,b\r1,2\r3,4\r",
         ("\xef\xbb\xbf"
@@ -212,10 +212,10 @@ static void rows_have_the_numbers_that_a_spreadsheet_shows(void **state)
     } cases[] = {
         {"a,b\n1,2\n3,4\n", {2, 3}},
         {"a,b\r\n1,2\r\n3,4\r\n", {2, 3}},
-        {"a,b\r1,2\r3,4", {2, 3}},
+        {"a,b\r1,2\r3,4\r", {2, 3}},
         {"a,b\n\n\n1,2\n\n3,4\n", {4, 6}},
-        {"a,b\r\n\r\n1,2\r\n\r\n\r\n3,4", {3, 6}},
-        {"a,b\r\r1,2\r\r3,4", {3, 5}},
+        {"a,b\r\n\r\n1,2\r\n\r\n\r\n3,4\r\n", {3, 6}},
+        {"a,b\r\r1,2\r\r3,4\r", {3, 5}},
         {"\n\na,b\n \t\n1,2\n3,4\n", {5, 6}},
         {"a,b\n\"1\n\n\n\",2\n3,4\n", {2, 3}},
     };
@@ -239,7 +239,7 @@ static void damaged_tables_are_refused(void **state)
         {"\n \r\n\n", "the table is empty; expected a header"},
         {"a,b\n1,2\n3\n", "row 3: 1 cell; expected 2 as in the header"},
         {"a,b\n1,2\n3,4,5\n", "row 3: 3 cells; expected 2 as in the header"},
-        {"a,b\r\n\r\n1,2\r\n3,4,", "row 4: 3 cells; expected 2 as in the header"},
+        {"a,b\r\n\r\n1,2\r\n3,4,\r\n", "row 4: 3 cells; expected 2 as in the header"},
         {"a;b\n1;2\n", "the columns are separated by semicolons; expected commas"},
         {"a,b,a\n1,2,3\n", "columns 1 and 3 are both named \"a\""},
         {"a,,\n1,2,3\n", "columns 2 and 3 are both named \"\""},
@@ -256,6 +256,36 @@ static void damaged_tables_are_refused(void **state)
         assert_string_equal(diag.text, cases[i].message);
         assert_int_equal(diag.code, DIAG_DATA);
     }
+}
+
+/* Wherever it is cut but behind a line end: 1.8 may be 1.85. The whole rows come first. */
+static void a_table_that_is_cut_is_refused(void **state)
+{
+    static const char *const texts[] = {
+        "id,x\n1,1.85\n33,4\n",
+        "id,x\r\n1,1.85\r\n33,\"4\"\r\n",
+        "id;x\n1;1.85\n33;\n",
+        "id x\n1  1.85\n33 4\n",
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
+        for (size_t cut = 1; texts[i][cut - 1] != '\0'; cut++) {
+            char part[64], rows[256];
+            snprintf(part, sizeof part, "%.*s", (int)cut, texts[i]);
+            bool whole = strchr("\r\n", part[cut - 1]) != NULL;
+            const char *second = strstr(part, "1.85");
+            rows_of(*state, part, &other_form, rows, sizeof rows);
+            assert_int_equal(strstr(rows, "row ") == NULL, whole);
+            assert_int_equal(strstr(rows, "x=1.85\n") != NULL,
+                             second != NULL && strpbrk(second, "\r\n") != NULL);
+            struct csv_table table;
+            struct diag diag;
+            read_bytes(*state, part, cut, &table, &diag);
+            assert_true(i > 1 || (diag.code == DIAG_OK) == whole);
+        }
+    char rows[256];
+    rows_of(*state, "7 1.85\n33 4", &other_form, rows, sizeof rows);
+    assert_string_equal(rows, "1: id=7 x=1.85\nrow 2: the file ends inside this row; expected a "
+                              "line end after the last row");
 }
 
 static void a_nul_byte_is_refused_wherever_it_is(void **state)
@@ -354,6 +384,7 @@ int main(void)
         cmocka_unit_test(long_cells_are_read_whole),
         cmocka_unit_test(rows_have_the_numbers_that_a_spreadsheet_shows),
         cmocka_unit_test(damaged_tables_are_refused),
+        cmocka_unit_test(a_table_that_is_cut_is_refused),
         cmocka_unit_test(a_nul_byte_is_refused_wherever_it_is),
         cmocka_unit_test(columns_are_found_by_their_whole_name),
         cmocka_unit_test(numbers_are_read_to_the_last_digit),
