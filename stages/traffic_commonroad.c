@@ -5,6 +5,7 @@
 #include "xml_rows.h"
 
 #define UNSAID ((double)NAN)
+#define BLANKS " \t\r\n"
 
 enum { PATH_SIZE = 512, NAME_SIZE = FIELD_NAME_SIZE + 1, STEPS = 1000000 };
 
@@ -20,20 +21,22 @@ struct state {
 /* A rectangle, a circle or a point; or the box around several, not turned, if length_m is said. */
 struct area {
     double x_m, y_m, length_m, width_m, orientation_rad, radius_m;
+    unsigned said; /* bit i: members[i] of a part; of a shape or a position: it has ended */
 };
 
 struct document {
-    struct xml_rows xml;
+    struct xml_rows xml; /* first: xml_rows_close closes it */
     double step_s;
     size_t depth;         /* elements that are open */
     char path[PATH_SIZE]; /* of those inside an obstacle, "/shape/rectangle" */
-    char text[NAME_SIZE]; /* of the one that was opened last, without white space */
+    char text[NAME_SIZE]; /* of the one that was opened last, without white space before it */
     size_t path_length, text_length;
-    bool in_obstacle, still;
+    bool in_obstacle, still, has_role;
     char id[NAME_SIZE], type[NAME_SIZE]; /* of the obstacle; empty: not said yet */
     struct area shape, position, part;   /* part is added to one of the others at its end */
     struct state state;
     struct arena *arena;                 /* of what is kept until the end: */
+    struct intern ids;                   /* of the obstacles so far */
     LIST_OF(struct recorded_row) stills; /* obstacles that stand still */
     struct intern steps;                 /* times of all others */
     size_t still_given;                  /* how many of those came in every step */
@@ -102,15 +105,20 @@ static void end_interval(struct document *document, const struct member *member,
         return;
     if (member->whole && value != floor(value))
         fail(document, name, document->text, "a whole number");
-    if (strcmp(end, "/intervalEnd") != 0)
-        interval->low = value;
-    if (strcmp(end, "/intervalStart") != 0)
-        interval->high = value;
+    bool low = strcmp(end, "/intervalEnd") != 0, high = strcmp(end, "/intervalStart") != 0;
+    if ((low && !isnan(interval->low)) || (high && !isnan(interval->high)))
+        fail(document, name, document->text, "a single value");
+    interval->low = low ? value : interval->low;
+    interval->high = high ? value : interval->high;
 }
 
-static void end_number(struct document *document, const struct member *member)
+static void end_number(struct document *document, size_t number)
 {
+    const struct member *member = &members[number];
     double value;
+    if ((document->part.said >> number & 1) != 0)
+        fail(document, member->name, document->text, "a single value");
+    document->part.said |= 1u << number;
     if (xml_rows_number(&document->xml, member->name, document->text, member->low, member->high,
                         &value))
         memcpy((char *)document + member->offset, &value, sizeof value);
@@ -161,7 +169,10 @@ static void end_in_area(struct document *document, struct area *area, const char
         end_part(document, area, is_point);
     for (size_t i = 0; i < MEMBERS; i++)
         if (strcmp(members[i].name, name) == 0)
-            end_number(document, &members[i]);
+            end_number(document, i);
+    if (area->said != 0)
+        fail(document, "a second element", area == &document->shape ? "shape" : "position", "one");
+    area->said = strcmp(name, "shape") == 0 || strcmp(name, "position") == 0;
 }
 
 /* ---- states become rows ---- */
@@ -265,19 +276,27 @@ static void begin_obstacle(struct document *document, const char *name, const ch
     document->in_obstacle =
         document->still || strcmp(name, "obstacle") == 0 || strcmp(name, "dynamicObstacle") == 0;
     document->type[0] = '\0';
+    document->has_role = false;
     document->shape = document->position = no_area;
     document->state = no_state;
     document->part = no_part;
-    if (id != NULL && recorded_row_name_fits(id))
-        memcpy(document->id, id, strlen(id) + 1);
-    else if (document->in_obstacle)
+    if (!document->in_obstacle)
+        return;
+    size_t known = document->ids.list.count;
+    if (id == NULL || !recorded_row_name_fits(id))
         fail(document, "id", id, "1 to 1024 printable ASCII characters");
+    else if (intern_word(&document->ids, id, document->arena) < known)
+        fail(document, "id", id, "one that no obstacle above has");
+    else
+        memcpy(document->id, id, strlen(id) + 1);
 }
 
 static void on_begin(void *context, const char *name, const char **attributes)
 {
     struct document *document = context;
     size_t room = PATH_SIZE - document->path_length;
+    if (document->text_length > 0)
+        fail(document, "an element", name, "no text before it in the element around it");
     document->text_length = 0;
     document->depth++;
     if (document->in_obstacle && strlen(name) + 2 <= room)
@@ -293,6 +312,8 @@ static void on_begin(void *context, const char *name, const char **attributes)
 
 static void end_in_state(struct document *document, const char *path, const char *name)
 {
+    if (strcmp(path, "/position/point") == 0 && !isnan(document->position.length_m))
+        fail(document, "a second element", name, "one");
     if (*path == '\0')
         end_state(document);
     else if (below(path, "/position") != NULL)
@@ -310,17 +331,24 @@ static void end_inside(struct document *document, const char *name)
         end_in_state(document, initial != NULL ? initial : later, name);
     else if (below(path, "/shape") != NULL)
         end_in_area(document, &document->shape, name);
+    else if ((strcmp(path, "/type") == 0 && document->type[0] != '\0') ||
+             (strcmp(path, "/role") == 0 && document->has_role))
+        fail(document, "a second element", name, "one");
     else if (strcmp(path, "/type") == 0 && recorded_row_name_fits(text))
         memcpy(document->type, text, strlen(text) + 1);
     else if (strcmp(path, "/role") == 0 && strcmp(text, "static") == 0)
         document->still = true;
     else if (strcmp(path, "/role") == 0 && strcmp(text, "dynamic") != 0)
         fail(document, "role", text, "static or dynamic");
+    document->has_role = document->has_role || strcmp(path, "/role") == 0;
 }
 
 static void on_end(void *context, const char *name)
 {
     struct document *document = context;
+    while (document->text_length > 0 &&
+           strchr(BLANKS, document->text[document->text_length - 1]) != NULL)
+        document->text_length--;
     document->text[document->text_length] = '\0';
     document->text_length = 0;
     document->in_obstacle = --document->depth > 1 && document->in_obstacle;
@@ -337,7 +365,7 @@ static void on_text(void *context, const char *text, int length)
     for (int i = 0; i < length && document->in_obstacle; i++)
         if (document->text_length + 1 == NAME_SIZE)
             fail(document, "a text", document->id, "1024 bytes at most");
-        else if (strchr(" \t\r\n", text[i]) == NULL)
+        else if (document->text_length > 0 || strchr(BLANKS, text[i]) == NULL)
             document->text[document->text_length++] = text[i];
 }
 
@@ -367,17 +395,8 @@ static int next_event(void *state, struct recorded_row *row, struct diag *diag)
     return RECORDED_ROW;
 }
 
-static void close_document(void *state)
-{
-    struct document *document = state;
-    xml_rows_close(&document->xml);
-}
-
-static const struct recorded_word words[] = {
-#define COMMONROAD(word, class) {word, class, 0, 0, 0},
-#include "traffic/recorded_classes.def"
-    {0},
-};
+#define COMMONROAD RECORDED_WORD
+#include "traffic/recorded_words.def"
 
 static const struct recorded_format format = {
     .name = "a scenario of CommonRoad",
@@ -385,7 +404,7 @@ static const struct recorded_format format = {
     .place = "line",
     .words = words,
     .next = next_event,
-    .close = close_document,
+    .close = xml_rows_close,
 };
 
 /* ---- the stage ---- */

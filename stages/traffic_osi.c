@@ -263,6 +263,8 @@ static int read_message(struct trace *trace, struct diag *diag)
 {
     trace->place += trace->begun ? LENGTH_SIZE + trace->bytes.length : 0;
     long got = read_bytes(trace, LENGTH_SIZE, diag);
+    if (got == 0 && !trace->begun)
+        return diag_fail(diag, DIAG_DATA, "the trace is empty; expected messages of OSI");
     if (got <= 0)
         return (int)got;
     if (got < LENGTH_SIZE)
@@ -321,11 +323,8 @@ static void close_trace(void *state)
     arena_free(&trace->still_arena);
 }
 
-static const struct recorded_word words[] = {
-#define OSI(kind, number, word, class) {word, class, 0, 0, 0},
-#include "traffic/recorded_classes.def"
-    {0},
-};
+#define OSI(kind, number, word, class) RECORDED_WORD(word, class)
+#include "traffic/recorded_words.def"
 
 static const struct recorded_format format = {
     .name = "an OSI trace",

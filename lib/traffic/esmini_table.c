@@ -24,11 +24,8 @@ static const struct recorded_column columns[] = {
     {0},
 };
 
-static const struct recorded_word words[] = {
-#define ESMINI(word, class) {word, class, 0, 0, 0},
-#include "traffic/recorded_classes.def"
-    {0},
-};
+#define ESMINI RECORDED_WORD
+#include "traffic/recorded_words.def"
 
 static const char *word_of(const struct recorded_row *row)
 {

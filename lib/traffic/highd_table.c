@@ -14,11 +14,8 @@ static const struct recorded_column columns[] = {
     {0},
 };
 
-static const struct recorded_word words[] = {
-#define HIGHD(word, class) {word, class, 0, 0, 0},
-#include "traffic/recorded_classes.def"
-    {0},
-};
+#define HIGHD RECORDED_WORD
+#include "traffic/recorded_words.def"
 
 static void complete(struct recorded_cells *cells)
 {

@@ -5,6 +5,7 @@
 
 static const struct recorded_column columns[] = {
     RECORDED_ID("trackId"),
+    RECORDED_RECORDING("recordingId"),
     RECORDED_FRAME("frame"),
     RECORDED_VALUE("xCenter", x_m, RECORDED_NEEDED, -1e9, 1e9, 1, 0),
     RECORDED_VALUE("yCenter", y_m, RECORDED_NEEDED, -1e9, 1e9, 1, 0),
@@ -16,11 +17,8 @@ static const struct recorded_column columns[] = {
     {0},
 };
 
-static const struct recorded_word words[] = {
-#define IND(word, class) {word, class, 0, 0, 0},
-#include "traffic/recorded_classes.def"
-    {0},
-};
+#define IND RECORDED_WORD
+#include "traffic/recorded_words.def"
 
 const struct recorded_layout ind_table_layout = {
     .format = {RECORDED_TABLE, .name = "a table of inD", .id_name = "trackId", .words = words},

@@ -5,6 +5,7 @@
 
 static const struct recorded_column columns[] = {
     RECORDED_ID("track_id"),
+    RECORDED_RECORDING("case_id"),
     RECORDED_TIME_IN("timestamp_ms", 1e-3),
     RECORDED_TIME_IN("timestamp_us", 1e-6),
     RECORDED_TIME_IN("timestamp_s", 1),
@@ -19,11 +20,8 @@ static const struct recorded_column columns[] = {
     {0},
 };
 
-static const struct recorded_word words[] = {
-#define INTERACTION(word, class) {word, class, 0, 0, 0},
-#include "traffic/recorded_classes.def"
-    {0},
-};
+#define INTERACTION RECORDED_WORD
+#include "traffic/recorded_words.def"
 
 const struct recorded_layout interaction_table_layout = {
     .format = {RECORDED_TABLE, .name = "a table of INTERACTION", .id_name = "track_id",

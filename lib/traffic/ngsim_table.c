@@ -9,6 +9,7 @@
 /* Frames of two files begin with the same number, so that the stamp goes before. */
 static const struct recorded_column columns[] = {
     RECORDED_ID("Vehicle_ID"),
+    RECORDED_RECORDING("Location"),
     RECORDED_TIME_IN("Frame_ID", 0.1),
     RECORDED_TIME_IN("Global_Time", 1e-3),
     RECORDED_CLASS("v_Class", RECORDED_NEEDED),
@@ -24,11 +25,8 @@ const char *const ngsim_table_names[] = {
     "Global_Y",   "v_Length",  "v_Width",       "v_Class",      "v_Vel",   "v_Acc",   "Lane_ID",
     "Preceding",  "Following", "Space_Headway", "Time_Headway", NULL};
 
-static const struct recorded_word words[] = {
-#define NGSIM(word, class) {word, class, 0, 0, 0},
-#include "traffic/recorded_classes.def"
-    {0},
-};
+#define NGSIM RECORDED_WORD
+#include "traffic/recorded_words.def"
 
 const struct recorded_layout ngsim_table_layout = {
     .format = {RECORDED_TABLE, .name = "a table of NGSIM", .id_name = "Vehicle_ID", .words = words,

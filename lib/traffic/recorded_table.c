@@ -32,6 +32,8 @@ struct recorded_table {
     size_t row;                   /* of those, which is read */
     LIST_OF(struct part) parts;
     size_t part; /* of the row, which is next */
+    struct intern recordings;
+    struct arena *arena;
     struct recorded_beside beside;
 };
 
@@ -55,25 +57,25 @@ static const struct recorded_layout *layout_of(const struct recorded_table *tabl
     return layouts[i];
 }
 
-/* The name of a column; in a wide table that of road user number 1, 2, ... */
-static const char *name_of(const struct recorded_column *column, size_t number, char *room)
+/* The name of a column; in a wide table that of a road user, "#1" or "#2" or ... */
+static const char *name_of(const struct recorded_column *column, const char *user, char *room)
 {
-    if (number == 0 || column->kind == RECORDED_TIME)
+    if (user == NULL || column->kind == RECORDED_TIME)
         return column->name;
-    snprintf(room, NAME_ROOM, "#%zu %s", number, column->name);
+    snprintf(room, NAME_ROOM, "%s %s", user, column->name);
     return room;
 }
 
 /* Finds the columns of a kind. Those that stand together are needed once one of them is there, and
  * the first column of times where there is no other. */
-static int find_columns(const struct recorded_table *table, struct part *part, size_t number,
+static int find_columns(const struct recorded_table *table, struct part *part, const char *user,
                         struct diag *diag)
 {
     const struct recorded_column *columns = part->kind->columns;
     bool together = false, timed = false;
     char room[NAME_ROOM];
     for (size_t i = 0; columns[i].name != NULL; i++) {
-        int at = part->at[i] = place_of(table, name_of(&columns[i], number, room));
+        int at = part->at[i] = place_of(table, name_of(&columns[i], user, room));
         together = together || (columns[i].need == RECORDED_TOGETHER && at != ABSENT);
         timed = timed || (columns[i].kind == RECORDED_TIME && at != ABSENT);
     }
@@ -83,46 +85,53 @@ static int find_columns(const struct recorded_table *table, struct part *part, s
                                                              : columns[i].need == RECORDED_NEEDED;
         size_t ignored;
         if (needed && part->at[i] == ABSENT)
-            return csv_table_column(table->names, name_of(&columns[i], number, room), &ignored,
-                                    diag);
+            return csv_table_column(table->names, name_of(&columns[i], user, room), &ignored, diag);
     }
     return 0;
 }
 
-static int add_part(struct recorded_table *table, const struct recorded_kind *kind, size_t number,
-                    struct arena *arena, struct diag *diag)
+static int add_part(struct recorded_table *table, const struct recorded_kind *kind,
+                    const char *user, struct diag *diag)
 {
-    struct part *part = list_add(&table->parts, arena);
+    struct part *part = list_add(&table->parts, table->arena);
     part->kind = kind;
-    return find_columns(table, part, number, diag);
+    return find_columns(table, part, user, diag);
 }
 
-static int find_users(struct recorded_table *table, struct arena *arena, struct diag *diag)
+/* Whoever has a column, whatever the numbers are, or else "#1", which is refused. */
+static int find_users(struct recorded_table *table, struct diag *diag)
 {
-    const struct recorded_kind *user = table->layout->kinds;
-    char room[NAME_ROOM];
-    int done = add_part(table, user, 1, arena, diag);
-    for (size_t i = 2; done == 0 && place_of(table, name_of(user->columns, i, room)) != ABSENT; i++)
-        done = add_part(table, user, i, arena, diag);
-    return done;
+    const struct recorded_kind *kind = table->layout->kinds;
+    struct intern users = {0};
+    for (size_t i = 0; i < table->names->columns; i++) {
+        const char *name = table->names->header[i];
+        size_t length = strcspn(name, " ");
+        if (*name != '#' || length == 1 || strspn(name + 1, "0123456789") != length - 1)
+            continue;
+        uint32_t user = intern_number(&users, name, length, table->arena);
+        if (user == table->parts.count &&
+            add_part(table, kind, intern_text(&users, user), diag) != 0)
+            return -1;
+    }
+    return table->parts.count > 0 ? 0 : add_part(table, kind, "#1", diag);
 }
 
 /* Of a kind without a column of ids there is nobody, unless all lack it: then the first is
  * refused. */
-static int find_kinds(struct recorded_table *table, struct arena *arena, struct diag *diag)
+static int find_kinds(struct recorded_table *table, struct diag *diag)
 {
     const struct recorded_kind *kinds = table->layout->kinds, *kind = kinds;
     do {
         if (place_of(table, kind->columns->name) != ABSENT &&
-            add_part(table, kind, 0, arena, diag) != 0)
+            add_part(table, kind, NULL, diag) != 0)
             return -1;
     } while (++kind < kinds + RECORDED_KINDS && kind->columns != NULL);
-    return table->parts.count > 0 ? 0 : add_part(table, kinds, 0, arena, diag);
+    return table->parts.count > 0 ? 0 : add_part(table, kinds, NULL, diag);
 }
 
-static int read_header(struct recorded_table *table, const char *path, struct arena *arena,
-                       struct diag *diag)
+static int read_header(struct recorded_table *table, const char *path, struct diag *diag)
 {
+    struct arena *arena = table->arena;
     table->lines = csv_table_open(table->input, &form, diag);
     if (table->lines == NULL)
         return -1;
@@ -130,7 +139,7 @@ static int read_header(struct recorded_table *table, const char *path, struct ar
     for (size_t i = 0; i < table->names->columns; i++)
         intern_word(&table->places, table->names->header[i], arena);
     table->layout = layout_of(table);
-    if ((table->layout->wide ? find_users : find_kinds)(table, arena, diag) != 0)
+    if ((table->layout->wide ? find_users : find_kinds)(table, diag) != 0)
         return -1;
     const struct recorded_beside_columns *beside = &table->layout->beside;
     return beside->id == NULL ? 0 : recorded_beside_read(&table->beside, beside, path, arena, diag);
@@ -141,7 +150,8 @@ struct recorded_reader recorded_table_open(struct input *input, const char *path
 {
     struct recorded_table *table = arena_get(arena, sizeof *table);
     table->input = input;
-    if (read_header(table, path, arena, diag) == 0)
+    table->arena = arena;
+    if (read_header(table, path, diag) == 0)
         return (struct recorded_reader){&table->layout->format, table};
     size_t length;
     const char *head = input_head(input, &length);
@@ -166,11 +176,15 @@ static int refuse(const struct recorded_table *table, size_t place, const char *
                      csv_table_cell(rows, table->row, place), what);
 }
 
-static int read_cell(const struct recorded_table *table, const struct recorded_column *column,
+static int read_cell(struct recorded_table *table, const struct recorded_column *column,
                      size_t place, struct recorded_cells *cells, struct diag *diag)
 {
     const char *text = csv_table_cell(table->rows, table->row, place);
     double most_s = 9e9 / column->scale, value;
+    if (column->kind == RECORDED_ALIKE && intern_word(&table->recordings, text, table->arena) > 0)
+        return refuse(table, place, "\" is another recording; expected that of all rows", diag);
+    if (column->kind == RECORDED_ALIKE)
+        return 0;
     if (column->kind == RECORDED_TEXT) {
         if (!recorded_row_name_fits(text))
             return refuse(table, place, "\"; expected 1 to 1024 printable ASCII characters", diag);
@@ -212,7 +226,7 @@ static int find_track(const struct recorded_table *table, const struct part *par
     return 0;
 }
 
-static int read_part(const struct recorded_table *table, const struct part *part,
+static int read_part(struct recorded_table *table, const struct part *part,
                      struct recorded_row *row, struct diag *diag)
 {
     const struct recorded_column *columns = part->kind->columns;

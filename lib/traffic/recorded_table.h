@@ -16,11 +16,11 @@ enum recorded_need {
     RECORDED_TOGETHER, /* all of these columns or none */
 };
 
-/* A column of text (an id or a class), of times, of frames, or of numbers that become scale *
- * (number + shift) in a member of struct recorded_row. */
+/* A column of text (an id or a class), of times, of frames, of what all rows have alike, or of
+ * numbers that become scale * (number + shift) in a member of struct recorded_row. */
 struct recorded_column {
     const char *name; /* NULL after the last */
-    enum { RECORDED_TEXT, RECORDED_TIME, RECORDED_FRAMES, RECORDED_NUMBER } kind;
+    enum { RECORDED_TEXT, RECORDED_TIME, RECORDED_FRAMES, RECORDED_ALIKE, RECORDED_NUMBER } kind;
     enum recorded_need need; /* of several columns of times, one is needed */
     size_t offset;           /* of the member, in struct recorded_cells */
     double low, high;        /* of a number in the file */
@@ -33,6 +33,8 @@ struct recorded_column {
     }
 #define RECORDED_ID(name) RECORDED_COLUMN(name, RECORDED_TEXT, RECORDED_NEEDED, row.id, 0, 0, 0, 0)
 #define RECORDED_CLASS(name, need) RECORDED_COLUMN(name, RECORDED_TEXT, need, row.class, 0, 0, 0, 0)
+#define RECORDED_RECORDING(name)                                                                   \
+    RECORDED_COLUMN(name, RECORDED_ALIKE, RECORDED_OPTIONAL, row.id, 0, 0, 0, 0)
 #define RECORDED_TIME_IN(name, unit_s)                                                             \
     RECORDED_COLUMN(name, RECORDED_TIME, RECORDED_OPTIONAL, row.time_ns, 0, 0, unit_s, 0)
 #define RECORDED_FRAME(name)                                                                       \
@@ -63,8 +65,8 @@ struct recorded_layout {
     const char *mark;                           /* name of a column that no other layout has */
     struct recorded_kind kinds[RECORDED_KINDS]; /* columns NULL: no more */
     struct recorded_beside_columns beside;      /* id NULL: there are no files beside it */
-    /* A row has columns for everybody: "#1 NAME" for the first, and so on. Columns of times have
-     * their plain names. Who has no id in a row is not there. */
+    /* A row has columns for everybody: "#1 NAME" for one, "#2 NAME" for another, and so on. Columns
+     * of times have their plain names. Who has no id in a row is not there. */
     bool wide;
     void (*complete)(struct recorded_cells *cells); /* NULL: its columns say it all */
 };

@@ -314,6 +314,38 @@ def memory_is_64_bytes_a_row(folder):
     check(more - less <= 66 * (many - few), f"memory: {most}")
 
 
+def what_stands_twice_is_refused(folder):
+    """Every element of which an obstacle has one, each number with a blank inside, and texts around an element."""
+    tried = set()
+    for text, ego in ((NEW, "30"), (OLD, "7")):
+        ignored = r"<!--.*?-->|<(lanelet|signalSeries|planningProblem|occupancySet|environmentObstacle)\b.*?</\1>"
+        left_out = [match.span() for match in re.finditer(ignored, text, re.S)]
+        leaves = "x|y|length|width|radius|orientation|exact|intervalStart|intervalEnd|type|role"
+        others = "shape|position|time|velocity|yawRate|slipAngle|velocityY|orientation|center"
+        for match in re.finditer(rf"(?=(<({leaves})>([^<]*)</\2>|<({others})>.*?</\4>))", text, re.S):
+            if any(first <= match.start() < end for first, end in left_out):
+                continue
+            whole, name, value = match[1], match[2] or match[4], match[3]
+            broken = [(whole * 2, f'a second element is "{name}"; expected one' if name in ("shape", "position", "type", "role")
+                       else "; expected a single value")]
+            if value and re.fullmatch(r"[-0-9.e]+", value):
+                broken += [(f"<{name}>1 {value}</{name}>", f'is "1 {value}"; expected a number in '),
+                           (f"<{name}>1\n  {value}</{name}>", "; expected a number in "),
+                           (f"<{name}>1<note/>{value}</{name}>", 'an element is "note"; expected no text before it'),
+                           (f"<{name}>{value} m</{name}>", f'is "{value} m"; expected a number in ')]
+            for new, message in broken:
+                path = write(folder, "twice.xml", text[:match.start()] + new + text[match.start() + len(whole):])
+                done = subprocess.run([os.path.join(BIN, PROGRAM), path, "--ego", ego], capture_output=True, check=False)
+                said = done.stderr.decode()
+                check(done.returncode == 65 and message in said and ": line " in said, f"{whole} -> {new}: {said}")
+            tried.add(name)
+    check(len(tried) >= 18, f"elements: {sorted(tried)}")
+    plain = run(PROGRAM, write(folder, "same.xml", NEW), "--ego", "30")
+    for new in ("<x> 10 </x>", "<x>\n\t10\n</x>", "<x>1<!-- m -->0</x>", "<x><![CDATA[10]]></x>", "<x>&#49;0</x>"):
+        check(run(PROGRAM, write(folder, "same.xml", NEW.replace("<x>10</x>", new, 1)), "--ego", "30") == plain,
+              f"{new} is 10, as every reader of XML has it")
+
+
 def bad_input(folder):
     number_of = "expected a number in "
     cases = [
@@ -344,6 +376,10 @@ def bad_input(folder):
          'line 18: time is "4.5"; expected a whole number'),
         ("<exact>2</exact>", "<exact>-1</exact>", 'line 18: time is "-1"; expected a number in [0, 1e+06]'),
         ("<exact>3</exact>", "<exact>2</exact>", "id 30 at 0.2 s is in line 20 already"),
+        ("<point><x>10</x><y>0</y></point>", 2 * "<point><x>10</x><y>0</y></point>",
+         'line 17: a second element is "point"; expected one'),
+        ("</trajectory>\n  </dynamicObstacle>", "</trajectory>\n  </dynamicObstacle>\n"
+         '<dynamicObstacle id="30"></dynamicObstacle>', 'id is "30"; expected one that no obstacle above has'),
         ("<exact>12</exact>", "<exact>fast</exact>", 'line 19: velocity is "fast"; ' + number_of),
         ("<exact>0.1</exact>", "<intervalStart>0.1</intervalStart><intervalEnd>0.05</intervalEnd>",
          'line 18: orientation is missing; expected an exact value, or both ends of an interval, which ascend'),
@@ -380,6 +416,7 @@ with tempfile.TemporaryDirectory() as place:
         shared_options(place)
         a_mirrored_world_is_mirrored(place)
         memory_is_64_bytes_a_row(place)
+        what_stands_twice_is_refused(place)
         bad_input(place)
     else:
         print(f"skipped  {PROGRAM}: it is not there, as it needs expat")

@@ -223,13 +223,16 @@ def bad_input(folder):
         path = save(folder, "bad.osi", first + trace_of(content))
         text, _ = run(PROGRAM, path, "--ego", "0", "--rear-axle-velocity", fails=65)
         check(f"{PROGRAM}: {path}: byte {len(first)}: " in text and said in text, f"{said}: {text}")
-    for content, said in ((b"", '--ego: "0" is no id of an object'),
-                          (b"\x01\x02\x03", "byte 0: the trace ends inside a message; no message is whole"),
+    for content, said in ((b"\x01\x02\x03", "byte 0: the trace ends inside a message; no message is whole"),
                           (struct.pack("<I", 1 << 31), "byte 0: the length of a message is 2147483648; expected at most"),
                           (b"\x89MCAP0\r\n" + bytes(50), "a log of MCAP; "),
                           (b"<?xml version='1.0'?>\n<commonRoad ", "glint-traffic-commonroad reads it")):
         text, _ = run(PROGRAM, save(folder, "bad.osi", content), "--ego", "0", fails=65)
         check(said in text, f"{said}: {text}")
+    for name, content in (("empty.osi", b""), ("empty.osi.gz", gzip.compress(b""))):
+        for words in ((), ("--ego", "0"), ("--ego", "all", "--live")):
+            text, _ = run(PROGRAM, save(folder, name, content), *words, fails=65)
+            check("the trace is empty; expected messages of OSI" in text, text)
     text, _ = run(PROGRAM, os.path.join(folder, "absent.osi"), fails=66)
     check("absent.osi: No such file or directory" in text, text)
     for name in ("own.osi", "none.osi"):  # which begin with a version and with a time

@@ -9,6 +9,7 @@ import gzip
 import json
 import math
 import os
+import re
 import resource
 import subprocess
 import sys
@@ -266,6 +267,9 @@ def esmini_says(folder):
           ["car", "motorcycle", "pedestrian", "truck"], "classes by the box")
     named = play(path, "--ego", "Ego", "--class-map", "cyclist=bicycle,lorry=bus")[0]
     check([by_id(named)[name]["class"] for name in ("Ego", "cyclist", "lorry")] == ["car", "bicycle", "bus"], "by the name")
+    for numbers in ((0, 1, 2, 3, 4), (7, 3, 12, 5, 100), (5, 4, 3, 2, 1)):
+        text = re.sub("#([1-5]) ", lambda match, numbers=numbers: f"#{numbers[int(match[1]) - 1]} ", ESMINI["log.csv"])
+        check(play(save(folder, {"log.csv": text}), "--ego", "Ego") == frames, f"users with the numbers {numbers}")
     plain = ESMINI["log.csv"].split("\n", 3)[3]
     check(play(save(folder, {"log.csv": plain}), "--ego", "Ego") == frames, "without the lines before the header")
 
@@ -274,8 +278,8 @@ def interaction_says(folder):
     """Pedestrians have neither heading nor size, in a file of their own and beside vehicles."""
     head, *rows = INTERACTION["vehicle_tracks_000.csv"].splitlines()
     walker = "P1,{0},{0}00,pedestrian/bicycle,5.0,2.0,0.6,0.8"
-    joined = "\n".join([head, *rows, *(walker.format(frame) + ",,," for frame in (1, 2))])
-    alone = "\n".join([",".join(head.split(",")[:8]), *(walker.format(frame) for frame in (1, 2))])
+    joined = "\n".join([head, *rows, *(walker.format(frame) + ",,," for frame in (1, 2)), ""])
+    alone = "\n".join([",".join(head.split(",")[:8]), *(walker.format(frame) for frame in (1, 2)), ""])
     frames = play(save(folder, {"joined.csv": joined}), "--ego", "1")
     check([len(frame["objects"]) for frame in frames] == [3, 2], "who is there")
     for frame in (*frames, *play(save(folder, {"alone.csv": alone}), "--ego", "P1")):
@@ -284,11 +288,41 @@ def interaction_says(folder):
     cases = {"val.csv": "case_id," + head + ",track_to_predict\n" + "".join(
         f"{case},{row},0\n" for case in (1, 2) for row in rows)}
     text = play(save(folder, cases), "--ego", "1", fails=65)
-    check("row 5: track_id 1 at 0.1 s is in row 2 already" in text, text)
+    check('row 5, column "case_id": "2" is another recording; expected that of all rows' in text, text)
     save(folder, cases)
-    one = "\n".join(line for i, line in enumerate(cases["val.csv"].splitlines()) if i == 0 or line.startswith("2,"))
+    one = "".join(line for i, line in enumerate(cases["val.csv"].splitlines(True)) if i == 0 or line.startswith("2,"))
     check(play(save(folder, {"one.csv": one}), "--ego", "1", "--scene", "s") ==
           play(save(folder, INTERACTION), "--ego", "1", "--scene", "s"), "one case of several")
+
+
+def recordings_that_were_joined_are_refused(folder):
+    """Two places in one table of NGSIM, two recordings in one of inD: as one scene they would be neither."""
+    head, *rows = NGSIM_EXPORT["export.csv"].splitlines()
+    check("Location" in head, head)
+    other = [row.replace("us-101", "i-80") for row in rows]
+    check(other != rows, "another place")
+    text = play(save(folder, {"t.csv": "\n".join([head, *rows, *other, ""])}), "--ego", "2", fails=65)
+    check(f'row {len(rows) + 2}, column "Location": "i-80" is another recording' in text, text)
+    last = IND["18_tracks.csv"].splitlines()[-1]
+    joined = IND | {"18_tracks.csv": IND["18_tracks.csv"].replace(last, "19" + last[2:])}
+    text = play(save(folder, joined), "--ego", "4", fails=65)
+    check('column "recordingId": "19" is another recording; expected that of all rows' in text, text)
+
+
+def cut_tables_are_refused(folder):
+    """Anywhere in the last row, with its end too: what is left of 1.85 may be 1.8."""
+    for files in (HIGHD, IND, INTERACTION, NGSIM, {"t.txt": NGSIM_ROWS.replace(",", "  ")}, ESMINI, SUMO):
+        for name, whole in files.items():
+            for text in (whole, whole.replace("\n", "\r\n")):
+                end = len(text.rstrip("\r\n"))
+                for cut in range(text.rstrip().rindex("\n") + 2, end + 1):
+                    save(folder, files | {name: text[:cut]})
+                    said = play(os.path.join(folder, next(iter(files))), "--ego", "all", fails=65)
+                    check(name in said and re.search(r": row \d+: the file ends inside this row; expected a line end", said),
+                          f"{name} cut at {cut}: {said}")
+        name = next(iter(files))
+        packed = save(folder, {name + ".gz": files[name].rstrip(), **{other: files[other] for other in files if other != name}})
+        check("the file ends inside this row" in play(packed, "--ego", "all", fails=65), f"{name} as gzip")
 
 
 def chains(folder):
@@ -324,7 +358,7 @@ def columns_by_name(folder):
         sign = ";" if files is SUMO else ","
         table = [line.split(sign)[::-1] + ["\"a, b\"" if i else "more"] for i, line in enumerate(lines)]
         body = table[1:] if files is SUMO else table[:0:-1]
-        text = "\r\n".join(sign.join(row) for row in [table[0], *body])
+        text = "\r\n".join(sign.join(row) for row in [table[0], *body]) + "\r\n"
         save(folder, {os.path.basename(path): "\ufeff".encode() + text.encode()})
         check(play(path, "--ego", "all") == plain, f"columns of {path} in another order")
 
@@ -507,7 +541,8 @@ def bad_input(folder):
         (row, row.replace("5, 2, 1.5", "-5, 2, 1.5"), 'row 5, column "#1 bb_length [m]": -5 is outside [0, 1e+06]'),
         (head, head.replace(x, "#1 x"), f'column "{x}" is missing'),
         (head, head.replace("#4 bb_x", "#4 bx"), 'column "#4 bb_x [m]" is missing'),
-        (head, head.replace("#1 Entity_Name", "#0 Entity_Name"), 'column "#1 Entity_Name [-]" is missing'),
+        (head, head.replace("#1 Entity_Name", "#0 Entity_Name"), 'column "#0 World_Position_X [m]" is missing'),
+        (head, head.replace("#4 Entity_Name", "#4 Name"), 'column "#4 Entity_Name [-]" is missing'),
         (head, head.replace(x, "#1 bb_x [m]"), 'are both named "#1 bb_x [m]"'),
         (head, "", "the table is empty; expected a header"),
     ], "Ego")
@@ -521,7 +556,8 @@ def bad_input(folder):
 
 def main():
     real_files()
-    for test in (highd_says, ind_says, ngsim_says, esmini_says, interaction_says, chains, files_beside, columns_by_name, memory, bad_input):
+    for test in (highd_says, ind_says, ngsim_says, esmini_says, interaction_says, recordings_that_were_joined_are_refused,
+                 cut_tables_are_refused, chains, files_beside, columns_by_name, memory, bad_input):
         with tempfile.TemporaryDirectory() as folder:
             test(folder)
     print(f"tables: {recorded.checks} checks hold")
