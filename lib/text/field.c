@@ -173,9 +173,10 @@ static int set_seed(const struct field *field, void *base, const char *text, siz
 int field_require_name(const struct field *field, const char *text, size_t length,
                        struct diag *diag)
 {
-    if (length == 0 || length > FIELD_NAME_SIZE)
-        return diag_fail(diag, DIAG_DATA, "%s: a name of %zu bytes; expected 1 to %d", field->name,
-                         length, FIELD_NAME_SIZE);
+    double most = field->high > 0 ? field->high : FIELD_NAME_SIZE;
+    if (length == 0 || (double)length > most)
+        return diag_fail(diag, DIAG_DATA, "%s: a name of %zu bytes; expected 1 to %.0f",
+                         field->name, length, most);
     if (text_plain(text, length) == length)
         return 0;
     for (size_t i = 0; i < length;) {

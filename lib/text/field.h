@@ -44,8 +44,8 @@ struct field {
     bool or_number; /* a name that may be a whole number in text: its digits are the name */
     enum field_kind kind;
     size_t offset;
-    double low, high;
-    double absent; /* number or choice that an absent member has */
+    double low, high; /* of a name: high is the most bytes, 0 for FIELD_NAME_SIZE */
+    double absent;    /* number or choice that an absent member has */
     const struct record *record;
     const char *const *choices; /* NULL-terminated */
     unsigned section;           /* bit of the member in `present`, or 0 */

@@ -8,8 +8,9 @@
 
 static const struct field recording_fields[] = {
     {OPTIONAL_NAME(struct recording_options, ego,
-                   "the object that carries the sensors; ID,ID,... or all: a scene for each"),
-     .word = "ID"},
+                   "the object that carries the sensors; ID,ID,... or all: a scene for each; a "
+                   "comma of an id is \\,"),
+     .word = "ID", .high = 1e6},
     {OPTIONAL_NAME(struct recording_options, scene, "name of the scene; absent: SOURCE/EGO")},
     {OPTIONAL_REAL(struct recording_options, radius_m, 0, 1e6,
                    "leave out objects farther than this from the ego"),
@@ -17,43 +18,48 @@ static const struct field recording_fields[] = {
     {OPTIONAL_REAL(struct recording_options, rate_hz, 1e-3, 1e6,
                    "resample to this rate; absent: the source's own steps"),
      .absent = -1},
-    {OPTIONAL_REAL(struct recording_options, from_s, -9e9, 9e9,
-                   "begin at this time of the source, to the microsecond"),
+    {OPTIONAL_REAL(struct recording_options, from_s, -9e9, 9e9, "begin at this time of the source"),
      .absent = -9e9},
-    {OPTIONAL_REAL(struct recording_options, to_s, -9e9, 9e9,
-                   "end at this time of the source, inclusive"),
+    {OPTIONAL_REAL(struct recording_options, to_s, -9e9, 9e9, "end with this time of the source"),
      .absent = 9e9},
     {OPTIONAL_NAME(struct recording_options, class_map,
                    "what words of the source mean: WORD=CLASS,WORD=CLASS,..."),
-     .word = "MAP"},
+     .word = "MAP", .high = 1e6},
     {OPTIONAL_NAME(struct recording_options, class_default,
                    "the class of all words that nothing knows; absent: they are refused"),
      .word = "CLASS"},
     {OPTIONAL_NAME(struct recording_options, conditions,
                    "road and weather, over what the source says of them: '{\"rain_mmph\": 20}'; "
                    "schemas/scenario.json has the words"),
-     .word = "JSON"},
+     .word = "JSON", .high = 1e6},
     {0},
 };
 
 const struct record recording_options_record = {
     .name = "recording", .size = sizeof(struct recording_options), .fields = recording_fields};
 
+/* A comma ends an id. A backslash takes the meaning from a comma, or a backslash, behind it. */
 static int choose_egos(struct recording *recording, const char *egos, struct diag *diag)
 {
     if (egos == NULL)
         return diag_fail(diag, DIAG_USAGE,
                          "a recording has no ego of its own; expected --ego ID, ID,ID,... or all");
     recording->all = strcmp(egos, "all") == 0;
-    for (size_t at = 0, length; !recording->all; at += length + 1) {
-        length = strcspn(egos + at, ",");
-        if (length == 0)
-            return diag_fail(diag, DIAG_USAGE, "--ego: \"%s\" has an empty id", egos);
-        intern_number(&recording->wanted, egos + at, length, recording->arena);
-        if (egos[at + length] == '\0')
-            break;
+    struct text id = {0};
+    for (const char *at = egos, *end = at + strlen(at); !recording->all && at <= end; at++) {
+        if (at < end && *at != ',') {
+            at += *at == '\\' && (at[1] == ',' || at[1] == '\\');
+            text_add(&id, at, 1);
+            continue;
+        }
+        if (id.length == 0)
+            diag_fail(diag, DIAG_USAGE, "--ego: \"%s\" has an empty id", egos);
+        else
+            intern_number(&recording->wanted, id.bytes, id.length, recording->arena);
+        id.length = 0;
     }
-    return 0;
+    text_free(&id);
+    return diag->code == DIAG_OK ? 0 : -1;
 }
 
 static int check_options(const struct recording *recording, struct diag *diag)
@@ -89,14 +95,13 @@ static int prepare(struct recording *recording, struct diag *diag)
 int recording_conditions(const struct recording_options *options, struct conditions *changes,
                          struct arena *arena, struct diag *diag)
 {
-    struct text text = {0};
-    text_add_word(&text, options->conditions != NULL ? options->conditions : "{}");
-    int done =
-        document_parse("--conditions", &text, &conditions_changes_record, changes, arena, diag);
-    text_free(&text);
-    if (done != 0)
-        diag->code = DIAG_USAGE;
-    return done;
+    const char *said = options->conditions != NULL ? options->conditions : "{}";
+    const struct text text = {.bytes = (char *)said, .length = strlen(said)};
+    if (document_parse("--conditions", &text, &conditions_changes_record, changes, arena, diag) ==
+        0)
+        return 0;
+    diag->code = DIAG_USAGE;
+    return -1;
 }
 
 const char *recording_name(const char *source, struct arena *arena)
@@ -107,9 +112,8 @@ const char *recording_name(const char *source, struct arena *arena)
     return length == 0 ? "scene" : arena_text(arena, base, length);
 }
 
-/* Options give times in microseconds, and a frame is at the microsecond that its own time rounds
- * to. So a part that ends at one microsecond and a part that begins at the next have each frame
- * once. */
+/* A frame is at the microsecond to which its time rounds: a part that ends at one microsecond and a
+ * part that begins at the next share no frame and lose none. */
 static int64_t microsecond_ns(double time_s)
 {
     return (int64_t)round(time_s * 1e6) * 1000;
@@ -187,19 +191,18 @@ static int take_step(struct recording *recording, struct diag *diag)
 
 /* ---- frames ---- */
 
+/* z/2 is the second visit of z, and z/2/1 the first one of z/2, whose id ends in a number. */
 static const char *scene_name(const struct recording *recording, const struct recorded_ego *ego)
 {
-    const char *given = recording->options->scene;
-    bool several = recording->all || recording->wanted.list.count > 1;
-    struct text name = {0};
-    text_add_word(&name, given != NULL ? given : recording->name);
-    if (given == NULL || several)
-        text_format(&name, "/%s", ego->id);
-    if (ego->visits > 1)
-        text_format(&name, "/%lld", (long long)ego->visits);
-    const char *copy = arena_text(recording->arena, name.bytes, name.length);
-    text_free(&name);
-    return copy;
+    const char *given = recording->options->scene, *name = given != NULL ? given : recording->name;
+    bool named = given == NULL || recording->all || recording->wanted.list.count > 1;
+    if (named)
+        name = arena_format(recording->arena, "%s/%s", name, ego->id);
+    const char *end = strrchr(ego->id, '/');
+    bool numbered = end != NULL && end[1] > '0' && end[1 + strspn(end + 1, "0123456789")] == '\0';
+    if (ego->visits > 1 || (named && numbered))
+        name = arena_format(recording->arena, "%s/%lld", name, (long long)ego->visits);
+    return name;
 }
 
 static struct recorded_ego *ego_of(struct recording *recording, const struct recorded_state *state)
@@ -297,6 +300,10 @@ int recording_next(struct recording *recording, struct frame *frame, struct diag
 
 int recording_check(const struct recording *recording, const struct frame *frame, struct diag *diag)
 {
+    if (strlen(frame->scene) > FIELD_NAME_SIZE)
+        return diag_fail(diag, DIAG_DATA,
+                         "%s: ego %.80s...: its scene's name is too long; see --scene",
+                         recording->source, frame->ego);
     for (size_t i = 0; i < frame->objects.count; i++) {
         const struct object *object = &frame->objects.items[i];
         if (frame_check_object(object, diag) == 0)

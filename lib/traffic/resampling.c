@@ -1,21 +1,17 @@
 #include "traffic/resampling.h"
 
 #include "base/units.h"
+#include "geometry/motion.h"
 
 /* A recording may last longer than an int64_t has nanoseconds, but not longer than a uint64_t. */
-static int64_t instant_ns(const struct resampling *resampling, int64_t number)
+static int64_t next_instant_ns(const struct resampling *resampling)
 {
-    uint64_t since_begin = (uint64_t)round((double)number * 1e9 / resampling->rate_hz);
+    double number = (double)resampling->first + (double)resampling->made_count;
+    uint64_t since_begin = (uint64_t)round(number * 1e9 / resampling->rate_hz);
     return (int64_t)((uint64_t)resampling->begin_ns + since_begin);
 }
 
-static int64_t next_instant_ns(const struct resampling *resampling)
-{
-    return instant_ns(resampling, resampling->first + (int64_t)resampling->made_count);
-}
-
-/* Instant 0 is at this time. The quotient finds the first instant that is made, but for rounding.
- */
+/* Finds the first instant that is made; the quotient finds it but for rounding. */
 static void begin(struct resampling *resampling, int64_t begin_ns)
 {
     const int64_t from_ns = resampling->from_ns;
@@ -23,37 +19,23 @@ static void begin(struct resampling *resampling, int64_t begin_ns)
     if (from_ns <= begin_ns)
         return;
     double ahead_ns = (double)((uint64_t)from_ns - (uint64_t)begin_ns);
-    resampling->first = (int64_t)(ahead_ns * 1e-9 * resampling->rate_hz);
-    while (resampling->first > 0 && instant_ns(resampling, resampling->first - 1) >= from_ns)
-        resampling->first--;
-    while (instant_ns(resampling, resampling->first) < from_ns)
+    resampling->first = (int64_t)fmax(ahead_ns * 1e-9 * resampling->rate_hz - 1, 0);
+    while (next_instant_ns(resampling) < from_ns)
         resampling->first++;
-}
-
-/* The place on the cubic from 0 to rise with these slopes at its ends, share of length_s along. */
-static double curve(double rise, double from, double to, double length_s, double share)
-{
-    double rest = 1 - share;
-    return share * share * (3 - 2 * share) * rise +
-           length_s * share * rest * (rest * from - share * to);
-}
-
-static double curve_slope(double rise, double from, double to, double length_s, double share)
-{
-    double rest = 1 - share;
-    return 6 * share * rest * rise / length_s + rest * (1 - 3 * share) * from +
-           share * (3 * share - 2) * to;
 }
 
 static struct object object_between(const struct object *a, const struct object *b, double length_s,
                                     double share)
 {
     struct object object = *a;
-    struct vec2 rise = {b->x_m - a->x_m, b->y_m - a->y_m};
-    object.x_m += curve(rise.x, a->vx_mps, b->vx_mps, length_s, share);
-    object.y_m += curve(rise.y, a->vy_mps, b->vy_mps, length_s, share);
-    object.vx_mps = curve_slope(rise.x, a->vx_mps, b->vx_mps, length_s, share);
-    object.vy_mps = curve_slope(rise.y, a->vy_mps, b->vy_mps, length_s, share);
+    struct vec2 place_m, velocity_mps, acceleration_mps2;
+    motion_hermite((struct vec2){a->x_m, a->y_m}, (struct vec2){a->vx_mps, a->vy_mps},
+                   (struct vec2){b->x_m, b->y_m}, (struct vec2){b->vx_mps, b->vy_mps}, length_s,
+                   share, &place_m, &velocity_mps, &acceleration_mps2);
+    object.x_m = place_m.x;
+    object.y_m = place_m.y;
+    object.vx_mps = velocity_mps.x;
+    object.vy_mps = velocity_mps.y;
     object.yaw_rad = units_wrap_rad(a->yaw_rad + share * units_wrap_rad(b->yaw_rad - a->yaw_rad));
     object.yaw_rate_radps += share * (b->yaw_rate_radps - a->yaw_rate_radps);
     object.travelled_m += share * (b->travelled_m - a->travelled_m);
@@ -78,24 +60,20 @@ static void interpolate(const struct resampling *resampling, struct recorded_ste
     }
 }
 
-static int read_step(struct resampling *resampling)
-{
-    resampling->from = resampling->to;
-    int more = recorded_steps_next(resampling->steps, &resampling->to, &resampling->fault);
-    if (more > 0 && resampling->from == NULL)
-        begin(resampling, resampling->to->time_ns);
-    return more;
-}
-
 /* False behind the last instant, and where a fault ends the recording. */
 static bool make_instant(struct resampling *resampling)
 {
-    int more = resampling->to == NULL ? read_step(resampling) : 1;
+    const struct recorded_step **to = &resampling->to;
     int64_t time_ns = 0;
-    while (more > 0 && (time_ns = next_instant_ns(resampling)) <= resampling->to_ns &&
-           time_ns > resampling->to->time_ns)
-        more = read_step(resampling);
-    if (more <= 0 || time_ns > resampling->to_ns)
+    while (*to == NULL || ((time_ns = next_instant_ns(resampling)) > (*to)->time_ns &&
+                           time_ns <= resampling->to_ns)) {
+        resampling->from = *to;
+        if (recorded_steps_next(resampling->steps, to, &resampling->fault) <= 0)
+            return false;
+        if (resampling->from == NULL)
+            begin(resampling, (*to)->time_ns);
+    }
+    if (time_ns > resampling->to_ns)
         return false;
     struct recorded_step *made = &resampling->made[resampling->made_count % 2];
     struct arena arena = made->arena;
