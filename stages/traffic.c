@@ -73,19 +73,18 @@ static int is_table(const char *source, struct runner *runner)
 static int traffic_start(void *state, struct runner *runner)
 {
     struct traffic *traffic = state;
+    struct arena *arena = runner_arena(runner);
     const char *path = traffic->source;
     struct diag unknown = {0};
-    int table = strpbrk(path, "./") != NULL ? is_table(path, runner) : 0;
-    if (strpbrk(path, "./") == NULL &&
-        document_find("scenarios", path, ".json", runner_arena(runner), &unknown) == NULL) {
-        const char *found =
-            document_find("trajectories", path, ".csv", runner_arena(runner), &unknown);
-        table = found != NULL;
-        path = table ? found : path;
-    }
+    bool bare = strpbrk(path, "./") == NULL;
+    int table = bare ? document_find("scenarios", path, ".json", arena, &unknown) == NULL
+                     : is_table(path, runner);
+    if (bare && table)
+        path = document_find("trajectories", path, ".csv", arena, &unknown);
     if (table < 0)
         return -1;
-    return table ? start_table(traffic, path, runner) : start_scenario(traffic, runner);
+    return table && path != NULL ? start_table(traffic, path, runner)
+                                 : start_scenario(traffic, runner);
 }
 
 static int traffic_next(void *state, struct frame *frame, struct runner *runner)

@@ -14,10 +14,7 @@ static const char *path_beside(const char *document, const char *table, struct a
     const char *slash = strrchr(document, '/');
     if (table[0] == '/' || slash == NULL)
         return table;
-    size_t folder = (size_t)(slash + 1 - document), size = folder + strlen(table) + 1;
-    char *path = arena_get(arena, size);
-    snprintf(path, size, "%.*s%s", (int)folder, document, table);
-    return path;
+    return arena_format(arena, "%.*s%s", (int)(slash + 1 - document), document, table);
 }
 
 static int columns_of(const struct csv_table *table, const char *const *names, size_t count,
@@ -79,10 +76,10 @@ static int read_pattern(const struct text *bytes, struct sensor *sensor, struct 
 }
 
 /* Reads one table that the suite names and adds its bytes to the digest. */
-static int add_table(const char *suite_path, const char *name, struct sensor *sensor,
-                     int (*read_table)(const struct text *, struct sensor *, struct arena *,
-                                       struct diag *),
-                     uint64_t *digest, struct arena *arena, struct diag *diag)
+static int
+add_table(const char *member, const char *suite_path, const char *name, struct sensor *sensor,
+          int (*read_table)(const struct text *, struct sensor *, struct arena *, struct diag *),
+          uint64_t *digest, struct arena *arena, struct diag *diag)
 {
     if (name == NULL)
         return 0;
@@ -96,19 +93,17 @@ static int add_table(const char *suite_path, const char *name, struct sensor *se
             diag_prefix(diag, "%s: ", path);
     }
     text_free(&bytes);
-    return result;
+    return result == 0 ? 0 : diag_prefix(diag, "%s: ", member);
 }
 
 static int add_tables(const char *suite_path, struct sensor *sensor, uint64_t *digest,
                       struct arena *arena, struct diag *diag)
 {
-    if (add_table(suite_path, sensor->amplitude_table, sensor, read_amplitudes, digest, arena,
-                  diag) != 0)
-        return diag_prefix(diag, "amplitude_table: ");
-    if (add_table(suite_path, sensor->antenna_table, sensor, read_pattern, digest, arena, diag) !=
-        0)
-        return diag_prefix(diag, "antenna_table: ");
-    return 0;
+    return add_table("amplitude_table", suite_path, sensor->amplitude_table, sensor,
+                     read_amplitudes, digest, arena, diag) == 0
+               ? add_table("antenna_table", suite_path, sensor->antenna_table, sensor, read_pattern,
+                           digest, arena, diag)
+               : -1;
 }
 
 static int complete_suite(struct suite *suite, const char *path, const struct text *document,

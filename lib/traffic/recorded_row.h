@@ -47,8 +47,6 @@ struct recorded_word {
     double length_m, width_m, height_m;
 };
 
-#define RECORDED_WORD(word, class) {word, class, 0, 0, 0},
-
 struct recorded_format {
     const char *name;    /* "a table of INTERACTION" */
     const char *id_name; /* what the format calls an id, for messages: "track_id" */

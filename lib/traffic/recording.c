@@ -8,8 +8,7 @@
 
 static const struct field recording_fields[] = {
     {OPTIONAL_NAME(struct recording_options, ego,
-                   "the object that carries the sensors; ID,ID,... or all: a scene for each; a "
-                   "comma of an id is \\,"),
+                   "carries the sensors; ID,ID,... or all: a scene for each; \\, is an id's comma"),
      .word = "ID", .high = 1e6},
     {OPTIONAL_NAME(struct recording_options, scene, "name of the scene; absent: SOURCE/EGO")},
     {OPTIONAL_REAL(struct recording_options, radius_m, 0, 1e6,
@@ -112,21 +111,16 @@ const char *recording_name(const char *source, struct arena *arena)
     return length == 0 ? "scene" : arena_text(arena, base, length);
 }
 
-/* A frame is at the microsecond to which its time rounds: a part that ends at one microsecond and a
- * part that begins at the next share no frame and lose none. */
-static int64_t microsecond_ns(double time_s)
-{
-    return (int64_t)round(time_s * 1e6) * 1000;
-}
-
 int recording_open(struct recording *recording, struct recorded_reader reader, const char *source,
                    const struct recording_options *options, bool live, struct arena *arena,
                    struct diag *diag)
 {
     *recording = (struct recording){.source = source, .options = options, .arena = arena};
     recording->name = recording_name(source, arena);
-    recording->from_ns = microsecond_ns(options->from_s) - 500;
-    int64_t to_ns = microsecond_ns(options->to_s) + 499;
+    /* A frame is at the microsecond to which its time rounds: parts of which one ends at a
+     * microsecond and another begins at the next share no frame and lose none. */
+    recording->from_ns = (int64_t)round(options->from_s * 1e6) * 1000 - 500;
+    const int64_t to_ns = (int64_t)round(options->to_s * 1e6) * 1000 + 499;
     recording->steps.reader = reader;
     recording->steps.live = live;
     recording->steps.to_ns = options->rate_hz > 0 ? INT64_MAX : to_ns;

@@ -1,5 +1,6 @@
 #include "traffic/resampling.h"
 
+#include "base/elementary.h"
 #include "base/units.h"
 #include "geometry/motion.h"
 
@@ -19,7 +20,7 @@ static void begin(struct resampling *resampling, int64_t begin_ns)
     if (from_ns <= begin_ns)
         return;
     double ahead_ns = (double)((uint64_t)from_ns - (uint64_t)begin_ns);
-    resampling->first = (int64_t)fmax(ahead_ns * 1e-9 * resampling->rate_hz - 1, 0);
+    resampling->first = (int64_t)elementary_max(ahead_ns * 1e-9 * resampling->rate_hz - 1, 0);
     while (next_instant_ns(resampling) < from_ns)
         resampling->first++;
 }
