@@ -253,7 +253,26 @@ static void travel(struct recorded_state *state, const struct recorded_state *be
     state->object.travelled_m = state->way_m + state->way_rest_m;
 }
 
-static void complete_step(struct recorded_steps *steps, size_t number)
+/* Refuses a road user that stays where it is, though it was fast at both ends of a long step: the
+ * times are in another unit than that of their column. */
+static int check_way(const struct recorded_steps *steps, const struct recorded_state *state,
+                     const struct recorded_state *before, double length_s, struct diag *diag)
+{
+    const struct recorded_format *format = steps->reader.format;
+    const struct object *now = &state->object, *then = &before->object;
+    double speed_mps = elementary_min(elementary_hypot(now->vx_mps, now->vy_mps),
+                                      elementary_hypot(then->vx_mps, then->vy_mps));
+    double moved_m = state->way_m - before->way_m, said_m = speed_mps * length_s;
+    return said_m < 50 || moved_m > 5e-3 * said_m
+               ? 0
+               : diag_fail(diag, DIAG_DATA,
+                           "%s %zu: %s %s moves by %.3g m in %.6g s, but by its speeds by %.0f m; "
+                           "expected times in the unit of their column",
+                           format->place, state->place, format->id_name, now->id, moved_m, length_s,
+                           said_m);
+}
+
+static int complete_step(struct recorded_steps *steps, size_t number, struct diag *diag)
 {
     struct recorded_step *step = step_at(steps, number), *last = NULL, *next = NULL;
     if (number > 0)
@@ -278,8 +297,11 @@ static void complete_step(struct recorded_steps *steps, size_t number)
             find_yaw_rate(&state->object, before, before_s, after, after_s);
         if (before != NULL)
             travel(state, before);
+        if (before != NULL && check_way(steps, state, before, before_s, diag) != 0)
+            return -1;
         state->leaves = !open && (after == NULL || closes);
     }
+    return 1;
 }
 
 int recorded_steps_next(struct recorded_steps *steps, const struct recorded_step **step,
@@ -289,9 +311,8 @@ int recorded_steps_next(struct recorded_steps *steps, const struct recorded_step
     while (!steps->ended && steps->read < wanted)
         read_step(steps);
     if (steps->read > steps->given && step_at(steps, steps->given)->time_ns <= steps->to_ns) {
-        complete_step(steps, steps->given);
-        *step = step_at(steps, steps->given++);
-        return 1;
+        *step = step_at(steps, steps->given);
+        return complete_step(steps, steps->given++, diag);
     }
     if (steps->fault.code == DIAG_OK)
         return 0;
