@@ -592,7 +592,7 @@ def temporaries_of_the_living_stay(folder):
     import durable
     alone = ["unshare", "-rpf", "--mount-proc", "--kill-child", sys.executable]
     if run([*alone, "-c", ""]).returncode != 0:
-        print("    left out: this machine lets nobody begin a namespace; tried without one")
+        print("skipped  temporaries of another container: this machine lets nobody begin a namespace; tried without one")
         alone = [sys.executable]
     with subprocess.Popen([*alone, "-c", HOLDER.format(place=folder), sets], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                           text=True) as holder:

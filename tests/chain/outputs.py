@@ -226,11 +226,11 @@ def main():
     faults = 0
     for name, before in ("as it is", nothing), ("without O_TMPFILE", refuse_calls):
         if before is refuse_calls and NUMBERS is None:
-            print(f"outputs: left out without O_TMPFILE: no filter for {os.uname().machine}")
+            print(f"skipped  outputs without O_TMPFILE: no filter for {os.uname().machine}")
             continue
         for check, missing in checks():
             if missing:
-                print(f"outputs: left out {check.__name__}, {name}: {missing}")
+                print(f"skipped  {check.__name__}, {name}: {missing}")
                 continue
             with tempfile.TemporaryDirectory(prefix="glint-outputs.") as folder:
                 os.chmod(folder, 0o755)
