@@ -607,6 +607,18 @@ def temporaries_of_the_living_stay(folder):
     assert not os.listdir(folder), f"{os.listdir(folder)} are left of a killed process"
 
 
+def an_ego_may_have_any_letters_in_its_id(folder):
+    name = recording(folder, "ids.csv", slice(1, 102))
+    path = os.path.join(folder, name)
+    with open(path, encoding="utf-8") as file:
+        head, *rows = file.readlines()
+    with open(path, "w", encoding="utf-8") as file:
+        file.writelines([head, *('"a,b\\c"' + row[1:] for row in rows)])
+    place = made(folder, plan_of([{"recording": name, "egos": ["a,b\\c"]}]))
+    egos = {json.loads(line)["ego"] for line in frames_of(place, "all/*").splitlines()}
+    assert egos == {"a,b\\c"}, egos
+
+
 def one_failing_scene_stops_no_other(folder):
     names = [recording(folder, f"{i}.csv", slice(1 + 100 * i, 101 + 100 * i)) for i in range(4)]
     place, done = begin(folder, plan_of([{"recording": name, "egos": ["all"]} for name in names]))
@@ -775,7 +787,7 @@ CHECKS = [shards_join_to_the_bytes_of_one_run, scenes_and_seeds_are_played_whole
           scenes_of_one_name_are_refused, tables_of_a_suite_stand_in_the_set_or_are_refused, paths_may_have_any_letters,
           another_plan_in_the_folder_is_refused, two_plans_at_once_make_one_set, who_finishes_at_once_disturbs_nobody,
           what_is_damaged_is_made_again, temporaries_of_the_living_stay, one_failing_scene_stops_no_other,
-          a_chain_that_fails_is_named, a_full_disk_loses_nothing, parallel_makes_the_same_bytes,
+          an_ego_may_have_any_letters_in_its_id, a_chain_that_fails_is_named, a_full_disk_loses_nothing, parallel_makes_the_same_bytes,
           jobs_without_a_number_are_refused]
 
 
