@@ -1,12 +1,7 @@
-/* Rigid motion in the plane, in closed form. A body moves with constant turn rate and constant
- * acceleration along its path (a segment of a scenario), or without acceleration, as when an object
- * is moved to the instant of a measurement.
- *
- * With h = omega t / 2, the displacement is, in the frame of the heading at half time,
- *
- *     t ( (v + a t/2) si(h),  (a t/2) j1(h) ),    si(h) = sin h / h,  j1(h) = (si h - cos h) / h.
- *
- * si and j1 are smooth at 0, so small turn rates need no branch and no division by omega. */
+/* Rigid motion in the plane, in closed form (MODEL 2.4). A body moves with constant turn rate and
+ * constant acceleration along its path (a segment of a scenario), or without acceleration, as when
+ * an object is moved to the instant of a measurement. Small turn rates need no branch and no
+ * division by omega. */
 #pragma once
 
 #include "base/vec2.h"

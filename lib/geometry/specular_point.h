@@ -1,10 +1,6 @@
 /* Specular point of a flat side for a sensor. It is the place that mirrors the radar's wave back
- * (MODEL 2.3).
- *
- * A side is the segment a to b of a counter-clockwise outline, so its outer face is to the right of
- * a -> b. The specular point is the foot of the perpendicular from the sensor. It exists where the
- * sensor is strictly outside and the foot lies on the segment, ends included, after the segment is
- * shortened by margin_m at both ends. Beyond the ends the neighbouring corner reflects.
+ * (MODEL 2.3): the foot of the perpendicular from the sensor, after the segment is shortened by
+ * margin_m at both ends. A side's outer face is to the right of a -> b.
  *
  * The ends are decided exactly, by the projection onto along, the side's direction. Two sides in
  * line that share a vertex and have the same direction as doubles therefore never lose the foot at

@@ -1,11 +1,7 @@
 /* Probability that a detection is an echo and not noise.
  *
- * Bayes' rule for a detection of power z in units of the noise's (MODEL 14.21). Echoes are expected
- * to have exponential powers, so that with noise they have the density
- *     f1(z) = echoes exp(-z/(rise + snr))/(rise + snr)        from least_echo on,
- * and noise alone has
- *     f0(z) = false_alarms exp(-(z - least_false_alarm))      from least_false_alarm on.
- * The echo exists with f1/(f1 + f0). */
+ * Bayes' rule for a detection of power z in units of the noise's (MODEL 14.21): echoes are expected
+ * to have exponential powers from least_echo on, and noise alone from least_false_alarm on. */
 #pragma once
 
 struct existence {

@@ -1,13 +1,8 @@
 /* Range rates of points on rolling wheels and swinging limbs.
  *
- * Wheels (MODEL 14.11): while a vehicle drives at v, a point of its wheel at the fraction rho of
- * the radius and the angle psi from the top moves forward at v (1 + rho cos psi). The point on the
- * road stands, the top is twice as fast. Seen from near the road, the point's range rate is the
- * hub's plus rho cos psi times the part of it that the vehicle's motion over ground makes.
- *
- * Limbs (MODEL 14.12, assumed): an arm or a leg of a walking person moves at (1 + x) times the
- * torso's speed over ground. x has a triangular law from -1, the foot on the ground, to 1.5, the
- * fastest part of a swing, with its peak at 0. */
+ * A point of a wheel stands at the road and is twice as fast as the vehicle at the top (MODEL
+ * 14.11). An arm or a leg of a walking person moves at (1 + x) times the torso's speed over ground,
+ * x of a triangular law from -1 to 1.5 with its peak at 0 (MODEL 14.12, assumed). */
 #pragma once
 
 #include <stdint.h>

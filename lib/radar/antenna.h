@@ -1,12 +1,9 @@
 /* Sum and delta pointers of a monopulse antenna over azimuth.
  *
  * The dipole pair is equation (6) of the paper (MODEL 7.1): two half-wavelength dipoles half a
- * wavelength apart. With u = (pi/2) sin(azimuth) and f = si(u) cos(azimuth),
- *     H_sum = f cos u · e,   H_delta = -j f sin u · e.
- * The factor e is e^{ju} if phases are counted from the first dipole (PHASE_ELEMENT, the equation
- * as printed), and 1 if they are counted from the array's centre (PHASE_CENTRE, which the paper's
- * figure 10 needs). A cell with one echo has the same angle either way, a cell with several has not
- * (MODEL 8.1).
+ * wavelength apart, with phases counted from the first dipole (PHASE_ELEMENT, the equation as
+ * printed) or from the array's centre (PHASE_CENTRE, which the paper's figure 10 needs). A cell
+ * with one echo has the same angle either way, a cell with several has not (MODEL 8.1).
  *
  * A measured pattern is a table of sum and delta amplitudes over azimuth. Both are linear between
  * rows and zero outside the table; delta is signed, positive to the left. Between two rows

@@ -1,9 +1,7 @@
-/* Azimuth that a misaligned sensor behind a bumper reports.
- *
- *     reported azimuth = true azimuth + yaw error + bias sin(2 pi azimuth / period + phase)
+/* Azimuth that a misaligned sensor behind a bumper reports (MODEL 14.8).
  *
  * The sensor looks to the right of where it believes by the yaw error; the bumper, as a radome,
- * bends the beam by the bias, with periods of 20 to 40 degrees in practice (MODEL 14.8). */
+ * bends the beam by the bias, with periods of 20 to 40 degrees in practice. */
 #pragma once
 
 struct boresight_error {

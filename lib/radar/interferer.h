@@ -1,9 +1,7 @@
-/* Rise of a receiver's noise by another radar's chirps.
+/* Rise of a receiver's noise by another radar's chirps (MODEL 14.17).
  *
- * A radar in view is received one way, with the power EIRP G lambda^2/((4 pi)^2 R^2), far above
- * echoes. Its chirps cross the receiver's band only for a part of the time if their slope is
- * another; that part of the power counts as noise. Ratios of interference to noise (INR) of several
- * radars add, and the noise power rises by 1 + INR (MODEL 14.17). */
+ * A radar in view is received one way, far above echoes. Its chirps cross the receiver's band only
+ * for a part of the time if their slope is another; that part of the power counts as noise. */
 #pragma once
 
 /* The receiver's own noise, 10 lg(k T0 B/1 mW) + noise figure, with T0 = 290 K; bandwidth > 0. */

@@ -1,10 +1,7 @@
-/* Groups of echoes that share a resolution cell.
+/* Groups of echoes that share a resolution cell (MODEL 6).
  *
- * The strongest echo left opens a cell centred on it, as its leader, and takes every echo left that
- * is within half a cell of it in range and in range rate, borders included; then the next strongest
- * does (MODEL 6). A cell's range and range rate are amplitude-weighted means, equations (4) and
- * (5). Two echoes share a cell by the larger one of theirs.
- */
+ * A cell's range and range rate are amplitude-weighted means, equations (4) and (5). Two echoes
+ * share a cell by the larger one of theirs. */
 #pragma once
 
 #include <stdbool.h>

@@ -1,13 +1,9 @@
 /* Distance of two target lists as sums of Gaussian kernels. The lists may have any lengths.
  *
- * A list X becomes the function m(X), the sum of Gaussian kernels at its targets; the distance of
- * two lists is the length of m(X) - m(Y) in the Hilbert space of the kernel
- *     k(x, y) = sum over w of exp(-|x - y|^2 / (2 w^2)),  w = 1, 3 and 10,
- * so that <m(X), m(Y)> is the sum of k over all pairs of targets. Coordinates are range, azimuth
- * and range rate in cells, and level in steps of 3 dB; differences are not wrapped. The kernel is
- * characteristic, so m tells all lists apart (Sriperumbudur et al., JMLR 11, 2010), and the length
- * is of strong negative type (Lyons, Annals of Probability 41, 2013), as the energy distance needs
- * it. */
+ * It is |m(X) - m(Y)| of MODEL 11.2. The kernel is characteristic, so m tells all lists apart
+ * (Sriperumbudur et al., JMLR 11, 2010), and the length is of strong negative type (Lyons, Annals
+ * of Probability 41, 2013), as the energy distance needs it. Coordinates are range, azimuth and
+ * range rate in cells, and level in steps of 3 dB; differences are not wrapped. */
 #pragma once
 
 #include "base/arena.h"

@@ -5,8 +5,13 @@
 
 enum { COMPONENTS = SCORE_AMPLITUDE + 1 };
 
-struct target_list {
-    LIST_OF(const struct target *) list;
+/* A target of either list. */
+struct entry {
+    const struct target *target;
+    const struct target *partner;
+    double strip;        /* of ranges as wide as the cut-off */
+    struct entry *group; /* an earlier entry of its group, or itself for the first of it */
+    LIST_OF(struct entry *) truths, listed; /* all of the group, in the first of it */
 };
 
 struct target_cell target_score_cell(const struct sensor_view *view, double azimuth_rad,
@@ -63,8 +68,8 @@ int target_score_check(const struct frame *truth, const struct frame *listed, st
 /* Ties between pairs go by this order, not by that of the lists. */
 static int compare(const void *left, const void *right)
 {
-    const struct target *a = *(const struct target *const *)left;
-    const struct target *b = *(const struct target *const *)right;
+    const struct target *a = ((const struct entry *)left)->target;
+    const struct target *b = ((const struct entry *)right)->target;
     if (a->range_m != b->range_m)
         return a->range_m < b->range_m ? -1 : 1;
     if (a->range_rate_mps != b->range_rate_mps)
@@ -74,15 +79,21 @@ static int compare(const void *left, const void *right)
     return (a->amplitude_db > b->amplitude_db) - (a->amplitude_db < b->amplitude_db);
 }
 
-static struct target_list targets_of(const struct frame *frame, const char *sensor,
-                                     struct arena *arena)
+/* Writes the targets of a sensor to entries, each a group by itself; returns how many. */
+static size_t enter_targets(struct entry *entries, const struct frame *frame, const char *sensor,
+                            const struct target_cell *cell, struct arena *arena)
 {
-    struct target_list targets = {0};
+    double strip_m = cell->cutoff * cell->range_m * (1 + 1e-9);
+    size_t count = 0;
     for (size_t i = 0; i < frame->targets.count; i++)
         if (strcmp(frame->targets.items[i].sensor, sensor) == 0)
-            *list_add(&targets.list, arena) = &frame->targets.items[i];
-    sort_list(&targets.list, compare, arena);
-    return targets;
+            entries[count++].target = &frame->targets.items[i];
+    sort_items(entries, count, sizeof *entries, compare, arena);
+    for (size_t i = 0; i < count; i++) {
+        entries[i].strip = floor(entries[i].target->range_m / strip_m);
+        entries[i].group = &entries[i];
+    }
+    return count;
 }
 
 static double component(const struct target *target, int which)
@@ -117,36 +128,103 @@ static void add_errors(struct score_values *values, const struct target_pair *pa
     }
 }
 
+static struct entry *first_of(struct entry *entry)
+{
+    while (entry->group != entry)
+        entry = entry->group = entry->group->group;
+    return entry;
+}
+
+static void join(struct entry *one, struct entry *other)
+{
+    one = first_of(one);
+    other = first_of(other);
+    *(one < other ? &other->group : &one->group) = one < other ? one : other;
+}
+
+static int compare_places(const void *left, const void *right)
+{
+    const struct entry *a = *(struct entry *const *)left, *b = *(struct entry *const *)right;
+    double a_mps = a->target->range_rate_mps, b_mps = b->target->range_rate_mps;
+    return a->strip != b->strip ? (a->strip > b->strip) - (a->strip < b->strip)
+                                : (a_mps > b_mps) - (a_mps < b_mps);
+}
+
+static struct entry **by_place(struct entry *entries, size_t count, struct arena *arena)
+{
+    struct entry **sorted = arena_room(arena, count * sizeof(*sorted));
+    for (size_t i = 0; i < count; i++)
+        sorted[i] = &entries[i];
+    sort_items(sorted, count, sizeof(*sorted), compare_places, arena);
+    return sorted;
+}
+
+/* Joins what is nearer than the cut-off: a target and those of about its rate in three strips. */
+static void join_near(struct entry *entries, size_t rows, size_t columns,
+                      const struct target_cell *cell, struct arena *arena)
+{
+    struct entry **truths = by_place(entries, rows, arena);
+    struct entry **listed = by_place(entries + rows, columns, arena);
+    double reach_mps = cell->cutoff * cell->range_rate_mps * (1 + 1e-9);
+    for (int beside = -1; beside <= 1; beside++)
+        for (size_t i = 0, low = 0; i < rows; i++) {
+            double strip = truths[i]->strip + beside, rate_mps = truths[i]->target->range_rate_mps;
+            while (low < columns && (listed[low]->strip < strip ||
+                                     (listed[low]->strip == strip &&
+                                      listed[low]->target->range_rate_mps < rate_mps - reach_mps)))
+                low++;
+            for (size_t j = low; j < columns && listed[j]->strip == strip &&
+                                 listed[j]->target->range_rate_mps <= rate_mps + reach_mps;
+                 j++)
+                if (target_score_distance(truths[i]->target, listed[j]->target, cell) <
+                    cell->cutoff)
+                    join(truths[i], listed[j]);
+        }
+}
+
+static void pair_group(const struct entry *first, const struct target_cell *cell,
+                       struct arena *arena)
+{
+    size_t rows = first->truths.count, columns = first->listed.count;
+    double *distance = arena_room(arena, rows * columns * sizeof *distance);
+    size_t *item_of = arena_room(arena, rows * sizeof *item_of);
+    for (size_t i = 0; i < rows; i++)
+        for (size_t j = 0; j < columns; j++)
+            distance[i * columns + j] = target_score_distance(first->truths.items[i]->target,
+                                                              first->listed.items[j]->target, cell);
+    gospa_pair(distance, rows, columns, cell->cutoff, item_of, arena);
+    for (size_t i = 0; i < rows; i++)
+        if (item_of[i] < columns) { /* ASSIGNMENT_NONE is above all columns */
+            first->truths.items[i]->partner = first->listed.items[item_of[i]]->target;
+            first->listed.items[item_of[i]]->partner = first->truths.items[i]->target;
+        }
+}
+
+/* Targets of different groups are no pairs, so that each group is paired by itself. */
 struct target_pairs target_score_pairs(const char *sensor, const struct frame *truth,
                                        const struct frame *listed, const struct target_cell *cell,
                                        struct arena *arena)
 {
-    struct target_list truths = targets_of(truth, sensor, arena);
-    struct target_list list = targets_of(listed, sensor, arena);
-    size_t rows = truths.list.count, columns = list.list.count;
-    double *distance = arena_get(arena, rows * columns * sizeof *distance);
-    size_t *item_of = arena_get(arena, rows * sizeof *item_of);
-    bool *paired = arena_get(arena, columns * sizeof *paired);
+    size_t most = truth->targets.count + listed->targets.count;
+    struct entry *entries = arena_get(arena, most * sizeof *entries);
+    size_t rows = enter_targets(entries, truth, sensor, cell, arena);
+    size_t columns = enter_targets(entries + rows, listed, sensor, cell, arena);
     struct target_pairs pairs = {0};
-    for (size_t i = 0; i < rows; i++)
-        for (size_t j = 0; j < columns; j++)
-            distance[i * columns + j] =
-                target_score_distance(truths.list.items[i], list.list.items[j], cell);
-    gospa_pair(distance, rows, columns, cell->cutoff, item_of, arena);
-    for (size_t i = 0; i < rows; i++) {
-        struct target_pair *pair = list_add(&pairs.list, arena);
-        pair->truth = truths.list.items[i];
-        if (item_of[i] >= columns) /* ASSIGNMENT_NONE is above all columns */
-            continue;
-        pair->listed = list.list.items[item_of[i]];
-        paired[item_of[i]] = true;
+    join_near(entries, rows, columns, cell, arena);
+    for (size_t i = 0; i < rows + columns; i++) {
+        struct entry *first = first_of(&entries[i]);
+        *list_add(i < rows ? &first->truths : &first->listed, arena) = &entries[i];
     }
-    for (size_t j = 0; j < columns; j++)
-        if (!paired[j])
-            list_add(&pairs.list, arena)->listed = list.list.items[j];
+    for (size_t i = 0; i < rows; i++)
+        if (entries[i].group == &entries[i])
+            pair_group(&entries[i], cell, arena);
+    for (size_t i = 0; i < rows; i++)
+        *list_add(&pairs.list, arena) = (struct target_pair){entries[i].target, entries[i].partner};
+    for (size_t i = rows; i < rows + columns; i++)
+        if (entries[i].partner == NULL)
+            list_add(&pairs.list, arena)->listed = entries[i].target;
     return pairs;
 }
-
 void target_score_scan(struct score_tally *tally, const struct frame *truth,
                        const struct frame *listed, const struct target_cell *cell,
                        struct arena *arena)

@@ -1,11 +1,8 @@
 /* Score of one sensor's target list against the true one.
  *
- * The distance of two targets is in resolution cells:
- *
- *     d^2 = (dR / cell_range)^2 + (dv / cell_range_rate)^2 + (dphi / cell_azimuth)^2,
- *
- * with the difference in azimuth taken the short way round. Amplitudes are compared, but do not
- * decide which targets are paired. */
+ * The distance d of two targets is in resolution cells (MODEL 11.2), with the difference in azimuth
+ * taken the short way round. Amplitudes are compared, but do not decide which targets are paired.
+ */
 #pragma once
 
 #include "frame/frame.h"

@@ -1,18 +1,10 @@
 /* Cells as a windowed range-Doppler transform would show them.
  *
- * There is no signal (MODEL 6.1): each received echo is spread over the samples around it by the
- * response of a Hann window, W (point_response_hann), and cells are the peaks of the sum. A bin is
- * cell_range_m by cell_range_rate_mps and holds two samples by two, as of a transform that is
- * padded with zeros to twice its length. The sum and delta channel of a sample are the sums over
- * the echoes within three bins of G H W(range) W(rate), with the echoes' phases. What lies farther
- * off, below -41 dB, is left out, and nothing wraps around at ambiguous ranges or rates. An echo
- * that walks (MODEL 14.20) has W(range/f) W(rate/f) with f = 1 + widening, at most 8, within 1 + 2
- * f bins.
- *
- * A peak is a sample whose sum channel none of its eight neighbours exceeds (of equal samples the
- * first by range, then by rate). From the sample nearest to an echo, steps to the strongest
- * neighbour lead to one peak; the echoes that lead to one peak share a cell. So every echo is in
- * one cell. A peak that no echo leads to is a side lobe, and no cell. */
+ * There is no signal: cells are the peaks of the sum of the echoes' responses (MODEL 6.1). What
+ * lies more than three bins off an echo, below -41 dB, is left out, and nothing wraps around at
+ * ambiguous ranges or rates. An echo that walks (MODEL 14.20) has W(range/f) W(rate/f) with f = 1 +
+ * widening, at most 8, within 1 + 2 f bins. Of equal samples the first by range, then by rate, is
+ * the peak. Every echo is in one cell. A peak that no echo leads to is a side lobe, and no cell. */
 #pragma once
 
 #include "base/hash_table.h"

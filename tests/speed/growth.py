@@ -134,10 +134,23 @@ def losses(glint, folder, size):
     return f"glint-view {path} -o {path}.html"
 
 
+def targets(glint, folder, size):
+    """Targets of a scan, scored."""
+    frame = first_frame(glint, "glint-extract", f"glint-ideal --sensors {SUITE}", "glint-sensor", "glint-noise")
+    frame.pop("counts", None)
+    paths = []
+    for name, apart_m in (("truth", 0), ("listed", 0.1)):
+        frame["targets"] = [dict(frame["targets"][0], range_m=1 + i * 0.618 % 1 * 200 + apart_m, range_rate_mps=i / 100)
+                            for i in range(size)]
+        paths.append(write(folder, f"{name}-{size}.jsonl", json.dumps(frame)))
+    return f"glint-score --truth {' '.join(paths)}"
+
+
 # Each with the size that the bench times and the size from which the guard doubles twice.
 CASES = [(objects, 16000, 1000), (objects_in_full, 4000, 500), (speeds, 8000, 1000), (cells, 8000, 1000),
          (sensors, 10000, 100), (ids, 3000, 1000), (columns, 3000, 3000), (users, 1000, 250),
-         (tag, 4000000, 1000000), (types, 40000, 2000), (ghosts, 2000, 500), (losses, 3000, 500)]
+         (tag, 4000000, 1000000), (types, 40000, 2000), (ghosts, 2000, 500), (losses, 3000, 500),
+         (targets, 8000, 1000)]
 
 
 def cpu_s(glint, text):

@@ -4,6 +4,7 @@
 
 #include "base/units.h"
 #include "sample.h"
+#include "score/gospa.h"
 #include "score/target_score.h"
 #include "text/record_text.h"
 
@@ -170,6 +171,52 @@ static void a_list_has_no_distance_from_itself(void **state)
     arena_free(&arena);
 }
 
+/* Half the squared cut-off for every target without a partner, and the squares of the pairs. */
+static double cost_of(double squares, size_t pairs, size_t targets)
+{
+    return squares + 2 * (double)(targets - 2 * pairs);
+}
+
+static void groups_are_paired_as_cheaply_as_whole_lists(void **state)
+{
+    (void)state;
+    uint64_t sample = 9;
+    struct arena arena = {0};
+    size_t found = 0;
+    for (int round = 0; round < 5000; round++) {
+        struct score_scene truth, list;
+        draw(&truth, &sample);
+        draw(&list, &sample);
+        size_t rows = truth.frame.targets.count, columns = list.frame.targets.count;
+        for (size_t i = 0; i < columns; i++)
+            list.targets[i].range_m = sample_between(&sample, 9, 14);
+        struct target_pairs pairs =
+            target_score_pairs("front", &truth.frame, &list.frame, &cell, &arena);
+        double squares = 0, whole = 0, distance[MOST * MOST];
+        size_t count = 0, item_of[MOST];
+        for (size_t i = 0; i < pairs.list.count; i++) {
+            const struct target_pair *pair = &pairs.list.items[i];
+            if (pair->truth == NULL || pair->listed == NULL)
+                continue;
+            squares += pow(target_score_distance(pair->truth, pair->listed, &cell), 2);
+            count++;
+        }
+        assert_int_equal(pairs.list.count, rows + columns - count);
+        for (size_t i = 0; i < rows * columns; i++)
+            distance[i] = target_score_distance(&truth.targets[i / columns],
+                                                &list.targets[i % columns], &cell);
+        size_t wanted = gospa_pair(distance, rows, columns, cell.cutoff, item_of, &arena);
+        for (size_t i = 0; i < rows; i++)
+            whole += item_of[i] < columns ? pow(distance[i * columns + item_of[i]], 2) : 0;
+        assert_close(cost_of(squares, count, rows + columns),
+                     cost_of(whole, wanted, rows + columns), 1e-12);
+        found += count;
+        arena_clear(&arena);
+    }
+    assert_true(found > 5000);
+    arena_free(&arena);
+}
+
 static void targets_of_other_sensors_do_not_count(void **state)
 {
     (void)state;
@@ -237,6 +284,7 @@ int main(void)
         cmocka_unit_test(the_order_of_targets_changes_no_bit),
         cmocka_unit_test(scores_are_symmetric),
         cmocka_unit_test(a_list_has_no_distance_from_itself),
+        cmocka_unit_test(groups_are_paired_as_cheaply_as_whole_lists),
         cmocka_unit_test(targets_of_other_sensors_do_not_count),
         cmocka_unit_test(tallies_add_up),
         cmocka_unit_test(without_scans_all_is_zero),
