@@ -1,12 +1,9 @@
-/* Part of an echo that a single body lets through. The body blocks a line of sight or lets it pass
- * (MODEL 2.5); a line above the body's top passes (MODEL 14.3); with diffraction, a part of the
- * amplitude passes close to the body's edges (MODEL 14.4).
+/* Part of an echo that a single body lets through (MODEL 2.5, 14.3, 14.4).
  *
  * A body is an upright prism over the convex outline through count corners, counter-clockwise, up
  * to top_m. A top_m of INFINITY is the flat world, in which no line passes above anything. Whether
  * the line touches the outline is exact for the given coordinates (outline_crossing.h). Heights are
- * compared as plain doubles, so the rounding of its height, some 1e-15 m, decides a line that
- * grazes a top. */
+ * compared as plain doubles, so rounding, some 1e-15 m, decides a line that grazes a top. */
 #pragma once
 
 #include <stddef.h>

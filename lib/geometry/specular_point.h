@@ -2,12 +2,10 @@
  * (MODEL 2.3): the foot of the perpendicular from the sensor, after the segment is shortened by
  * margin_m at both ends. A side's outer face is to the right of a -> b.
  *
- * The ends are decided exactly, by the projection onto along, the side's direction. Two sides in
- * line that share a vertex and have the same direction as doubles therefore never lose the foot at
- * their joint, however they are turned; both hold the foot only where it is the vertex itself, and
- * line_of_sight.h gives it to one of them. The direction of a -> b would not do, because rounding
- * bends the joint. Where the two sides' vertices differ by rounding, the gap or overlap, 1e-13 m at
- * a kilometre, is part of the scene. */
+ * The ends are decided exactly, by the projection onto along, the side's direction: that of a -> b
+ * would not do, because rounding bends joints. Two sides in line that share a vertex and have the
+ * same direction as doubles never lose the foot at their joint; both hold the foot only where it is
+ * the vertex itself, and line_of_sight.h gives it to one of them. */
 #pragma once
 
 #include "base/vec2.h"

@@ -1,9 +1,7 @@
 /* Visibility factor V of a point reflector by viewing angle (MODEL 2.2).
  *
- * The paper states that a point's cross section is a scaled visibility function of the impinging
- * angle and leaves its shape open; glint offers four shapes. delta is the angle between the point's
- * facing and the direction to the sensor, in [0, pi]. All shapes are 1 up to full_rad, except
- * cosine, which falls from the start, and 0 beyond zero_rad. */
+ * delta is the angle between the point's facing and the direction to the sensor, in [0, pi]. All
+ * shapes are 1 up to full_rad, except cosine, which falls from the start, and 0 beyond zero_rad. */
 #pragma once
 
 #include "base/vec2.h"

@@ -14,6 +14,5 @@
 /* Adds all ghosts of the look's sensor to the frame, and the sensor's counts of them. An echo's
  * `mirror` is the id of the mirror's object, its `number` which of that object's mirrors, from 1.
  * auto passes over bodies and mirrors that surely have no path within the sensor's range and view,
- * and pairs of both that surely have no bounce (mirror_may_bounce). all asks every mirror that is
- * turned to the sensor for every body. */
+ * and pairs of both that surely have no bounce (mirror_may_bounce). */
 void ghost_echoes_add(struct look *look);

@@ -1,9 +1,7 @@
-/* Attenuation by rain and fog, ITU-R P.838-3 and P.840.
+/* Attenuation by rain and fog, ITU-R P.838-3 and P.840 (MODEL 14.15).
  *
- * Rain of r mm/h attenuates by gamma = k r^alpha dB/km, with k and alpha of P.838-3 for 1 to 1000
- * GHz. Fog with w g/m^3 of liquid water attenuates by K w dB/km, with K of P.840 for droplets far
- * smaller than the wavelength and the double-Debye permittivity of water, up to 200 GHz. Both are
- * of one way (MODEL 14.15). */
+ * Both are of one way. Rain is for 1 to 1000 GHz. Fog is of droplets far smaller than the
+ * wavelength, with the double-Debye permittivity of water, up to 200 GHz. */
 #pragma once
 
 #include "propagation/carrier.h"

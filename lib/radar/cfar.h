@@ -1,9 +1,8 @@
-/* Detection thresholds with a constant false alarm rate.
+/* Detection thresholds with a constant false alarm rate (MODEL 11.4; Rohling 1983).
  *
  * The noise in a cell is estimated from two windows of cells, one to each side behind guard cells:
- * by their mean power (CFAR_MEAN, cell averaging) or by the rank-th smallest power (CFAR_ORDERED,
- * ordered statistic), which a few strong echoes in the window do not raise. The threshold is a
- * factor times that estimate (MODEL 11.4; Rohling 1983). */
+ * by their mean power (CFAR_MEAN) or by the rank-th smallest power (CFAR_ORDERED), which a few
+ * strong echoes in the window do not raise. */
 #pragma once
 
 #include <stddef.h>

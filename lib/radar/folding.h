@@ -1,9 +1,7 @@
-/* Ambiguous readings of range and range rate.
+/* Ambiguous readings of range and range rate (MODEL 14.16).
  *
- * A waveform that is repeated every T has unambiguous range rates in [-lambda/(4 T), lambda/(4 T));
- * a train of pulses with the frequency PRF has unambiguous ranges in [0, c/(2 PRF)). Values outside
- * fold into these intervals (MODEL 14.16). Folding is exact: nothing is rounded, and a value inside
- * comes back unchanged. */
+ * Values outside of the unambiguous intervals fold into these. Folding is exact: nothing is
+ * rounded, and a value inside comes back unchanged. */
 #pragma once
 
 /* The range rate as read, in [-unambiguous_mps, unambiguous_mps). unambiguous_mps > 0; infinity

@@ -1,10 +1,8 @@
 /* Amplitude of echoes over range; cross sections as ERCS.
  *
  * An echo's amplitude is A = A_ref(R) · A_phi(azimuth) · ERCS, all linear (MODEL 3, 4). A_ref is a
- * power law or a table. The power law, equation (3), is calibrated by one point: a reflector of
- * calibration_ercs on boresight at calibration_range_m just meets the threshold. The exponent 2 is
- * the 40 dB per decade of the radar equation. A table is straight between its rows in the
- * logarithms of range and amplitude. */
+ * power law, which a reflector of calibration_ercs on boresight at calibration_range_m calibrates,
+ * or a table, straight between its rows in the logarithms of range and amplitude. */
 #pragma once
 
 #include <stddef.h>

@@ -1,7 +1,4 @@
-/* Energy distance of two random lists, from samples of both (MODEL 11.2).
- *
- * It is 0 between equal laws and, for a distance d of strong negative type, between no others. The
- * estimate is the U-statistic: unbiased, so of equal laws as often below 0 as above. */
+/* Energy distance of two random lists, from samples of both (MODEL 11.2). */
 #pragma once
 
 #include <stddef.h>

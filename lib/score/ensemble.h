@@ -1,10 +1,8 @@
-/* Target lists of many seeds, compared as random lists.
+/* Target lists of many seeds, compared as random lists (MODEL 11.2).
  *
  * Two streams hold the same scenes, each of several independent seeds. For every scene, frame and
- * sensor the lists of the seeds are samples of two random lists, and their energy distance
- * (energy_distance.h) over the distance of embedded lists (list_embedding.h) is 0 in the mean if
- * both streams draw from one law. It is averaged over the frames and sensors of a scene, and then
- * over scenes. */
+ * sensor the lists of the seeds are samples of two random lists. Their energy distance is averaged
+ * over the frames and sensors of a scene, and then over scenes. */
 #pragma once
 
 #include "base/intern.h"
