@@ -28,7 +28,9 @@ enum effect_id {
     EFFECT_NONE = EFFECT_COUNT,
 };
 
-/* The set of one effect. A set of effects is a uint64_t with a bit for each. */
+_Static_assert(EFFECT_COUNT < 64, "a set of effects is a uint64_t with a bit for each");
+
+/* The set of one effect. */
 #define EFFECT_BIT(effect) (UINT64_C(1) << (effect))
 
 extern const char *const effects_names[]; /* NULL-terminated */

@@ -152,8 +152,11 @@ const struct record reflector_set_record = {
 
 /* The same struct and table without its first two members, which a document does not have. */
 const struct record reflector_model_record = {
-    FIELD_TABLE(struct reflector_set, reflector_set_fields + 2, "reflector model",
-                "The reflection centres of a class.")};
+    .name = "reflector model",
+    .help = "The reflection centres of a class.",
+    .size = sizeof(struct reflector_set),
+    .fields = reflector_set_fields + 2,
+};
 
 bool reflectors_unchanged(const struct reflector_set *set)
 {

@@ -66,8 +66,11 @@ struct record {
     size_t document_offset;
 };
 
+/* The members of a record: at most 64, since readers note in a uint64_t which ones they have seen.
+ * A longer table does not compile. */
 #define FIELD_TABLE(owner, fields_, name_, help_)                                                  \
-    .name = (name_), .help = (help_), .size = sizeof(owner), .fields = (fields_)
+    .name = (name_), .help = (help_), .size = sizeof(owner),                                       \
+    .fields = (fields_) + 0 * sizeof(char[sizeof(fields_) / sizeof *(fields_) <= 64 + 1 ? 1 : -1])
 
 /* The table of a record without members. */
 extern const struct field field_none[];
