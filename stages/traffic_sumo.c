@@ -174,6 +174,7 @@ static const struct recorded_format format = {
     .id_name = "id",
     .place = "line",
     .by_time = true,
+    .jumps = true,
     .marks_steps = true,
     .words = sumo_table_words,
     .next = xml_rows_next,

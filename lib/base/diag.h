@@ -2,8 +2,8 @@
  *
  * Functions that can fail return 0, or -1 after filling a struct diag; only the mains print and
  * exit. A message names the place, the value and what was expected; the runner puts program, file
- * and line in front of it. Codes are those of sysexits, so that scripts can tell bad data (do not
- * retry) from a full disk (do). */
+ * and line in front of it. A text without a code is a note, and is printed too. Codes are those of
+ * sysexits, so that scripts can tell bad data (do not retry) from a full disk (do). */
 #pragma once
 
 enum diag_code {

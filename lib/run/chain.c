@@ -293,11 +293,12 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
     if (times != NULL)
         times->bytes_read = chain.input.bytes;
     int code = DIAG_OK;
-    for (size_t i = 0; i < count; i++)
-        if (failed(&runners[i])) {
+    for (size_t i = 0; i < count; i++) {
+        if (runners[i].diag.text[0] != '\0')
             complain(&runners[i]);
+        if (failed(&runners[i]))
             code = (int)runners[i].diag.code;
-        }
+    }
     frame_stream_close(&chain.input);
     arena_free(&chain.arena);
     list_cache_free(&chain.list_cache);

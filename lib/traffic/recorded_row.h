@@ -53,7 +53,10 @@ struct recorded_format {
     const char *place;   /* what recorded_row.place counts: "row", "byte" */
     double slow_mps;     /* a velocity below it says no yaw, as one of 0 */
     bool by_time;        /* rows come in ascending time; if not, the recording is stored whole */
-    bool marks_steps;    /* gives RECORDED_STEP; if not, a step ends where the time changes */
+    /* Vehicles may jump to another lane or angle (recorded_jumps.c), and the ways of road users are
+     * held against their speeds: places in degrees are refused. */
+    bool jumps;
+    bool marks_steps; /* gives RECORDED_STEP; if not, a step ends where the time changes */
     const struct recorded_word *words; /* ends with a word NULL */
     int (*next)(void *state, struct recorded_row *row, struct diag *diag);
     void (*close)(void *state); /* NULL: nothing to free */

@@ -61,6 +61,7 @@ static int take_row(struct recorded_steps *steps, struct recorded_step *step, st
         .passenger = row->passenger,
         .place = row->place,
         .at_m = {row->x_m, row->y_m},
+        .recorded_m = {row->x_m, row->y_m},
         .direction_rad = row->direction_rad,
         .ahead_m = row->ahead * length_m,
         .speed_mps = row->speed_mps,
@@ -106,10 +107,12 @@ static int refuse_second(const struct recorded_steps *steps, const struct record
  * velocity the rows say. */
 static int link_states(struct recorded_steps *steps, struct recorded_step *step, struct diag *diag)
 {
+    const struct recorded_format *format = steps->reader.format;
     struct recorded_step *last = steps->read > 0 ? step_at(steps, steps->read - 1) : NULL;
+    double length_s = last != NULL ? seconds_between(last, step) : 0;
     sort_list(&step->states, frame_order_names, &step->arena);
     for (size_t i = 0, j = 0; i < step->states.count; i++) {
-        struct recorded_state *state = &step->states.items[i], *before = NULL;
+        struct recorded_state *state = &step->states.items[i], *named = NULL;
         const char *id = state->object.id;
         if (i > 0 && strcmp(state[-1].object.id, id) == 0)
             return refuse_second(steps, step, state - 1, diag);
@@ -118,19 +121,42 @@ static int link_states(struct recorded_steps *steps, struct recorded_step *step,
             j++;
         if (last != NULL && j < last->states.count &&
             strcmp(last->states.items[j].object.id, id) == 0)
-            before = &last->states.items[j];
+            named = &last->states.items[j];
+        double way =
+            named != NULL ? vec2_length(vec2_sub(state->recorded_m, named->recorded_m)) : 0;
+        struct recorded_state *before = way > RECORDED_STEPS_FASTEST_MPS * length_s ? NULL : named;
+        if (before != NULL && !isnan(state->speed_mps)) {
+            steps->moved_m += way;
+            steps->said_m += fabs(state->speed_mps) * length_s;
+        }
+        if (format->jumps && !state->passenger) {
+            state->jumps = arena_get(&step->arena, sizeof *state->jumps);
+            recorded_jumps_spread(state, before, length_s, &steps->jumps);
+        }
         if (!isnan(state->object.yaw_rad) || !isnan(state->object.vx_mps)) {
-            place_object(state, before, steps->reader.format->slow_mps);
+            place_object(state, named, format->slow_mps);
             state->at_m = (struct vec2){state->object.x_m, state->object.y_m};
         }
-        if (before == NULL || vec2_length(vec2_sub(state->at_m, before->at_m)) >
-                                  RECORDED_STEPS_FASTEST_MPS * seconds_between(last, step))
+        if (before == NULL)
             continue;
         state->before = j;
         before->after = i;
         state->since_ns = before->since_ns;
     }
     return 0;
+}
+
+/* Refuses a recording whose road users hardly move, but for their speeds would have gone far: by
+ * 10 m in all, and by 100 km before its end is known. Jumps and stops do not matter at that. */
+static int check_speeds(const struct recorded_steps *steps, struct diag *diag)
+{
+    bool far = steps->said_m >= (steps->ended ? 10 : 1e5);
+    if (!steps->reader.format->jumps || !far || steps->moved_m > 1e-3 * steps->said_m)
+        return 0;
+    return diag_fail(diag, DIAG_DATA,
+                     "%s %zu: all road users together have moved by %.3g m, and by their speeds "
+                     "by %.0f m; expected coordinates in metres: run sumo without --fcd-output.geo",
+                     steps->reader.format->place, steps->row.place, steps->moved_m, steps->said_m);
 }
 
 /* ---- reading a step ---- */
@@ -193,6 +219,8 @@ static void read_step(struct recorded_steps *steps)
     if (more == 0 && begun)
         steps->read++;
     if (more < 0 || step->time_ns > steps->to_ns)
+        steps->ended = true;
+    if (check_speeds(steps, &steps->fault) != 0)
         steps->ended = true;
 }
 

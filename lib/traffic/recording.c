@@ -1,5 +1,7 @@
 #include "traffic/recording.h"
 
+#include <stdio.h>
+
 #include "frame/frame_check.h"
 #include "traffic/recorded_store.h"
 #include "traffic/scenario.h"
@@ -276,6 +278,19 @@ static int check_egos(const struct recording *recording, struct diag *diag)
     return 0;
 }
 
+/* Notes what was done about jumps. */
+static void note_jumps(const struct recording *recording, struct diag *diag)
+{
+    const struct recorded_jump_counts *jumps = &recording->steps.jumps;
+    if (jumps->lanes + jumps->angles > 0)
+        snprintf(
+            diag->text, sizeof diag->text,
+            "%s: %zu jumps to another lane are spread over %d s, and %zu of the angle over the "
+            "way that the body needs to turn; sumo --lanechange.duration 3 or "
+            "--lateral-resolution 0.8 avoids the former",
+            recording->source, jumps->lanes, RECORDED_JUMP_S, jumps->angles);
+}
+
 int recording_next(struct recording *recording, struct frame *frame, struct diag *diag)
 {
     int more = 1;
@@ -283,6 +298,8 @@ int recording_next(struct recording *recording, struct frame *frame, struct diag
         more = take_step(recording, diag);
     if (more == 0)
         more = check_egos(recording, diag);
+    if (more == 0)
+        note_jumps(recording, diag);
     if (more < 0)
         return diag_prefix(diag, "%s: ", recording->source);
     if (more > 0) {

@@ -29,7 +29,7 @@ const struct recorded_word sumo_table_words[] = {
 #define FORMAT                                                                                     \
     {                                                                                              \
         RECORDED_TABLE, .name = "a table of SUMO", .id_name = "id", .by_time = true,               \
-                        .words = sumo_table_words                                                  \
+                        .words = sumo_table_words, .jumps = true                                   \
     }
 
 const struct recorded_layout sumo_table_layout = {

@@ -4,6 +4,7 @@ Usage: python3 tests/chain/recorded.py BIN_DIR [--sumo]
 
 With --sumo it runs SUMO itself on a net of its own into the whole chain, through a pipe.
 """
+import cmath
 import csv
 import glob
 import gzip
@@ -129,6 +130,49 @@ def users_of(text):
                    float(value["angle"]), value.get("type", default).split("@")[0], float(value["speed"]))
 
 
+def spread(visit, length):
+    """Places and yaws of a vehicle's rows (time, place of the front as a complex number, yaw, speed): jumps fade on a cubic
+    from the step that has them, and the body turns no faster than the way of its front lets it."""
+    along, cubic, begin, turned, out = cmath.rect(1, visit[0][2]), [0, 0, 0, 0], -3, visit[0][2], []
+    for i, (time, place, yaw, speed) in enumerate(visit):
+        if i > 0:
+            length_s, way, said = time - visit[i - 1][0], place - visit[i - 1][1], speed * (time - visit[i - 1][0])
+            aside, turn = (way / along).imag, math.remainder(yaw - visit[i - 1][2], 2 * math.pi)
+            jump = way - said * along
+            if (abs(aside) > max(1, 2 * length_s) and abs(way)**2 > said**2 + 1 and said * abs(turn) <= 1
+                    and abs(jump) <= 5):
+                since = time - begin
+                now = (sum(c * since**k for k, c in enumerate(cubic)) if since < 3 else 0) + jump
+                slope = sum(k * c * since**(k - 1) for k, c in enumerate(cubic) if k) if since < 3 else 0
+                begin, cubic = time, [now, slope, -now / 3 - 2 * slope / 3, 2 * now / 27 + slope / 9]
+                way -= jump
+            body = way / cmath.rect(1, turned)
+            side = 0 if way == 0 else math.sin(max(-math.pi / 2, min(math.pi / 2, cmath.phase(body))))
+            share = max(abs(way), length_s) / length
+            low, high = share * (2 * min(side, 0) - 0.5), share * (2 * max(side, 0) + 0.5)
+            turned += max(low, min(high, math.remainder(yaw - turned, 2 * math.pi)))
+            along = way / abs(way) if way != 0 else along
+        since = time - begin
+        out.append((place - (sum(c * since**k for k, c in enumerate(cubic)) if since < 3 else 0), turned))
+    return out
+
+
+def spread_all(steps, every):
+    """The same for all vehicles of steps, which are unlike walkers and containers, visit by visit."""
+    for name in {name for users in steps.values() for name in users}:
+        visit = []
+        for time in [*every, None]:
+            state = steps.get(time, {}).get(name)
+            if state is not None and state["kind"] not in ("DEFAULT_PEDTYPE", "DEFAULT_CONTAINERTYPE"):
+                visit.append((time, state))
+            elif visit:
+                length = visit[0][1]["size"][0]
+                rows = [(at, complex(one["x"], one["y"]), one["yaw"], one["speed"]) for at, one in visit]
+                for (_, one), (place, yaw) in zip(visit, spread(rows, length), strict=True):
+                    one.update(x=place.real, y=place.imag, yaw=yaw)
+                visit = []
+
+
 def states_of(text, sizes):
     """What the frames have to say: {time: {id: object}}, by differences over the steps."""
     steps, times = {}, []
@@ -138,9 +182,13 @@ def states_of(text, sizes):
         if time not in steps:
             steps[time] = {}
             times.append(time)
-        steps[time][name] = {"x": x - length / 2 * math.cos(yaw), "y": y - length / 2 * math.sin(yaw), "yaw": yaw,
-                             "class": class_, "size": (length, width, height), "speed": speed}
+        steps[time][name] = {"x": x, "y": y, "yaw": yaw, "kind": kind, "class": class_, "size": (length, width, height),
+                             "speed": speed}
     every = [float(time) for time in re.findall(r'<timestep time="([^"]*)"', re.sub(r"<!--.*?-->", "", text, flags=re.S))]
+    spread_all(steps, every)
+    for state in (state for users in steps.values() for state in users.values()):
+        state["x"] -= state["size"][0] / 2 * math.cos(state["yaw"])
+        state["y"] -= state["size"][0] / 2 * math.sin(state["yaw"])
     for time in times:
         at = every.index(time)
         for name, state in steps[time].items():
@@ -531,6 +579,154 @@ def files_of_other_programs_are_named():
         check(re.search(r": [^:;]+; glint-traffic(-sumo|-commonroad|-osi)? (--types )?(reads|takes|plays) ", text), text)
 
 
+# ---- jumps of SUMO ------------------------------------------------------------------------------------
+
+
+def fcd(rows):
+    """Floating car data of (time, id, place of the front as a complex number, yaw, speed), in ascending time."""
+    steps = {}
+    for time, *user in rows:
+        steps.setdefault(time, []).append(user)
+    body = "".join(f'<timestep time="{time:.2f}">' + "".join(
+        f'<vehicle id="{name}" x="{place.real:.9f}" y="{place.imag:.9f}" angle="{90 - math.degrees(yaw):.9f}" '
+        f'speed="{speed:.9f}" type="passenger"/>' for name, place, yaw, speed in users) + "</timestep>\n"
+        for time, users in steps.items())
+    return f"<fcd-export>\n{body}</fcd-export>"
+
+
+def course(length_s, jumps, seconds=12, speed=30, name="car", yaw=lambda time: 0, begin=0):
+    """Rows of a straight drive whose place jumps to the left by so many metres at times."""
+    for i in range(round(seconds / length_s) + 1):
+        time = i * length_s
+        aside = sum(far for at, far in jumps if time > at - 1e-9)
+        yield round(time, 2), name, complex(begin + speed * time, aside), yaw(time), speed
+
+
+def played(rows, *words, ego="car"):
+    """The ego's own object in every frame, with its time."""
+    frames = run("glint-traffic-sumo", "-", "--ego", ego, *words, data=fcd(rows).encode())
+    return [(frame["time_s"], part) for frame in frames for part in frame["objects"] if part["id"] == ego]
+
+
+def lane_changes_take_their_time():
+    """A lane of 3.2 m at 30 m/s: along the lane SUMO's speed, aside 3.2 (3 p^2 - 2 p^3) of p = t / 3 s, at most 1.6 m/s."""
+    for length_s, most, least in ((0.1, 1.6, 1.59), (1, 1.6, 1.18)):
+        for words in ((), ("--live",), ("--rate-hz", "7")):
+            sides, off = [], 0 if "--rate-hz" not in words else 0.01 if length_s < 1 else 0.15
+            for time, part in played(course(length_s, [(4, 3.2)]), *words):
+                p = min(max((time - 4) / 3, 0), 1)
+                check(abs(part["y_m"] - 3.2 * (3 * p**2 - 2 * p**3)) <= off + 1e-9, f"{part['y_m']} m aside at {time} s")
+                check(abs(part["x_m"] + 2.5 - 30 * time) < 1e-6 and abs(part["vx_mps"] - 30) < 1e-6, f"along at {time} s")
+                check(part["yaw_rad"] == 0 and part["yaw_rate_radps"] == 0, f"yaw at {time} s")
+                sides.append(part["vy_mps"])
+            check(least - off <= max(sides) <= most + off + 1e-6 and min(sides) >= -off - 1e-6,
+                  f"{min(sides)} to {max(sides)} m/s aside, {words}")
+            check(abs(part["y_m"] - 3.2) < 1e-9, "the place at last is SUMO's")
+    for name, text in (("with its speed", "time;id;x;y;angle;speed"), ("without", "time;id;x;y;angle")):
+        with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
+            rows = [f"{time};{name};{place.real};{place.imag};90" + (";30" if "speed" in text else "")
+                    for time, name, place, _, _ in course(0.1, [(4, 3.2)])]
+            file.write("\n".join([text, *rows, ""]))
+            file.flush()
+            table = [frame["objects"][0] for frame in run("glint-traffic", file.name, "--ego", "car")]
+            for one, (_, other) in zip(table, played(course(0.1, [(4, 3.2)])), strict=True):
+                for key in ("x_m", "y_m", "vx_mps", "vy_mps"):
+                    check(abs(one[key] - other[key]) < 1e-6, f"{key} of a table {name}")
+
+
+def jumps_may_overlap_and_are_no_teleports():
+    """A second jump goes on from the first with its speed; after an absence, and where it is longer than a lane, none fades."""
+    for jumps in ([(4, 3.2), (5, 3.2)], [(4, 3.2), (5, -3.2)], [(4, 3.2), (4.1, -3.2), (4.2, 3.2)]):
+        parts = played(course(0.1, jumps))
+        for (_, one), (_, other) in zip(parts, parts[1:]):
+            check(abs(other["y_m"] - one["y_m"]) <= 0.35 and abs(one["vy_mps"]) <= 3.4, f"{jumps}: {one} {other}")
+            check(abs(other["vy_mps"] - one["vy_mps"]) <= 1.1, f"{jumps}: the speed aside has no jump: {one} {other}")
+        check(abs(parts[-1][1]["y_m"] - sum(far for _, far in jumps)) < 1e-9, f"{jumps}: the place at last")
+    who = "".join(f'<timestep time="{i}"><{kind} id="car" x="{i}" y="0" angle="90" speed="1"/></timestep>'
+                  for i, kind in enumerate(("vehicle", "person", "vehicle", "vehicle")))
+    check(len(run("glint-traffic-sumo", "-", "--ego", "car", data=f"<fcd-export>{who}</fcd-export>".encode())) == 4,
+          "a walker may have the id of a vehicle")
+    for far in (6, 30):
+        parts = dict(played(course(0.1, [(4, far)])))
+        check(parts[3.9]["y_m"] == 0 and abs(parts[4]["y_m"] - far) < 1e-9, f"a jump of {far} m stays")
+    away = [row for pair in zip(course(0.1, [(4, 3.2)]), course(0.1, [], name="other"), strict=True) for row in pair
+            if row[1] == "other" or not 3.75 < row[0] < 3.95]
+    check(abs(dict(played(away))[4]["y_m"] - 3.2) < 1e-9, "who comes again is where SUMO has it")
+
+
+def motion_without_jumps_is_that_of_the_file():
+    """A lane change of 1 m/s, a curve of 30 m at 14 m/s and one that the front cuts, and a start: centres are the file's."""
+    changing = [(t, name, complex(z.real, min(max(t - 4, 0), 3.2)), yaw, v) for t, name, z, yaw, v in course(0.5, [])]
+    turn = [(t, "car", cmath.rect(30, 14 / 30 * t), 14 / 30 * t + math.pi / 2 - 2.5 / 30, 14) for t in range(9)]
+    start = [(i / 10, "car", complex(0.02 * i**2 if i > 9 else 0.01 * i, 0), 0.1, 0.1 + 0.4 * max(i - 9, 0)) for i in range(30)]
+    for rows in (changing, turn, start):
+        for (_, part), (time, _, place, yaw, _) in zip(played(rows), rows, strict=True):
+            centre = place - cmath.rect(2.5, yaw)
+            check(abs(complex(part["x_m"], part["y_m"]) - centre) < 1e-6, f"{part} at {time} s, expected {centre}")
+
+
+def bodies_turn_with_their_way():
+    """Yaws that jump by 55 degrees straight on, or by 90 where the way does, at 10 m/s: the front stays on its way."""
+    jump = math.radians(55)
+    straight = list(course(0.1, [], speed=10, yaw=lambda time: jump if time < 5.95 else 0))
+    corner = [(i / 10, "car", complex(min(i, 60), max(i - 60, 0)), math.pi / 2 if i > 60 else 0, 10) for i in range(120)]
+    for rows, fastest in ((straight, 1.04), (corner, 1.25)):
+        parts = played(rows)
+        for (time, part), (_, _, place, _, _) in zip(parts, rows, strict=True):
+            front = complex(part["x_m"], part["y_m"]) + cmath.rect(2.5, part["yaw_rad"])
+            check(abs(front - place) < 1e-6, f"front at {time} s: {front}, expected {place}")
+            check(abs(part["yaw_rate_radps"]) <= 2.5 * 10 / 5 + 1e-9, f"{part['yaw_rate_radps']} rad/s at {time} s")
+            if time > 6.05:
+                check(math.hypot(part["vx_mps"], part["vy_mps"]) <= fastest * 10, f"centre at {time} s: {part}")
+        turning = [time for time, part in parts if time > 5.85 and abs(part["yaw_rate_radps"]) > 1e-9]
+        check(0.35 <= turning[-1] - turning[0] <= 1.5, f"turns from {turning[0]} to {turning[-1]} s")
+        check(abs(parts[-1][1]["yaw_rad"] - rows[-1][3]) < 1e-6, "the yaw at last is SUMO's")
+
+
+def targets_of_a_lane_change_have_the_speed_of_the_lane(folder):
+    """The ego at 25 m/s and a car at 20 m/s 40 m ahead change lanes: -5 m/s and the part of at most 1.6 m/s on each side."""
+    for who in ("ego", "car"):
+        users = {"ego": dict(speed=25), "car": dict(speed=20, begin=60)}
+        path = os.path.join(folder, "targets.xml")
+        with open(path, "w", encoding="ascii") as file:
+            file.write(fcd(sorted((row for name, words in users.items() for row in
+                                   course(0.1, [(2, 3.2)] if name == who else [], seconds=5, name=name, **words)),
+                                  key=lambda row: row[0])))
+        text = (f"glint-traffic-sumo {path} --ego ego | glint-extract | glint-ideal --sensors lrr77-every-frame "
+                "| glint-sensor-perfect | glint-noise-none")
+        done = subprocess.run([os.path.join(BIN, "glint"), "-c", text], capture_output=True, check=True)
+        rates = [target["range_rate_mps"] for line in done.stdout.splitlines() for target in json.loads(line)["targets"]
+                 if target["contributors"][0]["object"] == "car"]
+        check(len(rates) > 50 and -5.7 < min(rates) and max(rates) < -4.3, f"rates of {min(rates)} to {max(rates)} m/s")
+        said = done.stderr.decode()
+        check(said.count("\n") == 1 and "1 jumps to another lane are spread over 3 s, and 0 of the angle" in said, said)
+
+
+def places_in_degrees_are_told_by_their_speeds(folder):
+    """Without SUMO's comment, as XML and as a table; cars that stand, start, teleport or wait are no reason."""
+    drive_m = list(course(0.1, [], speed=20, seconds=4))
+    degrees = [(t, name, complex(11 + z.real / 75000, 48 + z.imag / 111000), yaw, v) for t, name, z, yaw, v in drive_m]
+    path = os.path.join(folder, "degrees.csv")
+    with open(path, "w", encoding="ascii") as file:
+        file.write("time;id;x;y;angle;speed\n" + "".join(f"{t};{name};{z.real:.9f};{z.imag:.9f};90;{v}\n"
+                                                         for t, name, z, _, v in degrees))
+    said, frames = run("glint-traffic-sumo", "-", "--ego", "car", data=fcd(degrees).encode(), fails=65)
+    text = ("all road users together have moved by 0.00107 m, and by their speeds by 80 m; expected coordinates in metres: "
+            "run sumo without --fcd-output.geo")
+    check(f"-: line 42: {text}" in said and frames == 41, f"{frames} frames: {said}")
+    said, _ = run("glint-traffic", path, "--ego", "car", fails=65)
+    check(f"{path}: row 42: {text}" in said, said)
+    long = [row for i in range(60) for row in [(i, f"c{j}", 11 + (20 * i + j) / 75000, 0, 20) for j in range(100)]]
+    said, frames = run("glint-traffic-sumo", "-", "--ego", "c0", "--live", data=fcd(long).encode(), fails=65)
+    check("by their speeds by 100000 m" in said and frames == 51, f"{frames} frames: {said}")
+    stands = [(i / 10, "car", complex(5, 0), 0, 0) for i in range(100)]
+    starts = [(i / 10, "car", complex(0.002 * i * i, 0), 0, 0.04 * i) for i in range(100)]
+    teleports = [(i / 10, "car", complex(900 * (i // 50), 0), 0, 0) for i in range(100)]
+    late = [(t, name, z if t > 0.4 else 0, yaw, v) for t, name, z, yaw, v in drive_m]
+    for rows in (stands, starts, teleports, late, drive_m[:2], degrees[:1]):
+        check(len(played(rows)) == len(rows), "a true file is read")
+
+
 # ---- SUMO itself --------------------------------------------------------------------------------------
 
 NODES = '<nodes><node id="a" x="0" y="0"/><node id="b" x="300" y="0"/><node id="c" x="600" y="30"/></nodes>'
@@ -563,12 +759,26 @@ def beside_sumo(folder):
     sizes = {"lorry": ("truck", 12, 2.5, 3.8), "hasty": ("car", 4.4, 1.8, 1.5)}
     words = ("--types", os.path.join(folder, "n.rou.xml"), "--ego", "ego")
     compare(run("glint-traffic-sumo", path, *words), text, sizes, "ego")
+    jumps_of_sumo_are_spread(folder, sumo.replace("--lateral-resolution 0.8", ""), sizes, words)
     subprocess.run([*sumo.split(), "--fcd-output", "file.xml.gz"], cwd=folder, **QUIET)
     check(run("glint-traffic-sumo", path, *words) == run("glint-traffic-sumo", path + ".gz", *words), "gzip by SUMO")
     through_a_pipe(folder, sumo)
     riders_of_sumo_are_hidden(folder)
     sizes_are_those_of_sumo(folder)
     degrees_are_refused(folder)
+
+
+def jumps_of_sumo_are_spread(folder, sumo, sizes, words):
+    """Its changes of lanes in one step, which two of its options avoid."""
+    for option, avoids in (("", False), ("--lanechange.duration 3", True), ("--lateral-resolution 0.8", True)):
+        subprocess.run([*sumo.split(), *option.split(), "--fcd-output", "jumps.xml"], cwd=folder, **QUIET)
+        path = os.path.join(folder, "jumps.xml")
+        with open(path, encoding="utf-8") as file:
+            compare(run("glint-traffic-sumo", path, *words), file.read(), sizes, "ego")
+        done = subprocess.run([os.path.join(BIN, "glint-traffic-sumo"), path, *words], capture_output=True, check=True)
+        count = int((re.search(r": (\d+) jumps to another lane", done.stderr.decode()) or [0, 0])[1])
+        print(f"sumo {option or 'as it is'}: {count} jumps to another lane")
+        check((count == 0) == avoids, f"{count} jumps to another lane, {option}")
 
 
 STOPS = """<additional><busStop id="bs" lane="ab_1" startPos="40" endPos="60"/>
@@ -704,6 +914,12 @@ with tempfile.TemporaryDirectory() as place:
         a_tag_has_an_end(place)
         a_type_has_the_sizes_of_its_class(place)
         bad_input(place)
+        lane_changes_take_their_time()
+        jumps_may_overlap_and_are_no_teleports()
+        motion_without_jumps_is_that_of_the_file()
+        bodies_turn_with_their_way()
+        targets_of_a_lane_change_have_the_speed_of_the_lane(place)
+        places_in_degrees_are_told_by_their_speeds(place)
     else:
         print("skipped  glint-traffic-sumo: it is not there, as it needs expat")
     if "--sumo" not in sys.argv[2:]:
