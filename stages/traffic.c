@@ -21,11 +21,12 @@ static int start_scenario(struct traffic *traffic, struct runner *runner)
     struct arena *arena = runner_arena(runner);
     struct diag *diag = runner_diag(runner);
     if (options->rate_hz > 0 || options->from_s > -9e9 || options->to_s < 9e9 ||
-        options->class_map != NULL || options->class_default != NULL)
-        return diag_fail(diag, DIAG_USAGE,
-                         "%s: a scenario has rate, times and classes of its own; --rate-hz, "
-                         "--from-s, --to-s, --class-map and --class-default are for recordings",
-                         traffic->source);
+        options->class_map != NULL || options->class_default != NULL || options->types.count > 0)
+        return diag_fail(
+            diag, DIAG_USAGE,
+            "%s: a scenario has rate, times and classes of its own; --rate-hz, "
+            "--from-s, --to-s, --class-map, --class-default and --types are for recordings",
+            traffic->source);
     struct scenario_scenes *scenes = &traffic->scenario;
     scenes->ego = options->ego;
     scenes->title = options->scene;
@@ -124,6 +125,7 @@ static const struct field traffic_options[] = {
                    "play scenes A to B - 1 of a scenario, each with draws of its own; absent: 0:1"),
      .word = "A:B"},
     {OPTIONAL_RECORD(struct traffic, options, &recording_options_record, "")},
+    RECORDING_TYPES(struct traffic, options),
     {0},
 };
 

@@ -5,20 +5,18 @@
 #include "traffic/recorded_table.h"
 #include "xml_rows.h"
 
-/* A document of SUMO that is being read: floating car data, or types. */
+/* Floating car data that are being read. */
 struct document {
-    struct xml_rows xml;              /* first, as the format's functions take it */
-    struct recorded_classes *classes; /* to which types are added */
-    int64_t time_ns;                  /* of the step that is open */
-    int64_t whole_ns;                 /* of the last step that is whole */
-    bool in_step, has_step, in_vehicle, in_routes;
+    struct xml_rows xml; /* first, as the format's functions take it */
+    int64_t time_ns;     /* of the step that is open */
+    int64_t whole_ns;    /* of the last step that is whole */
+    bool in_step, has_step, in_vehicle;
 };
 
 struct traffic_sumo {
     struct recorded_source recorded; /* first: its options are the stage's */
-    const char *types;
     bool live;
-    struct document document, types_document;
+    struct document document;
 };
 
 /* ---- attributes ---- */
@@ -28,20 +26,6 @@ static bool read_number(struct document *document, const char **attributes, cons
 {
     return xml_rows_number(&document->xml, name, xml_rows_attribute(attributes, name), low, high,
                            value);
-}
-
-/* The same of an attribute that may be missing. */
-static bool read_optional(struct document *document, const char **attributes, const char *name,
-                          double low, double high, double *value)
-{
-    return xml_rows_attribute(attributes, name) == NULL ||
-           read_number(document, attributes, name, low, high, value);
-}
-
-static const char *read_name(struct document *document, const char **attributes, const char *name,
-                             struct arena *arena)
-{
-    return xml_rows_name(&document->xml, name, xml_rows_attribute(attributes, name), arena);
 }
 
 /* ---- floating car data ---- */
@@ -60,28 +44,31 @@ static void begin_step(struct document *document, const char **attributes)
 static void add_row(struct document *document, const char **attributes, const char *type)
 {
     struct recorded_row row = recorded_row_unsaid;
+    struct xml_rows *xml = &document->xml;
     double angle_deg;
     row.class = type;
     row.ahead = 0.5; /* the place is the middle of the front bumper */
     row.passenger = !document->in_vehicle;
     if (!document->in_step) {
-        xml_rows_fail(&document->xml, "<timestep>", NULL, "one around road users");
+        xml_rows_fail(xml, "<timestep>", NULL, "one around road users");
         return;
     }
     row.time_ns = document->time_ns;
-    row.place = xml_rows_line(&document->xml);
-    row.id = read_name(document, attributes, "id", &document->xml.arena);
+    row.place = xml_rows_line(xml);
+    row.id = xml_rows_name(xml, "id", xml_rows_attribute(attributes, "id"), &xml->arena);
     if (row.id == NULL || !read_number(document, attributes, "x", -1e9, 1e9, &row.x_m) ||
         !read_number(document, attributes, "y", -1e9, 1e9, &row.y_m) ||
         !read_number(document, attributes, "angle", -1e3, 1e3, &angle_deg) ||
-        !read_optional(document, attributes, "speed", -1e4, 1e4, &row.speed_mps))
+        (xml_rows_attribute(attributes, "speed") != NULL &&
+         !read_number(document, attributes, "speed", -1e4, 1e4, &row.speed_mps)))
         return;
-    if (xml_rows_attribute(attributes, "type") != NULL)
-        row.class = read_name(document, attributes, "type", &document->xml.arena);
+    const char *own_type = xml_rows_attribute(attributes, "type");
+    if (own_type != NULL)
+        row.class = xml_rows_name(xml, "type", own_type, &xml->arena);
     if (row.class == NULL)
         return;
     row.yaw_rad = (90 - angle_deg) * (PI / 180);
-    *list_add(&document->xml.events, &document->xml.arena) = (struct xml_event){RECORDED_ROW, row};
+    *list_add(&xml->events, &xml->arena) = (struct xml_event){RECORDED_ROW, row};
 }
 
 /* Who rides in a vehicle is hidden by it: newer SUMO writes riders within the vehicle, older SUMO
@@ -135,26 +122,6 @@ static void on_comment(void *context, const char *text)
                       "coordinates in metres: run sumo without that option");
 }
 
-/* ---- types ---- */
-
-static void on_type(void *context, const char *name, const char **attributes)
-{
-    struct document *document = context;
-    double length_m = 0, width_m = 0, height_m = 0;
-    if (!document->in_routes && strcmp(name, "routes") != 0 && strcmp(name, "additional") != 0)
-        xml_rows_fail(&document->xml, "<routes>", NULL, "routes, or additional elements, of SUMO");
-    document->in_routes = true;
-    if (strcmp(name, "vType") != 0)
-        return;
-    const char *id = read_name(document, attributes, "id", document->classes->arena);
-    const char *class = xml_rows_attribute(attributes, "vClass");
-    if (id != NULL && read_optional(document, attributes, "length", 0, 1e6, &length_m) &&
-        read_optional(document, attributes, "width", 0, 1e6, &width_m) &&
-        read_optional(document, attributes, "height", 0, 1e6, &height_m))
-        recorded_classes_add(document->classes, id, class != NULL ? class : "passenger", length_m,
-                             width_m, height_m);
-}
-
 /* ---- the format ---- */
 
 /* What SUMO leaves behind when it is killed. */
@@ -183,24 +150,6 @@ static const struct recorded_format format = {
 
 /* ---- the stage ---- */
 
-static int read_types(struct traffic_sumo *own, struct runner *runner)
-{
-    struct document *document = &own->types_document;
-    struct diag *diag = runner_diag(runner);
-    struct input *input = runner_input(runner, own->types);
-    if (input == NULL)
-        return diag_prefix(diag, "--types: %s: ", own->types);
-    document->classes = &own->recorded.recording.steps.classes;
-    xml_rows_begin(&document->xml, "routes", input, document);
-    XML_SetStartElementHandler(document->xml.parser, on_type);
-    while (xml_rows_parse(&document->xml))
-        continue;
-    if (document->xml.fault.code == DIAG_OK)
-        return 0;
-    xml_rows_report(&document->xml, diag);
-    return diag_prefix(diag, "--types: %s: ", own->types);
-}
-
 static int traffic_sumo_start(void *state, struct runner *runner)
 {
     struct traffic_sumo *own = state;
@@ -214,24 +163,19 @@ static int traffic_sumo_start(void *state, struct runner *runner)
     XML_SetElementHandler(own->document.xml.parser, on_begin, on_end);
     XML_SetCommentHandler(own->document.xml.parser, on_comment);
     struct recorded_reader reader = {&format, &own->document};
-    if (recording_open(&own->recorded.recording, reader, own->recorded.source,
-                       &own->recorded.options, own->live, runner_arena(runner), diag) != 0)
-        return -1;
-    return own->types != NULL ? read_types(own, runner) : 0;
+    return recording_open(&own->recorded.recording, reader, own->recorded.source,
+                          &own->recorded.options, own->live, runner_arena(runner), diag);
 }
 
 static void traffic_sumo_release(void *state)
 {
     struct traffic_sumo *own = state;
-    xml_rows_close(&own->types_document);
     recording_close(&own->recorded.recording);
 }
 
 static const struct field traffic_sumo_fields[] = {
     RECORDED_SOURCE("the XML that sumo --fcd-output writes, plain or gzip; - is standard input"),
-    {OPTIONAL_NAME(struct traffic_sumo, types,
-                   "a file of routes with the vTypes; absent: SUMO's own sizes of classes"),
-     .word = "FILE"},
+    RECORDING_TYPES(struct traffic_sumo, recorded.options),
     {OPTIONAL_FLAG(struct traffic_sumo, live,
                    "write the frame of a step before the next step is there")},
     {0},

@@ -127,6 +127,10 @@ static int set_option(const struct field *field, void *base, const char *value, 
 {
     int result;
     double number;
+    static const struct field name = {.name = "a name in the list", .kind = FIELD_NAME};
+    if (field->kind == FIELD_NAMES)
+        return field_set_text(&name, field_list_add(field, base, arena), value, strlen(value),
+                              arena, diag);
     if (field->kind != FIELD_REAL && field->kind != FIELD_INTEGER)
         result = field_set_text(field, base, value, strlen(value), arena, diag);
     else if (field_read_number(value, strlen(value), &number) != 0)

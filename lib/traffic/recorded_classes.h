@@ -10,6 +10,7 @@ struct recorded_classes {
     const struct recorded_word *own;       /* those of the format */
     struct intern known;                   /* words of the format, then those that are added */
     LIST_OF(struct recorded_word) words;   /* by the number of the word */
+    bool typed;                            /* are sizes those of types, not of rows? */
     struct document_names vehicles;        /* the classes that there are */
     struct intern asked;                   /* words */
     LIST_OF(struct recorded_word) answers; /* by the number of the word; class NULL: none */
@@ -26,6 +27,11 @@ int recorded_classes_begin(struct recorded_classes *classes, const struct record
  * 0. It takes the place of a word of that name. */
 void recorded_classes_add(struct recorded_classes *classes, const char *word, const char *like,
                           double length_m, double width_m, double height_m);
+
+/* Does so with the vTypes of a file of SUMO's routes or additional elements; -1 after a message.
+ * Only the file's tags are read, in memory. */
+int recorded_classes_read_types(struct recorded_classes *classes, const char *path,
+                                struct diag *diag);
 
 /* The class of a word: by the map, else the words, else the class of this name in data/vehicles/,
  * else otherwise; NULL if none knows it. Nor are the words known, what stands before an "@" is

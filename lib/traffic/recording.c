@@ -70,6 +70,9 @@ static int check_options(const struct recording *recording, struct diag *diag)
     if (steps->live && !steps->reader.format->marks_steps)
         return diag_fail(diag, DIAG_USAGE, "--live: %s does not say where a step ends",
                          steps->reader.format->name);
+    if (options->types.count > 0 && !steps->reader.format->jumps)
+        return diag_fail(diag, DIAG_USAGE, "--types: only SUMO has types, not %s",
+                         steps->reader.format->name);
     if (steps->live && options->rate_hz > 0)
         return diag_fail(diag, DIAG_USAGE, "--live: --rate-hz would wait for the next step");
     return options->from_s <= options->to_s
@@ -87,10 +90,14 @@ static int prepare(struct recording *recording, struct diag *diag)
         return -1;
     if (!steps->reader.format->by_time)
         steps->reader = recorded_store_read(steps->reader, recording->arena, diag);
-    return steps->reader.format == NULL
-               ? -1
-               : recorded_classes_begin(&steps->classes, steps->reader.format, options->class_map,
-                                        options->class_default, recording->arena, diag);
+    if (steps->reader.format == NULL ||
+        recorded_classes_begin(&steps->classes, steps->reader.format, options->class_map,
+                               options->class_default, recording->arena, diag) != 0)
+        return -1;
+    for (size_t i = 0; i < options->types.count; i++)
+        if (recorded_classes_read_types(&steps->classes, options->types.items[i], diag) != 0)
+            return -1;
+    return 0;
 }
 
 int recording_conditions(const struct recording_options *options, struct conditions *changes,

@@ -13,9 +13,20 @@ struct recording_options {
     double radius_m, rate_hz; /* -1: not given */
     double from_s, to_s;      /* -9e9 and 9e9: not given */
     const char *class_map, *class_default, *conditions;
+    LIST_OF(const char *) types; /* files; RECORDING_TYPES */
 };
 
 extern const struct record recording_options_record;
+
+/* A field for types, for sources that play SUMO: owner is the struct, member its options. */
+#define RECORDING_TYPES(owner, member)                                                             \
+    {                                                                                              \
+        .name = "types", .kind = FIELD_NAMES, .offset = offsetof(owner, member.types),             \
+        .help =                                                                                    \
+            "a file of SUMO's routes with vTypes; may be given several times; absent: SUMO's own " \
+            "sizes of classes",                                                                    \
+        .word = "FILE", FIELD_OPTIONAL                                                             \
+    }
 
 /* What there was of an ego so far. */
 struct recorded_ego {

@@ -569,6 +569,52 @@ def a_type_has_the_sizes_of_its_class(folder):
         check(frame["objects"][0]["length_m"] == length, f"length of {word}: {frame}")
 
 
+def types_come_from_several_files(folder):
+    """Each --types adds to those before, for XML and for tables; what a name stands for is the last that is said."""
+    paths = [os.path.join(folder, name) for name in ("one.rou.xml", "two.add.xml", "fcd.csv", "fcd.xml")]
+    texts = ["<?xml version='1.0'?><!-- <vType id='a' length='99'/> --><routes><![CDATA[<vType id='a' length='99'/>]]>\n"
+             '<vTypeDistribution id="d"><vType id="a" vClass = "truck" length="14" width="2.6"/></vTypeDistribution>'
+             "<vType id='b' length='3'/><route id='r' edges='x y'/></routes>",
+             '<additional><vType id="b" vClass="bus" length="11.5" height="3"><param key="id" value="c"/></vType></additional>',
+             "time;id;x;y;angle;type\n" + "".join(f"{t};{name};{9 * t};0;90;{name}\n" for t in (0, 1) for name in "ab"),
+             "<fcd-export>" + "".join(f'<timestep time="{t}">' + "".join(
+                 f'<vehicle id="{name}" x="{9 * t}" y="0" angle="90" type="{name}"/>' for name in "ab") + "</timestep>"
+                 for t in (0, 1)) + "</fcd-export>"]
+    for path, text in zip(paths, texts, strict=True):
+        with open(path, "w", encoding="ascii") as file:
+            file.write(text)
+    one, two, table, xml = paths
+    for words, sizes in (((one, two), {"a": ("truck", 14, 2.6, 2.4), "b": ("bus", 11.5, 2.5, 3)}),
+                         ((two, one), {"a": ("truck", 14, 2.6, 2.4), "b": ("car", 3, 1.8, 1.5)})):
+        options = [word for path in words for word in ("--types", path)]
+        for program, source in (("glint-traffic-sumo", xml), ("glint-traffic", table)):
+            for part in run(program, source, "--ego", "a", *options)[0]["objects"]:
+                got = (part["class"], *(part[f"{size}_m"] for size in ("length", "width", "height")))
+                check(got == sizes[part["id"]] and part["x_m"] == -got[1] / 2, f"{program} {words}: {part}")
+    for program, source in (("glint-traffic-sumo", xml), ("glint-traffic", table)):
+        said, _ = run(program, source, "--ego", "a", "--types", two, fails=65)
+        check('--class-map a=CLASS or --class-default CLASS names one, but not its size, which is that of its vType: --types '
+              "FILE" in said, said)
+        for old, new, message in (
+                ('id="b"', "", 'line 1: id is ""; expected 1 to 1024 ASCII characters'),
+                ('"11.5"', '"wide"', 'line 1: length is "wide"; expected a number in [0, 1e+06]'),
+                ('"11.5"', '"-1"', 'line 1: length is "-1"; expected a number in [0, 1e+06]'),
+                ('"11.5"', "11.5", "line 1: a tag or comment is not well-formed or has no end"),
+                ("<additional>", "<!--\n<additional>", "line 1: a tag or comment is not well-formed or has no end"),
+                ("</additional>", "", "the file ends before </routes>"),
+                ("<additional>", "\n<net>", "line 2: <routes> is missing; expected routes, or additional elements, of SUMO"),
+                (texts[1], "", "the file ends before </routes>")):
+            path = os.path.join(folder, "bad.add.xml")
+            with open(path, "w", encoding="ascii") as file:
+                file.write(texts[1].replace(old, new, 1))
+            said, _ = run(program, source, "--ego", "a", "--types", one, "--types", path, fails=65)
+            check(f"--types: {path}: {message}" in said, f"{old} -> {new}: {said}")
+    for words, message in ((("data/trajectories/highway.csv", "--ego", "1"), "--types: only SUMO has types, not a table of INTERACTION"),
+                           (("cut-in",), "--class-default and --types are for recordings")):
+        said, _ = run("glint-traffic", *words, "--types", one, fails=64)
+        check(message in said, said)
+
+
 def files_of_other_programs_are_named():
     """Whoever reads frames names each file of another program, and what reads that."""
     names = [name for folder in ("sumo", "csv", "esmini", "osi", "commonroad") for name in
@@ -913,6 +959,7 @@ with tempfile.TemporaryDirectory() as place:
         early_ends(place)
         a_tag_has_an_end(place)
         a_type_has_the_sizes_of_its_class(place)
+        types_come_from_several_files(place)
         bad_input(place)
         lane_changes_take_their_time()
         jumps_may_overlap_and_are_no_teleports()
