@@ -143,11 +143,11 @@ static int open_file(struct whole_file *file)
     struct stat there = {0};
     if (!may_take(file, &there))
         return -1;
-    remove_leftovers(file->folder);
     if (access("/proc/self/fd", X_OK) == 0) /* through which the file gets its name later */
         file->fd = open(file->folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
     flock(file->fd, LOCK_EX | LOCK_NB);
     if (file->fd < 0) {
+        remove_leftovers(file->folder);
         expect_signals();
         if (name_file(file) != 0)
             return -1;

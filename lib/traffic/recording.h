@@ -4,7 +4,7 @@
  * (recorded_row.h), and a recording makes frames of what it reads. */
 #pragma once
 
-#include "traffic/neighbour_grid.h"
+#include "geometry/neighbour_grid.h"
 #include "traffic/resampling.h"
 
 /* Options that all recordings share. */

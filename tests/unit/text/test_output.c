@@ -332,21 +332,17 @@ static void what_a_killed_run_leaves_is_named_plainly_and_removed_by_the_next(vo
     write_word(scratch->path, "old");
     unlink(scratch->packed);
     int before = files_in(scratch->directory);
-    for (int i = 0; i < 2; i++) {
-        names_only = true;
-        struct output *running = output_open(scratch->packed, &diag);
-        pid_t killed = end_early(scratch->path, SIGKILL);
-        assert_int_equal(access(temporary(scratch, killed, 1), F_OK), 0);
-        expect_bytes(scratch->path, "old");
-        names_only = i == 0;
-        write_word(scratch->path, "new");
-        assert_int_equal(access(temporary(scratch, killed, 1), F_OK), -1);
-        assert_int_equal(access(temporary(scratch, getpid(), 1), F_OK), 0);
-        assert_int_equal(output_close(running, true, &diag), 0);
-        unlink(scratch->packed);
-        assert_int_equal(files_in(scratch->directory), before);
-        write_word(scratch->path, "old");
-    }
+    names_only = true;
+    struct output *running = output_open(scratch->packed, &diag);
+    pid_t killed = end_early(scratch->path, SIGKILL);
+    assert_int_equal(access(temporary(scratch, killed, 1), F_OK), 0);
+    expect_bytes(scratch->path, "old");
+    write_word(scratch->path, "new");
+    assert_int_equal(access(temporary(scratch, killed, 1), F_OK), -1);
+    assert_int_equal(access(temporary(scratch, getpid(), 1), F_OK), 0);
+    assert_int_equal(output_close(running, true, &diag), 0);
+    unlink(scratch->packed);
+    assert_int_equal(files_in(scratch->directory), before);
     names_only = false;
 }
 

@@ -1,4 +1,4 @@
-#include "traffic/neighbour_grid.h"
+#include "geometry/neighbour_grid.h"
 
 #include "base/hash_table.h"
 #include "base/sort.h"
