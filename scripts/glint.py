@@ -112,12 +112,30 @@ def _once(members):
     return found
 
 
+def _finite(digits):
+    value = float(digits)
+    if math.isinf(value):
+        raise ValueError(f"{digits:.40} is too large")
+    return value
+
+
+def _whole(digits):
+    _finite(digits)
+    return int(digits)
+
+
 _DECODER = json.JSONDecoder(parse_constant=_refuse, object_pairs_hook=_once)
+# Every number that is not finite has three digits in its exponent, or two hundred before it.
+_DIGITS = bytes(ord("0" if chr(byte) in "0123456789" else "e" if chr(byte) in "eE" else "+" if byte == ord("+") else " ")
+                for byte in range(256))
+_LARGE = (b"e000", b"e+000", b"0" * 200)
+_FINITE = json.JSONDecoder(parse_constant=_refuse, object_pairs_hook=_once, parse_float=_finite, parse_int=_whole)
 
 
 def decoded(line):
     """What a text of JSON says, as strictly as glint reads it."""
-    value = _DECODER.decode(line.decode())
+    digits = line.translate(_DIGITS)
+    value = (_FINITE if any(large in digits for large in _LARGE) else _DECODER).decode(line.decode())
     if b"\\u" in line and b"\\u0000" in json.dumps(value, ensure_ascii=False).encode():  # which refuses half characters
         raise ValueError("a character 0")
     return value
