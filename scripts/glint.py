@@ -83,7 +83,7 @@ def _unjoined(frame):
     ids = [one["id"] for one in frame.get("objects", ())]
     names = [one["name"] for one in frame["sensors"]["list"]] if "sensors" in frame else []
     if len({*ids}) + len({*names}) < len(ids) + len(names):
-        return "the name of an object or sensor stands twice"
+        return "objects or sensors.list: two have the same id or name"
     if ids and frame.get("ego") not in ids:
         return f"ego: {frame.get('ego')!r} is not among the objects"
     return next((f"targets[{i}]: {one['sensor']!r:.60}; expected a sensor of sensors.list, and contributors"
@@ -125,7 +125,7 @@ def _whole(digits):
 
 
 _DECODER = json.JSONDecoder(parse_constant=_refuse, object_pairs_hook=_once)
-# Every number that is not finite has three digits in its exponent, or two hundred before it.
+# A number too large for a double has three digits in its exponent, or 200 digits in a row.
 _DIGITS = bytes(ord("0" if chr(byte) in "0123456789" else "e" if chr(byte) in "eE" else "+" if byte == ord("+") else " ")
                 for byte in range(256))
 _LARGE = (b"e000", b"e+000", b"0" * 200)
@@ -136,7 +136,7 @@ def decoded(line):
     """What a text of JSON says, as strictly as glint reads it."""
     digits = line.translate(_DIGITS)
     value = (_FINITE if any(large in digits for large in _LARGE) else _DECODER).decode(line.decode())
-    if b"\\u" in line and b"\\u0000" in json.dumps(value, ensure_ascii=False).encode():  # which refuses half characters
+    if b"\\u" in line and b"\\u0000" in json.dumps(value, ensure_ascii=False).encode():  # encode() refuses lone surrogates
         raise ValueError("a character 0")
     return value
 

@@ -14,9 +14,9 @@
 #include "text/input.h"
 #include "traffic/recorded_row.h"
 
-/* The bytes that are parsed at once, and those that a tag or a comment may have. expat parses one
- * that has not ended again with every piece, so the next piece is as long as what there is of it.
- */
+/* Bytes of a piece, and the most bytes of a tag or comment. expat parses an unfinished tag anew
+ * with every piece. So the next piece is as long as the unfinished tag, which keeps the cost
+ * linear. */
 enum { XML_ROWS_PIECE = 64 * 1024, XML_ROWS_TOKEN = 4 * 1024 * 1024 };
 
 /* A row, or the end of a step. */
@@ -34,7 +34,7 @@ struct xml_rows {
     void (*fail_at_end)(struct xml_rows *xml); /* refuses a file that ends within its root */
     LIST_OF(struct xml_event) events;          /* of the piece that was parsed last */
     size_t taken;
-    int64_t bytes, open; /* parsed so far, and of those: of a tag or comment without its end */
+    int64_t bytes, open; /* bytes parsed so far; bytes of the tag or comment that has not ended */
     struct arena arena;  /* of events and their names */
     bool in_root, ended;
 };

@@ -5,8 +5,8 @@ const struct effect effect_ghosts = {
     .summary = "walls, guardrails and sides of vehicles mirror what stands before them",
     .cause = "bounces of a sensor, mirrors of a vehicle",
     .left_out_when =
-        "the sensor's bounces are less than 2 or no mirror in its range and view faces "
-        "both the sensor and another object",
+        "the sensor's bounces are less than 2, or no mirror in its range faces both the sensor and "
+        "another object, or the mirror and the object are both out of the sensor's view",
     .cost = "a mirror image per reflector and mirror",
     .home = EFFECT_HOME_IDEAL,
 };

@@ -57,7 +57,8 @@ static int check_views(const struct frame *frame, struct diag *diag)
     return 0;
 }
 
-/* Sensors of a section, with whose names its structs begin, must be those of the suite. */
+/* The sensors that a section names must be in the suite. Each struct begins with the sensor's name.
+ */
 static int check_listed(const struct frame *frame, const char *section, const void *items,
                         size_t count, size_t size, struct diag *diag)
 {

@@ -19,8 +19,8 @@ struct mirror {
     struct motion body; /* {0} for a wall that stands */
     struct vec2 sensor_m;
     struct vec2 middle, normal; /* the unit normal towards the outer side; zero if a == b */
-    double sensor_height_m;     /* of the sensor, 0 unless the wall may have a bounce for it */
-    struct vec2 eye_m;          /* the sensor's image, if it has a height */
+    double sensor_height_m;     /* over the wall's line; 0 if it is not before the outer face */
+    struct vec2 eye_m;          /* the sensor's image in the wall, if sensor_height_m > 0 */
 };
 
 struct mirror_image {

@@ -1,6 +1,6 @@
-/* Standard deviation of a measured range or range rate.
+/* Standard deviation of a measured range, range rate or sine.
  *
- * By signal-to-noise ratio sigma^2 = min((factor cell)^2 / snr + floor^2, cell^2 / 12), where
+ * By signal-to-noise ratio sigma^2 = min((factor cell)^2 / snr + sigma^2, cell^2 / 12), where
  * cell^2 / 12 is the variance of a value anywhere in the cell (MODEL 9, 14.7). */
 #pragma once
 
@@ -17,8 +17,9 @@ struct measurement_sigma {
     double noise;     /* RMS of the noise on the amplitude */
 };
 
-/* The standard deviation at an amplitude > 0, by the law: sigma itself; threshold/amplitude of it,
- * at most 1; or that at the ratio (amplitude/noise)^2. */
+/* The standard deviation at an amplitude > 0, by the law: sigma; or sigma times
+ * threshold/amplitude, that quotient at most 1; or measurement_sigma_at_snr at (amplitude/noise)^2.
+ */
 double measurement_sigma_at(const struct measurement_sigma *quantity, double amplitude);
 
 /* The standard deviation by signal-to-noise ratio, whatever the law. snr is the linear ratio of

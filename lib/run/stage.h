@@ -91,7 +91,7 @@ int runner_write(struct runner *runner, const char *bytes, size_t length);
 int runner_write_text(struct runner *runner, struct text *text);
 int runner_write_record(struct runner *runner, const struct record *record, const void *base);
 
-/* True if --output names a file that ends so, behind which .gz may stand. */
+/* True if the name that --output gives ends in this, or in this and .gz. */
 bool runner_output_ends(const struct runner *runner, const char *ending);
 
 /* A second stream beside the one that is read, for sinks that compare the two. "-" is standard

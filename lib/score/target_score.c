@@ -9,8 +9,8 @@ enum { COMPONENTS = SCORE_AMPLITUDE + 1 };
 struct entry {
     const struct target *target;
     const struct target *partner;
-    double strip;        /* of ranges as wide as the cut-off */
-    struct entry *group; /* an earlier entry of its group, or itself for the first of it */
+    double strip;        /* number of its strip of ranges, each as wide as the cut-off */
+    struct entry *group; /* an entry before it in the same group; itself: it is the first */
     LIST_OF(struct entry *) truths, listed; /* all of the group, in the first of it */
 };
 
@@ -159,7 +159,8 @@ static struct entry **by_place(struct entry *entries, size_t count, struct arena
     return sorted;
 }
 
-/* Joins what is nearer than the cut-off: a target and those of about its rate in three strips. */
+/* Joins the groups of each true and listed target nearer than the cut-off. Candidates are in the
+ * same or a neighbouring strip and within the cut-off in range rate. */
 static void join_near(struct entry *entries, size_t rows, size_t columns,
                       const struct target_cell *cell, struct arena *arena)
 {
@@ -200,7 +201,8 @@ static void pair_group(const struct entry *first, const struct target_cell *cell
         }
 }
 
-/* Targets of different groups are no pairs, so that each group is paired by itself. */
+/* Targets of two groups are farther apart than the cut-off and never pair, so groups are paired one
+ * by one. */
 struct target_pairs target_score_pairs(const char *sensor, const struct frame *truth,
                                        const struct frame *listed, const struct target_cell *cell,
                                        struct arena *arena)

@@ -240,7 +240,7 @@ int input_line(struct input *input, size_t limit, const char **line, size_t *len
                 return 0;
             begin = 0;
             end = held->length;
-            held->bytes[end] = '\0'; /* for which the read that found the end had room */
+            held->bytes[end] = '\0'; /* fits: the last read had asked for more bytes and got none */
         }
         *line = held->bytes + begin;
         *length = end - begin;

@@ -87,9 +87,9 @@ static void expect_signals(void)
             sigaction(signals[i], &end, NULL);
 }
 
-/* Gives the file, which is made unless it is open without a name, the first temporary name that is
- * free. The lock tells other processes to leave it alone; one that found it without may be about to
- * remove it. */
+/* Gives the file the first temporary name that is free; makes the file if it is not open yet. Other
+ * processes leave a locked file alone. One of them may have found it before it was locked and
+ * removed it: then the next name is tried. */
 static int name_file(struct whole_file *file)
 {
     struct utsname system;
@@ -136,8 +136,9 @@ static bool may_take(const struct whole_file *file, struct stat *there)
     return errno == 0;
 }
 
-/* Opens a file with the mode and the owner of the one that is there. Where it gets another owner,
- * it runs with nobody's rights. */
+/* Opens a file with the mode and the owner of the one that is there. Where the owner
+ * cannot be kept, the set-user-ID and set-group-ID bits are dropped: a program would run as another
+ * user. */
 static int open_file(struct whole_file *file)
 {
     struct stat there = {0};

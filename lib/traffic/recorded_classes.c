@@ -228,8 +228,9 @@ static int read_tags(struct recorded_classes *classes, const char *text, struct 
         if (at == NULL)
             return diag_prefix(diag, "line %zu: ", line);
     }
-    return at != text && depth == 0 ? 0
-                                    : diag_fail(diag, DIAG_DATA, "the file ends before </routes>");
+    return at != text && depth == 0
+               ? 0
+               : diag_fail(diag, DIAG_DATA, "the file ends before </routes> or </additional>");
 }
 
 int recorded_classes_read_types(struct recorded_classes *classes, const char *path,

@@ -8,16 +8,17 @@
  *
  * A body turns about the middle of its front bumper, which the recording places. Where that moves
  * at an angle to the body, and the body turns at 2 v / l times the sine of that angle, the centre
- * moves along the body: it follows as a trailer would. A body turns no faster than that and a
- * quarter of v sideways at its centre; one that stands, as if it crept. */
+ * moves along the body: it follows as a trailer would. The turn rate is
+ * at most this one plus that which moves the centre sideways by v/4. Below CREEP_MPS, v is
+ * CREEP_MPS. */
 #include "base/units.h"
 #include "traffic/recorded_steps.h"
 
 static const double JUMP_LEAST_M = 1, JUMP_LEAST_MPS = 2, JUMP_MOST_M = 5, TURN_SLACK = 0.5,
                     CREEP_MPS = 1, COURSE_M = 1e-3; /* the least way that tells a direction */
 
-/* What of the way the speed does not explain, or nothing. Where the angle turns so far that the way
- * may lead anywhere, as over a junction within a second, nothing is told. */
+/* The part of the way that the speed does not explain; zero if it is no jump, or if the angle turns
+ * so far in the step (a junction within a second) that the way may have any direction. */
 static struct vec2 jump_of(const struct recorded_state *state, const struct recorded_state *before,
                            struct vec2 way_m, double length_s)
 {
@@ -31,7 +32,7 @@ static struct vec2 jump_of(const struct recorded_state *state, const struct reco
     return sideways && unsaid && known ? jump_m : (struct vec2){0, 0};
 }
 
-/* The part of the jumps before that is still left. */
+/* Sets what is still left, length_s later, of the jumps before. */
 static void fade(struct recorded_jumps *jumps, const struct recorded_jumps *before, double length_s)
 {
     if (before->left_s <= length_s)

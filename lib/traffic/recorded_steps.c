@@ -103,8 +103,9 @@ static int refuse_second(const struct recorded_steps *steps, const struct record
                      recorded_row_seconds(step->time_ns), format->place, one > other ? other : one);
 }
 
-/* Sorts the states, ties them to those of the step before, and places the objects whose yaw or
- * velocity the rows say. */
+/* Sorts the states and links each to the one with its id in the step before, unless it moved faster
+ * than RECORDED_STEPS_FASTEST_MPS (a new visit). Sums ways and speeds for check_speeds, spreads
+ * jumps, and places objects whose yaw or velocity the rows say. */
 static int link_states(struct recorded_steps *steps, struct recorded_step *step, struct diag *diag)
 {
     const struct recorded_format *format = steps->reader.format;
@@ -146,8 +147,8 @@ static int link_states(struct recorded_steps *steps, struct recorded_step *step,
     return 0;
 }
 
-/* Refuses a recording whose road users hardly move, but for their speeds would have gone far: by
- * 10 m in all, and by 100 km before its end is known. Jumps and stops do not matter at that. */
+/* Refuses a recording whose road users hardly move although their speeds say that they go far: 10 m
+ * in all at the end, or 100 km before it. Over such ways jumps and stops do not matter. */
 static int check_speeds(const struct recorded_steps *steps, struct diag *diag)
 {
     bool far = steps->said_m >= (steps->ended ? 10 : 1e5);

@@ -10,7 +10,7 @@
 
 static const struct field recording_fields[] = {
     {OPTIONAL_NAME(struct recording_options, ego,
-                   "carries the sensors; ID,ID,... or all: a scene for each; \\, is an id's comma"),
+                   "the ego; ID,ID,... or all: a scene for each; write \\, for a comma in an id"),
      .word = "ID", .high = 1e6},
     {OPTIONAL_NAME(struct recording_options, scene, "name of the scene; absent: SOURCE/EGO")},
     {OPTIONAL_REAL(struct recording_options, radius_m, 0, 1e6,
@@ -126,8 +126,8 @@ int recording_open(struct recording *recording, struct recorded_reader reader, c
 {
     *recording = (struct recording){.source = source, .options = options, .arena = arena};
     recording->name = recording_name(source, arena);
-    /* A frame is at the microsecond to which its time rounds: parts of which one ends at a
-     * microsecond and another begins at the next share no frame and lose none. */
+    /* Times of frames are compared after rounding to microseconds. So a part that ends at one
+     * microsecond and a part that begins at the next share no frame and lose none. */
     recording->from_ns = (int64_t)round(options->from_s * 1e6) * 1000 - 500;
     const int64_t to_ns = (int64_t)round(options->to_s * 1e6) * 1000 + 499;
     recording->steps.reader = reader;

@@ -12,7 +12,7 @@
 struct scenario_scenes {
     struct scenario_document document;
     const char *ego;             /* of all scenes; NULL: each one's own */
-    const char *name;            /* of the source, at which its scenes are drawn */
+    const char *name;            /* of the source; part of the address of all draws */
     const char *title;           /* of scenes; NULL: the source's name and the ego's */
     double radius_m;             /* objects farther from the ego are left out; below 0: none are */
     double flow;                 /* factor of all arrivals */

@@ -96,7 +96,7 @@ def alone(work):
 
 
 def remove_if_left(path):
-    """Removes a file or folder unless its maker lives, who has its lock, or unless there are no locks."""
+    """Removes a file or folder, unless the process that made it still runs and holds its lock, or the file system has no locks."""
     with contextlib.suppress(OSError):
         descriptor = os.open(path, os.O_RDONLY if os.path.isdir(path) else os.O_RDWR)
         try:

@@ -123,7 +123,7 @@ def fill_folder(layout, copied, plan_folder, folder):
 
 def prepare(plan, plan_folder, folder):
     """Writes all but the shards: layout, documents, folders, and the Makefile last."""
-    refuse("\n" in os.path.abspath(plan_folder), repr(plan_folder), "a path of several lines is none for make")
+    refuse("\n" in os.path.abspath(plan_folder), repr(plan_folder), "make takes no path with a line break")
     layout, copied = lay_out(plan, plan_folder)
     check_folder(folder, layout)
     if not os.path.exists(os.path.join(folder, LAYOUT)):

@@ -54,7 +54,7 @@ class Rehearsal:
             scenes.setdefault(frame["scene"], []).append(frame["objects"])
         for name, objects in scenes.items():
             other = names.setdefault(json.dumps(objects), name)
-            refuse(other != name, path, f"its scenes are alike, {other} and {name}: split, they leak")
+            refuse(other != name, path, f"scenes {other} and {name} are alike: in two splits they would leak")
 
     def check_egos(self, source, blocks, path):
         """Each ego has frames in every block; if all are egos, there is one in every block."""
@@ -78,7 +78,7 @@ class Rehearsal:
             for j, other in known:
                 leaks = splits["by"] == "time" or source["split"] != self.plan["sources"][j]["split"]
                 refuse(leaks and same_traffic(other, pieces), f"/sources/{i}",
-                       f"bodies that move as those of /sources/{j}, which is in another split: it leaks")
+                       f"its bodies move as those of /sources/{j}: both recordings have the same traffic, in two splits, so it leaks")
             known.append((i, pieces))
 
 
@@ -90,7 +90,7 @@ def rehearse(plan, folder, copied):
             path, seed = f"/sources/{i}", plan.get("seeds", [1])[0]
             parts = stretches_of(plan, source, seed, plan["frames_per_shard"], folder)
             stretches = list(itertools.chain(*parts.values()))
-            refuse(not stretches, path, "it gives no scene")
+            refuse(not stretches, path, "this source gives no scene")
             if kind_of(source) == "recording":
                 rehearsal.check_egos(source, [stretch.block for stretch in stretches], path)
             if kind_of(source) == "scenario" and "splits" in plan:

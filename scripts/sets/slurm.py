@@ -62,7 +62,7 @@ def arrays(parts, most):
 def place_of(folder):
     """Where scripts and outputs of jobs lie. Slurm reads % and \\ in the path of an output."""
     place = os.path.join(os.path.abspath(folder), WORK, "slurm")
-    refuse(re.search(r"[%\\]", place), place, "a path with % or \\ is none for Slurm")
+    refuse(re.search(r"[%\\]", place), place, "Slurm takes no path with % or \\")
     return place
 
 

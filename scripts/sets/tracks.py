@@ -3,13 +3,13 @@ import collections
 import itertools
 import math
 
-STEPS, MOST = 25, 100  # steps of a piece of motion; bodies that are kept for one, as columns of alike ones have no end
+STEPS, MOST = 25, 100  # steps of a piece of motion; most bodies kept for one piece: a long column of vehicles moves alike
 STEP_M, SHIFT_M, SHIFT_S = 1e-2, 1, 0.1  # how closely steps agree, and the shifts of all bodies of a copy
 SHARE, FEWEST = 1 / 20, 2  # of the bodies of the smaller recording that are in both if they are copies
 
 
 def whole(value, unit):
-    """In whole units. Decimals lie off the borders, so that another origin rounds them alike."""
+    """The value in whole units. 0.37 keeps values with few decimals off the borders, so that a shifted origin gives the same."""
     return math.floor(value / unit + 0.37)
 
 

@@ -349,7 +349,7 @@ def leaks_are_refused(folder):
         (plan_of([one | {"split": "train"}, two | {"split": "test"}], **by_recording), "in another split: it leaks"),
         (plan_of([one | {"split": "train"}, copied | {"split": "test"}], **by_recording), "in another split: it leaks"),
         (plan_of([one | {"split": "train"}, packed | {"split": "test"}], **by_recording), "in another split: it leaks"),
-        (plan_of([alike], splits={"by": "scene", "shares": SHARES}), "/sources/0: its scenes are alike, cut-in/ego/0 and cut-in/ego/1"),
+        (plan_of([alike], splits={"by": "scene", "shares": SHARES}), "/sources/0: scenes cut-in/ego/0 and cut-in/ego/1 are alike"),
         (plan_of([medium, medium]), "/sources/1: its scenes have the names of those of /sources/0"),
         (plan_of([one], splits={"by": "scene", "shares": SHARES}), "cannot be split by scene"),
         (plan_of([medium], **by_recording), "cannot be split by recording"),
@@ -428,7 +428,7 @@ def copies_of_a_recording_are_known(folder):
             (moved(3, 4), {"begin_s": 4, "end_s": 8}), (moved(3, 4), {"ids": (3, 9)})]
     for i, (change, part) in enumerate(ways):
         two = {"recording": copied(folder, f"{i}.csv", change, **part), "egos": ["all"], "split": "test"}
-        leak = "/sources/1: bodies that move as those of /sources/0, which is in another split: it leaks"
+        leak = "/sources/1: its bodies move as those of /sources/0: both recordings have the same traffic, in two splits, so it leaks"
         place, done = begin(folder, plan_of([one, two], splits={"by": "recording"}), "refused")
         assert done.returncode == 65 and leak in done.stdout and not os.path.exists(place), f"{i}: {done.stdout}"
     timed = [{"recording": name, "egos": ["all"], "from_s": 0, "to_s": 10} for name in ("highway", "traffic/1.csv")]
@@ -775,7 +775,7 @@ def jobs_without_a_number_are_refused(folder):
     assert done.returncode != 0 and "SLURM_ARRAY_TASK_ID: is empty" in done.stdout, done.stdout
     for letter in "%\\":
         done = run([DATASET, f"{folder}/set.json", "--out", f"{folder}/100{letter}", "--slurm"])
-        assert done.returncode == 65 and "a path with % or \\ is none for Slurm" in done.stdout, done.stdout
+        assert done.returncode == 65 and "Slurm takes no path with % or \\" in done.stdout, done.stdout
         assert not os.path.exists(f"{folder}/100{letter}")
 
 
