@@ -298,6 +298,8 @@ int chain_run(struct runner *runners, size_t count, struct chain_times *times)
             complain(&runners[i]);
         if (failed(&runners[i]))
             code = (int)runners[i].diag.code;
+        runners[i].pause = (struct input_pause){0};
+        runners[i].input = NULL;
     }
     frame_stream_close(&chain.input);
     arena_free(&chain.arena);

@@ -434,11 +434,13 @@ struct output *runner_output_beside(struct runner *runner, const char *path)
 /* Refuses an output that one of the runners appends its explanations to. */
 static bool is_explained(struct runner *runner, const char *path)
 {
-    for (const struct runner *from = runner; from != NULL; from = from->before)
+    const struct runner *from = runner;
+    do
         if (from->common.explain != NULL && path_same_file(path, from->common.explain))
             diag_fail(&runner->diag, DIAG_USAGE,
                       "%s: --explain of glint-%s is the same file; expected another one", path,
                       from->program.name);
+    while ((from = from->before) != NULL);
     return runner->diag.code != DIAG_OK;
 }
 

@@ -49,11 +49,12 @@ static void interpolate(const struct resampling *resampling, struct recorded_ste
     const struct recorded_step *from = resampling->from, *to = resampling->to;
     double length_s = (double)to->interval_ns * 1e-9;
     double share = 1 - (double)(to->time_ns - made->time_ns) * 1e-9 / length_s;
+    bool between = made->time_ns < to->time_ns;
     for (size_t i = 0; i < to->states.count; i++) {
         struct recorded_state state = to->states.items[i];
-        if (made->time_ns < to->time_ns && state.before == SIZE_MAX)
+        if (between && (from == NULL || state.before == SIZE_MAX))
             continue;
-        if (made->time_ns < to->time_ns)
+        if (between)
             state.object = object_between(&from->states.items[state.before].object, &state.object,
                                           length_s, share);
         state.object.id = arena_text(&made->arena, state.object.id, strlen(state.object.id));
