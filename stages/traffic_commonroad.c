@@ -31,7 +31,8 @@ struct document {
     char path[PATH_SIZE]; /* of those inside an obstacle, "/shape/rectangle" */
     char text[NAME_SIZE]; /* of the one that was opened last, without white space before it */
     size_t path_length, text_length;
-    bool in_obstacle, still, has_role;
+    bool in_obstacle, still;
+    unsigned ended;                      /* bit i: single_elements[i] of the obstacle */
     char id[NAME_SIZE], type[NAME_SIZE]; /* of the obstacle; empty: not said yet */
     struct area shape, position, part;   /* part is added to one of the others at its end */
     struct state state;
@@ -276,7 +277,7 @@ static void begin_obstacle(struct document *document, const char *name, const ch
     document->in_obstacle =
         document->still || strcmp(name, "obstacle") == 0 || strcmp(name, "dynamicObstacle") == 0;
     document->type[0] = '\0';
-    document->has_role = false;
+    document->ended = 0;
     document->shape = document->position = no_area;
     document->state = no_state;
     document->part = no_part;
@@ -323,24 +324,34 @@ static void end_in_state(struct document *document, const char *path, const char
             end_interval(document, &members[i], below(path, members[i].name));
 }
 
+/* Refuses a second element of a kind that an obstacle has once. */
+static void end_single(struct document *document, const char *name)
+{
+    static const char *const single_elements[] = {"/type", "/role", "/initialState", "/trajectory"};
+    for (unsigned i = 0; i < sizeof single_elements / sizeof single_elements[0]; i++) {
+        if (strcmp(document->path, single_elements[i]) != 0)
+            continue;
+        if ((document->ended & 1U << i) != 0)
+            fail(document, "a second element", name, "one");
+        document->ended |= 1U << i;
+    }
+}
+
 static void end_inside(struct document *document, const char *name)
 {
+    end_single(document, name);
     const char *path = document->path, *text = document->text;
     const char *initial = below(path, "/initialState"), *later = below(path, "/trajectory/state");
     if (initial != NULL || later != NULL)
         end_in_state(document, initial != NULL ? initial : later, name);
     else if (below(path, "/shape") != NULL)
         end_in_area(document, &document->shape, name);
-    else if ((strcmp(path, "/type") == 0 && document->type[0] != '\0') ||
-             (strcmp(path, "/role") == 0 && document->has_role))
-        fail(document, "a second element", name, "one");
     else if (strcmp(path, "/type") == 0 && recorded_row_name_fits(text))
         memcpy(document->type, text, strlen(text) + 1);
     else if (strcmp(path, "/role") == 0 && strcmp(text, "static") == 0)
         document->still = true;
     else if (strcmp(path, "/role") == 0 && strcmp(text, "dynamic") != 0)
         fail(document, "role", text, "static or dynamic");
-    document->has_role = document->has_role || strcmp(path, "/role") == 0;
 }
 
 static void on_end(void *context, const char *name)

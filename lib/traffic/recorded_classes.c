@@ -30,6 +30,7 @@ int recorded_classes_begin(struct recorded_classes *classes, const struct record
         return -1;
     for (const struct recorded_word *word = format->words; word->word != NULL; word++)
         add(classes, word);
+    classes->own_count = classes->words.count;
     for (const char *pair = map; pair != NULL; pair = after_pair(pair)) {
         size_t word = strcspn(pair, "=,"), length = strcspn(pair, ",");
         if (word == 0 || word + 1 >= length)
@@ -177,8 +178,19 @@ static const char *read_tag(const char *at, const char **values, struct arena *a
     return at + 1;
 }
 
+/* Is the id that of a type above, with another class or size? */
+static bool contradicts(const struct recorded_classes *classes, const struct recorded_word *before,
+                        const char *id)
+{
+    const struct recorded_word *now = known(classes, id, strlen(id));
+    return before->word != NULL &&
+           (strcmp(before->class, now->class) != 0 || before->length_m != now->length_m ||
+            before->width_m != now->width_m || before->height_m != now->height_m);
+}
+
 static int add_type(struct recorded_classes *classes, const char *const *values, struct diag *diag)
 {
+    struct recorded_word before = {0};
     double sizes_m[ATTRIBUTES] = {0};
     if (values[ID] == NULL || !recorded_row_name_fits(values[ID]))
         return diag_fail(diag, DIAG_DATA, "id is \"%.80s\"; expected 1 to 1024 ASCII characters",
@@ -189,9 +201,17 @@ static int add_type(struct recorded_classes *classes, const char *const *values,
              !(sizes_m[i] >= 0 && sizes_m[i] <= 1e6)))
             return diag_fail(diag, DIAG_DATA, "%s is \"%.80s\"; expected a number in [0, 1e+06]",
                              attributes[i], values[i]);
+    const struct recorded_word *same = known(classes, values[ID], strlen(values[ID]));
+    if (same != NULL && same >= classes->words.items + classes->own_count)
+        before = *same;
     recorded_classes_add(classes, values[ID], values[CLASS] != NULL ? values[CLASS] : "passenger",
                          sizes_m[LENGTH], sizes_m[WIDTH], sizes_m[HEIGHT]);
-    return 0;
+    return contradicts(classes, &before, values[ID])
+               ? diag_fail(diag, DIAG_DATA,
+                           "id is \"%.80s\", as that of a type above with another class or size; "
+                           "expected one type of an id",
+                           values[ID])
+               : 0;
 }
 
 /* Reads the tag, comment or the like that begins here: its end, or NULL after a message. */

@@ -10,6 +10,7 @@ struct recorded_classes {
     const struct recorded_word *own;       /* those of the format */
     struct intern known;                   /* words of the format, then those that are added */
     LIST_OF(struct recorded_word) words;   /* by the number of the word */
+    size_t own_count;                      /* how many of them are the format's */
     bool typed;                            /* are sizes those of types, not of rows? */
     struct document_names vehicles;        /* the classes that there are */
     struct intern asked;                   /* words */

@@ -148,10 +148,10 @@ static int link_states(struct recorded_steps *steps, struct recorded_step *step,
 }
 
 /* Refuses a recording whose road users hardly move although their speeds say that they go far: 10 m
- * in all at the end, or 100 km before it. Over such ways jumps and stops do not matter. */
+ * in all at the end, or 1 km before it. Over such ways jumps and stops do not matter. */
 static int check_speeds(const struct recorded_steps *steps, struct diag *diag)
 {
-    bool far = steps->said_m >= (steps->ended ? 10 : 1e5);
+    bool far = steps->said_m >= (steps->ended ? 10 : 1e3);
     if (!steps->reader.format->jumps || !far || steps->moved_m > 1e-3 * steps->said_m)
         return 0;
     return diag_fail(diag, DIAG_DATA,

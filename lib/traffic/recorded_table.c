@@ -239,7 +239,8 @@ static int read_part(struct recorded_table *table, const struct part *part,
         int at = part->at[i];
         bool skipped = columns[i].kind == RECORDED_TIME
                            ? at == ABSENT
-                           : columns[i].need != RECORDED_NEEDED && is_empty(table, at);
+                           : columns[i].need != RECORDED_NEEDED && is_empty(table, at) &&
+                                 (at == ABSENT || columns[i].kind != RECORDED_ALIKE);
         if (!skipped && read_cell(table, &columns[i], (size_t)at, &cells, diag) != 0)
             return -1;
     }

@@ -294,7 +294,7 @@ static void note_jumps(const struct recording *recording, struct diag *diag)
             diag->text, sizeof diag->text,
             "%s: %zu jumps to another lane are spread over %d s, and %zu of the angle over the "
             "way that the body needs to turn; sumo --lanechange.duration 3 or "
-            "--lateral-resolution 0.8 avoids the former",
+            "--lateral-resolution 0.8 avoids jumps to another lane",
             recording->source, jumps->lanes, RECORDED_JUMP_S, jumps->angles);
 }
 

@@ -314,6 +314,9 @@ def memory_is_64_bytes_a_row(folder):
     check(more - less <= 66 * (many - few), f"memory: {most}")
 
 
+ONCE = ("shape", "position", "type", "role", "initialState", "trajectory")
+
+
 def what_stands_twice_is_refused(folder):
     """Every element of which an obstacle has one, each number with a blank inside, and texts around an element."""
     tried = set()
@@ -321,12 +324,12 @@ def what_stands_twice_is_refused(folder):
         ignored = r"<!--.*?-->|<(lanelet|signalSeries|planningProblem|occupancySet|environmentObstacle)\b.*?</\1>"
         left_out = [match.span() for match in re.finditer(ignored, text, re.S)]
         leaves = "x|y|length|width|radius|orientation|exact|intervalStart|intervalEnd|type|role"
-        others = "shape|position|time|velocity|yawRate|slipAngle|velocityY|orientation|center"
+        others = "initialState|trajectory|shape|position|time|velocity|yawRate|slipAngle|velocityY|orientation|center"
         for match in re.finditer(rf"(?=(<({leaves})>([^<]*)</\2>|<({others})>.*?</\4>))", text, re.S):
             if any(first <= match.start() < end for first, end in left_out):
                 continue
             whole, name, value = match[1], match[2] or match[4], match[3]
-            broken = [(whole * 2, f'a second element is "{name}"; expected one' if name in ("shape", "position", "type", "role")
+            broken = [(whole * 2, f'a second element is "{name}"; expected one' if name in ONCE
                        else "; expected a single value")]
             if value and re.fullmatch(r"[-0-9.e]+", value):
                 broken += [(f"<{name}>1 {value}</{name}>", f'is "1 {value}"; expected a number in '),

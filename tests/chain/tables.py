@@ -303,6 +303,9 @@ def recordings_that_were_joined_are_refused(folder):
     check(other != rows, "another place")
     text = play(save(folder, {"t.csv": "\n".join([head, *rows, *other, ""])}), "--ego", "2", fails=65)
     check(f'row {len(rows) + 2}, column "Location": "i-80" is another recording' in text, text)
+    nowhere = [row.replace("us-101", "") for row in rows]
+    text = play(save(folder, {"t.csv": "\n".join([head, *nowhere, *rows, ""])}), "--ego", "2", fails=65)
+    check('column "Location": "us-101" is another recording' in text, text)
     last = IND["18_tracks.csv"].splitlines()[-1]
     joined = IND | {"18_tracks.csv": IND["18_tracks.csv"].replace(last, "19" + last[2:])}
     text = play(save(folder, joined), "--ego", "4", fails=65)
