@@ -346,9 +346,9 @@ def leaks_are_refused(folder):
     cases = [
         (plan_of([one], splits={"by": "ego"}), '/splits/by: "ego" leaks: egos of one recording see the same traffic'),
         (snapshots(9, splits={"by": "seed"}), '/splits/by: "seed" leaks: another seed is the same traffic'),
-        (plan_of([one | {"split": "train"}, two | {"split": "test"}], **by_recording), "in another split: it leaks"),
-        (plan_of([one | {"split": "train"}, copied | {"split": "test"}], **by_recording), "in another split: it leaks"),
-        (plan_of([one | {"split": "train"}, packed | {"split": "test"}], **by_recording), "in another split: it leaks"),
+        (plan_of([one | {"split": "train"}, two | {"split": "test"}], **by_recording), "in two splits, so it leaks"),
+        (plan_of([one | {"split": "train"}, copied | {"split": "test"}], **by_recording), "in two splits, so it leaks"),
+        (plan_of([one | {"split": "train"}, packed | {"split": "test"}], **by_recording), "in two splits, so it leaks"),
         (plan_of([alike], splits={"by": "scene", "shares": SHARES}), "/sources/0: scenes cut-in/ego/0 and cut-in/ego/1 are alike"),
         (plan_of([medium, medium]), "/sources/1: its scenes have the names of those of /sources/0"),
         (plan_of([one], splits={"by": "scene", "shares": SHARES}), "cannot be split by scene"),
