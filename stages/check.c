@@ -94,15 +94,22 @@ static int check_views(const struct frame *frame, const struct frame *again, str
     return 0;
 }
 
-/* What ideal counts: direct echoes, as frame_account_check knows all others, and reflectors in
- * view. */
+static int check_count(const struct count *told, const struct count *truth, struct diag *diag)
+{
+    for (enum path path = PATH_DIRECT; path < PATH_WHEEL; path++)
+        if (check_value("echoes", (double)frame_counted_echoes(told, path),
+                        (double)frame_counted_echoes(truth, path), diag) != 0)
+            return diag_prefix(diag, "paths: %s ", frame_path_name(path));
+    return check_value("pairs", (double)told->pairs, (double)truth->pairs, diag);
+}
+
+/* What ideal counts: direct echoes, ghosts and reflectors in view. frame_account_check knows what
+ * later stages count. */
 static int check_counts(const struct frame *frame, struct frame *again, struct diag *diag)
 {
     for (size_t i = 0; i < frame->counts.count && i < again->counts.count; i++)
-        if (check_value(
-                "echoes", (double)frame_counted_echoes(&frame->counts.items[i], PATH_DIRECT),
-                (double)frame_counted_echoes(&again->counts.items[i], PATH_DIRECT), diag) != 0)
-            return diag_prefix(diag, "counts[%zu].paths: direct ", i);
+        if (check_count(&frame->counts.items[i], &again->counts.items[i], diag) != 0)
+            return diag_prefix(diag, "counts[%zu].", i);
     again->targets = frame->targets;
     sightings_count_targets(again);
     for (size_t i = 0; i < frame->visibility.count && i < again->visibility.count; i++)
