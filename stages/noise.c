@@ -17,7 +17,7 @@ static size_t measure_cells(struct frame *frame, const struct effect_scan *conte
         const struct cell *cell = &cells.items[i];
         struct effect_measurement *measurement = &measurements[count];
         bool has_angle = measurement_noise_read(context, cell, measurement);
-        double threshold = context->sensor->threshold * interferer_noise_factor(cell->interference);
+        double threshold = interferer_threshold(context->sensor->threshold, cell->interference);
         if (tested && measurement->amplitude < threshold)
             frame_lose_cell(frame, "noise", cell, LOSS_BELOW_FINAL,
                             units_shortfall_db(threshold, measurement->amplitude),

@@ -75,8 +75,7 @@ void datasheet_of(const struct sensor *sensor, struct datasheet *sheet)
         sheet->accuracy[i] = accuracy_at(
             sensor, sensor->threshold * units_amplitude_from_db(10 * i), sheet->azimuth_rad);
     add_ranges(sensor, sheet);
-    double ercs =
-        sensor->threshold / (radar_strength(&sensor->amplitude_law, sensor->range_max_m, 1) *
-                             antenna_gain(&sensor->antenna, 0));
+    double ercs = sensor->threshold / radar_amplitude(&sensor->amplitude_law, &sensor->antenna,
+                                                      sensor->range_max_m, 0, 1);
     sheet->weakest_dbsm = 10 * elementary_log10(radar_cross_section_m2(ercs));
 }

@@ -105,8 +105,8 @@ static void add_strength(const struct detection_source *source,
     double ratio = measurement->amplitude / source->noise;
     double expected = units_amplitude_from_db(sensor->prior.snr_db);
     double azimuth_rad = elementary_min(fabs(measurement->azimuth_rad), PI / 2);
-    double reference = radar_strength(&sensor->amplitude_law, measurement->range_m, 1) *
-                       antenna_gain(&sensor->antenna, azimuth_rad);
+    double reference = radar_amplitude(&sensor->amplitude_law, &sensor->antenna,
+                                       measurement->range_m, azimuth_rad, 1);
     struct existence existence = source->existence;
     if (reference > 0) {
         quality->rcs_dbsm =

@@ -12,8 +12,8 @@ void target_list_note_margins(const struct sensor *sensor, const struct cell *ce
 {
     if (final_threshold)
         margins_note(margins, MARGIN_THRESHOLD,
-                     margins_between_db(amplitude, sensor->threshold * interferer_noise_factor(
-                                                                           cell->interference)));
+                     margins_between_db(
+                         amplitude, interferer_threshold(sensor->threshold, cell->interference)));
     margins_note_sign(margins, sensor->angle_estimator, pointers);
 }
 

@@ -31,3 +31,8 @@ double interferer_noise_factor(double ratio)
 {
     return sqrt(1 + ratio);
 }
+
+double interferer_threshold(double threshold, double ratio)
+{
+    return threshold * interferer_noise_factor(ratio);
+}

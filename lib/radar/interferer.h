@@ -21,5 +21,8 @@ double interferer_overlap(double band_hz, double slope_difference_hzps, double c
  * interfering chirp crosses at all. */
 double interferer_ratio(double power_dbm, double noise_dbm, double overlap, double hit_share);
 
-/* The factor on the noise's amplitude, and so on a threshold that follows it: sqrt(1 + INR). */
+/* The factor on the noise's amplitude, sqrt(1 + INR). */
 double interferer_noise_factor(double ratio);
+
+/* A detection threshold on an amplitude, as it rises with the noise. */
+double interferer_threshold(double threshold, double ratio);

@@ -54,6 +54,12 @@ double radar_strength(const struct radar_equation *equation, double range_m, dou
     return radar_reference_amplitude(equation, range_m) * ercs;
 }
 
+double radar_amplitude(const struct radar_equation *equation, const struct antenna *antenna,
+                       double range_m, double azimuth_rad, double ercs)
+{
+    return radar_strength(equation, range_m, ercs) * antenna_gain(antenna, azimuth_rad);
+}
+
 double radar_detection_range_m(const struct radar_equation *equation, double gain, double ercs)
 {
     if (equation->law == RADAR_TABLE)

@@ -5,7 +5,7 @@
  * or a table, straight between its rows in the logarithms of range and amplitude. */
 #pragma once
 
-#include <stddef.h>
+#include "radar/antenna.h"
 
 enum radar_law { RADAR_POWER_LAW, RADAR_TABLE };
 
@@ -29,9 +29,11 @@ struct radar_equation {
  * goes on as between the last two. */
 double radar_reference_amplitude(const struct radar_equation *equation, double range_m);
 
-/* The strength G of an echo before the antenna, A_ref · ERCS; its amplitude is G · A_phi, equation
- * (2). */
+/* The strength G of an echo before the antenna, A_ref · ERCS, and its amplitude, G · A_phi,
+ * equation (2). */
 double radar_strength(const struct radar_equation *equation, double range_m, double ercs);
+double radar_amplitude(const struct radar_equation *equation, const struct antenna *antenna,
+                       double range_m, double azimuth_rad, double ercs);
 
 /* The range up to which A_ref · gain · ercs meets the threshold (MODEL 4.1): by the power law
  * calibration_range_m (ercs · gain / calibration_ercs)^(1/exponent), by a table where its amplitude

@@ -108,7 +108,7 @@ struct margins *cell_margins_of(const struct sensor *sensor, const struct cluste
 void cell_margins_add(const struct sensor *sensor, struct cell *cell)
 {
     margins_note(&cell->margins, MARGIN_THRESHOLD,
-                 margins_between_db(cell->amplitude, sensor->threshold * interferer_noise_factor(
-                                                                             cell->interference)));
+                 margins_between_db(cell->amplitude,
+                                    interferer_threshold(sensor->threshold, cell->interference)));
     margins_note_sign(&cell->margins, sensor->angle_estimator, frame_cell_pointers(cell));
 }

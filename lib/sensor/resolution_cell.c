@@ -139,7 +139,7 @@ void resolution_cell_list(struct frame *frame, const char *stage, const struct s
                           const struct selection *selection, const struct cell *cell,
                           bool has_angle)
 {
-    double threshold = sensor->threshold * interferer_noise_factor(cell->interference);
+    double threshold = interferer_threshold(sensor->threshold, cell->interference);
     if (effects_enabled(selection, EFFECT_THRESHOLD) && cell->amplitude < threshold)
         frame_lose_cell(frame, stage, cell, LOSS_BELOW_THRESHOLD,
                         units_shortfall_db(threshold, cell->amplitude), &cell->margins);

@@ -71,9 +71,8 @@ struct detections detections_of(const struct signal_cube *signal,
         .spectrum = spectrum,
         .cfar = waveform_cfar(&signal->sensor->waveform, SIGNAL_CUBE_PADDING, spectrum->beams),
         .noise = noise,
-        .least = noise > 0
-                     ? 0
-                     : signal->sensor->threshold * interferer_noise_factor(context->interference),
+        .least =
+            noise > 0 ? 0 : interferer_threshold(signal->sensor->threshold, context->interference),
         .time_s = context->time_s,
     };
     struct range_doppler_peak *peaks;

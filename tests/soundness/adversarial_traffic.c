@@ -84,8 +84,8 @@ static struct object *add_box(struct builder *builder, enum random_traffic_class
 static double amplitude(const struct builder *builder, const struct spot *spot)
 {
     double ercs = builder->models[spot->class].reflectors->points.items[0].ercs;
-    return radar_strength(&builder->sensor->amplitude_law, spot->range_m, ercs) *
-           antenna_gain(&builder->sensor->antenna, spot->azimuth_rad);
+    return radar_amplitude(&builder->sensor->amplitude_law, &builder->sensor->antenna,
+                           spot->range_m, spot->azimuth_rad, ercs);
 }
 
 static enum random_traffic_class draw_point_class(struct random_sequence *sequence)
