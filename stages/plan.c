@@ -2,7 +2,7 @@
  * it the simpler stage that may stand in for it, and prints which stages and effects were needed.
  * Or, with a bound or for a table, measures what accuracy costs on a sample of the frames. */
 #include "run/plan.h"
-#include "run/cost_text.h"
+#include "run/cost.h"
 #include "run/fused.h"
 #include "run/suite_choice.h"
 #include "run/tool.h"
@@ -151,10 +151,10 @@ static int try_sample(struct plan_state *own, struct runner *runner)
 {
     struct arena arena = {0};
     struct frame frame = {.arena = &arena};
-    const struct frame_sample *sample = &own->measured.sample;
+    const struct ladder_sample *sample = &own->measured.sample;
     int result = 0;
     for (size_t i = 0; result == 0 && i < sample->list.count; i++)
-        if (frame_sample_read(&sample->list.items[i], &frame, runner_diag(runner)) != 0 ||
+        if (ladder_sample_read(&sample->list.items[i], &frame, runner_diag(runner)) != 0 ||
             try_chain(own, &frame, runner) != 0)
             result = diag_prefix(runner_diag(runner), "scene \"%s\", frame %lld: ", frame.scene,
                                  (long long)frame.frame);
@@ -166,7 +166,7 @@ static int try_sample(struct plan_state *own, struct runner *runner)
 static int measure(struct plan_state *own, struct runner *runner)
 {
     struct cost *cost = &own->measured;
-    frame_sample_divide(&cost->sample);
+    ladder_sample_divide(&cost->sample);
     if (cost->sample.list.count == 0)
         return 0;
     if (try_sample(own, runner) != 0)
@@ -193,9 +193,9 @@ static void print(const struct plan_state *own, struct arena *arena, struct text
     else if (own->json)
         record_text_write(&cost_record, cost, NULL, text);
     else if (own->chosen != NULL)
-        cost_text_pipeline(cost, own->chosen, text);
+        cost_write_pipeline(cost, own->chosen, text);
     else
-        cost_text_table(cost, text);
+        cost_write_table(cost, text);
 }
 
 static int plan_run(void *state, struct runner *runner)
@@ -210,7 +210,7 @@ static int plan_run(void *state, struct runner *runner)
     struct frame *frame;
     int more;
     while ((more = runner_frame(runner, &frame)) > 0)
-        if ((own->cost ? frame_sample_add(&own->measured.sample, frame, diag)
+        if ((own->cost ? ladder_sample_add(&own->measured.sample, frame, diag)
                        : try_chain(own, frame, runner)) != 0)
             return -1;
     if (more < 0 || (own->cost && measure(own, runner) != 0))

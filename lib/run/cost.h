@@ -23,7 +23,7 @@ struct cost {
     const char *whole;        /* what tables call the chain with all effects that are allowed */
     uint64_t allowed, needed; /* EFFECT_BITs of what was asked for, and of what frames call for */
     struct runner *runner;
-    struct frame_sample sample;
+    struct ladder_sample sample;
     struct ladder ladder;
 };
 
@@ -46,3 +46,11 @@ struct relative_error cost_added(const struct cost *cost, const struct ladder_ch
  * chain holds the bound (DIAG_DATA). */
 enum cost_bound { COST_BOUND_ERROR, COST_BOUND_US };
 const struct ladder_chain *cost_find(struct cost *cost, enum cost_bound bound, double most);
+
+/* A table: a line for each chain, under lines that say what was measured. */
+void cost_write_table(const struct cost *cost, struct text *text);
+
+/* A script: as comments the chain's time and error, and for every effect that it leaves out what
+ * that saves and adds; then its pipeline. */
+void cost_write_pipeline(const struct cost *cost, const struct ladder_chain *chain,
+                         struct text *text);

@@ -1,9 +1,12 @@
 #include "run/ladder.h"
 
+#include <inttypes.h>
 #include <time.h>
 
+#include "base/random.h"
 #include "base/sort.h"
 #include "frame/frame_text.h"
+#include "run/frame_stream.h"
 #include "run/fused.h"
 #include "run/suite_choice.h"
 #include "run/tool.h"
@@ -11,7 +14,97 @@
 #include "score/target_score.h"
 #include "text/list_cache.h"
 
-enum { SEEDS = LADDER_SEEDS, ALL = 2 * SEEDS };
+enum { SEEDS = LADDER_SEEDS, ALL = 2 * SEEDS, FEWEST_BLOCKS = 10 };
+
+/* Which of two: drawn for a stretch of this length, at this place among those of its length. */
+static int64_t drawn_half(int64_t stretch, int64_t length)
+{
+    double uniform[4];
+    struct random_address address = {.frame = (uint64_t)stretch, .item = (uint64_t)length};
+    random_uniform(&address, RANDOM_SAMPLE, 0, uniform);
+    return uniform[0] < 0.5 ? 0 : 1;
+}
+
+/* True if the frame is the one of its stretch. A stretch keeps what one of its halves keeps, so a
+ * frame that is left out stays out when the stretches grow. */
+static bool is_kept(int64_t place, int64_t stride)
+{
+    for (int64_t half = 1; half < stride; half *= 2)
+        if (drawn_half(place / half / 2, 2 * half) != place / half % 2)
+            return false;
+    return true;
+}
+
+static void lengthen_stretches(struct ladder_sample *sample)
+{
+    sample->stride *= 2;
+    size_t kept = 0;
+    for (size_t i = 0; i < sample->list.count; i++)
+        if (is_kept(sample->list.items[i].place, sample->stride))
+            sample->list.items[kept++] = sample->list.items[i];
+    sample->list.count = kept;
+}
+
+/* Frames of one name and different seeds are of different scenes. */
+static size_t scene_of(struct ladder_sample *sample, const struct frame *frame)
+{
+    struct text key = {0};
+    text_format(&key, "%" PRIu64 " %s", frame->seed, frame->scene);
+    size_t number = intern_number(&sample->names, key.bytes, key.length, sample->arena);
+    text_free(&key);
+    return number;
+}
+
+int ladder_sample_add(struct ladder_sample *sample, const struct frame *frame, struct diag *diag)
+{
+    if (sample->seen == 0)
+        sample->stride = 1;
+    int64_t place = sample->seen++;
+    if (!is_kept(place, sample->stride))
+        return 0;
+    struct frame bare = *frame;
+    struct text line = {0};
+    frame_drop(&bare, ~(unsigned)(SECTION_OBJECTS | SECTION_VEHICLES | SECTION_REFLECTORS));
+    bare.sections = CARRY_BY_DEFAULT;
+    int result = frame_text_write(&bare, &line, diag);
+    if (result == 0)
+        *list_add(&sample->list, sample->arena) = (struct ladder_frame){
+            .line = arena_text(sample->arena, line.bytes, line.length - 1),
+            .length = line.length - 1,
+            .seed = frame->seed,
+            .place = place,
+            .scene = scene_of(sample, frame),
+        };
+    text_free(&line);
+    while ((int64_t)sample->list.count > sample->most)
+        lengthen_stretches(sample);
+    return result;
+}
+
+int ladder_sample_read(const struct ladder_frame *sampled, struct frame *frame, struct diag *diag)
+{
+    return frame_stream_parse(sampled->line, sampled->length, frame, diag);
+}
+
+void ladder_sample_divide(struct ladder_sample *sample)
+{
+    size_t count = sample->list.count, scenes = sample->names.list.count;
+    size_t *frames = arena_get(sample->arena, (scenes + 1) * sizeof *frames);
+    size_t *passed = arena_get(sample->arena, (scenes + 1) * sizeof *passed);
+    size_t *first = arena_get(sample->arena, (scenes + 1) * sizeof *first);
+    for (size_t i = 0; i < count; i++)
+        sample->scenes += frames[sample->list.items[i].scene]++ == 0;
+    size_t length = sample->scenes >= FEWEST_BLOCKS ? count : count / FEWEST_BLOCKS;
+    length += length == 0;
+    for (size_t i = 0; i < scenes; i++)
+        first[i + 1] = first[i] + (frames[i] + length - 1) / length;
+    for (size_t i = 0; i < count; i++) {
+        struct ladder_frame *frame = &sample->list.items[i];
+        size_t blocks = first[frame->scene + 1] - first[frame->scene];
+        frame->block = first[frame->scene] + passed[frame->scene]++ * blocks / frames[frame->scene];
+    }
+    sample->blocks = first[scenes];
+}
 
 /* One run of a chain over the sample. */
 struct pass {
@@ -35,13 +128,13 @@ static int64_t cpu_ns(void)
 }
 
 /* One frame as `glint` runs it, from its line to a line. */
-static int run_frame(struct pass *pass, const struct sampled_frame *sampled)
+static int run_frame(struct pass *pass, const struct ladder_frame *sampled)
 {
     struct runner *runner = pass->ladder->runner;
     struct frame *frame = &pass->frame;
     struct diag *diag = runner_diag(runner);
     int64_t begin_ns = cpu_ns();
-    if (frame_sample_read(sampled, frame, diag) != 0)
+    if (ladder_sample_read(sampled, frame, diag) != 0)
         return -1;
     frame->seed = sampled->seed + (pass->seed << 32);
     for (size_t i = (frame->present & SECTION_REFLECTORS) != 0; i < pass->stages.count; i++)
@@ -56,7 +149,7 @@ static int run_frame(struct pass *pass, const struct sampled_frame *sampled)
 }
 
 /* The first pass of all notes which scans there are. */
-static int keep_lists(struct pass *pass, const struct sampled_frame *sampled)
+static int keep_lists(struct pass *pass, const struct ladder_frame *sampled)
 {
     const struct frame *frame = &pass->frame;
     for (size_t i = 0; i < frame->sensors.list.count; i++) {
@@ -86,7 +179,7 @@ static void show_progress(struct ladder *ladder)
 
 static int run_pass(struct pass *pass)
 {
-    const struct frame_sample *sample = pass->ladder->sample;
+    const struct ladder_sample *sample = pass->ladder->sample;
     pass->frame.arena = &pass->arena;
     pass->frame.list_cache = &pass->cache;
     int result = 0;
@@ -151,7 +244,7 @@ static int run_chain(struct ladder *ladder, struct ladder_chain *chain, uint64_t
 /* Counts the scans of scenes and blocks, numbers the blocks that have any, and weighs them. */
 static void weigh_blocks(struct ladder *ladder)
 {
-    const struct frame_sample *sample = ladder->sample;
+    const struct ladder_sample *sample = ladder->sample;
     struct arena *arena = runner_arena(ladder->runner);
     size_t scenes = 0, names = sample->names.list.count, count = ladder->scans.count;
     double *of_scene = arena_get(arena, names * sizeof *of_scene);

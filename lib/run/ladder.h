@@ -9,7 +9,7 @@
  * through all stages, and is written. */
 #pragma once
 
-#include "run/frame_sample.h"
+#include "base/intern.h"
 #include "run/progress.h"
 #include "run/stage.h"
 #include "score/list_embedding.h"
@@ -18,6 +18,37 @@
 enum { LADDER_SEEDS = 4 };
 
 enum { LADDER_ENERGY = 1 << 0, LADDER_ERROR = 1 << 1 };
+
+struct ladder_frame {
+    const char *line; /* without its newline */
+    size_t length;
+    uint64_t seed;
+    int64_t place;       /* in the stream, from 0 */
+    size_t scene, block; /* numbers; the block is set by ladder_sample_divide */
+};
+
+/* A sample of a stream's frames, spread evenly over it. All frames are kept until there are more
+ * than `most`. Then one of each stretch of 2 is kept, of 4, of 8 and so on: drawn by its place in
+ * the stream alone, so that no sensor's cycle is in step with the sample. Frames are kept as lines
+ * of their objects and reflectors. Zeroed but for arena and most before the first frame. */
+struct ladder_sample {
+    struct arena *arena;
+    int64_t most; /* of the frames that are kept; at least 1 */
+    int64_t seen, stride;
+    LIST_OF(struct ladder_frame) list;
+    struct intern names;   /* of scenes, with their seeds */
+    size_t scenes, blocks; /* of the frames that are kept; set by ladder_sample_divide */
+};
+
+int ladder_sample_add(struct ladder_sample *sample, const struct frame *frame, struct diag *diag);
+
+/* After the last frame: divides the sample into blocks. A block is a scene if there are 10 or more;
+ * else each scene is cut into stretches, 10 in all or a few more, or as many as there are frames.
+ */
+void ladder_sample_divide(struct ladder_sample *sample);
+
+/* Reads a frame of the sample, in canonical order and checked. */
+int ladder_sample_read(const struct ladder_frame *sampled, struct frame *frame, struct diag *diag);
 
 /* A chain, as it was measured. The first group of members says what it is, ladder_climb measures
  * the second, and cost.h the third. */
@@ -50,7 +81,7 @@ struct ladder_scan {
 /* The first group of members is the caller's, the rest zeroed. */
 struct ladder {
     struct runner *runner; /* of the tool; its diag has the messages */
-    const struct frame_sample *sample;
+    const struct ladder_sample *sample;
     const char *sensors; /* the suite */
     size_t expected;     /* chains, for the time left */
 

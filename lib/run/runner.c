@@ -186,14 +186,14 @@ static int prepare(struct runner *runner, size_t count, const char *const *words
 int runner_prepare(struct runner *runner, const struct stage *stage, size_t count,
                    const char *const *words)
 {
-    *runner = (struct runner){.program = program_of_stage(stage), .stage = stage};
+    *runner = (struct runner){.program = options_program_of_stage(stage), .stage = stage};
     return prepare(runner, count, words);
 }
 
 int runner_prepare_tool(struct runner *runner, const struct tool *tool, size_t count,
                         const char *const *words)
 {
-    *runner = (struct runner){.program = program_of_tool(tool), .tool = tool};
+    *runner = (struct runner){.program = options_program_of_tool(tool), .tool = tool};
     return prepare(runner, count, words);
 }
 
@@ -360,7 +360,7 @@ struct runner *runner_trial(struct runner *runner, const struct stage *stage,
     struct runner *trial = arena_get(&runner->arena, sizeof *trial);
     *list_add(&runner->tried, &runner->arena) = trial;
     *trial = (struct runner){
-        .program = program_of_stage(stage), .stage = stage, .log = log, .before = runner};
+        .program = options_program_of_stage(stage), .stage = stage, .log = log, .before = runner};
     trial->state = arena_get(&trial->arena, stage->options->size);
     field_clear(stage->options, trial->state);
     if (choice != NULL)
