@@ -7,31 +7,32 @@ static const char *const windows[] = {
     [POINT_RESPONSE_HANN] = "hann", [POINT_RESPONSE_RECTANGULAR] = "rectangular", NULL};
 static const char *const cfars[] = {[CFAR_ORDERED] = "ordered", [CFAR_MEAN] = "mean", NULL};
 
-#define INTEGER(member, low, high, help) FIELD_INTEGER_IN(struct waveform, member, low, high, help)
-#define OPTIONAL(member, low, high, help) OPTIONAL_INTEGER(struct waveform, member, low, high, help)
-
 static const struct field waveform_fields[] = {
     {FIELD_CHOICE_OF(struct waveform, kind, kinds,
                      "a chirp that is mixed with its echo, or a pulse")},
-    {INTEGER(samples, 16, 4096, "range bins: one to a range cell for chirps, four for pulses")},
-    {INTEGER(repetitions, 16, 4096, "chirps or pulses of a train, as many as range rate cells")},
-    {OPTIONAL(
-        stagger, 2, 64,
+    {FIELD_INTEGER_IN(struct waveform, samples, 16, 4096,
+                      "range bins: one to a range cell for chirps, four for pulses")},
+    {FIELD_INTEGER_IN(struct waveform, repetitions, 16, 4096,
+                      "chirps or pulses of a train, as many as range rate cells")},
+    {OPTIONAL_INTEGER(
+        struct waveform, stagger, 2, 64,
         "n: a second train, 1 + 1/n as long, tells n folds of range rate apart; absent: none")},
-    {OPTIONAL(elements, 2, 64, "receivers in a row; absent: the antenna's sum and delta channel")},
+    {OPTIONAL_INTEGER(struct waveform, elements, 2, 64,
+                      "receivers in a row; absent: the antenna's sum and delta channel")},
     {OPTIONAL_REAL(struct waveform, spacing, 0.1, 100, "distance between elements, in wavelengths"),
      .absent = 0.5},
     {OPTIONAL_CHOICE(struct waveform, window, windows, "window of the Fourier transforms")},
     {OPTIONAL_CHOICE(struct waveform, cfar, cfars,
                      "noise level of a cell: the neighbour of cfar_rank, or the mean of all")},
-    {OPTIONAL(
-         cfar_cells, 2, CFAR_MOST_CELLS,
+    {OPTIONAL_INTEGER(
+         struct waveform, cfar_cells, 2, CFAR_MOST_CELLS,
          "neighbours in range rate, half of them on each side; every third with Hann's window"),
      .absent = 16},
-    {OPTIONAL(cfar_guard, 0, 64, "cells between a cell and its neighbours, on each side"),
+    {OPTIONAL_INTEGER(struct waveform, cfar_guard, 0, 64,
+                      "cells between a cell and its neighbours, on each side"),
      .absent = 2},
-    {OPTIONAL(cfar_rank, 1, CFAR_MOST_CELLS,
-              "ordered: rank of the neighbour, from 1 for the weakest"),
+    {OPTIONAL_INTEGER(struct waveform, cfar_rank, 1, CFAR_MOST_CELLS,
+                      "ordered: rank of the neighbour, from 1 for the weakest"),
      .absent = 12},
     {OPTIONAL_REAL(struct waveform, cfar_false_alarm, 1e-12, 0.5,
                    "probability that noise alone passes the threshold"),

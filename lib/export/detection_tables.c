@@ -30,7 +30,7 @@ struct row {
 enum { NO_KEY = -1 };
 
 #define WHOLE(member, help) FIELD_INTEGER_IN(struct row, member, -2, 0x1p53, help)
-#define REAL(member, help) FIELD_REAL_IN(struct row, member, -1e11, 1e11, help)
+#define ROW_REAL(member, help) FIELD_REAL_IN(struct row, member, -1e11, 1e11, help)
 #define WORD(member, help) FIELD_NAME_OF(struct row, member, help)
 #define KEY(member, help)                                                                          \
     {                                                                                              \
@@ -40,7 +40,7 @@ enum { NO_KEY = -1 };
     {WORD(scene, "unique in a set: source, ego, variant")},                                        \
         {WHOLE(frame, "number in the scene, from 0")},                                             \
     {                                                                                              \
-        REAL(time_s, "end of the interval that the frame stands for")                              \
+        ROW_REAL(time_s, "end of the interval that the frame stands for")                          \
     }
 #define RECORD(fields)                                                                             \
     {                                                                                              \
@@ -58,11 +58,11 @@ static const struct field detection_fields[] = {
 static const struct record detection_record = RECORD(detection_fields);
 
 static const struct field pose_fields[] = {
-    {REAL(sensor_x_m, "place of the sensor at the measurement, from the frame's origin")},
-    {REAL(sensor_y_m, "place of the sensor at the measurement, from the frame's origin")},
-    {REAL(sensor_yaw_rad, "direction of its boresight")},
-    {REAL(sensor_vx_mps, "velocity of the sensor")},
-    {REAL(sensor_vy_mps, "velocity of the sensor")},
+    {ROW_REAL(sensor_x_m, "place of the sensor at the measurement, from the frame's origin")},
+    {ROW_REAL(sensor_y_m, "place of the sensor at the measurement, from the frame's origin")},
+    {ROW_REAL(sensor_yaw_rad, "direction of its boresight")},
+    {ROW_REAL(sensor_vx_mps, "velocity of the sensor")},
+    {ROW_REAL(sensor_vy_mps, "velocity of the sensor")},
     {0},
 };
 static const struct record pose_record = RECORD(pose_fields);
@@ -97,11 +97,11 @@ static const struct record frame_row_record = RECORD(frame_row_fields);
 
 static const struct field of_frame_fields[] = {
     {FIELD_SEED_OF(struct row, seed, "seed of all random numbers")},
-    {REAL(interval_s, "length of that interval")},
+    {ROW_REAL(interval_s, "length of that interval")},
     {FIELD_FLAG_OF(struct row, last, "is this the scene's last frame?")},
     {WORD(ego, "id of the object that carries the sensors")},
-    {REAL(origin_x_m, "origin of the frame's coordinates in those of the source")},
-    {REAL(origin_y_m, "origin of the frame's coordinates in those of the source")},
+    {ROW_REAL(origin_x_m, "origin of the frame's coordinates in those of the source")},
+    {ROW_REAL(origin_y_m, "origin of the frame's coordinates in those of the source")},
     {WORD(suite, "name of the suite document")},
     {0},
 };
@@ -109,7 +109,7 @@ static const struct record of_frame_record = RECORD(of_frame_fields);
 
 static const struct field measurement_fields[] = {
     {WORD(sensor, "name in the suite")},
-    {REAL(measured_s, "instant of the measurement")},
+    {ROW_REAL(measured_s, "instant of the measurement")},
     {WHOLE(detections, "targets of this scan")},
     {0},
 };

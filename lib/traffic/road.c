@@ -2,13 +2,12 @@
 
 #include "text/document.h"
 
-#define REAL(owner, member, low, high, help) FIELD_REAL_IN(owner, member, low, high, help)
 #define REAL_OR(owner, member, low, high, missing, help)                                           \
     OPTIONAL_REAL(owner, member, low, high, help), .absent = (missing)
 
 static const struct field point_fields[] = {
-    {REAL(struct road_point, x_m, -1e9, 1e9, "of the road's line")},
-    {REAL(struct road_point, y_m, -1e9, 1e9, "of the road's line")},
+    {FIELD_REAL_IN(struct road_point, x_m, -1e9, 1e9, "of the road's line")},
+    {FIELD_REAL_IN(struct road_point, y_m, -1e9, 1e9, "of the road's line")},
     {0},
 };
 
@@ -16,9 +15,9 @@ static const struct record point_record = {
     FIELD_TABLE(struct road_point, point_fields, "point", "A corner of a road's line.")};
 
 static const struct field signal_fields[] = {
-    {REAL(struct road_signal, at_m, 0, 1e6, "place of the stop line along the lane")},
-    {REAL(struct road_signal, green_s, 0, 1e6, "how long it is green")},
-    {REAL(struct road_signal, red_s, 0, 1e6, "how long it is red behind that")},
+    {FIELD_REAL_IN(struct road_signal, at_m, 0, 1e6, "place of the stop line along the lane")},
+    {FIELD_REAL_IN(struct road_signal, green_s, 0, 1e6, "how long it is green")},
+    {FIELD_REAL_IN(struct road_signal, red_s, 0, 1e6, "how long it is red behind that")},
     {REAL_OR(struct road_signal, offset_s, 0, 1e6, 0, "when warmup_s begins, this long green")},
     {0},
 };
@@ -28,8 +27,8 @@ static const struct record signal_record = {FIELD_TABLE(
 
 static const struct field arrivals_fields[] = {
     {FIELD_NAME_OF(struct road_arrivals, class, "names the vehicle document")},
-    {REAL(struct road_arrivals, flow_per_h, 0, 1e4,
-          "how many come in an hour, as a Poisson process")},
+    {FIELD_REAL_IN(struct road_arrivals, flow_per_h, 0, 1e4,
+                   "how many come in an hour, as a Poisson process")},
     {REAL_OR(struct road_arrivals, length_m, 0, 100, 0, "0: the default of the class")},
     {REAL_OR(struct road_arrivals, width_m, 0, 100, 0, "0: the default of the class")},
     {REAL_OR(struct road_arrivals, height_m, 0, 100, 0, "0: the default of the class")},
@@ -51,10 +50,10 @@ static const struct record arrivals_record = {
                 "Vehicles of a class, driven by the Intelligent Driver Model (IDM).")};
 
 static const struct field lane_fields[] = {
-    {REAL(struct road_lane, offset_m, -100, 100,
-          "of its middle from the road's line, left positive")},
+    {FIELD_REAL_IN(struct road_lane, offset_m, -100, 100,
+                   "of its middle from the road's line, left positive")},
     {OPTIONAL_FLAG(struct road_lane, oncoming, "it leads from the last point to the first")},
-    {REAL(struct road_lane, limit_mps, 0.1, 100, "what drivers want to drive")},
+    {FIELD_REAL_IN(struct road_lane, limit_mps, 0.1, 100, "what drivers want to drive")},
     {FIELD_LIST_OF(struct road_lane, arrivals, &arrivals_record,
                    "who comes; who finds no safe gap waits outside")},
     {OPTIONAL_LIST(struct road_lane, signals, &signal_record, "lights")},

@@ -7,11 +7,8 @@
 #include "text/document.h"
 #include "text/variation.h"
 
-#define REAL(owner, member, low, high, help) FIELD_REAL_IN(owner, member, low, high, help)
-#define NAME(owner, member, help) FIELD_NAME_OF(owner, member, help)
-
 static const struct field segment_fields[] = {
-    {REAL(struct segment, duration_s, 0, 1e6, "the next segment begins after this time")},
+    {FIELD_REAL_IN(struct segment, duration_s, 0, 1e6, "the next segment begins after this time")},
     {OPTIONAL_REAL(struct segment, acceleration_mps2, -1e3, 1e3, "along the heading")},
     {OPTIONAL_REAL(struct segment, yaw_rate_radps, -1e3, 1e3, "turn rate, left positive")},
     {0},
@@ -21,10 +18,10 @@ static const struct record segment_record = {FIELD_TABLE(
     struct segment, segment_fields, "segment", "A time of constant acceleration and turn rate.")};
 
 static const struct field waypoint_fields[] = {
-    {REAL(struct waypoint, time_s, 0, 1e6,
-          "when the object is there; later than at the waypoint before")},
-    {REAL(struct waypoint, x_m, -1e9, 1e9, "centre of the box")},
-    {REAL(struct waypoint, y_m, -1e9, 1e9, "centre of the box")},
+    {FIELD_REAL_IN(struct waypoint, time_s, 0, 1e6,
+                   "when the object is there; later than at the waypoint before")},
+    {FIELD_REAL_IN(struct waypoint, x_m, -1e9, 1e9, "centre of the box")},
+    {FIELD_REAL_IN(struct waypoint, y_m, -1e9, 1e9, "centre of the box")},
     {0},
 };
 
@@ -32,8 +29,8 @@ static const struct record waypoint_record = {
     FIELD_TABLE(struct waypoint, waypoint_fields, "waypoint", "A place and when to be there.")};
 
 static const struct field actor_fields[] = {
-    {NAME(struct actor, id, "unique in the scenario")},
-    {NAME(struct actor, class, "names the vehicle document")},
+    {FIELD_NAME_OF(struct actor, id, "unique in the scenario")},
+    {FIELD_NAME_OF(struct actor, class, "names the vehicle document")},
     {OPTIONAL_REAL(struct actor, length_m, 0, 1e6, "0: the default of the class")},
     {OPTIONAL_REAL(struct actor, width_m, 0, 1e6, "0: the default of the class")},
     {OPTIONAL_REAL(struct actor, height_m, 0, 1e6, "0: the default of the class")},
@@ -50,10 +47,10 @@ static const struct record actor_record = {
     FIELD_TABLE(struct actor, actor_fields, "object", "A road user or thing, and how it moves.")};
 
 static const struct field scenario_fields[] = {
-    {NAME(struct scenario, origin, "who made this, and from what")},
-    {NAME(struct scenario, ego, "id of the object that carries the sensors")},
-    {REAL(struct scenario, rate_hz, 0.1, 1e4, "frames in a second")},
-    {REAL(struct scenario, duration_s, 0, 1e6, "the last frame is not later")},
+    {FIELD_NAME_OF(struct scenario, origin, "who made this, and from what")},
+    {FIELD_NAME_OF(struct scenario, ego, "id of the object that carries the sensors")},
+    {FIELD_REAL_IN(struct scenario, rate_hz, 0.1, 1e4, "frames in a second")},
+    {FIELD_REAL_IN(struct scenario, duration_s, 0, 1e6, "the last frame is not later")},
     {OPTIONAL_RECORD(struct scenario, conditions, &conditions_record, "road and weather")},
     {FIELD_LIST_OF(struct scenario, objects, &actor_record,
                    "all objects, the ego too unless it is one of roads")},
