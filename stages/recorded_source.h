@@ -2,8 +2,8 @@
  * with a recorded_source, and its table of options with RECORDED_SOURCE. */
 #pragma once
 
+#include "recorded/recording.h"
 #include "run/stage.h"
-#include "traffic/recording.h"
 
 struct recorded_source {
     const char *source; /* the operand */

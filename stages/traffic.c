@@ -1,8 +1,8 @@
 /* Traffic: plays a scenario document or a recorded table, frame by frame. */
+#include "recorded/recorded_table.h"
+#include "recorded/recording.h"
 #include "run/stage.h"
 #include "text/document.h"
-#include "traffic/recorded_table.h"
-#include "traffic/recording.h"
 #include "traffic/scenario_scenes.h"
 
 struct traffic {
@@ -150,7 +150,7 @@ const struct stage stage_traffic = {
         "the next step. --rate-hz takes cubic curves between steps.\n"
         "\n"
         "What words of tables mean:"
-#include "traffic/recorded_classes.def"
+#include "recorded/recorded_classes.def"
     ,
     .options = STAGE_OPTIONS(struct traffic, traffic_options),
     .operand = "SOURCE",

@@ -407,7 +407,7 @@ static int next_event(void *state, struct recorded_row *row, struct diag *diag)
 }
 
 #define COMMONROAD RECORDED_WORD
-#include "traffic/recorded_words.def"
+#include "recorded/recorded_words.def"
 
 static const struct recorded_format format = {
     .name = "a scenario of CommonRoad",
@@ -466,7 +466,7 @@ const struct stage stage_traffic_commonroad = {
         "whole before the first frame.\n"
         "\n"
         "What types of obstacles mean:"
-#include "traffic/recorded_classes.def"
+#include "recorded/recorded_classes.def"
     ,
     .options = STAGE_OPTIONS(struct traffic_commonroad, traffic_commonroad_fields),
     .operand = "SOURCE",

@@ -44,7 +44,7 @@ static const struct type {
     const char *word;
 } types[] = {
 #define OSI(kind, number, word, class) {kind, number, word},
-#include "traffic/recorded_classes.def"
+#include "recorded/recorded_classes.def"
 };
 
 static const char *word_of(enum object_kind kind, int32_t number, struct arena *arena)
@@ -324,7 +324,7 @@ static void close_trace(void *state)
 }
 
 #define OSI(kind, number, word, class) RECORDED_WORD(word, class)
-#include "traffic/recorded_words.def"
+#include "recorded/recorded_words.def"
 
 static const struct recorded_format format = {
     .name = "an OSI trace",
@@ -392,7 +392,7 @@ const struct stage stage_traffic_osi = {
         "class stay until a message has others; all others are left out.\n"
         "\n"
         "What types of objects mean:"
-#include "traffic/recorded_classes.def"
+#include "recorded/recorded_classes.def"
     ,
     .options = STAGE_OPTIONS(struct traffic_osi, traffic_osi_fields),
     .operand = "SOURCE",

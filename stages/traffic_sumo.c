@@ -1,8 +1,8 @@
 /* Traffic of SUMO: floating car data as XML, also from a pipe while SUMO runs, or as a table. */
 /* needs: expat */
 #include "base/units.h"
+#include "recorded/recorded_table.h"
 #include "recorded_source.h"
-#include "traffic/recorded_table.h"
 #include "xml_rows.h"
 
 /* Floating car data that are being read. */
@@ -196,7 +196,7 @@ const struct stage stage_traffic_sumo = {
         "\n"
         "Classes and sizes are those of the types (--types). Without them the name of a type must\n"
         "be one of these words, which --class-map adds to:"
-#include "traffic/recorded_classes.def"
+#include "recorded/recorded_classes.def"
     ,
     .options = STAGE_OPTIONS(struct traffic_sumo, traffic_sumo_fields),
     .operand = "SOURCE",

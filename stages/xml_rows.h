@@ -9,10 +9,10 @@
 #include <stdio.h>
 
 #include "base/number.h"
+#include "recorded/recorded_row.h"
 #include "run/stage.h"
 #include "text/file_format.h"
 #include "text/input.h"
-#include "traffic/recorded_row.h"
 
 /* Bytes of a piece, and the most bytes of a tag or comment. expat parses an unfinished tag anew
  * with every piece. So the next piece is as long as the unfinished tag, which keeps the cost

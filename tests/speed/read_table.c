@@ -9,8 +9,8 @@
 #include <csv.h>
 
 #include "digits.h"
+#include "recorded/recorded_table.h"
 #include "text/input.h"
-#include "traffic/recorded_table.h"
 
 enum { PIECE = 1 << 16, MOST_COLUMNS = 256, ROW = 10, KEPT_ROWS = 4096 };
 

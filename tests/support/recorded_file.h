@@ -2,8 +2,8 @@
 #pragma once
 
 #include "check.h"
-#include "traffic/recorded_table.h"
-#include "traffic/recording.h"
+#include "recorded/recorded_table.h"
+#include "recorded/recording.h"
 
 struct recorded_file {
     struct recording_options options;

@@ -1,4 +1,4 @@
-#include "traffic/recorded_table.h"
+#include "recorded/recorded_table.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-#include "traffic/resampling.h"
+#include "recorded/resampling.h"
 
 #include "base/elementary.h"
 #include "base/units.h"

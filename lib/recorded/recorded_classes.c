@@ -1,4 +1,4 @@
-#include "traffic/recorded_classes.h"
+#include "recorded/recorded_classes.h"
 
 #include "text/file_format.h"
 #include "text/input.h"

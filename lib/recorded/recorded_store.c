@@ -1,4 +1,4 @@
-#include "traffic/recorded_store.h"
+#include "recorded/recorded_store.h"
 
 #include "base/intern.h"
 #include "base/sort.h"

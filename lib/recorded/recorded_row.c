@@ -1,4 +1,4 @@
-#include "traffic/recorded_row.h"
+#include "recorded/recorded_row.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* Tables in the layout of the INTERACTION data set. Files of pedestrians lack heading and sizes,
  * and a row may leave these cells empty; then the yaw is that of the velocity. Rows stand in any
  * order. */
-#include "traffic/recorded_table.h"
+#include "recorded/recorded_table.h"
 
 static const struct recorded_column columns[] = {
     RECORDED_ID("track_id"),
@@ -21,7 +21,7 @@ static const struct recorded_column columns[] = {
 };
 
 #define INTERACTION RECORDED_WORD
-#include "traffic/recorded_words.def"
+#include "recorded/recorded_words.def"
 
 const struct recorded_layout interaction_table_layout = {
     .format = {RECORDED_TABLE, .name = "a table of INTERACTION", .id_name = "track_id",

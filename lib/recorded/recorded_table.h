@@ -5,9 +5,9 @@
  * is taken, the last one where none is. */
 #pragma once
 
+#include "recorded/recorded_beside.h"
+#include "recorded/recorded_row.h"
 #include "text/csv_table.h"
-#include "traffic/recorded_beside.h"
-#include "traffic/recorded_row.h"
 
 /* Cells of columns that are not needed may be empty. */
 enum recorded_need {

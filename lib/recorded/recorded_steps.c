@@ -1,4 +1,4 @@
-#include "traffic/recorded_steps.h"
+#include "recorded/recorded_steps.h"
 
 #include <stdlib.h>
 

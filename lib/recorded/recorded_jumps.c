@@ -12,7 +12,7 @@
  * at most this one plus that which moves the centre sideways by v/4. Below CREEP_MPS, v is
  * CREEP_MPS. */
 #include "base/units.h"
-#include "traffic/recorded_steps.h"
+#include "recorded/recorded_steps.h"
 
 static const double JUMP_LEAST_M = 1, JUMP_LEAST_MPS = 2, JUMP_MOST_M = 5, TURN_SLACK = 0.5,
                     CREEP_MPS = 1, COURSE_M = 1e-3; /* the least way that tells a direction */

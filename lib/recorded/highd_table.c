@@ -1,6 +1,6 @@
 /* Tables in the layout of the highD data set: axes of an image, x to the right and y down, and of a
  * box its upper left corner. Its width is the length of the vehicle. Rows stand by track. */
-#include "traffic/recorded_table.h"
+#include "recorded/recorded_table.h"
 
 static const struct recorded_column columns[] = {
     RECORDED_ID("id"),
@@ -15,7 +15,7 @@ static const struct recorded_column columns[] = {
 };
 
 #define HIGHD RECORDED_WORD
-#include "traffic/recorded_words.def"
+#include "recorded/recorded_words.def"
 
 static void complete(struct recorded_cells *cells)
 {

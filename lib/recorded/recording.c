@@ -1,9 +1,9 @@
-#include "traffic/recording.h"
+#include "recorded/recording.h"
 
 #include <stdio.h>
 
 #include "frame/frame_check.h"
-#include "traffic/recorded_store.h"
+#include "recorded/recorded_store.h"
 #include "traffic/scenario.h"
 
 /* ---- opening ---- */

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "geometry/neighbour_grid.h"
-#include "traffic/resampling.h"
+#include "recorded/resampling.h"
 
 /* Options that all recordings share. */
 struct recording_options {

@@ -1,6 +1,6 @@
 /* Tables in the layout of NGSIM, in feet, of the middle of the front bumper. Local_Y points along
  * the road and Local_X to its right. There are no headings; ids come again for other vehicles. */
-#include "traffic/recorded_table.h"
+#include "recorded/recorded_table.h"
 
 #define FOOT_M 0.3048
 #define FEET(name, member, low, scale)                                                             \
@@ -26,7 +26,7 @@ const char *const ngsim_table_names[] = {
     "Preceding",  "Following", "Space_Headway", "Time_Headway", NULL};
 
 #define NGSIM RECORDED_WORD
-#include "traffic/recorded_words.def"
+#include "recorded/recorded_words.def"
 
 const struct recorded_layout ngsim_table_layout = {
     .format = {RECORDED_TABLE, .name = "a table of NGSIM", .id_name = "Vehicle_ID", .words = words,

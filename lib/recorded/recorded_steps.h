@@ -12,7 +12,7 @@
 
 #include "base/vec2.h"
 #include "frame/frame.h"
-#include "traffic/recorded_classes.h"
+#include "recorded/recorded_classes.h"
 
 enum { RECORDED_STEPS_RING = 3, RECORDED_STEPS_FASTEST_MPS = 200, RECORDED_JUMP_S = 3 };
 

@@ -2,7 +2,7 @@
  * that of the reference point, usually below the rear axle, and the box lies around another. The
  * log says no classes, so they are those of the names, or else follow from the box. */
 #include "base/vec2.h"
-#include "traffic/recorded_table.h"
+#include "recorded/recorded_table.h"
 
 enum { BOX_X, BOX_Y };
 
@@ -25,7 +25,7 @@ static const struct recorded_column columns[] = {
 };
 
 #define ESMINI RECORDED_WORD
-#include "traffic/recorded_words.def"
+#include "recorded/recorded_words.def"
 
 static const char *word_of(const struct recorded_row *row)
 {

@@ -1,4 +1,4 @@
-#include "traffic/recorded_beside.h"
+#include "recorded/recorded_beside.h"
 
 #include <math.h>
 

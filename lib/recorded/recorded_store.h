@@ -1,7 +1,7 @@
 /* A recording in memory, in the order of time. */
 #pragma once
 
-#include "traffic/recorded_row.h"
+#include "recorded/recorded_row.h"
 
 /* Reads all rows of the reader and closes it; what it gives comes from memory: 64 bytes a row, and
  * some hundred for each step, track and size of a body. A yaw rate is kept to 24 bits, a speed not

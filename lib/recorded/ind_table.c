@@ -1,7 +1,7 @@
 /* Tables in the layout of inD, rounD, exiD and uniD. Headings are in degrees, sizes of pedestrians
  * and bicycles are 0, and a trailer is a track beside that of its vehicle. Rows stand by track. */
 #include "base/units.h"
-#include "traffic/recorded_table.h"
+#include "recorded/recorded_table.h"
 
 static const struct recorded_column columns[] = {
     RECORDED_ID("trackId"),
@@ -18,7 +18,7 @@ static const struct recorded_column columns[] = {
 };
 
 #define IND RECORDED_WORD
-#include "traffic/recorded_words.def"
+#include "recorded/recorded_words.def"
 
 const struct recorded_layout ind_table_layout = {
     .format = {RECORDED_TABLE, .name = "a table of inD", .id_name = "trackId", .words = words},

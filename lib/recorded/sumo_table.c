@@ -1,7 +1,7 @@
 /* SUMO's floating car data as a table, in both spellings of its columns. Rows ascend in time. Steps
  * without anyone are not in a table. */
 #include "base/units.h"
-#include "traffic/recorded_table.h"
+#include "recorded/recorded_table.h"
 
 /* The place is the middle of the front bumper, the angle in degrees clockwise from north. The
  * speed serves where there is only one step: velocities are those of the places. */
@@ -22,7 +22,7 @@ COLUMNS(plain, "", "time");
 
 const struct recorded_word sumo_table_words[] = {
 #define SUMO(word, class, length_m, width_m, height_m) {word, class, length_m, width_m, height_m},
-#include "traffic/recorded_classes.def"
+#include "recorded/recorded_classes.def"
     {0},
 };
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/intern.h"
+#include "recorded/recorded_row.h"
 #include "text/document.h"
-#include "traffic/recorded_row.h"
 
 struct recorded_classes {
     const char *map, *otherwise;           /* --class-map, --class-default, or NULL */

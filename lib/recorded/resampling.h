@@ -6,7 +6,7 @@
  * is, so that the parts of a recording that is cut by time have the instants of the whole. */
 #pragma once
 
-#include "traffic/recorded_steps.h"
+#include "recorded/recorded_steps.h"
 
 struct resampling {
     struct recorded_steps *steps;
