@@ -31,7 +31,7 @@ CHAIN = "glint-extract | glint-ideal --sensors {suite} --sections account | glin
 SUITE = "corner77-every-frame"
 SHARES = {"train": 0.8, "validation": 0.1, "test": 0.1}
 PATIENCE_S = 600
-RECORDED = {"licence": "MIT", "source": "glint, scripts/make-highway"}
+RECORDED = {"licence": "MIT", "source": "glint, data/trajectories"}
 
 
 def plan_of(sources, **members):
@@ -256,7 +256,7 @@ def recordings_tell_licence_and_source(folder):
         refusals(folder, [(plan, f"/sources/0: {name} is missing: a recording source needs it")], 65)
     place = made(folder, plan_of([source]))
     with open(os.path.join(place, "README.md"), encoding="utf-8") as page:
-        assert "- `highway`: a recording, by glint, scripts/make-highway; licence: MIT\n" in page.read()
+        assert "- `highway`: a recording, by glint, data/trajectories; licence: MIT\n" in page.read()
     package = manifest(place)
     assert package["licenses"] == [{"name": "MIT"}] and package["sources"] == [{"title": RECORDED["source"]}]
     assert package["plan"]["sources"][0].items() >= RECORDED.items()
