@@ -241,6 +241,7 @@ accuracy: all
 schemas: all
 	$(Q)$(BUILD)/bin/glint-schema schemas
 	$(Q)scripts/tables-sql schemas/tables.json >schemas/tables.sql
+	$(Q)python3 scripts/sets/schema.py >schemas/dataset.json
 
 # One line a module, from the headers.
 lib/README.md: FORCE

@@ -164,7 +164,7 @@ def read_plan(path):
     try:
         by = plan["splits"]["by"] if isinstance(plan, dict) and isinstance(plan.get("splits"), dict) else None
         refuse(isinstance(by, str) and by in LEAKS, "/splits/by", f'"{by}" {LEAKS.get(by)}')
-        fault = schema.fault_of(plan, read_json(os.path.join(ROOT, "schemas", "dataset.json")))
+        fault = schema.fault_of(plan, schema.PLAN)
         if fault:
             raise Fault(BAD_DATA, fault)
         for i, source in enumerate(plan["sources"]):
