@@ -127,8 +127,7 @@ def check_picture(path, shown):
     ground = [node for node in root.iter() if node.tag.endswith("}rect") or node.tag.endswith("}polygon")]
     check(ground and fill_of(ground[0], root) in ("#fff", "#ffffff"), f"{name} has no ground of its own")
     for mark, colours in colours_of_marks(root).items():
-        named = "fig07" in name  # both sensors have their names beside them
-        check(len(colours) == 1 or named, f"{name}: colour alone tells {len(colours)} kinds of {mark}")
+        check(len(colours) == 1, f"{name}: colour alone tells {len(colours)} kinds of {mark}")
     check_targets_in_view(name, root)
     found = texts(root)
     check(len(found) > 0, f"{name} has no text")
