@@ -66,8 +66,8 @@ lib_objects := $(patsubst lib/%,$(BUILD)/lib/%.o,$(wildcard lib/*.c lib/*/*.c li
 interfaces := $(patsubst stages/%.proto,$(BUILD)/stages/%.pb-c,$(wildcard $(names:%=stages/%.proto)))
 stage_objects := $(patsubst %,$(BUILD)/stages/%.o,$(names)) $(interfaces:%=%.o)
 programs_of = $(foreach n,$(1),$(BUILD)/bin/glint-$(subst _,-,$(n)))
-# glint-plan tries stages of all kinds, so it lies in the file that has all.
-plain_names := $(filter-out plan,$(foreach n,$(names),$(if $(call needs,$(n)),,$(n))))
+# glint-plan and glint-cost try stages of all kinds, so they lie in the file that has all.
+plain_names := $(filter-out plan cost,$(foreach n,$(names),$(if $(call needs,$(n)),,$(n))))
 plain_programs := $(call programs_of,$(plain_names))
 full_programs := $(BUILD)/bin/glint $(call programs_of,$(filter-out $(plain_names),$(names)))
 programs := $(plain_programs) $(full_programs)

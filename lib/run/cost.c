@@ -72,9 +72,8 @@ static const struct field cost_fields[] = {
     {0},
 };
 
-const struct record cost_record = {
-    FIELD_TABLE(struct cost, cost_fields, "cost",
-                "What glint-plan --cost --json writes: chains by time and error.")};
+const struct record cost_record = {FIELD_TABLE(
+    struct cost, cost_fields, "cost", "What glint-cost --json writes: chains by time and error.")};
 
 /* The complex samples of one scan of all sensors; 0 if one of them has no waveform. */
 static int64_t signal_samples(const struct suite *suite)

@@ -1,4 +1,4 @@
-/* What accuracy costs on a sample of frames. glint-plan --cost prints it.
+/* What accuracy costs on a sample of frames. glint-cost prints it.
  *
  * The ladder of chains begins with ideal echoes, the paper's effects and all that the suite
  * describes; leaves out, one at a time, the effects that these frames call for; and ends with finer

@@ -4,7 +4,15 @@
 
 #include "effects/effect.h"
 #include "frame/frame_text.h"
+#include "run/fused.h"
+#include "run/tool.h"
 #include "text/document.h"
+
+static const struct plan_position chain[PLAN_POSITIONS] = {
+    [PLAN_IDEAL] = {.program = "glint-ideal", .section = SECTION_ECHOES},
+    [PLAN_SENSOR] = {"glint-sensor", "glint-sensor-perfect", SECTION_CELLS},
+    [PLAN_NOISE] = {"glint-noise", "glint-noise-none", SECTION_TARGETS},
+};
 
 const char *plan_request(uint64_t allowed, struct arena *arena)
 {
@@ -16,6 +24,47 @@ const char *plan_request(uint64_t allowed, struct arena *arena)
     const char *request = arena_text(arena, text.bytes, text.length);
     text_free(&text);
     return request;
+}
+
+static int64_t no_clock(void)
+{
+    return 0;
+}
+
+static struct runner *trial(const char *program, const struct suite_choice *choice,
+                            struct effect_log *log, struct runner *runner)
+{
+    return runner_trial(runner, fused_stage(fused_name(program)), choice, log);
+}
+
+int plan_begin(struct plan *plan, const struct suite_choice *choice, struct runner *runner)
+{
+    struct sensors request;
+    struct selection selection;
+    struct diag *diag = runner_diag(runner);
+    const struct suite *suite = runner_suite(runner, choice->sensors);
+    if (suite == NULL || suite_choice_request(choice, suite, &request, diag) != 0 ||
+        effects_read(request.effects, &selection, diag) != 0)
+        return -1;
+    struct suite_choice planned = {choice->sensors,
+                                   plan_request(selection.allowed, runner_arena(runner))};
+    *plan = (struct plan){
+        .sensors = choice->sensors,
+        .request = strcmp(planned.effects, "auto") == 0 ? "auto" : request.effects,
+        .allowed = selection.allowed,
+        .runner = runner,
+        .extract = trial("glint-extract", NULL, NULL, runner),
+    };
+    for (int i = 0; i < PLAN_POSITIONS; i++) {
+        struct plan_position *position = &plan->positions[i];
+        *position = chain[i];
+        position->log.clock_ns = no_clock;
+        position->tried =
+            trial(position->program, i == PLAN_IDEAL ? &planned : NULL, &position->log, runner);
+        if (position->stand_in != NULL)
+            position->simpler = trial(position->stand_in, NULL, NULL, runner);
+    }
+    return 0;
 }
 
 static bool same_bytes(const struct frame *a, const struct frame *b, unsigned section)
@@ -42,6 +91,35 @@ void plan_compare(struct plan_position *position, const struct frame *made,
     position->differs = true;
     position->scene = arena_text(arena, made->scene, strlen(made->scene));
     position->frame = made->frame;
+}
+
+static int try_position(struct plan *plan, struct plan_position *position, struct frame *frame)
+{
+    struct frame copy = *frame;
+    frame_drop(&copy, SECTION_LOST | SECTION_COUNTS);
+    if (runner_try(plan->runner, position->tried, frame) != 0)
+        return -1;
+    if (position->stand_in == NULL || position->differs)
+        return 0;
+    if (runner_try(plan->runner, position->simpler, &copy) != 0)
+        return -1;
+    plan_compare(position, frame, &copy, runner_arena(plan->runner));
+    return 0;
+}
+
+int plan_try(struct plan *plan, struct frame *frame)
+{
+    plan->frames++;
+    frame_drop(frame, SECTION_SENSORS | SECTION_ECHOES | SECTION_CELLS | SECTION_TARGETS |
+                          SECTION_LOST | SECTION_COUNTS | SECTION_VISIBILITY);
+    frame->sections = CARRY_BY_DEFAULT;
+    if ((frame->present & SECTION_REFLECTORS) == 0 &&
+        runner_try(plan->runner, plan->extract, frame) != 0)
+        return -1;
+    for (int i = 0; i < PLAN_POSITIONS; i++)
+        if (try_position(plan, &plan->positions[i], frame) != 0)
+            return -1;
+    return 0;
 }
 
 /* Whether the stand-in may take the stage's place: it wrote the same bytes in all frames. */

@@ -7,29 +7,40 @@
 #pragma once
 
 #include "base/text.h"
-#include "frame/frame.h"
+#include "run/suite_choice.h"
 
 struct plan_position {
-    const char *program;   /* "glint-sensor" */
-    const char *stand_in;  /* "glint-sensor-perfect"; NULL: nothing can stand in for it */
-    unsigned section;      /* enum section: the one that both write */
-    struct effect_log log; /* which effects the stage simulated */
-    bool differs;          /* the stand-in wrote other bytes in some frame */
-    const char *scene;     /* of the first such frame */
-    int64_t frame;         /* its number */
+    const char *program;            /* "glint-sensor" */
+    const char *stand_in;           /* "glint-sensor-perfect"; NULL: nothing can stand in for it */
+    unsigned section;               /* enum section: the one that both write */
+    struct effect_log log;          /* which effects the stage simulated */
+    bool differs;                   /* the stand-in wrote other bytes in some frame */
+    const char *scene;              /* of the first such frame */
+    int64_t frame;                  /* its number */
+    struct runner *tried, *simpler; /* the stage and its stand-in */
 };
 
 enum { PLAN_IDEAL, PLAN_SENSOR, PLAN_NOISE, PLAN_POSITIONS };
 
 struct plan {
     const char *sensors; /* the suite's name or path, for glint-ideal */
-    uint64_t allowed;    /* EFFECT_BITs of the effects that were asked for */
+    const char *request; /* the effects that were asked for; "auto" if all may be simulated */
+    uint64_t allowed;    /* their EFFECT_BITs */
     int64_t frames;      /* how many were tried */
     struct plan_position positions[PLAN_POSITIONS];
+    struct runner *runner, *extract; /* the tool, and the stage before the first position */
 };
 
 /* The --effects that decide as auto does among those that are allowed: "auto,-rows". */
 const char *plan_request(uint64_t allowed, struct arena *arena);
+
+/* Prepares the stages of the chain, and their stand-ins, for a suite and among the effects that are
+ * asked for. 0, or -1 after a message. */
+int plan_begin(struct plan *plan, const struct suite_choice *choice, struct runner *runner);
+
+/* Tries the stages on a frame, of which only the objects and, if they are there, the reflectors are
+ * used. 0, or -1 after a message. */
+int plan_try(struct plan *plan, struct frame *frame);
 
 /* Compares the frame that the stage wrote with the one that its stand-in wrote from the same input,
  * and notes the first that differ. */

@@ -1,4 +1,4 @@
-"""What glint-plan --cost says, measured again.
+"""What glint-cost says, measured again.
 
 Usage: python3 tests/chain/cost.py [--long] BIN_DIR
 
@@ -35,7 +35,7 @@ class Bench:
         return self.run(["glint", "-c", text], data)
 
     def cost(self, frames, suite, *options):
-        return json.loads(self.run(["glint-plan", "--cost", "--json", "--sensors", suite, *options], frames))
+        return json.loads(self.run(["glint-cost", "--json", "--sensors", suite, *options], frames))
 
     def lists(self, frames, suite, effects, programs, ks):
         """Target lists of all seeds; those of one frame's own seed s are s + k 2^32."""
@@ -77,7 +77,7 @@ def same_as_the_score(bench, frames, suite, *options):
 
 
 def same_again(bench, frames, suite):
-    text = f"glint-plan --cost --json --reference all --sensors {suite}"
+    text = f"glint-cost --json --reference all --sensors {suite}"
     runs = [without_times(json.loads(run)) for run in
             (bench.run(text.split(), frames), bench.run(text.split(), frames), bench.glint(text, frames))]
     if runs[0] != runs[1] or runs[0] != runs[2]:
@@ -96,7 +96,7 @@ def printed_chain(plan):
 def pipeline_is_the_chain(bench, frames, suite, option):
     """The text to paste leaves out what its head tells of, has the error that its head names, and makes the lists of that
     chain, byte for byte. Times change from run to run, and with them which chain is found; errors do not."""
-    plan = bench.run(["glint-plan", *option, "--sensors", suite], frames).decode()
+    plan = bench.run(["glint-cost", *option, "--sensors", suite], frames).decode()
     options, programs, error, left_out = printed_chain(plan)
     brief = {chain["chain"]: chain for chain in bench.cost(frames, suite, "--brief", "--reference", "all")["chains"]}
     chains = [(",-".join(["auto", *left_out]), ["glint-sensor", "glint-noise"])]
@@ -121,7 +121,7 @@ def promises_hold(bench, suite, options, splits, sample, held_out):
 
     def errors(*cost):
         return {chain["chain"]: chain["error"] for chain in bench.cost(*cost)["chains"] if "error" in chain}
-    truth = errors(frames(100000, held_out), suite, "--brief", "--reference", "all", "--frames", str(held_out))
+    truth = errors(frames(100000, held_out), suite, "--brief", "--reference", "all", "--sample", str(held_out))
     held = promised = 0
     for split in range(splits):
         for name, error in errors(frames(split * sample, sample), suite, "--brief", "--reference", "all").items():

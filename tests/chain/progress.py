@@ -109,13 +109,13 @@ def a_ladder_of_chains_tells_when_it_is_done(folder):
         return None
     terminal = Terminal()
     with subprocess.Popen(["cat", f"{folder}/frames.jsonl"], stdout=subprocess.PIPE) as other:
-        process = terminal.start("glint-plan --cost --frames 500 --sensors srr24-signal", stdin=other.stdout,
+        process = terminal.start("glint-cost --sample 500 --sensors srr24-signal", stdin=other.stdout,
                                  stdout=subprocess.DEVNULL)
         shown = terminal.wait_for(FRAMES)
         process.terminate()
         process.wait(PATIENCE_S)
     terminal.all()
-    return not shown and "no rate of glint-plan --cost"
+    return not shown and "no rate of glint-cost"
 
 
 def who_reads_a_pipe_leaves_it_to_the_other_side(folder):

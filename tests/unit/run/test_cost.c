@@ -6,7 +6,7 @@
 #define EVERY (EFFECT_BIT(EFFECT_COUNT) - 1)
 
 struct bench {
-    struct runner runner; /* of glint-plan */
+    struct runner runner; /* of a tool */
     struct arena arena;
     struct cost cost;
 };

@@ -1,0 +1,164 @@
+/* What accuracy costs: chains of stages by time and error, measured on a sample of the frames, and
+ * the pipeline that holds a bound on one of the two. */
+#include "run/cost.h"
+#include "run/plan.h"
+#include "run/tool.h"
+#include "text/output.h"
+#include "text/record_text.h"
+
+struct cost_state {
+    struct suite_choice choice; /* first: the options */
+    const char *error, *within;
+    int64_t sample; /* most frames */
+    int reference;  /* enum cost_reference; -1: not given */
+    bool brief, json;
+    struct plan plan; /* what the frames of the sample call for */
+    struct cost cost;
+    double bound;                      /* of the error, or in microseconds */
+    const struct ladder_chain *chosen; /* that holds it; NULL: no bound was given */
+};
+
+/* Reads "10%" as 0.1 and "100us" as 100, a number with this unit. */
+static int read_bound(const char *option, const char *text, const char *unit, double scale,
+                      double *bound, struct diag *diag)
+{
+    size_t length = strlen(text), ending = strlen(unit);
+    if (length > ending && strcmp(text + length - ending, unit) == 0 &&
+        field_read_number(text, length - ending, bound) == 0 && *bound >= 0) {
+        *bound *= scale;
+        return 0;
+    }
+    return diag_fail(diag, DIAG_USAGE, "--%s: \"%s\"; expected a number with its unit, as 10%s",
+                     option, text, unit);
+}
+
+static int read_bounds(struct cost_state *own, struct diag *diag)
+{
+    if (own->error != NULL && own->within != NULL)
+        return diag_fail(diag, DIAG_USAGE, "--error and --within: only one bound may be given");
+    if ((own->error != NULL || own->within != NULL) && own->brief)
+        return diag_fail(diag, DIAG_USAGE,
+                         "--brief: leaves out no effect, so nothing is found within a bound");
+    if (own->error != NULL)
+        return read_bound("error", own->error, "%", 0.01, &own->bound, diag);
+    return own->within == NULL ? 0 : read_bound("within", own->within, "us", 1, &own->bound, diag);
+}
+
+static int begin(struct cost_state *own, struct runner *runner)
+{
+    struct diag *diag = runner_diag(runner);
+    if (plan_begin(&own->plan, &own->choice, runner) != 0 || read_bounds(own, diag) != 0)
+        return -1;
+    own->cost = (struct cost){
+        .runner = runner,
+        .suite = own->choice.sensors,
+        .reference = own->reference == COST_ALL ? COST_ALL : COST_SIGNAL,
+        .brief = own->brief,
+        .whole = own->plan.request,
+        .allowed = own->plan.allowed,
+    };
+    if (cost_begin(&own->cost, own->sample) != 0)
+        return -1;
+    if (own->reference == COST_SIGNAL && own->cost.no_signal != NULL)
+        return diag_fail(diag, DIAG_USAGE, "--reference: signal: %s", own->cost.no_signal);
+    return 0;
+}
+
+/* Finds the effects that the frames of the sample call for. */
+static int plan_sample(struct cost_state *own, struct diag *diag)
+{
+    struct arena arena = {0};
+    struct frame frame = {.arena = &arena};
+    const struct ladder_sample *sample = &own->cost.sample;
+    int result = 0;
+    for (size_t i = 0; result == 0 && i < sample->list.count; i++)
+        if (ladder_sample_read(&sample->list.items[i], &frame, diag) != 0 ||
+            plan_try(&own->plan, &frame) != 0)
+            result = diag_prefix(diag, "scene \"%s\", frame %lld: ", frame.scene,
+                                 (long long)frame.frame);
+    arena_free(&arena);
+    own->cost.needed = plan_effects(&own->plan);
+    return result;
+}
+
+/* After the last frame: measures the chains, and finds the one that was asked for. */
+static int measure(struct cost_state *own, struct diag *diag)
+{
+    struct cost *cost = &own->cost;
+    ladder_sample_divide(&cost->sample);
+    if (cost->sample.list.count == 0)
+        return 0;
+    if (plan_sample(own, diag) != 0 || cost_measure(cost) != 0)
+        return -1;
+    if (own->error == NULL && own->within == NULL)
+        return 0;
+    own->chosen =
+        cost_find(cost, own->error != NULL ? COST_BOUND_ERROR : COST_BOUND_US, own->bound);
+    return own->chosen != NULL ? 0 : -1;
+}
+
+static int print(const struct cost_state *own, struct output *output, struct runner *runner)
+{
+    const struct cost *cost = &own->cost;
+    struct text *text = output_text(output);
+    if (cost->chains.count == 0)
+        return 0;
+    if (own->json || runner_output_ends(runner, ".json"))
+        record_text_write(&cost_record, cost, NULL, text);
+    else if (own->chosen != NULL)
+        cost_write_pipeline(cost, own->chosen, text);
+    else
+        cost_write_table(cost, text);
+    return output_send(output, runner_diag(runner));
+}
+
+static int cost_run(void *state, struct runner *runner)
+{
+    struct cost_state *own = state;
+    struct diag *diag = runner_diag(runner);
+    struct output *output;
+    if (begin(own, runner) != 0 || (output = runner_output(runner)) == NULL)
+        return -1;
+    struct frame *frame;
+    int more;
+    while ((more = runner_frame(runner, &frame)) > 0)
+        if (ladder_sample_add(&own->cost.sample, frame, diag) != 0)
+            return -1;
+    return more < 0 || measure(own, diag) != 0 ? -1 : print(own, output, runner);
+}
+
+static const struct field cost_options[] = {
+    SUITE_CHOICE_OF_IDEAL,
+    {OPTIONAL_NAME(struct cost_state, error,
+                   "print the fastest pipeline whose error is at most this: 10%"),
+     .word = "PERCENT"},
+    {OPTIONAL_NAME(struct cost_state, within,
+                   "print the most accurate pipeline that takes at most this for a frame: 100us"),
+     .word = "TIME"},
+    {OPTIONAL_INTEGER(
+        struct cost_state, sample, 1, 1e6,
+        "how many frames are measured at most; absent: 250, or fewer where the signal takes long")},
+    {OPTIONAL_CHOICE(struct cost_state, reference, cost_references,
+                     "what errors are measured from; absent: the signal where there is one"),
+     .absent = -1},
+    {OPTIONAL_FLAG(struct cost_state, brief, "measure no chains that leave out an effect")},
+    {OPTIONAL_FLAG(struct cost_state, json,
+                   "write a line of JSON, as to an --output that ends in .json")},
+    {0},
+};
+
+const struct tool tool_cost = {
+    .name = "cost",
+    .summary = "Print what accuracy costs on these scenes: chains by time and error.",
+    .details =
+        "Measures chains of stages on a sample of the frames: CPU time, and error. The error\n"
+        "is the energy distance of a chain's lists from those of a reference, in per cent of\n"
+        "that of ideal echoes: a chain of 0 % is not told from the reference. The reference\n"
+        "is the signal, if the suite has a waveform and glint-sensor-signal lies beside this\n"
+        "program, or all that the suite describes. Of the frames, only the objects are used,\n"
+        "and their reflectors if they are there. Prints at the end of the stream.\n"
+        "pipelines/README.md says how to read the table.",
+    .options = STAGE_OPTIONS(struct cost_state, cost_options),
+    .reads = SECTION_OBJECTS,
+    .run = cost_run,
+};
