@@ -1,7 +1,5 @@
 #include "base/hash.h"
 
-#include <string.h>
-
 uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t length)
 {
     const unsigned char *byte = bytes;
@@ -17,4 +15,13 @@ uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t length)
 uint64_t hash_text(uint64_t hash, const char *text)
 {
     return hash_bytes(hash, text, strlen(text));
+}
+
+struct hash_table hash_table_begin(size_t count, struct arena *arena)
+{
+    struct hash_table table = {.room = 64};
+    while (table.room < 2 * count)
+        table.room *= 2;
+    table.slots = arena_get(arena, table.room * sizeof *table.slots);
+    return table;
 }

@@ -5,7 +5,7 @@
  * All memory is the arena's, which must be the same one at every call. */
 #pragma once
 
-#include "base/hash_table.h"
+#include "base/hash.h"
 
 struct intern_name {
     const char *text; /* NUL-terminated */

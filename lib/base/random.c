@@ -4,6 +4,9 @@
 
 #include "base/elementary.h"
 
+/* Part of the probability at the mean below which counts are left out. */
+#define NEGLIGIBLE 0x1p-75
+
 void random_uniform(const struct random_address *address, enum random_purpose purpose,
                     uint32_t index, double uniform[4])
 {
@@ -39,4 +42,98 @@ void random_gaussian_pair(const struct random_address *address, enum random_purp
     double uniform[4];
     random_uniform(address, purpose, index, uniform);
     make_gaussian(uniform, gaussian);
+}
+
+struct random_sequence random_sequence_at(struct random_address address,
+                                          enum random_purpose purpose)
+{
+    return (struct random_sequence){.address = address, .purpose = purpose};
+}
+
+double random_sequence_next(struct random_sequence *sequence)
+{
+    uint32_t place = sequence->taken % 4;
+    if (place == 0)
+        random_uniform(&sequence->address, sequence->purpose, sequence->taken / 4, sequence->block);
+    sequence->taken++;
+    return sequence->block[place];
+}
+
+double random_sequence_between(struct random_sequence *sequence, double low, double high)
+{
+    return low + (high - low) * random_sequence_next(sequence);
+}
+
+int64_t random_sequence_whole(struct random_sequence *sequence, int64_t least, int64_t most)
+{
+    double choices = (double)(most - least + 1);
+    return least + (int64_t)elementary_min(choices * random_sequence_next(sequence), choices - 1);
+}
+
+bool random_sequence_chance(struct random_sequence *sequence, double probability)
+{
+    return random_sequence_next(sequence) < probability;
+}
+
+double random_sequence_sign(struct random_sequence *sequence)
+{
+    return random_sequence_chance(sequence, 0.5) ? 1 : -1;
+}
+
+/* The distribution of counts for a mean and an overdispersion. */
+struct law {
+    double mean, overdispersion;
+};
+
+static double probability_ratio(const struct law *law, double k)
+{
+    return (law->mean + k * (law->overdispersion - 1)) / (law->overdispersion * (k + 1));
+}
+
+/* The count at which the summation begins. Weights are probabilities times total. */
+struct beginning {
+    double first, weight, total;
+};
+
+/* Begins where the weights are negligible, going down from the mean, whose weight is 1; then adds
+ * up the total. */
+static struct beginning begin_below_the_mean(const struct law *law)
+{
+    struct beginning begin = {.first = floor(law->mean), .weight = 1};
+    while (begin.first > 0 && begin.weight > NEGLIGIBLE) {
+        begin.first--;
+        begin.weight /= probability_ratio(law, begin.first);
+    }
+    double weight = begin.weight;
+    for (double k = begin.first; k < law->mean || weight > NEGLIGIBLE; k++) {
+        begin.total += weight;
+        weight *= probability_ratio(law, k);
+    }
+    return begin;
+}
+
+/* Begins at a count of 0, whose probability has a closed form; only for means at which it is not
+ * too small. */
+static struct beginning begin_at_zero(const struct law *law)
+{
+    double more = law->overdispersion - 1;
+    double exponent = more > 0 ? elementary_log(law->overdispersion) / more : 1;
+    return (struct beginning){0, elementary_exp(-law->mean * exponent), 1};
+}
+
+int64_t random_poisson(double mean, double overdispersion, double uniform)
+{
+    if (!(mean > 0))
+        return 0;
+    struct law law = {elementary_min(mean, 1e9),
+                      elementary_min(elementary_max(overdispersion, 1), 1e3)};
+    struct beginning begin = law.mean < 16 ? begin_at_zero(&law) : begin_below_the_mean(&law);
+    double target = uniform * begin.total;
+    double k = begin.first, weight = begin.weight, sum = weight;
+    while (sum < target && (weight > NEGLIGIBLE * begin.total || k < law.mean)) {
+        weight *= probability_ratio(&law, k);
+        sum += weight;
+        k++;
+    }
+    return (int64_t)k;
 }

@@ -5,6 +5,7 @@
  * objects, on effects that are left out, nor on whether stages are piped or fused. */
 #pragma once
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* The purpose of a draw. New purposes go at the end, because their numbers are part of every data
@@ -59,3 +60,39 @@ void random_gaussian(const struct random_address *address, enum random_purpose p
 /* The first two of the draws of random_gaussian. */
 void random_gaussian_pair(const struct random_address *address, enum random_purpose purpose,
                           uint32_t index, double gaussian[2]);
+
+/* All draws of one random object or case, one after another, at its address. */
+struct random_sequence {
+    struct random_address address;
+    enum random_purpose purpose;
+    uint32_t taken; /* draws so far, four to a block */
+    double block[4];
+};
+
+struct random_sequence random_sequence_at(struct random_address address,
+                                          enum random_purpose purpose);
+
+/* The next draw, uniform in (0, 1). */
+double random_sequence_next(struct random_sequence *sequence);
+
+double random_sequence_between(struct random_sequence *sequence, double low, double high);
+
+/* A whole number from least to most, both included. */
+int64_t random_sequence_whole(struct random_sequence *sequence, int64_t least, int64_t most);
+
+bool random_sequence_chance(struct random_sequence *sequence, double probability);
+
+/* -1 or 1. */
+double random_sequence_sign(struct random_sequence *sequence);
+
+/* A Poisson count, or with an overdispersion f above 1 a negative binomial one of f times the
+ * variance: a Poisson count whose mean varies as a gamma variate (MODEL 14.9, 14.13),
+ *
+ *     P(k + 1) / P(k) = (mean + k (f - 1)) / (f (k + 1)).
+ *
+ * It is the least k with P(N <= k) >= uniform in (0, 1), so it grows with that draw. A mean above
+ * 1e9 counts as 1e9, one that is not positive as 0; f below 1 counts as 1, above 1e3 as 1e3. The
+ * cost grows with the square root of the mean, times f. Probabilities are good to about 1e-13;
+ * tails beyond 2^-75 of the probability at the mean are left out, because no uniform draw reaches
+ * them. */
+int64_t random_poisson(double mean, double overdispersion, double uniform);

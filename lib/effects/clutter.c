@@ -3,7 +3,7 @@
 #include "effects/effect.h"
 
 #include "base/elementary.h"
-#include "base/poisson.h"
+#include "base/random.h"
 #include "frame/draw_address.h"
 #include "geometry/sensor_pose.h"
 #include "propagation/ground_return.h"
@@ -35,8 +35,8 @@ static int64_t point_count(const struct effect_scan *scan, double uniform)
     const struct conditions *conditions = &scan->frame->conditions;
     double area_m2 =
         ground_return_area_m2(sensor->range_min_m, sensor->range_max_m, sensor->field_of_view_rad);
-    int64_t count = poisson_overdispersed_count(conditions->clutter_per_m2 * area_m2,
-                                                conditions->clutter_overdispersion, uniform);
+    int64_t count = random_poisson(conditions->clutter_per_m2 * area_m2,
+                                   conditions->clutter_overdispersion, uniform);
     return count < MOST_POINTS ? count : MOST_POINTS;
 }
 

@@ -24,7 +24,7 @@ struct conditions {
     double fog_gpm3;                     /* liquid water */
     double snow_mmph;                    /* melted */
     double clutter_per_m2, clutter_ercs; /* points on the ground; there are none without both */
-    double clutter_overdispersion;       /* of their number (poisson.h); up to 1: Poisson */
+    double clutter_overdispersion;       /* of their number (random_poisson); up to 1: Poisson */
     LIST_OF(struct interferer) interferers;
 };
 

@@ -1,7 +1,7 @@
 #include "frame/reflectors.h"
 
 #include "base/elementary.h"
-#include "base/hash_table.h"
+#include "base/hash.h"
 #include "base/units.h"
 
 static const char *const shapes[] = {

@@ -1,6 +1,6 @@
 #include "geometry/neighbour_grid.h"
 
-#include "base/hash_table.h"
+#include "base/hash.h"
 #include "base/sort.h"
 
 static const uint32_t NONE = UINT32_MAX;

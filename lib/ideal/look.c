@@ -1,7 +1,7 @@
 #include "ideal/look.h"
 
 #include "base/elementary.h"
-#include "base/hash_table.h"
+#include "base/hash.h"
 #include "base/units.h"
 #include "frame/frame_order.h"
 #include "geometry/knife_edge.h"

@@ -1,7 +1,7 @@
 /* Random points on the ground in view of a sensor.
  *
  * Points are even over the area between two ranges within the field of view (MODEL 14.9, 14.13).
- * poisson.h draws how many there are. */
+ * random_poisson draws how many there are. */
 #pragma once
 
 #include "base/vec2.h"

@@ -1,7 +1,7 @@
 #include "propagation/micro_doppler.h"
 
 #include "base/elementary.h"
-#include "base/poisson.h"
+#include "base/random.h"
 #include "base/units.h"
 
 /* Ends of the triangular law of x. */
@@ -10,7 +10,7 @@
 
 int64_t micro_doppler_wheel_count(double uniform)
 {
-    return poisson_count(MICRO_DOPPLER_WHEEL_COUNT, uniform);
+    return random_poisson(MICRO_DOPPLER_WHEEL_COUNT, 1, uniform);
 }
 
 struct wheel_point micro_doppler_wheel_point(const double uniform[2])
@@ -25,7 +25,7 @@ double micro_doppler_wheel_rate_mps(double hub_mps, double rolling_mps, struct w
 
 int64_t micro_doppler_limb_count(double uniform)
 {
-    return poisson_count(MICRO_DOPPLER_LIMB_COUNT, uniform);
+    return random_poisson(MICRO_DOPPLER_LIMB_COUNT, 1, uniform);
 }
 
 /* x, by inversion of its triangular law, from the end that is nearer, so that nothing cancels. */

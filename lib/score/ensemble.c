@@ -2,7 +2,7 @@
 
 #include <inttypes.h>
 
-#include "base/random_sequence.h"
+#include "base/random.h"
 #include "base/sort.h"
 #include "score/energy_distance.h"
 #include "score/reference_stream.h"

@@ -1,7 +1,7 @@
 #include "score/relative_error.h"
 
 #include "base/elementary.h"
-#include "base/random_sequence.h"
+#include "base/random.h"
 #include "base/sort.h"
 #include "score/energy_distance.h"
 

@@ -7,7 +7,7 @@
  * the peak. Every echo is in one cell. A peak that no echo leads to is a side lobe, and no cell. */
 #pragma once
 
-#include "base/hash_table.h"
+#include "base/hash.h"
 #include "sensor/resolution_cell.h"
 
 struct smear_sample {

@@ -4,7 +4,7 @@
 
 #include "base/hash.h"
 #include "base/number.h"
-#include "base/random_sequence.h"
+#include "base/random.h"
 #include "base/text.h"
 #include "text/json_scan.h"
 

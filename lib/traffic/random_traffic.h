@@ -7,7 +7,7 @@
  * (0). Every snapshot is drawn by its number alone, and in it every object by its own number. */
 #pragma once
 
-#include "base/random_sequence.h"
+#include "base/random.h"
 #include "frame/frame.h"
 
 /* Number of objects beside the ego, and the radius around it: 0 to 3 in 120 m, 0 to 8 in 60 m, 4 to

@@ -4,7 +4,7 @@
 
 #include "base/elementary.h"
 #include "base/hash.h"
-#include "base/random_sequence.h"
+#include "base/random.h"
 #include "documents/vehicle.h"
 
 #define STEP_S ROAD_TRAFFIC_STEP_S

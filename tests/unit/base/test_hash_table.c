@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/hash_table.h"
+#include "base/hash.h"
 
 enum { COUNT = 4096 };
 

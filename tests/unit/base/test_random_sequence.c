@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "base/random_sequence.h"
+#include "base/random.h"
 
 #define DRAWS 100000
 

@@ -2,7 +2,7 @@
 
 #include <stdbool.h>
 
-#include "base/random_sequence.h"
+#include "base/random.h"
 #include "score/relative_error.h"
 
 enum { SEEDS = 4, ALL = 2 * SEEDS, BLOCKS = 10, SCANS = 20 };

@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "base/poisson.h"
+#include "base/random.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -14,12 +14,6 @@ static long double probability(double mean, double overdispersion, int64_t count
         return expl(k * logl(m) - m - lgammal(k + 1));
     long double r = m / (f - 1);
     return expl(lgammal(k + r) - lgammal(r) - lgammal(k + 1) - r * logl(f) + k * logl(1 - 1 / f));
-}
-
-static int64_t draw(double mean, double overdispersion, double uniform)
-{
-    return overdispersion == 1 ? poisson_count(mean, uniform)
-                               : poisson_overdispersed_count(mean, overdispersion, uniform);
 }
 
 static const double laws[][2] = {{1e-6, 1},     {0.032768, 1}, {0.5, 1},  {0.64, 1},  {1, 1},
@@ -38,7 +32,7 @@ static void a_count_is_where_the_sum_of_probabilities_passes_the_draw(void **sta
         long double sum = 0;
         int64_t next = 0;
         for (size_t j = 0; j < COUNT(uniforms); j++) {
-            int64_t count = draw(laws[i][0], laws[i][1], uniforms[j]);
+            int64_t count = random_poisson(laws[i][0], laws[i][1], uniforms[j]);
             assert_true(count >= 0 && count + 1 >= next);
             while (next < count)
                 sum += probability(laws[i][0], laws[i][1], next++);
@@ -56,10 +50,10 @@ static void a_count_is_where_the_sum_of_probabilities_passes_the_draw(void **sta
 static void a_mean_of_0_64_gives_no_false_alarm_in_half_of_all_scans(void **state)
 {
     (void)state;
-    assert_int_equal(poisson_count(6400 * 1e-4, 0.5272919), 0);
-    assert_int_equal(poisson_count(6400 * 1e-4, 0.5272930), 1);
-    assert_int_equal(poisson_count(32768e-6, 0.96776), 0);
-    assert_int_equal(poisson_count(32768e-6, 0.96777), 1);
+    assert_int_equal(random_poisson(6400 * 1e-4, 1, 0.5272919), 0);
+    assert_int_equal(random_poisson(6400 * 1e-4, 1, 0.5272930), 1);
+    assert_int_equal(random_poisson(32768e-6, 1, 0.96776), 0);
+    assert_int_equal(random_poisson(32768e-6, 1, 0.96777), 1);
 }
 
 static void counts_are_bounded_and_invalid_means_give_zero(void **state)
@@ -67,21 +61,20 @@ static void counts_are_bounded_and_invalid_means_give_zero(void **state)
     (void)state;
     static const double none[] = {0, -0.0, -1, -HUGE_VAL, (double)NAN};
     for (size_t i = 0; i < COUNT(none); i++) {
-        assert_int_equal(poisson_count(none[i], 1 - 0x1p-53), 0);
-        assert_int_equal(poisson_overdispersed_count(none[i], 5, 1 - 0x1p-53), 0);
+        assert_int_equal(random_poisson(none[i], 1, 1 - 0x1p-53), 0);
+        assert_int_equal(random_poisson(none[i], 5, 1 - 0x1p-53), 0);
     }
-    assert_int_equal(poisson_count(1e-300, 1 - 0x1p-53), 0);
-    assert_in_range(poisson_count(0.5, 1 - 0x1p-53), 12, 60);
-    assert_in_range(poisson_count(1000, 0x1p-53), 700, 1000);
-    assert_in_range(poisson_count(1000, 1 - 0x1p-53), 1000, 1350);
-    assert_int_equal(poisson_count(HUGE_VAL, 0.25), poisson_count(1e9, 0.25));
-    assert_in_range(poisson_count(1e9, 0.5), 1000000000 - 2, 1000000000 + 2);
+    assert_int_equal(random_poisson(1e-300, 1, 1 - 0x1p-53), 0);
+    assert_in_range(random_poisson(0.5, 1, 1 - 0x1p-53), 12, 60);
+    assert_in_range(random_poisson(1000, 1, 0x1p-53), 700, 1000);
+    assert_in_range(random_poisson(1000, 1, 1 - 0x1p-53), 1000, 1350);
+    assert_int_equal(random_poisson(HUGE_VAL, 1, 0.25), random_poisson(1e9, 1, 0.25));
+    assert_in_range(random_poisson(1e9, 1, 0.5), 1000000000 - 2, 1000000000 + 2);
     for (double uniform = 0.05; uniform < 1; uniform += 0.05) {
-        int64_t count = poisson_count(50, uniform);
-        assert_int_equal(poisson_overdispersed_count(50, 0.5, uniform), count);
-        assert_int_equal(poisson_overdispersed_count(50, (double)NAN, uniform), count);
-        assert_int_equal(poisson_overdispersed_count(50, 1e9, uniform),
-                         poisson_overdispersed_count(50, 1e3, uniform));
+        int64_t count = random_poisson(50, 1, uniform);
+        assert_int_equal(random_poisson(50, 0.5, uniform), count);
+        assert_int_equal(random_poisson(50, (double)NAN, uniform), count);
+        assert_int_equal(random_poisson(50, 1e9, uniform), random_poisson(50, 1e3, uniform));
     }
 }
 
@@ -91,7 +84,7 @@ static void counts_never_fall_when_their_draw_grows(void **state)
     for (size_t i = 0; i < COUNT(laws); i++) {
         int64_t before = 0;
         for (double uniform = 0x1p-11; uniform < 1; uniform += 0x1p-10) {
-            int64_t count = draw(laws[i][0], laws[i][1], uniform);
+            int64_t count = random_poisson(laws[i][0], laws[i][1], uniform);
             assert_true(count >= before);
             before = count;
         }
@@ -108,7 +101,7 @@ static void check_frequencies(double mean, double overdispersion, uint64_t *samp
     for (int k = 0; k < MOST; k++)
         seen[k] = 0;
     for (int i = 0; i < DRAWS; i++) {
-        int64_t count = draw(mean, overdispersion, sample_between(sample, 0x1p-50, 1));
+        int64_t count = random_poisson(mean, overdispersion, sample_between(sample, 0x1p-50, 1));
         seen[count < MOST ? count : MOST - 1]++;
     }
     double chi_square = 0, expected = 0, observed = 0, used = 0;
@@ -149,8 +142,7 @@ static void scan_totals_have_their_measured_mean_and_spread(void **state)
         double mean = cases[i][0], deviation = cases[i][1], sum = 0, squares = 0;
         for (int k = 0; k < DRAWS; k++) { /* uniforms evenly spread instead of drawn */
             double uniform = (k + 0.5) / DRAWS;
-            int64_t count =
-                poisson_overdispersed_count(mean, deviation * deviation / mean, uniform);
+            int64_t count = random_poisson(mean, deviation * deviation / mean, uniform);
             sum += (double)count;
             squares += ((double)count - mean) * ((double)count - mean);
         }
