@@ -142,7 +142,7 @@ void score_add_scan(struct score_tally *tally, double squares, size_t pairs, siz
     tally->localisation += gospa.localisation;
     tally->missed_part += gospa.missed_part;
     tally->false_part += gospa.false_part;
-    tally->ospa_sum += gospa_ospa(squares, pairs, truths, listed, cutoff);
+    tally->ospa_sum += gospa.ospa;
 }
 
 void score_add_value(struct score_values *values, double value, struct arena *arena)

@@ -195,7 +195,7 @@ static void pair_group(const struct entry *first, const struct target_cell *cell
                                                               first->listed.items[j]->target, cell);
     gospa_pair(distance, rows, columns, cell->cutoff, item_of, arena);
     for (size_t i = 0; i < rows; i++)
-        if (item_of[i] < columns) { /* ASSIGNMENT_NONE is above all columns */
+        if (item_of[i] < columns) { /* GOSPA_NONE is above all columns */
             first->truths.items[i]->partner = first->listed.items[item_of[i]]->target;
             first->listed.items[item_of[i]]->partner = first->truths.items[i]->target;
         }

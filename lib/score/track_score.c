@@ -3,7 +3,6 @@
 #include "base/sort.h"
 #include "geometry/kinematics.h"
 #include "geometry/sensor_pose.h"
-#include "score/assignment.h"
 
 const char *const track_score_truths[] = {[TRACK_TRUTH_IN_VIEW] = "in_view",
                                           [TRACK_TRUTH_DETECTED] = "detected",
@@ -132,7 +131,7 @@ struct track_pairs track_score_pairs(const struct frame *frame, const struct tra
     for (size_t i = 0; i < rows; i++) {
         struct track_pair *pair = list_add(&pairs.list, frame->arena);
         pair->object = objects.list.items[i];
-        if (track_of[i] == ASSIGNMENT_NONE)
+        if (track_of[i] == GOSPA_NONE)
             continue;
         pair->track = &list->tracks.items[track_of[i]];
         pair->apart_m = distance[i * columns + track_of[i]];
