@@ -290,7 +290,7 @@ static void compare(const struct ladder *ladder, const struct ladder_lists *list
             list[i] = &ladder->reference[i].scans.items[at];
             list[SEEDS + i] = &lists[i].scans.items[at];
         }
-        list_embedding_add_distances(list, ALL, scan->share, distance + scan->block * ALL * ALL);
+        energy_distance_add(list, ALL, scan->share, distance + scan->block * ALL * ALL);
     }
     *blocks = (struct energy_blocks){distance, ladder->block_weight, ladder->blocks, SEEDS, SEEDS};
 }

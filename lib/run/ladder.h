@@ -12,7 +12,7 @@
 #include "base/intern.h"
 #include "run/progress.h"
 #include "run/stage.h"
-#include "score/list_embedding.h"
+#include "score/energy_distance.h"
 #include "score/relative_error.h"
 
 enum { LADDER_SEEDS = 4 };

@@ -1,7 +1,31 @@
-/* Energy distance of two random lists, from samples of both (MODEL 11.2). */
+/* Energy distance of two random target lists, from samples of both (MODEL 11.2).
+ *
+ * Two lists, of any lengths, are as far apart as their sums of Gaussian kernels are: |m(X) - m(Y)|.
+ * The kernel is characteristic, so m tells all lists apart (Sriperumbudur et al., JMLR 11, 2010),
+ * and the length is of strong negative type (Lyons, Annals of Probability 41, 2013), as the energy
+ * distance needs it. Differences of coordinates are not wrapped. */
 #pragma once
 
-#include <stddef.h>
+#include "base/arena.h"
+
+enum { EMBEDDED_AXES = 4 };
+
+/* A target: range, azimuth and range rate in cells, level in steps of 3 dB. */
+struct embedded_target {
+    double axis[EMBEDDED_AXES];
+};
+
+struct embedded_list {
+    LIST_OF(struct embedded_target) targets;
+    double square; /* <m(X), m(X)>, by energy_distance_close */
+};
+
+/* Sorts the targets, so that their order in the list changes no bit, and computes the square. */
+void energy_distance_close(struct embedded_list *list, struct arena *arena);
+
+/* |m(X) - m(Y)| >= 0 of two closed lists; sqrt(3) between a list and the same with one target more.
+ */
+double energy_distance_of_lists(const struct embedded_list *one, const struct embedded_list *other);
 
 /* The distances of all lists from each other: ones lists of the first law, then others lists of the
  * second. distance[i * (ones + others) + j] is symmetric, 0 on the diagonal. D is linear in the
@@ -10,6 +34,10 @@ struct energy_sample {
     const double *distance;
     size_t ones, others; /* each at least 2 */
 };
+
+/* Adds a share of the distances of count closed lists from each other to such a matrix. */
+void energy_distance_add(const struct embedded_list *const *lists, size_t count, double share,
+                         double *distance);
 
 double energy_distance_of(const struct energy_sample *sample);
 

@@ -4,7 +4,6 @@
 
 #include "base/random.h"
 #include "base/sort.h"
-#include "score/energy_distance.h"
 #include "score/reference_stream.h"
 #include "score/target_score.h"
 
@@ -208,15 +207,15 @@ static int check_independence(const struct ensemble_scene *truth,
 static struct embedded_list embed(const struct ensemble_list *list, const struct target_cell *unit,
                                   struct arena *arena)
 {
-    const double cell[LIST_EMBEDDING_AXES] = {unit->range_m, unit->azimuth_rad,
-                                              unit->range_rate_mps, LEVEL_DB};
+    const double cell[EMBEDDED_AXES] = {unit->range_m, unit->azimuth_rad, unit->range_rate_mps,
+                                        LEVEL_DB};
     struct embedded_list embedded = {0};
     for (size_t i = 0; i < list->count; i++) {
         struct embedded_target *target = list_add(&embedded.targets, arena);
-        for (int axis = 0; axis < LIST_EMBEDDING_AXES; axis++)
+        for (int axis = 0; axis < EMBEDDED_AXES; axis++)
             target->axis[axis] = list->targets[i].axis[axis] / cell[axis];
     }
-    list_embedding_close(&embedded, arena);
+    energy_distance_close(&embedded, arena);
     return embedded;
 }
 
@@ -256,7 +255,7 @@ static struct ensemble_scene_score score_scene(const struct ensemble_scene *trut
             embedded[i] = embed(&seed->lists.items[k], &unit, &scratch);
             list[i] = &embedded[i];
         }
-        list_embedding_add_distances(list, all, 1 / (double)lists, distance);
+        energy_distance_add(list, all, 1 / (double)lists, distance);
         arena_clear(&scratch);
     }
     arena_free(&scratch);

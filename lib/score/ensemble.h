@@ -7,7 +7,7 @@
 
 #include "base/intern.h"
 #include "frame/frame.h"
-#include "score/list_embedding.h"
+#include "score/energy_distance.h"
 #include "text/field.h"
 
 struct ensemble_scene;
