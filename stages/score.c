@@ -4,7 +4,6 @@
 #include "run/stage.h"
 #include "score/ensemble.h"
 #include "score/reference_stream.h"
-#include "score/score_table.h"
 #include "score/target_score.h"
 
 struct score_state {
@@ -97,7 +96,7 @@ static int write_ensemble(struct score_state *own, struct runner *runner)
     if (!own->table)
         return runner_write_record(runner, &ensemble_score_record, &score);
     struct text text = {0};
-    score_table_ensemble(&score, &text);
+    ensemble_table(&score, &text);
     return runner_write_text(runner, &text);
 }
 

@@ -322,3 +322,22 @@ int ensemble_compare(const struct ensemble *truth, struct ensemble *listed, doub
     score->high = score->energy + margin;
     return 0;
 }
+
+/* The column of the scenes' names is as wide as the longest of them. */
+void ensemble_table(const struct ensemble_score *score, struct text *text)
+{
+    int width = 32;
+    for (size_t i = 0; i < score->scenes.count; i++)
+        if ((int)strlen(score->scenes.items[i].scene) > width)
+            width = (int)strlen(score->scenes.items[i].scene);
+    text_format(text, "%-*s %8s %9s %9s %11s %11s\n", width, "scene", "lists", "targets",
+                "in truth", "D", "error");
+    for (size_t i = 0; i < score->scenes.count; i++) {
+        const struct ensemble_scene_score *scene = &score->scenes.items[i];
+        text_format(text, "%-*s %8" PRId64 " %9.2f %9.2f %11.5f %11.5f\n", width, scene->scene,
+                    scene->lists, scene->listed_targets, scene->true_targets, scene->energy,
+                    scene->energy_error);
+    }
+    text_format(text, "mean %.5f, 95 %% interval %.5f to %.5f\n", score->energy, score->low,
+                score->high);
+}

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "base/intern.h"
+#include "base/text.h"
 #include "frame/frame.h"
 #include "score/energy_distance.h"
 #include "text/field.h"
@@ -53,3 +54,7 @@ int ensemble_add(struct ensemble *ensemble, const struct frame *frame, struct di
  * sensor measured, and a truth whose cells have no width or differ between seeds. */
 int ensemble_compare(const struct ensemble *truth, struct ensemble *listed, double azimuth_cell_rad,
                      struct arena *arena, struct ensemble_score *score, struct diag *diag);
+
+/* Writes a table for people: the energy distance of every scene, a row each, and of all together.
+ */
+void ensemble_table(const struct ensemble_score *score, struct text *text);

@@ -1,9 +1,13 @@
 #include "score/score.h"
 
+#include <inttypes.h>
+#include <stdio.h>
+
 #include "base/elementary.h"
 #include "base/sort.h"
+#include "base/units.h"
 #include "frame/frame_order.h"
-#include "score/error_statistics.h"
+#include "score/gospa.h"
 
 #define COUNT(owner, member, help) FIELD_INTEGER_IN(owner, member, 0, 0x1p53, help)
 #define MEASURE(member, help) FIELD_REAL_IN(struct score, member, 0, 1e300, help)
@@ -129,22 +133,6 @@ const struct record score_track_summary_record = {
     FIELD_TABLE(struct score_track_summary, track_summary_fields, "score_track_summary",
                 "Score of a stream, by glint-score-tracks --summary.")};
 
-void score_add_scan(struct score_tally *tally, double squares, size_t pairs, size_t truths,
-                    size_t listed, double cutoff)
-{
-    struct gospa gospa = gospa_of(squares, pairs, truths, listed, cutoff);
-    tally->scans++;
-    tally->truths += (int64_t)truths;
-    tally->listed += (int64_t)listed;
-    tally->pairs += (int64_t)pairs;
-    tally->gospa_sum += gospa.value;
-    tally->gospa_max = elementary_max(tally->gospa_max, gospa.value);
-    tally->localisation += gospa.localisation;
-    tally->missed_part += gospa.missed_part;
-    tally->false_part += gospa.false_part;
-    tally->ospa_sum += gospa.ospa;
-}
-
 void score_add_value(struct score_values *values, double value, struct arena *arena)
 {
     *list_add(&values->list, arena) = value;
@@ -172,12 +160,68 @@ static void add_sums(struct score_tally *tally, const struct score_tally *other)
     tally->ospa_sum += other->ospa_sum;
 }
 
+void score_add_scan(struct score_tally *tally, double squares, size_t pairs, size_t truths,
+                    size_t listed, double cutoff)
+{
+    struct gospa gospa = gospa_of(squares, pairs, truths, listed, cutoff);
+    add_sums(tally, &(struct score_tally){
+                        .scans = 1,
+                        .truths = (int64_t)truths,
+                        .listed = (int64_t)listed,
+                        .pairs = (int64_t)pairs,
+                        .gospa_sum = gospa.value,
+                        .gospa_max = gospa.value,
+                        .localisation = gospa.localisation,
+                        .missed_part = gospa.missed_part,
+                        .false_part = gospa.false_part,
+                        .ospa_sum = gospa.ospa,
+                    });
+}
+
 void score_merge(struct score_tally *tally, const struct score_tally *other, struct arena *arena)
 {
     add_sums(tally, other);
     for (int kind = 0; kind < SCORE_KINDS; kind++)
         for (int i = 0; i < SCORE_COMPONENTS; i++)
             append(&tally->values[kind][i], &other->values[kind][i], arena);
+}
+
+/* Sums over the sorted values, so that the order of the differences changes no bit. */
+struct score_differences score_statistics(double *differences, size_t count, struct arena *arena)
+{
+    double sum = 0, squares = 0, *size = differences;
+    sort_numbers(differences, count, arena);
+    for (size_t i = 0; i < count; i++) {
+        sum += differences[i];
+        squares += differences[i] * differences[i];
+        size[i] = fabs(differences[i]);
+    }
+    sort_numbers(size, count, arena);
+    return (struct score_differences){
+        .mean = sum / (double)count,
+        .rms = sqrt(squares / (double)count),
+        .p95 = size[(19 * count + 19) / 20 - 1],
+        .max = size[count - 1],
+        .present = SCORE_PAIRS,
+    };
+}
+
+double score_wasserstein(double *one, size_t one_count, double *other, size_t other_count,
+                         struct arena *arena)
+{
+    sort_numbers(one, one_count, arena);
+    sort_numbers(other, other_count, arena);
+    double area = 0, from = elementary_min(one[0], other[0]);
+    size_t i = 0, j = 0; /* number of values of each that are at most `from` */
+    while (i < one_count || j < other_count) {
+        bool first = j == other_count || (i < one_count && one[i] <= other[j]);
+        double to = first ? one[i] : other[j];
+        double apart = fabs((double)(i * other_count) - (double)(j * one_count));
+        area += apart * (to - from);
+        from = to;
+        *(first ? &i : &j) += 1;
+    }
+    return area / ((double)one_count * (double)other_count);
 }
 
 /* The values of one kind of all tallies, in one list allocated at their number. */
@@ -200,15 +244,11 @@ static struct score_differences differences_of(const struct score_tally *tallies
     struct score_values truth = gather(tallies, count, SCORE_TRUTH, component, arena);
     struct score_values listed = gather(tallies, count, SCORE_LISTED, component, arena);
     struct score_differences differences = {0};
-    if (errors.list.count > 0) {
-        struct error_statistics statistics =
-            error_statistics_of(errors.list.items, errors.list.count, arena);
-        differences = (struct score_differences){
-            statistics.mean, statistics.rms, statistics.p95, statistics.max, 0, SCORE_PAIRS};
-    }
+    if (errors.list.count > 0)
+        differences = score_statistics(errors.list.items, errors.list.count, arena);
     if (truth.list.count > 0 && listed.list.count > 0) {
-        differences.wasserstein = error_statistics_wasserstein(
-            truth.list.items, truth.list.count, listed.list.items, listed.list.count, arena);
+        differences.wasserstein = score_wasserstein(truth.list.items, truth.list.count,
+                                                    listed.list.items, listed.list.count, arena);
         differences.present |= SCORE_LISTS;
     }
     return differences;
@@ -269,4 +309,155 @@ void score_summarize(struct score_tallies *tallies, struct score_summary *summar
     summary->all = score_of(tallies->list.items, count, &scratch);
     summary->all.sensor = NULL;
     arena_free(&scratch);
+}
+
+enum { NAME_WIDTH = 24, UNIT_WIDTH = 12, COLUMN_WIDTH = 12 };
+
+struct table {
+    const struct score *scores;
+    const char *const *heads;
+    size_t count;
+    const char *distance; /* the unit of GOSPA and OSPA, and that of the parts of its square */
+    const char *square;
+    double *row; /* a figure for each score; NAN: it has none */
+    struct text *text;
+};
+
+/* A column is at least as wide as its head. */
+static int width_of(const struct table *table, size_t i)
+{
+    int head = (int)strlen(table->heads[i]);
+    return head + 2 > COLUMN_WIDTH ? head + 2 : COLUMN_WIDTH;
+}
+
+/* Figures that the decimals cannot tell from 0, and very large ones, have an exponent. */
+static void write_figure(double value, int decimals, int width, struct text *text)
+{
+    double size = fabs(value);
+    bool plain = size == 0 || decimals < 4 || (size >= 0.00005 && size < 1e6);
+    if (isnan(value))
+        text_format(text, "%*s", width, "-");
+    else
+        text_format(text, plain ? "%*.*f" : "%*.*e", width, plain ? decimals : 3, value);
+}
+
+static void write_row(const struct table *table, const char *name, const char *unit, int decimals)
+{
+    bool any = false;
+    for (size_t i = 0; i < table->count; i++)
+        any = any || !isnan(table->row[i]);
+    if (!any)
+        return;
+    text_format(table->text, "%-*s%-*s", NAME_WIDTH, name, UNIT_WIDTH, unit);
+    for (size_t i = 0; i < table->count; i++)
+        write_figure(table->row[i], decimals, width_of(table, i), table->text);
+    text_add_word(table->text, "\n");
+}
+
+/* The figures of a field, of the score itself or of a record at this offset in it. */
+static void fill_row(const struct table *table, const struct record *record,
+                     const struct field *field, size_t offset, double scale)
+{
+    for (size_t i = 0; i < table->count; i++) {
+        const char *base = (const char *)&table->scores[i] + offset;
+        table->row[i] = !field_present(record, field, base) ? (double)NAN
+                        : field->kind == FIELD_INTEGER ? (double)FIELD_LOAD(int64_t, field, base)
+                                                       : scale * FIELD_LOAD(double, field, base);
+    }
+}
+
+/* "azimuth rms" and all the others of the differences in a component, angles in degrees. */
+static void write_component(const struct table *table, const struct field *component)
+{
+    const char *unit = field_unit(component->name);
+    bool angle = strcmp(unit, "rad") == 0;
+    int length = (int)(strrchr(component->name, '_') - component->name);
+    for (const struct field *field = component->record->fields; field->name != NULL; field++) {
+        char name[80];
+        snprintf(name, sizeof name, "%.*s %s", length, component->name, field->name);
+        fill_row(table, component->record, field, component->offset, angle ? 180 / PI : 1);
+        write_row(table, name, angle ? "deg" : unit, 4);
+    }
+}
+
+static void write_rates(const struct table *table)
+{
+    const struct score *scores = table->scores;
+    for (size_t i = 0; i < table->count; i++)
+        table->row[i] = 100.0 * (double)scores[i].missed_count / (double)scores[i].true_count;
+    write_row(table, "missed", "% of true", 1);
+    for (size_t i = 0; i < table->count; i++)
+        table->row[i] = 100.0 * (double)scores[i].false_count / (double)scores[i].listed_count;
+    write_row(table, "false", "% of listed", 1);
+}
+
+static void write_table(const struct table *table)
+{
+    text_format(table->text, "%-*s%-*s", NAME_WIDTH, "", UNIT_WIDTH, "unit");
+    for (size_t i = 0; i < table->count; i++)
+        text_format(table->text, "%*s", width_of(table, i), table->heads[i]);
+    text_add_word(table->text, "\n");
+    for (const struct field *field = score_record.fields; field->name != NULL; field++) {
+        bool squared = field->offset >= offsetof(struct score, gospa_localisation) &&
+                       field->offset <= offsetof(struct score, gospa_false);
+        if (field->kind == FIELD_INTEGER || field->kind == FIELD_REAL)
+            fill_row(table, &score_record, field, 0, 1);
+        if (field->kind == FIELD_INTEGER)
+            write_row(table, field->name, "", 0);
+        else if (field->kind == FIELD_REAL)
+            write_row(table, field->name, squared ? table->square : table->distance, 4);
+        else if (field->kind == FIELD_RECORD)
+            write_component(table, field);
+        if (field->offset == offsetof(struct score, false_count))
+            write_rates(table);
+    }
+}
+
+static void write_frames(int64_t frames, int64_t only_true, int64_t only_listed, struct text *text)
+{
+    text_format(text, "%" PRId64 " frames", frames);
+    if (only_true + only_listed > 0)
+        text_format(text,
+                    " in both streams, %" PRId64 " in the truth alone, %" PRId64
+                    " in the scored stream alone",
+                    only_true, only_listed);
+}
+
+void score_table_summary(const struct score_summary *summary, struct text *text,
+                         struct arena *arena)
+{
+    size_t sensors = summary->sensors.count;
+    struct score *scores = arena_get(arena, (sensors + 1) * sizeof *scores);
+    const char **heads = arena_get(arena, (sensors + 1) * sizeof *heads);
+    for (size_t i = 0; i < sensors; i++) {
+        scores[i] = summary->sensors.items[i];
+        heads[i] = scores[i].sensor;
+    }
+    scores[sensors] = summary->all;
+    heads[sensors] = "all";
+    write_frames(summary->frames, summary->true_frames, summary->listed_frames, text);
+    text_format(text, "; distances in cells, cut off at %g; in azimuth a cell is ",
+                summary->cutoff);
+    if (summary->azimuth_cell_rad > 0)
+        text_format(text, "%g deg\n", summary->azimuth_cell_rad * (180 / PI));
+    else
+        text_add_word(text, "a twentieth of the view\n");
+    write_table(&(struct table){
+        .scores = scores,
+        .heads = heads,
+        .count = sensors == 1 ? 1 : sensors + 1,
+        .distance = "cells",
+        .square = "cells^2",
+        .row = arena_get(arena, (sensors + 1) * sizeof(double)),
+        .text = text,
+    });
+}
+
+void score_table_track_summary(const struct score_track_summary *summary, struct text *text)
+{
+    write_frames(summary->frames, summary->true_frames, summary->listed_frames, text);
+    text_format(text, "; distances in metres, cut off at %g; %" PRId64 " identity switches\n",
+                summary->cutoff_m, summary->id_switches);
+    write_table(&(struct table){&summary->all, (const char *const[]){"all"}, 1, "m", "m^2",
+                                (double[1]){0}, text});
 }

@@ -4,7 +4,7 @@
  * distributions over all of them are exact. A score is computed from one or more tallies. */
 #pragma once
 
-#include "score/gospa.h"
+#include "base/text.h"
 #include "text/field.h"
 
 enum score_component {
@@ -21,9 +21,10 @@ enum { SCORE_PAIRS = 1 << 0, SCORE_LISTS = 1 << 1 };
 
 /* The differences in one component, in its unit. */
 struct score_differences {
-    double mean, rms, p95, max; /* of listed less true, over the pairs */
-    double wasserstein;         /* between the two lists, unpaired */
-    unsigned present;           /* SCORE_PAIRS: there are pairs; SCORE_LISTS: no list is empty */
+    double mean, rms;   /* of listed less true, over the pairs */
+    double p95, max;    /* of their sizes; p95 is the least that 95 % of them do not exceed */
+    double wasserstein; /* between the two lists, unpaired */
+    unsigned present;   /* SCORE_PAIRS: there are pairs; SCORE_LISTS: no list is empty */
 };
 
 struct score {
@@ -118,3 +119,22 @@ struct score score_of(const struct score_tally *tallies, size_t count, struct ar
 /* Fills in the summary's scores, in ascending order of the sensors' names. */
 void score_summarize(struct score_tallies *tallies, struct score_summary *summary,
                      struct arena *arena);
+
+/* Mean, root mean square, 95 % and maximum of count > 0 differences, in any order, which are
+ * overwritten. */
+struct score_differences score_statistics(double *differences, size_t count, struct arena *arena);
+
+/* The Wasserstein-1 distance of two samples that are not paired: the area between their cumulative
+ * distributions, which is how far the values of one must move on average to become those of the
+ * other. Counts > 0; both samples are sorted on the way. A sample and the same shifted by s are |s|
+ * apart. */
+double score_wasserstein(double *one, size_t one_count, double *other, size_t other_count,
+                         struct arena *arena);
+
+/* Writes a summary as a table for people, with a column for each sensor, and for all together where
+ * there are several, and a row, with its unit, for every figure that any of them has. Angles are in
+ * degrees. Missed items are also in per cent of the true ones, false ones in per cent of the listed
+ * ones; "-" stands where there are none. */
+void score_table_summary(const struct score_summary *summary, struct text *text,
+                         struct arena *arena);
+void score_table_track_summary(const struct score_track_summary *summary, struct text *text);

@@ -2,6 +2,7 @@
 
 #include "base/sort.h"
 #include "base/units.h"
+#include "score/gospa.h"
 
 enum { COMPONENTS = SCORE_AMPLITUDE + 1 };
 

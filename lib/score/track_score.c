@@ -3,6 +3,7 @@
 #include "base/sort.h"
 #include "geometry/kinematics.h"
 #include "geometry/sensor_pose.h"
+#include "score/gospa.h"
 
 const char *const track_score_truths[] = {[TRACK_TRUTH_IN_VIEW] = "in_view",
                                           [TRACK_TRUTH_DETECTED] = "detected",

@@ -1,8 +1,9 @@
-#include "score/score.h"
+#include "check.h"
 
 #include <string.h>
 
-#include "check.h"
+#include "sample.h"
+#include "score/score.h"
 
 /* Two scans with a cut-off of 2, where each item left alone costs c^2/2 = 2: two pairs 1 and 1/2
  * apart and a false item; then one pair, its d^2 being 1/2, and two missed. */
@@ -187,6 +188,90 @@ static void scans_are_kept_by_sensor_and_summed_up_by_name(void **state)
     arena_free(&arena);
 }
 
+static void the_mean_is_signed_and_the_other_figures_are_sizes(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    struct score_differences of = score_statistics((double[]){-3, 1, 1, 1}, 4, &arena);
+    assert_close(of.mean, 0, 0);
+    assert_near(of.rms, sqrt(3), 1e-15);
+    assert_close(of.max, 3, 0);
+    of = score_statistics((double[]){-2}, 1, &arena);
+    assert_close(of.mean, -2, 0);
+    assert_close(of.rms, 2, 0);
+    assert_close(of.p95, 2, 0);
+    assert_close(of.max, 2, 0);
+    arena_free(&arena);
+}
+
+static void ninety_five_of_a_hundred_are_no_larger(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    double values[100];
+    for (int i = 0; i < 100; i++)
+        values[i] = (i % 2 == 0 ? 1 : -1) * (100 - i);
+    assert_close(score_statistics(values, 100, &arena).p95, 95, 0);
+    assert_close(score_statistics(values, 19, &arena).p95, 19, 0);
+    assert_close(score_statistics(values, 20, &arena).p95, 19, 0);
+    arena_free(&arena);
+}
+
+static void a_shifted_sample_is_apart_by_its_shift(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    uint64_t sample = 1;
+    double one[40], other[40], same[40];
+    for (int round = 0; round < 200; round++) {
+        double shift = sample_between(&sample, -10, 10);
+        for (int i = 0; i < 40; i++) {
+            one[i] = sample_between(&sample, -5, 5);
+            other[39 - i] = one[i] + shift;
+            same[(i + 7) % 40] = one[i];
+        }
+        assert_close(score_wasserstein(one, 40, other, 40, &arena), fabs(shift), 1e-13);
+        assert_close(score_wasserstein(one, 40, same, 40, &arena), 0, 0);
+        arena_clear(&arena);
+    }
+    arena_free(&arena);
+}
+
+static void samples_of_different_sizes_share_their_mass(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    double zero[] = {0}, pair[] = {3, 1}, three[] = {0, 3, 3};
+    assert_near(score_wasserstein(zero, 1, pair, 2, &arena), 2.0, 1e-15);
+    assert_near(score_wasserstein(three, 3, zero, 1, &arena), 2.0, 1e-15);
+    /* Up to the quantile 1/3 the values are 1 and 0, up to 1/2 they are 1 and 3, then both are
+     * 3. */
+    assert_near(score_wasserstein(pair, 2, three, 3, &arena), 2.0 / 6 + 1.0 / 3, 1e-15);
+    arena_free(&arena);
+}
+
+/* Compared with the definition over quantiles: the mean of |sorted one - sorted other| for equal
+ * counts. */
+static void samples_of_one_size_are_apart_as_their_sorted_values(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    uint64_t sample = 3;
+    for (int round = 0; round < 1000; round++) {
+        double one[2], other[2];
+        for (int i = 0; i < 2; i++) {
+            one[i] = sample_between(&sample, -1, 1);
+            other[i] = sample_between(&sample, -1, 1);
+        }
+        double expected = (fabs(fmin(one[0], one[1]) - fmin(other[0], other[1])) +
+                           fabs(fmax(one[0], one[1]) - fmax(other[0], other[1]))) /
+                          2;
+        assert_close(score_wasserstein(one, 2, other, 2, &arena), expected, 1e-15);
+        arena_clear(&arena);
+    }
+    arena_free(&arena);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -198,6 +283,11 @@ int main(void)
         cmocka_unit_test(quantiles_are_of_all_values_and_no_mean_of_quantiles),
         cmocka_unit_test(a_merged_tally_says_what_both_say_together),
         cmocka_unit_test(scans_are_kept_by_sensor_and_summed_up_by_name),
+        cmocka_unit_test(the_mean_is_signed_and_the_other_figures_are_sizes),
+        cmocka_unit_test(ninety_five_of_a_hundred_are_no_larger),
+        cmocka_unit_test(a_shifted_sample_is_apart_by_its_shift),
+        cmocka_unit_test(samples_of_different_sizes_share_their_mass),
+        cmocka_unit_test(samples_of_one_size_are_apart_as_their_sorted_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
