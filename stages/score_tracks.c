@@ -4,7 +4,6 @@
 #include "frame/frame_sequence.h"
 #include "run/stage.h"
 #include "score/reference_stream.h"
-#include "score/track_score.h"
 
 struct score_tracks {
     const char *tracks, *classes;

@@ -6,7 +6,7 @@
 #include "run/cost.h"
 #include "score/ensemble.h"
 #include "score/score.h"
-#include "score/track.h"
+#include "score/track_score.h"
 #include "traffic/scenario.h"
 
 static const struct {

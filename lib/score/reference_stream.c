@@ -324,7 +324,7 @@ int reference_stream_tracks(struct reference_stream *reference, const struct fra
     field_clear(&track_list_record, tracks);
     if (record_text_read(reference->line, reference->length, &track_list_record, tracks,
                          frame->arena, NULL, diag) != 0 ||
-        track_order(tracks, frame->arena, diag) != 0 ||
+        track_score_order(tracks, frame->arena, diag) != 0 ||
         ((tracks->present & TRACK_TIME) != 0 && check_time(frame, tracks->time_s, diag) != 0))
         return reference_stream_prefix(reference, diag);
     return 1;

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "frame/frame.h"
-#include "score/track.h"
+#include "score/track_score.h"
 #include "text/input.h"
 
 struct reference_stream;

@@ -1,4 +1,4 @@
-/* Score of a tracker's tracks against the frame's objects.
+/* A tracker's tracks: their line format, and score against the objects.
  *
  * The distance of a track and an object is that of their centres in the plane, in metres. An
  * identity switch is an object that is paired with another track than when it was last paired in
@@ -7,7 +7,30 @@
 
 #include "frame/frame.h"
 #include "score/score.h"
-#include "score/track.h"
+
+/* A track, in the coordinates of the frame's objects: the centre of the object's box, relative to
+ * the frame's origin, and the velocity of that centre over ground. */
+struct track {
+    const char *id; /* constant while the tracker takes it for the same object */
+    double x_m, y_m, vx_mps, vy_mps;
+    const char *extra;
+};
+
+enum { TRACK_TIME = 1 << 0 };
+
+struct track_list {
+    const char *scene;
+    int64_t frame;
+    double time_s;
+    LIST_OF(struct track) tracks;
+    const char *extra;
+    unsigned present; /* TRACK_TIME: the line has time_s */
+};
+
+extern const struct record track_list_record;
+
+/* Sorts the tracks by id; refuses an id of two tracks (DIAG_DATA). */
+int track_score_order(struct track_list *list, struct arena *arena, struct diag *diag);
 
 /* The objects that a tracker is expected to have. The ego is never one. */
 enum track_truth {

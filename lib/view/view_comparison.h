@@ -6,7 +6,6 @@
 #pragma once
 
 #include "score/reference_stream.h"
-#include "score/track_score.h"
 #include "view/view_data.h"
 
 struct view_comparison {

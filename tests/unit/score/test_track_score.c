@@ -144,10 +144,10 @@ static void tracks_are_sorted_by_id(void **state)
     struct diag diag = {0};
     struct track tracks[] = {{.id = "b"}, {.id = "a"}, {.id = "c"}};
     struct track_list list = {.tracks = {tracks, 3, 3}};
-    assert_int_equal(track_order(&list, &arena, &diag), 0);
+    assert_int_equal(track_score_order(&list, &arena, &diag), 0);
     assert_string_equal(tracks[0].id, "a");
     tracks[2].id = "b";
-    assert_int_equal(track_order(&list, &arena, &diag), -1);
+    assert_int_equal(track_score_order(&list, &arena, &diag), -1);
     assert_string_equal(diag.text, "tracks: the id \"b\" stands twice");
     arena_free(&arena);
 }
