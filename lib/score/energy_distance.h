@@ -1,4 +1,4 @@
-/* Energy distance of two random target lists, from samples of both (MODEL 11.2).
+/* Energy distance of two random target lists, from their samples (MODEL 11.2).
  *
  * Two lists, of any lengths, are as far apart as their sums of Gaussian kernels are: |m(X) - m(Y)|.
  * The kernel is characteristic, so m tells all lists apart (Sriperumbudur et al., JMLR 11, 2010),

@@ -1,4 +1,4 @@
-/* A tracker's tracks: their line format, and score against the objects.
+/* A tracker's tracks: line format, and score against the objects.
  *
  * The distance of a track and an object is that of their centres in the plane, in metres. An
  * identity switch is an object that is paired with another track than when it was last paired in
