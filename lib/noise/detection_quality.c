@@ -5,6 +5,19 @@
 #include "geometry/sensor_pose.h"
 #include "radar/monopulse.h"
 
+double detection_quality_existence(const struct existence *existence, double power)
+{
+    double mean = existence->rise + existence->snr, least = existence->least_false_alarm;
+    if (existence->false_alarms == 0 || power < least)
+        return 1;
+    if (power < existence->least_echo)
+        return 0;
+    /* ln(f0/f1), as both densities may be below the least double. */
+    double log_odds = elementary_log(existence->false_alarms * mean / existence->echoes) -
+                      (power - least) + power / mean;
+    return 1 / (1 + elementary_exp(log_odds));
+}
+
 /* Behind the centre of the box, in its lengths: that of a car of 4.5 m (MODEL 2.1). */
 #define REAR_AXLE (1.25 / 4.5)
 
@@ -118,7 +131,7 @@ static void add_strength(const struct detection_source *source,
     existence.echoes = sensor->prior.echoes;
     existence.snr = expected * expected;
     quality->snr_db = to_part(units_amplitude_db(ratio / sqrt(existence.rise)), 1e3);
-    quality->existence = existence_probability(&existence, ratio * ratio);
+    quality->existence = detection_quality_existence(&existence, ratio * ratio);
     quality->present |= QUALITY_NOISE;
 }
 

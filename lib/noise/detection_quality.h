@@ -2,7 +2,20 @@
 #pragma once
 
 #include "effects/effect.h"
-#include "noise/existence.h"
+
+/* What the probability of existence follows from: echoes are expected to have exponential powers
+ * from least_echo on, and noise alone from least_false_alarm on, in units of the noise's. */
+struct existence {
+    double echoes;                        /* mean number in a scan, detected or not; > 0 */
+    double snr;                           /* mean ratio of their powers to that of the noise; > 0 */
+    double false_alarms;                  /* mean number in a scan */
+    double least_false_alarm, least_echo; /* powers that the thresholds let pass; 0: all */
+    double rise;                          /* of the noise's power by other radars, >= 1 */
+};
+
+/* The probability, in [0, 1], that a detection of a power >= 0 is an echo and not noise, by Bayes'
+ * rule. What can be neither counts as an echo. */
+double detection_quality_existence(const struct existence *existence, double power);
 
 /* A scan's detections, as far as the quality of each depends on them. */
 struct detection_source {

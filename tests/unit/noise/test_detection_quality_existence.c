@@ -2,7 +2,7 @@
 
 #include <stdbool.h>
 
-#include "noise/existence.h"
+#include "noise/detection_quality.h"
 #include "sample.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
@@ -19,9 +19,9 @@ static void probabilities_are_those_of_bayes_rule(void **state)
                                         .least_echo = 4,
                                         .rise = 1};
     double echo = exp(-0.4) / 10;
-    assert_near(existence_probability(&existence, 4), echo / (echo + 0.5), 1e-14);
+    assert_near(detection_quality_existence(&existence, 4), echo / (echo + 0.5), 1e-14);
     echo = exp(-1.4) / 10;
-    assert_near(existence_probability(&existence, 14), echo / (echo + exp(-10) / 2), 1e-14);
+    assert_near(detection_quality_existence(&existence, 14), echo / (echo + exp(-10) / 2), 1e-14);
 }
 
 static void powers_that_one_cause_alone_can_have_are_certain(void **state)
@@ -33,12 +33,12 @@ static void powers_that_one_cause_alone_can_have_are_certain(void **state)
                                   .least_false_alarm = 4,
                                   .least_echo = 8,
                                   .rise = 2};
-    assert_close(existence_probability(&existence, 3), 1, 0);
-    assert_close(existence_probability(&existence, 6), 0, 0);
-    assert_true(existence_probability(&existence, 8) > 0);
-    assert_close(existence_probability(&existence, 1e6), 1, 0);
+    assert_close(detection_quality_existence(&existence, 3), 1, 0);
+    assert_close(detection_quality_existence(&existence, 6), 0, 0);
+    assert_true(detection_quality_existence(&existence, 8) > 0);
+    assert_close(detection_quality_existence(&existence, 1e6), 1, 0);
     existence.false_alarms = 0;
-    assert_close(existence_probability(&existence, 6), 1, 0);
+    assert_close(detection_quality_existence(&existence, 6), 1, 0);
 }
 
 /* Where the prior's mean is below that of the noise's tail, strong detections are rarer echoes than
@@ -53,7 +53,7 @@ static void densities_below_the_least_double_still_compare(void **state)
                                         .least_echo = 0,
                                         .rise = 1};
     double log_odds = log(0.5 * 1.001) - 2000 + 2000 / 1.001;
-    assert_near(existence_probability(&existence, 2000), 1 / (1 + exp(log_odds)), 1e-12);
+    assert_near(detection_quality_existence(&existence, 2000), 1 / (1 + exp(log_odds)), 1e-12);
 }
 
 struct bin {
@@ -79,7 +79,7 @@ static void of_detections_with_a_probability_so_many_are_echoes(void **state)
         double power = echo ? 31 * draw : 6 + draw;
         if (power < 6)
             continue;
-        double probability = existence_probability(&existence, power);
+        double probability = detection_quality_existence(&existence, power);
         struct bin *bin = &bins[probability == 1 ? 9 : (int)(10 * probability)];
         bin->expected += probability;
         bin->variance += probability * (1 - probability);
