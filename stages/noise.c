@@ -3,7 +3,7 @@
  * the list (10, 11), and the rounding of what is reported. */
 #include "base/units.h"
 #include "noise/false_alarm_cells.h"
-#include "noise/measurement_noise.h"
+#include "noise/target_list.h"
 #include "radar/interferer.h"
 #include "run/suite_choice.h"
 
@@ -16,7 +16,7 @@ static size_t measure_cells(struct frame *frame, const struct effect_scan *conte
     for (size_t i = 0; i < cells.count; i++) {
         const struct cell *cell = &cells.items[i];
         struct effect_measurement *measurement = &measurements[count];
-        bool has_angle = measurement_noise_read(context, cell, measurement);
+        bool has_angle = target_list_measure(context, cell, measurement);
         double threshold = interferer_threshold(context->sensor->threshold, cell->interference);
         if (tested && measurement->amplitude < threshold)
             frame_lose_cell(frame, "noise", cell, LOSS_BELOW_FINAL,

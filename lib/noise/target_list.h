@@ -1,5 +1,4 @@
-/* A sensor's target list: measurements, their order, limit and rounding (MODEL 9 to 11).
- */
+/* A sensor's target list: measurements, their order, limit and rounding (MODEL 7 to 11). */
 #pragma once
 
 #include "noise/detection_quality.h"
@@ -23,3 +22,9 @@ void target_list_note_margins(const struct sensor *sensor, const struct cell *ce
  * the scan simulates quantisation; contributors keep the exact values. */
 void target_list_make(struct frame *frame, const char *stage, const struct detection_source *source,
                       struct effect_measurement *measurements, size_t count);
+
+/* Measures a cell as its sensor does: noise is added to the pointers, angle and amplitude are read
+ * off them, noise is added to range and range rate, and misalignment and radome turn the azimuth.
+ * False if both noisy pointers are zero, so that there is no azimuth. */
+bool target_list_measure(const struct effect_scan *context, const struct cell *cell,
+                         struct effect_measurement *measurement);

@@ -3,7 +3,7 @@
 #include <complex.h>
 
 #include "base/elementary.h"
-#include "noise/measurement_noise.h"
+#include "noise/target_list.h"
 
 static struct contributor leader = {.id = {.object = "o", .reflector = "r"}};
 
@@ -31,7 +31,7 @@ static void without_noise_a_measurement_has_the_values_of_its_cell(void **state)
     struct effect_scan context = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
     struct cell cell = cell_of(bench);
     struct effect_measurement read;
-    assert_true(measurement_noise_read(&context, &cell, &read));
+    assert_true(target_list_measure(&context, &cell, &read));
     assert_true(read.cell == &cell && read.range_m == 30 && read.range_rate_mps == -3);
     assert_close(read.azimuth_rad, 0.1, 1e-12);
     assert_near(read.amplitude, 4.0, 1e-12);
@@ -51,7 +51,7 @@ static void angle_and_amplitude_are_those_of_the_noisy_pointers(void **state)
     effect_measure(&context, EFFECT_STEP_POINTERS, &noisy);
     struct monopulse_angle angle =
         monopulse_angle(&sensor->antenna, sensor->angle_estimator, noisy.pointers);
-    assert_true(measurement_noise_read(&context, &cell, &read));
+    assert_true(target_list_measure(&context, &cell, &read));
     assert_true(fabs(angle.azimuth_rad - 0.1) > 1e-5);
     assert_close(read.azimuth_rad, angle.azimuth_rad + 0.02, 1e-15);
     assert_near(read.amplitude, cabs(noisy.pointers.sum), 1e-15);
@@ -65,7 +65,7 @@ static void pointers_of_zero_have_no_angle(void **state)
     struct effect_scan context = effect_bench_begin(bench, EVERY_EFFECT, EFFECT_HOME_NOISE);
     const struct cell cell = {.members = {&leader, 1, 1}};
     struct effect_measurement read;
-    assert_false(measurement_noise_read(&context, &cell, &read));
+    assert_false(target_list_measure(&context, &cell, &read));
 }
 
 int main(void)
