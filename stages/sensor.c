@@ -2,7 +2,7 @@
  * ground (14), resolution cells (6), the threshold on a cell's summed amplitude, and its superposed
  * sum and delta pointers (7, 8). */
 #include "run/suite_choice.h"
-#include "sensor/cell_margins.h"
+#include "sensor/resolution_cell.h"
 #include "sensor/scan.h"
 
 /* Makes the cell of these received echoes. False if it has no angle. */
@@ -34,7 +34,7 @@ static void report(struct frame *frame, const struct scan *scan, const struct se
     bool has_angle = superpose(scan, selection, members, count, &cell);
     if (margins != NULL) {
         cell.margins = margins[number];
-        cell_margins_add(sensor, &cell);
+        resolution_cell_note_margins(sensor, &cell);
     }
     resolution_cell_list(frame, "sensor", sensor, selection, &cell, has_angle);
 }
@@ -49,7 +49,7 @@ static void sense(struct frame *frame, const struct sensor *sensor,
     scan_account(&scan, frame, "sensor");
     const struct margins *margins =
         frame_carries(frame, CARRY_MARGINS)
-            ? cell_margins_of(sensor, &scan.received, scan.cells, frame->arena)
+            ? resolution_cell_margins(sensor, &scan.received, scan.cells, frame->arena)
             : NULL;
     for (size_t number = 0; number < scan.cells; number++)
         report(frame, &scan, selection, margins, number);

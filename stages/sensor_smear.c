@@ -1,7 +1,7 @@
 /* The sensor as a windowed range-Doppler transform shows it: every echo is smeared over the bins
  * around it, and cells are the peaks of the sum of all (MODEL 6.1). */
 #include "run/suite_choice.h"
-#include "sensor/cell_margins.h"
+#include "sensor/resolution_cell.h"
 #include "sensor/scan.h"
 #include "sensor/smear.h"
 
@@ -11,7 +11,7 @@ static struct margins margins_of(const struct smear *smear, size_t number, struc
     for (size_t i = 0; i < smear->count; i++)
         if (smear->cell[i] == number)
             margins_merge(&cell->margins, smear->echoes[i].margins);
-    cell_margins_add(smear->sensor, cell);
+    resolution_cell_note_margins(smear->sensor, cell);
     return cell->margins;
 }
 

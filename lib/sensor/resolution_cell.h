@@ -1,7 +1,8 @@
 /* What a sensor measures of echoes that share a cell.
  *
  * A cell without noise has the weighted means of its echoes' ranges and range rates (MODEL 6), and
- * the sum and delta pointers of their superposition (MODEL 8). */
+ * the sum and delta pointers of their superposition (MODEL 8). Its margins tell how near it was to
+ * having other members (MODEL 11.1). */
 #pragma once
 
 #include "radar/resolution.h"
@@ -35,3 +36,24 @@ bool resolution_cell_of(const struct sensor *sensor, const struct received_echo 
 void resolution_cell_list(struct frame *frame, const char *stage, const struct sensor *sensor,
                           const struct selection *selection, const struct cell *cell,
                           bool has_angle);
+
+/* Received echoes of positive amplitude, strongest first, and the number of each one's cell. */
+struct clustered_echoes {
+    const struct received_echo *echoes;
+    const size_t *cell;
+    size_t count;
+};
+
+/* The margins of all cells from their members and from clustering: the least sight_m of a cell's
+ * members, and what follows from pairs of a leader and an echo that was left when that leader
+ * opened its cell, one of them being in the cell. cell_edge is how far, in half cells, the echo was
+ * from the edge of the leader's cell: from the nearer edge if it is a member, else from the edge
+ * that it is farthest beyond. leader_db is by how much the leader was the stronger, if the two are
+ * within two half cells of each other. */
+struct margins *resolution_cell_margins(const struct sensor *sensor,
+                                        const struct clustered_echoes *all, size_t cells,
+                                        struct arena *arena);
+
+/* Adds to a cell's margins those of decisions about the whole cell: the threshold on its summed
+ * amplitude, and the sign of its azimuth, which only the magnitude rule decides. */
+void resolution_cell_note_margins(const struct sensor *sensor, struct cell *cell);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "effects/effect.h"
-#include "sensor/cell_margins.h"
+#include "sensor/resolution_cell.h"
 
 struct scan {
     struct effect_scan context;          /* the effects that the scan is received with */

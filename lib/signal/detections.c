@@ -6,7 +6,7 @@
 #include "noise/target_list.h"
 #include "radar/folding.h"
 #include "radar/interferer.h"
-#include "sensor/cell_margins.h"
+#include "sensor/resolution_cell.h"
 #include "signal/peak_accuracy.h"
 #include "signal/unfolding.h"
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "effects/effect.h"
-#include "sensor/cell_margins.h"
+#include "sensor/resolution_cell.h"
 #include "signal/detections.h"
 
 #define PI 3.14159265358979323846

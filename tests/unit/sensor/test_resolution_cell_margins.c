@@ -6,7 +6,7 @@
 
 #include "radar/resolution.h"
 #include "sample.h"
-#include "sensor/cell_margins.h"
+#include "sensor/resolution_cell.h"
 
 enum { ALL = 4 };
 
@@ -38,7 +38,7 @@ static size_t margins_of(const struct given_echo *given, size_t count, struct ma
     size_t cells = resolution_cluster(to_cluster, count, sensor.half_range_m,
                                       sensor.half_range_rate_mps, cell, &arena);
     const struct clustered_echoes all = {echoes, cell, count};
-    memcpy(margins, cell_margins_of(&sensor, &all, cells, &arena), cells * sizeof *margins);
+    memcpy(margins, resolution_cell_margins(&sensor, &all, cells, &arena), cells * sizeof *margins);
     arena_free(&arena);
     return cells;
 }
@@ -181,7 +181,7 @@ static void margins_are_those_of_all_pairs(void **state)
         struct arena arena = {0};
         size_t cells = resolution_cluster(places, count, 1, 2, cell, &arena);
         const struct clustered_echoes all = {echoes, cell, count};
-        const struct margins *margins = cell_margins_of(&sensor, &all, cells, &arena);
+        const struct margins *margins = resolution_cell_margins(&sensor, &all, cells, &arena);
         for (size_t i = 0; i < cells; i++) {
             struct margins expected = margins_from_all_pairs(&all, i);
             assert_int_equal(margins[i].present, expected.present);
@@ -205,7 +205,7 @@ static void the_edge_is_that_of_the_larger_cell(void **state)
         echoes[wide].widening = 1;
         const struct clustered_echoes all = {echoes, cell, 2};
         struct arena arena = {0};
-        assert_close(cell_margins_of(&sensor, &all, 1, &arena)->cell_edge, 0.25, 1e-13);
+        assert_close(resolution_cell_margins(&sensor, &all, 1, &arena)->cell_edge, 0.25, 1e-13);
         arena_free(&arena);
     }
 }
@@ -215,7 +215,7 @@ static void a_cell_has_margins_of_threshold_and_sign(void **state)
 {
     (void)state;
     struct cell cell = {.amplitude = 20, .sum_re = 2, .delta_re = 3, .delta_im = -4};
-    cell_margins_add(&sensor, &cell);
+    resolution_cell_note_margins(&sensor, &cell);
     assert_int_equal(cell.margins.present, MARGIN_THRESHOLD | MARGIN_SIGN);
     assert_close(cell.margins.threshold_db, 20, 1e-13);
     assert_close(cell.margins.sign, 0.8, 1e-15);
@@ -223,10 +223,10 @@ static void a_cell_has_margins_of_threshold_and_sign(void **state)
     struct sensor ratio = sensor;
     ratio.angle_estimator = MONOPULSE_RATIO;
     cell.margins.present = 0;
-    cell_margins_add(&ratio, &cell);
+    resolution_cell_note_margins(&ratio, &cell);
     assert_int_equal(cell.margins.present, MARGIN_THRESHOLD);
     cell = (struct cell){.amplitude = 0.2, .sum_re = 2};
-    cell_margins_add(&sensor, &cell);
+    resolution_cell_note_margins(&sensor, &cell);
     assert_int_equal(cell.margins.present, MARGIN_THRESHOLD);
     assert_close(cell.margins.threshold_db, 20, 1e-13);
 }
