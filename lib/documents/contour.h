@@ -3,7 +3,7 @@
  * in posts, one in the middle of each piece of the face.
  *
  * Posts are seen from their face's outer side, by a raised cosine over the angle off its normal
- * (visibility_range.h). It gives the face its whole cross section on the normal, half of the
+ * (directivity.h). It gives the face its whole cross section on the normal, half of the
  * oblique one at 45 degrees, where the next face adds the other half, and nothing from 90 degrees
  * on or before. So the powers of all posts in sight, added without regard to phase, make the
  * class's cross section on each normal and on each diagonal, whatever the spacing; an object longer

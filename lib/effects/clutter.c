@@ -5,7 +5,7 @@
 #include "base/elementary.h"
 #include "base/random.h"
 #include "frame/draw_address.h"
-#include "geometry/sensor_pose.h"
+#include "geometry/kinematics.h"
 #include "propagation/ground_return.h"
 
 /* A scan has no more points than this. Those with higher numbers are left out, which thins clutter
@@ -26,7 +26,8 @@ static struct sensor_pose pose_of(const struct effect_scan *scan)
 {
     const struct sensor *sensor = scan->sensor;
     struct motion ego = frame_motion(frame_object(scan->frame, scan->frame->ego), 0);
-    return sensor_pose_on(&ego, sensor->mount_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
+    return kinematics_sensor_pose(&ego, sensor->mount_x_m, sensor->mount_y_m,
+                                  sensor->mount_yaw_rad);
 }
 
 static int64_t point_count(const struct effect_scan *scan, double uniform)

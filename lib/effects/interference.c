@@ -5,7 +5,7 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
-#include "geometry/sensor_pose.h"
+#include "geometry/kinematics.h"
 #include "radar/interferer.h"
 
 static bool described(const struct effect_scan *scan)
@@ -28,8 +28,8 @@ static double noise_ratio_of(const struct effect_scan *scan, const struct interf
                   other_motion = frame_motion(carrier, age_s);
     struct vec2 offset_m = vec2_sub(other_motion.position_m, ego_motion.position_m);
     ego_motion.position_m = (struct vec2){0, 0}; /* where rounding is least */
-    struct sensor_pose pose =
-        sensor_pose_on(&ego_motion, sensor->mount_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
+    struct sensor_pose pose = kinematics_sensor_pose(&ego_motion, sensor->mount_x_m,
+                                                     sensor->mount_y_m, sensor->mount_yaw_rad);
     struct vec2 line_m = vec2_sub(offset_m, pose.position_m);
     double range_m = vec2_length(line_m);
     double azimuth_rad =

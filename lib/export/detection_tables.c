@@ -1,7 +1,7 @@
 #include "export/detection_tables.h"
 
 #include "frame/frame_order.h"
-#include "geometry/sensor_pose.h"
+#include "geometry/kinematics.h"
 
 const char *const detection_tables_names[] = {
     [TABLE_DETECTIONS] = "detections", [TABLE_OBJECTS] = "objects",
@@ -387,8 +387,8 @@ static void take_pose(struct writing *writing, const struct sensor_view *sensor)
     if (ego == NULL)
         return;
     struct motion motion = frame_motion(ego, sensor->age_s);
-    struct sensor_pose pose =
-        sensor_pose_on(&motion, sensor->mount_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
+    struct sensor_pose pose = kinematics_sensor_pose(&motion, sensor->mount_x_m, sensor->mount_y_m,
+                                                     sensor->mount_yaw_rad);
     row->sensor_x_m = pose.position_m.x;
     row->sensor_y_m = pose.position_m.y;
     row->sensor_yaw_rad = pose.yaw_rad;

@@ -244,7 +244,7 @@ const struct reflectors_shape *reflectors_shape(const struct reflector_set *set,
     for (size_t i = 0; i < set->points.count; i++) {
         const struct point_reflector *point = &set->points.items[i];
         shape->faces[i] = (struct reflectors_face){vec2_heading(point->facing_rad),
-                                                   visibility_range_dark_cosine(point->zero_rad)};
+                                                   directivity_dark_cosine(point->zero_rad)};
         shape->share = farthest(shape->share, point->x, point->y);
         shape->inset_m = elementary_max(shape->inset_m, point->inset_m);
         shape->under |= point->under_vehicles > 0;
@@ -269,7 +269,7 @@ const struct reflectors_shape *reflectors_shape(const struct reflector_set *set,
 
 struct vec2 reflectors_point_place(const struct box *box, const struct point_reflector *point)
 {
-    struct vec2 surface = box_place(box, point->x, point->y);
+    struct vec2 surface = motion_box_place(box, point->x, point->y);
     if (point->inset_m == 0)
         return surface;
     struct vec2 facing = vec2_turn(vec2_heading(point->facing_rad), box->heading);
@@ -279,8 +279,8 @@ struct vec2 reflectors_point_place(const struct box *box, const struct point_ref
 double reflectors_visibility(const struct box *box, const struct point_reflector *point,
                              struct vec2 facing, struct vec2 place, struct vec2 sensor)
 {
-    return visibility_range_along(point->shape, point->full_rad, point->zero_rad,
-                                  vec2_turn(facing, box->heading), vec2_sub(sensor, place));
+    return directivity_visibility_along(point->shape, point->full_rad, point->zero_rad,
+                                        vec2_turn(facing, box->heading), vec2_sub(sensor, place));
 }
 
 bool reflectors_surely_no_foot(const struct box *box, const struct plane_reflector *plane,
@@ -299,14 +299,15 @@ double reflectors_lobe(const struct box *box, const struct point_reflector *poin
                        struct vec2 place, struct vec2 sensor, double zenith_rad)
 {
     struct vec2 facing = vec2_turn(vec2_heading(point->facing_rad), box->heading);
-    double off_rad = visibility_range_angle_rad(facing, vec2_sub(sensor, place));
-    return lobe_amplitude_factor(&point->lobe, off_rad, zenith_rad);
+    double off_rad = directivity_angle_rad(facing, vec2_sub(sensor, place));
+    return directivity_lobe_factor(&point->lobe, off_rad, zenith_rad);
 }
 
 /* From the first post to the end of the row, in the world. */
 static struct vec2 row_vector(const struct box *box, const struct post_row *row)
 {
-    return vec2_sub(box_place(box, row->to_x, row->to_y), box_place(box, row->from_x, row->from_y));
+    return vec2_sub(motion_box_place(box, row->to_x, row->to_y),
+                    motion_box_place(box, row->from_x, row->from_y));
 }
 
 void reflectors_posts_within(const struct box *box, const struct post_row *row, struct vec2 sensor,
@@ -320,7 +321,7 @@ void reflectors_posts_within(const struct box *box, const struct post_row *row, 
     if (length == 0)
         return;
     struct vec2 unit = vec2_scale(1 / length, along);
-    struct vec2 to_sensor = vec2_sub(sensor, box_place(box, row->from_x, row->from_y));
+    struct vec2 to_sensor = vec2_sub(sensor, motion_box_place(box, row->from_x, row->from_y));
     double foot = vec2_dot(to_sensor, unit), aside = vec2_cross(unit, to_sensor);
     if (fabs(aside) > range_m) {
         *end = 0;
@@ -337,7 +338,7 @@ struct vec2 reflectors_post_place(const struct box *box, const struct post_row *
 {
     struct vec2 along = row_vector(box, row);
     double length = vec2_length(along);
-    struct vec2 start = box_place(box, row->from_x, row->from_y);
+    struct vec2 start = motion_box_place(box, row->from_x, row->from_y);
     if (length == 0)
         return start;
     return vec2_add(start, vec2_scale((double)post * row->spacing_m / length, along));

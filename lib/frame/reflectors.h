@@ -2,13 +2,12 @@
  *
  * A vehicle document in data/vehicles/ describes one class; glint-extract writes it as a set that
  * lists the objects of that class. One set serves objects of any size: x and y are fractions of an
- * object's length and width from the centre of its box (box.h), z is a fraction of its height from
- * the road. */
+ * object's length and width from the centre of its box (motion.h), z is a fraction of its height
+ * from the road. */
 #pragma once
 
-#include "geometry/box.h"
-#include "geometry/lobe.h"
-#include "geometry/visibility_range.h"
+#include "geometry/directivity.h"
+#include "geometry/motion.h"
 #include "propagation/material.h"
 #include "text/field.h"
 
@@ -25,7 +24,7 @@ struct point_reflector {
     double extent;  /* from its lowest to its highest part, as a fraction of the object's height */
     double inset_m; /* distance of the point behind (x, y), against its facing */
     double facing_rad;
-    double full_rad, zero_rad; /* visibility_range.h */
+    double full_rad, zero_rad; /* directivity.h */
     enum visibility_shape shape;
     double ercs;
     enum moving_part moving_part;
@@ -94,7 +93,7 @@ struct reflectors_shape {
 /* The direction in which a point faces, in the object's frame. */
 struct reflectors_face {
     struct vec2 heading;
-    double dark_cosine; /* visibility_range_dark_cosine */
+    double dark_cosine; /* directivity_dark_cosine */
 };
 
 extern const struct record point_record, plane_record, row_record;
@@ -136,7 +135,7 @@ static inline bool reflectors_surely_unseen(const struct box *box,
     struct vec2 facing = face->heading;
     struct vec2 sight = {sensor.x - point->x * box->length_m + point->inset_m * facing.x,
                          sensor.y - point->y * box->width_m + point->inset_m * facing.y};
-    return visibility_range_surely_zero(face->dark_cosine, facing, sight, REFLECTORS_SLACK_M);
+    return directivity_surely_zero(face->dark_cosine, facing, sight, REFLECTORS_SLACK_M);
 }
 
 /* True only if a plane has no specular point for a sensor at that place in the object's frame. */

@@ -90,3 +90,31 @@ bool mirror_may_bounce(const struct mirror *mirror, struct vec2 centre_m, double
     return vec2_cross(to_a, to_image) <= reach_m * vec2_length(to_a) &&
            vec2_cross(to_b, to_image) >= -reach_m * vec2_length(to_b);
 }
+
+/* A path with one way straight and one way by the wall. */
+static struct mirror_ghost one_way(double reflection, const struct kinematics *direct,
+                                   const struct kinematics *image, double azimuth_rad)
+{
+    double range_m = (direct->range_m + image->range_m) / 2;
+    return (struct mirror_ghost){
+        .kinematics = {range_m, azimuth_rad, (direct->range_rate_mps + image->range_rate_mps) / 2},
+        .ercs_factor = reflection * (range_m / direct->range_m) * (range_m / image->range_m),
+    };
+}
+
+struct mirror_ghost mirror_ghost_out(double reflection, const struct kinematics *direct,
+                                     const struct kinematics *image)
+{
+    return one_way(reflection, direct, image, direct->azimuth_rad);
+}
+
+struct mirror_ghost mirror_ghost_back(double reflection, const struct kinematics *direct,
+                                      const struct kinematics *image)
+{
+    return one_way(reflection, direct, image, image->azimuth_rad);
+}
+
+struct mirror_ghost mirror_ghost_both(double reflection, const struct kinematics *image)
+{
+    return (struct mirror_ghost){.kinematics = *image, .ercs_factor = reflection * reflection};
+}

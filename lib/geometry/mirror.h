@@ -1,4 +1,4 @@
-/* Image of a moving point in a wall that mirrors (MODEL 14.1).
+/* Images of moving points in a wall, and mirror ghosts (MODEL 14.1).
  *
  * The wall is the segment a to b with its outer face to the right of a -> b, like every flat side
  * (specular_point.h). Only that face mirrors: a guardrail has two. The wall may move and turn with
@@ -11,7 +11,7 @@
  * velocity is the velocity of the image. Metres and metres per second, in one plane. */
 #pragma once
 
-#include "geometry/motion.h"
+#include "geometry/kinematics.h"
 
 /* A wall and one sensor. mirror_of sets what follows from both. */
 struct mirror {
@@ -49,3 +49,21 @@ bool mirror_bounce(const struct mirror *mirror, struct vec2 point_m, struct vec2
  * whole body and a wall can be passed over at once. Sound under rounding for coordinates up to 1e7
  * m; unnecessarily true where the disc passes narrowly by an end of the wall. */
 bool mirror_may_bounce(const struct mirror *mirror, struct vec2 centre_m, double radius_m);
+
+/* A ghost: the path of a wave between a sensor S, an object O and a wall W with more than one
+ * bounce. */
+struct mirror_ghost {
+    struct kinematics kinematics; /* apparent */
+    /* On the ERCS of O, >= 0: what the bounces leave, and the spreading over the path's two ways
+     * over that of an echo at the ghost's own range, as the receiver reckons by its delay. */
+    double ercs_factor;
+};
+
+/* The ghosts S-W-O-S (out), S-O-W-S (back) and S-W-O-W-S (both). direct and image are the
+ * kinematics of O and of O' (mirror_image), at ranges R > 0; mirror_bounce says whether these paths
+ * exist. The loss at a bistatic angle is not included. */
+struct mirror_ghost mirror_ghost_out(double reflection, const struct kinematics *direct,
+                                     const struct kinematics *image);
+struct mirror_ghost mirror_ghost_back(double reflection, const struct kinematics *direct,
+                                      const struct kinematics *image);
+struct mirror_ghost mirror_ghost_both(double reflection, const struct kinematics *image);

@@ -1,7 +1,7 @@
-/* Rigid motion in the plane, in closed form (MODEL 2.4). A body moves with constant turn rate and
- * constant acceleration along its path (a segment of a scenario), or without acceleration, as when
- * an object is moved to the instant of a measurement. Small turn rates need no branch and no
- * division by omega. */
+/* Rigid motion of bodies, and places on their boxes. Motion is in closed form (MODEL 2.4): a body
+ * moves with constant turn rate and constant acceleration along its path (a segment of a scenario),
+ * or without acceleration, as when an object is moved to the instant of a measurement. Small turn
+ * rates need no branch and no division by omega. */
 #pragma once
 
 #include "base/vec2.h"
@@ -35,3 +35,27 @@ struct vec2 motion_velocity_at(const struct motion *body, struct vec2 place);
 void motion_hermite(struct vec2 from_m, struct vec2 from_mps, struct vec2 to_m, struct vec2 to_mps,
                     double duration_s, double s, struct vec2 *position_m, struct vec2 *velocity_mps,
                     struct vec2 *acceleration_mps2);
+
+/* A body's box. Fractions (x, y) are of its length and width from its centre: x forward, y left, so
+ * 0.5 is the front or the left side. They may lie beyond the box. */
+struct box {
+    struct motion motion; /* of the centre */
+    struct vec2 heading;  /* unit vector along the length: that of the motion's yaw */
+    double length_m, width_m;
+};
+
+/* The place in the world of a point in fractions of the box. */
+static inline struct vec2 motion_box_place(const struct box *box, double x, double y)
+{
+    struct vec2 own = {x * box->length_m, y * box->width_m};
+    return vec2_add(box->motion.position_m, vec2_turn(own, box->heading));
+}
+
+/* The four corners, counter-clockwise from the front left. */
+void motion_box_outline(const struct box *box, struct vec2 corner[4]);
+
+/* The unit vector from one place to another, both in fractions and not equal. Along a side of the
+ * box it is the heading itself or perpendicular to it, so that walls in line with one yaw share it
+ * to the last bit. */
+struct vec2 motion_box_along(const struct box *box, double from_x, double from_y, double to_x,
+                             double to_y);

@@ -1,10 +1,85 @@
 #include "geometry/obstruction.h"
 
 #include "base/elementary.h"
-#include "geometry/knife_edge.h"
-#include "geometry/outline_crossing.h"
+#include "geometry/predicates.h"
 
+/* nu from which on nothing passes, 2 sqrt(2), and up to which nothing is lost. */
 #define DARKEST_PARAMETER 2.82842712474619009760
+#define LIT (-0.78)
+
+#define TEN_TO_MINUS_069 0.204173794466952965
+
+static bool intervals_touch(double p, double q, double a, double b)
+{
+    return (p <= a || p <= b || q <= a || q <= b) && (a <= p || a <= q || b <= p || b <= q);
+}
+
+/* True if the bounding boxes of two segments touch. Decides collinear segments and points, for
+ * which all orientations are zero. */
+static bool boxes_touch(struct vec2 p, struct vec2 q, struct vec2 a, struct vec2 b)
+{
+    return intervals_touch(p.x, q.x, a.x, b.x) && intervals_touch(p.y, q.y, a.y, b.y);
+}
+
+/* True if a and b lie on different sides of the line p-q, or one of them on it. */
+static bool line_parts(struct vec2 p, struct vec2 q, struct vec2 a, struct vec2 b)
+{
+    return predicates_orientation(p, q, a) * predicates_orientation(p, q, b) <= 0;
+}
+
+bool obstruction_segments_touch(struct vec2 p, struct vec2 q, struct vec2 a, struct vec2 b)
+{
+    return boxes_touch(p, q, a, b) && line_parts(p, q, a, b) && line_parts(a, b, p, q);
+}
+
+bool obstruction_blocks(const struct vec2 *corners, size_t count, struct vec2 from, struct vec2 to)
+{
+    /* Tests edge by edge like obstruction_segments_touch, with one orientation per corner. */
+    int first = predicates_orientation(from, to, corners[0]), side = first;
+    for (size_t i = 0; i < count; i++) {
+        bool last = i + 1 == count;
+        struct vec2 corner = corners[i], next = corners[last ? 0 : i + 1];
+        int next_side = last ? first : predicates_orientation(from, to, next);
+        if (side * next_side <= 0 && boxes_touch(from, to, corner, next) &&
+            line_parts(corner, next, from, to))
+            return true;
+        side = next_side;
+    }
+    return false;
+}
+
+/* d1 d2/(d1 + d2), without underflow. */
+static double reduced_distance_m(double sensor_side_m, double reflector_side_m)
+{
+    double near = elementary_max(elementary_min(sensor_side_m, reflector_side_m), 0.1);
+    double far = elementary_max(elementary_max(sensor_side_m, reflector_side_m), 0.1);
+    return near / (near / far + 1);
+}
+
+/* The argument of the logarithm in J. */
+static double steepness(double parameter)
+{
+    return elementary_hypot(parameter - 0.1, 1) + (parameter - 0.1);
+}
+
+double obstruction_edge_parameter(double depth_m, double sensor_side_m, double reflector_side_m,
+                                  double wavelength_m)
+{
+    return depth_m * sqrt(2 / wavelength_m / reduced_distance_m(sensor_side_m, reflector_side_m));
+}
+
+double obstruction_edge_amplitude_factor(double parameter)
+{
+    if (!(parameter > LIT))
+        return 1;
+    return TEN_TO_MINUS_069 / steepness(parameter) / steepness(parameter);
+}
+
+/* d1 d2/(d1 + d2) is largest half way, and each distance may have grown by 0.1 m. */
+double obstruction_edge_reach_m(double range_m, double wavelength_m)
+{
+    return sqrt(wavelength_m * (range_m + 0.2) / 4);
+}
 
 /* The part of a line inside a convex outline, as fractions of its length. A line that only touches
  * the outline has the place where it touches, but for rounding. */
@@ -59,8 +134,8 @@ static double beside(const struct vec2 *corners, size_t count, const struct obst
         if (!touched && !(foot_m > 0 && foot_m < length_m))
             continue;
         double before_m = elementary_min(elementary_max(foot_m, 0), length_m);
-        double parameter = knife_edge_parameter(vec2_cross(along, offset), before_m,
-                                                length_m - before_m, wavelength_m);
+        double parameter = obstruction_edge_parameter(vec2_cross(along, offset), before_m,
+                                                      length_m - before_m, wavelength_m);
         left = elementary_max(left, parameter);
         right = elementary_max(right, -parameter);
     }
@@ -73,22 +148,23 @@ static double above(const struct obstruction_line *line, struct inside_interval 
 {
     double length_m = vec2_length(vec2_sub(line->to, line->from));
     double front =
-        knife_edge_parameter(top_m - height_m(line, inside.begin), inside.begin * length_m,
-                             (1 - inside.begin) * length_m, wavelength_m);
-    double back = knife_edge_parameter(top_m - height_m(line, inside.end), inside.end * length_m,
-                                       (1 - inside.end) * length_m, wavelength_m);
+        obstruction_edge_parameter(top_m - height_m(line, inside.begin), inside.begin * length_m,
+                                   (1 - inside.begin) * length_m, wavelength_m);
+    double back =
+        obstruction_edge_parameter(top_m - height_m(line, inside.end), inside.end * length_m,
+                                   (1 - inside.end) * length_m, wavelength_m);
     return elementary_max(front, back);
 }
 
 static double factor_at(double parameter)
 {
-    return parameter < DARKEST_PARAMETER ? knife_edge_amplitude_factor(parameter) : 0;
+    return parameter < DARKEST_PARAMETER ? obstruction_edge_amplitude_factor(parameter) : 0;
 }
 
 struct obstruction obstruction_of(const struct vec2 *corners, size_t count, double top_m,
                                   const struct obstruction_line *line, double wavelength_m)
 {
-    bool touched = outline_crossing_blocks(corners, count, line->from, line->to);
+    bool touched = obstruction_blocks(corners, count, line->from, line->to);
     if (wavelength_m == 0 && (!touched || isinf(top_m)))
         return (struct obstruction){.factor = touched ? 0 : 1};
     struct inside_interval inside = inside_interval_of(corners, count, line);

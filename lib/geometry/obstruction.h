@@ -1,14 +1,25 @@
-/* Part of an echo that a single body lets through (MODEL 2.5, 14.3, 14.4).
+/* Obstruction of sight lines by a body; knife-edge diffraction (MODEL 2.5, 14.3, 14.4).
  *
  * A body is an upright prism over the convex outline through count corners, counter-clockwise, up
- * to top_m. A top_m of INFINITY is the flat world, in which no line passes above anything. Whether
- * the line touches the outline is exact for the given coordinates (outline_crossing.h). Heights are
- * compared as plain doubles, so rounding, some 1e-15 m, decides a line that grazes a top. */
+ * to top_m. A top_m of INFINITY is the flat world, in which no line passes above anything.
+ *
+ * Whether a line touches the outline is exact for the given coordinates (predicates.h). The test is
+ * closed: a line that touches an outline in one point, runs through a corner, along an edge or
+ * through the joint of two walls is blocked. Only edges block, so a sensor inside an outline sees
+ * what is inside with it and nothing beyond. Bodies are never tested against their own reflectors.
+ * Heights are compared as plain doubles, so rounding, some 1e-15 m, decides a line that grazes a
+ * top. */
 #pragma once
 
 #include <stddef.h>
 
 #include "base/vec2.h"
+
+/* True if the closed segments p-q and a-b share a point. Segments of length zero are points. */
+bool obstruction_segments_touch(struct vec2 p, struct vec2 q, struct vec2 a, struct vec2 b);
+
+/* True if the closed segment from-to touches the closed polygon through the count corners. */
+bool obstruction_blocks(const struct vec2 *corners, size_t count, struct vec2 from, struct vec2 to);
 
 /* A straight line between two places and their heights. */
 struct obstruction_line {
@@ -30,13 +41,29 @@ struct obstruction {
 /* The obstruction of a line by a body.
  *
  * Without diffraction (wavelength_m 0) the body blocks, with the factor 0, a line that touches its
- * outline and is not above its top all along; for other lines the factor is 1. The test is closed,
- * as in the flat world. A line inside the outline from end to end is free.
+ * outline and is not above its top all along; for other lines the factor is 1. A line inside the
+ * outline from end to end is free.
  *
  * With diffraction the body is a knife edge at the easiest of the ways round it: to the left, to
  * the right or over the top. To either side the edge is the corner that reaches farthest into the
- * line, measured by nu (knife_edge.h) with the distances of the corner's foot on the line from both
- * ends; if the line does not touch the outline, only corners between both ends count. From two
- * Fresnel radii inside the shadow on, nu >= 2 sqrt(2), the factor is 0. */
+ * line, measured by nu with the distances of the corner's foot on the line from both ends; if the
+ * line does not touch the outline, only corners between both ends count. From two Fresnel radii
+ * inside the shadow on, nu >= 2 sqrt(2), the factor is 0. */
 struct obstruction obstruction_of(const struct vec2 *corners, size_t count, double top_m,
                                   const struct obstruction_line *line, double wavelength_m);
+
+/* The diffraction parameter of ITU-R P.526, nu = depth sqrt(2 (d1 + d2)/(lambda d1 d2)). depth_m is
+ * how far the sight line lies inside the shadow at the edge, negative outside; d1 and d2 are the
+ * distances from the edge to sensor and reflector, which count as at least 0.1 m; wavelength > 0.
+ */
+double obstruction_edge_parameter(double depth_m, double sensor_side_m, double reflector_side_m,
+                                  double wavelength_m);
+
+/* The factor on amplitude for both ways, 10^(-2 J/20), in [0, 1]. J(nu) = 6.9 + 20 lg(sqrt((nu -
+ * 0.1)^2 + 1) + nu - 0.1) dB is the loss of one way, 0 dB up to nu = -0.78, where the factor is
+ * exactly 1. J is within 0.15 dB of Fresnel's integral from nu = -0.77 to 12. */
+double obstruction_edge_amplitude_factor(double parameter);
+
+/* No edge farther than this from a sight line of length range_m changes the factor: the largest
+ * first Fresnel radius along the line. 0 for a wavelength of 0. */
+double obstruction_edge_reach_m(double range_m, double wavelength_m);

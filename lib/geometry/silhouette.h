@@ -1,9 +1,10 @@
-/* Angular extent of a box, and which boxes hide which. A silhouette holds the outermost corners of
- * a box that the sensor sees. From two silhouettes follows whether one box can hide any of the
+/* Azimuths that bodies cover, and which bodies hide which. A silhouette holds the outermost corners
+ * of a box that the sensor sees. From two silhouettes follows whether one box can hide any of the
  * other or surely hides all of it: auto leaves out occlusion by the first answer, and only sight
- * lines between both answers need the exact test (outline_crossing.h). */
+ * lines between both answers need the exact test (obstruction.h). */
 #pragma once
 
+#include "base/arena.h"
 #include "base/vec2.h"
 
 /* Boxes are enlarged by this to every side, far more than the rounding of a place. */
@@ -62,3 +63,39 @@ static inline bool silhouette_outside(const struct silhouette *silhouette, struc
             vec2_cross(right, silhouette->left_m) < 0) ||
            (vec2_cross(silhouette->right_m, left) < 0 && vec2_cross(silhouette->left_m, left) < 0);
 }
+
+/* Index of bodies by azimuth, so that a question about one direction concerns few of many bodies.
+ * The horizon around a sensor is cut into sectors. Each sector, or group of neighbouring sectors,
+ * has the set of the bodies, by number, whose silhouettes reach into it. Sets are bits, 64 to a
+ * word: they are joined a word at a time and come out in ascending order. */
+struct silhouette_index {
+    unsigned shift; /* from a sector's number to its set's, to the right */
+    size_t words;   /* per set */
+    uint64_t *sets; /* in counter-clockwise order of their sectors */
+    size_t *found;  /* numbers, ascending: the result of the last search */
+};
+
+/* A run of sectors, counter-clockwise from the first. */
+struct silhouette_span {
+    unsigned first, count;
+};
+
+extern const struct silhouette_span silhouette_everywhere;
+
+/* Every sector in which the silhouette has a direction; all sectors if the sensor is too near for a
+ * silhouette. */
+struct silhouette_span silhouette_span_of(const struct silhouette *silhouette);
+
+/* Every sector through which a straight line between two places runs, as seen from the sensor at
+ * the origin. */
+struct silhouette_span silhouette_span_between(struct vec2 from_m, struct vec2 to_m);
+
+/* An index without entries, for numbers below count. */
+struct silhouette_index silhouette_index_begin(size_t count, struct arena *arena);
+
+void silhouette_index_enter(struct silhouette_index *index, size_t number,
+                            struct silhouette_span span);
+
+/* Writes to found all numbers that were entered in any sector of the span; returns how many: every
+ * body whose silhouette has one of the sectors, and possibly more. */
+size_t silhouette_index_find(const struct silhouette_index *index, struct silhouette_span span);

@@ -2,7 +2,7 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
-#include "geometry/ghost_path.h"
+#include "geometry/mirror.h"
 #include "geometry/predicates.h"
 #include "geometry/specular_point.h"
 #include "ideal/line_of_sight.h"
@@ -44,8 +44,8 @@ static void add_face(const struct look *look, const struct look_body *body, size
                      bool in_view, struct mirror_faces *faces)
 {
     const struct mirror_plane *plane = &body->set->reflectors->mirrors.items[index];
-    struct mirror mirror = mirror_of(box_place(&body->box, plane->from_x, plane->from_y),
-                                     box_place(&body->box, plane->to_x, plane->to_y),
+    struct mirror mirror = mirror_of(motion_box_place(&body->box, plane->from_x, plane->from_y),
+                                     motion_box_place(&body->box, plane->to_x, plane->to_y),
                                      body->box.motion, look->pose.position_m);
     if (mirror.sensor_height_m == 0)
         return;
@@ -53,7 +53,8 @@ static void add_face(const struct look *look, const struct look_body *body, size
         .body = body,
         .number = (int64_t)index + 1,
         .mirror = mirror,
-        .along = box_along(&body->box, plane->from_x, plane->from_y, plane->to_x, plane->to_y),
+        .along =
+            motion_box_along(&body->box, plane->from_x, plane->from_y, plane->to_x, plane->to_y),
         .plane = plane,
         .permittivity = material_permittivity(plane->material, look->sensor->carrier_hz),
         .in_view = in_view,
@@ -92,10 +93,10 @@ static bool may_meet(const struct look_body *body, struct vec2 place, double rea
 static void join(const struct mirror_face *face, const struct look_body *body,
                  const struct mirror_plane *plane)
 {
-    struct vec2 a = box_place(&body->box, plane->from_x, plane->from_y);
-    struct vec2 b = box_place(&body->box, plane->to_x, plane->to_y);
-    if (!vec2_same(face->along,
-                   box_along(&body->box, plane->from_x, plane->from_y, plane->to_x, plane->to_y)))
+    struct vec2 a = motion_box_place(&body->box, plane->from_x, plane->from_y);
+    struct vec2 b = motion_box_place(&body->box, plane->to_x, plane->to_y);
+    if (!vec2_same(face->along, motion_box_along(&body->box, plane->from_x, plane->from_y,
+                                                 plane->to_x, plane->to_y)))
         return;
     if (vec2_length(vec2_sub(a, face->mirror.b)) <= LINE_OF_SIGHT_JOINT_M) {
         face->joints->after = body;
@@ -281,7 +282,7 @@ static struct margins margins_of(const struct look *look, const struct kinematic
 }
 
 static void add_ghost(struct look *look, const struct ghost_candidate *candidate, enum path path,
-                      struct ghost_path ghost, const struct route *out, const struct route *back)
+                      struct mirror_ghost ghost, const struct route *out, const struct route *back)
 {
     double departure_rad = out->read.azimuth_rad;
     frame_count_echoes(look->frame, look->sensor->name, path, 1);
@@ -341,11 +342,11 @@ static void add_paths(struct look *look, struct ghost_candidate *candidate, bool
     const struct route *direct = &candidate->direct, *mirrored = &candidate->mirrored;
     const struct kinematics *object = &direct->read, *image = &mirrored->read;
     double reflection = bounce_factor(look, candidate);
-    struct ghost_path both = ghost_path_both(reflection, image), out = both, back = both;
+    struct mirror_ghost both = mirror_ghost_both(reflection, image), out = both, back = both;
     one_way = one_way && direct->factor > 0 && object->range_m > 0;
     if (one_way) {
-        out = ghost_path_out(reflection, object, image);
-        back = ghost_path_back(reflection, object, image);
+        out = mirror_ghost_out(reflection, object, image);
+        back = mirror_ghost_back(reflection, object, image);
     }
     bool has_both = sensor->bounces >= BOUNCES_BOTH_WAYS &&
                     is_within_limits(sensor, &both.kinematics, image->azimuth_rad);

@@ -1,6 +1,6 @@
 /* Mirror ghosts: echoes by way of walls, guardrails and vehicles.
  *
- * MODEL 14.1 has the rules, mirror.h and ghost_path.h the formulas. A sensor's `bounces` limits the
+ * MODEL 14.1 has the rules, mirror.h the formulas. A sensor's `bounces` limits the
  * bounces of a path, off objects and mirrors together: 2 allows wall_object (sensor, wall, object,
  * sensor) and object_wall, its reverse; 3 also allows wall_object_wall. A path has one mirror: any
  * mirror of any body but the reflector's own. A bounce exactly on the joint of two mirrors in line

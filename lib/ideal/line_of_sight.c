@@ -1,8 +1,7 @@
 #include "ideal/line_of_sight.h"
 
 #include "base/elementary.h"
-#include "geometry/knife_edge.h"
-#include "geometry/outline_crossing.h"
+#include "geometry/obstruction.h"
 #include "geometry/predicates.h"
 #include "ideal/sight_margins.h"
 
@@ -53,10 +52,10 @@ static enum crossing crossing_by_silhouette(const struct look_body *body,
 
 struct side line_of_sight_side(const struct look_body *body, const struct plane_reflector *plane)
 {
-    return (struct side){
-        .from = box_place(&body->box, plane->from_x, plane->from_y),
-        .to = box_place(&body->box, plane->to_x, plane->to_y),
-        .along = box_along(&body->box, plane->from_x, plane->from_y, plane->to_x, plane->to_y)};
+    return (struct side){.from = motion_box_place(&body->box, plane->from_x, plane->from_y),
+                         .to = motion_box_place(&body->box, plane->to_x, plane->to_y),
+                         .along = motion_box_along(&body->box, plane->from_x, plane->from_y,
+                                                   plane->to_x, plane->to_y)};
 }
 
 /* Has the body a side in line with this one that begins at its end, or else ends at its beginning,
@@ -95,8 +94,8 @@ void line_of_sight_find_blockers(struct look *look, const struct look_body *own,
     if (!effects_enabled(selection, EFFECT_OCCLUSION))
         return;
     bool all = effects_forced(selection, EFFECT_OCCLUSION);
-    struct azimuth_index_span span = all ? azimuth_index_everywhere : wanted->span;
-    size_t count = azimuth_index_find(&look->blocker_index, span);
+    struct silhouette_span span = all ? silhouette_everywhere : wanted->span;
+    size_t count = silhouette_index_find(&look->blocker_index, span);
     for (size_t i = 0; i < count; i++) {
         const struct look_body *body = look->indexed[look->blocker_index.found[i]];
         /* No branch here: it would go either way too often to be predicted. */
@@ -192,12 +191,12 @@ struct line_of_sight line_of_sight_along(const struct look *look,
     struct line_of_sight all = {.factor = 1};
     if (!effects_enabled(look->selection, EFFECT_OCCLUSION))
         return all;
-    struct azimuth_index_span span =
+    struct silhouette_span span =
         effects_forced(look->selection, EFFECT_OCCLUSION)
-            ? azimuth_index_everywhere
-            : azimuth_index_between(vec2_sub(line->from, look->pose.position_m),
-                                    vec2_sub(line->to, look->pose.position_m));
-    size_t near = azimuth_index_find(&look->blocker_index, span);
+            ? silhouette_everywhere
+            : silhouette_span_between(vec2_sub(line->from, look->pose.position_m),
+                                      vec2_sub(line->to, look->pose.position_m));
+    size_t near = silhouette_index_find(&look->blocker_index, span);
     for (size_t i = 0; i < near; i++) {
         const struct look_body *body = look->indexed[look->blocker_index.found[i]];
         if (is_among(body, except, count))
@@ -218,13 +217,13 @@ double line_of_sight_margin_m(const struct look *look, const struct look_body *c
 {
     double nearest_m = (double)INFINITY, deepest_m = 0;
     double length_m = vec2_length(vec2_sub(line->to, line->from));
-    double soft_m = 2 * knife_edge_reach_m(length_m, look->wavelength_m);
+    double soft_m = 2 * obstruction_edge_reach_m(length_m, look->wavelength_m);
     for (size_t i = 0; i < look->indexed_count; i++) {
         const struct look_body *body = look->indexed[i];
         const struct vec2 *corner = body->corner, from = line->from, to = line->to;
         if (body->spare || (under && body->raised) || is_among(body, except, count))
             continue;
-        if (!outline_crossing_blocks(corner, 4, from, to)) {
+        if (!obstruction_blocks(corner, 4, from, to)) {
             nearest_m = elementary_min(nearest_m, sight_margins_outline_m(corner, 4, from, to));
             continue;
         }

@@ -4,10 +4,9 @@
 #include "base/hash.h"
 #include "base/units.h"
 #include "frame/frame_order.h"
-#include "geometry/knife_edge.h"
-#include "geometry/outline_crossing.h"
+#include "geometry/kinematics.h"
+#include "geometry/obstruction.h"
 #include "geometry/predicates.h"
-#include "geometry/slant.h"
 #include "geometry/specular_point.h"
 #include "ideal/sight_margins.h"
 #include "propagation/curved_surface.h"
@@ -17,7 +16,7 @@
 #define LONGEST_LEG 2
 
 /* A reflector at least LEVEL times as far away as it is high above or below the sensor is read at
- * an azimuth whose sine is at least 1 / LIFTED of that in the plane (slant.h). */
+ * an azimuth whose sine is at least 1 / LIFTED of that in the plane (kinematics.h). */
 #define LEVEL 5
 #define LIFTED 1.02
 
@@ -60,7 +59,7 @@ static struct look_body body_at(const struct look *look, const struct object *ob
     body.radius_m = 0.5 * vec2_length((struct vec2){object->length_m, object->width_m});
     body.sensor_m = vec2_turn_back(vec2_sub(look->pose.position_m, body.box.motion.position_m),
                                    body.box.heading);
-    box_outline(&body.box, body.corner);
+    motion_box_outline(&body.box, body.corner);
     return body;
 }
 
@@ -113,7 +112,7 @@ static struct look_extent extent_around(const struct look_body *body, double sha
     struct vec2 half_m = {0.5 * share * body->box.length_m + beyond_m,
                           0.5 * share * body->box.width_m + beyond_m};
     struct silhouette silhouette = silhouette_of(half_m, body->box.heading, body->sensor_m);
-    return (struct look_extent){silhouette, azimuth_index_of(&silhouette)};
+    return (struct look_extent){silhouette, silhouette_span_of(&silhouette)};
 }
 
 /* Do two bodies block alike? Their boxes, heights and sets are the same. */
@@ -161,9 +160,9 @@ static void index_blockers(struct look *look)
         if (is_indexed(look, body))
             look->indexed[look->indexed_count++] = body;
     }
-    look->blocker_index = azimuth_index_begin(look->indexed_count, arena);
+    look->blocker_index = silhouette_index_begin(look->indexed_count, arena);
     for (size_t i = 0; i < look->indexed_count; i++)
-        azimuth_index_enter(&look->blocker_index, i, look->indexed[i]->shadow.span);
+        silhouette_index_enter(&look->blocker_index, i, look->indexed[i]->shadow.span);
 }
 
 static void set_view_borders(struct look *look)
@@ -187,12 +186,13 @@ int look_begin(struct look *look, struct frame *frame, const struct sensor *sens
     *look =
         (struct look){.frame = frame, .sensor = sensor, .selection = selection, .time_s = time_s};
     look->ego_moved = age_s != 0 && has_moved(carrier, &ego);
-    look->pose = sensor_pose_on(&ego, sensor->mount_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
+    look->pose =
+        kinematics_sensor_pose(&ego, sensor->mount_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
     look->height_m = sensor->mount_z_m;
     look->sees_over = look->height_m > 0 && effects_enabled(selection, EFFECT_HEIGHT);
     if (sensor->diffraction && effects_enabled(selection, EFFECT_DIFFRACTION))
         look->wavelength_m = units_wavelength_m(sensor->carrier_hz);
-    look->rim_m = knife_edge_reach_m(LONGEST_LEG * sensor->range_max_m, look->wavelength_m);
+    look->rim_m = obstruction_edge_reach_m(LONGEST_LEG * sensor->range_max_m, look->wavelength_m);
     set_view_borders(look);
     place_bodies(look, age_s);
     if (attach_reflectors(look, diag) != 0)
@@ -261,15 +261,15 @@ struct kinematics look_slant(const struct look *look, double reflector_m, struct
     if (!tilted)
         return plane;
     int64_t start_ns = effects_clock_ns(selection);
-    struct slant slant = slant_of(plane.range_m, height_m);
+    struct slant slant = kinematics_slant(plane.range_m, height_m);
     struct kinematics read = {
         .range_m = slant.range_m,
-        .azimuth_rad = slant_azimuth_rad(slant, plane.azimuth_rad),
+        .azimuth_rad = kinematics_slant_azimuth_rad(slant, plane.azimuth_rad),
         .range_rate_mps = slant.cosine * plane.range_rate_mps,
     };
     double half_width_rad = look->sensor->elevation_half_width_rad;
     if (half_width_rad > 0)
-        *gain = slant_amplitude_factor(slant, half_width_rad);
+        *gain = kinematics_slant_amplitude_factor(slant, half_width_rad);
     if (read.range_m != plane.range_m || read.azimuth_rad != plane.azimuth_rad ||
         read.range_rate_mps != plane.range_rate_mps || *gain != 1)
         *effects |= EFFECT_BIT(EFFECT_ELEVATION);

@@ -12,9 +12,8 @@
 
 #include "documents/suite.h"
 #include "frame/frame.h"
-#include "geometry/azimuth_index.h"
 #include "geometry/kinematics.h"
-#include "geometry/sensor_pose.h"
+#include "geometry/silhouette.h"
 
 /* A reflector set of the frame, and the bodies that have its reflectors. */
 struct look_set {
@@ -26,7 +25,7 @@ struct look_set {
 /* The directions from the sensor that a body, its shadow or its reflectors cover. */
 struct look_extent {
     struct silhouette silhouette;
-    struct azimuth_index_span span; /* the silhouette's sectors */
+    struct silhouette_span span; /* the silhouette's sectors */
 };
 
 /* An object at the instant of measurement. */
@@ -60,9 +59,9 @@ struct look {
     struct vec2 view_left;    /* both zero: all directions */
     struct look_body *bodies; /* all objects but the ego, by id */
     size_t body_count;
-    struct look_set *sets;              /* of the frame, in its order */
-    struct azimuth_index blocker_index; /* of the bodies that block, numbered as in indexed */
-    const struct look_body **indexed;   /* by id */
+    struct look_set *sets;                 /* of the frame, in its order */
+    struct silhouette_index blocker_index; /* of the bodies that block, numbered as in indexed */
+    const struct look_body **indexed;      /* by id */
     size_t indexed_count;
     const struct look_body **blockers; /* those that may hide the body at hand, by id */
     size_t blocker_count;

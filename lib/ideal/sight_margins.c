@@ -2,7 +2,7 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
-#include "geometry/outline_crossing.h"
+#include "geometry/obstruction.h"
 
 double sight_margins_facing_m(const struct box *box, enum visibility_shape shape, double facing_rad,
                               double zero_rad, struct vec2 place, struct vec2 sensor)
@@ -11,7 +11,7 @@ double sight_margins_facing_m(const struct box *box, enum visibility_shape shape
         return (double)INFINITY;
     struct vec2 facing = vec2_turn(vec2_heading(facing_rad), box->heading);
     struct vec2 sight = vec2_sub(sensor, place);
-    return fabs(zero_rad - visibility_range_angle_rad(facing, sight)) * vec2_length(sight);
+    return fabs(zero_rad - directivity_angle_rad(facing, sight)) * vec2_length(sight);
 }
 
 double sight_margins_foot_m(struct vec2 a, struct vec2 b, struct vec2 along, double margin_m,
@@ -66,7 +66,7 @@ double sight_margins_depth_m(const struct vec2 *corners, size_t count, struct ve
     double deepest_m = 0;
     for (size_t i = 0; i < count; i++) {
         struct vec2 next = corners[(i + 1) % count];
-        if (outline_crossing_segments_touch(from, to, corners[i], next))
+        if (obstruction_segments_touch(from, to, corners[i], next))
             deepest_m = elementary_max(deepest_m, least_m(to_line_m, from, to, corners[i], next));
     }
     return deepest_m;

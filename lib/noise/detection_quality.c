@@ -2,7 +2,7 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
-#include "geometry/sensor_pose.h"
+#include "geometry/kinematics.h"
 #include "radar/monopulse.h"
 
 double detection_quality_existence(const struct existence *existence, double power)
@@ -184,7 +184,7 @@ static void add_places(const struct frame *frame, const struct target *target,
         return;
     struct motion motion = frame_motion(ego, view->age_s);
     struct sensor_pose pose =
-        sensor_pose_on(&motion, view->mount_x_m, view->mount_y_m, view->mount_yaw_rad);
+        kinematics_sensor_pose(&motion, view->mount_x_m, view->mount_y_m, view->mount_yaw_rad);
     struct vec2 world_m = vec2_add(pose.position_m, vec2_turn(place_m, pose.boresight));
     double own_mps = vec2_dot(pose.velocity_mps, vec2_turn(sight, pose.boresight));
     quality->x_rear_axle_m = to_part(centre_m.x - rear_axle_x_m(frame, ego), parts);

@@ -15,6 +15,6 @@ double ground_return_area_m2(double range_min_m, double range_max_m, double fiel
 double ground_return_range_m(double range_min_m, double range_max_m, double uniform);
 
 /* The range rate of a standing point at an azimuth from boresight: -v · u, with the velocity v of
- * the sensor itself (sensor_pose.h) and the unit vector u to the point. */
+ * the sensor itself (kinematics.h) and the unit vector u to the point. */
 double ground_return_range_rate_mps(struct vec2 sensor_mps, struct vec2 boresight,
                                     double azimuth_rad);

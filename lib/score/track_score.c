@@ -3,7 +3,6 @@
 #include "base/sort.h"
 #include "frame/frame_order.h"
 #include "geometry/kinematics.h"
-#include "geometry/sensor_pose.h"
 #include "score/gospa.h"
 
 const char *const track_score_truths[] = {[TRACK_TRUTH_IN_VIEW] = "in_view",
@@ -89,7 +88,7 @@ static bool sees(const struct sensor_view *view, const struct object *ego,
 {
     struct motion motion = frame_motion(ego, 0);
     struct sensor_pose pose =
-        sensor_pose_on(&motion, view->mount_x_m, view->mount_y_m, view->mount_yaw_rad);
+        kinematics_sensor_pose(&motion, view->mount_x_m, view->mount_y_m, view->mount_yaw_rad);
     struct kinematics seen = kinematics_of(pose.position_m, pose.velocity_mps, pose.boresight,
                                            (struct vec2){object->x_m, object->y_m},
                                            (struct vec2){object->vx_mps, object->vy_mps});

@@ -4,7 +4,8 @@ struct view_scan view_frame_scan(const struct frame *frame, const struct sensor_
 {
     struct view_scan scan = {.age_s = sensor->age_s};
     struct motion ego = frame_motion(frame_object(frame, frame->ego), scan.age_s);
-    scan.pose = sensor_pose_on(&ego, sensor->mount_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
+    scan.pose =
+        kinematics_sensor_pose(&ego, sensor->mount_x_m, sensor->mount_y_m, sensor->mount_yaw_rad);
     return scan;
 }
 

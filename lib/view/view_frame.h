@@ -6,7 +6,7 @@
 #include "documents/suite_file.h"
 #include "documents/vehicle.h"
 #include "frame/frame.h"
-#include "geometry/sensor_pose.h"
+#include "geometry/kinematics.h"
 
 /* A sensor at the instant of its measurement, in the frame's coordinates. */
 struct view_scan {

@@ -78,7 +78,7 @@ static void frame_picture(struct drawing *drawing)
         const struct object *object = &frame->objects.items[i];
         struct box box = box_of(drawing, object);
         struct vec2 corner[4];
-        box_outline(&box, corner);
+        motion_box_outline(&box, corner);
         bool ego = strcmp(object->id, frame->ego) == 0;
         bool part = frame_detects(frame, object->id) && box.length_m < 20;
         for (int j = 0; j < 4 && (ego || part || frame->targets.count == 0); j++)
@@ -115,7 +115,7 @@ static void draw_object(struct drawing *drawing, const struct object *object)
     if (!in_picture(middle, drawing->scale * elementary_hypot(box.length_m, box.width_m)))
         return;
     bool ego = strcmp(object->id, drawing->frame->ego) == 0;
-    box_outline(&box, corner);
+    motion_box_outline(&box, corner);
     text_format(drawing->text, "<path class=\"%s\" d=\"", ego ? "ego" : "body");
     for (int i = 0; i < 4; i++) {
         struct vec2 at = to_pixels(drawing, corner[i]);
@@ -133,7 +133,7 @@ static void draw_name(struct drawing *drawing, const struct object *object)
     bool ego = strcmp(object->id, drawing->frame->ego) == 0;
     const char *name = ego ? "ego" : object->id;
     double half_height = 0;
-    box_outline(&box, corner);
+    motion_box_outline(&box, corner);
     for (int i = 0; i < 4; i++)
         half_height = elementary_max(half_height, at.y - to_pixels(drawing, corner[i]).y);
     at.y += ego || half_height > 20 ? 4 : -8 - half_height;

@@ -10,8 +10,8 @@
 #include "base/elementary.h"
 #include "base/units.h"
 #include "frame/frame_text.h"
+#include "geometry/directivity.h"
 #include "geometry/kinematics.h"
-#include "geometry/visibility_range.h"
 #include "radar/antenna.h"
 #include "radar/monopulse.h"
 
@@ -480,7 +480,7 @@ static void parallel_directions_have_an_angle(void **state)
         mpfr_mul_d(part, part, b.y, MPFR_RNDN);
         mpfr_add(dot, dot, part, MPFR_RNDN);
         mpfr_atan2(cross, cross, dot, MPFR_RNDN);
-        mpfr_sub_d(dot, cross, visibility_range_angle_rad(a, b), MPFR_RNDN);
+        mpfr_sub_d(dot, cross, directivity_angle_rad(a, b), MPFR_RNDN);
         ours = hard_worse(ours, fabs(mpfr_get_d(dot, MPFR_RNDN)));
         mpfr_sub_d(dot, cross, acos(vec2_dot(a, b) / (vec2_length(a) * vec2_length(b))), MPFR_RNDN);
         naive = hard_worse(naive, fabs(mpfr_get_d(dot, MPFR_RNDN)));

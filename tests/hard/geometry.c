@@ -5,7 +5,7 @@
 
 #include "base/units.h"
 #include "geometry/kinematics.h"
-#include "geometry/outline_crossing.h"
+#include "geometry/obstruction.h"
 #include "geometry/predicates.h"
 #include "geometry/specular_point.h"
 #include "ideal/direct_echoes.h"
@@ -86,20 +86,20 @@ static void what_has_no_size_has_a_fixed_answer(void **state)
     const struct {
         double naive, ours, fixed;
     } rows[] = {
-        {1, outline_crossing_segments_touch(p, p, p, p), 1},
-        {0, outline_crossing_segments_touch(p, p, q, q), 0},
-        {1, outline_crossing_segments_touch(p, p, o, q), 1},
-        {1, outline_crossing_segments_touch(o, q, p, p), 1},
-        {0, outline_crossing_segments_touch(off, off, o, q), 0},
-        {0, outline_crossing_segments_touch(o, p, q, q), 0},
-        {1, outline_crossing_segments_touch(q, q, o, q), 1},
-        {0, outline_crossing_blocks(point, 4, o, q), 1},
-        {0, outline_crossing_blocks(point, 4, up, off), 0},
-        {0, outline_crossing_blocks(point, 4, p, p), 1},
-        {0, outline_crossing_blocks(line, 4, o, (struct vec2){2, 1}), 1},
-        {0, outline_crossing_blocks(line, 4, o, up), 0},
-        {0, outline_crossing_blocks(flat, 4, p, (struct vec2){9, 0}), 1},
-        {0, outline_crossing_blocks(flat, 4, (struct vec2){3, 0}, (struct vec2){9, 0}), 0},
+        {1, obstruction_segments_touch(p, p, p, p), 1},
+        {0, obstruction_segments_touch(p, p, q, q), 0},
+        {1, obstruction_segments_touch(p, p, o, q), 1},
+        {1, obstruction_segments_touch(o, q, p, p), 1},
+        {0, obstruction_segments_touch(off, off, o, q), 0},
+        {0, obstruction_segments_touch(o, p, q, q), 0},
+        {1, obstruction_segments_touch(q, q, o, q), 1},
+        {0, obstruction_blocks(point, 4, o, q), 1},
+        {0, obstruction_blocks(point, 4, up, off), 0},
+        {0, obstruction_blocks(point, 4, p, p), 1},
+        {0, obstruction_blocks(line, 4, o, (struct vec2){2, 1}), 1},
+        {0, obstruction_blocks(line, 4, o, up), 0},
+        {0, obstruction_blocks(flat, 4, p, (struct vec2){9, 0}), 1},
+        {0, obstruction_blocks(flat, 4, (struct vec2){3, 0}, (struct vec2){9, 0}), 0},
         {0, predicates_orientation(p, p, off), 0},
         {0, predicates_orientation(off, p, p), 0},
         {0, predicates_orientation(p, off, p), 0},
@@ -114,10 +114,10 @@ static void what_has_no_size_has_a_fixed_answer(void **state)
         {0, here.range_m, 0},
         {no_length / no_length, here.azimuth_rad, 0},
         {no_length / no_length, here.range_rate_mps, 0},
-        {no_length / no_length, visibility_range_angle_rad(o, up), 0},
-        {no_length / no_length, visibility_range_angle_rad(o, vec2_scale(-1, o)), 0},
-        {no_length / no_length, visibility_range_factor(VISIBILITY_LINEAR, 1, 1, 1), 1},
-        {no_length / no_length, visibility_range_factor(VISIBILITY_RAISED_COSINE, 0, 0, 0), 1},
+        {no_length / no_length, directivity_angle_rad(o, up), 0},
+        {no_length / no_length, directivity_angle_rad(o, vec2_scale(-1, o)), 0},
+        {no_length / no_length, directivity_visibility(VISIBILITY_LINEAR, 1, 1, 1), 1},
+        {no_length / no_length, directivity_visibility(VISIBILITY_RAISED_COSINE, 0, 0, 0), 1},
         {1, (double)posts, 1},
         {no_length / no_length, post.x, 3.6},
         {no_length / no_length, still.position_m.x, 1},
@@ -242,7 +242,7 @@ static void no_ray_leaks_through_a_corner(void **state)
                                 .length_m = sample_between(&random, 3, 12),
                                 .width_m = sample_between(&random, 1.5, 2.5)};
         struct vec2 corner[4];
-        box_outline(&box, corner);
+        motion_box_outline(&box, corner);
         for (int k = 0; k < 4; k++)
             corner[k] = on_grid(corner[k], 0x1p-36);
         int k = i % 4;
@@ -253,9 +253,9 @@ static void no_ray_leaks_through_a_corner(void **state)
                   !strict_cross(sensor, target, corner[k], after);
         parametric += !parametric_touch(sensor, target, before, corner[k]) &&
                       !parametric_touch(sensor, target, corner[k], after);
-        ours += !outline_crossing_segments_touch(sensor, target, before, corner[k]) ||
-                !outline_crossing_segments_touch(sensor, target, corner[k], after) ||
-                !outline_crossing_blocks(corner, 4, sensor, target);
+        ours += !obstruction_segments_touch(sensor, target, before, corner[k]) ||
+                !obstruction_segments_touch(sensor, target, corner[k], after) ||
+                !obstruction_blocks(corner, 4, sensor, target);
     }
     hard_case("29", "rays through a corner that leak", "wrong", strict, ours, 0);
     hard_case("30", "the same, products contracted", "wrong", parametric, ours, 0);
@@ -277,8 +277,8 @@ static void no_ray_leaks_through_a_joint(void **state)
         struct vec2 sensor = vec2_add(joint, vec2_turn(own, along));
         struct vec2 target = vec2_sub(joint, vec2_sub(sensor, joint));
         naive += !strict_cross(sensor, target, a, joint) && !strict_cross(sensor, target, joint, b);
-        ours += !outline_crossing_segments_touch(sensor, target, a, joint) &&
-                !outline_crossing_segments_touch(sensor, target, joint, b);
+        ours += !obstruction_segments_touch(sensor, target, a, joint) &&
+                !obstruction_segments_touch(sensor, target, joint, b);
     }
     hard_case("31", "rays through a rail's joint that leak", "wrong", naive, ours, 0);
 }
@@ -369,12 +369,13 @@ static void no_object_hides_its_own_outline(void **state)
                                 .length_m = 4.5,
                                 .width_m = 1.8};
         struct vec2 corner[4];
-        box_outline(&box, corner);
+        motion_box_outline(&box, corner);
         for (int k = 0; k < 20; k++) {
             double part = sample_between(&random, -0.5, 0.5), side = k % 2 ? 0.5 : -0.5;
             double x = k % 4 < 2 ? part : side, y = k % 4 < 2 ? side : part;
             add_point(&scene, set, x, y);
-            naive += outline_crossing_blocks(corner, 4, (struct vec2){0, 0}, box_place(&box, x, y));
+            naive +=
+                obstruction_blocks(corner, 4, (struct vec2){0, 0}, motion_box_place(&box, x, y));
         }
         look(&scene);
         ours += (double)(20 - scene.frame.echoes.count);
@@ -418,9 +419,9 @@ static struct vec2 build_wall(struct scene *scene, uint64_t *random, bool straig
     two.x_m += apart.x;
     two.y_m += apart.y;
     const struct box next = {{.position_m = {two.x_m, two.y_m}}, heading, two.length_m, 1};
-    struct vec2 end = box_place(&box, 0.5, -0.5);
+    struct vec2 end = motion_box_place(&box, 0.5, -0.5);
     struct reflector_set *set = add_object(scene, one);
-    if (vec2_same(end, box_place(&next, -0.5, -0.5))) {
+    if (vec2_same(end, motion_box_place(&next, -0.5, -0.5))) {
         add_plane(scene, set, -0.5, 0.5);
         set = add_object(scene, two);
         add_plane(scene, set, -0.5, 0.5);
@@ -428,7 +429,7 @@ static struct vec2 build_wall(struct scene *scene, uint64_t *random, bool straig
     }
     add_plane(scene, set, -0.5, part);
     add_plane(scene, set, part, 0.5);
-    return box_place(&box, part, -0.5);
+    return motion_box_place(&box, part, -0.5);
 }
 
 /* Hard case 33: the sensor stands before the joint but for rounding; every eighth wall is straight
@@ -477,13 +478,13 @@ static void a_joint_up_to_rounding_has_one_foot_beside_it(void **state)
             along,
             lengths_m[1],
             1};
-        struct vec2 end = box_place(&one, 0.5, -0.5);
-        struct vec2 begin = box_place(&two, -0.5, -0.5);
+        struct vec2 end = motion_box_place(&one, 0.5, -0.5);
+        struct vec2 begin = motion_box_place(&two, -0.5, -0.5);
         double range_m = sample_between(&random, 1, 200);
         struct vec2 before = vec2_sub(end, vec2_scale(range_m, vec2_left(along)));
         struct vec2 beside = vec2_add(before, vec2_scale(i % 2 ? 1e-12 : -1e-12, along));
-        struct vec2 from = box_place(&one, -0.5, -0.5);
-        struct vec2 to = box_place(&two, 0.5, -0.5);
+        struct vec2 from = motion_box_place(&one, -0.5, -0.5);
+        struct vec2 to = motion_box_place(&two, 0.5, -0.5);
         naive += specular_point_foot(from, end, along, 0, before, &foot) +
                      specular_point_foot(begin, to, along, 0, before, &foot) !=
                  1;
@@ -520,8 +521,8 @@ static void an_outline_along_the_sight_line_blocks_the_foot(void **state)
         struct vec2 edge = vec2_sub(b, a);
         double part = vec2_dot(vec2_sub(sensor, a), edge) / vec2_dot(edge, edge);
         struct vec2 plain = vec2_add(a, vec2_scale(part, edge));
-        naive += !outline_crossing_blocks(corner, 4, sensor, plain);
-        ours += !outline_crossing_blocks(corner, 4, sensor, foot);
+        naive += !obstruction_blocks(corner, 4, sensor, plain);
+        ours += !obstruction_blocks(corner, 4, sensor, foot);
     }
     hard_case("foot", "outlines along its sight line missed", "wrong", naive, ours, 0);
 }
@@ -639,11 +640,11 @@ static void a_sensor_inside_an_object_sees_the_inside_alone(void **state)
         struct object around = {
             .id = "a", .yaw_rad = sample_between(&random, -PI, PI), .length_m = 12, .width_m = 3};
         struct box box = {.heading = vec2_heading(around.yaw_rad), .length_m = 12, .width_m = 3};
-        struct vec2 sensor = box_place(&box, sample_between(&random, -0.45, -0.05),
-                                       sample_between(&random, -0.4, 0.4));
+        struct vec2 sensor = motion_box_place(&box, sample_between(&random, -0.45, -0.05),
+                                              sample_between(&random, -0.4, 0.4));
         begin_scene(&scene, sensor, around.yaw_rad);
         add_object(&scene, around);
-        struct vec2 inside = box_place(&box, sample_between(&random, 0.05, 0.45), 0.1);
+        struct vec2 inside = motion_box_place(&box, sample_between(&random, 0.05, 0.45), 0.1);
         struct vec2 beyond = vec2_add(sensor, vec2_scale(40, vec2_sub(inside, sensor)));
         add_point(&scene,
                   add_object(&scene, (struct object){.id = "b", .x_m = inside.x, .y_m = inside.y}),
@@ -654,7 +655,7 @@ static void a_sensor_inside_an_object_sees_the_inside_alone(void **state)
         scene.frame.reflectors.items[1].blocks = false;
         look(&scene);
         struct vec2 corner[4];
-        box_outline(&box, corner);
+        motion_box_outline(&box, corner);
         int crossed = 0;
         for (int k = 0; k < 4; k++)
             crossed += strict_cross(corner[k], corner[(k + 1) % 4], inside, beyond);

@@ -5,7 +5,7 @@
 
 #include "base/elementary.h"
 #include "base/units.h"
-#include "geometry/sensor_pose.h"
+#include "geometry/kinematics.h"
 
 #define AMPLITUDE_MARGIN 1e-3
 #define SPACING_MARGIN 1e-6
@@ -381,8 +381,9 @@ static void build(struct builder *builder, const struct suite *suite)
     struct motion ego = frame_motion(&builder->frame->objects.items[0], 0);
     int64_t which = random_sequence_whole(&builder->sequence, 0, (int64_t)suite->sensors.count - 1);
     builder->sensor = &suite->sensors.items[which];
-    builder->pose = sensor_pose_on(&ego, builder->sensor->mount_x_m, builder->sensor->mount_y_m,
-                                   builder->sensor->mount_yaw_rad);
+    builder->pose =
+        kinematics_sensor_pose(&ego, builder->sensor->mount_x_m, builder->sensor->mount_y_m,
+                               builder->sensor->mount_yaw_rad);
     int64_t chosen = random_sequence_whole(&builder->sequence, 0, LAST_CASE);
     builder->name = cases[chosen].name;
     cases[chosen].build(builder);

@@ -114,7 +114,7 @@ static void a_face_has_half_of_the_oblique_cross_section_at_45_degrees(void **st
     for (double below_db = -CONTOUR_OBLIQUE_DB; below_db < 40; below_db += 0.25) {
         struct contour_view view = contour_view(20, 20 - below_db);
         double half_way =
-            visibility_range_factor(VISIBILITY_RAISED_COSINE, view.full_rad, view.zero_rad, PI / 4);
+            directivity_visibility(VISIBILITY_RAISED_COSINE, view.full_rad, view.zero_rad, PI / 4);
         assert_close(20 * log10(half_way), -below_db - 10 * log10(2), 1e-9);
         assert_true(view.full_rad >= 0 && view.full_rad <= view.zero_rad);
         assert_true(view.zero_rad <= PI / 2);

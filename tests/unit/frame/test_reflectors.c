@@ -89,8 +89,8 @@ static void rows_are_expanded_in_range_and_no_post_is_missed(void **state)
             row.to_x = row.from_x, row.to_y = row.from_y;
         struct vec2 sensor = {sample_between(&random, -200, 200), sample_between(&random, -9, 9)};
         double range_m = sample_between(&random, 0, 120);
-        double length_m = vec2_length(
-            vec2_sub(box_place(&box, row.to_x, row.to_y), box_place(&box, row.from_x, row.from_y)));
+        double length_m = vec2_length(vec2_sub(motion_box_place(&box, row.to_x, row.to_y),
+                                               motion_box_place(&box, row.from_x, row.from_y)));
         int64_t posts = 1 + (int64_t)floor(length_m / row.spacing_m), first, end, within = 0;
         reflectors_posts_within(&box, &row, sensor, range_m, &first, &end);
         assert_true(0 <= first && first <= posts && end <= posts + 1);
@@ -153,7 +153,7 @@ static struct vec2 random_sensor(const struct box *box, uint64_t *random)
 {
     double range_m = pow(10, sample_between(random, -2, 2));
     struct vec2 line = vec2_scale(range_m, vec2_heading(sample_between(random, -PI, PI)));
-    return vec2_add(box_place(box, sample_between(random, -0.5, 0.5), 0.5), line);
+    return vec2_add(motion_box_place(box, sample_between(random, -0.5, 0.5), 0.5), line);
 }
 
 static struct vec2 in_own_frame(const struct box *box, struct vec2 place)
@@ -174,7 +174,7 @@ static void a_point_that_is_surely_unseen_has_no_visibility(void **state)
                                               .facing_rad = sample_between(&random, -PI, PI),
                                               .zero_rad = sample_between(&random, 0, PI)};
         const struct reflectors_face face = {vec2_heading(point.facing_rad),
-                                             visibility_range_dark_cosine(point.zero_rad)};
+                                             directivity_dark_cosine(point.zero_rad)};
         struct vec2 sensor = random_sensor(&box, &random);
         bool away = reflectors_surely_unseen(&box, &point, &face, in_own_frame(&box, sensor));
         double visible = reflectors_visibility(&box, &point, face.heading,
@@ -199,10 +199,11 @@ static void a_plane_that_surely_has_no_foot_has_none(void **state)
                                               .to_y = 0.5,
                                               .margin_m = i % 2 ? 0.1 : 0};
         struct vec2 sensor = random_sensor(&box, &random), foot;
-        struct vec2 along = box_along(&box, plane.from_x, plane.from_y, plane.to_x, plane.to_y);
+        struct vec2 along =
+            motion_box_along(&box, plane.from_x, plane.from_y, plane.to_x, plane.to_y);
         bool aside = reflectors_surely_no_foot(&box, &plane, in_own_frame(&box, sensor));
-        bool mirrors = specular_point_foot(box_place(&box, plane.from_x, plane.from_y),
-                                           box_place(&box, plane.to_x, plane.to_y), along,
+        bool mirrors = specular_point_foot(motion_box_place(&box, plane.from_x, plane.from_y),
+                                           motion_box_place(&box, plane.to_x, plane.to_y), along,
                                            plane.margin_m, sensor, &foot);
         assert_true(!aside || !mirrors);
         none += !mirrors;

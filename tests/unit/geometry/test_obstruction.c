@@ -1,8 +1,6 @@
 #include "check.h"
 
-#include "geometry/knife_edge.h"
 #include "geometry/obstruction.h"
-#include "geometry/outline_crossing.h"
 #include "sample.h"
 
 #define HIGH ((double)INFINITY)
@@ -39,7 +37,7 @@ static void in_a_flat_world_only_the_outline_decides(void **state)
     for (int i = 0; i < 100000; i++) {
         struct vec2 corners[4];
         struct obstruction_line line = random_case(&random, corners);
-        bool touches = outline_crossing_blocks(corners, 4, line.from, line.to);
+        bool touches = obstruction_blocks(corners, 4, line.from, line.to);
         blocked += touches;
         assert_close(obstruction_of(corners, 4, HIGH, &line, 0).factor, touches ? 0 : 1, 0);
     }
@@ -119,7 +117,7 @@ static void soft_shadows_begin_where_hard_ones_do(void **state)
 {
     (void)state;
     uint64_t random = 3;
-    double edge = knife_edge_amplitude_factor(0);
+    double edge = obstruction_edge_amplitude_factor(0);
     int soft = 0;
     for (int i = 0; i < 300000; i++) {
         struct vec2 corners[4];
@@ -163,7 +161,7 @@ static void shadows_change_without_jumps(void **state)
     (void)state;
     const struct vec2 pole[] = {{10, 0.3}, {9.9, 0.3}, {9.9, -0.3}, {10, -0.3}};
     const double steps_m = 1e-4;
-    double last = knife_edge_amplitude_factor(2 * sqrt(2));
+    double last = obstruction_edge_amplitude_factor(2 * sqrt(2));
     for (int upwards = 0; upwards < 2; upwards++) {
         double before = 1;
         for (double shift_m = 2; shift_m > -2; shift_m -= steps_m) {
@@ -196,8 +194,8 @@ static void edges_out_of_reach_change_nothing(void **state)
             double fraction = fmin(fmax(vec2_dot(offset, way) / length_m / length_m, 0), 1);
             nearest_m = fmin(nearest_m, vec2_length(vec2_sub(offset, vec2_scale(fraction, way))));
         }
-        if (nearest_m < knife_edge_reach_m(length_m, WAVELENGTH_M) ||
-            outline_crossing_blocks(corners, 4, line.from, line.to))
+        if (nearest_m < obstruction_edge_reach_m(length_m, WAVELENGTH_M) ||
+            obstruction_blocks(corners, 4, line.from, line.to))
             continue;
         clear++;
         assert_close(obstruction_of(corners, 4, HIGH, &line, WAVELENGTH_M).factor, 1, 0);

@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "geometry/outline_crossing.h"
+#include "geometry/obstruction.h"
 #include "geometry/silhouette.h"
 #include "sample.h"
 
@@ -28,7 +28,7 @@ static bool blocks(const struct box *box, struct vec2 place)
 {
     const struct vec2 corners[] = {place_in(box, 1, 1), place_in(box, -1, 1), place_in(box, -1, -1),
                                    place_in(box, 1, -1)};
-    return outline_crossing_blocks(corners, 4, (struct vec2){0, 0}, place);
+    return obstruction_blocks(corners, 4, (struct vec2){0, 0}, place);
 }
 
 static void a_box_before_another_overlaps_it_and_a_wider_one_covers_it(void **state)

@@ -798,7 +798,7 @@ static void soft_shadows_count_once_for_every_leg(void **state)
         struct vec2 corner[4];
         struct box box = {.length_m = 0.3, .width_m = 0.3, .heading = {1, 0}};
         box.motion.position_m = (struct vec2){cases[i].x_m, cases[i].y_m};
-        box_outline(&box, corner);
+        motion_box_outline(&box, corner);
         double factor =
             obstruction_of(corner, 4, (double)INFINITY, &cases[i].leg, units_wavelength_m(77e9))
                 .factor;

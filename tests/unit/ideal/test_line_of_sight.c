@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "geometry/outline_crossing.h"
+#include "geometry/obstruction.h"
 #include "look_scene.h"
 
 /* Two walls in line, one on the side of each of two objects, which meet before the sensor. */
@@ -91,7 +91,7 @@ static void a_line_is_blocked_where_it_touches_an_outline(void **state)
             const struct look_body *by = NULL;
             for (size_t j = look.body_count; j-- > 0;)
                 if (look.bodies[j].blocks &&
-                    outline_crossing_blocks(look.bodies[j].corner, 4, line.from, line.to))
+                    obstruction_blocks(look.bodies[j].corner, 4, line.from, line.to))
                     by = &look.bodies[j];
             struct line_of_sight found = line_of_sight_along(&look, &line, NULL, 0);
             assert_ptr_equal(found.by, by);

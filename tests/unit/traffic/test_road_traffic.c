@@ -6,7 +6,7 @@
 
 #include "base/units.h"
 #include "frame/frame.h"
-#include "geometry/box.h"
+#include "geometry/motion.h"
 #include "text/record_text.h"
 #include "traffic/road_traffic.h"
 
@@ -297,7 +297,7 @@ static bool parts(const struct box *box, const struct box *other)
 {
     struct vec2 corner[4], sides[] = {box->heading, vec2_left(box->heading)};
     double half_m[] = {box->length_m / 2, box->width_m / 2};
-    box_outline(other, corner);
+    motion_box_outline(other, corner);
     for (int side = 0; side < 2; side++) {
         double least = 1e9, most = -1e9;
         for (int i = 0; i < 4; i++) {

@@ -1,4 +1,4 @@
-#include "geometry/outline_crossing.h"
+#include "geometry/obstruction.h"
 
 #include "check.h"
 #include "sample.h"
@@ -63,9 +63,8 @@ static void closed_segments_touch_as_tabulated(void **state)
         {{1, 1}, {1, 1}, {1, 2}, {1, 2}, false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        assert_int_equal(
-            outline_crossing_segments_touch(cases[i].p, cases[i].q, cases[i].a, cases[i].b),
-            cases[i].touch);
+        assert_int_equal(obstruction_segments_touch(cases[i].p, cases[i].q, cases[i].a, cases[i].b),
+                         cases[i].touch);
 }
 
 struct lattice_point {
@@ -129,8 +128,8 @@ static void all_segments_of_a_small_lattice_agree_with_cramers_rule(void **state
     for (int n = 0; n < 65536; n++) {
         struct lattice_point p = digits(n), q = digits(n >> 4), a = digits(n >> 8),
                              b = digits(n >> 12);
-        assert_int_equal(outline_crossing_segments_touch(whole_place(p), whole_place(q),
-                                                         whole_place(a), whole_place(b)),
+        assert_int_equal(obstruction_segments_touch(whole_place(p), whole_place(q), whole_place(a),
+                                                    whole_place(b)),
                          lattice_touch(p, q, a, b));
     }
 }
@@ -141,10 +140,10 @@ static void the_answer_does_not_depend_on_the_order_of_anything(void **state)
     for (int n = 0; n < 65536; n++) {
         struct vec2 p = place(digits(n)), q = place(digits(n >> 4)), a = place(digits(n >> 8)),
                     b = place(digits(n >> 12));
-        bool touch = outline_crossing_segments_touch(p, q, a, b);
-        assert_int_equal(outline_crossing_segments_touch(q, p, a, b), touch);
-        assert_int_equal(outline_crossing_segments_touch(p, q, b, a), touch);
-        assert_int_equal(outline_crossing_segments_touch(a, b, p, q), touch);
+        bool touch = obstruction_segments_touch(p, q, a, b);
+        assert_int_equal(obstruction_segments_touch(q, p, a, b), touch);
+        assert_int_equal(obstruction_segments_touch(p, q, b, a), touch);
+        assert_int_equal(obstruction_segments_touch(a, b, p, q), touch);
     }
 }
 
@@ -158,7 +157,7 @@ static void a_ray_through_a_cars_corner_is_always_blocked(void **state)
         make_car(centre, sample_between(&sample, -3.2, 3.2), corners);
         struct vec2 sensor = sample_place(&sample, 100);
         for (int k = 0; k < 4; k++)
-            assert_true(outline_crossing_blocks(corners, 4, sensor, opposite(sensor, corners[k])));
+            assert_true(obstruction_blocks(corners, 4, sensor, opposite(sensor, corners[k])));
     }
 }
 
@@ -174,9 +173,9 @@ static void a_wall_that_ends_on_a_ray_through_the_origin_blocks_it(void **state)
         struct vec2 other = {sample_between(&sample, -100, 100),
                              sample_between(&sample, -100, 100)};
         struct vec2 from = vec2_scale(starts[i % 4], end), to = vec2_scale(4, end);
-        assert_true(outline_crossing_segments_touch(from, to, end, other));
-        assert_true(outline_crossing_segments_touch(from, to, other, end));
-        assert_true(outline_crossing_segments_touch(from, to, end, end));
+        assert_true(obstruction_segments_touch(from, to, end, other));
+        assert_true(obstruction_segments_touch(from, to, other, end));
+        assert_true(obstruction_segments_touch(from, to, end, end));
     }
 }
 
@@ -191,8 +190,8 @@ static void a_ray_through_a_guard_rails_joint_is_always_blocked(void **state)
         struct vec2 sensor = {sample_between(&sample, -30, 30), sample_between(&sample, -5, 5)};
         sensor = on_lattice(sensor);
         struct vec2 target = opposite(sensor, posts[1]);
-        assert_true(outline_crossing_segments_touch(sensor, target, posts[0], posts[1]));
-        assert_true(outline_crossing_segments_touch(sensor, target, posts[1], posts[2]));
+        assert_true(obstruction_segments_touch(sensor, target, posts[0], posts[1]));
+        assert_true(obstruction_segments_touch(sensor, target, posts[1], posts[2]));
     }
 }
 
@@ -206,8 +205,8 @@ static void a_ray_close_by_a_joint_cannot_slip_between_two_walls(void **state)
         struct vec2 sensor = {sample_between(&sample, -3, 3), sample_between(&sample, -5, 5)};
         double reach = sample_between(&sample, 1.1, 1.5);
         struct vec2 target = vec2_add(sensor, vec2_scale(reach, vec2_sub(posts[1], sensor)));
-        assert_true(outline_crossing_segments_touch(sensor, target, posts[0], posts[1]) ||
-                    outline_crossing_segments_touch(sensor, target, posts[1], posts[2]));
+        assert_true(obstruction_segments_touch(sensor, target, posts[0], posts[1]) ||
+                    obstruction_segments_touch(sensor, target, posts[1], posts[2]));
     }
 }
 
@@ -246,8 +245,7 @@ static void an_outline_blocks_where_it_is_touched(void **state)
         {{0, 0}, {0, 0}, false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        assert_int_equal(outline_crossing_blocks(box, 4, cases[i].from, cases[i].to),
-                         cases[i].blocked);
+        assert_int_equal(obstruction_blocks(box, 4, cases[i].from, cases[i].to), cases[i].blocked);
 }
 
 static void outlines_of_few_corners_are_points_and_segments(void **state)
@@ -265,7 +263,7 @@ static void outlines_of_few_corners_are_points_and_segments(void **state)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_int_equal(
-            outline_crossing_blocks(corners, cases[i].count, (struct vec2){0, 0}, cases[i].to),
+            obstruction_blocks(corners, cases[i].count, (struct vec2){0, 0}, cases[i].to),
             cases[i].blocked);
 }
 
@@ -273,8 +271,8 @@ static void the_edge_from_the_last_corner_to_the_first_blocks_too(void **state)
 {
     (void)state;
     static const struct vec2 triangle[3] = {{5, -2}, {9, 0}, {5, 2}};
-    assert_true(outline_crossing_blocks(triangle, 3, (struct vec2){0, 0}, (struct vec2){6, 0}));
-    assert_true(outline_crossing_blocks(triangle, 3, (struct vec2){6, 0}, (struct vec2){0, 0.5}));
+    assert_true(obstruction_blocks(triangle, 3, (struct vec2){0, 0}, (struct vec2){6, 0}));
+    assert_true(obstruction_blocks(triangle, 3, (struct vec2){6, 0}, (struct vec2){0, 0.5}));
 }
 
 int main(void)

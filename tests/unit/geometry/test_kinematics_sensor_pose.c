@@ -1,4 +1,4 @@
-#include "geometry/sensor_pose.h"
+#include "geometry/kinematics.h"
 
 #include "base/units.h"
 #include "check.h"
@@ -20,9 +20,9 @@ static void a_sensor_stands_at_its_mount_turned_with_the_ego(void **state)
 {
     (void)state;
     const struct motion ego = turning_ego();
-    struct sensor_pose front = sensor_pose_on(&ego, 5, 0, 0);
+    struct sensor_pose front = kinematics_sensor_pose(&ego, 5, 0, 0);
     assert_vector(front.position_m, 13, 24);
-    struct sensor_pose left_front = sensor_pose_on(&ego, 5, 1, 0);
+    struct sensor_pose left_front = kinematics_sensor_pose(&ego, 5, 1, 0);
     assert_vector(left_front.position_m, 13 - 0.8, 24 + 0.6);
 }
 
@@ -30,13 +30,13 @@ static void a_sensor_moves_with_the_ego_and_aside_with_its_turn(void **state)
 {
     (void)state;
     const struct motion ego = turning_ego();
-    struct sensor_pose centre = sensor_pose_on(&ego, 0, 0, 0);
+    struct sensor_pose centre = kinematics_sensor_pose(&ego, 0, 0, 0);
     assert_vector(centre.velocity_mps, 3, 4);
     /* 5 m ahead, 0.5 rad/s: 2.5 m/s to the left, which is (-0.8, 0.6) */
-    struct sensor_pose front = sensor_pose_on(&ego, 5, 0, 0);
+    struct sensor_pose front = kinematics_sensor_pose(&ego, 5, 0, 0);
     assert_vector(front.velocity_mps, 3 - 2, 4 + 1.5);
     /* where it looks does not change how it moves */
-    struct sensor_pose rear_looking = sensor_pose_on(&ego, 5, 0, 3);
+    struct sensor_pose rear_looking = kinematics_sensor_pose(&ego, 5, 0, 3);
     assert_vector(rear_looking.velocity_mps, 1, 5.5);
 }
 
@@ -44,10 +44,10 @@ static void a_sensor_looks_along_its_own_yaw_from_the_ego_s(void **state)
 {
     (void)state;
     const struct motion ego = turning_ego();
-    assert_vector(sensor_pose_on(&ego, 5, 1, 0).boresight, 0.6, 0.8);
-    assert_vector(sensor_pose_on(&ego, 5, 1, PI / 2).boresight, -0.8, 0.6);
-    assert_vector(sensor_pose_on(&ego, 5, 1, PI).boresight, -0.6, -0.8);
-    assert_close(sensor_pose_on(&ego, 5, 1, PI).yaw_rad, ego.yaw_rad + PI, 0);
+    assert_vector(kinematics_sensor_pose(&ego, 5, 1, 0).boresight, 0.6, 0.8);
+    assert_vector(kinematics_sensor_pose(&ego, 5, 1, PI / 2).boresight, -0.8, 0.6);
+    assert_vector(kinematics_sensor_pose(&ego, 5, 1, PI).boresight, -0.6, -0.8);
+    assert_close(kinematics_sensor_pose(&ego, 5, 1, PI).yaw_rad, ego.yaw_rad + PI, 0);
 }
 
 /* A central difference of the mount's place 0.1 ms earlier and later. */
@@ -64,9 +64,9 @@ static void the_velocity_is_the_rate_of_change_of_the_position(void **state)
         double x_m = sample_between(&sample, -4, 4), y_m = sample_between(&sample, -1, 1);
         const double step_s = 1e-4;
         struct motion before = motion_after(ego, -step_s), after = motion_after(ego, step_s);
-        struct vec2 moved_m = vec2_sub(sensor_pose_on(&after, x_m, y_m, 0).position_m,
-                                       sensor_pose_on(&before, x_m, y_m, 0).position_m);
-        struct vec2 velocity_mps = sensor_pose_on(&ego, x_m, y_m, 0).velocity_mps;
+        struct vec2 moved_m = vec2_sub(kinematics_sensor_pose(&after, x_m, y_m, 0).position_m,
+                                       kinematics_sensor_pose(&before, x_m, y_m, 0).position_m);
+        struct vec2 velocity_mps = kinematics_sensor_pose(&ego, x_m, y_m, 0).velocity_mps;
         assert_close(moved_m.x / (2 * step_s), velocity_mps.x, 1e-6);
         assert_close(moved_m.y / (2 * step_s), velocity_mps.y, 1e-6);
     }

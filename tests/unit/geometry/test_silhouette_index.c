@@ -1,8 +1,8 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "geometry/azimuth_index.h"
-#include "geometry/outline_crossing.h"
+#include "geometry/obstruction.h"
+#include "geometry/silhouette.h"
 #include "sample.h"
 
 enum { MOST = 150, SCENES = 2000 };
@@ -13,7 +13,7 @@ struct scene {
     struct vec2 corners[MOST][4];
     struct silhouette seen[MOST];
     size_t count;
-    struct azimuth_index index;
+    struct silhouette_index index;
 };
 
 static int start(void **state)
@@ -72,21 +72,22 @@ static void add_box(uint64_t *random, struct scene *scene, size_t i)
             place_m, vec2_turn((struct vec2){ahead * half_m.x, aside * half_m.y}, heading));
     }
     scene->seen[i] = silhouette_at(place_m, half_m, heading);
-    azimuth_index_enter(&scene->index, i, azimuth_index_of(&scene->seen[i]));
+    silhouette_index_enter(&scene->index, i, silhouette_span_of(&scene->seen[i]));
 }
 
 static struct scene random_scene(uint64_t *random, struct arena *arena)
 {
     struct scene scene = {.count = 1 + sample_bits(random) % MOST};
     arena_clear(arena);
-    scene.index = azimuth_index_begin(scene.count, arena);
+    scene.index = silhouette_index_begin(scene.count, arena);
     for (size_t i = 0; i < scene.count; i++)
         add_box(random, &scene, i);
     return scene;
 }
 
 /* Steps through the numbers found, in ascending order; true if the number is among them. */
-static bool is_found(const struct azimuth_index *index, size_t count, size_t number, size_t *next)
+static bool is_found(const struct silhouette_index *index, size_t count, size_t number,
+                     size_t *next)
 {
     if (*next < count && index->found[*next] == number) {
         (*next)++;
@@ -104,10 +105,11 @@ static void every_body_before_a_corner_is_found_in_order(void **state)
         struct scene scene = random_scene(&random, *state);
         for (size_t behind = 0; behind < scene.count; behind += 7) {
             size_t next = 0;
-            size_t count = azimuth_index_find(&scene.index, azimuth_index_of(&scene.seen[behind]));
+            size_t count =
+                silhouette_index_find(&scene.index, silhouette_span_of(&scene.seen[behind]));
             for (size_t front = 0; front < scene.count; front++) {
                 struct vec2 corner = scene.corners[behind][sample_bits(&random) % 4];
-                bool block = outline_crossing_blocks(scene.corners[front], 4, sensor, corner);
+                bool block = obstruction_blocks(scene.corners[front], 4, sensor, corner);
                 if (!is_found(&scene.index, count, front, &next) && block)
                     fail_msg("scene %d: %zu stands before %zu and is not found", i, front, behind);
                 blocked += block;
@@ -121,17 +123,17 @@ static void every_body_before_a_corner_is_found_in_order(void **state)
 static void a_search_in_one_direction_finds_few_bodies(void **state)
 {
     struct arena *arena = *state;
-    struct azimuth_index index = azimuth_index_begin(MOST, arena);
+    struct silhouette_index index = silhouette_index_begin(MOST, arena);
     for (size_t i = 0; i < MOST; i++) {
         struct vec2 heading = vec2_heading((double)i * 2 * PI / MOST);
         struct silhouette box =
             silhouette_at(vec2_scale(50, heading), (struct vec2){1, 1}, heading);
-        azimuth_index_enter(&index, i, azimuth_index_of(&box));
+        silhouette_index_enter(&index, i, silhouette_span_of(&box));
     }
     for (size_t i = 0; i < MOST; i++) {
         struct vec2 place = at(80, (double)i * 2 * PI / MOST);
         size_t count =
-            azimuth_index_find(&index, azimuth_index_between((struct vec2){0, 0}, place));
+            silhouette_index_find(&index, silhouette_span_between((struct vec2){0, 0}, place));
         assert_in_range(count, 1, 4);
     }
 }
@@ -168,10 +170,10 @@ static void every_body_that_a_line_touches_is_found(void **state)
         for (int line = 0; line < 20; line++) {
             struct vec2 from, to;
             random_line(&random, &from, &to);
-            size_t count = azimuth_index_find(&scene.index, azimuth_index_between(from, to)),
+            size_t count = silhouette_index_find(&scene.index, silhouette_span_between(from, to)),
                    next = 0;
             for (size_t j = 0; j < scene.count; j++) {
-                bool touch = outline_crossing_blocks(scene.corners[j], 4, from, to);
+                bool touch = obstruction_blocks(scene.corners[j], 4, from, to);
                 if (!is_found(&scene.index, count, j, &next) && touch)
                     fail_msg("scene %d: a line touches %zu, which is not found", i, j);
                 touched += touch;
@@ -184,18 +186,18 @@ static void every_body_that_a_line_touches_is_found(void **state)
 static void everywhere_finds_all_entries_and_nothing_else(void **state)
 {
     struct arena *arena = *state;
-    struct azimuth_index index = azimuth_index_begin(130, arena);
+    struct silhouette_index index = silhouette_index_begin(130, arena);
     struct vec2 heading = {1, 0}, ahead_m = {50, 0};
     struct silhouette ahead = silhouette_at(ahead_m, (struct vec2){1, 1}, heading);
-    assert_int_equal(azimuth_index_find(&index, azimuth_index_everywhere), 0);
-    azimuth_index_enter(&index, 129, azimuth_index_of(&ahead));
-    azimuth_index_enter(&index, 64, azimuth_index_of(&ahead));
-    assert_int_equal(azimuth_index_find(&index, azimuth_index_everywhere), 2);
+    assert_int_equal(silhouette_index_find(&index, silhouette_everywhere), 0);
+    silhouette_index_enter(&index, 129, silhouette_span_of(&ahead));
+    silhouette_index_enter(&index, 64, silhouette_span_of(&ahead));
+    assert_int_equal(silhouette_index_find(&index, silhouette_everywhere), 2);
     assert_int_equal(index.found[0], 64);
     assert_int_equal(index.found[1], 129);
     struct vec2 behind = {-50, 1}, left = {0, 50};
-    assert_int_equal(azimuth_index_find(&index, azimuth_index_between(left, behind)), 0);
-    assert_int_equal(azimuth_index_find(&index, azimuth_index_between(left, ahead_m)), 2);
+    assert_int_equal(silhouette_index_find(&index, silhouette_span_between(left, behind)), 0);
+    assert_int_equal(silhouette_index_find(&index, silhouette_span_between(left, ahead_m)), 2);
 }
 
 int main(void)

@@ -1,4 +1,4 @@
-#include "geometry/visibility_range.h"
+#include "geometry/directivity.h"
 
 #include "base/units.h"
 #include "check.h"
@@ -28,11 +28,10 @@ static void known_directions_enclose_known_angles(void **state)
         {{-1, -1}, {-0.0, 0}, 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        assert_close(visibility_range_angle_rad(cases[i].a, cases[i].b), cases[i].angle_rad, 1e-15);
-        assert_close(visibility_range_angle_rad(cases[i].b, cases[i].a), cases[i].angle_rad, 1e-15);
+        assert_close(directivity_angle_rad(cases[i].a, cases[i].b), cases[i].angle_rad, 1e-15);
+        assert_close(directivity_angle_rad(cases[i].b, cases[i].a), cases[i].angle_rad, 1e-15);
     }
-    assert_near(visibility_range_angle_rad((struct vec2){2, 0}, (struct vec2){1e3, 1e-9}), 1e-12,
-                1e-15);
+    assert_near(directivity_angle_rad((struct vec2){2, 0}, (struct vec2){1e3, 1e-9}), 1e-12, 1e-15);
 }
 
 static double long_angle_rad(struct vec2 a, struct vec2 b)
@@ -52,12 +51,12 @@ static void nearly_parallel_directions_keep_their_angle(void **state)
         double scale = sample_between(&sample, 0.1, 10) * (i % 2 == 0 ? 1 : -1);
         struct vec2 b = vec2_scale(scale, a);
         b.x *= 1 + 1e-8 * (i % 3);
-        double angle_rad = visibility_range_angle_rad(a, b);
+        double angle_rad = directivity_angle_rad(a, b);
         assert_close(angle_rad, long_angle_rad(a, b), 1e-15);
         assert_true(angle_rad >= 0 && angle_rad <= PI);
-        assert_true(angle_rad == visibility_range_angle_rad(b, a));
+        assert_true(angle_rad == directivity_angle_rad(b, a));
         assert_true(angle_rad ==
-                    visibility_range_angle_rad((struct vec2){a.x, -a.y}, (struct vec2){b.x, -b.y}));
+                    directivity_angle_rad((struct vec2){a.x, -a.y}, (struct vec2){b.x, -b.y}));
     }
 }
 
@@ -104,9 +103,9 @@ static void shapes_have_their_closed_form_values(void **state)
         {VISIBILITY_COSINE, 0, 0, 0, 1},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        assert_close(visibility_range_factor(cases[i].shape, degrees(cases[i].full_deg),
-                                             degrees(cases[i].zero_deg),
-                                             degrees(cases[i].delta_deg)),
+        assert_close(directivity_visibility(cases[i].shape, degrees(cases[i].full_deg),
+                                            degrees(cases[i].zero_deg),
+                                            degrees(cases[i].delta_deg)),
                      cases[i].value, 1e-15);
 }
 
@@ -121,16 +120,16 @@ static void hard_includes_its_edge_and_the_tapered_shapes_end_in_zero(void **sta
         double full_rad = sample_between(&sample, 0, zero_rad);
         double inside_rad = nextafter(zero_rad, 0);
         double outside_rad = nextafter(zero_rad, 4);
-        assert_true(visibility_range_factor(VISIBILITY_HARD, full_rad, zero_rad, zero_rad) == 1);
-        assert_true(visibility_range_factor(VISIBILITY_HARD, full_rad, zero_rad, outside_rad) == 0);
+        assert_true(directivity_visibility(VISIBILITY_HARD, full_rad, zero_rad, zero_rad) == 1);
+        assert_true(directivity_visibility(VISIBILITY_HARD, full_rad, zero_rad, outside_rad) == 0);
         for (int k = 0; k < 3; k++) {
-            double last = visibility_range_factor(tapered[k], full_rad, zero_rad, inside_rad);
+            double last = directivity_visibility(tapered[k], full_rad, zero_rad, inside_rad);
             assert_true(last > 0 && last < 1e-9);
-            assert_true(visibility_range_factor(tapered[k], full_rad, zero_rad, zero_rad) == 0);
-            assert_true(visibility_range_factor(tapered[k], full_rad, zero_rad, outside_rad) == 0);
+            assert_true(directivity_visibility(tapered[k], full_rad, zero_rad, zero_rad) == 0);
+            assert_true(directivity_visibility(tapered[k], full_rad, zero_rad, outside_rad) == 0);
         }
         for (int k = 0; k < 2; k++)
-            assert_true(visibility_range_factor(tapered[k], full_rad, zero_rad, full_rad) == 1);
+            assert_true(directivity_visibility(tapered[k], full_rad, zero_rad, full_rad) == 1);
     }
 }
 
@@ -141,8 +140,8 @@ static void every_shape_falls_from_one_to_zero(void **state)
          shape++) {
         double before = 1;
         for (int i = 0; i <= 18000; i++) {
-            double value = visibility_range_factor((enum visibility_shape)shape, degrees(30),
-                                                   degrees(75), degrees(i * 0.01));
+            double value = directivity_visibility((enum visibility_shape)shape, degrees(30),
+                                                  degrees(75), degrees(i * 0.01));
             assert_true(value >= 0 && value <= before);
             before = value;
         }
@@ -173,10 +172,11 @@ static void along_a_vector_visibility_is_that_at_its_angle(void **state)
             to_viewer = (struct vec2){0, 0};
         for (enum visibility_shape shape = VISIBILITY_RAISED_COSINE; shape <= VISIBILITY_COSINE;
              shape++) {
-            double seen = visibility_range_along(shape, full_rad, zero_rad, facing, to_viewer);
+            double seen =
+                directivity_visibility_along(shape, full_rad, zero_rad, facing, to_viewer);
             assert_close(seen,
-                         visibility_range_factor(shape, full_rad, zero_rad,
-                                                 visibility_range_angle_rad(facing, to_viewer)),
+                         directivity_visibility(shape, full_rad, zero_rad,
+                                                directivity_angle_rad(facing, to_viewer)),
                          0);
             plain += seen == 0 || seen == 1;
         }
@@ -196,19 +196,18 @@ static void a_point_surely_unseen_is_unseen_by_all_viewers_nearby(void **state)
         struct vec2 edge =
             vec2_turn(facing, vec2_heading(zero_rad + sample_between(&sample, 0, 1)));
         struct vec2 to_viewer = vec2_scale(sample_between(&sample, 0, 3), edge);
-        if (!visibility_range_surely_zero(visibility_range_dark_cosine(zero_rad), facing, to_viewer,
-                                          slack_m))
+        if (!directivity_surely_zero(directivity_dark_cosine(zero_rad), facing, to_viewer, slack_m))
             continue;
         unseen++;
         struct vec2 aside = vec2_heading(sample_between(&sample, -PI, PI));
         struct vec2 near = vec2_add(to_viewer, vec2_scale(slack_m, aside));
         for (enum visibility_shape shape = VISIBILITY_RAISED_COSINE; shape <= VISIBILITY_COSINE;
              shape++)
-            assert_true(visibility_range_along(shape, 0, zero_rad, facing, near) == 0);
+            assert_true(directivity_visibility_along(shape, 0, zero_rad, facing, near) == 0);
     }
     assert_true(unseen > 50000);
-    assert_false(visibility_range_surely_zero(visibility_range_dark_cosine(PI), (struct vec2){1, 0},
-                                              (struct vec2){-9, 0}, 0));
+    assert_false(directivity_surely_zero(directivity_dark_cosine(PI), (struct vec2){1, 0},
+                                         (struct vec2){-9, 0}, 0));
 }
 
 int main(void)

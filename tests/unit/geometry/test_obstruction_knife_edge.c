@@ -1,12 +1,12 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "geometry/knife_edge.h"
+#include "geometry/obstruction.h"
 
 /* J in dB, one way (MODEL 14.4). */
 static double loss_db(double parameter)
 {
-    return -units_amplitude_db(knife_edge_amplitude_factor(parameter)) / 2;
+    return -units_amplitude_db(obstruction_edge_amplitude_factor(parameter)) / 2;
 }
 
 /* Fresnel's integrals behind an edge: -20 lg(|1 - C - S + j (C - S)|/2), by Simpson's rule. */
@@ -52,9 +52,9 @@ static void shadows_are_as_deep_as_published(void **state)
     } rows[] = {{24.125e9, 32.4}, {76.5e9, 41.6}};
     for (size_t i = 0; i < 2; i++) {
         double parameter =
-            knife_edge_parameter(0.3, 15, 15, units_wavelength_m(rows[i].carrier_hz));
-        assert_close(-units_amplitude_db(knife_edge_amplitude_factor(parameter)), rows[i].loss_db,
-                     0.051);
+            obstruction_edge_parameter(0.3, 15, 15, units_wavelength_m(rows[i].carrier_hz));
+        assert_close(-units_amplitude_db(obstruction_edge_amplitude_factor(parameter)),
+                     rows[i].loss_db, 0.051);
     }
 }
 
@@ -63,7 +63,7 @@ static void deeper_is_darker(void **state)
     (void)state;
     double before = 1;
     for (double parameter = -2; parameter < 100; parameter += 0.01) {
-        double factor = knife_edge_amplitude_factor(parameter);
+        double factor = obstruction_edge_amplitude_factor(parameter);
         assert_true(factor <= before && factor > 0);
         before = factor;
     }
@@ -72,35 +72,35 @@ static void deeper_is_darker(void **state)
 static void outside_the_shadow_all_is_seen(void **state)
 {
     (void)state;
-    assert_close(knife_edge_amplitude_factor(-0.78), 1, 0);
-    assert_close(knife_edge_amplitude_factor(-1e300), 1, 0);
-    assert_close(knife_edge_amplitude_factor((double)-INFINITY), 1, 0);
+    assert_close(obstruction_edge_amplitude_factor(-0.78), 1, 0);
+    assert_close(obstruction_edge_amplitude_factor(-1e300), 1, 0);
+    assert_close(obstruction_edge_amplitude_factor((double)-INFINITY), 1, 0);
     double wavelength_m = 0.0039;
     double radius_m = sqrt(wavelength_m * 4 * 9 / 13);
-    assert_close(knife_edge_parameter(-radius_m, 4, 9, wavelength_m), -sqrt(2), 1e-15);
-    assert_close(
-        knife_edge_amplitude_factor(knife_edge_parameter(-0.5516 * radius_m, 4, 9, wavelength_m)),
-        1, 0);
-    assert_true(knife_edge_amplitude_factor(
-                    knife_edge_parameter(-0.55 * radius_m, 4, 9, wavelength_m)) < 1);
-    assert_true(knife_edge_amplitude_factor(nextafter(-0.78, 0)) > 0.999);
+    assert_close(obstruction_edge_parameter(-radius_m, 4, 9, wavelength_m), -sqrt(2), 1e-15);
+    assert_close(obstruction_edge_amplitude_factor(
+                     obstruction_edge_parameter(-0.5516 * radius_m, 4, 9, wavelength_m)),
+                 1, 0);
+    assert_true(obstruction_edge_amplitude_factor(
+                    obstruction_edge_parameter(-0.55 * radius_m, 4, 9, wavelength_m)) < 1);
+    assert_true(obstruction_edge_amplitude_factor(nextafter(-0.78, 0)) > 0.999);
 }
 
 static void far_inside_nothing_is_left(void **state)
 {
     (void)state;
-    assert_close(knife_edge_amplitude_factor(1e300), 0, 0);
-    assert_close(knife_edge_amplitude_factor((double)INFINITY), 0, 0);
+    assert_close(obstruction_edge_amplitude_factor(1e300), 0, 0);
+    assert_close(obstruction_edge_amplitude_factor((double)INFINITY), 0, 0);
 }
 
 static void ends_at_the_edge_count_as_a_tenth_of_a_metre(void **state)
 {
     (void)state;
-    double near = knife_edge_parameter(0.2, 0.1, 20, 0.004);
-    assert_close(knife_edge_parameter(0.2, 0, 20, 0.004), near, 0);
-    assert_close(knife_edge_parameter(0.2, 20, 1e-9, 0.004), near, 0);
+    double near = obstruction_edge_parameter(0.2, 0.1, 20, 0.004);
+    assert_close(obstruction_edge_parameter(0.2, 0, 20, 0.004), near, 0);
+    assert_close(obstruction_edge_parameter(0.2, 20, 1e-9, 0.004), near, 0);
     assert_near(near, 0.2 * sqrt(2 * 20.1 / (0.004 * 0.1 * 20)), 1e-15);
-    assert_close(knife_edge_parameter(0, 0, 0, 0.004), 0, 0);
+    assert_close(obstruction_edge_parameter(0, 0, 0, 0.004), 0, 0);
 }
 
 int main(void)

@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "geometry/lobe.h"
+#include "geometry/directivity.h"
 
 #define DEGREE (PI / 180)
 
@@ -9,13 +9,13 @@ static const struct lobe front = {40.54 * DEGREE, 71.75 * DEGREE, 29.13 * DEGREE
 
 static double drop_db(const struct lobe *lobe, double off, double zenith)
 {
-    return -units_amplitude_db(lobe_amplitude_factor(lobe, off * DEGREE, zenith * DEGREE));
+    return -units_amplitude_db(directivity_lobe_factor(lobe, off * DEGREE, zenith * DEGREE));
 }
 
 static void a_lobe_loses_nothing_in_its_middle(void **state)
 {
     (void)state;
-    assert_true(lobe_amplitude_factor(&front, 0, front.zenith_rad) == 1);
+    assert_true(directivity_lobe_factor(&front, 0, front.zenith_rad) == 1);
 }
 
 static void a_lobe_is_3_db_down_half_a_width_off_its_middle(void **state)
@@ -42,10 +42,11 @@ static void a_lobe_without_a_width_is_the_same_all_around(void **state)
     (void)state;
     const struct lobe around = {.zenith_rad = 1, .zenith_width_rad = 0.5, .depth_db = 20};
     const struct lobe upright = {.width_rad = 0.5, .depth_db = 20}, none = {.zenith_rad = 1};
-    assert_true(lobe_amplitude_factor(&around, 0, 1.2) == lobe_amplitude_factor(&around, PI, 1.2));
-    assert_true(lobe_amplitude_factor(&upright, 0.3, 0) ==
-                lobe_amplitude_factor(&upright, 0.3, PI));
-    assert_true(lobe_amplitude_factor(&none, PI, PI) == 1);
+    assert_true(directivity_lobe_factor(&around, 0, 1.2) ==
+                directivity_lobe_factor(&around, PI, 1.2));
+    assert_true(directivity_lobe_factor(&upright, 0.3, 0) ==
+                directivity_lobe_factor(&upright, 0.3, PI));
+    assert_true(directivity_lobe_factor(&none, PI, PI) == 1);
 }
 
 int main(void)

@@ -1,4 +1,4 @@
-#include "geometry/visibility_range.h"
+#include "geometry/directivity.h"
 
 #include "base/elementary.h"
 #include "base/units.h"
@@ -9,14 +9,14 @@
 /* Vectors shorter than this have squares that underflow. */
 #define SHORTEST 1e-100
 
-double visibility_range_angle_rad(struct vec2 a, struct vec2 b)
+double directivity_angle_rad(struct vec2 a, struct vec2 b)
 {
     /* + 0.0 turns -0 into 0: a vector of length zero is at angle 0, never at pi. */
     return elementary_atan2(fabs(vec2_cross(a, b)), vec2_dot(a, b) + 0.0);
 }
 
-double visibility_range_factor(enum visibility_shape shape, double full_rad, double zero_rad,
-                               double delta_rad)
+double directivity_visibility(enum visibility_shape shape, double full_rad, double zero_rad,
+                              double delta_rad)
 {
     if (shape == VISIBILITY_HARD)
         return delta_rad <= zero_rad;
@@ -47,22 +47,36 @@ static double cosine_lower_bound(double angle_rad)
     return 1 + square * (-1.0 / 2 + square * (1.0 / 24 - square / 720));
 }
 
-double visibility_range_dark_cosine(double zero_rad)
+double directivity_dark_cosine(double zero_rad)
 {
     return cosine_lower_bound(zero_rad) - SLACK;
 }
 
-double visibility_range_along(enum visibility_shape shape, double full_rad, double zero_rad,
-                              struct vec2 facing, struct vec2 to_viewer)
+double directivity_visibility_along(enum visibility_shape shape, double full_rad, double zero_rad,
+                                    struct vec2 facing, struct vec2 to_viewer)
 {
     double start_rad = shape == VISIBILITY_HARD ? zero_rad : full_rad;
     double length = vec2_length(to_viewer), along = vec2_dot(facing, to_viewer);
     bool plain = length > SHORTEST;
-    if (plain && along < visibility_range_dark_cosine(zero_rad) * length)
+    if (plain && along < directivity_dark_cosine(zero_rad) * length)
         return 0;
     if (plain && shape != VISIBILITY_COSINE &&
         along > (cosine_upper_bound(start_rad) + SLACK) * length)
         return 1;
-    return visibility_range_factor(shape, full_rad, zero_rad,
-                                   visibility_range_angle_rad(facing, to_viewer));
+    return directivity_visibility(shape, full_rad, zero_rad,
+                                  directivity_angle_rad(facing, to_viewer));
+}
+
+static double drop_db(double off_rad, double width_rad, double depth_db)
+{
+    double widths = width_rad > 0 ? off_rad / width_rad : 0;
+    return elementary_min(12 * widths * widths, depth_db);
+}
+
+double directivity_lobe_factor(const struct lobe *lobe, double off_rad, double zenith_rad)
+{
+    double across_db = drop_db(off_rad, lobe->width_rad, lobe->depth_db);
+    double upright_db =
+        drop_db(zenith_rad - lobe->zenith_rad, lobe->zenith_width_rad, lobe->depth_db);
+    return units_amplitude_from_db(-elementary_min(across_db + upright_db, lobe->depth_db));
 }
